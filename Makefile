@@ -1,0 +1,46 @@
+# make demo   plan a real entry: the table on the screen, the picture in demo.png
+# make test   format, lint, types, import contract, tests, examples in the docs
+# make bench  what a plan costs, beside the same work done by search
+# make verify 100,000 random states against the independent search
+# make pins   write the requirement files anew from pyproject.toml
+PYTHON ?= $(or $(shell command -v python3.11),python3)
+BIN := .venv/bin
+
+# On Debian the standard library's venv is a package of its own.
+$(BIN)/python:
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
+	  echo "installing python3-venv with apt-get"; \
+	  if [ "$$(id -u)" = 0 ]; then s=; else s=sudo; fi; \
+	  $$s apt-get update -q && $$s apt-get install -qy python3-venv; }
+	$(PYTHON) -m venv .venv
+
+.venv/base.stamp: $(BIN)/python requirements/base.txt pyproject.toml
+	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/base.txt
+	$(BIN)/python -m pip install -q --disable-pip-version-check --no-deps -e .
+	@touch $@
+
+.venv/dev.stamp: .venv/base.stamp requirements/dev.txt
+	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/dev.txt
+	@touch $@
+
+.PHONY: demo test bench verify pins
+demo: .venv/base.stamp
+	$(BIN)/loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 --plot demo.png
+
+test: .venv/dev.stamp
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports --no-cache
+	$(BIN)/pytest -n 2
+
+bench: .venv/dev.stamp
+	$(BIN)/pytest benchmarks --benchmark-enable --benchmark-only --benchmark-columns=median,iqr,rounds
+
+verify: .venv/dev.stamp
+	$(BIN)/loiter verify --states 100000
+
+pins: .venv/dev.stamp
+	$(BIN)/python -m pip install -q uv
+	$(BIN)/uv pip compile -q --universal --python-version 3.11 --no-header --no-annotate --no-emit-index-url --no-emit-find-links pyproject.toml -o requirements/base.txt
+	$(BIN)/uv pip compile -q --universal --python-version 3.11 --no-header --no-annotate --no-emit-index-url --no-emit-find-links --group dev -c requirements/base.txt pyproject.toml -o requirements/dev.txt
