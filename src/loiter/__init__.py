@@ -1,0 +1,38 @@
+"""The fastest way onto a holding circle for an aircraft of constant speed and bounded turn rate."""
+
+from typing import TYPE_CHECKING, Any
+
+from loiter import errors
+from loiter.planning.model import Aircraft, Maneuver, Orbit, Pose, Segment, Turn
+from loiter.planning.solve import candidates, plan, plan_all
+
+if TYPE_CHECKING:
+    from loiter.planning.arrays import control, min_time, reduce, solve
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "Aircraft",
+    "Maneuver",
+    "Orbit",
+    "Pose",
+    "Segment",
+    "Turn",
+    "candidates",
+    "control",
+    "errors",
+    "min_time",
+    "plan",
+    "plan_all",
+    "reduce",
+    "solve",
+]
+
+
+def __getattr__(name: str) -> Any:
+    # The array functions need NumPy, which a single plan does not load.
+    if name in {"control", "min_time", "reduce", "solve"}:
+        from loiter.planning import arrays
+
+        return getattr(arrays, name)
+    raise AttributeError(f"module 'loiter' has no attribute {name!r}")

@@ -1,0 +1,62 @@
+"""Integer codes that the kernel returns in place of strings and exceptions; their messages live here."""
+
+from enum import IntEnum
+
+
+class Word(IntEnum):
+    """Controls of a maneuver in the order flown, in Dubins' letters: L (u = +1), S (u = 0), R (u = -1).
+
+    A code is a number in base 4 whose lowest digit is the first letter's `u + 2` (R = 1, S = 2, L = 3), so the first
+    control and the mirror image are arithmetic, not look-ups. `EMPTY` is the word of a start already on the circle.
+    """
+
+    EMPTY = 0
+    R = 1
+    L = 3
+    SR = 2 + 4 * 1
+    SL = 2 + 4 * 3
+    RL = 1 + 4 * 3
+    LR = 3 + 4 * 1
+    RSR = 1 + 4 * 2 + 16 * 1
+    RSL = 1 + 4 * 2 + 16 * 3
+    LSR = 3 + 4 * 2 + 16 * 1
+    LSL = 3 + 4 * 2 + 16 * 3
+    RLR = 1 + 4 * 3 + 16 * 1
+    LRL = 3 + 4 * 1 + 16 * 3
+
+    @property
+    def letters(self) -> str:
+        """The word as a string: "RSL"; "" for `EMPTY`."""
+        return "" if self is Word.EMPTY else self.name
+
+
+class Side(IntEnum):
+    """Which way round the circle is held: the sign of the target's ordinate in the reduced plane, (8)-(10)."""
+
+    CW = 1
+    CCW = -1
+    EITHER = 0
+
+
+class Status(IntEnum):
+    """What became of one state of an array call; anything but `OK` comes with nan."""
+
+    OK = 0
+    NOT_FINITE = 1
+    RADIUS_TOO_SMALL = 2
+    OUT_OF_RANGE = 3
+    BAD_TOLERANCE = 4
+
+    @property
+    def message(self) -> str:
+        """One sentence for a person."""
+        return _MESSAGES[self]
+
+
+_MESSAGES = {
+    Status.OK: "solved",
+    Status.NOT_FINITE: "the state or the radius is nan or infinite",
+    Status.RADIUS_TOO_SMALL: "the circle is tighter than the minimum turn radius: R must be at least 1",
+    Status.OUT_OF_RANGE: "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn",
+    Status.BAD_TOLERANCE: "the tolerance must be zero or positive",
+}

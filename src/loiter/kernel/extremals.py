@@ -1,0 +1,161 @@
+"""All extremals that can be the fastest onto the clockwise circle, target (0, R), in closed form.
+
+docs/theory.md, section 3, derives them from the maximum principle (11)-(18). Each function takes the reduced state
+(x, y), the radius R >= 1 and `slack`, the arc length that a rotation may lack to a full turn and count as none
+(`angles.snapped`). It returns the word and the durations of its pieces in flying order; the first duration is `inf`
+where the word does not reach the target. The counter-clockwise circle is the mirror image: pass -y, swap L and R.
+
+In the reduced plane L turns clockwise about (0, -1) at radius rp, R counter-clockwise about (0, 1) at radius rm.
+Differences of squares are written as products, (R - y) (R + y + 2) for (R + 1)^2 - (y + 1)^2, so that a state near a
+circle keeps its digits.
+"""
+
+from math import atan2, hypot, inf, sqrt
+
+from loiter.kernel.angles import rotation, snapped, turn_of
+from loiter.kernel.codes import Word
+
+Extremal = tuple[Word, float, float, float]
+
+
+def onto_axis(x: float, y: float, end: float, slack: float) -> tuple[float, float]:
+    """Left turn from (x, y) until it meets the axis y = 0 at (end c, 0), end = -1 or +1: its duration, and c.
+
+    c = sqrt(rp^2 - 1); duration `inf` where the turn never meets the axis (rp < 1). A right turn is the mirror image:
+    pass -y. The cross product is end (c y + c - end x); where end x > 0, c - end x = y (y + 2) / (c + end x), so the
+    rotation keeps the sign of y down to its last bit.
+    """
+    rise = y * (y + 2.0)
+    c2 = x * x + rise
+    if c2 < 0.0:
+        return inf, 0.0
+    c = sqrt(c2)
+    along = end * x
+    gap = rise / (c + along) if along > 0.0 else c - along
+    return snapped(turn_of(end * (c * y + gap), c * along + y + 1.0), sqrt(c2 + 1.0), slack), c
+
+
+def external_join(word: Word, x: float, y: float, R: float, slack: float) -> Extremal:
+    """LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1))."""
+    first, c = onto_axis(x, y, -1.0, slack)
+    X = sqrt(R * (R + 2.0))
+    if c < X:
+        return word, inf, 0.0, 0.0
+    return word, first, c - X, atan2(X, 1.0)
+
+
+def internal_join(word: Word, x: float, y: float, R: float, slack: float) -> Extremal:
+    """LSR, R >= 2: onto the axis at (c, 0), straight to (X, 0), X = sqrt(R (R - 2)), right for pi - acos(1/(R - 1))."""
+    first, c = onto_axis(x, y, 1.0, slack)
+    X2 = R * (R - 2.0)
+    if c * c > X2:
+        return word, inf, 0.0, 0.0
+    X = sqrt(X2)
+    return word, first, X - c, atan2(X, -1.0)
+
+
+def lsl(x: float, y: float, R: float, slack: float) -> Extremal:
+    """Left, straight along the line through the centre, left."""
+    return external_join(Word.LSL, x, y, R, slack)
+
+
+def rsl(x: float, y: float, R: float, slack: float) -> Extremal:
+    """Right, straight, left: the first arc is the mirror image of that of LSL."""
+    return external_join(Word.RSL, x, -y, R, slack)
+
+
+def lsr(x: float, y: float, R: float, slack: float) -> Extremal:
+    """Left, straight, right, from inside a circle of R >= 2."""
+    return internal_join(Word.LSR, x, y, R, slack)
+
+
+def rsr(x: float, y: float, R: float, slack: float) -> Extremal:
+    """Right, straight, right: the first arc is the mirror image of that of LSR."""
+    return internal_join(Word.RSR, x, -y, R, slack)
+
+
+def l(x: float, y: float, R: float, slack: float) -> Extremal:
+    """Left along the last circle, radius R + 1 about (0, -1): the limit of RL, taken within `slack` of that circle."""
+    beyond = x * x + (y - R) * (y + R + 2.0)
+    if abs(beyond) > slack * (hypot(x, y + 1.0) + R + 1.0):
+        return Word.L, inf, 0.0, 0.0
+    return Word.L, snapped(turn_of(-x, y + 1.0), R + 1.0, slack), 0.0, 0.0
+
+
+def r(x: float, y: float, R: float, slack: float) -> Extremal:
+    """Right along the circle of radius R - 1 about (0, 1): the limit of LR, taken within `slack` of that circle."""
+    beyond = x * x + (y - R) * (y + R - 2.0)
+    if R == 1.0 or abs(beyond) > slack * (hypot(x, y - 1.0) + R - 1.0):
+        return Word.R, inf, 0.0, 0.0
+    return Word.R, snapped(turn_of(x, y - 1.0), R - 1.0, slack), 0.0, 0.0
+
+
+def rl(x: float, y: float, R: float, slack: float, branch: float) -> Extremal:
+    """Right to the last circle, of radius R + 1 about (0, -1), at its crossing with x1 of the sign of `branch`; left.
+
+    The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = rm^2 - (R - 1)^2, p = (R + 3)^2 - rm^2.
+    """
+    q = x * x + (y - R) * (y + R - 2.0)
+    p = (R + 4.0 - y) * (R + 2.0 + y) - x * x
+    if q < 0.0 or p < 0.0:
+        return Word.RL, inf, 0.0, 0.0
+    x1 = branch * 0.25 * sqrt(p * q)
+    first = rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * q)
+    last = turn_of(-x1, R + 1.0 - 0.25 * q)
+    return Word.RL, snapped(first, hypot(x, y - 1.0), slack), snapped(last, R + 1.0, slack), 0.0
+
+
+def lr(x: float, y: float, R: float, slack: float, branch: float) -> Extremal:
+    """Left to the circle of radius R - 1 about (0, 1), R > 1, at its crossing with x1 of the sign of `branch`; right.
+
+    The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = (R + 1)^2 - rp^2, p = rp^2 - (R - 3)^2.
+    """
+    q = (R - y) * (R + y + 2.0) - x * x
+    p = x * x + (y - R + 4.0) * (y + R - 2.0)
+    if R == 1.0 or q < 0.0 or p < 0.0:
+        return Word.LR, inf, 0.0, 0.0
+    x1 = branch * 0.25 * sqrt(p * q)
+    first = rotation(x1, R + 1.0 - 0.25 * q, x, y + 1.0)
+    last = turn_of(x1, R - 1.0 - 0.25 * q)
+    return Word.LR, snapped(first, hypot(x, y + 1.0), slack), snapped(last, R - 1.0, slack), 0.0
+
+
+def lrl(x: float, y: float, R: float, slack: float) -> Extremal:
+    """Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
+
+    With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K =
+    R (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 and the quadratic for s = ya + yb below.
+    """
+    k = x * x + y * (y + 2.0)
+    K = R * (R + 2.0)
+    d = 0.25 * (K - k)
+    h = 0.5 * (K + k)
+    D = h * h - 3.0 * d * d
+    if D < 0.0:
+        return Word.LRL, inf, 0.0, 0.0
+    s = (h + sqrt(D)) / 3.0
+    if s <= 0.0 or s > 2.0:
+        return Word.LRL, inf, 0.0, 0.0
+    m = sqrt((2.0 - s) / s)
+    ya, yb = 0.5 * (s - d), 0.5 * (s + d)
+    xa, xb = m * ya, -m * yb
+    first = rotation(xa, ya + 1.0, x, y + 1.0)
+    middle = rotation(xa, ya - 1.0, xb, yb - 1.0)
+    return Word.LRL, snapped(first, hypot(x, y + 1.0), slack), middle, turn_of(-xb, yb + 1.0)
+
+
+def extremals(x: float, y: float, R: float, slack: float) -> tuple[Extremal, ...]:
+    """Every extremal for the target (0, R), among them the fastest; those that do not reach it begin with `inf`."""
+    return (
+        l(x, y, R, slack),
+        r(x, y, R, slack),
+        rl(x, y, R, slack, -1.0),
+        rl(x, y, R, slack, 1.0),
+        lr(x, y, R, slack, -1.0),
+        lr(x, y, R, slack, 1.0),
+        lsl(x, y, R, slack),
+        rsl(x, y, R, slack),
+        lsr(x, y, R, slack),
+        rsr(x, y, R, slack),
+        lrl(x, y, R, slack),
+    )

@@ -1,0 +1,133 @@
+"""Which extremal wins: the optimum, every extremal in order, the feedback law. The only branching of the kernel."""
+
+from math import hypot, inf, isfinite
+
+from loiter.kernel.codes import Side, Status
+from loiter.kernel.extremals import Extremal, extremals
+from loiter.kernel.motion import flow
+
+# A maneuver: the side that it holds, its word, the durations of its pieces (0 past the last).
+Flown = tuple[int, int, float, float, float]
+
+# Rounding of a length of order one: the reduction (2) costs 2 roundings a coordinate, a difference of squares 6, the
+# angle and the flight of each of three pieces some 10; 64 units of 2**-52 is the next power of two above their sum.
+ROUNDING = 64.0 * 2.0**-52
+
+# Beyond this many turn radii neighbouring doubles are a turn radius apart.
+REACH = 2.0**52
+
+
+def rounding(x: float, y: float, R: float) -> float:
+    """Length below which a state and a circle of this size are equal up to rounding."""
+    return ROUNDING * (1.0 + abs(x) + abs(y) + R)
+
+
+def status_of(x: float, y: float, R: float, tolerance: float) -> Status:
+    """`Status.OK`, or why there is nothing to solve."""
+    if not (isfinite(x) and isfinite(y) and isfinite(R)):
+        return Status.NOT_FINITE
+    if R < 1.0:
+        return Status.RADIUS_TOO_SMALL
+    if abs(x) > REACH or abs(y) > REACH or R > REACH:
+        return Status.OUT_OF_RANGE
+    if not tolerance >= 0.0:
+        return Status.BAD_TOLERANCE
+    return Status.OK
+
+
+def mirrored(word: int) -> int:
+    """The word with L and R exchanged: each base-4 digit d becomes 4 - d."""
+    if word < 4:
+        return (4 - word) & 3
+    if word < 16:
+        return 20 - word
+    return 84 - word
+
+
+def flown(word: int, t1: float, t2: float, t3: float, dust: float) -> tuple[int, float, float, float]:
+    """The word as flown: a straight piece up to `dust` long and arcs of no angle left out, like arcs joined."""
+    if word >= 16 and t2 <= dust:
+        first, last = word & 3, word >> 4
+        if first == last:
+            word, t1, t2, t3 = first, t1 + t3, 0.0, 0.0
+        else:
+            word, t2, t3 = first + 4 * last, t3, 0.0
+    if 4 <= word < 16 and t2 <= ROUNDING:
+        word, t2 = word & 3, 0.0
+    if t1 <= ROUNDING:
+        word, t1, t2, t3 = word >> 2, t2, t3, 0.0
+    return word, t1, t2, t3
+
+
+def slack_of(x: float, y: float, R: float, tolerance: float) -> float:
+    """The share of the end-point tolerance that each of at most three pieces may use up."""
+    return max(tolerance, rounding(x, y, R)) / 3.0
+
+
+def as_flown(extremal: Extremal, dust: float, side: int) -> Flown:
+    """An extremal of the clockwise circle as the maneuver flown onto the circle of the given side."""
+    word, t1, t2, t3 = flown(extremal[0] + 0, extremal[1], extremal[2], extremal[3], dust)
+    return side, mirrored(word) if side < 0 else word, t1, t2, t3
+
+
+def near_side(y: float) -> int:
+    """The side that is never the slower one: T_either(x, y) = T_cw(x, |y|) (paper, section 5); clockwise on y = 0."""
+    return -1 if y < 0.0 else 1
+
+
+def optimum(x: float, y: float, R: float, side: int, tolerance: float) -> Flown:
+    """The fastest maneuver onto the circle from the reduced state (x, y); call it where `status_of` is OK."""
+    if side == Side.EITHER:
+        side = near_side(y)
+    found = extremals(x, side * y, R, slack_of(x, y, R, tolerance))
+    best = found[0]
+    for extremal in found:
+        if extremal[1] + extremal[2] + extremal[3] < best[1] + best[2] + best[3]:
+            best = extremal
+    return as_flown(best, rounding(x, y, R), side)
+
+
+def duration(maneuver: Flown) -> float:
+    """T, the whole time of a maneuver."""
+    return maneuver[2] + maneuver[3] + maneuver[4]
+
+
+def ranked(x: float, y: float, R: float, side: int, tolerance: float) -> list[Flown]:
+    """Every extremal that reaches the circle, each once, fastest first; for *either*, those of both sides."""
+    dust = rounding(x, y, R)
+    sides = (near_side(y), -near_side(y)) if side == Side.EITHER else (side,)
+    maneuvers: list[Flown] = []
+    for s in sides:
+        for extremal in extremals(x, s * y, R, slack_of(x, y, R, tolerance)):
+            maneuver = as_flown(extremal, dust, s)
+            if duration(maneuver) < inf and not any(same(maneuver, other, dust) for other in maneuvers):
+                maneuvers.append(maneuver)
+    return sorted(maneuvers, key=duration)
+
+
+def same(a: Flown, b: Flown, dust: float) -> bool:
+    """Whether two maneuvers are one, met as limits of two words."""
+    return a[:2] == b[:2] and abs(duration(a) - duration(b)) <= dust
+
+
+def optima(x: float, y: float, R: float, side: int, tolerance: float) -> list[Flown]:
+    """Every optimal maneuver: those of `ranked` that tie with the first up to rounding."""
+    maneuvers = ranked(x, y, R, side, tolerance)
+    latest = duration(maneuvers[0]) + rounding(x, y, R)
+    return [maneuver for maneuver in maneuvers if duration(maneuver) <= latest]
+
+
+def first_control(x: float, y: float, R: float, side: int, tolerance: float) -> float:
+    """Feedback law: the first control of the optimum; at the target the rate -1/R or 1/R that holds the circle."""
+    side, word, _, _, _ = optimum(x, y, R, side, tolerance)
+    return (word & 3) - 2.0 if word else -side / R
+
+
+def miss(x: float, y: float, R: float, maneuver: Flown) -> float:
+    """Distance from the target, in the reduced plane, at which a maneuver from (x, y) ends when flown exactly."""
+    side, word, t1, t2, t3 = maneuver
+    for t in (t1, t2, t3):
+        if word:
+            x, y = flow(x, y, (word & 3) - 2, t)
+            word >>= 2
+    return hypot(x, y - side * R)

@@ -1,0 +1,82 @@
+"""The closed forms: each piece ends where its name says."""
+
+from math import acos, hypot, inf, pi, sqrt
+
+import pytest
+from hypothesis import given, settings
+
+from loiter.kernel.codes import Word
+from loiter.kernel.extremals import extremals, lrl, onto_axis, rl
+from loiter.kernel.motion import flow
+from loiter.kernel.synthesis import rounding
+from strategies import coordinates, radii
+
+U = {"L": 1, "S": 0, "R": -1}
+
+
+def reached(x, y, R):
+    """The extremals that reach the target, with the switching points they pass, the end last."""
+    for word, *durations in extremals(x, y, R, rounding(x, y, R) / 3.0):
+        if durations[0] < inf:
+            points, here = [], (x, y)
+            for letter, t in zip(Word(word).letters, durations, strict=False):
+                here = flow(*here, U[letter], t)
+                points.append(here)
+            yield Word(word).letters, durations, points
+
+
+@settings(max_examples=500)
+@given(coordinates, coordinates, radii)
+def test_every_extremal_ends_at_the_target(x, y, R):
+    found = list(reached(x, y, R))
+    assert found
+    for _, durations, points in found:
+        assert min(durations) >= 0.0
+        assert hypot(points[-1][0], points[-1][1] - R) <= rounding(x, y, R)
+
+
+@given(coordinates, coordinates, radii)
+def test_straight_pieces_lie_on_the_line_through_the_centre(x, y, R):
+    for word, _, points in reached(x, y, R):
+        if word[1:2] == "S":
+            assert points[0][1] == pytest.approx(0.0, abs=rounding(x, y, R))
+
+
+@given(coordinates, coordinates, radii)
+def test_last_arcs_after_a_straight_piece_last_as_long_as_the_radius_says(x, y, R):
+    for word, durations, _ in reached(x, y, R):
+        if word[1:] == "SL":
+            assert durations[2] == pytest.approx(acos(1.0 / (1.0 + R)), abs=1e-15)
+        if word[1:] == "SR":
+            assert durations[2] == pytest.approx(pi - acos(1.0 / (R - 1.0)), abs=1e-7 if R < 2.1 else 1e-14)
+
+
+@settings(max_examples=500)
+@given(coordinates, coordinates, radii)
+def test_lrl_switches_where_the_maximum_principle_asks(x, y, R):
+    _, first, middle, _ = lrl(x, y, R, 0.0)
+    if first < inf:
+        xa, ya = flow(x, y, 1, first)
+        xb, yb = flow(xa, ya, -1, middle)
+        assert xb * ya == pytest.approx(-xa * yb, abs=1e-12 * (1.0 + x * x + y * y + R * R))
+        assert xb <= rounding(x, y, R)
+
+
+@pytest.mark.parametrize("branch", [-1.0, 1.0])
+def test_rl_meets_the_last_circle_on_the_side_of_its_branch(branch):
+    _, first, last, _ = rl(-0.53, 0.31, 1.0, 0.0, branch)
+    x1, y1 = flow(-0.53, 0.31, -1, first)
+    assert x1 * branch > 0.0
+    assert hypot(x1, y1 + 1.0) == pytest.approx(2.0, abs=1e-15)
+    assert last == pytest.approx(acos((y1 + 1.0) / 2.0) if branch < 0.0 else 2 * pi - acos((y1 + 1.0) / 2.0), abs=1e-14)
+
+
+@pytest.mark.parametrize("y", [1e-4, 1e-9, 1e-20, 1e-300])
+def test_a_tiny_turn_onto_the_axis_keeps_its_digits(y):
+    # From (-9, y) the right turn about (0, 1) lasts y/9 to first order.
+    assert onto_axis(-9.0, -y, -1.0, 0.0)[0] == pytest.approx(y / 9.0, rel=max(4e-16, y))
+
+
+def test_no_straight_piece_inside_two_turn_radii():
+    words = {word for word, _, _ in reached(0.2, 0.1, sqrt(3.0))}
+    assert not any("SR" in word for word in words)

@@ -1,0 +1,45 @@
+"""What Hypothesis draws: reduced states, radii, sides, scenes in SI; and what rounding does to T."""
+
+from math import sqrt
+
+from hypothesis import strategies as st
+
+from loiter import Aircraft, Orbit, Pose, Turn
+from loiter.kernel.codes import Side
+from loiter.kernel.synthesis import rounding
+
+coordinates = st.one_of(
+    st.floats(-4.0, 4.0),
+    st.floats(-60.0, 60.0),
+    st.sampled_from([0.0, -0.0, 1.0, -1.0, 2.0, -3.0, sqrt(3.0), -sqrt(3.0), 1e-9, -1e-9]),
+)
+radii = st.one_of(st.floats(1.0, 30.0), st.sampled_from([1.0, 1.0 + 1e-6, 2.0 - 1e-9, 2.0, 2.0 + 1e-9, 3.0]))
+sides = st.sampled_from(list(Side))
+one_way = st.sampled_from([Side.CW, Side.CCW])
+controls = st.sampled_from([-1, 0, 1])
+
+metres = st.floats(-3000.0, 3000.0)
+headings = st.one_of(st.floats(-360.0, 720.0), st.sampled_from([0.0, 90.0, 180.0, 270.0, -90.0]))
+poses = st.builds(Pose, metres, metres, headings)
+aircraft = st.builds(Aircraft, st.floats(8.0, 40.0), max_bank_deg=st.floats(15.0, 60.0))
+turns = st.sampled_from(list(Turn))
+
+
+@st.composite
+def scenes(draw: st.DrawFn) -> tuple[Pose, Orbit, Aircraft]:
+    """A pose, a circle that the aircraft can hold, and the aircraft."""
+    uav = draw(aircraft)
+    radius = uav.turn_radius_m * draw(st.floats(1.0, 8.0))
+    return draw(poses), Orbit(draw(metres), draw(metres), radius, draw(turns)), uav
+
+
+def blur(x: float, y: float, R: float) -> float:
+    """How far rounding of a state may move T, by theory.
+
+    Switching points lie where circles cross, so next to a place where they touch T moves with the square root of a
+    displacement e. For RL and LR that is the circle of radius R - 1 about (0, 1): q = rm^2 - (R - 1)^2 moves by
+    2 (R - 1) e, x1 = sqrt(p q)/4 with p = 8 (R + 1) by 2 sqrt((R + 1)(R - 1) e), the angle by that over R - 1.
+    """
+    e = rounding(x, y, R)
+    touching = sqrt((R + 1.0) * e / (R - 1.0)) if R > 1.0 else 0.0
+    return 4.0 * (sqrt(e) + touching)
