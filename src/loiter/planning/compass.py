@@ -1,0 +1,29 @@
+"""Compass headings (degrees clockwise from north) and directions, the one place where the two conventions meet.
+
+Both functions are free of branches, so that `kernel.rebinding.rebound` makes them serve arrays.
+"""
+
+from math import cos, floor, fmod, radians, sin
+
+
+def heading_vector(heading_deg: float) -> tuple[float, float]:
+    """East and north component of the unit vector along a compass heading, exact at multiples of 90 degrees.
+
+    The heading is reduced to within 45 degrees of a quarter before it becomes radians, so that a start that heads due
+    east for the centre has the reduced ordinate 0, not 6e-17, and a heading of any size keeps its digits.
+    """
+    heading = fmod(heading_deg, 360.0)
+    quarters = floor(heading / 90.0 + 0.5)
+    rest = radians(heading - 90.0 * quarters)
+    quarter = quarters % 4
+    # Sine and cosine of the whole quarters.
+    sq, cq = (2.0 - quarter) * (quarter % 2), (1.0 - quarter) * (quarter != 3)
+    s, c = sin(rest), cos(rest)
+    return sq * c + cq * s, cq * c - sq * s
+
+
+def wrapped(heading_deg: float) -> float:
+    """The heading in [0, 360)."""
+    heading = heading_deg % 360.0
+    # A tiny negative heading rounds to 360 itself.
+    return heading * (heading < 360.0)

@@ -1,0 +1,209 @@
+"""Frozen values in SI: what goes into a plan and what comes out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import atan, degrees, hypot, radians, tan
+from typing import TYPE_CHECKING, NamedTuple
+
+from loiter.errors import InvalidArgument, as_float, number, positive
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+STANDARD_GRAVITY_M_S2 = 9.80665  # exact by definition (3rd CGPM, 1901)
+
+# The control u of each letter: +1 turns left.
+CONTROLS = {"L": 1, "S": 0, "R": -1}
+
+# More samples than this would not fit in the memory of a small machine: 5 arrays of 8 bytes each, 400 MB.
+MAX_SAMPLES = 10_000_000
+
+
+class Turn(StrEnum):
+    """Which way round the circle is held, as seen from above."""
+
+    CW = "cw"
+    CCW = "ccw"
+    EITHER = "either"
+
+    @property
+    def other(self) -> Turn:
+        """The opposite direction; `EITHER` is its own."""
+        return {Turn.CW: Turn.CCW, Turn.CCW: Turn.CW}.get(self, self)
+
+    @property
+    def described(self) -> str:
+        """In words: "clockwise", "counter-clockwise", "either way"."""
+        return {Turn.CW: "clockwise", Turn.CCW: "counter-clockwise"}.get(self, "either way")
+
+
+@dataclass(frozen=True, slots=True)
+class Aircraft:
+    """A fixed-wing aircraft in level flight: its airspeed and exactly one limit on how tightly it turns.
+
+    `airspeed_m_s` is the true airspeed; the limit is `max_bank_deg` (between 0 and 90; the turn radius is
+    V^2 / (g tan bank), a coordinated turn), `min_turn_radius_m` or `max_turn_rate_deg_s`.
+    Raises `InvalidArgument` for anything that is not a positive, finite number, and for no limit or several.
+
+    >>> round(Aircraft(airspeed_m_s=18.0, max_bank_deg=35.0).turn_radius_m, 2)
+    47.18
+    """
+
+    airspeed_m_s: float
+    max_bank_deg: float | None = None
+    min_turn_radius_m: float | None = None
+    max_turn_rate_deg_s: float | None = None
+
+    def __post_init__(self) -> None:
+        positive("airspeed_m_s", self.airspeed_m_s, "metres per second")
+        limits = {name: getattr(self, name) for name in TURN_LIMITS if getattr(self, name) is not None}
+        if len(limits) != 1:
+            given = " and ".join(limits) if limits else "none"
+            raise InvalidArgument(
+                "turn limit", f"is needed exactly once ({' or '.join(TURN_LIMITS)}): {given} was given"
+            )
+        for name, value in limits.items():
+            positive(name, value, TURN_LIMITS[name])
+        if self.max_bank_deg is not None and as_float(self.max_bank_deg) >= 90.0:
+            raise InvalidArgument("max_bank_deg", f"is {self.max_bank_deg}: it must be between 0 and 90 degrees")
+        positive("turn radius", self.turn_radius_m, "metres; airspeed and turn limit together give it")
+
+    @property
+    def turn_radius_m(self) -> float:
+        """Minimum turn radius, metres: V^2 / (g tan bank), or V over the turn rate."""
+        if self.min_turn_radius_m is not None:
+            return self.min_turn_radius_m
+        if self.max_turn_rate_deg_s is not None:
+            return self.airspeed_m_s / radians(self.max_turn_rate_deg_s)
+        assert self.max_bank_deg is not None  # exactly one limit is given
+        return self.airspeed_m_s * self.airspeed_m_s / (STANDARD_GRAVITY_M_S2 * tan(radians(self.max_bank_deg)))
+
+    def bank_deg(self, radius_m: float) -> float:
+        """Bank of a coordinated turn of the given radius at this airspeed, degrees: atan(V^2 / (g radius))."""
+        return degrees(atan(self.airspeed_m_s * self.airspeed_m_s / (STANDARD_GRAVITY_M_S2 * radius_m)))
+
+
+# The three ways to give the limit, with their units.
+TURN_LIMITS = {"max_bank_deg": "degrees", "min_turn_radius_m": "metres", "max_turn_rate_deg_s": "degrees per second"}
+
+
+@dataclass(frozen=True, slots=True)
+class Orbit:
+    """The holding circle: its centre (metres, local east and north), its radius and the direction asked for.
+
+    `turn` is a `Turn` or its value: "cw", "ccw" or "either" (whichever is sooner; the default).
+    Raises `InvalidArgument` for coordinates that are not finite, a radius that is not positive, an unknown turn.
+    """
+
+    east_m: float
+    north_m: float
+    radius_m: float
+    turn: Turn = Turn.EITHER
+
+    def __post_init__(self) -> None:
+        number("orbit east_m", self.east_m, "metres")
+        number("orbit north_m", self.north_m, "metres")
+        positive("orbit radius_m", self.radius_m, "metres")
+        if self.turn not in tuple(Turn):
+            raise InvalidArgument("turn", f"is {self.turn!r}: it must be cw, ccw or either")
+        object.__setattr__(self, "turn", Turn(self.turn))
+
+    def distance_m(self, pose: Pose) -> float:
+        """Distance of a pose from the centre, metres."""
+        return hypot(pose.east_m - self.east_m, pose.north_m - self.north_m)
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """Where the aircraft is (metres, local east and north) and its compass heading (degrees clockwise from north).
+
+    A heading of any size is understood. Raises `InvalidArgument` for a value that is not finite.
+    """
+
+    east_m: float
+    north_m: float
+    heading_deg: float
+
+    def __post_init__(self) -> None:
+        number("pose east_m", self.east_m, "metres")
+        number("pose north_m", self.north_m, "metres")
+        number("pose heading_deg", self.heading_deg, "degrees")
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One piece of a maneuver with constant control.
+
+    `letter` is "L" (left turn), "S" (straight) or "R" (right turn); `start_s` is when it begins, counted from the
+    start of the maneuver; `curvature_per_m` is positive to the left, 0 on a straight piece.
+    """
+
+    letter: str
+    start_s: float
+    duration_s: float
+    length_m: float
+    curvature_per_m: float
+    start: Pose
+    end: Pose
+
+
+class Samples(NamedTuple):
+    """A maneuver at given times: five float64 arrays of one length; curvature positive to the left."""
+
+    time_s: NDArray[float64]
+    east_m: NDArray[float64]
+    north_m: NDArray[float64]
+    heading_deg: NDArray[float64]
+    curvature_per_m: NDArray[float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Maneuver:
+    """A way onto the circle, flown with at most three controls.
+
+    `turn` is the direction in which it holds the circle, never "either"; `orbit.turn` is what was asked for. A start
+    that is already on the circle has no segments and the word "". `miss_m` is the distance by which its end misses the
+    tangent point when the durations are flown exactly: rounding, or what the tolerance of `plan` let pass.
+    """
+
+    start: Pose
+    orbit: Orbit
+    aircraft: Aircraft
+    turn: Turn
+    segments: tuple[Segment, ...]
+    miss_m: float
+
+    @property
+    def word(self) -> str:
+        """The letters of the segments as flown, in Dubins' notation: "RSL"."""
+        return "".join(segment.letter for segment in self.segments)
+
+    @property
+    def duration_s(self) -> float:
+        """Time to join the circle, seconds."""
+        return sum(segment.duration_s for segment in self.segments)
+
+    @property
+    def length_m(self) -> float:
+        """Distance flown to the point of joining, metres."""
+        return sum(segment.length_m for segment in self.segments)
+
+    @property
+    def join(self) -> Pose:
+        """Where the circle is joined, and the heading there."""
+        return self.segments[-1].end if self.segments else self.start
+
+    def sample(self, step_s: float) -> Samples:
+        """Position, heading and curvature every `step_s` seconds from 0, and at the point of joining.
+
+        At an instant of switching the curvature is that of the piece that begins. Headings are in [0, 360).
+        Raises `InvalidArgument` for a step that is not positive or so small that memory would not hold the samples.
+        """
+        from loiter.planning.flight import sampled
+
+        if self.duration_s / positive("step_s", step_s, "seconds") > MAX_SAMPLES:
+            raise InvalidArgument("step_s", f"is {step_s}: it would take more than {MAX_SAMPLES} samples")
+        return sampled(self, step_s)
