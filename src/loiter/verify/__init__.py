@@ -1,0 +1,1 @@
+"""Witnesses that do not believe the kernel."""
