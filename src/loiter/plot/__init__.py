@@ -1,0 +1,1 @@
+"""Pictures of maneuvers. Matplotlib is imported here and nowhere else."""

@@ -1,0 +1,142 @@
+"""A plan view, in metres, of one or more maneuvers onto a circle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle
+from numpy.typing import NDArray
+
+from loiter.planning.compass import heading_vector
+from loiter.planning.flight import along
+from loiter.planning.model import Maneuver, Orbit, Pose, Segment, Turn
+
+# Okabe and Ito's palette, told apart in all common forms of colour blindness.
+COLOURS = {"L": "#009E73", "S": "#0072B2", "R": "#D55E00"}
+MEANINGS = {"L": "left turn", "S": "straight", "R": "right turn"}
+FAINT = "#b0b0b0"
+
+# Chords of 2 degrees depart from an arc by 0.015 % of its radius, less than a line is wide.
+CHORD_RAD = math.radians(2.0)
+
+
+def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = ()) -> Figure:
+    """Draw maneuvers of one scene: `best` coloured by segment, `others` faint, start, switches and join marked.
+
+    East is to the right, north up, axes equal, in metres. The first of `best` gives the title.
+    """
+    first = best[0]
+    figure = Figure(figsize=(8.0, 6.4), layout="constrained")
+    axes = figure.add_subplot()
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.grid(color="#e6e6e6", linewidth=0.8)
+    axes.set_axisbelow(True)
+    for maneuver in others:
+        axes.plot(*_track(maneuver), color=FAINT, linewidth=1.0, alpha=0.6, zorder=1, gid="candidate")
+    _draw_circle(axes, first.orbit, {maneuver.turn for maneuver in best})
+    for maneuver in best:
+        _draw_path(axes, maneuver)
+    _draw_aircraft(axes, first.start)
+    axes.set_xlabel("east (m)")
+    axes.set_ylabel("north (m)")
+    axes.set_title(_title(best))
+    axes.legend(handles=_legend(best, others), loc="best", fontsize="small", framealpha=0.9)
+    axes.margins(0.08)
+    return figure
+
+
+def _title(best: Sequence[Maneuver]) -> str:
+    first = best[0]
+    words = " or ".join(f"{m.word or 'on the circle'} {m.turn.described}" for m in best)
+    return f"{words}\njoins in {first.duration_s:.4g} s, {first.length_m:.4g} m"
+
+
+def _draw_path(axes: Axes, maneuver: Maneuver) -> None:
+    for segment in maneuver.segments:
+        east, north = _piece(segment, maneuver)
+        axes.plot(east, north, color=COLOURS[segment.letter], linewidth=2.6, zorder=3, gid=f"segment {segment.letter}")
+        _arrow(axes, east, north, COLOURS[segment.letter])
+    for segment in maneuver.segments[1:]:
+        _mark(axes, segment.start, marker="o", markersize=6, markerfacecolor="white", gid="switch")
+    _mark(axes, maneuver.join, marker="o", markersize=9, markerfacecolor="black", gid="join")
+
+
+def _mark(axes: Axes, pose: Pose, **style: Any) -> None:
+    axes.plot([pose.east_m], [pose.north_m], color="black", linestyle="none", zorder=5, **style)
+
+
+def _draw_circle(axes: Axes, orbit: Orbit, turns: set[Turn]) -> None:
+    centre = (orbit.east_m, orbit.north_m)
+    axes.add_patch(Circle(centre, orbit.radius_m, fill=False, color="black", linewidth=1.4, zorder=2, gid="circle"))
+    axes.plot(*centre, marker="+", color="black", markersize=8, linestyle="none", gid="centre")
+    for turn in turns:
+        sense = -1.0 if turn == Turn.CW else 1.0
+        # Where both directions tie, their arrows stand apart.
+        for quarter in range(4):
+            angle = math.radians(45.0 + 90.0 * quarter - 8.0 * sense * (len(turns) - 1))
+            arc = angle + sense * np.array([0.0, CHORD_RAD])
+            _arrow(axes, centre[0] + orbit.radius_m * np.cos(arc), centre[1] + orbit.radius_m * np.sin(arc), "black")
+
+
+def _arrow(axes: Axes, east: NDArray[np.float64], north: NDArray[np.float64], colour: str) -> None:
+    i = len(east) // 2
+    axes.annotate(
+        "",
+        xy=(east[i], north[i]),
+        xytext=(east[i - 1], north[i - 1]),
+        arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 15.0, "shrinkA": 0.0, "shrinkB": 0.0},
+        zorder=4,
+    )
+
+
+def _draw_aircraft(axes: Axes, pose: Pose) -> None:
+    # A dart that points along the heading, as wide as it needs to be to show it.
+    e, n = heading_vector(pose.heading_deg)
+    outline = np.array([[1.0, 0.0], [-0.7, 0.6], [-0.35, 0.0], [-0.7, -0.6]]) @ np.array([[e, n], [-n, e]])
+    axes.plot(
+        [pose.east_m],
+        [pose.north_m],
+        marker=outline,
+        markersize=18,
+        color="black",
+        linestyle="none",
+        zorder=6,
+        gid="start",
+    )
+
+
+def _piece(segment: Segment, maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    turned = abs(segment.curvature_per_m) * segment.length_m
+    steps = 3 + math.ceil(turned / CHORD_RAD)  # a straight piece needs a middle, for its arrow
+    east, north, _ = along(segment, np.linspace(0.0, segment.length_m, steps), maneuver.aircraft)
+    return east, north
+
+
+def _track(maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    pieces = [_piece(segment, maneuver) for segment in maneuver.segments]
+    return np.concatenate([east for east, _ in pieces]), np.concatenate([north for _, north in pieces])
+
+
+def _legend(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> list[Line2D]:
+    letters = dict.fromkeys(segment.letter for maneuver in best for segment in maneuver.segments)
+    handles = [Line2D([], [], color=COLOURS[letter], linewidth=2.6, label=MEANINGS[letter]) for letter in letters]
+    handles.append(Line2D([], [], color="black", linewidth=1.4, label="holding circle"))
+    handles += [
+        Line2D([], [], color=FAINT, label=f"{other.word} {other.turn.value}: {_later(other, best)}")
+        for other in others[:3]
+    ]
+    if len(others) > 3:
+        handles.append(Line2D([], [], color=FAINT, label=f"{len(others) - 3} more, slower still"))
+    return handles
+
+
+def _later(maneuver: Maneuver, best: Sequence[Maneuver]) -> str:
+    later = maneuver.duration_s - best[0].duration_s
+    # What a picture can show; the table and JSON tell smaller differences.
+    return f"{later:.3g} s later" if later > 1e-6 * maneuver.duration_s else "as fast"
