@@ -1,0 +1,188 @@
+"""The commands, and the one place where an error becomes a sentence and an exit status."""
+
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import App, CycloptsError, Group, Parameter
+
+import loiter
+from loiter.cli import report
+from loiter.errors import InvalidArgument, LoiterError
+from loiter.planning.model import Aircraft, Orbit, Pose, Turn
+from loiter.plot import files
+
+CHECK_FAILED = 1
+USAGE_ERROR = 2
+INTERRUPTED = 130  # 128 + SIGINT, as shells report it
+
+# What a user of the command line calls the arguments of the library.
+OPTIONS = {
+    "airspeed_m_s": "--airspeed",
+    "max_bank_deg": "--bank",
+    "min_turn_radius_m": "--turn-radius",
+    "max_turn_rate_deg_s": "--turn-rate",
+    "tolerance_m": "--tolerance",
+    "pose east_m": "--pose EAST",
+    "pose north_m": "--pose NORTH",
+    "pose heading_deg": "--pose HEADING",
+    "orbit east_m": "--orbit EAST",
+    "orbit north_m": "--orbit NORTH",
+    "orbit radius_m": "--orbit RADIUS",
+}
+
+app = App(
+    name="loiter",
+    version=loiter.__version__,
+    usage="Usage: loiter COMMAND [OPTIONS]",
+    default_parameter=Parameter(negative=""),
+    help_format="plaintext",
+    help="""The fastest way onto a holding circle for a fixed-wing aircraft.
+
+An aircraft of constant speed turns left or right, no tighter than its turn radius. It is to join a circle tangentially, in the least time, and to stay on it, clockwise or counter-clockwise, whichever is sooner. The answer is exact: the least of all extremals of Pontryagin's maximum principle, so nothing is faster.
+
+Positions are metres east and north of any local origin; headings are degrees clockwise from north.""",
+    help_epilogue="""Examples
+  loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35
+  loiter plan --pose -400 120 90 --orbit 0 0 80 --turn cw \\
+      --airspeed 18 --turn-radius 50 --plot entry.png
+  eval "$(loiter completion bash)"
+
+Exit status
+  0  done
+  1  a check failed (loiter verify)
+  2  the request cannot be met: one sentence on standard error says why,
+     and no file is written""",
+)  # fmt: skip
+
+scene = Group("Scene", sort_key=1)
+aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sort_key=2)
+output = Group("Output", sort_key=3)
+
+
+@app.command(name="plan")
+def plan_command(
+    *,
+    pose: Annotated[
+        tuple[float, float, float],
+        Parameter(group=scene, metavar="EAST NORTH HEADING", help="The aircraft: metres, and degrees from north."),
+    ],
+    orbit: Annotated[
+        tuple[float, float, float],
+        Parameter(group=scene, metavar="EAST NORTH RADIUS", help="The circle: its centre and its radius, metres."),
+    ],
+    turn: Annotated[
+        Literal["either", "cw", "ccw"],
+        Parameter(group=scene, help="Direction in which the circle is held, seen from above."),
+    ] = "either",
+    tolerance: Annotated[
+        float,
+        Parameter(
+            group=scene,
+            metavar="METRES",
+            help="Metres by which a start may lie beyond the last arc and still count as on it, so that noise does not send "
+            "the aircraft round again.",
+        ),
+    ] = 0.0,
+    airspeed: Annotated[float, Parameter(group=aircraft, metavar="M_PER_S", help="True airspeed, metres per second.")],
+    bank: Annotated[float | None, Parameter(group=aircraft, metavar="DEGREES", help="Largest bank, degrees.")] = None,
+    turn_radius: Annotated[
+        float | None, Parameter(group=aircraft, metavar="METRES", help="Smallest turn radius, metres.")
+    ] = None,
+    turn_rate: Annotated[
+        float | None, Parameter(group=aircraft, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
+    ] = None,
+    all_: Annotated[
+        bool, Parameter(name="--all", group=output, help="Show every optimal maneuver: 1, 2 or 4.")
+    ] = False,
+    json: Annotated[
+        bool,
+        Parameter(
+            group=output,
+            help="Print one JSON object, with every losing extremal among its alternatives.",
+        ),
+    ] = False,
+    plot: Annotated[
+        Path | None, Parameter(group=output, metavar="FILE", help="Draw the plan to a file: .png, .svg or .pdf.")
+    ] = None,
+) -> None:
+    """Plan the fastest entry onto a holding circle: what to fly, for how long, where to peel off."""
+    if plot is not None:
+        files.check_format(plot)
+    uav = Aircraft(airspeed, max_bank_deg=bank, min_turn_radius_m=turn_radius, max_turn_rate_deg_s=turn_rate)
+    start, circle = Pose(*pose), Orbit(*orbit, turn=Turn(turn))
+    best = loiter.plan_all(start, circle, uav, tolerance_m=tolerance)
+    # What the other direction would cost is told even where one was asked for.
+    known = loiter.candidates(start, replace(circle, turn=Turn.EITHER), uav, tolerance_m=tolerance)
+    others = [m for m in known if not any(m.turn == b.turn and m.segments == b.segments for b in best)]
+    if plot is not None:
+        losers = [m for m in others if turn in ("either", m.turn)]
+        files.save(plot, best if all_ else best[:1], losers if all_ else [*best[1:], *losers])
+    if json:
+        report.print_json(best, others)
+    else:
+        report.print_tables(best, others, everything=all_)
+
+
+@app.command
+def verify(
+    *,
+    states: Annotated[int, Parameter(metavar="N", help="How many random scenes.")] = 2000,
+    seed: Annotated[int, Parameter(metavar="N", help="The same seed draws the same scenes.")] = 0,
+) -> int:
+    """Compare plans with an independent search: OMPL's Dubins distance, minimised over the point of joining.
+
+    Scenes lie anywhere, on the axes, next to the target and far away, for circles from 1 to 30 turn radii and all three
+    turns. Exit status 1 where a plan and the search differ by more than the search resolves. Needs OMPL (pip install
+    ompl).
+    """
+    from rich.progress import track
+
+    from loiter.verify.compare import RESOLUTION, Difference, compare
+
+    differences: list[Difference] = list(
+        track(compare(states, seed), description="comparing", total=states, console=report.progress_console())
+    )
+    report.print_differences(differences, RESOLUTION)
+    return 0 if all(max(d.later, d.earlier) <= RESOLUTION for d in differences) else CHECK_FAILED
+
+
+@app.command
+def completion(shell: Literal["bash", "zsh", "fish"], /) -> None:
+    """Print a completion script: `eval "$(loiter completion bash)"`.
+
+    Parameters
+    ----------
+    shell
+        The shell that is to complete commands and options.
+    """
+    sys.stdout.write(app.generate_completion(shell=shell))
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit status, 2 after one sentence on standard error."""
+    try:
+        status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+        sys.stdout.flush()
+    except (LoiterError, CycloptsError) as error:
+        print(f"loiter: {sentence(error)}", file=sys.stderr)  # noqa: T201
+        return USAGE_ERROR
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader of a pipe has left, as `head` does; nothing is wrong.
+        sys.stderr.close()
+        return 0
+    return status or 0
+
+
+def sentence(error: Exception) -> str:
+    """One line for a person, in the command line's own names."""
+    text = str(error)
+    if isinstance(error, InvalidArgument) and error.argument in {"turn", "plot", "states", "seed"}:
+        text = "--" + text
+    for name, option in OPTIONS.items():
+        text = text.replace(name, option)
+    return " ".join(text.split())

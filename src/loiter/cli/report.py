@@ -1,0 +1,140 @@
+"""What `loiter plan` prints: tables for people, JSON for programs."""
+
+import json
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+
+from rich.console import Console
+from rich.table import Table
+
+from loiter.planning.model import Maneuver
+from loiter.verify.compare import Difference
+
+ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
+
+# Two durations that are equal in theory differ by rounding, near 1e-15 of themselves in near and 1e-14 in far scenes.
+SAME_TIME = 1e-12
+
+
+def print_json(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> None:
+    """Print the first of `best` as one JSON object; its `alternatives` are the rest of `best`, then `others`."""
+    first, *rest = best
+    alternatives = [described(m) | {"later_s": m.duration_s - first.duration_s} for m in (*rest, *others)]
+    json.dump(described(first) | {"alternatives": alternatives}, sys.stdout, indent=2, allow_nan=False)
+    sys.stdout.write("\n")
+
+
+def described(maneuver: Maneuver) -> dict[str, object]:
+    """A maneuver as plain values, for JSON."""
+    return {
+        "duration_s": maneuver.duration_s,
+        "length_m": maneuver.length_m,
+        "word": maneuver.word,
+        "turn": maneuver.turn.value,
+        "join": asdict(maneuver.join),
+        "miss_m": maneuver.miss_m,
+        "segments": [asdict(segment) for segment in maneuver.segments],
+    }
+
+
+def print_tables(best: Sequence[Maneuver], others: Sequence[Maneuver], *, everything: bool) -> None:
+    """Print the first of `best`, or with `everything` each, and what the other direction costs."""
+    console = Console(highlight=False)
+    for maneuver in best if everything else best[:1]:
+        console.print(headline(maneuver), style="bold")
+        if maneuver.segments:
+            console.print(table(maneuver))
+            console.print(peel_off(maneuver))
+    console.print(other_direction(best, others))
+    if len(best) > 1 and not everything:
+        console.print(f"{len(best)} maneuvers are optimal; --all shows each.")
+
+
+def headline(maneuver: Maneuver) -> str:
+    """One line: the word, the direction, the time to join and the distance."""
+    if not maneuver.segments:
+        return f"On the circle already, {maneuver.turn.described}: nothing to fly."
+    time, length = _formats(maneuver)
+    return (
+        f"{maneuver.word}, {maneuver.turn.described}: joins in {time(maneuver.duration_s)} "
+        f"after {length(maneuver.length_m)}"
+    )
+
+
+def table(maneuver: Maneuver) -> Table:
+    """A row for each piece and one for the join."""
+    time, length = _formats(maneuver)
+    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    rows.add_column("in", justify="right")
+    rows.add_column("do", justify="left")
+    for heading in ("for", "length", "from the centre", "heading"):
+        rows.add_column(heading, justify="right")
+    for segment in maneuver.segments:
+        rows.add_row(
+            time(segment.start_s),
+            ACTIONS[segment.letter],
+            time(segment.duration_s),
+            length(segment.length_m),
+            length(maneuver.orbit.distance_m(segment.start)),
+            _degrees(segment.start.heading_deg),
+        )
+    rows.add_row(
+        time(maneuver.duration_s),
+        f"hold {maneuver.turn.described}",
+        "",
+        "",
+        length(maneuver.orbit.distance_m(maneuver.join)),
+        _degrees(maneuver.join.heading_deg),
+    )
+    return rows
+
+
+def peel_off(maneuver: Maneuver) -> str:
+    """Where the last piece begins: "Peel off: turn left in 12.4 s, 138 m from the centre."."""
+    time, length = _formats(maneuver)
+    last = maneuver.segments[-1]
+    when = f"in {time(last.start_s)}" if len(maneuver.segments) > 1 else "now"
+    return f"Peel off: {ACTIONS[last.letter]} {when}, {length(maneuver.orbit.distance_m(last.start))} from the centre."
+
+
+def other_direction(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> str:
+    """What holding the circle the other way round would cost."""
+    first = best[0]
+    other = next(m for m in (*best, *others) if m.turn != first.turn)
+    later = other.duration_s - first.duration_s
+    subject = other.turn.described.capitalize()
+    if abs(later) <= SAME_TIME * other.duration_s:
+        return f"{subject} takes the same time."
+    return f"{subject} would join {abs(later):.3g} s {'later' if later > 0.0 else 'sooner'}."
+
+
+def progress_console() -> Console:
+    """Where progress bars go: standard error, so that standard output holds the result alone."""
+    return Console(stderr=True)
+
+
+def print_differences(differences: Sequence[Difference], resolution: float) -> None:
+    """Print a row for each place: how many scenes, and the largest difference either way."""
+    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    rows.add_column("place")
+    for heading in ("scenes", "plan later by", "search later by", "beyond"):
+        rows.add_column(heading, justify="right")
+    for place in (*dict.fromkeys(d.scene.place for d in differences), "all"):
+        here = [d for d in differences if place in ("all", d.scene.place)]
+        beyond = sum(max(d.later, d.earlier) > resolution for d in here)
+        later, earlier = max(d.later for d in here), max(d.earlier for d in here)
+        rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", str(beyond))
+    console = Console(highlight=False)
+    console.print(rows)
+    console.print(f"Largest differences, over turn radius plus length; the search resolves {resolution:.0e}.")
+
+
+def _formats(maneuver: Maneuver) -> tuple[Callable[[float], str], Callable[[float], str]]:
+    """Formats of times and of lengths, with as many decimals as the size of the scene asks for."""
+    decimals = 1 if maneuver.orbit.radius_m >= 10.0 else 3
+    return lambda seconds: f"{seconds:.{decimals}f} s", lambda metres: f"{metres:.{decimals}f} m"
+
+
+def _degrees(value: float) -> str:
+    return f"{value % 360.0:05.1f}°"
