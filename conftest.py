@@ -1,0 +1,54 @@
+"""Runs the examples of the documentation: Python in docstrings and Markdown, and `console` blocks of Markdown."""
+
+import io
+import os
+import shlex
+from collections.abc import Iterator
+from contextlib import chdir, redirect_stdout
+from pathlib import Path
+
+import pytest
+from sybil import Example, Sybil
+from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
+
+import loiter
+from loiter.cli.app import main
+
+
+@pytest.fixture(autouse=True)
+def _names_of_docstrings(doctest_namespace: dict[str, object]) -> None:
+    doctest_namespace["loiter"] = loiter
+
+
+def run_console(example: Example) -> str | None:
+    """Run each `$ loiter ...` line of a block; what follows it must be what it prints."""
+    for block in example.parsed.removeprefix("$ ").split("\n$ "):
+        command, _, expected = block.replace("\\\n", "").partition("\n")
+        program, *arguments = shlex.split(command)
+        if program != "loiter":
+            raise ValueError(f"only loiter commands run here, not {program}")
+        printed = io.StringIO()
+        with redirect_stdout(printed):
+            status = main(arguments)
+        if (printed.getvalue().rstrip(), status) != (expected.rstrip(), 0):
+            return f"{command}\nprinted (status {status}):\n{printed.getvalue()}"
+    return None
+
+
+@pytest.fixture(scope="module")
+def scratch_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Examples write their files into a folder that nobody misses."""
+    folder = tmp_path_factory.mktemp("examples")
+    os.environ["COLUMNS"] = "100"
+    with chdir(folder):
+        yield folder
+
+
+pytest_collect_file = Sybil(
+    parsers=[
+        PythonCodeBlockParser(),
+        CodeBlockParser(language="console", evaluator=run_console),
+    ],
+    patterns=["*.md"],
+    fixtures=["scratch_folder"],
+).pytest()
