@@ -29,7 +29,7 @@ demo: .venv/base.stamp
 
 test: .venv/dev.stamp
 	$(BIN)/ruff format --check .
-	$(BIN)/ruff check .
+	$(BIN)/ruff check --no-cache .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/pytest -n 2

@@ -4,11 +4,11 @@ from math import inf, nan
 
 import numpy as np
 import pytest
-from loiter.errors import InvalidArgument
 
 import loiter
 from golden.paper import EXAMPLES
 from loiter import Aircraft, Orbit, Pose, plan
+from loiter.errors import InvalidArgument
 from loiter.kernel.codes import Side, Status, Word
 from loiter.kernel.synthesis import duration, first_control, miss, optimum
 
