@@ -29,6 +29,10 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
 def __getattr__(name: str) -> Any:
     # The array functions need NumPy, which a single plan does not load.
     if name in {"control", "min_time", "reduce", "solve"}:

@@ -51,6 +51,14 @@ def test_how_many_maneuvers_are_optimal_on_the_axis(x, y, count):
     assert len({(m.word, m.turn) for m in maneuvers}) == count
 
 
+@pytest.mark.parametrize(("pose", "radius"), [(Pose(-39.9, 120, 180), 80.0), (Pose(-0.392460668, 200, 90), 120.0)])
+def test_a_maneuver_met_as_the_limit_of_two_words_counts_once(pose, radius):
+    """Here a straight piece of some 1e-6 m changes the time by less than rounding."""
+    uav = Aircraft(18.0, min_turn_radius_m=40.0)
+    assert len(plan_all(pose, Orbit(0.0, 0.0, radius), uav)) == 2
+    assert len({m.turn for m in plan_all(pose, Orbit(0.0, 0.0, radius), uav)}) == 2
+
+
 def off_the_circle(m, east, north, heading_deg):
     """By how much a flown end misses the circle (metres), and the tangent in the direction of `m` (radians)."""
     de, dn = east - m.orbit.east_m, north - m.orbit.north_m
@@ -151,7 +159,14 @@ def test_headings_of_any_size(scene, turns):
     pose, orbit, uav = scene
     wound = replace(pose, heading_deg=round(pose.heading_deg) + 360.0 * turns)
     unwound = replace(pose, heading_deg=round(pose.heading_deg) % 360)
-    assert plan(wound, orbit, uav).duration_s == plan(unwound, orbit, uav).duration_s
+    far, near = plan(wound, orbit, uav), plan(unwound, orbit, uav)
+    assert far.duration_s == near.duration_s
+    assert far.join == near.join
+
+
+def test_a_heading_that_swallows_a_turn_still_ends_on_the_circle():
+    m = plan(Pose(-400.0, 120.0, 1e20), Orbit(0.0, 0.0, 80.0, Turn.CW), Aircraft(18.0, max_bank_deg=35.0))
+    assert off_the_circle(m, m.join.east_m, m.join.north_m, m.join.heading_deg) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
 @pytest.mark.parametrize("R", [1.0, 1.3, 5.0])

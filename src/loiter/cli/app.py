@@ -1,16 +1,19 @@
 """The commands, and the one place where an error becomes a sentence and an exit status."""
 
+import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Literal
 
-from cyclopts import App, CycloptsError, Group, Parameter
+from cyclopts import App, CoercionError, CycloptsError, Group, Parameter, Token
 
 import loiter
 from loiter.cli import report
-from loiter.errors import InvalidArgument, LoiterError
+from loiter.cli.sentences import sentence
+from loiter.errors import LoiterError
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn
 from loiter.plot import files
 
@@ -18,26 +21,12 @@ CHECK_FAILED = 1
 USAGE_ERROR = 2
 INTERRUPTED = 130  # 128 + SIGINT, as shells report it
 
-# What a user of the command line calls the arguments of the library.
-OPTIONS = {
-    "airspeed_m_s": "--airspeed",
-    "max_bank_deg": "--bank",
-    "min_turn_radius_m": "--turn-radius",
-    "max_turn_rate_deg_s": "--turn-rate",
-    "tolerance_m": "--tolerance",
-    "pose east_m": "--pose EAST",
-    "pose north_m": "--pose NORTH",
-    "pose heading_deg": "--pose HEADING",
-    "orbit east_m": "--orbit EAST",
-    "orbit north_m": "--orbit NORTH",
-    "orbit radius_m": "--orbit RADIUS",
-}
-
 app = App(
     name="loiter",
     version=loiter.__version__,
     usage="Usage: loiter COMMAND [OPTIONS]",
     default_parameter=Parameter(negative=""),
+    suppress_keyboard_interrupt=False,
     help_format="plaintext",
     help="""The fastest way onto a holding circle for a fixed-wing aircraft.
 
@@ -126,11 +115,19 @@ def plan_command(
         report.print_tables(best, others, everything=all_)
 
 
+def whole(type_: type, tokens: Sequence[Token]) -> int:
+    """A whole number as it stands: 1.5 is refused, not rounded."""
+    try:
+        return int(tokens[0].value)
+    except ValueError as error:
+        raise CoercionError(token=tokens[0], target_type=int) from error
+
+
 @app.command
 def verify(
     *,
-    states: Annotated[int, Parameter(metavar="N", help="How many random scenes.")] = 2000,
-    seed: Annotated[int, Parameter(metavar="N", help="The same seed draws the same scenes.")] = 0,
+    states: Annotated[int, Parameter(metavar="N", converter=whole, help="How many random scenes.")] = 2000,
+    seed: Annotated[int, Parameter(metavar="N", converter=whole, help="The same seed draws the same scenes.")] = 0,
 ) -> int:
     """Compare plans with an independent search: OMPL's Dubins distance, minimised over the point of joining.
 
@@ -166,23 +163,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
         sys.stdout.flush()
-    except (LoiterError, CycloptsError) as error:
+    except BrokenPipeError:
+        # The reader of a pipe has left, as `head` does; nothing is wrong.
+        _abandon_output()
+        return 0
+    except (LoiterError, CycloptsError, OSError) as error:
         print(f"loiter: {sentence(error)}", file=sys.stderr)  # noqa: T201
+        if isinstance(error, OSError):
+            _abandon_output()
         return USAGE_ERROR
     except KeyboardInterrupt:
         return INTERRUPTED
-    except BrokenPipeError:
-        # The reader of a pipe has left, as `head` does; nothing is wrong.
-        sys.stderr.close()
-        return 0
     return status or 0
 
 
-def sentence(error: Exception) -> str:
-    """One line for a person, in the command line's own names."""
-    text = str(error)
-    if isinstance(error, InvalidArgument) and error.argument in {"turn", "plot", "states", "seed"}:
-        text = "--" + text
-    for name, option in OPTIONS.items():
-        text = text.replace(name, option)
-    return " ".join(text.split())
+def _abandon_output() -> None:
+    # What is still buffered would fail again when the interpreter ends.
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

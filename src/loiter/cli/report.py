@@ -5,8 +5,9 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 
-from rich.console import Console
+from rich.console import Console, RenderableType
 from rich.table import Table
+from rich.text import Text
 
 from loiter.planning.model import Maneuver
 from loiter.verify.compare import Difference
@@ -15,6 +16,12 @@ ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
 
 # Two durations that are equal in theory differ by rounding, near 1e-15 of themselves in near and 1e-14 in far scenes.
 SAME_TIME = 1e-12
+
+# A miss is told from this share of the radius on: a metre on a kilometre.
+SHOWN = 1e-3
+
+# No line is longer; rich would cut or wrap at the width of the window, and numbers must stay whole.
+WIDEST = 1000
 
 
 def print_json(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> None:
@@ -40,15 +47,26 @@ def described(maneuver: Maneuver) -> dict[str, object]:
 
 def print_tables(best: Sequence[Maneuver], others: Sequence[Maneuver], *, everything: bool) -> None:
     """Print the first of `best`, or with `everything` each, and what the other direction costs."""
-    console = Console(highlight=False)
+    lines: list[RenderableType] = []
     for maneuver in best if everything else best[:1]:
-        console.print(headline(maneuver), style="bold")
+        lines.append(Text(headline(maneuver), style="bold"))
         if maneuver.segments:
-            console.print(table(maneuver))
-            console.print(peel_off(maneuver))
-    console.print(other_direction(best, others))
+            lines += [table(maneuver), peel_off(maneuver)]
+        if maneuver.miss_m > SHOWN * maneuver.orbit.radius_m:
+            lines.append(f"Ends {maneuver.miss_m:.3g} m off the point of joining, within the tolerance.")
+    lines.append(other_direction(best, others))
     if len(best) > 1 and not everything:
-        console.print(f"{len(best)} maneuvers are optimal; --all shows each.")
+        lines.append(f"{len(best)} maneuvers are optimal; --all shows each.")
+    write(*lines)
+
+
+def write(*lines: RenderableType) -> None:
+    """Write lines and tables to standard output, all at once and none of them cut to the width of a window."""
+    console = Console(highlight=False, width=WIDEST)
+    with console.capture() as capture:
+        for line in lines:
+            console.print(line)
+    sys.stdout.write(capture.get())
 
 
 def headline(maneuver: Maneuver) -> str:
@@ -68,7 +86,7 @@ def table(maneuver: Maneuver) -> Table:
     rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     rows.add_column("in", justify="right")
     rows.add_column("do", justify="left")
-    for heading in ("for", "length", "from the centre", "heading"):
+    for heading in ("for", "length", "from the centre", "heading, deg"):
         rows.add_column(heading, justify="right")
     for segment in maneuver.segments:
         rows.add_row(
@@ -106,7 +124,13 @@ def other_direction(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> str
     subject = other.turn.described.capitalize()
     if abs(later) <= SAME_TIME * other.duration_s:
         return f"{subject} takes the same time."
-    return f"{subject} would join {abs(later):.3g} s {'later' if later > 0.0 else 'sooner'}."
+    return f"{subject} would join {_difference(abs(later))} {'later' if later > 0.0 else 'sooner'}."
+
+
+def _difference(seconds: float) -> str:
+    if seconds < 1e-3:
+        return "less than a millisecond"
+    return f"{seconds:.0f} s" if seconds >= 100.0 else f"{seconds:.3g} s"
 
 
 def progress_console() -> Console:
@@ -125,9 +149,7 @@ def print_differences(differences: Sequence[Difference], resolution: float) -> N
         beyond = sum(max(d.later, d.earlier) > resolution for d in here)
         later, earlier = max(d.later for d in here), max(d.earlier for d in here)
         rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", str(beyond))
-    console = Console(highlight=False)
-    console.print(rows)
-    console.print(f"Largest differences, over turn radius plus length; the search resolves {resolution:.0e}.")
+    write(rows, f"Largest differences, over turn radius plus length; the search resolves {resolution:.0e}.")
 
 
 def _formats(maneuver: Maneuver) -> tuple[Callable[[float], str], Callable[[float], str]]:
@@ -137,4 +159,4 @@ def _formats(maneuver: Maneuver) -> tuple[Callable[[float], str], Callable[[floa
 
 
 def _degrees(value: float) -> str:
-    return f"{value % 360.0:05.1f}°"
+    return f"{round(value, 1) % 360.0:05.1f}"

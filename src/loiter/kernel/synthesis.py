@@ -1,6 +1,7 @@
 """Which extremal wins: the optimum, every extremal in order, the feedback law. The only branching of the kernel."""
 
-from math import hypot, inf, isfinite
+from itertools import pairwise
+from math import cbrt, hypot, inf, isfinite
 
 from loiter.kernel.codes import Side, Status
 from loiter.kernel.extremals import Extremal, extremals
@@ -111,10 +112,40 @@ def same(a: Flown, b: Flown, dust: float) -> bool:
 
 
 def optima(x: float, y: float, R: float, side: int, tolerance: float) -> list[Flown]:
-    """Every optimal maneuver: those of `ranked` that tie with the first up to rounding."""
+    """Every optimal maneuver: those of `ranked` that tie with the first up to rounding, and differ by more than that.
+
+    Where a straight piece of length s vanishes the words with and without it differ in T by s^3/24 only (an arc at a
+    switching curve: by s^2), so that both tie for s up to the cube root of rounding: they are one maneuver.
+    """
     maneuvers = ranked(x, y, R, side, tolerance)
-    latest = duration(maneuvers[0]) + rounding(x, y, R)
-    return [maneuver for maneuver in maneuvers if duration(maneuver) <= latest]
+    dust = rounding(x, y, R)
+    one = 2.0 * cbrt(24.0 * dust)
+    chosen: list[Flown] = []
+    for maneuver in maneuvers:
+        ties = duration(maneuver) <= duration(maneuvers[0]) + dust
+        if ties and all(maneuver[0] != other[0] or apart(maneuver, other) > one for other in chosen):
+            chosen.append(maneuver)
+    return chosen
+
+
+def apart(a: Flown, b: Flown) -> float:
+    """How long two maneuvers fly different controls."""
+    instants = sorted({0.0, *switches(a), *switches(b)})
+    return sum(end - begin for begin, end in pairwise(instants) if letter(a, begin) != letter(b, begin))
+
+
+def switches(maneuver: Flown) -> tuple[float, float, float]:
+    """When the pieces of a maneuver end."""
+    _, _, t1, t2, t3 = maneuver
+    return t1, t1 + t2, t1 + t2 + t3
+
+
+def letter(maneuver: Flown, t: float) -> int:
+    """The letter flown from the instant t on, as a digit of the word; 0 past the end."""
+    for i, end in enumerate(switches(maneuver)):
+        if t < end:
+            return (maneuver[1] >> 2 * i) & 3
+    return 0
 
 
 def first_control(x: float, y: float, R: float, side: int, tolerance: float) -> float:

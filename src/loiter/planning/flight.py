@@ -52,8 +52,8 @@ def _flown(start: Pose, u: int, length_m: Any, r: float, fly: Function) -> tuple
     """East, north and heading after `length_m` (a number or an array) with control u."""
     t = length_m / r
     east, north, _, _ = fly(0.0, 0.0, *heading_vector(start.heading_deg), u, t)
-    # A heading is counted clockwise, a control counter-clockwise.
-    heading = wrapped(start.heading_deg - u * t * degrees(1.0))
+    # A heading is counted clockwise, a control counter-clockwise. A large heading, not wrapped, would swallow the turn.
+    heading = wrapped(wrapped(start.heading_deg) - u * t * degrees(1.0))
     return start.east_m + r * east, start.north_m + r * north, heading
 
 

@@ -61,10 +61,8 @@ class Aircraft:
         positive("airspeed_m_s", self.airspeed_m_s, "metres per second")
         limits = {name: getattr(self, name) for name in TURN_LIMITS if getattr(self, name) is not None}
         if len(limits) != 1:
-            given = " and ".join(limits) if limits else "none"
-            raise InvalidArgument(
-                "turn limit", f"is needed exactly once ({' or '.join(TURN_LIMITS)}): {given} was given"
-            )
+            given = f"{' and '.join(limits)} were given" if limits else "none was given"
+            raise InvalidArgument("turn limit", f"is needed exactly once ({' or '.join(TURN_LIMITS)}): {given}")
         for name, value in limits.items():
             positive(name, value, TURN_LIMITS[name])
         if self.max_bank_deg is not None and as_float(self.max_bank_deg) >= 90.0:

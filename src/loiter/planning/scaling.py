@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import NamedTuple
 
 from loiter.errors import OutOfRange, RadiusTooSmall, not_negative
 from loiter.kernel import motion
 from loiter.kernel.codes import Side, Status, Word
-from loiter.kernel.synthesis import ROUNDING, Flown, miss, status_of
+from loiter.kernel.synthesis import REACH, ROUNDING, Flown, miss, status_of
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import flown_from
 from loiter.planning.model import CONTROLS, Aircraft, Maneuver, Orbit, Pose, Segment, Turn
@@ -38,10 +39,12 @@ def normalised(pose: Pose, orbit: Orbit, aircraft: Aircraft, tolerance_m: float)
     status = status_of(scene.x, scene.y, scene.R, scene.tolerance)
     if status == Status.RADIUS_TOO_SMALL:
         raise RadiusTooSmall(_too_tight(orbit, aircraft))
-    if status != Status.OK:
+    # Durations of up to REACH turns must be numbers too.
+    if status != Status.OK or not 0.0 < REACH * r / aircraft.airspeed_m_s < inf:
         raise OutOfRange(
             f"the scene is too large for double precision: {orbit.distance_m(pose):g} m from the centre of a circle of "
-            f"{orbit.radius_m:g} m, with a turn radius of {r:g} m; both must stay below 2**52 turn radii"
+            f"{orbit.radius_m:g} m, with a turn radius of {r:g} m at an airspeed of {aircraft.airspeed_m_s:g} m/s; "
+            "distances must stay below 2**52 turn radii"
         )
     return scene
 

@@ -6,7 +6,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from loiter.errors import InvalidArgument, LoiterError
+from loiter.errors import InvalidArgument
 from loiter.planning.model import Maneuver
 
 FORMATS = (".png", ".svg", ".pdf")
@@ -21,15 +21,15 @@ def check_format(path: Path) -> None:
 def save(path: str | Path, best: Sequence[Maneuver], others: Sequence[Maneuver] = ()) -> None:
     """Write the picture of `picture.draw` to `path`, in the format of its ending: .png, .svg or .pdf.
 
-    The file appears whole or not at all; an older one stays until then. Raises `InvalidArgument` for another ending,
-    `LoiterError` where the file cannot be written.
+    The file appears whole or not at all; an older one stays until then. Raises `InvalidArgument` for another ending and
+    a file that cannot be written.
     """
     path = Path(path)
     check_format(path)
     from loiter.plot.picture import draw
 
     figure = draw(best, others)
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    part = path.with_name(f".{os.getpid()}.part")
     try:
         try:
             with part.open("xb") as file:
@@ -38,4 +38,4 @@ def save(path: str | Path, best: Sequence[Maneuver], others: Sequence[Maneuver] 
         finally:
             part.unlink(missing_ok=True)
     except OSError as error:
-        raise LoiterError(f"cannot write {path}: {error.strerror or error}") from error
+        raise InvalidArgument("plot", f"is {str(path)!r}: it cannot be written, {error.strerror or error}") from error

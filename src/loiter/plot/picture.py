@@ -21,6 +21,10 @@ from loiter.planning.model import Maneuver, Orbit, Pose, Segment, Turn
 COLOURS = {"L": "#009E73", "S": "#0072B2", "R": "#D55E00"}
 MEANINGS = {"L": "left turn", "S": "straight", "R": "right turn"}
 FAINT = "#b0b0b0"
+MARKS: dict[str, dict[str, Any]] = {
+    "switch": {"marker": "o", "markersize": 6, "markerfacecolor": "white"},
+    "join": {"marker": "o", "markersize": 9, "markerfacecolor": "black"},
+}
 
 # Chords of 2 degrees depart from an arc by 0.015 % of its radius, less than a line is wide.
 CHORD_RAD = math.radians(2.0)
@@ -35,9 +39,11 @@ def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = ()) -> Figure:
     figure = Figure(figsize=(8.0, 6.4), layout="constrained")
     axes = figure.add_subplot()
     axes.set_aspect("equal", adjustable="datalim")
+    # Coordinates of a national grid are read as they are, not as an offset and a difference.
+    axes.ticklabel_format(useOffset=False, style="plain")
     axes.grid(color="#e6e6e6", linewidth=0.8)
     axes.set_axisbelow(True)
-    for maneuver in others:
+    for maneuver in (other for other in others if other.segments):
         axes.plot(*_track(maneuver), color=FAINT, linewidth=1.0, alpha=0.6, zorder=1, gid="candidate")
     _draw_circle(axes, first.orbit, {maneuver.turn for maneuver in best})
     for maneuver in best:
@@ -53,7 +59,9 @@ def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = ()) -> Figure:
 
 def _title(best: Sequence[Maneuver]) -> str:
     first = best[0]
-    words = " or ".join(f"{m.word or 'on the circle'} {m.turn.described}" for m in best)
+    words = " or ".join(f"{m.word} {m.turn.described}".strip() for m in best)
+    if not first.segments:
+        return f"on the circle already, {words}"
     return f"{words}\njoins in {first.duration_s:.4g} s, {first.length_m:.4g} m"
 
 
@@ -63,8 +71,8 @@ def _draw_path(axes: Axes, maneuver: Maneuver) -> None:
         axes.plot(east, north, color=COLOURS[segment.letter], linewidth=2.6, zorder=3, gid=f"segment {segment.letter}")
         _arrow(axes, east, north, COLOURS[segment.letter])
     for segment in maneuver.segments[1:]:
-        _mark(axes, segment.start, marker="o", markersize=6, markerfacecolor="white", gid="switch")
-    _mark(axes, maneuver.join, marker="o", markersize=9, markerfacecolor="black", gid="join")
+        _mark(axes, segment.start, gid="switch", **MARKS["switch"])
+    _mark(axes, maneuver.join, gid="join", **MARKS["join"])
 
 
 def _mark(axes: Axes, pose: Pose, **style: Any) -> None:
@@ -99,16 +107,7 @@ def _draw_aircraft(axes: Axes, pose: Pose) -> None:
     # A dart that points along the heading, as wide as it needs to be to show it.
     e, n = heading_vector(pose.heading_deg)
     outline = np.array([[1.0, 0.0], [-0.7, 0.6], [-0.35, 0.0], [-0.7, -0.6]]) @ np.array([[e, n], [-n, e]])
-    axes.plot(
-        [pose.east_m],
-        [pose.north_m],
-        marker=outline,
-        markersize=18,
-        color="black",
-        linestyle="none",
-        zorder=6,
-        gid="start",
-    )
+    _mark(axes, pose, marker=outline, markersize=18, gid="start")
 
 
 def _piece(segment: Segment, maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -127,6 +126,7 @@ def _legend(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> list[Line2D
     letters = dict.fromkeys(segment.letter for maneuver in best for segment in maneuver.segments)
     handles = [Line2D([], [], color=COLOURS[letter], linewidth=2.6, label=MEANINGS[letter]) for letter in letters]
     handles.append(Line2D([], [], color="black", linewidth=1.4, label="holding circle"))
+    handles += [Line2D([], [], color="black", linestyle="none", **style, label=label) for label, style in MARKS.items()]
     handles += [
         Line2D([], [], color=FAINT, label=f"{other.word} {other.turn.value}: {_later(other, best)}")
         for other in others[:3]

@@ -1,0 +1,166 @@
+"""Bad requests: one sentence on standard error, exit status 2, nothing on standard output, no file."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import loiter
+from loiter.cli.app import main
+
+SCRIPT = Path(sys.executable).with_name("loiter")
+GOOD = {"--pose": "-400 120 90", "--orbit": "0 0 80", "--airspeed": "18", "--bank": "35"}
+
+
+def plan(**changes):
+    """The arguments of a good plan with some options changed, added, or, where None, left out."""
+    options = GOOD | {"--" + name.replace("_", "-"): value for name, value in changes.items()}
+    return ["plan", *(word for name, value in options.items() if value is not None for word in (name, *value.split()))]
+
+
+NOT_POSITIVE = ["nan", "inf", "-inf", "0", "-0.0", "-5"]
+
+BAD_VALUES = [
+    *((plan(airspeed=value), ["--airspeed", str(float(value))]) for value in NOT_POSITIVE),
+    *((plan(bank=value), ["--bank", str(float(value))]) for value in [*NOT_POSITIVE, "90", "120"]),
+    *((plan(bank=None, turn_radius=value), ["--turn-radius", str(float(value))]) for value in NOT_POSITIVE),
+    *((plan(bank=None, turn_rate=value), ["--turn-rate", str(float(value))]) for value in NOT_POSITIVE),
+    *((plan(orbit=f"0 0 {value}"), ["--orbit", "RADIUS", str(float(value))]) for value in NOT_POSITIVE),
+    *((plan(tolerance=value), ["--tolerance", str(float(value))]) for value in ["nan", "inf", "-1"]),
+    (plan(pose="nan 120 90"), ["--pose", "EAST", "nan"]),
+    (plan(pose="-400 inf 90"), ["--pose", "NORTH", "inf"]),
+    (plan(pose="-400 120 -inf"), ["--pose", "HEADING", "-inf"]),
+    (plan(orbit="nan 0 80"), ["--orbit", "EAST", "nan"]),
+    (plan(orbit="0 -inf 80"), ["--orbit", "NORTH", "-inf"]),
+    (plan(turn="left"), ["--turn", "left", "either", "cw", "ccw"]),
+    (plan(turn="CW"), ["--turn", "CW"]),
+    (plan(plot="entry.gif"), ["--plot", "entry.gif", ".png", ".svg", ".pdf"]),
+    (plan(plot="entry"), ["--plot", "entry"]),
+    (plan(plot="max_bank_deg.gif"), ["--plot", "max_bank_deg.gif"]),
+    (["verify", "--states", "0"], ["--states", "0", "at least 1"]),
+    (["verify", "--states", "-3"], ["--states", "-3"]),
+]
+NOT_NUMBERS = [
+    (plan(airspeed="fast"), ["--airspeed", "fast"]),
+    (plan(bank="35deg"), ["--bank", "35deg"]),
+    (plan(pose="here 120 90"), ["--pose", "here"]),
+    (plan(orbit="0 0 wide"), ["--orbit", "wide"]),
+    (plan(tolerance="some"), ["--tolerance", "some"]),
+    (["verify", "--states", "two"], ["--states", "two"]),
+    (["verify", "--states", "1.5"], ["--states", "1.5"]),
+    (["verify", "--seed", "x"], ["--seed", "x"]),
+]
+BAD_SHAPES = [
+    (plan(pose=None), ["--pose"]),
+    (plan(orbit=None), ["--orbit"]),
+    (plan(airspeed=None), ["--airspeed"]),
+    (["plan"], ["--pose"]),
+    (plan(pose="-400 120"), ["--pose", "3", "2"]),
+    (plan(pose="-400 120 90 7"), ["7"]),
+    (plan(orbit="0 0"), ["--orbit", "3", "2"]),
+    (plan(plot=""), ["--plot"]),
+    (plan(bank=None), ["--bank", "--turn-radius", "--turn-rate", "none"]),
+    (plan(turn_radius="50"), ["--bank and --turn-radius"]),
+    (plan(turn_rate="20", turn_radius="50"), ["--bank and --turn-radius and --turn-rate"]),
+    ([*plan(), "--airspeed", "19"], ["--airspeed"]),
+    (plan(speed="18"), ["--speed"]),
+    ([*plan(), "--quiet"], ["--quiet"]),
+    ([*plan(), "extra"], ["extra"]),
+    (["fly"], ["fly", "plan", "verify", "completion"]),
+    (["plna"], ["plna", "plan"]),
+    (["--nope"], ["--nope"]),
+]
+IMPOSSIBLE = [
+    (plan(orbit="0 0 40"), ["orbit radius 40 m", "47.18 m at 18 m/s", "needs 39.56 deg"]),
+    (plan(orbit="0 0 40", bank=None, turn_radius="50"), ["orbit radius 40 m", "50 m", "needs 39.56 deg of bank"]),
+    (plan(orbit="0 0 40", bank=None, turn_rate="20"), ["orbit radius 40 m", "25.78 deg/s", "39.56 deg of bank"]),
+    (plan(pose="1e30 0 0"), ["too large", "1e+30 m"]),
+    (plan(orbit="0 0 1e30"), ["too large", "1e+30 m"]),
+    (plan(pose="1e308 0 0", orbit="-1e308 0 80"), ["too large"]),
+    (plan(airspeed="1e200"), ["airspeed"]),
+    (plan(airspeed="1e-308", bank=None, turn_radius="50"), ["airspeed", "1e-308"]),
+]
+UNWRITABLE = [
+    (plan(plot="missing/entry.png"), ["--plot", "missing/entry.png", "No such file or directory"]),
+    (plan(plot="folder.png"), ["--plot", "folder.png", "Is a directory"]),
+    ([*plan(plot="folder.png"), "--json"], ["--plot", "folder.png", "Is a directory"]),
+    (plan(plot="tolerance_m/entry.png"), ["--plot", "tolerance_m/entry.png"]),
+]
+ALL = [*BAD_VALUES, *NOT_NUMBERS, *BAD_SHAPES, *IMPOSSIBLE, *UNWRITABLE]
+
+
+@pytest.fixture
+def refused(capsys, tmp_path, monkeypatch):
+    """Runs a request that must be refused in a folder that must stay as it is; gives the sentence."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder.png").mkdir()
+
+    def run(arguments):
+        status = main(arguments)
+        out, err = capsys.readouterr()
+        assert (status, out) == (2, "")
+        assert [path.name for path in tmp_path.rglob("*")] == ["folder.png"]
+        assert err.endswith("\n")
+        [line] = err.splitlines()
+        return line
+
+    return run
+
+
+def short(arguments):
+    """A request without the options that are good."""
+    text = " ".join(arguments) + " "
+    for name, value in GOOD.items():
+        text = text.replace(f"{name} {value} ", "")
+    return text.strip()
+
+
+every_bad_request = pytest.mark.parametrize(("arguments", "named"), ALL, ids=[short(arguments) for arguments, _ in ALL])
+
+
+@every_bad_request
+def test_a_bad_request_is_refused_in_one_sentence_that_names_it(refused, arguments, named):
+    sentence = refused(arguments)
+    assert sentence.startswith("loiter: ")
+    assert [word for word in named if word not in sentence] == [], sentence
+
+
+@pytest.mark.parametrize(
+    "arguments", [plain for plain, _ in [*BAD_VALUES, *IMPOSSIBLE] if plain[0] == "plan"], ids=short
+)
+def test_a_refused_plan_leaves_no_picture(refused, arguments):
+    extra = [] if "--plot" in arguments else ["--plot", "entry.png"]
+    refused([*arguments, *extra, "--json"])
+
+
+@every_bad_request
+def test_the_sentence_speaks_the_language_of_the_command_line(refused, arguments, named):
+    sentence = refused(arguments)
+    jargon = ["positional", "Token", "into float", "into int", "airspeed_m_s", "orbit radius_m", "Error"]
+    assert [word for word in jargon if word in sentence and word not in named] == [], sentence
+
+
+def test_the_installed_program_exits_with_2(tmp_path):
+    done = subprocess.run([SCRIPT, *plan(airspeed="nan")], capture_output=True, text=True, cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "loiter: --airspeed is nan: it must be a positive, finite number of metres per second\n"
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
+@pytest.mark.parametrize("output", [[], ["--json"]])
+def test_a_full_disk_is_told_in_a_sentence(output):
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run([SCRIPT, *plan(), *output], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 2
+    [line] = done.stderr.splitlines()
+    assert "No space left on device" in line
+
+
+def test_an_interrupt_ends_quietly(capsys, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(loiter, "plan_all", interrupted)
+    assert main(plan()) == 130
+    assert capsys.readouterr() == ("", "")

@@ -1,0 +1,72 @@
+"""`loiter verify`: the comparison with the independent search, as a command."""
+
+import re
+
+import pytest
+
+import loiter
+from loiter.cli.app import main
+from loiter.verify import compare
+from loiter.verify.compare import PLACES
+
+EIGHT = ["verify", "--states", "8", "--seed", "1"]
+
+
+def rows(text):
+    """The table without its headings: place, then the cells."""
+    lines = [re.split(r"\s{2,}", line.strip()) for line in text.splitlines()]
+    return {line[0]: line[1:] for line in lines if line[0] in {*PLACES, "all"}}
+
+
+def slowest(pose, orbit, aircraft):
+    return loiter.candidates(pose, orbit, aircraft)[-1]
+
+
+def test_plans_stand_the_comparison(capsys):
+    assert main(EIGHT) == 0
+    out, err = capsys.readouterr()
+    table = rows(out)
+    assert set(table) == {*PLACES, "all"}
+    assert [cells[0] for cells in table.values()] == ["2", "2", "2", "2", "8"]
+    assert {cells[-1] for cells in table.values()} == {"0"}
+    assert "comparing" in err
+    assert "comparing" not in out
+
+
+def test_the_same_seed_prints_the_same_table(capsys):
+    first, second = (main(EIGHT) or capsys.readouterr().out for _ in range(2))
+    assert first == second
+
+
+def test_the_seed_chooses_the_scenes(monkeypatch):
+    drawn = []
+    monkeypatch.setattr(compare, "plan", lambda *scene: drawn.append(scene) or loiter.plan(*scene))
+    main(EIGHT)
+    first = {pose for pose, *_ in drawn}
+    drawn.clear()
+    main([*EIGHT[:-1], "2"])
+    assert len(drawn) >= 8
+    assert not first & {pose for pose, *_ in drawn}
+
+
+def test_a_slow_plan_fails_the_check(capsys, monkeypatch):
+    monkeypatch.setattr(compare, "plan", slowest)
+    assert main(EIGHT) == 1
+    _, later, _, beyond = rows(capsys.readouterr().out)["all"]
+    assert float(later) > 1e-3
+    assert int(beyond) > 0
+
+
+@pytest.mark.parametrize("states", ["0", "-1"])
+def test_no_states_is_a_bad_request(capsys, states):
+    assert main(["verify", "--states", states]) == 2
+    assert capsys.readouterr() == ("", f"loiter: --states is {states}: it must be at least 1\n")
+
+
+def test_without_ompl_it_says_what_to_install(capsys, monkeypatch):
+    monkeypatch.setattr(compare, "find_spec", lambda _: None)
+    assert main(EIGHT) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    [line] = err.splitlines()
+    assert "pip install ompl" in line

@@ -1,0 +1,285 @@
+"""What the picture shows, read back from the artists on its axes."""
+
+from math import cos, hypot, radians, sin
+
+import numpy as np
+import pytest
+from matplotlib.colors import same_color, to_rgb
+
+from loiter import Aircraft, Orbit, Pose, candidates, plan_all
+from loiter.plot.picture import draw
+
+UAV, UNIT = Aircraft(18.0, max_bank_deg=35.0), Aircraft(1.0, min_turn_radius_m=1.0)
+FAR = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), UAV
+LRL = Pose(-0.53, 0.31, 90.0), Orbit(0.0, 0.0, 1.0), UNIT
+ON_CIRCLE = Pose(80.0, 0.0, 180.0), Orbit(0.0, 0.0, 80.0), UAV
+SCENES = {
+    "far": FAR,
+    "three turns": LRL,
+    "four optima": (Pose(3.0, 0.0, 90.0), Orbit(0.0, 0.0, 1.0), UNIT),
+    "on the circle": ON_CIRCLE,
+    "at the centre": (Pose(0.0, 0.0, 180.0), Orbit(0.0, 0.0, 80.0), UAV),
+    "away from the origin": (Pose(400300.0, 5200120.0, -20.0), Orbit(400000.0, 5200000.0, 120.0), UAV),
+    "one way": (Pose(10.0, -20.0, 45.0), Orbit(0.0, 0.0, 80.0, "ccw"), UAV),
+}
+each_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+
+
+def drawn(scene, everything=False):
+    """The axes with the first optimum, or each, over the other extremals; and those drawn as best and as others."""
+    best = plan_all(*scene)[: None if everything else 1]
+    others = [m for m in candidates(*scene) if m not in best]
+    return draw(best, others).axes[0], best, others
+
+
+def artists(axes, gid):
+    return [artist for artist in axes.get_children() if artist.get_gid() == gid]
+
+
+def segment_lines(axes):
+    return [line for line in axes.lines if (line.get_gid() or "").startswith("segment")]
+
+
+def points(line):
+    return np.column_stack(line.get_data())
+
+
+def size(scene):
+    pose, orbit, _ = scene
+    return max(1.0, orbit.radius_m, abs(orbit.east_m), abs(orbit.north_m), abs(pose.east_m), abs(pose.north_m))
+
+
+def place(pose):
+    return pytest.approx([pose.east_m, pose.north_m], abs=1e-9)
+
+
+def legend(axes):
+    """Each label of the legend, and its line."""
+    found = axes.get_legend()
+    return {text.get_text(): line for text, line in zip(found.get_texts(), found.get_lines(), strict=True)}
+
+
+def test_the_scenes_show_every_kind_of_answer():
+    assert {len(plan_all(*scene)) for scene in SCENES.values()} == {1, 2, 4}
+    assert {plan_all(*scene)[0].word for scene in SCENES.values()} >= {"RSL", "LRL", ""}
+
+
+# Axes
+
+
+@each_scene
+def test_a_metre_east_is_as_long_as_a_metre_north(scene):
+    axes, _, _ = drawn(scene)
+    axes.figure.draw_without_rendering()
+    (east, _), (_, north) = np.diff(axes.transData.transform([[0, 0], [1, 0], [1, 1]]), axis=0)
+    assert east == pytest.approx(north, rel=5e-3)  # nearer than this, matplotlib leaves the limits alone
+    assert axes.get_aspect() == 1.0
+
+
+def test_the_labels_name_direction_and_unit():
+    axes, _, _ = drawn(FAR)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("east (m)", "north (m)")
+
+
+@each_scene
+def test_ticks_show_coordinates_without_an_offset(scene):
+    axes, _, _ = drawn(scene)
+    axes.figure.draw_without_rendering()
+    assert [axis.get_offset_text().get_text() for axis in (axes.xaxis, axes.yaxis)] == ["", ""]
+
+
+@each_scene
+def test_everything_lies_within_the_axes(scene):
+    axes, _, _ = drawn(scene)
+    (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
+    orbit = scene[1]
+    corners = [(orbit.east_m - orbit.radius_m, orbit.north_m - orbit.radius_m)]
+    corners += [(orbit.east_m + orbit.radius_m, orbit.north_m + orbit.radius_m)]
+    shown = np.vstack([corners, *(points(line) for line in axes.lines)])
+    assert west < shown[:, 0].min() <= shown[:, 0].max() < east
+    assert south < shown[:, 1].min() <= shown[:, 1].max() < north
+
+
+@each_scene
+def test_the_title_says_word_direction_and_time(scene):
+    axes, [best], _ = drawn(scene)
+    title = axes.get_title()
+    assert best.word in title
+    assert best.turn.described in title
+    assert (f"{best.duration_s:.4g} s" if best.segments else "on the circle already") in title
+
+
+# The path
+
+
+@pytest.mark.parametrize("everything", [False, True])
+@each_scene
+def test_each_segment_is_drawn_from_its_start_to_its_end(scene, everything):
+    axes, best, _ = drawn(scene, everything)
+    segments = [segment for maneuver in best for segment in maneuver.segments]
+    lines = segment_lines(axes)
+    assert [line.get_gid() for line in lines] == [f"segment {segment.letter}" for segment in segments]
+    for line, segment in zip(lines, segments, strict=True):
+        ends = [(pose.east_m, pose.north_m) for pose in (segment.start, segment.end)]
+        assert points(line)[[0, -1]] == pytest.approx(np.array(ends), abs=1e-9 * size(scene))
+
+
+@pytest.mark.parametrize("everything", [False, True])
+@each_scene
+def test_a_turn_is_drawn_on_its_arc_and_a_straight_piece_on_its_line(scene, everything):
+    axes, best, _ = drawn(scene, everything)
+    radius = scene[2].turn_radius_m
+    segments = [segment for maneuver in best for segment in maneuver.segments]
+    for line, segment in zip(segment_lines(axes), segments, strict=True):
+        heading = radians(segment.start.heading_deg)
+        ahead, left = np.array([sin(heading), cos(heading)]), np.array([-cos(heading), sin(heading)])
+        away = points(line) - [segment.start.east_m, segment.start.north_m]
+        if segment.letter == "S":
+            assert away @ left == pytest.approx(0.0, abs=1e-9 * size(scene))
+            assert np.all(np.diff(away @ ahead) > 0.0)
+        else:
+            centre = left * (radius if segment.letter == "L" else -radius)
+            assert np.hypot(*(away - centre).T) == pytest.approx(radius, abs=1e-9 * size(scene))
+
+
+def test_a_turn_looks_round():
+    axes, _, _ = drawn(LRL)
+    for line in segment_lines(axes):
+        chords = np.hypot(*np.diff(points(line), axis=0).T)
+        assert chords.max() < 0.1 * UNIT.turn_radius_m
+
+
+def test_each_letter_has_its_colour_and_the_legend_tells_it():
+    axes, _, _ = drawn(FAR, everything=True)
+    labels = legend(axes)
+    names = {"L": "left turn", "S": "straight", "R": "right turn"}
+    for line in segment_lines(axes):
+        assert same_color(line.get_color(), labels[names[line.get_gid()[-1]]].get_color())
+    assert len({to_rgb(line.get_color()) for line in segment_lines(axes)}) == 3
+
+
+@each_scene
+def test_an_arrow_on_each_segment_points_the_way_flown(scene):
+    axes, [best], _ = drawn(scene)
+    arrows = [arrow for arrow in axes.texts if arrow.arrowprops and arrow.arrowprops["color"] != "black"]
+    assert len(arrows) == len(best.segments)
+    for arrow, line in zip(arrows, segment_lines(axes), strict=True):
+        tail, head = np.array(arrow.xyann), np.array(arrow.xy)
+        nearest = int(np.argmin(np.hypot(*(points(line) - head).T)))
+        before, after = points(line)[max(nearest - 1, 0)], points(line)[min(nearest + 1, len(points(line)) - 1)]
+        assert (head - tail) @ (after - before) > 0.0
+
+
+# Marks
+
+
+@each_scene
+def test_switches_and_join_are_marked(scene):
+    axes, [best], _ = drawn(scene)
+    switches = artists(axes, "switch")
+    assert len(switches) == max(len(best.segments) - 1, 0)
+    for mark, segment in zip(switches, best.segments[1:], strict=True):
+        assert points(mark)[0] == place(segment.start)
+    [join] = artists(axes, "join")
+    assert points(join)[0] == place(best.join)
+
+
+@each_scene
+def test_the_start_is_marked_by_a_dart_along_the_heading(scene):
+    axes, _, _ = drawn(scene)
+    pose = scene[0]
+    [start] = artists(axes, "start")
+    assert points(start)[0] == place(pose)
+    outline = np.asarray(start.get_marker())
+    nose = outline[np.argmax(np.hypot(*outline.T))]
+    heading = radians(pose.heading_deg)
+    assert nose / np.hypot(*nose) == pytest.approx([sin(heading), cos(heading)], abs=1e-12)
+
+
+@each_scene
+def test_the_circle_is_drawn_where_it_is(scene):
+    axes, _, _ = drawn(scene)
+    orbit = scene[1]
+    [circle], [centre] = artists(axes, "circle"), artists(axes, "centre")
+    assert circle.get_center() == (orbit.east_m, orbit.north_m)
+    assert circle.get_radius() == orbit.radius_m
+    assert not circle.get_fill()
+    assert points(centre).tolist() == [[orbit.east_m, orbit.north_m]]
+
+
+def circle_arrows(axes, orbit):
+    """Each black arrow's tail and head, from the centre of the circle."""
+    centre = np.array([orbit.east_m, orbit.north_m])
+    black = [arrow for arrow in axes.texts if arrow.arrowprops and arrow.arrowprops["color"] == "black"]
+    return [(np.array(arrow.xyann) - centre, np.array(arrow.xy) - centre) for arrow in black]
+
+
+@pytest.mark.parametrize("everything", [False, True])
+@each_scene
+def test_arrows_on_the_circle_point_the_way_it_is_held(scene, everything):
+    axes, best, _ = drawn(scene, everything)
+    senses = []
+    for tail, head in circle_arrows(axes, scene[1]):
+        assert [hypot(*tail), hypot(*head)] == pytest.approx([scene[1].radius_m] * 2, abs=1e-9 * size(scene))
+        senses.append("cw" if tail[0] * head[1] - tail[1] * head[0] < 0.0 else "ccw")
+    assert set(senses) == {maneuver.turn.value for maneuver in best}
+
+
+def test_arrows_of_both_directions_stand_apart():
+    axes, _, _ = drawn(FAR, everything=True)
+    heads = [head for _, head in circle_arrows(axes, FAR[1])]
+    gaps = [hypot(*(a - b)) for i, a in enumerate(heads) for b in heads[:i]]
+    assert min(gaps) > 0.1 * FAR[1].radius_m
+
+
+# The losers
+
+
+@each_scene
+def test_losers_are_drawn_faint_and_below(scene):
+    axes, [best], others = drawn(scene)
+    faint = artists(axes, "candidate")
+    assert len(faint) == len(others) > 0
+    for line, other in zip(faint, others, strict=True):
+        assert points(line)[0] == place(best.start)
+        assert points(line)[-1] == pytest.approx([other.join.east_m, other.join.north_m], abs=1e-9 * size(scene))
+        assert line.get_alpha() < 1.0
+        assert all(line.get_linewidth() < bold.get_linewidth() for bold in segment_lines(axes))
+        assert all(line.get_zorder() < bold.get_zorder() for bold in segment_lines(axes))
+
+
+@each_scene
+def test_the_soonest_losers_are_labelled_with_their_cost(scene):
+    axes, [best], others = drawn(scene)
+    labels = legend(axes)
+    for other in others[:3]:
+        cost = other.duration_s - best.duration_s
+        told = "as fast" if cost < 1e-9 else f"{cost:.3g} s later"
+        assert f"{other.word} {other.turn.value}: {told}" in labels
+    assert (f"{len(others) - 3} more, slower still" in labels) == (len(others) > 3)
+
+
+def test_without_others_no_loser_is_drawn_or_labelled():
+    best = plan_all(*FAR)
+    axes = draw(best).axes[0]
+    assert artists(axes, "candidate") == []
+    assert set(legend(axes)) == {"right turn", "straight", "left turn", "holding circle", "switch", "join"}
+
+
+# The ends of what can be drawn
+
+
+def test_on_the_circle_already_only_start_circle_and_join_are_drawn():
+    axes, [best], _ = drawn(ON_CIRCLE)
+    assert best.segments == ()
+    assert segment_lines(axes) == []
+    [join], [start] = artists(axes, "join"), artists(axes, "start")
+    assert points(join).tolist() == points(start).tolist() == [[80.0, 0.0]]
+    assert "nan" not in axes.get_title()
+
+
+def test_two_directions_that_both_count_as_joined_can_be_drawn():
+    """A tolerance as large as the circle: each answer is to fly nothing."""
+    best = plan_all(Pose(0.0, 0.0, 0.0), Orbit(0.0, 0.0, 80.0), UAV, tolerance_m=1000.0)
+    assert [m.segments for m in best] == [(), ()]
+    assert len(artists(draw(best[:1], best[1:]).axes[0], "join")) == 1
