@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Maneuver
+from loiter.writing import write_whole
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 FORMATS = (".png", ".svg", ".pdf")
 
@@ -28,14 +32,10 @@ def save(path: str | Path, best: Sequence[Maneuver], others: Sequence[Maneuver] 
     check_format(path)
     from loiter.plot.picture import draw
 
-    figure = draw(best, others)
-    part = path.with_name(f".{os.getpid()}.part")
-    try:
-        try:
-            with part.open("xb") as file:
-                figure.savefig(file, format=path.suffix[1:].lower(), dpi=150)
-            part.replace(path)
-        finally:
-            part.unlink(missing_ok=True)
-    except OSError as error:
-        raise InvalidArgument("plot", f"is {str(path)!r}: it cannot be written, {error.strerror or error}") from error
+    save_figure("plot", path, draw(best, others))
+
+
+def save_figure(argument: str, path: Path, figure: Figure) -> None:
+    """Write a figure in the format of the ending of `path`; `argument` is the name of the option that gave it."""
+    ending = path.suffix[1:].lower()
+    write_whole(argument, path, lambda file: figure.savefig(file, format=ending, dpi=150))
