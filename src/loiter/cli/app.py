@@ -8,10 +8,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Literal
 
-from cyclopts import App, CoercionError, CycloptsError, Group, Parameter, Token
+from cyclopts import App, CycloptsError, Group, Parameter
 
 import loiter
 from loiter.cli import report
+from loiter.cli.numbers import whole
 from loiter.cli.sentences import sentence
 from loiter.errors import LoiterError
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn
@@ -115,12 +116,11 @@ def plan_command(
         report.print_tables(best, others, everything=all_)
 
 
-def whole(type_: type, tokens: Sequence[Token]) -> int:
-    """A whole number as it stands: 1.5 is refused, not rounded."""
-    try:
-        return int(tokens[0].value)
-    except ValueError as error:
-        raise CoercionError(token=tokens[0], target_type=int) from error
+# Loaded when it is asked for: a single plan needs no arrays.
+app.command(
+    "loiter.cli.synthesis:synthesis",
+    help="Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions.",
+)
 
 
 @app.command

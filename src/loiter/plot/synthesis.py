@@ -1,0 +1,135 @@
+"""The synthesis of the reduced plane as a picture: Fig. 4 of the paper for any radius and turn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from loiter.kernel.codes import Word
+from loiter.planning.model import Turn
+from loiter.planning.partition import Boundary, Partition, worth
+
+# The hue of a region is its first control (as on the plan view), its shade tells words of one control apart.
+SHADES = {
+    Word.RSL: "#f6cfb4",
+    Word.RL: "#f0ad83",
+    Word.RSR: "#f9e0cf",
+    Word.RLR: "#dd8452",
+    Word.R: "#dd8452",
+    Word.SR: "#0072B2",
+    Word.LSL: "#c3e6da",
+    Word.LR: "#8fd0b9",
+    Word.LSR: "#dcf1ea",
+    Word.LRL: "#4fb392",
+    Word.L: "#4fb392",
+    Word.SL: "#0072B2",
+}
+LINES: dict[str, dict[str, Any]] = {
+    "jump": {"color": "black", "linewidth": 2.6, "label": "T jumps"},
+    "switch": {"color": "#7b3294", "linewidth": 2.0, "label": "switching curve"},
+    "straight": {"color": "#0072B2", "linewidth": 2.6, "label": "straight flight"},
+    "tie": {"color": "black", "linewidth": 1.4, "linestyle": (0, (4, 2)), "label": "two controls tie"},
+    "same": {"color": "#808080", "linewidth": 0.8, "label": "first control the same"},
+}
+
+
+def draw(regions: Partition, curves: Sequence[Boundary], show: str = "words") -> Figure:
+    """Draw a partition: `show` is "words" (regions by winning word), "time" (T) or "worth" (T less T of *either*)."""
+    figure = Figure(figsize=(8.4, 7.2), layout="constrained")
+    axes = figure.add_subplot()
+    axes.set_aspect("equal")
+    if show == "words":
+        _paint_words(axes, regions)
+    else:
+        _paint_values(figure, axes, regions, show)
+    handles = [_draw_curve(axes, regions, kind, curves) for kind in LINES if any(c.kind == kind for c in curves)]
+    _draw_targets(axes, regions)
+    axes.set_xlim(regions.x[0], regions.x[-1])
+    axes.set_ylim(regions.y[0], regions.y[-1])
+    axes.set_xlabel("x: passed the centre by (turn radii)")
+    axes.set_ylabel("y: to the left of the centre by (turn radii)")
+    axes.set_title(f"{_TITLES[show]}, R = {regions.radius:g}, {regions.turn.described}")
+    axes.legend(handles=handles, loc="upper right", fontsize="small", framealpha=0.92)
+    return figure
+
+
+_TITLES = {"words": "Winning word", "time": "Time to join", "worth": "What a free direction is worth"}
+
+
+def _paint_words(axes: Axes, regions: Partition) -> None:
+    present = [word for word in SHADES if np.any(regions.word == word)]
+    index = np.zeros(regions.word.shape)
+    for i, word in enumerate(present):
+        index[regions.word == word] = i
+    colours = ListedColormap([SHADES[word] for word in present])
+    axes.pcolormesh(regions.x, regions.y, index, cmap=colours, vmin=-0.5, vmax=len(present) - 0.5, rasterized=True)
+    for word in present:
+        for x, y in _middles(regions, word):
+            axes.text(x, y, word.letters, ha="center", va="center", fontsize=10, gid=f"region {word.letters}")
+
+
+def _paint_values(figure: Figure, axes: Axes, regions: Partition, show: str) -> None:
+    values = regions.time if show == "time" else worth(regions)
+    mesh = axes.pcolormesh(regions.x, regions.y, values, cmap="viridis", rasterized=True)
+    figure.colorbar(mesh, ax=axes, label="turn radii over airspeed")
+
+
+def _middles(regions: Partition, word: Word) -> list[tuple[float, float]]:
+    """A place for the label in each part of a region on its side of the axis: the cell farthest from its border."""
+    found = []
+    for half in (regions.y > 0.0, regions.y < 0.0):
+        depth = _depth((regions.word == word) & half[:, np.newaxis])
+        if depth.max() >= 0.02 * len(regions.x):
+            row, column = np.unravel_index(int(depth.argmax()), depth.shape)
+            found.append((float(regions.x[column]), float(regions.y[row])))
+    return found
+
+
+def _depth(inside: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """How many times a region can be eroded by one cell before each of its cells is gone."""
+    depth = np.zeros(inside.shape, dtype=np.int64)
+    while inside.any():
+        depth += inside
+        shrunk = np.zeros_like(inside)
+        core = inside[1:-1, 1:-1] & inside[:-2, 1:-1] & inside[2:, 1:-1] & inside[1:-1, :-2] & inside[1:-1, 2:]
+        shrunk[1:-1, 1:-1] = core
+        inside = shrunk
+    return depth
+
+
+def _draw_curve(axes: Axes, regions: Partition, kind: str, curves: Sequence[Boundary]) -> Line2D:
+    style = LINES[kind]
+    for curve in curves:
+        if curve.kind == kind:
+            line = _joined(curve.points, 3.0 * (regions.x[1] - regions.x[0]))
+            axes.plot(*line.T, **style, solid_capstyle="round", gid=f"{kind} {' '.join(curve.words)}")
+    return Line2D([], [], **style)
+
+
+def _joined(points: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
+    """The points of a curve in order, each next to the nearest left, with nan where none is nearer than `gap`."""
+    left = points[np.argsort(points[:, 0])]
+    here, left = left[0], left[1:]
+    line = [here]
+    while len(left):
+        distance = np.hypot(*(left - here).T)
+        nearest = int(distance.argmin())
+        if distance[nearest] > gap:
+            line.append(np.array([np.nan, np.nan]))
+            nearest = 0
+        here, left = left[nearest], np.delete(left, nearest, axis=0)
+        line.append(here)
+    return np.array(line)
+
+
+def _draw_targets(axes: Axes, regions: Partition) -> None:
+    ends = {Turn.CW: [1.0], Turn.CCW: [-1.0], Turn.EITHER: [1.0, -1.0]}[regions.turn]
+    for sign in ends:
+        axes.plot([0.0], [sign * regions.radius], "o", color="black", markersize=8, gid="target")
