@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 
 from loiter.kernel.codes import Word
+from loiter.kernel.exact import beyond
 from loiter.kernel.extremals import extremals, lrl, onto_axis, rl
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import rounding
@@ -54,7 +55,7 @@ def test_last_arcs_after_a_straight_piece_last_as_long_as_the_radius_says(x, y, 
 @settings(max_examples=500)
 @given(coordinates, coordinates, radii)
 def test_lrl_switches_where_the_maximum_principle_asks(x, y, R):
-    _, first, middle, _ = lrl(x, y, R, 0.0)
+    _, first, middle, _ = lrl(x, y, R, 0.0, beyond(x, y, R, 2.0), beyond(x, y, 2.0 - R, 2.0))
     if first < inf:
         xa, ya = flow(x, y, 1, first)
         xb, yb = flow(xa, ya, -1, middle)
@@ -64,7 +65,7 @@ def test_lrl_switches_where_the_maximum_principle_asks(x, y, R):
 
 @pytest.mark.parametrize("branch", [-1.0, 1.0])
 def test_rl_meets_the_last_circle_on_the_side_of_its_branch(branch):
-    _, first, last, _ = rl(-0.53, 0.31, 1.0, 0.0, branch)
+    _, first, last, _ = rl(-0.53, 0.31, 1.0, 0.0, beyond(-0.53, 0.31, 1.0, -2.0), branch)
     x1, y1 = flow(-0.53, 0.31, -1, first)
     assert x1 * branch > 0.0
     assert hypot(x1, y1 + 1.0) == pytest.approx(2.0, abs=1e-15)

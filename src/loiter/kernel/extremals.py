@@ -7,13 +7,14 @@ where the word does not reach the target. The counter-clockwise circle is the mi
 
 In the reduced plane L turns clockwise about (0, -1) at radius rp, R counter-clockwise about (0, 1) at radius rm.
 Differences of squares are written as products, (R - y) (R + y + 2) for (R + 1)^2 - (y + 1)^2, so that a state near a
-circle keeps its digits.
+circle keeps its digits; those that tell on which side of a circle it lies come from `exact.beyond`.
 """
 
 from math import atan2, hypot, inf, sqrt
 
 from loiter.kernel.angles import rotation, snapped, turn_of
 from loiter.kernel.codes import Word
+from loiter.kernel.exact import beyond
 
 Extremal = tuple[Word, float, float, float]
 
@@ -74,88 +75,92 @@ def rsr(x: float, y: float, R: float, slack: float) -> Extremal:
     return internal_join(Word.RSR, x, -y, R, slack)
 
 
-def l(x: float, y: float, R: float, slack: float) -> Extremal:
-    """Left along the last circle, radius R + 1 about (0, -1): the limit of RL, taken within `slack` of that circle."""
-    beyond = x * x + (y - R) * (y + R + 2.0)
-    if abs(beyond) > slack * (hypot(x, y + 1.0) + R + 1.0):
+def l(x: float, y: float, R: float, slack: float, outer: float) -> Extremal:
+    """Left along the last circle, radius R + 1 about (0, -1): the limit of RL, taken within `slack` of that circle.
+
+    `outer` is rp^2 - (R + 1)^2, `exact.beyond(x, y, R, 2)`.
+    """
+    if abs(outer) > slack * (hypot(x, y + 1.0) + R + 1.0):
         return Word.L, inf, 0.0, 0.0
     return Word.L, snapped(turn_of(-x, y + 1.0), R + 1.0, slack), 0.0, 0.0
 
 
-def r(x: float, y: float, R: float, slack: float) -> Extremal:
-    """Right along the circle of radius R - 1 about (0, 1): the limit of LR, taken within `slack` of that circle."""
-    beyond = x * x + (y - R) * (y + R - 2.0)
-    if R == 1.0 or abs(beyond) > slack * (hypot(x, y - 1.0) + R - 1.0):
+def r(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
+    """Right along the circle of radius R - 1 about (0, 1): the limit of LR, taken within `slack` of that circle.
+
+    `inner` is rm^2 - (R - 1)^2, `exact.beyond(x, y, R, -2)`.
+    """
+    if R == 1.0 or abs(inner) > slack * (hypot(x, y - 1.0) + R - 1.0):
         return Word.R, inf, 0.0, 0.0
     return Word.R, snapped(turn_of(x, y - 1.0), R - 1.0, slack), 0.0, 0.0
 
 
-def rl(x: float, y: float, R: float, slack: float, branch: float) -> Extremal:
+def rl(x: float, y: float, R: float, slack: float, inner: float, branch: float) -> Extremal:
     """Right to the last circle, of radius R + 1 about (0, -1), at its crossing with x1 of the sign of `branch`; left.
 
-    The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = rm^2 - (R - 1)^2, p = (R + 3)^2 - rm^2.
+    The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = (R + 3)^2 - rm^2 =
+    8 (R + 1) - q.
     """
-    q = x * x + (y - R) * (y + R - 2.0)
-    p = (R + 4.0 - y) * (R + 2.0 + y) - x * x
-    if q < 0.0 or p < 0.0:
+    p = 8.0 * (R + 1.0) - inner
+    if inner < 0.0 or p < 0.0:
         return Word.RL, inf, 0.0, 0.0
-    x1 = branch * 0.25 * sqrt(p * q)
-    first = rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * q)
-    last = turn_of(-x1, R + 1.0 - 0.25 * q)
+    x1 = branch * 0.25 * sqrt(p * inner)
+    first = rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner)
+    last = turn_of(-x1, R + 1.0 - 0.25 * inner)
     return Word.RL, snapped(first, hypot(x, y - 1.0), slack), snapped(last, R + 1.0, slack), 0.0
 
 
-def lr(x: float, y: float, R: float, slack: float, branch: float) -> Extremal:
+def lr(x: float, y: float, R: float, slack: float, outer: float, fold: float, branch: float) -> Extremal:
     """Left to the circle of radius R - 1 about (0, 1), R > 1, at its crossing with x1 of the sign of `branch`; right.
 
-    The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = (R + 1)^2 - rp^2, p = rp^2 - (R - 3)^2.
+    The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = -`outer` = (R + 1)^2 - rp^2, p = `fold` =
+    rp^2 - (R - 3)^2, `exact.beyond(x, y, 2 - R, 2)`.
     """
-    q = (R - y) * (R + y + 2.0) - x * x
-    p = x * x + (y - R + 4.0) * (y + R - 2.0)
-    if R == 1.0 or q < 0.0 or p < 0.0:
+    if R == 1.0 or outer > 0.0 or fold < 0.0:
         return Word.LR, inf, 0.0, 0.0
-    x1 = branch * 0.25 * sqrt(p * q)
-    first = rotation(x1, R + 1.0 - 0.25 * q, x, y + 1.0)
-    last = turn_of(x1, R - 1.0 - 0.25 * q)
+    x1 = branch * 0.25 * sqrt(fold * -outer)
+    first = rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0)
+    last = turn_of(x1, R - 1.0 + 0.25 * outer)
     return Word.LR, snapped(first, hypot(x, y + 1.0), slack), snapped(last, R - 1.0, slack), 0.0
 
 
-def lrl(x: float, y: float, R: float, slack: float) -> Extremal:
+def lrl(x: float, y: float, R: float, slack: float, outer: float, fold: float) -> Extremal:
     """Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
 
     With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K =
-    R (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 and the quadratic for s = ya + yb below.
+    R (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a, the larger root
+    of 3 s^2 - 2 h s + d^2 = 0. What vanishes in places is not left as a difference: ya comes from k, and w = 2 - s =
+    m^2 s is -`fold` v / (16 (6 - h + sqrt(D))), v = (R + 5)^2 - rp^2 = 8 (R + 3) - `outer`; so LRL takes rp <= 3 - R.
     """
-    k = x * x + y * (y + 2.0)
-    K = R * (R + 2.0)
-    d = 0.25 * (K - k)
-    h = 0.5 * (K + k)
+    k, K, d = x * x + y * (y + 2.0), R * (R + 2.0), -0.25 * outer
+    h = K + 0.5 * outer
     D = h * h - 3.0 * d * d
-    if D < 0.0:
+    if R > 3.0 or fold > 0.0 or D < 0.0 or h >= 6.0:
         return Word.LRL, inf, 0.0, 0.0
-    s = (h + sqrt(D)) / 3.0
-    if s <= 0.0 or s > 2.0:
-        return Word.LRL, inf, 0.0, 0.0
-    m = sqrt((2.0 - s) / s)
-    ya, yb = 0.5 * (s - d), 0.5 * (s + d)
+    w = -fold * (8.0 * (R + 3.0) - outer) / (16.0 * (6.0 - h + sqrt(D)))
+    a = 6.0 / (h + sqrt(D))
+    m = sqrt(0.5 * a * w)
+    ya, yb = k / (1.0 + sqrt(max(1.0 + a * k, 0.0))), K / (1.0 + sqrt(1.0 + a * K))
     xa, xb = m * ya, -m * yb
     first = rotation(xa, ya + 1.0, x, y + 1.0)
-    middle = rotation(xa, ya - 1.0, xb, yb - 1.0)
+    # ya - 1 and yb - 1 from what they are small by: at R = 1 both vanish on the last arc.
+    middle = rotation(xa, -0.5 * (w + d), xb, -0.5 * (w - d))
     return Word.LRL, snapped(first, hypot(x, y + 1.0), slack), middle, turn_of(-xb, yb + 1.0)
 
 
 def extremals(x: float, y: float, R: float, slack: float) -> tuple[Extremal, ...]:
     """Every extremal for the target (0, R), among them the fastest; those that do not reach it begin with `inf`."""
+    outer, inner, fold = beyond(x, y, R, 2.0), beyond(x, y, R, -2.0), beyond(x, y, 2.0 - R, 2.0)
     return (
-        l(x, y, R, slack),
-        r(x, y, R, slack),
-        rl(x, y, R, slack, -1.0),
-        rl(x, y, R, slack, 1.0),
-        lr(x, y, R, slack, -1.0),
-        lr(x, y, R, slack, 1.0),
+        l(x, y, R, slack, outer),
+        r(x, y, R, slack, inner),
+        rl(x, y, R, slack, inner, -1.0),
+        rl(x, y, R, slack, inner, 1.0),
+        lr(x, y, R, slack, outer, fold, -1.0),
+        lr(x, y, R, slack, outer, fold, 1.0),
         lsl(x, y, R, slack),
         rsl(x, y, R, slack),
         lsr(x, y, R, slack),
         rsr(x, y, R, slack),
-        lrl(x, y, R, slack),
+        lrl(x, y, R, slack, outer, fold),
     )

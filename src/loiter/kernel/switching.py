@@ -3,6 +3,7 @@
 from math import sqrt
 
 from loiter.kernel.codes import Word
+from loiter.kernel.exact import beyond
 
 # Laws of the predicates, each a test: they depend on x^2 or |y| as the mirror law asks; zero counts as the boundary
 # itself, which belongs to the region with the smaller T.
@@ -10,7 +11,7 @@ from loiter.kernel.codes import Word
 
 def beyond_last_circle(x: float, y: float, R: float) -> float:
     """Positive outside the circle of the last L, radius R + 1 about (0, -1), negative inside."""
-    return x * x + (y - R) * (y + R + 2.0)
+    return beyond(x, y, R, 2.0)
 
 
 def beyond_first_circle(x: float, y: float, R: float) -> float:

@@ -1,0 +1,42 @@
+"""Sums and products with their rounding errors (Dekker 1971, Knuth 1969), for what needs twice the digits."""
+
+# Dekker's splitting factor, 2^27 + 1, halves the 53 digits of a double.
+SPLITTER = 134217729.0
+
+
+def two_sum(a: float, b: float) -> tuple[float, float]:
+    """The sum a + b as rounded, and what the rounding left out, exactly."""
+    s = a + b
+    t = s - a
+    return s, (a - (s - t)) + (b - t)
+
+
+def split(a: float) -> tuple[float, float]:
+    """A double as the sum of two of 26 digits."""
+    c = SPLITTER * a
+    high = c - (c - a)
+    return high, a - high
+
+
+def two_product(a: float, b: float) -> tuple[float, float]:
+    """The product a b as rounded, and what the rounding left out, exactly for |a|, |b| < 2^480."""
+    p = a * b
+    ah, al = split(a)
+    bh, bl = split(b)
+    return p, ((ah * bh - p) + ah * bl + al * bh) + al * bl
+
+
+def beyond(x: float, y: float, R: float, k: float) -> float:
+    """The difference of squares x^2 + (y - R) (y + R + k), to nearly full digits however near zero it is.
+
+    With k = 2 it is rp^2 - (R + 1)^2, by how much the square of the distance from (0, -1) exceeds that of the last
+    circle of L; with k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Where it is small it is a difference
+    of large numbers, and T moves with its square root: plain doubles would leave T with half of its digits there.
+    """
+    s, es = two_sum(y, -R)
+    t, et = two_sum(y, R)
+    t, ek = two_sum(t, k)
+    p, ep = two_product(s, t)
+    q, eq = two_product(x, x)
+    u, eu = two_sum(q, p)
+    return u + (eu + (ep + eq + s * (et + ek) + t * es))
