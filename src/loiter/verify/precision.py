@@ -105,7 +105,7 @@ def _on_a_last_circle(x: float, y: float, R: float) -> bool:
 
 
 def _off(random: Random) -> float:
-    return random.choice((-1.0, 1.0)) * 10.0 ** random.uniform(*NEAR)
+    return random.choice((-1.0, 1.0)) * float(10.0 ** random.uniform(*NEAR))
 
 
 def _next_to_circle(centre: float, less: float) -> Callable[[Random, float], tuple[float, float]]:

@@ -1,0 +1,127 @@
+"""Hamilton-Jacobi reachability: least times on a grid of the reduced plane, by hj-reachability (JAX).
+
+It shares no code with the kernel: only the reduced system (7) of docs/theory.md and the end points (8), (9) go in, and
+a general solver of Hamilton-Jacobi equations marches backward in time. All lengths are in turn radii, times in turn
+radii over airspeed. hj-reachability is needed for development only.
+
+What is solved is V(x, t): how close to an end point the state x can come within a time t. With one control the plane
+moves as a rigid body, so a flight that ends at a distance d from the end point, begun at a distance d from x and flown
+with the same control, ends at the end point itself. Hence
+
+    V(x, t) = distance from x to {T <= t},
+
+which has slope 1 even where T jumps: no place need be left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.util import find_spec
+from math import sqrt
+from typing import TYPE_CHECKING, Any
+
+from loiter.errors import MissingPackage
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+# Optimal flights stay this close to where they start and to the circle: every arc goes about (0, 1) or (0, -1), so the
+# first one keeps within two of the start's distance from the centre, and the others within R + 2.
+MARGIN = 2.0
+
+# The map covers the starts up to this far outside the circle.
+OUTSIDE = 1.0
+
+# From these starts every time is below this (just above a whole turn); what is not reached by then counts as infinite.
+HORIZON = 7.0
+
+# V has kinks, which an upwind scheme of order r smears over h^(r/(r+1)); here r = 5, and halving h leaves 0.56 of it.
+# No theorem covers this scheme; for monotone ones the error is at least of order 1/2 (Crandall and Lions, 1984), so it
+# shrinks at least by sqrt(1/2), and the finer grid's own is at most the difference of the two times this.
+OWN_ERROR = 1.0 / (sqrt(2.0) - 1.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reach:
+    """Least times on a grid: from (x[i], y[j]) `time[i, j]` to come within `error` of an end point.
+
+    `error` is the grid's own error in V; `time` is the first of the instants `step` apart, inf past the horizon.
+    `x` and `y` are (n,), `spacing` apart, `time` is (n, n). `within` says how far from the centre the map holds.
+    """
+
+    x: NDArray[float64]
+    y: NDArray[float64]
+    time: NDArray[float64]
+    within: float
+    spacing: float
+    step: float
+    error: float
+
+
+class ReducedPlane:
+    """The system (7), x' = 1 + u y, y' = -u x, |u| <= 1, as hj-reachability asks for it."""
+
+    def hamiltonian(self, state: Any, time: Any, value: Any, gradient: Any) -> Any:
+        """The least of gradient . f over u."""
+        x, y = state
+        return gradient[0] - abs(gradient[0] * y - gradient[1] * x)
+
+    def partial_max_magnitudes(self, state: Any, time: Any, value: Any, gradients: Any) -> Any:
+        """The largest |x'| and |y'| at a state."""
+        import jax.numpy as jnp
+
+        x, y = state
+        return jnp.stack([1.0 + abs(y), abs(x)])
+
+
+# One instance: JAX compiles anew for each.
+REDUCED_PLANE = ReducedPlane()
+
+
+def check_installed() -> None:
+    """Raise `MissingPackage` where hj-reachability is not installed."""
+    if find_spec("hj_reachability") is None:
+        raise MissingPackage(
+            "the reachability map needs hj-reachability, which is not installed: pip install hj-reachability"
+        )
+
+
+def reach(R: float, sides: Sequence[int], cells: int) -> Reach:
+    """The map for a circle of radius R, with end points (0, R) for side 1 and (0, -R) for side -1, either or both.
+
+    It has twice `cells` cells in x and in y; a grid of `cells` tells its error. Raises `MissingPackage` without
+    hj-reachability.
+    """
+    import numpy as np
+
+    check_installed()
+    within = R + OUTSIDE
+    half = within + MARGIN
+    spacing = half / cells
+    instants = np.linspace(0.0, HORIZON, round(HORIZON / spacing) + 1)
+    coarse, fine = (distances(R, sides, half, n, instants) for n in (cells, 2 * cells))
+    axis = np.linspace(-half, half, 2 * cells + 1)
+    inside = np.hypot(axis[::2, np.newaxis], axis[::2]) <= within
+    error = OWN_ERROR * float(np.abs(fine[:, ::2, ::2] - coarse)[:, inside].max())
+    reached = fine <= error
+    time = np.where(reached.any(axis=0), instants[reached.argmax(axis=0)], np.inf)
+    return Reach(axis, axis, time, within, spacing, float(instants[1]), error)
+
+
+def distances(R: float, sides: Sequence[int], half: float, cells: int, instants: NDArray[float64]) -> NDArray[float64]:
+    """V at each instant and node, (instants, cells + 1, cells + 1), on the square up to `half` from the centre."""
+    import hj_reachability as hj
+    import jax.numpy as jnp
+    import numpy as np
+
+    corner = jnp.array([half, half])
+    grid = hj.Grid.from_lattice_parameters_and_boundary_conditions(hj.sets.Box(-corner, corner), (cells + 1, cells + 1))
+    x, y = np.moveaxis(np.asarray(grid.states), -1, 0)
+    at_first = np.min([np.hypot(x, y - side * R) for side in sides], axis=0)
+    settings = hj.SolverSettings.with_accuracy(
+        "very_high", hamiltonian_postprocessor=hj.solver.backwards_reachable_tube
+    )
+    backward = -jnp.asarray(instants)
+    return np.asarray(hj.solve(settings, REDUCED_PLANE, grid, backward, jnp.asarray(at_first), progress_bar=False))
