@@ -149,18 +149,21 @@ def lrl(x: float, y: float, R: float, slack: float, outer: float, fold: float) -
 
 
 def extremals(x: float, y: float, R: float, slack: float) -> tuple[Extremal, ...]:
-    """Every extremal for the target (0, R), among them the fastest; those that do not reach it begin with `inf`."""
+    """Every extremal for the target (0, R), among them the fastest; those that do not reach it begin with `inf`.
+
+    In the order in which ties are decided: next to the end of a straight piece, words with and without it tie.
+    """
     outer, inner, fold = beyond(x, y, R, 2.0), beyond(x, y, R, -2.0), beyond(x, y, 2.0 - R, 2.0)
     return (
         l(x, y, R, slack, outer),
         r(x, y, R, slack, inner),
-        rl(x, y, R, slack, inner, -1.0),
-        rl(x, y, R, slack, inner, 1.0),
-        lr(x, y, R, slack, outer, fold, -1.0),
-        lr(x, y, R, slack, outer, fold, 1.0),
         lsl(x, y, R, slack),
         rsl(x, y, R, slack),
         lsr(x, y, R, slack),
         rsr(x, y, R, slack),
+        rl(x, y, R, slack, inner, -1.0),
+        rl(x, y, R, slack, inner, 1.0),
+        lr(x, y, R, slack, outer, fold, -1.0),
+        lr(x, y, R, slack, outer, fold, 1.0),
         lrl(x, y, R, slack, outer, fold),
     )
