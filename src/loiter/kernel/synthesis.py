@@ -108,7 +108,7 @@ def ranked(x: float, y: float, R: float, side: int, tolerance: float) -> list[Fl
 
 def same(a: Flown, b: Flown, dust: float) -> bool:
     """Whether two maneuvers are one, met as limits of two words."""
-    return a[:2] == b[:2] and abs(duration(a) - duration(b)) <= dust
+    return a[:2] == b[:2] and max(abs(t - s) for t, s in zip(a[2:], b[2:], strict=True)) <= dust
 
 
 def optima(x: float, y: float, R: float, side: int, tolerance: float) -> list[Flown]:

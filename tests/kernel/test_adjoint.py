@@ -1,0 +1,146 @@
+"""The adjoint: its equation of motion by an integrator of its own, the maximum principle, the paper's numbers."""
+
+from math import acos, cos, hypot, isnan, pi, sin, sqrt
+
+import numba
+import pytest
+from hypothesis import assume, given, settings
+
+from golden.paper import EXAMPLES
+from loiter.kernel.adjoint import adjoint, at_switch, followed, switching_function, turned
+from loiter.kernel.codes import Side, Word
+from loiter.kernel.rebinding import rebound
+from loiter.kernel.synthesis import mirrored, optimum
+from strategies import controls, coordinates, one_way, radii, sides
+
+CONTROLS = {"L": 1.0, "S": 0.0, "R": -1.0}
+STEPS = 400  # of each piece: a step of at most 2 pi/400, so Runge and Kutta's error 2 pi step^4/120 is below 4e-9
+INTEGRATED = 4e-9
+
+
+def rate(u, psi1, psi2):
+    """The dual system (12)."""
+    return u * psi2, -u * psi1
+
+
+def integrated(psi1, psi2, u, t):
+    """psi after a time t by the classical Runge-Kutta method."""
+    h = t / STEPS
+    for _ in range(STEPS):
+        a = rate(u, psi1, psi2)
+        b = rate(u, psi1 + h / 2 * a[0], psi2 + h / 2 * a[1])
+        c = rate(u, psi1 + h / 2 * b[0], psi2 + h / 2 * b[1])
+        d = rate(u, psi1 + h * c[0], psi2 + h * c[1])
+        psi1 += h / 6 * (a[0] + 2 * b[0] + 2 * c[0] + d[0])
+        psi2 += h / 6 * (a[1] + 2 * b[1] + 2 * c[1] + d[1])
+    return psi1, psi2
+
+
+def starts(x, y, R, side):
+    held, word, *durations = optimum(x, y, R, side, 0.0)
+    return held, word, durations, adjoint(x, y, R, held, word, *durations)
+
+
+@settings(deadline=None)
+@given(coordinates, coordinates, radii, sides)
+def test_psi_obeys_its_equation_of_motion(x, y, R, side):
+    """(12), from the start to each switch and to the end, by integration."""
+    _, word, durations, (_, psi1, psi2) = starts(x, y, R, side)
+    assume(word)
+    now, here = 0.0, (psi1, psi2)
+    for letter, t in zip(Word(word).letters, durations, strict=False):
+        now, here = now + t, integrated(*here, CONTROLS[letter], t)
+        assert followed(x, y, psi1, psi2, word, *durations, now)[2:] == pytest.approx(here, abs=3 * INTEGRATED)
+
+
+@given(coordinates, coordinates, radii, sides)
+def test_lambda_and_psi_are_normed(x, y, R, side):
+    _, word, _, (lam, psi1, psi2) = starts(x, y, R, side)
+    assume(word)
+    assert -1e-15 <= lam <= 1.0  # next to 0 it is the cosine of a rounded angle
+    assert hypot(psi1, psi2) == pytest.approx(1.0, abs=1e-14)
+
+
+@given(coordinates, coordinates, radii, one_way)
+def test_the_mirror_image_has_the_mirrored_adjoint(x, y, R, side):
+    _, word, *durations = optimum(x, y, R, side, 0.0)
+    assume(word)
+    lam, psi1, psi2 = adjoint(x, y, R, side, word, *durations)
+    assert adjoint(x, -y, R, -side, mirrored(word), *durations) == pytest.approx((lam, psi1, -psi2), abs=1e-15)
+
+
+@pytest.mark.parametrize("R", [1.0, 1.5, 2.0, 5.0, 30.0])
+@pytest.mark.parametrize(("word", "u"), [(Word.RSL, 1), (Word.LSL, 1), (Word.RSR, -1), (Word.SL, 1)])
+def test_a_straight_piece_has_lambda_1_and_meets_the_condition_at_the_target(R, word, u):
+    if u == -1 and R < 2.0:
+        return
+    last = acos(1.0 / (1.0 + u * R))
+    first = word.letters[0] != "S"
+    durations = (1.0, 2.0, last) if first else (2.0, last, 0.0)
+    lam, psi1, psi2 = adjoint(3.0, 1.0, R, Side.CW, word, *durations)
+    assert lam == 1.0
+    *_, end, _ = followed(3.0, 1.0, psi1, psi2, word, *durations, 100.0)
+    assert end * (1.0 + u * R) == pytest.approx(1.0, abs=1e-13)
+
+
+def test_lambda_of_example_2_from_its_switching_points():
+    """lambda = psi1 there, psi parallel to the state: both switches give the same."""
+    case = EXAMPLES[1]
+    lam, psi1, psi2 = adjoint(case.x, case.y, 1.0, Side.CW, Word.LRL, *case.durations)
+    for x, y in ((0.291365, 0.382789), (-0.672517, 0.883539)):
+        assert lam == pytest.approx(abs(x) / hypot(x, y), abs=2e-6)  # six digits were given
+    first = followed(case.x, case.y, psi1, psi2, Word.LRL, *case.durations, case.durations[0])
+    assert first == pytest.approx((0.291365, 0.382789, lam, sqrt(1.0 - lam * lam)), abs=1e-6)
+    assert switching_function(*first) == pytest.approx(0.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("R", [1.0, 1.5, 2.0, 4.0])
+@pytest.mark.parametrize("t", [0.1, 0.5, 1.0, pi / 3, 2.0, 3.0, 4.0, 6.0])
+def test_every_left_arc_onto_the_circle_has_a_psi_that_meets_every_condition(R, t):
+    x, y = -(R + 1.0) * sin(t), (R + 1.0) * cos(t) - 1.0
+    lam, psi1, psi2 = adjoint(x, y, R, Side.CW, Word.L, t, 0.0, 0.0)
+    for i in range(101):
+        state = followed(x, y, psi1, psi2, Word.L, t, 0.0, 0.0, t * i / 100)
+        phi = switching_function(*state)
+        assert phi >= -1e-14
+        assert phi + state[2] == pytest.approx(lam, abs=1e-14)
+    assert state[2] * (1.0 + R) == pytest.approx(lam, abs=1e-13)
+
+
+@pytest.mark.parametrize("t", [0.3, 1.0, 3.0])
+def test_a_right_arc_inside_a_circle_of_less_than_2_has_one_up_to_half_a_turn(t):
+    R = 1.5
+    x, y = (R - 1.0) * sin(t), (R - 1.0) * cos(t) + 1.0
+    lam, psi1, psi2 = adjoint(x, y, R, Side.CW, Word.R, t, 0.0, 0.0)
+    assert 0.0 < lam < R - 1.0 + 1e-12
+    assert (psi1, psi2) == pytest.approx((x / hypot(x, y), y / hypot(x, y)), abs=1e-14)
+
+
+def test_a_switch_at_the_centre_counts_as_the_straight_piece_it_is_the_limit_of():
+    assert at_switch(0.0, 0.0, -1, 2.0) == (1.0, 1.0, 0.0)
+    assert at_switch(1e-16, -1e-16, -1, 2.0) == (1.0, 1.0, 0.0)
+
+
+def test_lambda_0_at_the_papers_switch_below_the_centre():
+    """Section 2: a switch at (0, -3) has lambda = 0, and psi turns phi to the sign of the control that follows."""
+    assert at_switch(0.0, -3.0, 1, 1.0) == (0.0, 0.0, -1.0)
+    assert at_switch(0.0, -3.0, -1, 1.0) == (0.0, 0.0, 1.0)
+
+
+def test_the_empty_word_has_no_adjoint():
+    assert all(map(isnan, adjoint(0.0, 1.0, 1.0, Side.CW, Word.EMPTY, 0.0, 0.0, 0.0)))
+
+
+@given(controls, coordinates)
+def test_psi_turned_there_and_back(u, t):
+    assert turned(*turned(0.6, 0.8, u, t), u, -t) == pytest.approx((0.6, 0.8), abs=1e-15)
+
+
+def test_numba_compiles_the_same_source():
+    compiled, walked = rebound(adjoint, finish=numba.njit), rebound(followed, finish=numba.njit)
+    for x, y, R, side in ((4.0, 4.0, 1.0, 1), (-0.53, 0.31, 1.0, 1), (0.3, 0.4, 5.0, -1), (-sqrt(3.0), 0.0, 1.0, 1)):
+        held, word, durations, plain = starts(x, y, R, side)
+        proof = compiled(x, y, R, int(held), int(word), *durations)
+        assert proof == pytest.approx(plain, abs=1e-15)
+        end = followed(x, y, *plain[1:], word, *durations, 1.0)
+        assert walked(x, y, *proof[1:], int(word), *durations, 1.0) == pytest.approx(end, abs=1e-14)
