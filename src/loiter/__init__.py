@@ -1,5 +1,6 @@
 """The fastest way onto a holding circle for an aircraft of constant speed and bounded turn rate."""
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from loiter import errors
@@ -7,6 +8,7 @@ from loiter.planning.model import Aircraft, Maneuver, Orbit, Pose, Segment, Turn
 from loiter.planning.solve import candidates, plan, plan_all
 
 if TYPE_CHECKING:
+    from loiter import verify as verify
     from loiter.planning.arrays import control, min_time, reduce, solve
 
 __version__ = "0.1.0"
@@ -39,4 +41,6 @@ def __getattr__(name: str) -> Any:
         from loiter.planning import arrays
 
         return getattr(arrays, name)
+    if name == "verify":
+        return import_module("loiter.verify")
     raise AttributeError(f"module 'loiter' has no attribute {name!r}")

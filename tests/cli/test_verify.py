@@ -1,4 +1,4 @@
-"""`loiter verify`: the comparison with the independent search, as a command."""
+"""`loiter verify`: the comparison with independent witnesses, as a command."""
 
 import re
 
@@ -9,7 +9,7 @@ from loiter.cli.app import main
 from loiter.verify import compare
 from loiter.verify.compare import PLACES
 
-EIGHT = ["verify", "--states", "8", "--seed", "1"]
+EIGHT = ["verify", "--witness", "search", "--states", "8", "--seed", "1"]
 
 
 def rows(text):
@@ -29,8 +29,7 @@ def test_plans_stand_the_comparison(capsys):
     assert set(table) == {*PLACES, "all"}
     assert [cells[0] for cells in table.values()] == ["2", "2", "2", "2", "8"]
     assert {cells[-1] for cells in table.values()} == {"0"}
-    assert "comparing" in err
-    assert "comparing" not in out
+    assert "search" in err
 
 
 def test_the_same_seed_prints_the_same_table(capsys):
@@ -70,3 +69,34 @@ def test_without_ompl_it_says_what_to_install(capsys, monkeypatch):
     assert out == ""
     [line] = err.splitlines()
     assert "pip install ompl" in line
+
+
+def test_digits_are_a_witness_of_their_own(capsys):
+    assert main(["verify", "--witness", "digits", "--states", "16"]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("digits: agrees\n")
+    assert "switching curve" in out
+
+
+@pytest.mark.parametrize(
+    ("package", "module", "witness"),
+    [
+        ("mpmath", "precision", "digits"),
+        ("casadi", "collocation", "collocation"),
+        ("hj-reachability", "reachability", "reachability"),
+    ],
+)
+def test_a_witness_that_cannot_come_says_so_before_the_first_begins(capsys, monkeypatch, package, module, witness):
+    import importlib
+
+    monkeypatch.setattr(importlib.import_module(f"loiter.verify.{module}"), "find_spec", lambda _: None)
+    assert main(["verify", "--witness", "search", "--witness", witness, "--states", "8"]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert package in err
+    assert "pip install" in err
+
+
+def test_an_unknown_witness_is_refused(capsys):
+    assert main(["verify", "--witness", "oracle"]) == 2
+    assert "--witness" in capsys.readouterr().err

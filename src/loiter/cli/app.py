@@ -11,16 +11,12 @@ from typing import Annotated, Literal
 from cyclopts import App, CycloptsError, Group, Parameter
 
 import loiter
-from loiter.cli import report
-from loiter.cli.numbers import whole
+from loiter.cli import certificates, report
 from loiter.cli.sentences import sentence
+from loiter.cli.status import CHECK_FAILED, INTERRUPTED, USAGE_ERROR
 from loiter.errors import LoiterError
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn
 from loiter.plot import files
-
-CHECK_FAILED = 1
-USAGE_ERROR = 2
-INTERRUPTED = 130  # 128 + SIGINT, as shells report it
 
 app = App(
     name="loiter",
@@ -42,7 +38,7 @@ Positions are metres east and north of any local origin; headings are degrees cl
 
 Exit status
   0  done
-  1  a check failed (loiter verify)
+  1  a check failed (loiter verify, loiter plan --certify)
   2  the request cannot be met: one sentence on standard error says why,
      and no file is written""",
 )  # fmt: skip
@@ -97,7 +93,14 @@ def plan_command(
     plot: Annotated[
         Path | None, Parameter(group=output, metavar="FILE", help="Draw the plan to a file: .png, .svg or .pdf.")
     ] = None,
-) -> None:
+    certify: Annotated[
+        bool,
+        Parameter(
+            group=output,
+            help="Prove each maneuver shown by the maximum principle, equation by equation; with --plot, draw the proof to FILE-certificate.",
+        ),
+    ] = False,
+) -> int:
     """Plan the fastest entry onto a holding circle: what to fly, for how long, where to peel off."""
     if plot is not None:
         files.check_format(plot)
@@ -107,13 +110,19 @@ def plan_command(
     # What the other direction would cost is told even where one was asked for.
     known = loiter.candidates(start, replace(circle, turn=Turn.EITHER), uav, tolerance_m=tolerance)
     others = [m for m in known if not any(m.turn == b.turn and m.segments == b.segments for b in best)]
+    proofs = [loiter.verify.certify(m, tolerance_m=tolerance) for m in (best if all_ else best[:1]) if certify]
     if plot is not None:
         losers = [m for m in others if turn in ("either", m.turn)]
         files.save(plot, best if all_ else best[:1], losers if all_ else [*best[1:], *losers])
+        if proofs:
+            certificates.save_picture(plot, proofs[0])
     if json:
-        report.print_json(best, others)
+        proof = {"certificate": proofs[0].to_dict()} if proofs else {}
+        report.print_json(report.answer(best, others) | proof)
     else:
         report.print_tables(best, others, everything=all_)
+        certificates.print_text(proofs)
+    return 0 if all(proof.valid for proof in proofs) else CHECK_FAILED
 
 
 # Loaded when it is asked for: a single plan needs no arrays.
@@ -121,29 +130,15 @@ app.command(
     "loiter.cli.synthesis:synthesis",
     help="Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions.",
 )
+app.command(
+    "loiter.cli.figures:figures", help="Draw the seven figures of the paper from the code, with captions of their own."
+)
 
 
-@app.command
-def verify(
-    *,
-    states: Annotated[int, Parameter(metavar="N", converter=whole, help="How many random scenes.")] = 2000,
-    seed: Annotated[int, Parameter(metavar="N", converter=whole, help="The same seed draws the same scenes.")] = 0,
-) -> int:
-    """Compare plans with an independent search: OMPL's Dubins distance, minimised over the point of joining.
-
-    Scenes lie anywhere, on the axes, next to the target and far away, for circles from 1 to 30 turn radii and all three
-    turns. Exit status 1 where a plan and the search differ by more than the search resolves. Needs OMPL (pip install
-    ompl).
-    """
-    from rich.progress import track
-
-    from loiter.verify.compare import RESOLUTION, Difference, compare
-
-    differences: list[Difference] = list(
-        track(compare(states, seed), description="comparing", total=states, console=report.progress_console())
-    )
-    report.print_differences(differences, RESOLUTION)
-    return 0 if all(max(d.later, d.earlier) <= RESOLUTION for d in differences) else CHECK_FAILED
+app.command(
+    "loiter.cli.verify:verify",
+    help="Compare plans with independent witnesses: search, 50 digits, collocation, reachability.",
+)
 
 
 @app.command

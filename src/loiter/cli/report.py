@@ -10,7 +10,6 @@ from rich.table import Table
 from rich.text import Text
 
 from loiter.planning.model import Maneuver
-from loiter.verify.compare import Difference
 
 ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
 
@@ -24,12 +23,17 @@ SHOWN = 1e-3
 WIDEST = 1000
 
 
-def print_json(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> None:
-    """Print the first of `best` as one JSON object; its `alternatives` are the rest of `best`, then `others`."""
+def print_json(document: dict[str, object]) -> None:
+    """Print one JSON object."""
+    json.dump(document, sys.stdout, indent=2, allow_nan=False)
+    sys.stdout.write("\n")
+
+
+def answer(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> dict[str, object]:
+    """The first of `best` as plain values; its `alternatives` are the rest of `best`, then `others`."""
     first, *rest = best
     alternatives = [described(m) | {"later_s": m.duration_s - first.duration_s} for m in (*rest, *others)]
-    json.dump(described(first) | {"alternatives": alternatives}, sys.stdout, indent=2, allow_nan=False)
-    sys.stdout.write("\n")
+    return described(first) | {"alternatives": alternatives}
 
 
 def described(maneuver: Maneuver) -> dict[str, object]:
@@ -131,25 +135,6 @@ def _difference(seconds: float) -> str:
     if seconds < 1e-3:
         return "less than a millisecond"
     return f"{seconds:.0f} s" if seconds >= 100.0 else f"{seconds:.3g} s"
-
-
-def progress_console() -> Console:
-    """Where progress bars go: standard error, so that standard output holds the result alone."""
-    return Console(stderr=True)
-
-
-def print_differences(differences: Sequence[Difference], resolution: float) -> None:
-    """Print a row for each place: how many scenes, and the largest difference either way."""
-    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    rows.add_column("place")
-    for heading in ("scenes", "plan later by", "search later by", "beyond"):
-        rows.add_column(heading, justify="right")
-    for place in (*dict.fromkeys(d.scene.place for d in differences), "all"):
-        here = [d for d in differences if place in ("all", d.scene.place)]
-        beyond = sum(max(d.later, d.earlier) > resolution for d in here)
-        later, earlier = max(d.later for d in here), max(d.earlier for d in here)
-        rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", str(beyond))
-    write(rows, f"Largest differences, over turn radius plus length; the search resolves {resolution:.0e}.")
 
 
 def _formats(maneuver: Maneuver) -> tuple[Callable[[float], str], Callable[[float], str]]:

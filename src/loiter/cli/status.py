@@ -1,0 +1,5 @@
+"""Exit statuses."""
+
+CHECK_FAILED = 1
+USAGE_ERROR = 2
+INTERRUPTED = 130  # 128 + SIGINT, as shells report it

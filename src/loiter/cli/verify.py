@@ -1,0 +1,154 @@
+"""`loiter verify`: the answers beside four independent witnesses."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Annotated, Any, Literal, NamedTuple
+
+from cyclopts import Parameter
+from rich.console import Console
+from rich.progress import track
+from rich.table import Table
+
+from loiter.cli import report
+from loiter.cli.numbers import whole
+from loiter.cli.status import CHECK_FAILED
+
+# Grids of the reachability map: the finer one shows that the difference shrinks with the spacing.
+CELLS = (40, 80)
+
+Witness = Literal["search", "digits", "collocation", "reachability"]
+
+
+class Findings(NamedTuple):
+    """What one witness found: a table for people, and whether it agrees throughout."""
+
+    table: Table
+    note: str
+    passed: bool
+
+
+def verify(
+    *,
+    states: Annotated[
+        int, Parameter(metavar="N", converter=whole, help="Random scenes of the search, and states of the digits.")
+    ] = 2000,
+    cases: Annotated[int, Parameter(metavar="N", converter=whole, help="Random cases of the collocation.")] = 50,
+    seed: Annotated[int, Parameter(metavar="N", converter=whole, help="The same seed draws the same scenes.")] = 0,
+    witness: Annotated[
+        list[Witness] | None, Parameter(metavar="NAME", help="Ask this witness alone; may be repeated.")
+    ] = None,
+) -> int:
+    """Compare plans with independent witnesses; exit status 1 where one of them disagrees.
+
+    search: OMPL's Dubins distance, minimised over the point of joining. digits: the kernel's own functions in 50 digits
+    (mpmath). collocation: time-optimal control as a nonlinear program (CasADi, IPOPT), the paper's examples and random
+    cases. reachability: the Hamilton-Jacobi equation on a grid of the reduced plane (hj-reachability).
+    """
+    asked = witness or ["search", "digits", "collocation", "reachability"]
+    # Every witness is asked whether it can come before the first begins.
+    hearings = [(name, _HEARINGS[name](states, cases, seed)) for name in asked]
+    findings = [hearing() for _, hearing in hearings]
+    for (name, _), found in zip(hearings, findings, strict=True):
+        report.write(f"{name}: {'agrees' if found.passed else 'DISAGREES'}", found.table, found.note, "")
+    return 0 if all(found.passed for found in findings) else CHECK_FAILED
+
+
+def _tracked(name: str, results: Iterable[Any], total: int) -> Iterator[Any]:
+    # On standard error, so that standard output holds the result alone.
+    return iter(track(results, description=name, total=total, console=Console(stderr=True)))
+
+
+def _search(states: int, cases: int, seed: int) -> Callable[[], Findings]:
+    from loiter.verify.compare import RESOLUTION, Difference, compare
+
+    results = compare(states, seed)
+
+    def hear() -> Findings:
+        found: list[Difference] = list(_tracked("search", results, states))
+        rows = _table("place", "scenes", "plan later by", "search later by", "beyond")
+        for place, here in _by_place([(d.scene.place, d) for d in found]):
+            later, earlier = max(d.later for d in here), max(d.earlier for d in here)
+            beyond = sum(max(d.later, d.earlier) > RESOLUTION for d in here)
+            rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", str(beyond))
+        passed = all(max(d.later, d.earlier) <= RESOLUTION for d in found)
+        note = f"Largest differences, over turn radius plus length; the search resolves {RESOLUTION:.0e}."
+        return Findings(rows, note, passed)
+
+    return hear
+
+
+def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
+    from loiter.verify.precision import WORST, Rounding, precision
+
+    results = precision(states, seed)
+
+    def hear() -> Findings:
+        found: list[Rounding] = list(_tracked("digits", results, states))
+        rows = _table("next to", "states", "largest error", "beyond")
+        for place, here in _by_place([(r.place, r) for r in found]):
+            beyond = sum(not r.passed for r in here)
+            rows.add_row(place, str(len(here)), f"{max(r.error for r in here):.1e}", str(beyond))
+        note = f"Rounding of T, relative, within 1e-12 to 1e-7 of each boundary; {WORST:.0e} is allowed."
+        return Findings(rows, note, all(r.passed for r in found))
+
+    return hear
+
+
+def _collocation(states: int, cases: int, seed: int) -> Callable[[], Findings]:
+    from loiter.verify.collocated import Collocated, compare
+
+    results = compare(cases, seed)
+
+    def hear() -> Findings:
+        found: list[Collocated] = list(_tracked("collocation", results, cases + 2))
+        rows = _table("scene", "solves", "plan later by", "program later by", "same structure")
+        for place, here in _by_place([(c.scene.place, c) for c in found]):
+            later, earlier = max(0.0, *(c.later for c in here)), max(0.0, *(-c.later for c in here))
+            same = sum(c.same_structure for c in here)
+            rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", f"{same} of {len(here)}")
+        note = "Largest differences in turn radii over airspeed, each within the program's own error bound."
+        return Findings(rows, note, all(c.passed for c in found))
+
+    return hear
+
+
+def _reachability(states: int, cases: int, seed: int) -> Callable[[], Findings]:
+    from loiter.verify.reached import SCENES, Reached, compare
+
+    results = compare(CELLS)
+
+    def hear() -> Findings:
+        found: list[Reached] = list(_tracked("reachability", results, len(CELLS) * len(SCENES)))
+        rows = _table("map", "spacing", "nodes", "beside jumps", "mean difference", "within bounds")
+        for m in found:
+            bounds = "yes" if m.passed else "NO"
+            name = f"R = {m.radius:g}, {m.turn.value}"
+            rows.add_row(name, f"{m.spacing:.3f}", str(m.nodes), str(m.beside_jumps), f"{m.difference:.3f}", bounds)
+        note = "Mean difference of T from the grid's, whose error falls with the spacing to the power 5/6 at kinks."
+        return Findings(rows, note, all(m.passed for m in found))
+
+    return hear
+
+
+_HEARINGS: dict[str, Callable[[int, int, int], Callable[[], Findings]]] = {
+    "search": _search,
+    "digits": _digits,
+    "collocation": _collocation,
+    "reachability": _reachability,
+}
+
+
+def _by_place(found: Sequence[tuple[str, Any]]) -> Iterator[tuple[str, list[Any]]]:
+    """The results of each place, and of all where there are several."""
+    places = dict.fromkeys(place for place, _ in found)
+    for place in places:
+        yield place, [result for where, result in found if where == place]
+    if len(places) > 1:
+        yield "all", [result for _, result in found]
+
+
+def _table(first: str, *headings: str) -> Table:
+    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    rows.add_column(first)
+    for heading in headings:
+        rows.add_column(heading, justify="right")
+    return rows
