@@ -4,7 +4,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from loiter import errors
-from loiter.planning.model import Aircraft, Maneuver, Orbit, Pose, Segment, Turn
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn
 from loiter.planning.solve import candidates, plan, plan_all
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import shlex
 import pytest
 
 from loiter.cli.app import main
-from loiter.verify import certificate as module
+from loiter.verify import conditions as module
 
 UNIT = "--orbit 0 0 1 --airspeed 1 --turn-radius 1"
 EXAMPLE_1 = f"plan --pose 4 4 90 {UNIT} --certify"

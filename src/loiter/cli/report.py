@@ -9,7 +9,7 @@ from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from loiter.planning.model import Maneuver
+from loiter.planning.maneuver import Maneuver
 
 ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
 

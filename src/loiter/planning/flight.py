@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from math import degrees
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
 from loiter.planning.compass import heading_vector, wrapped
-from loiter.planning.model import CONTROLS, Aircraft, Maneuver, Pose, Samples, Segment
+from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -29,21 +30,21 @@ def along(segment: Segment, length_m: NDArray[float64], aircraft: Aircraft) -> t
     return tuple(np.broadcast_arrays(*_flown(segment.start, u, length_m, r, _fly_arrays())))
 
 
-def sampled(maneuver: Maneuver, step_s: float) -> Samples:
+def sampled(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, step_s: float) -> Samples:
     """The samples of `Maneuver.sample`, which documents and checks the arguments."""
     import numpy as np
 
-    times = np.append(np.arange(0.0, maneuver.duration_s, step_s), maneuver.duration_s)
-    if not maneuver.segments:
-        start = maneuver.start
+    if not segments:
         return Samples(*np.array([[0.0], [start.east_m], [start.north_m], [wrapped(start.heading_deg)], [0.0]]))
+    ends_s = segments[-1].start_s + segments[-1].duration_s
+    times = np.append(np.arange(0.0, ends_s, step_s), ends_s)
     # The piece under way at each time: the last that has begun.
-    under_way = np.searchsorted([segment.start_s for segment in maneuver.segments], times, side="right") - 1
+    under_way = np.searchsorted([segment.start_s for segment in segments], times, side="right") - 1
     columns = np.empty((4, times.size))
-    for i, segment in enumerate(maneuver.segments):
+    for i, segment in enumerate(segments):
         here = under_way == i
-        flown_m = (times[here] - segment.start_s) * maneuver.aircraft.airspeed_m_s
-        columns[:3, here] = along(segment, flown_m, maneuver.aircraft)
+        flown_m = (times[here] - segment.start_s) * aircraft.airspeed_m_s
+        columns[:3, here] = along(segment, flown_m, aircraft)
         columns[3, here] = segment.curvature_per_m
     return Samples(times, *columns)
 

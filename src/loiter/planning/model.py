@@ -18,9 +18,6 @@ STANDARD_GRAVITY_M_S2 = 9.80665  # exact by definition (3rd CGPM, 1901)
 # The control u of each letter: +1 turns left.
 CONTROLS = {"L": 1, "S": 0, "R": -1}
 
-# More samples than this would not fit in the memory of a small machine: 5 arrays of 8 bytes each, 400 MB.
-MAX_SAMPLES = 10_000_000
-
 
 class Turn(StrEnum):
     """Which way round the circle is held, as seen from above."""
@@ -156,52 +153,3 @@ class Samples(NamedTuple):
     north_m: NDArray[float64]
     heading_deg: NDArray[float64]
     curvature_per_m: NDArray[float64]
-
-
-@dataclass(frozen=True, slots=True)
-class Maneuver:
-    """A way onto the circle, flown with at most three controls.
-
-    `turn` is the direction in which it holds the circle, never "either"; `orbit.turn` is what was asked for. A start
-    that is already on the circle has no segments and the word "". `miss_m` is the distance by which its end misses the
-    tangent point when the durations are flown exactly: rounding, or what the tolerance of `plan` let pass.
-    """
-
-    start: Pose
-    orbit: Orbit
-    aircraft: Aircraft
-    turn: Turn
-    segments: tuple[Segment, ...]
-    miss_m: float
-
-    @property
-    def word(self) -> str:
-        """The letters of the segments as flown, in Dubins' notation: "RSL"."""
-        return "".join(segment.letter for segment in self.segments)
-
-    @property
-    def duration_s(self) -> float:
-        """Time to join the circle, seconds."""
-        return sum(segment.duration_s for segment in self.segments)
-
-    @property
-    def length_m(self) -> float:
-        """Distance flown to the point of joining, metres."""
-        return sum(segment.length_m for segment in self.segments)
-
-    @property
-    def join(self) -> Pose:
-        """Where the circle is joined, and the heading there."""
-        return self.segments[-1].end if self.segments else self.start
-
-    def sample(self, step_s: float) -> Samples:
-        """Position, heading and curvature every `step_s` seconds from 0, and at the point of joining.
-
-        At an instant of switching the curvature is that of the piece that begins. Headings are in [0, 360).
-        Raises `InvalidArgument` for a step that is not positive or so small that memory would not hold the samples.
-        """
-        from loiter.planning.flight import sampled
-
-        if self.duration_s / positive("step_s", step_s, "seconds") > MAX_SAMPLES:
-            raise InvalidArgument("step_s", f"is {step_s}: it would take more than {MAX_SAMPLES} samples")
-        return sampled(self, step_s)

@@ -11,7 +11,8 @@ from loiter.kernel.codes import Side, Status, Word
 from loiter.kernel.synthesis import REACH, ROUNDING, Flown, miss, status_of
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import flown_from
-from loiter.planning.model import CONTROLS, Aircraft, Maneuver, Orbit, Pose, Segment, Turn
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import CONTROLS, Aircraft, Orbit, Pose, Segment, Turn
 
 SIDES = {Turn.CW: Side.CW, Turn.CCW: Side.CCW, Turn.EITHER: Side.EITHER}
 TURNS = {Side.CW: Turn.CW, Side.CCW: Turn.CCW}

@@ -1,7 +1,8 @@
 """Plans: the optimum, every optimum, every extremal."""
 
 from loiter.kernel.synthesis import optima, optimum, ranked
-from loiter.planning.model import Aircraft, Maneuver, Orbit, Pose
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import Aircraft, Orbit, Pose
 from loiter.planning.scaling import maneuver, normalised
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from loiter.errors import InvalidArgument
-from loiter.planning.model import Maneuver
+from loiter.planning.maneuver import Maneuver
 from loiter.writing import write_whole
 
 if TYPE_CHECKING:

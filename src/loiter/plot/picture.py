@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import along
-from loiter.planning.model import Maneuver, Orbit, Pose, Segment, Turn
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import Orbit, Pose, Segment, Turn
 
 # Okabe and Ito's palette, told apart in all common forms of colour blindness.
 COLOURS = {"L": "#009E73", "S": "#0072B2", "R": "#D55E00"}

@@ -8,7 +8,8 @@ from itertools import accumulate, chain, pairwise
 from random import Random
 
 from loiter.errors import InvalidArgument
-from loiter.planning.model import Aircraft, Maneuver, Orbit, Pose, Turn
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import Aircraft, Orbit, Pose, Turn
 from loiter.planning.solve import plan_all
 from loiter.verify.collocation import Flight, check_installed, collocate, letter
 from loiter.verify.compare import Scene
