@@ -1,7 +1,7 @@
 # make demo   plan a real entry: the table on the screen, the picture in demo.png
 # make test   format, lint, types, import contract, tests, examples in the docs
 # make bench  what a plan costs, beside the same work done by search
-# make verify 100,000 random states against the independent search
+# make verify all four witnesses, the search over 100,000 random scenes
 # make pins   write the requirement files anew from pyproject.toml
 PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin
