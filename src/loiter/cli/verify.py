@@ -118,7 +118,7 @@ def _reachability(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
     def hear() -> Findings:
         found: list[Reached] = list(_tracked("reachability", results, len(CELLS) * len(SCENES)))
-        rows = _table("map", "spacing", "nodes", "beside jumps", "mean difference", "within bounds")
+        rows = _table("map", "spacing", "nodes", "where T is steep", "mean difference", "within bounds")
         for m in found:
             bounds = "yes" if m.passed else "NO"
             name = f"R = {m.radius:g}, {m.turn.value}"
