@@ -36,10 +36,13 @@ def test_a_picture_is_written(tmp_path, show):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        ("--radius 0.5", "--radius is 0.5: it must be at least 1 (turn radii)"),
-        ("--radius nan", "--radius is nan: it must be at least 1 (turn radii)"),
+        ("--radius 0.5", "--radius is 0.5: it must be at least 1 (turn radii) and at most 1e+09"),
+        ("--radius nan", "--radius is nan: it must be at least 1 (turn radii) and at most 1e+09"),
+        ("--show worth", "--show is 'worth': a free direction is worth something beside --turn cw or ccw alone"),
+        ("--cells 1000000", "--cells is 1000000: it must be a whole number, at least 8 and at most 4000"),
+        ("--radius 1e17", "--radius is 1e+17: it must be at least 1 (turn radii) and at most 1e+09"),
         ("--reach 0", "--reach is 0.0: it must be a positive, finite number of turn radii"),
-        ("--cells 3", "--cells is 3: it must be at least 8"),
+        ("--cells 3", "--cells is 3: it must be a whole number, at least 8 and at most 4000"),
         ("--cells 40.5", "--cells is '40.5': it must be a whole number"),
         ("--save map.mat", "--save is 'map.mat': the file name must end in .npz"),
         ("--save no/map.npz --cells 20", "--save is 'no/map.npz': it cannot be written, No such file or directory"),

@@ -99,3 +99,18 @@ def test_reduce_is_the_position_seen_along_the_heading():
     assert loiter.reduce(10.0, 26.0, 90.0, orbit, uav) == (0.0, 3.0)
     assert loiter.reduce(10.0, 26.0, 0.0, orbit, uav) == (3.0, 0.0)
     assert loiter.reduce(10.0, 26.0, 270.0, orbit, uav) == (0.0, -3.0)
+
+
+def test_a_circle_as_tight_as_the_aircraft_turns_is_solved_in_spite_of_rounding():
+    uav = Aircraft(15.0, max_turn_rate_deg_s=53.0)
+    orbit = Orbit(0.0, 0.0, 15.0 * 180.0 / (np.pi * 53.0))
+    R = orbit.radius_m / uav.turn_radius_m
+    assert R == 1.0 - 2.0**-53 or R <= 1.0
+    pose = (90.0, 60.0, 100.0)
+    seconds = uav.turn_radius_m / uav.airspeed_m_s
+    time = loiter.min_time(*loiter.reduce(*pose, orbit, uav), R) * seconds
+    assert time == pytest.approx(plan(Pose(*pose), orbit, uav).duration_s, rel=1e-12)
+
+
+def test_an_endless_tolerance_is_refused():
+    assert loiter.solve(4.0, 4.0, 1.0, "cw", inf).status == Status.BAD_TOLERANCE

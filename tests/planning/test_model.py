@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter import Aircraft, Orbit, Pose, Turn
+from loiter import Aircraft, Orbit, Pose, Turn, plan
 from loiter.errors import InvalidArgument, LoiterError
 
 
@@ -99,3 +99,13 @@ def test_numbers_of_numpy_are_numbers():
 def test_every_refusal_is_a_value_error():
     assert issubclass(LoiterError, ValueError)
     assert issubclass(InvalidArgument, LoiterError)
+
+
+def test_small_number_types_do_not_decide_how_it_is_reckoned():
+    pose = Pose(np.int8(100), np.int8(60), np.float32(100.0))
+    orbit = Orbit(np.int8(-100), np.uint8(0), np.float16(80.0))
+    uav = Aircraft(np.float32(18.0), min_turn_radius_m=np.uint8(50))
+    values = (pose.east_m, pose.heading_deg, orbit.east_m, orbit.radius_m, uav.airspeed_m_s, uav.turn_radius_m)
+    assert {type(value) for value in values} == {float}
+    expected = plan(Pose(100.0, 60.0, 100.0), Orbit(-100.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=50.0))
+    assert plan(pose, orbit, uav) == expected

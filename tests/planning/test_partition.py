@@ -113,7 +113,7 @@ def test_a_free_direction_is_worth_nothing_on_the_near_side_and_something_beyond
         ({"radius": "wide"}, "radius is wide"),
         ({"turn": "up"}, "turn is 'up': it must be cw, ccw or either"),
         ({"reach": -1.0}, "reach is -1.0: it must be a positive"),
-        ({"cells": 2}, "cells is 2: it must be at least 8"),
+        ({"cells": 2}, "cells is 2: it must be a whole number, at least 8"),
     ],
 )
 def test_what_cannot_be_mapped_is_refused(arguments, sentence):

@@ -300,3 +300,21 @@ def test_samples_of_a_start_on_the_circle_are_one():
 def test_a_step_is_positive_and_not_too_small(step):
     with pytest.raises(InvalidArgument, match=r"^step_s is"):
         plan(unit_pose(4.0, 4.0), UNIT_CIRCLE, UNIT).sample(step)
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 5.0, 20.0])
+@given(scene=scenes())
+def test_plan_is_as_fast_as_the_first_of_all(scene, tolerance):
+    one, first = plan(*scene, tolerance_m=tolerance), plan_all(*scene, tolerance_m=tolerance)[0]
+    assert one.duration_s == pytest.approx(first.duration_s, rel=1e-12, abs=1e-9)
+
+
+def test_a_tolerance_lets_the_far_side_win():
+    pose, orbit, uav = Pose(-90.0, 5.0, 90.0), Orbit(0.0, 0.0, 50.0), Aircraft(18.0, min_turn_radius_m=50.0)
+    assert (plan(pose, orbit, uav, tolerance_m=5.0).word, plan(pose, orbit, uav, tolerance_m=5.0).turn) == ("R", "ccw")
+
+
+@pytest.mark.parametrize("k", range(2, 200))
+def test_the_last_step_is_never_of_no_length(k):
+    m = plan(Pose(90.0, 60.0, 100.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, 35.0))
+    assert np.diff(m.sample(m.duration_s / k).time_s).min() > 0.5 * m.duration_s / k

@@ -27,7 +27,7 @@ app = App(
     help_format="plaintext",
     help="""The fastest way onto a holding circle for a fixed-wing aircraft.
 
-An aircraft of constant speed turns left or right, no tighter than its turn radius. It is to join a circle tangentially, in the least time, and to stay on it, clockwise or counter-clockwise, whichever is sooner. The answer is exact: the least of all extremals of Pontryagin's maximum principle, so nothing is faster.
+An aircraft of constant speed turns left or right, no tighter than its turn radius. It is to join a circle tangentially, in the least time, and to stay on it, clockwise or counter-clockwise, whichever is sooner. The answer is exact: the least of the extremals of Pontryagin's maximum principle that can win, in closed form.
 
 Positions are metres east and north of any local origin; headings are degrees clockwise from north.""",
     help_epilogue="""Examples
@@ -40,7 +40,7 @@ Exit status
   0  done
   1  a check failed (loiter verify, loiter plan --certify)
   2  the request cannot be met: one sentence on standard error says why,
-     and no file is written""",
+     and no file is left half written""",
 )  # fmt: skip
 
 scene = Group("Scene", sort_key=1)
@@ -81,13 +81,13 @@ def plan_command(
         float | None, Parameter(group=aircraft, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
     ] = None,
     all_: Annotated[
-        bool, Parameter(name="--all", group=output, help="Show every optimal maneuver: 1, 2 or 4.")
+        bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")
     ] = False,
     json: Annotated[
         bool,
         Parameter(
             group=output,
-            help="Print one JSON object, with every losing extremal among its alternatives.",
+            help="Print one JSON object, with the losing extremals among its alternatives.",
         ),
     ] = False,
     plot: Annotated[
@@ -97,7 +97,7 @@ def plan_command(
         bool,
         Parameter(
             group=output,
-            help="Prove each maneuver shown by the maximum principle, equation by equation; with --plot, draw the proof to FILE-certificate.",
+            help="Prove each maneuver shown by the maximum principle, equation by equation; JSON, and the picture that --plot then draws to FILE-certificate, hold the proof of the first.",
         ),
     ] = False,
 ) -> int:
@@ -158,7 +158,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
         sys.stdout.flush()
-    except BrokenPipeError:
+    except (BrokenPipeError, SystemExit):
+        # Rich turns the first into the second where it prints help.
         # The reader of a pipe has left, as `head` does; nothing is wrong.
         _abandon_output()
         return 0

@@ -20,6 +20,7 @@ OPTIONS = {
     "reach": "--reach",
     "cells": "--cells",
     "save": "--save",
+    "show": "--show",
     "out": "--out",
     "pose east_m": "--pose EAST",
     "pose north_m": "--pose NORTH",

@@ -47,6 +47,8 @@ def synthesis(
         files.check_format(plot)
     if save is not None and save.suffix.lower() != ".npz":
         raise InvalidArgument("save", f"is {str(save)!r}: the file name must end in .npz")
+    if show == "worth" and turn == "either":
+        raise InvalidArgument("show", "is 'worth': a free direction is worth something beside --turn cw or ccw alone")
     regions = partition(radius, turn, reach=reach, cells=cells)
     curves = boundaries(regions)
     if plot is not None:

@@ -149,7 +149,7 @@ def lrl(x: float, y: float, R: float, slack: float, outer: float, fold: float) -
 
 
 def extremals(x: float, y: float, R: float, slack: float) -> tuple[Extremal, ...]:
-    """Every extremal for the target (0, R), among them the fastest; those that do not reach it begin with `inf`.
+    """The extremals for the target (0, R) that can win, limits apart; those that do not reach it begin with `inf`.
 
     In the order in which ties are decided: next to the end of a straight piece, words with and without it tie.
     """

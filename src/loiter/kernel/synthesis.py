@@ -23,15 +23,20 @@ def rounding(x: float, y: float, R: float) -> float:
     return ROUNDING * (1.0 + abs(x) + abs(y) + R)
 
 
+def held_radius(R: float) -> float:
+    """The radius, where one below 1 by no more than rounding is 1: a circle as tight as the aircraft turns."""
+    return 1.0 if 1.0 - ROUNDING <= R < 1.0 else R
+
+
 def status_of(x: float, y: float, R: float, tolerance: float) -> Status:
     """`Status.OK`, or why there is nothing to solve."""
     if not (isfinite(x) and isfinite(y) and isfinite(R)):
         return Status.NOT_FINITE
-    if R < 1.0:
+    if held_radius(R) < 1.0:
         return Status.RADIUS_TOO_SMALL
     if abs(x) > REACH or abs(y) > REACH or R > REACH:
         return Status.OUT_OF_RANGE
-    if not tolerance >= 0.0:
+    if not 0.0 <= tolerance <= REACH:
         return Status.BAD_TOLERANCE
     return Status.OK
 
@@ -77,9 +82,19 @@ def near_side(y: float) -> int:
 
 
 def optimum(x: float, y: float, R: float, side: int, tolerance: float) -> Flown:
-    """The fastest maneuver onto the circle from the reduced state (x, y); call it where `status_of` is OK."""
-    if side == Side.EITHER:
-        side = near_side(y)
+    """The fastest maneuver onto the circle from the reduced state (x, y); call it where `status_of` is OK.
+
+    For *either* the near side is as fast as the far one, but for what the tolerance lets pass; so both are asked.
+    """
+    if side != Side.EITHER:
+        return one_sided(x, y, R, side, tolerance)
+    near = one_sided(x, y, R, near_side(y), tolerance)
+    far = one_sided(x, y, R, -near_side(y), tolerance)
+    return far if duration(far) < duration(near) - rounding(x, y, R) else near
+
+
+def one_sided(x: float, y: float, R: float, side: int, tolerance: float) -> Flown:
+    """The fastest maneuver onto the circle held on one side."""
     found = extremals(x, side * y, R, slack_of(x, y, R, tolerance))
     best = found[0]
     for extremal in found:

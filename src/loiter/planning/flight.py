@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
+from loiter.kernel.synthesis import ROUNDING
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment
 
@@ -37,7 +38,8 @@ def sampled(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, step_s
     if not segments:
         return Samples(*np.array([[0.0], [start.east_m], [start.north_m], [wrapped(start.heading_deg)], [0.0]]))
     ends_s = segments[-1].start_s + segments[-1].duration_s
-    times = np.append(np.arange(0.0, ends_s, step_s), ends_s)
+    # A last step that rounding alone leaves over is none.
+    times = np.append(np.arange(0.0, ends_s * (1.0 - ROUNDING), step_s), ends_s)
     # The piece under way at each time: the last that has begun.
     under_way = np.searchsorted([segment.start_s for segment in segments], times, side="right") - 1
     columns = np.empty((4, times.size))

@@ -37,6 +37,12 @@ class Turn(StrEnum):
         return {Turn.CW: "clockwise", Turn.CCW: "counter-clockwise"}.get(self, "either way")
 
 
+def _keep(value: object, **fields: float | Turn) -> None:
+    """Store checked fields of a frozen value: a float32 or an int8 must not decide how it is reckoned with."""
+    for name, field in fields.items():
+        object.__setattr__(value, name, field)
+
+
 @dataclass(frozen=True, slots=True)
 class Aircraft:
     """A fixed-wing aircraft in level flight: its airspeed and exactly one limit on how tightly it turns.
@@ -55,13 +61,13 @@ class Aircraft:
     max_turn_rate_deg_s: float | None = None
 
     def __post_init__(self) -> None:
-        positive("airspeed_m_s", self.airspeed_m_s, "metres per second")
+        _keep(self, airspeed_m_s=positive("airspeed_m_s", self.airspeed_m_s, "metres per second"))
         limits = {name: getattr(self, name) for name in TURN_LIMITS if getattr(self, name) is not None}
         if len(limits) != 1:
             given = f"{' and '.join(limits)} were given" if limits else "none was given"
             raise InvalidArgument("turn limit", f"is needed exactly once ({' or '.join(TURN_LIMITS)}): {given}")
         for name, value in limits.items():
-            positive(name, value, TURN_LIMITS[name])
+            _keep(self, **{name: positive(name, value, TURN_LIMITS[name])})
         if self.max_bank_deg is not None and as_float(self.max_bank_deg) >= 90.0:
             raise InvalidArgument("max_bank_deg", f"is {self.max_bank_deg}: it must be between 0 and 90 degrees")
         positive("turn radius", self.turn_radius_m, "metres; airspeed and turn limit together give it")
@@ -99,12 +105,11 @@ class Orbit:
     turn: Turn = Turn.EITHER
 
     def __post_init__(self) -> None:
-        number("orbit east_m", self.east_m, "metres")
-        number("orbit north_m", self.north_m, "metres")
-        positive("orbit radius_m", self.radius_m, "metres")
+        east_m, north_m = number("orbit east_m", self.east_m, "metres"), number("orbit north_m", self.north_m, "metres")
+        _keep(self, east_m=east_m, north_m=north_m, radius_m=positive("orbit radius_m", self.radius_m, "metres"))
         if self.turn not in tuple(Turn):
             raise InvalidArgument("turn", f"is {self.turn!r}: it must be cw, ccw or either")
-        object.__setattr__(self, "turn", Turn(self.turn))
+        _keep(self, turn=Turn(self.turn))
 
     def distance_m(self, pose: Pose) -> float:
         """Distance of a pose from the centre, metres."""
@@ -123,9 +128,8 @@ class Pose:
     heading_deg: float
 
     def __post_init__(self) -> None:
-        number("pose east_m", self.east_m, "metres")
-        number("pose north_m", self.north_m, "metres")
-        number("pose heading_deg", self.heading_deg, "degrees")
+        east_m, north_m = number("pose east_m", self.east_m, "metres"), number("pose north_m", self.north_m, "metres")
+        _keep(self, east_m=east_m, north_m=north_m, heading_deg=number("pose heading_deg", self.heading_deg, "degrees"))
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+# The largest circle, and the finest grid, that are mapped: a square of so many cells takes a gigabyte.
+LARGEST, MOST_CELLS = 1e9, 4000
+
 # A boundary is narrowed down between two neighbours of the grid to this share of a grid step: far above the rounding
 # within which a start counts as on the last arc, so that both ends show the open regions on either side.
 NARROW = 1e-6
@@ -61,16 +64,18 @@ class Boundary(NamedTuple):
 
 
 def partition(radius: float = 1.0, turn: str = "either", *, reach: float | None = None, cells: int = 400) -> Partition:
-    """The optimum on a square grid of `cells` x `cells` points, |x|, |y| <= `reach` (default radius + 3), turn radii.
+    """The optimum on a square grid of `cells` points a side, made even; |x|, |y| <= `reach` (default radius + 3).
 
     The grid has no point on the axes, where words tie. Raises `InvalidArgument` for a radius below 1, an unknown turn,
     a reach that is not positive, or fewer than 8 cells.
     """
-    if not as_float(radius) >= 1.0:
-        raise InvalidArgument("radius", f"is {radius}: it must be at least 1 (turn radii)")
+    if not 1.0 <= as_float(radius) <= LARGEST:
+        raise InvalidArgument("radius", f"is {radius}: it must be at least 1 (turn radii) and at most {LARGEST:g}")
     reach = positive("reach", radius + 3.0 if reach is None else reach, "turn radii")
-    if cells < 8:
-        raise InvalidArgument("cells", f"is {cells}: it must be at least 8")
+    if reach > 2.0 * LARGEST:
+        raise InvalidArgument("reach", f"is {reach}: it must be at most {2.0 * LARGEST:g} turn radii")
+    if not 8 <= as_float(cells) <= MOST_CELLS or cells != int(cells):
+        raise InvalidArgument("cells", f"is {cells}: it must be a whole number, at least 8 and at most {MOST_CELLS}")
     # An even number of cells, shifted by half a cell, keeps clear of the axes.
     line = (np.arange(cells + cells % 2) + 0.5) / (cells + cells % 2) * 2.0 * reach - reach
     best = solve(line[np.newaxis, :], line[:, np.newaxis], radius, turn)

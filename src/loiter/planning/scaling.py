@@ -8,7 +8,7 @@ from typing import NamedTuple
 from loiter.errors import OutOfRange, RadiusTooSmall, not_negative
 from loiter.kernel import motion
 from loiter.kernel.codes import Side, Status, Word
-from loiter.kernel.synthesis import REACH, ROUNDING, Flown, miss, status_of
+from loiter.kernel.synthesis import REACH, ROUNDING, Flown, held_radius, miss, status_of
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import flown_from
 from loiter.planning.maneuver import Maneuver
@@ -36,7 +36,7 @@ def normalised(pose: Pose, orbit: Orbit, aircraft: Aircraft, tolerance_m: float)
     # Coordinates far from their origin carry the rounding of their own size into a small difference.
     size = abs(pose.east_m) + abs(orbit.east_m) + abs(pose.north_m) + abs(orbit.north_m)
     tolerance = max(not_negative("tolerance_m", tolerance_m, "metres"), ROUNDING * size) / r
-    scene = Scene(x, y, radius_in_turns(orbit.radius_m, r), SIDES[orbit.turn], tolerance)
+    scene = Scene(x, y, held_radius(orbit.radius_m / r), SIDES[orbit.turn], tolerance)
     status = status_of(scene.x, scene.y, scene.R, scene.tolerance)
     if status == Status.RADIUS_TOO_SMALL:
         raise RadiusTooSmall(_too_tight(orbit, aircraft))
@@ -48,12 +48,6 @@ def normalised(pose: Pose, orbit: Orbit, aircraft: Aircraft, tolerance_m: float)
             "distances must stay below 2**52 turn radii"
         )
     return scene
-
-
-def radius_in_turns(radius_m: float, turn_radius_m: float) -> float:
-    """R = radius / turn radius, where a value below 1 by no more than rounding is 1."""
-    R = radius_m / turn_radius_m
-    return 1.0 if 1.0 - ROUNDING <= R < 1.0 else R
 
 
 def _too_tight(orbit: Orbit, aircraft: Aircraft) -> str:

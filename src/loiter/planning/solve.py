@@ -9,7 +9,7 @@ from loiter.planning.scaling import maneuver, normalised
 def plan(pose: Pose, orbit: Orbit, aircraft: Aircraft, *, tolerance_m: float = 0.0) -> Maneuver:
     """The fastest way from `pose` onto `orbit`, to be joined tangentially and held in the direction `orbit.turn`.
 
-    Nothing is faster: the answer is the least of all extremals of the maximum principle (docs/theory.md, section 3).
+    The answer is the least of the extremals of the maximum principle that can win (docs/theory.md, section 3).
     Where several maneuvers are optimal it is one of them; `plan_all` gives them all.
 
     The least time jumps where the start passes the last arc (docs/theory.md, section 6): just beyond, the aircraft
@@ -29,12 +29,15 @@ def plan(pose: Pose, orbit: Orbit, aircraft: Aircraft, *, tolerance_m: float = 0
 
 
 def plan_all(pose: Pose, orbit: Orbit, aircraft: Aircraft, *, tolerance_m: float = 0.0) -> tuple[Maneuver, ...]:
-    """Every optimal maneuver, 1, 2 or 4 of them (paper, section 6): those that tie up to rounding. As `plan` else."""
+    """Every optimal maneuver, those that tie up to rounding; the fastest first. As `plan` else.
+
+    On a circle of the turn radius held either way they are 1, 2 or 4 (paper, section 6); elsewhere there may be 3.
+    """
     scene = normalised(pose, orbit, aircraft, tolerance_m)
     return tuple(maneuver(pose, orbit, aircraft, scene, flown) for flown in optima(*scene))
 
 
 def candidates(pose: Pose, orbit: Orbit, aircraft: Aircraft, *, tolerance_m: float = 0.0) -> tuple[Maneuver, ...]:
-    """Every extremal that reaches the circle in the direction asked for, fastest first, losers too. As `plan` else."""
+    """The extremals (docs/theory.md, section 3) in the direction asked for, fastest first, losers too. As `plan` else."""
     scene = normalised(pose, orbit, aircraft, tolerance_m)
     return tuple(maneuver(pose, orbit, aircraft, scene, flown) for flown in ranked(*scene))

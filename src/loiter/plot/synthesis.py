@@ -124,7 +124,8 @@ def _joined(points: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
         if distance[nearest] > gap:
             line.append(np.array([np.nan, np.nan]))
             nearest = 0
-        here, left = left[nearest], np.delete(left, nearest, axis=0)
+        # A copy: a view would keep what is left of the points alive, once for each point.
+        here, left = left[nearest].copy(), np.delete(left, nearest, axis=0)
         line.append(here)
     return np.array(line)
 

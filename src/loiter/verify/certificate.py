@@ -1,8 +1,10 @@
 """A maneuver with its proof: the maximum principle (11)-(18) equation by equation, and the extremals it was among.
 
-Why this proves: a fastest maneuver exists (Filippov, paper section 1), obeys the maximum principle, and all maneuvers
-that do are the candidates (docs/theory.md, section 3). A certificate shows that this one is an extremal, with lambda
-and psi to check it by, and that no candidate is faster. The Hamilton-Jacobi-Bellman equation looks at its neighbours.
+What this proves: that the maneuver is an extremal, with lambda and psi to check it by, and that none of the candidates
+is faster; the Hamilton-Jacobi-Bellman equation looks at its neighbours. A fastest maneuver exists (Filippov, paper
+section 1) and is an extremal. That the candidates hold every extremal that can win is proved in the paper for R = 1;
+for R > 1 the words left out, RLR above all, have never been seen to win (docs/theory.md, section 3; `loiter verify`).
+Distances, curvatures and start times of segments are not looked at: letters, durations and the join are.
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ from typing import NamedTuple
 from loiter.errors import InvalidArgument
 from loiter.kernel.codes import Word
 from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import Turn
 from loiter.planning.solve import candidates
 from loiter.verify.conditions import residuals
 from loiter.verify.proof import Candidate, Flight, Piece, Residual, flight_of
@@ -112,7 +115,7 @@ class Certificate:
         return {
             "valid": self.valid,
             "word": self.maneuver.word,
-            "turn": self.maneuver.turn.value,
+            "turn": Turn(self.maneuver.turn).value,
             "duration_s": self.maneuver.duration_s,
             "lambda": self.lam,
             "psi": self.psi,
@@ -199,7 +202,7 @@ def _plain(residual: Residual) -> dict[str, object]:
 def _head(certificate: Certificate) -> list[str]:
     maneuver = certificate.maneuver
     verdict = "valid" if certificate.valid else f"NOT VALID, {len(certificate.failed)} conditions FAILED"
-    lines = [f"Certificate of {maneuver.word or 'a start on the circle'}, {maneuver.turn.described}: {verdict}."]
+    lines = [f"Certificate of {maneuver.word or 'a start on the circle'}, {Turn(maneuver.turn).described}: {verdict}."]
     if certificate.lam is not None and certificate.psi is not None:
         psi1, psi2 = certificate.psi
         lines.append(f"lambda = {certificate.lam:.6f}, psi = ({psi1:.6f}, {psi2:.6f}) at the start.")

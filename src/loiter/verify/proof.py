@@ -20,14 +20,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan2, hypot, isfinite, pi, sqrt
+from math import atan2, hypot, pi, sqrt
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, as_float
 from loiter.kernel.adjoint import adjoint, switching_function, turned
 from loiter.kernel.codes import Word
 from loiter.kernel.motion import flow
-from loiter.kernel.synthesis import rounding
+from loiter.kernel.synthesis import REACH, rounding
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
 from loiter.planning.scaling import SIDES, Scene, normalised
@@ -195,9 +195,10 @@ def _word(maneuver: Maneuver) -> int:
 def _durations(maneuver: Maneuver) -> list[float]:
     """Durations in turn radii over airspeed."""
     seconds = [segment.duration_s for segment in maneuver.segments]
-    if not all(isfinite(t) and t >= 0.0 for t in seconds):
+    durations = [as_float(t) * maneuver.aircraft.airspeed_m_s / maneuver.aircraft.turn_radius_m for t in seconds]
+    if not all(0.0 <= t <= 8.0 * REACH for t in durations):
         raise InvalidArgument("maneuver", f"has durations {seconds}: they must be zero or positive, finite seconds")
-    return [t * maneuver.aircraft.airspeed_m_s / maneuver.aircraft.turn_radius_m for t in seconds]
+    return durations
 
 
 def _pieces(x: float, y: float, R: float, side: int, word: int, durations: list[float]) -> tuple[float, list[Piece]]:
