@@ -38,6 +38,6 @@ def plan_all(pose: Pose, orbit: Orbit, aircraft: Aircraft, *, tolerance_m: float
 
 
 def candidates(pose: Pose, orbit: Orbit, aircraft: Aircraft, *, tolerance_m: float = 0.0) -> tuple[Maneuver, ...]:
-    """The extremals (docs/theory.md, section 3) of the direction asked for, fastest first, losers too. Else as `plan`."""
+    """The extremals of docs/theory.md, section 3, fastest first and losers too, for the turn asked for. As `plan`."""
     scene = normalised(pose, orbit, aircraft, tolerance_m)
     return tuple(maneuver(pose, orbit, aircraft, scene, flown) for flown in ranked(*scene))
