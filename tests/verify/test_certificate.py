@@ -331,3 +331,11 @@ def test_what_is_no_maneuver_is_refused_in_a_sentence(change, problem):
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match=r"module 'loiter\.verify' has no attribute 'prove'"):
         loiter.verify.prove  # noqa: B018
+
+
+def test_a_lone_arc_begun_beside_its_circle_within_the_tolerance_is_certified():
+    uav, orbit = Aircraft(18.0, min_turn_radius_m=50.0), Orbit(0.0, 0.0, 80.0)
+    m = plan(Pose(-1.0, 19.5, 90.0), orbit, uav, tolerance_m=2.0)
+    assert m.word == "R"
+    assert certify(m, tolerance_m=2.0).valid
+    assert not certify(m).valid

@@ -75,7 +75,7 @@ def _motions(flight: Flight) -> Iterator[Residual]:
 
 def _maximum_principle(flight: Flight) -> Iterator[Residual]:
     """(13), (14), (16) and the condition at the target."""
-    lam, (end, size, angle, choice) = flight.lam, flight.accuracy
+    lam, (_, size, angle, choice) = flight.lam, flight.accuracy
     sign = hamiltonian = above = 0.0
     for piece in flight.pieces:
         for _, _, psi1, _, phi in map(piece.at, piece.instants):
@@ -83,10 +83,10 @@ def _maximum_principle(flight: Flight) -> Iterator[Residual]:
             sign = max(sign, -piece.u * phi if piece.u else abs(phi))
             hamiltonian = max(hamiltonian, abs(abs(phi) + psi1 - lam))
             above = max(above, psi1 - lam)
-    start, last = flight.pieces[0], flight.pieces[-1].u * flight.side * flight.scene.R
+    last = flight.pieces[-1].u * flight.side * flight.scene.R
     transversality = abs(flight.end[2] * (1.0 + last) - lam)
     # The last switch is found from the target and off by rounding alone; a single arc may begin beside its circle.
-    off = end * (1.0 + (1.0 + flight.scene.R) / max(hypot(start.x, start.y), size)) if len(flight.pieces) == 1 else size
+    off = angle if len(flight.pieces) == 1 else size
     yield Residual("multiplier", "lambda >= 0", max(0.0, -lam), angle)
     yield Residual("sign", "u = sign phi, u = 0 only where phi = 0 (13)", sign, angle + choice)
     yield Residual("hamiltonian", "|phi| + psi1 = lambda (14)", hamiltonian, angle + 2.0 * choice)

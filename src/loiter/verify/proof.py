@@ -7,7 +7,8 @@ them:
 - `end`: how far the plan may end from the target, the tolerance or rounding (`synthesis.rounding`); a flow is a motion
   of the plane, so no state on the way is further off, and phi = psi x state is as accurate, |psi| being 1;
 - `rounding`: that of a length in this scene, 64 units of 2^-52 times its size, some 20 operations for each piece;
-- `angle`: psi at the first of two switches has turned with a middle arc whose angle is an accuracy of `end` over that
+- `angle`: psi of a single arc is parallel to its start, which may lie `end` beside its circle; and
+  psi at the first of two switches has turned with a middle arc whose angle is an accuracy of `end` over that
   arc's radius;
 - `choice`: next to where two extremals tie smoothly, rounding of T may choose the slower. Its phi is of the wrong sign
   by up to v somewhere, and it loses some 2/lambda times the integral of that. A v in the middle of a piece lasts
@@ -180,7 +181,11 @@ def _accuracy(scene: Scene, size: float, pieces: list[Piece]) -> Accuracy:
     # Durations went through metres and seconds and back, 4 roundings, so a flight of them ends a rounding further off.
     end = max(scene.tolerance, size) + size
     middle = pieces[1].radius if len(pieces) == 3 and pieces[1].u else 1.0
-    return Accuracy(end, size, end * (1.0 + 1.0 / max(middle, size)), size ** (2.0 / 3.0))
+    angle = end * (1.0 + 1.0 / max(middle, size))
+    if len(pieces) == 1:
+        # psi of a lone arc is parallel to its start, which may lie `end` beside its circle; phi is read R + 1 away.
+        angle = end * (1.0 + (1.0 + scene.R) / max(hypot(scene.x, scene.y), size))
+    return Accuracy(end, size, angle, size ** (2.0 / 3.0))
 
 
 def _word(maneuver: Maneuver) -> int:
