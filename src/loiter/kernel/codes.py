@@ -58,5 +58,5 @@ _MESSAGES = {
     Status.NOT_FINITE: "the state or the radius is nan or infinite",
     Status.RADIUS_TOO_SMALL: "the circle is tighter than the minimum turn radius: R must be at least 1",
     Status.OUT_OF_RANGE: "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn",
-    Status.BAD_TOLERANCE: "the tolerance must be zero or positive",
+    Status.BAD_TOLERANCE: "the tolerance must be zero or positive, and below 2**52 turn radii",
 }

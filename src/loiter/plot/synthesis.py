@@ -86,6 +86,7 @@ def _middles(regions: Partition, word: Word) -> list[tuple[float, float]]:
     found = []
     for half in (regions.y > 0.0, regions.y < 0.0):
         depth = _depth((regions.word == word) & half[:, np.newaxis])
+        # Below a fiftieth of the map a region is narrower than its label.
         if depth.max() >= 0.02 * len(regions.x):
             row, column = np.unravel_index(int(depth.argmax()), depth.shape)
             found.append((float(regions.x[column]), float(regions.y[row])))
@@ -108,6 +109,7 @@ def _draw_curve(axes: Axes, regions: Partition, kind: str, curves: Sequence[Boun
     style = LINES[kind]
     for curve in curves:
         if curve.kind == kind:
+            # Neighbours on a curve lie at most a cell's diagonal apart; three steps bridge a coarse corner.
             line = _joined(curve.points, 3.0 * (regions.x[1] - regions.x[0]))
             axes.plot(*line.T, **style, solid_capstyle="round", gid=f"{kind} {' '.join(curve.words)}")
     return Line2D([], [], **style)
