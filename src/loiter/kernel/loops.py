@@ -30,8 +30,9 @@ from loiter.kernel.synthesis import (
     status_of,
 )
 
-# Numba's decorators give what they please.
+# Numba's decorators take and give what their types do not tell.
 _intrinsic: Any = extending.intrinsic
+_njit: Any = numba.njit
 
 BLOCK = 256  # states; their buffers of 2 KiB each stay in the first-level cache
 
@@ -81,7 +82,8 @@ def _bytes(context: Any, pointer: Any) -> Any:
 
 
 def _inlined(function: Any) -> Any:
-    return numba.njit(forceinline=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+    """Compiled, to be folded into its callers; no other door to it is wanted."""
+    return _njit(forceinline=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
 
 
 def _two_product(a, b):

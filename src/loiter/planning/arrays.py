@@ -154,6 +154,8 @@ def _sides(turn: ArrayLike) -> Any:
     if isinstance(turn, str):
         return np.int8(_side(turn))
     turns = np.asarray(turn)
+    if turns.dtype.kind == "i" and turns.size and min(Side) <= turns.min() and turns.max() <= max(Side):
+        return turns.astype(np.int8, copy=False)
     names, places = np.unique(turns, return_inverse=True) if turns.dtype != object else (turns.ravel(), ...)
     codes = np.array([_side(name) for name in names], dtype=np.int8)
     return codes[places].reshape(turns.shape)
