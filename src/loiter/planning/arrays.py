@@ -194,7 +194,7 @@ def _one(name: str, arguments: tuple[Any, ...], out: Any, workers: int) -> Any:
 
 
 def _shared(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[Any, ...], workers: int) -> None:
-    """Do the work on slices of the longest axis, a thread each; the ufuncs hold no lock and share no memory."""
+    """Do the work on slices of the longest axis by threads; the ufuncs hold no lock and share no memory."""
     count = _threads(workers)
     shape = out[0].shape
     axis = int(np.argmax(shape)) if shape else 0
@@ -202,7 +202,8 @@ def _shared(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[Any
         work(*arrays, out=out)
         return
     views = [np.broadcast_to(a, shape) for a in arrays]
-    edges = np.linspace(0, shape[axis], count + 1).astype(int)
+    # Several slices a thread, so that one which is held up leaves work to the others.
+    edges = np.linspace(0, shape[axis], min(8 * count, shape[axis]) + 1).astype(int)
     slices = [(*[slice(None)] * axis, slice(start, end)) for start, end in pairwise(edges)]
     with ThreadPoolExecutor(count) as pool:
         tasks = [pool.submit(work, *(v[s] for v in views), out=tuple(o[s] for o in out)) for s in slices]
