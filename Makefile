@@ -1,10 +1,11 @@
 # make demo   plan a real entry: the table on the screen, the picture in demo.png
 # make test   format, lint, types, import contract, tests, examples in the docs
-# make bench  what a plan costs, beside the same work done by search
+# make bench  what answers cost, beside other methods: table and plot in benchmarks/results; ROWS=0 spares the tables
 # make verify all four witnesses, the search over 100,000 random scenes
 # make pins   write the requirement files anew from pyproject.toml
 PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin
+ROWS ?= 1e8
 
 # On Debian the standard library's venv is a package of its own.
 $(BIN)/python:
@@ -35,7 +36,7 @@ test: .venv/dev.stamp
 	$(BIN)/pytest -n 2
 
 bench: .venv/dev.stamp
-	$(BIN)/pytest benchmarks --benchmark-enable --benchmark-only --benchmark-columns=median,iqr,rounds
+	$(BIN)/python -m benchmarks --rows $(ROWS)
 
 verify: .venv/dev.stamp
 	$(BIN)/loiter verify --states 100000

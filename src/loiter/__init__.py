@@ -9,6 +9,7 @@ from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn
 from loiter.planning.solve import candidates, plan, plan_all
 
 if TYPE_CHECKING:
+    from loiter import batch as batch
     from loiter import verify as verify
     from loiter.planning.arrays import control, min_time, reduce, solve
 
@@ -42,6 +43,6 @@ def __getattr__(name: str) -> Any:
         from loiter.planning import arrays
 
         return getattr(arrays, name)
-    if name == "verify":
-        return import_module("loiter.verify")
+    if name in {"batch", "verify"}:
+        return import_module(f"loiter.{name}")
     raise AttributeError(f"module 'loiter' has no attribute {name!r}")

@@ -25,6 +25,10 @@ class OutOfRange(LoiterError):
     """The scene is too large for double precision."""
 
 
+class Unfinished(LoiterError):
+    """A batch job stopped half way; the sentence says what is kept of it."""
+
+
 class MissingPackage(LoiterError):
     """An optional package is needed for what was asked; the sentence says how to install it."""
 

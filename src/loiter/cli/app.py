@@ -40,7 +40,8 @@ Exit status
   0  done
   1  a check failed (loiter verify, loiter plan --certify)
   2  the request cannot be met: one sentence on standard error says why,
-     and no file is left half written""",
+     and no file is left half written
+  130  interrupted; what a batch job has finished is kept""",
 )  # fmt: skip
 
 scene = Group("Scene", sort_key=1)
@@ -127,6 +128,16 @@ def plan_command(
 
 # Loaded when it is asked for: a single plan needs no arrays.
 app.command(
+    "loiter.cli.batch:batch",
+    help="""Plan the fastest entry of every row of a table: Parquet or CSV, any size.
+
+IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; and max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s. What no column gives, an option must.
+
+OUT has the columns and the rows of IN, in their order, and then duration_s, word, turn (cw or ccw, in the place of that asked for), join_east_m, join_north_m, join_heading_deg, duration_1_s, duration_2_s, duration_3_s and status. A bad row gets nan, or an empty field, and a status other than ok; it stops nothing.
+
+OUT appears whole or not at all. What is finished is kept in OUT.parts until then: a job that was interrupted goes on from there when the same command is given again.""",
+)
+app.command(
     "loiter.cli.synthesis:synthesis",
     help="Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions.",
 )
@@ -168,7 +179,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(error, OSError):
             _abandon_output()
         return USAGE_ERROR
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interrupt:
+        # A batch job says what is kept of it.
+        if str(interrupt):
+            print(f"loiter: {interrupt}", file=sys.stderr)  # noqa: T201
         return INTERRUPTED
     return status or 0
 

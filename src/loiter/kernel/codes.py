@@ -49,7 +49,8 @@ class Status(IntEnum):
     BAD_AIRCRAFT = 5
     BAD_ORBIT = 6
     BAD_TURN = 7
-    MALFORMED = 8
+    BAD_POSE = 8
+    MALFORMED = 9
 
     @property
     def message(self) -> str:
@@ -66,5 +67,6 @@ _MESSAGES = {
     Status.BAD_AIRCRAFT: "airspeed and turn limit must be positive, finite numbers, and a bank below 90 degrees",
     Status.BAD_ORBIT: "the circle needs a finite centre and a positive, finite radius",
     Status.BAD_TURN: "the turn must be cw, ccw or either",
+    Status.BAD_POSE: "east, north and heading must be finite numbers",
     Status.MALFORMED: "the line has more or fewer fields than the header, or is not UTF-8",
 }

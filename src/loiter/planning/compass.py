@@ -15,9 +15,10 @@ def heading_vector(heading_deg: float) -> tuple[float, float]:
     heading = fmod(heading_deg, 360.0)
     quarters = floor(heading / 90.0 + 0.5)
     rest = radians(heading - 90.0 * quarters)
-    quarter = quarters % 4
-    # Sine and cosine of the whole quarters.
-    sq, cq = (2.0 - quarter) * (quarter % 2), (1.0 - quarter) * (quarter != 3)
+    # Sine and cosine of the whole quarters; halves by floor, as a remainder costs an array more than a sine does.
+    halves = floor(0.5 * quarters)
+    odd, flip = quarters - 2.0 * halves, halves - 2.0 * floor(0.5 * halves)
+    sq, cq = odd - 2.0 * odd * flip, (1.0 - odd) * (1.0 - 2.0 * flip)
     s, c = sin(rest), cos(rest)
     return sq * c + cq * s, cq * c - sq * s
 

@@ -19,6 +19,16 @@ STANDARD_GRAVITY_M_S2 = 9.80665  # exact by definition (3rd CGPM, 1901)
 CONTROLS = {"L": 1, "S": 0, "R": -1}
 
 
+def radius_at_bank(airspeed_m_s: float, bank_deg: float) -> float:
+    """Radius of a coordinated turn, metres: V^2 / (g tan bank)."""
+    return airspeed_m_s * airspeed_m_s / (STANDARD_GRAVITY_M_S2 * tan(radians(bank_deg)))
+
+
+def radius_at_rate(airspeed_m_s: float, turn_rate_deg_s: float) -> float:
+    """Radius of a turn, metres: V over the turn rate."""
+    return airspeed_m_s / radians(turn_rate_deg_s)
+
+
 class Turn(StrEnum):
     """Which way round the circle is held, as seen from above."""
 
@@ -78,9 +88,9 @@ class Aircraft:
         if self.min_turn_radius_m is not None:
             return self.min_turn_radius_m
         if self.max_turn_rate_deg_s is not None:
-            return self.airspeed_m_s / radians(self.max_turn_rate_deg_s)
+            return radius_at_rate(self.airspeed_m_s, self.max_turn_rate_deg_s)
         assert self.max_bank_deg is not None  # exactly one limit is given
-        return self.airspeed_m_s * self.airspeed_m_s / (STANDARD_GRAVITY_M_S2 * tan(radians(self.max_bank_deg)))
+        return radius_at_bank(self.airspeed_m_s, self.max_bank_deg)
 
     def bank_deg(self, radius_m: float) -> float:
         """Bank of a coordinated turn of the given radius at this airspeed, degrees: atan(V^2 / (g radius))."""

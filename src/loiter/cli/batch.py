@@ -1,0 +1,123 @@
+"""`loiter batch`: a table of states in, a table of entries out."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from cyclopts import Group, Parameter
+from rich.console import Console
+from rich.progress import BarColumn, ProgressColumn, Task, TextColumn, TimeRemainingColumn
+from rich.progress import Progress as Bar
+from rich.text import Text
+
+import loiter
+from loiter.cli.numbers import whole
+from loiter.kernel.codes import Status
+from loiter.planning.model import Orbit, Turn
+
+if TYPE_CHECKING:
+    from loiter.batch import Progress, Summary
+
+shared = Group("Where the table has no column of it", sort_key=1)
+work = Group("Work", sort_key=2)
+
+
+def batch(
+    source: Annotated[Path, Parameter(name="IN", help="The table to read: .parquet, .csv or .csv.gz.")],
+    target: Annotated[Path, Parameter(name="OUT", help="The table to write: .parquet, .csv or .csv.gz.")],
+    /,
+    *,
+    orbit: Annotated[
+        tuple[float, float, float] | None,
+        Parameter(group=shared, metavar="EAST NORTH RADIUS", help="The circle: its centre and its radius, metres."),
+    ] = None,
+    turn: Annotated[
+        Literal["either", "cw", "ccw"] | None,
+        Parameter(group=shared, help="Direction in which the circle is held; either if absent."),
+    ] = None,
+    airspeed: Annotated[
+        float | None, Parameter(group=shared, metavar="M_PER_S", help="True airspeed, metres per second.")
+    ] = None,
+    bank: Annotated[float | None, Parameter(group=shared, metavar="DEGREES", help="Largest bank, degrees.")] = None,
+    turn_radius: Annotated[
+        float | None, Parameter(group=shared, metavar="METRES", help="Smallest turn radius, metres.")
+    ] = None,
+    turn_rate: Annotated[
+        float | None, Parameter(group=shared, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
+    ] = None,
+    tolerance: Annotated[
+        float,
+        Parameter(group=work, metavar="METRES", help="As for loiter plan: by how much a start may miss the last arc."),
+    ] = 0.0,
+    workers: Annotated[
+        int | None,
+        Parameter(group=work, metavar="N", converter=whole, help="Threads that work; as many as cores if absent."),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        Parameter(
+            group=work,
+            metavar="tcp://HOST:PORT",
+            help="Work on the Dask cluster with this scheduler, whose workers see IN and OUT under the same paths.",
+        ),
+    ] = None,
+) -> None:
+    """Plan the fastest entry of every row of a table."""
+    limits = {"max_bank_deg": bank, "min_turn_radius_m": turn_radius, "max_turn_rate_deg_s": turn_rate}
+    given = {name: value for name, value in {"airspeed_m_s": airspeed, **limits}.items() if value is not None}
+    with shown() as tell:
+        summary = loiter.batch.run(
+            source,
+            target,
+            orbit=None if orbit is None else Orbit(*orbit),
+            turn=None if turn is None else Turn(turn),
+            aircraft=given,
+            tolerance_m=tolerance,
+            workers=workers,
+            scheduler=scheduler,
+            progress=tell,
+        )
+    sys.stderr.write(closing(summary))
+
+
+@contextmanager
+def shown() -> Iterator[Callable[[Progress], None]]:
+    """Shows progress on standard error: notes always, a bar on a terminal."""
+    console = Console(stderr=True, highlight=False)
+    columns = (TextColumn("{task.description}"), BarColumn(), Rows(), TimeRemainingColumn())
+    with Bar(*columns, console=console, disable=not console.is_terminal) as bar:
+        task = bar.add_task("", total=None)
+
+        def tell(progress: Progress) -> None:
+            if progress.note:
+                console.print(progress.note, soft_wrap=True)
+            doing = "solving" if progress.total else "reading"
+            bar.update(task, completed=progress.rows, total=progress.total, description=doing)
+
+        yield tell
+
+
+class Rows(ProgressColumn):
+    """Rows done, and how many a second."""
+
+    def render(self, task: Task) -> Text:
+        """As text: "1,310,720 of 10,000,000 rows, 812,000 rows/s"."""
+        whole = f" of {task.total:,.0f}" if task.total else ""
+        speed = f", {float(f'{task.speed:.3g}'):,.0f} rows/s" if task.speed else ""
+        return Text(f"{task.completed:,.0f}{whole} rows{speed}")
+
+
+def closing(summary: Summary) -> str:
+    """The closing lines: what was done, and the bad rows by status."""
+    seconds, solved = summary.seconds, summary.solved_rows
+    these = "" if solved == summary.rows else f", {solved:,} of them in this run,"
+    lines = [f"{summary.rows:,} rows{these} in {seconds:.1f} s: {solved / seconds:,.0f} rows/s"]
+    for status in Status:
+        count = summary.statuses.get(status.name.lower(), 0)
+        if count and status is not Status.OK:
+            lines.append(f"{count:,} {status.name.lower()}: {status.message}")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,89 @@
+"""Kills a job at random moments, and gives it again: killing.py IN OUT SEED TIMES [OPTIONS of loiter batch].
+
+The children are forked from a process that has the kernel loaded, so that a job takes a fraction of a second.
+"""
+
+import os
+import random
+import signal
+import sys
+import time
+from importlib import import_module
+from pathlib import Path
+
+from loiter.batch import cluster, ingest, parts, tables
+from loiter.cli.app import main
+from loiter.planning.entries import compile_kernel
+
+
+def small(part_rows=500, batch_rows=100):
+    """Makes parts and batches so small that a job of some thousand rows has many, and waits short."""
+    tables.PART_ROWS = parts.PART_ROWS = part_rows
+    tables.BATCH_ROWS = ingest.BATCH_ROWS = batch_rows
+    ingest.BLOCK_BYTES = 10_000
+    cluster.CONNECT_S = cluster.WORKER_S = 2
+
+
+def forked(arguments):
+    """A child that runs the command line; its process number."""
+    pid = os.fork()
+    if pid == 0:
+        # What a job says is of no interest here.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+        os._exit(main(arguments))
+    return pid
+
+
+def ended(pid):
+    """How a child ended: its exit status, or minus the signal."""
+    return os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+
+
+def kill(arguments, target, seed, times):
+    chance = random.Random(seed)
+    assert ended(forked(arguments)) == 0
+    begin = time.perf_counter()
+    assert ended(forked(arguments)) == 0
+    whole = time.perf_counter() - begin
+    expected, killed, resumed = target.read_bytes(), 0, 0
+    for _ in range(times):
+        target.unlink()
+        pid = forked(arguments)
+        time.sleep(chance.uniform(0.0, 1.2 * whole))
+        os.kill(pid, signal.SIGKILL)
+        killed += ended(pid) == -signal.SIGKILL
+        # The output is there whole or not at all.
+        assert not target.exists() or target.read_bytes() == expected
+        resumed += any(target.with_name(f"{target.name}.parts").glob("part-*.arrow"))
+        assert ended(forked(arguments)) == 0
+        assert target.read_bytes() == expected
+        assert not target.with_name(f"{target.name}.parts").exists()
+    print(f"{times} times, {killed} killed, {resumed} resumed")
+    assert killed > times // 2
+    assert resumed > times // 4
+
+
+def race(arguments, target, times):
+    """Two processes on one output at the same time: none spoils it, and at least one is done."""
+    assert ended(forked(arguments)) == 0
+    expected = target.read_bytes()
+    for _ in range(times):
+        target.unlink()
+        statuses = sorted(ended(pid) for pid in [forked(arguments) for _ in range(3)])
+        assert statuses[0] == 0, statuses
+        assert set(statuses) <= {0, 2}, statuses
+        assert target.read_bytes() == expected
+        assert not target.with_name(f"{target.name}.parts").exists()
+
+
+if __name__ == "__main__":
+    what, source, out, seed, times, *options = sys.argv[1:]
+    small()
+    # What a child would have to load takes longer than its job.
+    compile_kernel()
+    for module in ("loiter.batch.job", "loiter.cli.batch"):
+        import_module(module)
+    if what == "kill":
+        kill(["batch", source, out, *options], Path(out), int(seed), int(times))
+    else:
+        race(["batch", source, out, *options], Path(out), int(times))

@@ -1,0 +1,218 @@
+"""A real Dask scheduler and real workers: the same bytes as on one machine, whoever is lost on the way."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+
+import loiter
+from batch.making import OPTIONS, ORBIT, UAV, poses, write
+from loiter.batch import cluster, folder, job, parts, tables
+from loiter.batch.columns import shared
+
+HERE = Path(__file__).parent
+ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])}
+BATCH = """
+import sys
+from batch.killing import small
+from loiter.cli.app import main
+small()
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+class Cluster:
+    """A scheduler on this machine, and workers that may be killed."""
+
+    def __init__(self, stack, place):
+        self.stack, self.place, self.workers = stack, place, []
+        said = place / "scheduler.txt"
+        self.scheduler = self._start(
+            "scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", said
+        )
+        while not (said.exists() and said.read_text().endswith("}")):
+            time.sleep(0.05)
+        self.address = re.search(r"tcp://[\d.:]+", said.read_text())[0]
+
+    def work(self):
+        """One more worker, a slow one."""
+        arguments = [
+            "worker",
+            self.address,
+            "--nthreads",
+            "1",
+            "--no-nanny",
+            "--no-dashboard",
+            "--preload",
+            "batch.slow",
+        ]
+        self.workers.append(self._start(*arguments, "--local-directory", self.place))
+
+    def lose(self):
+        """Kills a worker."""
+        worker = self.workers.pop()
+        worker.kill()
+        worker.wait()
+
+    def batch(self, *arguments):
+        """Starts loiter batch on this cluster, in parts of 500 rows."""
+        command = [sys.executable, "-c", BATCH, "batch", *arguments, *OPTIONS, "--scheduler", self.address]
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, cwd=self.place, env=ENVIRONMENT)
+        self.stack.callback(self._end, process)
+        return process
+
+    def _start(self, *arguments):
+        command = [sys.executable, "-m", "dask", *map(str, arguments)]
+        log = self.stack.enter_context((self.place / f"log-{arguments[0]}-{len(self.workers)}").open("w"))
+        process = subprocess.Popen(command, stdout=log, stderr=log, cwd=self.place, env=ENVIRONMENT)
+        self.stack.callback(self._end, process)
+        return process
+
+    @staticmethod
+    def _end(process):
+        process.kill()
+        process.wait()
+        if process.stderr:
+            process.stderr.close()
+
+
+@pytest.fixture
+def place(tmp_path):
+    """The folder that everybody works in."""
+    return tmp_path
+
+
+@pytest.fixture
+def cluster_here(place):
+    """A cluster without workers yet."""
+    with ExitStack() as stack:
+        yield Cluster(stack, place)
+
+
+def expected(source, target):
+    """What a local run writes."""
+    loiter.batch.run(source, target, orbit=ORBIT, aircraft=UAV)
+    return target.read_bytes()
+
+
+def wait_for_parts(process, at, count):
+    while len(list(at.glob("part-*.arrow"))) < count:
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.02)
+
+
+@pytest.fixture(autouse=True)
+def _small_parts(monkeypatch):
+    for module, name, value in [(tables, "PART_ROWS", 500), (parts, "PART_ROWS", 500), (tables, "BATCH_ROWS", 100)]:
+        monkeypatch.setattr(module, name, value)
+
+
+def test_without_a_scheduler_one_sentence_says_so(tmp_path):
+    write(poses(5), tmp_path / "in.parquet")
+    command = [Path(sys.executable).with_name("loiter"), "batch", "in.parquet", "out.parquet", *OPTIONS]
+    done = subprocess.run(
+        [*command, "--scheduler", "tcp://127.0.0.1:9"], capture_output=True, text=True, cwd=tmp_path, env=ENVIRONMENT
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "loiter: --scheduler is 'tcp://127.0.0.1:9': no Dask scheduler answers there\n"
+    assert [path.name for path in tmp_path.iterdir()] == ["in.parquet"]
+
+
+def test_a_scheduler_without_workers_is_told(cluster_here, place):
+    write(poses(5), place / "in.parquet")
+    process = cluster_here.batch("in.parquet", "out.parquet")
+    _, err = process.communicate()
+    assert process.returncode == 2
+    assert err == f"loiter: --scheduler is {cluster_here.address!r}: it has no workers\n"
+    assert not (place / "out.parquet.parts").exists()
+
+
+def test_a_lost_workers_parts_are_done_by_the_others(cluster_here, place):
+    write(poses(20_000), place / "in.parquet", 500)
+    bytes_here = expected(place / "in.parquet", place / "out-here.parquet")
+    for _ in range(2):
+        cluster_here.work()
+    process = cluster_here.batch("in.parquet", "out.parquet")
+    wait_for_parts(process, place / "out.parquet.parts", 6)
+    cluster_here.lose()
+    _, err = process.communicate()
+    assert process.returncode == 0, err
+    assert err.startswith("20,000 rows in ")
+    assert (place / "out.parquet").read_bytes() == bytes_here
+    assert not (place / "out.parquet.parts").exists()
+
+
+def test_csv_is_read_in_here_and_solved_there(cluster_here, place):
+    write(poses(2000), place / "in.csv")
+    bytes_here = expected(place / "in.csv", place / "out-here.csv.gz")
+    cluster_here.work()
+    process = cluster_here.batch("in.csv", "out.csv.gz")
+    _, err = process.communicate()
+    assert process.returncode == 0, err
+    assert (place / "out.csv.gz").read_bytes() == bytes_here
+
+
+def test_a_job_begun_on_a_cluster_goes_on_without_it(cluster_here, place):
+    write(poses(20_000), place / "in.parquet", 500)
+    bytes_here = expected(place / "in.parquet", place / "out-here.parquet")
+    cluster_here.work()
+    process = cluster_here.batch("in.parquet", "out.parquet")
+    wait_for_parts(process, place / "out.parquet.parts", 3)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate()
+    assert process.returncode == 130
+    [line] = err.splitlines()
+    assert line.startswith("loiter: interrupted; ")
+    # What a worker still had in hand may yet be finished; it is of the same job.
+    summary = loiter.batch.run(place / "in.parquet", place / "out.parquet", orbit=ORBIT, aircraft=UAV)
+    assert summary.resumed_parts >= 3
+    assert (place / "out.parquet").read_bytes() == bytes_here
+
+
+def test_a_worker_that_sees_other_files_cannot_take_part(tmp_path):
+    source = write(poses(5), tmp_path / "in.parquet")
+    asked = job.request(source, tmp_path / "out.parquet", shared(ORBIT, None, UAV), 0.0)
+    with folder.held(asked.target) as here:
+        description = {"some": "job"}
+        folder.resumed(here, description)
+        one = parts.Job(source, here, asked.columns, asked.schema, folder.digest(description))
+        size = source.stat().st_size
+        assert cluster._sight(one, source, size, loiter.__version__) == ""
+        assert "has loiter" in cluster._sight(one, source, size, "0.0.1")
+        assert f"does not see {source}" in cluster._sight(one, source, size + 1, loiter.__version__)
+        assert "does not see" in cluster._sight(one, tmp_path / "no.parquet", size, loiter.__version__)
+        folder.resumed(here, {"another": "job"})
+        (here / folder.DESCRIPTION).unlink()
+        assert f"does not see {here}" in cluster._sight(one, source, size, loiter.__version__)
+
+
+def test_when_every_worker_is_lost_another_may_join(cluster_here, place):
+    write(poses(10_000), place / "in.parquet", 500)
+    bytes_here = expected(place / "in.parquet", place / "out-here.parquet")
+    cluster_here.work()
+    process = cluster_here.batch("in.parquet", "out.parquet")
+    wait_for_parts(process, place / "out.parquet.parts", 2)
+    cluster_here.lose()
+    cluster_here.work()
+    _, err = process.communicate()
+    assert process.returncode == 0, err
+    assert (place / "out.parquet").read_bytes() == bytes_here
+
+
+def test_a_scheduler_that_goes_is_told_and_what_is_finished_is_kept(cluster_here, place):
+    write(poses(20_000), place / "in.parquet", 500)
+    cluster_here.work()
+    process = cluster_here.batch("in.parquet", "out.parquet")
+    wait_for_parts(process, place / "out.parquet.parts", 2)
+    cluster_here.scheduler.kill()
+    _, err = process.communicate()
+    assert process.returncode == 2
+    [line] = err.splitlines()
+    assert line.startswith("loiter: the job stopped: ")
+    assert "finished stay in" in line

@@ -1,0 +1,39 @@
+"""What tables need is loaded when a table is asked for."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+import loiter
+from batch.making import scenes, write
+
+HEAVY = {"pyarrow", "dask", "distributed", "pandas"}
+
+
+def loaded_by(code):
+    code += "\nimport json, sys\nprint(json.dumps(list(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return HEAVY & set(json.loads(done.stdout.splitlines()[-1]))
+
+
+@pytest.mark.parametrize(
+    "code",
+    ["import loiter\nloiter.batch.run", "from loiter.cli.app import main\nmain(['--help'])", "import loiter.cli.batch"],
+)
+def test_naming_it_loads_nothing_heavy(code):
+    assert loaded_by(code) == set()
+
+
+def test_a_parquet_file_needs_neither_dask_nor_pandas(tmp_path):
+    source = write(scenes(20), tmp_path / "in.parquet")
+    code = f"import loiter\nloiter.batch.run({str(source)!r}, {str(tmp_path / 'out.parquet')!r})"
+    assert loaded_by(code) == {"pyarrow"}
+
+
+def test_the_room_is_there_and_documented():
+    for name in loiter.batch.__all__:
+        assert getattr(loiter.batch, name).__doc__
+    with pytest.raises(AttributeError, match="no attribute 'fly'"):
+        loiter.batch.fly  # noqa: B018

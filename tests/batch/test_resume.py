@@ -1,0 +1,296 @@
+"""A job that is stopped, by whatever means, goes on from its finished parts and gives the same bytes."""
+
+import errno
+import json
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from random import SystemRandom
+
+import pytest
+
+import loiter
+from batch.making import OPTIONS, ORBIT, UAV, poses, write
+from loiter.batch import folder, parts, tables
+from loiter.cli.app import main
+from loiter.errors import InvalidArgument, Unfinished
+
+HERE = Path(__file__).parent
+ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])}
+GIVEN = {"orbit": ORBIT, "aircraft": UAV}
+
+
+@pytest.fixture(autouse=True)
+def _small_parts(monkeypatch):
+    for module, name, value in [(tables, "PART_ROWS", 100), (parts, "PART_ROWS", 100), (tables, "BATCH_ROWS", 40)]:
+        monkeypatch.setattr(module, name, value)
+
+
+@pytest.fixture
+def job(tmp_path, monkeypatch):
+    """A job of ten parts in the current folder: its command line, and what its output must be."""
+    monkeypatch.chdir(tmp_path)
+    write(poses(1000), Path("in.parquet"), 100)
+    loiter.batch.run("in.parquet", "expected.parquet", **GIVEN)
+    return ["batch", "in.parquet", "out.parquet", *OPTIONS], Path("expected.parquet").read_bytes()
+
+
+def stop_after(monkeypatch, count, error):
+    """Lets a job come to grief after some parts."""
+    solve, done = parts.solve_part, []
+
+    def solve_part(job, part, *tick):
+        if len(done) == count:
+            raise error
+        done.append(part)
+        solve(job, part, *tick)
+
+    monkeypatch.setattr("loiter.batch.runner.solve_part", solve_part)
+
+
+def names(path):
+    return sorted(p.name for p in Path(path).iterdir())
+
+
+def script(*arguments):
+    """Runs killing.py; a failure shows what it said, the seed among its arguments."""
+    command = [sys.executable, HERE / "killing.py", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, (command, done.stdout, done.stderr)
+
+
+@pytest.mark.parametrize(
+    ("source", "target", "times"),
+    [("in.parquet", "out.parquet", 20), ("in.csv", "out.csv.gz", 8)],
+)
+def test_killed_at_any_moment_it_goes_on_to_the_same_bytes(tmp_path, source, target, times):
+    write(poses(20_000), tmp_path / source, 250)
+    script("kill", tmp_path / source, tmp_path / target, SystemRandom().randrange(10**6), times, *OPTIONS)
+
+
+def test_processes_that_race_for_one_output_do_not_spoil_it(tmp_path):
+    write(poses(5000), tmp_path / "in.parquet", 250)
+    script("race", tmp_path / "in.parquet", tmp_path / "out.parquet", 0, 15, *OPTIONS)
+
+
+def test_a_second_process_is_refused(job, capsys):
+    arguments, _ = job
+    with folder.held(Path("out.parquet")):
+        before = names(".")
+        assert main(arguments) == 2
+        assert names(".") == before
+    assert capsys.readouterr().err == "loiter: OUT is 'out.parquet': another loiter batch is at work on it\n"
+
+
+def test_a_full_disk_keeps_the_finished_parts(job, capsys, monkeypatch):
+    arguments, expected = job
+    Path("out.parquet").write_bytes(b"older")
+    with monkeypatch.context() as patch:
+        stop_after(patch, 4, OSError(errno.ENOSPC, "Error writing bytes to file"))
+        assert main([*arguments, "--workers", "1"]) == 2
+    err = capsys.readouterr().err
+    kept = f"4 parts that are finished stay in {Path('out.parquet.parts').absolute()}"
+    assert err == f"loiter: the job stopped: No space left on device; {kept}, and the same command goes on from there\n"
+    assert Path("out.parquet").read_bytes() == b"older"
+    assert names("out.parquet.parts") == ["job.json", "lock", *(f"part-{i:05}.arrow" for i in range(4))]
+    assert main(arguments) == 0
+    assert "going on from 4 of 10 parts\n1,000 rows, 600 of them in this run," in capsys.readouterr().err
+    assert Path("out.parquet").read_bytes() == expected
+    assert names(".") == ["expected.parquet", "in.parquet", "out.parquet"]
+
+
+LIMITED = """
+import resource, sys
+from batch.killing import small
+from loiter.cli.app import main
+small()
+resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
+sys.exit(main({arguments!r}))
+"""
+
+
+@pytest.mark.parametrize(
+    ("source", "target"),
+    [("in.parquet", "out.parquet"), ("in.parquet", "out.csv"), ("in.parquet", "out.csv.gz"), ("in.csv", "out.parquet")],
+)
+@pytest.mark.parametrize(("limit", "kept"), [(20_000, "no part was"), (100_000, r"\d+ parts? that")])
+def test_files_that_may_grow_no_further_are_told(tmp_path, source, target, limit, kept):
+    # A part of 500 rows takes some 50 kB, the output 500 kB, a CSV file as Parquet 300 kB.
+    write(poses(5000), tmp_path / source, 500)
+    arguments = ["batch", source, target, *OPTIONS]
+    code = LIMITED.format(limit=limit, arguments=arguments)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, env=ENVIRONMENT)
+    assert (done.returncode, done.stdout) == (2, "")
+    [line] = done.stderr.splitlines()
+    parts_fit = limit > 50_000 and source == "in.parquet"
+    assert re.match(f"loiter: the job stopped: File too large; {kept if parts_fit else 'no part was'}", line)
+    assert names(tmp_path) == sorted([source, *([f"{target}.parts"] * parts_fit)])
+
+
+INTERRUPTED = """
+import sys, time
+from batch.killing import small
+from loiter.batch import parts
+from loiter.cli.app import main
+answered = parts.answered
+def slowly(*arguments):
+    time.sleep(0.02)
+    return answered(*arguments)
+parts.answered = slowly
+small()
+sys.exit(main({arguments!r}))
+"""
+
+
+@pytest.mark.parametrize("workers", ["1", "3"])
+def test_an_interrupt_is_told_and_what_is_finished_is_kept(tmp_path, workers):
+    write(poses(50_000), tmp_path / "in.parquet", 500)
+    arguments = ["batch", "in.parquet", "out.parquet", *OPTIONS]
+    code = INTERRUPTED.format(arguments=[*arguments, "--workers", workers])
+    command = [sys.executable, "-c", code]
+    child = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, cwd=tmp_path, env=ENVIRONMENT)
+    while not (tmp_path / "out.parquet.parts" / "part-00004.arrow").exists():
+        assert child.poll() is None, child.stderr.read()
+        time.sleep(0.01)
+    child.send_signal(signal.SIGINT)
+    _, err = child.communicate()
+    assert child.returncode == 130
+    [line] = err.splitlines()
+    assert line.startswith("loiter: interrupted; ")
+    assert "parts that are finished stay in" in line
+    left = names(tmp_path / "out.parquet.parts")
+    assert left[:2] == ["job.json", "lock"]
+    assert all(name.endswith(".arrow") for name in left[2:])
+    assert "out.parquet" not in names(tmp_path)
+
+
+def test_an_interrupt_before_any_part_leaves_nothing(job, capsys, monkeypatch):
+    arguments, _ = job
+    stop_after(monkeypatch, 0, KeyboardInterrupt())
+    assert main(arguments) == 130
+    assert capsys.readouterr().err == "loiter: interrupted; no part was finished\n"
+    assert names(".") == ["expected.parquet", "in.parquet"]
+
+
+def changed_input():
+    write(poses(1000, seed=9), Path("in.parquet"), 100)
+
+
+def touched_input():
+    os.utime("in.parquet", (1, 1))
+
+
+def other_program(monkeypatch):
+    monkeypatch.setattr(loiter, "__version__", "9.9.9")
+
+
+STALE = {
+    "another option": (lambda patch: None, ["--turn", "cw"]),
+    "another tolerance": (lambda patch: None, ["--tolerance", "1"]),
+    "another input": (lambda patch: changed_input(), []),
+    "a later input": (lambda patch: touched_input(), []),
+    "another program": (other_program, []),
+    "a damaged description": (lambda patch: Path("out.parquet.parts/job.json").write_text("{"), []),
+    "no description": (lambda patch: Path("out.parquet.parts/job.json").unlink(), []),
+}
+
+
+@pytest.mark.parametrize(("change", "options"), STALE.values(), ids=STALE)
+def test_parts_of_another_job_are_not_mixed_in(job, capsys, monkeypatch, change, options):
+    arguments, _ = job
+    with monkeypatch.context() as patch:
+        stop_after(patch, 4, OSError(errno.ENOSPC, ""))
+        assert main(arguments) == 2
+    change(monkeypatch)
+    assert main(["batch", "in.parquet", "expected.parquet", *OPTIONS, *options]) == 0
+    capsys.readouterr()
+    assert main([*arguments, *options]) == 0
+    note, *_ = capsys.readouterr().err.splitlines()
+    assert note == "starting over: the parts in out.parquet.parts were of another input, option or program"
+    assert Path("out.parquet").read_bytes() == Path("expected.parquet").read_bytes()
+
+
+def test_the_description_says_what_the_parts_depend_on(job, monkeypatch):
+    stop_after(monkeypatch, 1, OSError(errno.EIO, ""))
+    with pytest.raises(Unfinished, match="Input/output error; 1 part that is finished stays in"):
+        loiter.batch.run("in.parquet", "out.parquet", workers=1, **GIVEN)
+    description = json.loads(Path("out.parquet.parts/job.json").read_text())
+    assert description["program"] == loiter.__version__
+    assert description["size"] == Path("in.parquet").stat().st_size
+    assert description["columns"]["shared"] == {
+        "orbit_east_m": 0.0,
+        "orbit_north_m": 0.0,
+        "orbit_radius_m": 80.0,
+        "airspeed_m_s": 18.0,
+        "max_bank_deg": 35.0,
+    }
+
+
+def test_a_part_that_lost_its_end_is_done_again(job, monkeypatch):
+    arguments, expected = job
+    with monkeypatch.context() as patch:
+        stop_after(patch, 4, OSError(errno.EIO, ""))
+        assert main([*arguments, "--workers", "1"]) == 2
+    for name, size in {"part-00001.arrow": 0, "part-00002.arrow": 3000}.items():
+        os.truncate(f"out.parquet.parts/{name}", size)
+    summary = loiter.batch.run("in.parquet", "out.parquet", **GIVEN)
+    assert summary.resumed_parts == 2
+    assert Path("out.parquet").read_bytes() == expected
+
+
+def test_an_input_that_changes_meanwhile_is_told(job, monkeypatch):
+    solve = parts.solve_part
+
+    def solve_part(job, part, *tick):
+        solve(job, part, *tick)
+        os.utime("in.parquet", (1, 1))
+
+    monkeypatch.setattr("loiter.batch.runner.solve_part", solve_part)
+    with pytest.raises(InvalidArgument, match="it changed while it was read"):
+        loiter.batch.run("in.parquet", "out.parquet", **GIVEN)
+    assert not Path("out.parquet").exists()
+
+
+def test_files_of_others_in_the_folder_are_left_alone(job):
+    arguments, expected = job
+    Path("out.parquet.parts").mkdir()
+    Path("out.parquet.parts/mine.txt").write_text("mine")
+    assert main(arguments) == 0
+    assert Path("out.parquet").read_bytes() == expected
+    assert names("out.parquet.parts") == ["mine.txt"]
+
+
+def test_a_worker_that_outlives_its_job_writes_nothing(job):
+    description = {"of": "another job"}
+    Path("out.parquet.parts").mkdir()
+    assert folder.resumed(Path("out.parquet.parts"), description) is None
+    columns = loiter.batch.columns.columns(
+        "source",
+        tables.parquet_schema("source", Path("in.parquet")),
+        loiter.batch.columns.shared(ORBIT, None, UAV),
+        0.0,
+    )
+    schema = loiter.batch.outputs.part_schema(tables.parquet_schema("source", Path("in.parquet")))
+    for digest, written in [("stale", []), (folder.digest(description), ["part-00000.arrow"])]:
+        late = parts.Job(Path("in.parquet"), Path("out.parquet.parts"), columns, schema, digest)
+        parts.solve_part(late, tables.parts_of(Path("in.parquet"), 100)[0])
+        assert names("out.parquet.parts") == ["job.json", *written]
+
+
+def test_limits_of_this_process_are_as_they_were():
+    assert resource.getrlimit(resource.RLIMIT_FSIZE)[0] == resource.RLIM_INFINITY
+
+
+def test_a_table_that_is_damaged_further_on_is_told(job, capsys):
+    arguments, _ = job
+    content = bytearray(Path("in.parquet").read_bytes())
+    content[len(content) // 2 : len(content) // 2 + 400] = bytes(400)
+    Path("in.parquet").write_bytes(content)
+    assert main(arguments) == 2
+    [line] = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"loiter: the job stopped: {Path('in.parquet').absolute()} cannot be read, ")

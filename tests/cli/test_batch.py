@@ -1,0 +1,213 @@
+"""`loiter batch`: refusals before any work, the closing summary, help."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pyarrow as pa
+import pytest
+
+from batch.making import OPTIONS, poses, read, scenes, write
+from loiter.cli.app import main
+
+SCRIPT = Path(sys.executable).with_name("loiter")
+OPTION = {"orbit": ["--orbit", "0", "0", "80"], "airspeed": ["--airspeed", "18"], "bank": ["--bank", "35"]}
+
+
+def without(name):
+    """The usual options but one."""
+    return [word for option, words in OPTION.items() if option != name for word in words]
+
+
+def column(name, values):
+    return lambda table: table.append_column(name, pa.array(values))
+
+
+def retyped(name, type_):
+    return lambda table: table.set_column(table.column_names.index(name), name, pa.nulls(5, type_))
+
+
+def dropped(name):
+    return lambda table: table.drop_columns([name])
+
+
+def same(table):
+    return table
+
+
+ZERO = [0.0] * 5
+TABLES = {
+    "missing column": (dropped("heading_deg"), OPTIONS, ["IN", "no column heading_deg"]),
+    "text for numbers": (retyped("east_m", pa.string()), OPTIONS, ["IN", "column east_m of string", "numbers"]),
+    "dates for numbers": (retyped("north_m", pa.timestamp("s")), OPTIONS, ["column north_m of timestamp", "numbers"]),
+    "numbers for text": (column("turn", [1] * 5), OPTIONS, ["IN", "column turn of int64", "text"]),
+    "name of the output": (column("duration_s", ZERO), OPTIONS, ["IN", "column duration_s", "another"]),
+    "status already": (column("status", ["ok"] * 5), OPTIONS, ["IN", "column status"]),
+    "name twice": (column("id", ZERO), OPTIONS, ["IN", "two columns named 'id'"]),
+    "part of an orbit": (column("orbit_east_m", ZERO), without("orbit"), ["orbit_east_m but no orbit_north_m and no"]),
+    "no orbit": (same, without("orbit"), ["--orbit is needed", "no column orbit_east_m"]),
+    "no airspeed": (same, without("airspeed"), ["--airspeed is needed", "no column airspeed_m_s"]),
+    "no limit": (same, without("bank"), ["--bank or another turn limit is needed", "min_turn_radius_m"]),
+    "two limits": (
+        lambda t: column("max_bank_deg", ZERO)(column("min_turn_radius_m", ZERO)(t)),
+        without("bank"),
+        ["IN has the columns max_bank_deg and min_turn_radius_m"],
+    ),
+    "orbit twice": (column("orbit_east_m", ZERO), OPTIONS, ["--orbit is given, and by", "orbit_east_m"]),
+    "turn twice": (column("turn", ["cw"] * 5), [*OPTIONS, "--turn", "cw"], ["--turn is given, and by", "column turn"]),
+    "airspeed twice": (column("airspeed_m_s", ZERO), OPTIONS, ["--airspeed is given, and by"]),
+    "limit twice": (column("max_bank_deg", ZERO), OPTIONS, ["--bank is given, and", "max_bank_deg"]),
+    "another limit": (column("max_turn_rate_deg_s", ZERO), OPTIONS, ["--bank is given, and", "max_turn_rate_deg_s"]),
+}
+VALUES = {
+    "bank": ([*without("bank"), "--bank", "90"], ["--bank is 90.0", "between 0 and 90"]),
+    "airspeed": ([*without("airspeed"), "--airspeed", "-1"], ["--airspeed is -1.0"]),
+    "radius": ([*without("orbit"), "--orbit", "0", "0", "0"], ["--orbit RADIUS is 0.0"]),
+    "centre": ([*without("orbit"), "--orbit", "nan", "0", "80"], ["--orbit EAST is nan"]),
+    "orbit of two": ([*without("orbit"), "--orbit", "0", "80"], ["--orbit"]),
+    "two options": ([*OPTIONS, "--turn-rate", "20"], ["--bank and --turn-rate"]),
+    "turn": ([*OPTIONS, "--turn", "left"], ["--turn", "left"]),
+    "tolerance": ([*OPTIONS, "--tolerance", "-1"], ["--tolerance is -1.0"]),
+    "no workers": ([*OPTIONS, "--workers", "0"], ["--workers is 0", "at least 1"]),
+    "half a worker": ([*OPTIONS, "--workers", "1.5"], ["--workers is '1.5'", "whole number"]),
+    "workers of both kinds": ([*OPTIONS, "--workers", "2", "--scheduler", "tcp://127.0.0.1:1"], ["--workers is given"]),
+    "no address": ([*OPTIONS, "--scheduler", "somewhere"], ["--scheduler is 'somewhere'", "tcp://"]),
+    "no such option": ([*OPTIONS, "--speed", "3"], ["--speed"]),
+    "one word too many": ([*OPTIONS, "more"], ["more"]),
+}
+FILES = {
+    "unknown input": ("in.txt", "out.parquet", ["IN is 'in.txt'", ".parquet, .csv or .csv.gz"]),
+    "unknown output": ("in.parquet", "out.xlsx", ["OUT is 'out.xlsx'", ".parquet, .csv or .csv.gz"]),
+    "no name": ("in.parquet", ".csv", ["OUT is '.csv'"]),
+    "no input": ("no.parquet", "out.parquet", ["IN is 'no.parquet'", "No such file or directory"]),
+    "no csv": ("no.csv", "out.parquet", ["IN is 'no.csv'", "No such file or directory"]),
+    "no csv.gz": ("no.csv.gz", "out.parquet", ["IN is 'no.csv.gz'", "No such file or directory"]),
+    "a folder": ("folder.parquet", "out.parquet", ["IN is 'folder.parquet'", "it cannot be read"]),
+    "a folder of csv": ("folder.csv", "out.parquet", ["IN is 'folder.csv'", "it cannot be read"]),
+    "not parquet": ("in.csv.parquet", "out.parquet", ["IN is 'in.csv.parquet'", "it cannot be read"]),
+    "empty": ("empty.csv", "out.parquet", ["IN is 'empty.csv'", "it cannot be read"]),
+    "in place": ("in.parquet", "in.parquet", ["OUT is 'in.parquet'", "that is the input"]),
+    "in place by a link": ("in.parquet", "link.parquet", ["OUT is 'link.parquet'", "that is the input"]),
+    "in place by another way": ("in.parquet", "folder.csv/../in.parquet", ["that is the input"]),
+    "onto a folder": ("in.parquet", "folder.csv", ["OUT is 'folder.csv'", "a folder"]),
+    "no folder": ("in.parquet", "no/out.parquet", ["OUT is 'no/out.parquet'", "No such file or directory"]),
+    "below a file": ("in.parquet", "empty.csv/out.parquet", ["OUT is", "Not a directory"]),
+    "parts are a file": ("in.parquet", "taken.csv", ["OUT is 'taken.csv'", "taken.csv.parts", "File exists"]),
+    "lists as csv": ("lists.parquet", "out.csv", ["OUT cannot hold the column tags of list", "Parquet can"]),
+    "bytes as csv": ("bytes.parquet", "out.csv.gz", ["OUT cannot hold the column raw of binary"]),
+}
+
+
+@pytest.fixture
+def refused(capsys, tmp_path, monkeypatch):
+    """Runs a request that must be refused in a folder that must stay as it is; gives the sentence."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments):
+        before = sorted((str(p), p.is_dir() or p.read_bytes()) for p in tmp_path.rglob("*"))
+        status = main(["batch", *arguments])
+        out, err = capsys.readouterr()
+        assert (status, out) == (2, "")
+        assert sorted((str(p), p.is_dir() or p.read_bytes()) for p in tmp_path.rglob("*")) == before
+        [line] = err.splitlines()
+        assert line.startswith("loiter: ")
+        jargon = ["airspeed_m_s is", "max_bank_deg is", "source", "target", "Traceback", "Error"]
+        assert [word for word in jargon if word in line] == []
+        return line
+
+    return run
+
+
+@pytest.mark.parametrize(("change", "options", "named"), TABLES.values(), ids=TABLES)
+def test_a_table_that_does_not_fit_is_refused(refused, change, options, named):
+    write(change(poses(5)), Path("in.parquet"))
+    line = refused("in.parquet", "out.parquet", *options)
+    assert [word for word in named if word not in line] == [], line
+
+
+@pytest.mark.parametrize(("options", "named"), VALUES.values(), ids=VALUES)
+def test_a_bad_option_is_refused(refused, options, named):
+    write(poses(5), Path("in.parquet"))
+    line = refused("in.parquet", "out.parquet", *options)
+    assert [word for word in named if word not in line] == [], line
+
+
+@pytest.mark.parametrize(("source", "target", "named"), FILES.values(), ids=FILES)
+def test_a_file_that_cannot_be_used_is_refused(refused, source, target, named):
+    write(poses(5), Path("in.parquet"))
+    write(column("tags", [[1]] * 5)(poses(5)), Path("lists.parquet"))
+    write(column("raw", [b"\xff"] * 5)(poses(5)), Path("bytes.parquet"))
+    Path("link.parquet").symlink_to("in.parquet")
+    Path("in.csv.parquet").write_text("east_m,north_m,heading_deg\n0,0,0\n")
+    for name in ("empty.csv", "taken.csv.parts"):
+        Path(name).touch()
+    for name in ("folder.parquet", "folder.csv"):
+        Path(name).mkdir()
+    line = refused(source, target, *OPTIONS)
+    assert [word for word in named if word not in line] == [], line
+
+
+@pytest.mark.parametrize("arguments", [[], ["in.parquet"]])
+def test_both_files_are_needed(refused, arguments):
+    assert ("OUT" if arguments else "IN") in refused(*arguments)
+
+
+def test_a_csv_table_is_checked_by_its_header(refused):
+    Path("in.csv").write_text("east_m,north_m\n0,0\n")
+    assert "IN has no column heading_deg" in refused("in.csv", "out.csv", *OPTIONS)
+    Path("in.csv").write_text("east_m,north_m,heading_deg,east_m\n0,0,0,0\n")
+    assert "IN has two columns named 'east_m'" in refused("in.csv", "out.csv", *OPTIONS)
+
+
+def test_a_missing_package_is_told(refused, monkeypatch):
+    write(poses(5), Path("in.parquet"))
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    line = refused("in.parquet", "out.parquet", *OPTIONS, "--scheduler", "tcp://127.0.0.1:1")
+    assert line == 'loiter: tables need distributed: pip install "loiter[cluster]" brings it'
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    assert "tables need pyarrow" in refused("in.parquet", "out.parquet", *OPTIONS)
+
+
+def test_the_summary_counts_what_is_bad(capsys, tmp_path):
+    table = scenes(1200).to_pandas()
+    table.loc[:2, "heading_deg"] = float("nan")
+    table.loc[3:4, "turn"] = "left"
+    table.loc[5:5, "orbit_radius_m"] = 10.0
+    table.to_parquet(tmp_path / "in.parquet")
+    assert main(["batch", str(tmp_path / "in.parquet"), str(tmp_path / "out.parquet")]) == 0
+    out, err = capsys.readouterr()
+    first, *bad = err.splitlines()
+    assert out == ""
+    assert first.startswith("1,200 rows in ")
+    assert first.endswith(" rows/s")
+    assert bad == [
+        "1 radius_too_small: the circle is tighter than the minimum turn radius: R must be at least 1",
+        "2 bad_turn: the turn must be cw, ccw or either",
+        "3 bad_pose: east, north and heading must be finite numbers",
+    ]
+    assert sum(row["status"] == "ok" for row in read(tmp_path / "out.parquet")) == 1194
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["in.parquet", "out.parquet"]
+
+
+def test_an_older_output_is_replaced(capsys, tmp_path):
+    (tmp_path / "out.csv").write_text("older")
+    write(poses(5), tmp_path / "in.parquet")
+    assert main(["batch", str(tmp_path / "in.parquet"), str(tmp_path / "out.csv"), *OPTIONS, "--turn", "ccw"]) == 0
+    assert {row["turn"] for row in read(tmp_path / "out.csv")} == {"ccw"}
+
+
+def test_help_names_every_column_and_option(capsys):
+    assert main(["batch", "--help"]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    names = ["east_m", "orbit_radius_m", "max_turn_rate_deg_s", "join_heading_deg", "duration_3_s", "OUT.parts"]
+    options = ["--orbit", "--turn", "--airspeed", "--bank", "--turn-radius", "--turn-rate", "--tolerance", "--workers"]
+    assert [word for word in [*names, *options, "--scheduler", "IN", "OUT"] if word not in text] == []
+
+
+def test_the_installed_program_solves_a_table(tmp_path):
+    write(poses(5), tmp_path / "in.csv")
+    command = [SCRIPT, "batch", "in.csv", "out.csv", *OPTIONS]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (0, "")
+    assert done.stderr.startswith("5 rows in ")
+    assert len(read(tmp_path / "out.csv")) == 5
