@@ -66,16 +66,16 @@ def script(*arguments):
 
 @pytest.mark.parametrize(
     ("source", "target", "times"),
-    [("in.parquet", "out.parquet", 20), ("in.csv", "out.csv.gz", 8)],
+    [("in.parquet", "out.parquet", 20), ("in.csv", "out.csv.gz", 5)],
 )
 def test_killed_at_any_moment_it_goes_on_to_the_same_bytes(tmp_path, source, target, times):
-    write(poses(20_000), tmp_path / source, 250)
+    write(poses(10_000), tmp_path / source, 250)
     script("kill", tmp_path / source, tmp_path / target, SystemRandom().randrange(10**6), times, *OPTIONS)
 
 
 def test_processes_that_race_for_one_output_do_not_spoil_it(tmp_path):
     write(poses(5000), tmp_path / "in.parquet", 250)
-    script("race", tmp_path / "in.parquet", tmp_path / "out.parquet", 0, 15, *OPTIONS)
+    script("race", tmp_path / "in.parquet", tmp_path / "out.parquet", 0, 8, *OPTIONS)
 
 
 def test_a_second_process_is_refused(job, capsys):

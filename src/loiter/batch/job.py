@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
@@ -160,14 +159,7 @@ def _written(
     path = job.folder / folder.OUTPUT
     with outputs.output(asked.target_kind, path, schema, dictionaries) as write, crew as hands:
         counts = work(job, parts, finished, hands, lambda part: append_part(job, part, write, meter.tick), look)
-    _flush(path)
     return {name: count for code, name in enumerate(STATUSES) if (count := sum(int(c[code]) for c in counts))}
-
-
-def _flush(path: Path) -> None:
-    """See that the output is on the disk before the parts go."""
-    with path.open("rb") as file:
-        os.fsync(file.fileno())
 
 
 @contextmanager
