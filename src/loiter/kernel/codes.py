@@ -46,6 +46,8 @@ class Status(IntEnum):
     RADIUS_TOO_SMALL = 2
     OUT_OF_RANGE = 3
     BAD_TOLERANCE = 4
+    WIND_TOO_STRONG = 5
+    NOT_CONVERGED = 6
 
     @property
     def message(self) -> str:
@@ -59,4 +61,6 @@ _MESSAGES = {
     Status.RADIUS_TOO_SMALL: "the circle is tighter than the minimum turn radius: R must be at least 1",
     Status.OUT_OF_RANGE: "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn",
     Status.BAD_TOLERANCE: "the tolerance must be zero or positive, and below 2**52 turn radii",
+    Status.WIND_TOO_STRONG: "the wind, relative to the circle, is as fast as the aircraft or faster: |w| must be below 1",
+    Status.NOT_CONVERGED: "no maneuver was found that meets the circle",
 }
