@@ -21,6 +21,11 @@ def rotation(ax: float, ay: float, bx: float, by: float) -> float:
     return turn_of(ax * by - ay * bx, ax * bx + ay * by)
 
 
+def turned_by(u: int, ax: float, ay: float, bx: float, by: float) -> float:
+    """Duration, in [0, 2 pi], of the arc of control u = +1 or -1 that takes the heading (ax, ay) to (bx, by)."""
+    return turn_of(u * (ax * by - ay * bx), ax * bx + ay * by)
+
+
 def snapped(angle: float, radius: float, slack: float) -> float:
     """The rotation `angle` in [0, 2 pi], or 0 where it lacks at most `slack` of arc length at `radius` to a full turn.
 

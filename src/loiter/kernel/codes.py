@@ -47,7 +47,8 @@ class Status(IntEnum):
     OUT_OF_RANGE = 3
     BAD_TOLERANCE = 4
     WIND_TOO_STRONG = 5
-    NOT_CONVERGED = 6
+    NOT_HELD = 6
+    NOT_CONVERGED = 7
 
     @property
     def message(self) -> str:
@@ -57,10 +58,11 @@ class Status(IntEnum):
 
 _MESSAGES = {
     Status.OK: "solved",
-    Status.NOT_FINITE: "the state or the radius is nan or infinite",
+    Status.NOT_FINITE: "the state, the radius or the wind is nan or infinite",
     Status.RADIUS_TOO_SMALL: "the circle is tighter than the minimum turn radius: R must be at least 1",
     Status.OUT_OF_RANGE: "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn",
     Status.BAD_TOLERANCE: "the tolerance must be zero or positive, and below 2**52 turn radii",
-    Status.WIND_TOO_STRONG: "the wind, relative to the circle, is as fast as the aircraft or faster: |w| must be below 1",
-    Status.NOT_CONVERGED: "no maneuver was found that meets the circle",
+    Status.WIND_TOO_STRONG: "the wind relative to the circle is as fast as the aircraft: |w| must be below 1",
+    Status.NOT_HELD: "the circle is too tight to be held in this wind: R must be at least (1 + |w|)**2",
+    Status.NOT_CONVERGED: "no maneuver was found that ends on the circle when flown",
 }

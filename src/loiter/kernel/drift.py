@@ -1,204 +1,188 @@
 """The fastest way onto a circle that the air drifts past: constant wind, or a circle that moves (docs/wind.md).
 
-All is relative to the circle: the vehicle is at (x, y) from its centre, heads along (c, s) and moves with (c, s) + w.
-R is the circle's radius; R >= (1 + |w|)^2 lets the vehicle hold it all round. Azimuths along the circle are counted
-in the direction of the hold from where it heads against the wind, so that both sides are one case.
+All is relative to the circle: the vehicle is at (x, y) from its centre, heads along the unit vector (c, s) and moves
+with (c, s) + w, |w| < 1. The point of joining is told by its phase (`hold`); for each the first way to it is known
+(`intercept`), and the fastest of them is found by branch and bound.
 """
 
-from math import atan2, cos, hypot, inf, isfinite, pi, sin, sqrt
+from math import atan2, hypot, inf, isfinite, nan
 
 from loiter.kernel.angles import TWO_PI
-from loiter.kernel.codes import Side, Status
-from loiter.kernel.intercept import NO_WAY, Ends, Way, alike, alternating, interception, opposite
+from loiter.kernel.codes import Status
+from loiter.kernel.hold import held, hold_rate, hold_time, phase_of, tightest_held
+from loiter.kernel.intercept import NO_WAY, Way, alike, alternating, interception, opposite
 from loiter.kernel.motion import fly
 from loiter.kernel.synthesis import REACH, ROUNDING, flown, rounding
 
-# Start, heading, radius, wind, slack: x, y, c, s, R, wx, wy, slack.
+# Start, heading, radius, wind, and the slack of `intercept.Ends`: x, y, c, s, R, wx, wy, slack.
 Scene = tuple[float, float, float, float, float, float, float, float]
 
-# A point of joining: position, heading, ground speed.
-Join = tuple[float, float, float, float, float]
-
-# What is found: azimuth, side, way.
+# A way and where it joins: phase, side, way.
 Found = tuple[float, int, Way]
 
-# The maneuver: side held, word, three durations, angle of the point of joining as seen from the centre, and by how much
-# the maneuver misses it when flown.
-Joined = tuple[int, int, float, float, float, float, float]
+# Status, side held, word, three durations, the angle at the centre from x to the point of joining, and the miss.
+Joined = tuple[int, int, int, float, float, float, float, float]
 
-# Points of joining tried at first, all round.
+# A wind that carries nothing within REACH by a rounding, and whose square would not be a normal number.
+CALM = 2.0**-400
+
+# Points of joining tried first. What the answer is does not depend on it; 16 to 64 take about the same time.
 JOINS = 32
 
-# The search ends when nothing can be faster than its answer by more than this share of R.
-PROVEN = 1.0 / 1024.0
+# The search ends with cells of this angle, 2 pi/4096: nothing can be faster than the answer by more than the time that
+# the hold takes through one, at most R/(1 - |w|) times it.
+PROVEN = TWO_PI / 4000.0
 
-# A bisection of doubles is done after 53 steps and some; every other step bisects.
+# Every other step of `settled` bisects, so that twice 53 leave nothing of a double, and some to spare.
 SETTLING_STEPS = 120
 
-# Where two arcs are the fastest, what is found between, before or after them is the root of its rounding, some 1e-5 long.
-SHORT = 1e-3
+# Where two arcs are the fastest, the search ends on a word whose third piece is what rounding leaves of it: for a
+# straight piece the root of 4e-14, next to a phase that is exact to 1e-14.
+SHORT = 1e-4
 
-# Newton's method squares an error of 1e-3 to rounding in four steps.
+# Newton's method squares an error of 1e-4 down to rounding in two steps, and shrinks it to rounding again in one more.
 ARC_STEPS = 8
 
-SAME = 10.0
+# By how much more than it misses by, the way found next to two arcs may be too early: both move with the adjoint, whose
+# length over lambda + p . w stays below 10 where lambda = 1 and |w| < 0.9.
+TOO_EARLY = 10.0
 
 
-def tightest_held(wx: float, wy: float) -> float:
-    """The least R that can be held: th' = g^2/(R c) <= 1 is hardest downwind, where g = 1 + |w|, c = 1."""
-    return (1.0 + hypot(wx, wy)) ** 2
-
-
-def status_of(x: float, y: float, R: float, wx: float, wy: float) -> Status:
+def status_of(x: float, y: float, c: float, s: float, R: float, wx: float, wy: float) -> int:
     """`Status.OK`, or why there is nothing to solve."""
-    if not (isfinite(x) and isfinite(y) and isfinite(R) and isfinite(wx) and isfinite(wy)):
-        return Status.NOT_FINITE
+    if not (isfinite(x + y) and isfinite(c + s) and isfinite(R) and isfinite(wx + wy)):
+        return Status.NOT_FINITE + 0
     if hypot(wx, wy) >= 1.0:
-        return Status.WIND_TOO_STRONG
-    if R < tightest_held(wx, wy) * (1.0 - ROUNDING):
-        return Status.RADIUS_TOO_SMALL
+        return Status.WIND_TOO_STRONG + 0
+    if tightest_held(wx, wy) * (1.0 - ROUNDING) > R:
+        return (Status.NOT_HELD if R >= 1.0 else Status.RADIUS_TOO_SMALL) + 0
     if abs(x) > REACH or abs(y) > REACH or R > REACH:
-        return Status.OUT_OF_RANGE
-    return Status.OK
+        return Status.OUT_OF_RANGE + 0
+    return Status.OK + 0
 
 
-def join(azimuth: float, side: int, scene: Scene) -> Join:
-    """Where and how the circle is joined: heading and wind add up to a velocity along the circle."""
-    _, _, _, _, R, wx, wy, _ = scene
-    wind = hypot(wx, wy)
-    dx, dy = (wx / wind, wy / wind) if wind > 0.0 else (1.0, 0.0)
-    # The direction of the hold turns left for side -1; at azimuth 0 it is against the wind.
-    a, b = -cos(azimuth), side * sin(azimuth)
-    tx, ty = a * dx - b * dy, a * dy + b * dx
-    nx, ny = -side * ty, side * tx
-    out = wx * nx + wy * ny
-    c = sqrt((1.0 - out) * (1.0 + out))
-    return R * nx, R * ny, c * tx - out * nx, c * ty - out * ny, c + wx * tx + wy * ty
-
-
-def way_to(azimuth: float, side: int, scene: Scene, until: float) -> Way:
+def first_way(phase: float, side: int, scene: Scene, until: float) -> Way:
     """The first way to a point of joining, where it takes no longer than `until`: the best of the six words."""
-    x, y, c0, s0, _, wx, wy, slack = scene
-    px, py, c, s, _ = join(azimuth, side, scene)
+    x, y, c0, s0, R, wx, wy, slack = scene
+    px, py, c, s, _ = held(phase, side, R, wx, wy)
     dx, dy = px - x, py - y
-    if interception(dx, dy, wx, wy) > until + slack:
-        return NO_WAY
-    ends = (c0, s0, c, s, wx, wy, slack)
     best = NO_WAY
-    for u in (1, -1):
-        across, along = dx - u * (s - s0), dy + u * (c - c0)
-        best = sooner(best, alike(u, across, along, ends), until)
-        best = sooner(best, alternating(u, across, along, ends, min(until, best[0])), until)
-        across, along = dx + u * (s + s0), dy - u * (c + c0)
-        best = sooner(best, opposite(u, across, along, ends, min(until, best[0])), until)
+    if interception(dx, dy, wx, wy) <= until + slack:
+        ends = (c0, s0, c, s, wx, wy, slack)
+        for u in (1, -1):
+            # From the centre of the first arc to that of the last, both of control u; then of u and -u.
+            ax, ay = dx - u * (s - s0), dy + u * (c - c0)
+            best = sooner(best, alike(u, ax, ay, ends), until)
+            best = sooner(best, alternating(u, ax, ay, ends, min(until, best[0])), until)
+            best = sooner(best, opposite(u, dx + u * (s + s0), dy - u * (c + c0), ends, min(until, best[0])), until)
     return best
 
 
 def sooner(a: Way, b: Way, until: float) -> Way:
-    """The sooner of two ways, the first where they tie or the second comes too late."""
+    """The sooner of two ways: a where they tie or b comes too late."""
     return b if b[0] < a[0] and b[0] <= until else a
 
 
-def hold_rate(azimuth: float, side: int, scene: Scene) -> float:
-    """The size of the rate of turn that holds the circle at an azimuth: g^2/(R c), (3) of docs/wind.md."""
-    _, _, _, _, R, wx, wy, _ = scene
-    _, _, c, s, g = join(azimuth, side, scene)
-    # The cosine of the crab angle, the ground speed less the wind along it.
-    return g * g / (R * (g - (wx * (c + wx) + wy * (s + wy)) / g))
+def slope(way: Way, phase: float, side: int, scene: Scene) -> float:
+    """By how much longer the way takes if the circle is joined later by a unit of the time that the hold takes, (6).
 
-
-def slope(way: Way, azimuth: float, side: int, scene: Scene) -> float:
-    """By how much the way takes longer if the circle is joined later by a unit of the time that the hold takes.
-
-    It vanishes where the adjoint is transversal to the circle, (5) of docs/wind.md, and is at most 1.
+    It vanishes where the adjoint is transversal to the circle, and is never above 1.
     """
-    _, _, _, _, _, wx, wy, _ = scene
-    _, _, c, s, _ = join(azimuth, side, scene)
+    _, _, _, _, R, wx, wy, _ = scene
+    _, _, c, s, _ = held(phase, side, R, wx, wy)
     _, word, _, _, _, lam, p1, p2 = way
     along, drift = p1 * c + p2 * s, p1 * wx + p2 * wy
-    rate = side * ((word >> 4) - 2) * hold_rate(azimuth, side, scene)
+    rate = side * ((word >> 4) - 2) * hold_rate(phase, side, R, wx, wy)
     return (along + drift - rate * (lam - along)) / (lam + drift)
 
 
-def held_for(azimuth: float, width: float, side: int, scene: Scene) -> float:
-    """A bound on the time that the hold takes from `azimuth` - `width`, not before the headwind, to `azimuth`.
+def probed(phase: float, width: float, side: int, scene: Scene, best: Found) -> tuple[float, Found]:
+    """The time to the end of a cell of the circle, where it tells something, and the better of that and `best`.
 
-    The ground speed rises from the headwind to the tailwind and falls again: it is least at an end.
+    Whoever joins within the cell can follow the circle to its end: no way into the cell is sooner than the first way to
+    its end, less the time that the hold takes through it. So a time beyond that and `best` need not be known.
     """
-    return scene[4] * width / min(join(azimuth - width, side, scene)[4], join(azimuth, side, scene)[4])
+    _, _, _, _, R, wx, wy, _ = scene
+    way = first_way(phase, side, scene, best[2][0] + hold_time(phase, width, side, R, wx, wy))
+    return way[0], (phase, side, way) if way[0] < best[2][0] else best
 
 
-def settled(found: Found, width: float, scene: Scene) -> Found:
-    """The least time next to what is found, where the slope changes its sign or the time jumps.
-
-    Between the best so far and `other`, towards which the time falls from it, there is a local minimum.
-    """
-    here, side, way = found
-    _, _, _, _, _, _, _, slack = scene
-    rise = slope(way, here, side, scene)
-    other, other_word, other_rise = here + (width if rise < 0.0 else -width), 0, 0.0
-    for step in range(SETTLING_STEPS):
-        middle = 0.5 * (here + other)
-        if step & 1 and other_word == way[1] and rise * other_rise < 0.0:
-            middle = here + (other - here) * (rise / (rise - other_rise))
-        if middle in (here, other) or rise == 0.0:
-            break
-        tried = way_to(middle, side, scene, way[0] + width * scene[4])
-        tried_rise = slope(tried, middle, side, scene) if tried[0] < inf else 0.0
-        if tried[0] > way[0] + slack:
-            other, other_word, other_rise = middle, tried[1], tried_rise
-        else:
-            if rise * tried_rise < 0.0:
-                other, other_word, other_rise = here, way[1], rise
-            here, way, rise = middle, tried, tried_rise
-    return here, side, way
-
-
-def probed(azimuth: float, width: float, side: int, scene: Scene, best: Found) -> tuple[float, Found]:
-    """A lower bound on the time into the cell of a width that ends at an azimuth, and the better of `best` and its end.
-
-    Whoever joins within the cell can follow the circle to its end: no way into it is sooner than the first way to its
-    end, less the time that the hold takes through it.
-    """
-    within = held_for(azimuth, width, side, scene)
-    way = way_to(azimuth, side, scene, best[2][0] + within)
-    return way[0], (azimuth, side, way) if way[0] < best[2][0] else best
+def tried_round(side: int, scene: Scene, best: Found) -> Found:
+    """The better of `best` and the fastest way to `JOINS` points all round."""
+    for i in range(JOINS):
+        _, best = probed(TWO_PI / JOINS * (i + 1.0), 0.0, side, scene, best)
+    return best
 
 
 def searched(side: int, scene: Scene, best: Found) -> Found:
     """The better of `best` and the fastest way onto the circle held on one side, by branch and bound."""
-    width, allowed = TWO_PI / JOINS, PROVEN * scene[4]
-    cells = [(inf, 0.0)]
-    cells.pop()
-    before = best[2][0]
+    _, _, _, _, R, wx, wy, _ = scene
+    known, width = best[2][0], TWO_PI / JOINS
+    cells = [(width * (i + 1.0), inf) for i in range(JOINS)]
     for i in range(JOINS):
-        time, best = probed(width * (i + 1.0), width, side, scene, best)
-        cells.append((width * (i + 1.0), time))
-    while len(cells) > 0:
-        if best[2][0] < before:
+        time, best = probed(cells[i][0], width, side, scene, best)
+        cells[i] = (cells[i][0], time)
+    while width > PROVEN:
+        if best[2][0] < known:
             best = settled(best, width, scene)
-            before = best[2][0]
-        halves = [(inf, 0.0)]
-        halves.pop()
+            known = best[2][0]
+        width *= 0.5
+        halves = cells[:0]
         for end, time in cells:
-            within = held_for(end, width, side, scene)
-            if time - within < before and within > allowed:
+            if time - hold_time(end, 2.0 * width, side, R, wx, wy) < known:
+                earlier, best = probed(end - width, width, side, scene, best)
+                halves.append((end - width, earlier))
                 halves.append((end, time))
-                time, best = probed(end - 0.5 * width, 0.5 * width, side, scene, best)
-                halves.append((end - 0.5 * width, time))
-        cells, width = halves, 0.5 * width
+        cells = halves
+    return lowest(cells, width, side, scene, best)
+
+
+def lowest(cells: list[tuple[float, float]], width: float, side: int, scene: Scene, best: Found) -> Found:
+    """The better of `best` and the valleys that are left: one as deep may show as too high by what a cell is worth."""
+    _, _, _, _, R, wx, wy, _ = scene
+    for i in range(len(cells)):
+        phase, time = cells[i]
+        before = cells[i - 1][1] if i > 0 and cells[i - 1][0] > phase - 1.5 * width else inf
+        after = cells[i + 1][1] if i + 1 < len(cells) and cells[i + 1][0] < phase + 1.5 * width else inf
+        elsewhere = side != best[1] or abs(phase - best[0]) > 1.5 * width
+        within = hold_time(phase, width, side, R, wx, wy)
+        if time - within < best[2][0] and time <= min(before, after) and elsewhere:
+            found = settled((phase, side, first_way(phase, side, scene, inf)), width, scene)
+            if found[2][0] < best[2][0]:
+                best = found
     return best
 
 
-def letters(word: int) -> tuple[int, int, int]:
-    """The controls of a word of three letters."""
-    return (word & 3) - 2, (word >> 2 & 3) - 2, (word >> 4) - 2
+def settled(found: Found, width: float, scene: Scene) -> Found:
+    """The least time next to what is found, where the slope changes its sign, or the time jumps.
+
+    From the best phase so far the time falls towards `other`, where it is higher or has fallen the other way: between
+    them there is a local minimum.
+    """
+    here, side, way = found
+    rise, slack = slope(way, here, side, scene), scene[7]
+    other, other_word, other_rise = here + (width if rise < 0.0 else -width), 0, 0.0
+    for step in range(SETTLING_STEPS):
+        there = 0.5 * (here + other)
+        if step & 1 and other_word == way[1] and rise * other_rise < 0.0:
+            there = here + (other - here) * (rise / (rise - other_rise))
+        if there in (here, other) or rise == 0.0:
+            break
+        tried = first_way(there, side, scene, inf)
+        tried_rise = slope(tried, there, side, scene)
+        if tried[0] > way[0] + slack:
+            other, other_word, other_rise = there, tried[1], tried_rise
+        else:
+            if rise * tried_rise < 0.0:
+                other, other_word, other_rise = here, way[1], rise
+            here, way, rise = there, tried, tried_rise
+    return here, side, way
 
 
 def vanishing(way: Way) -> tuple[int, int, float, float]:
-    """The two arcs that remain of a word of which one piece is `SHORT`, and their durations; controls 0 for none."""
+    """The two arcs of a word whose third piece is `SHORT` at most, and their durations; controls 0 for none."""
     _, word, t1, t2, t3, _, _, _ = way
-    first, middle, last = letters(word)
+    first, middle, last = (word & 3) - 2, (word >> 2 & 3) - 2, (word >> 4) - 2
     if middle == 0:
         return (first, last, t1, t3) if t2 <= SHORT and first != last else (0, 0, 0.0, 0.0)
     if t1 <= SHORT:
@@ -207,71 +191,96 @@ def vanishing(way: Way) -> tuple[int, int, float, float]:
 
 
 def two_arcs(
-    first: int, second: int, t1: float, t2: float, azimuth: float, side: int, scene: Scene
+    first: int, second: int, t1: float, t2: float, phase: float, side: int, scene: Scene
 ) -> tuple[float, float, float]:
-    """Newton's method for two arcs that meet the circle: their durations, and the azimuth.
+    """Newton's method for two arcs that meet the circle: their durations, and the phase.
 
-    Joining later by s along the hold and flying the second arc for s longer moves both ends alike, if the headings are:
-    so the position fixes t1 and t2 - s, and the heading s.
+    Where the headings agree, joining later by s along the hold and flying the second arc for s longer move both ends
+    alike: so the position fixes t1 and t2 - s, and then the heading s.
     """
     x, y, c, s, R, wx, wy, slack = scene
     for _ in range(ARC_STEPS):
         x1, y1, c1, s1 = fly(x, y, c, s, first, t1)
         x2, y2, c2, s2 = fly(x1, y1, c1, s1, second, t2)
-        px, py, ce, se, g = join(azimuth, side, scene)
+        px, py, ce, se, g = held(phase, side, R, wx, wy)
         rx, ry = px - x2 - wx * (t1 + t2), py - y2 - wy * (t1 + t2)
-        # The end's velocity by t1, with the second arc turning about its start, and by t2.
+        # How the end moves with t1, which turns the second arc about its start, and with t2.
         ax, ay = c1 + wx - first * (y2 - y1), s1 + wy + first * (x2 - x1)
         bx, by = c2 + wx, s2 + wy
-        across, bend = ax * by - ay * bx, second + side * hold_rate(azimuth, side, scene)
+        across, bend = ax * by - ay * bx, second + side * hold_rate(phase, side, R, wx, wy)
         if across == 0.0 or bend == 0.0:
             break
         d1, d2 = (rx * by - ry * bx) / across, (ax * ry - ay * rx) / across
         later = (atan2(c2 * se - s2 * ce, c2 * ce + s2 * se) - first * d1 - second * d2) / bend
-        t1, t2, azimuth = t1 + d1, t2 + d2 + later, azimuth + later * g / R
+        t1, t2, phase = t1 + d1, t2 + d2 + later, phase + later * g / R
         if abs(d1) + abs(d2) + abs(later) <= slack:
             break
-    return t1, t2, azimuth
+    return t1, t2, phase
 
 
-def exact(found: Found, scene: Scene) -> tuple[int, float, float, float, float]:
-    """Word, durations and azimuth of what is found; two arcs, where it is they to `SHORT` and they are no slower."""
-    azimuth, side, way = found
-    first, second, t1, t2 = vanishing(way)
-    if first != 0:
-        t1, t2, there = two_arcs(first, second, t1, t2, azimuth, side, scene)
-        error = scene[7] + missed(way[1], way[2], way[3], way[4], azimuth, side, scene)
-        if min(t1, t2) >= 0.0 and t1 + t2 <= way[0] + SAME * error:
-            return 10 + first + 4 * second, t1, t2, 0.0, there
-    return way[1], way[2], way[3], way[4], azimuth
+def sharpened(found: Found, scene: Scene) -> tuple[int, float, float, float, float]:
+    """Word, durations and phase of what is found: two arcs where it comes that close to them and they are no slower."""
+    phase, side, way = found
+    _, word, t1, t2, t3, _, _, _ = way
+    first, second, a, b = vanishing(way)
+    if word != 0 and first != 0:
+        a, b, there = two_arcs(first, second, a, b, phase, side, scene)
+        early = TOO_EARLY * (scene[7] + missed(word, t1, t2, t3, phase, side, scene))
+        if min(a, b) >= 0.0 and a + b <= way[0] + early:
+            return 10 + first + 4 * second, a, b, 0.0, there
+    return word, t1, t2, t3, phase
 
 
-def held_already(side: int, scene: Scene) -> bool:
-    """Whether the vehicle is on the circle and flies along it, up to rounding."""
-    return False
-
-
-def missed(word: int, t1: float, t2: float, t3: float, azimuth: float, side: int, scene: Scene) -> float:
-    """By how much the end of a maneuver misses the point of joining when flown: in position and, times 1, in heading."""
-    x, y, c, s, _, wx, wy, _ = scene
+def missed(word: int, t1: float, t2: float, t3: float, phase: float, side: int, scene: Scene) -> float:
+    """By how much the end of a maneuver, flown exactly, misses a point of joining: position and heading together."""
+    x, y, c, s, R, wx, wy, _ = scene
     for t in (t1, t2, t3):
-        if word:
+        if word != 0:
             x, y, c, s = fly(x, y, c, s, (word & 3) - 2, t)
             x, y, word = x + wx * t, y + wy * t, word >> 2
-    px, py, ce, se, _ = join(azimuth, side, scene)
+    px, py, ce, se, _ = held(phase, side, R, wx, wy)
     return hypot(hypot(px - x, py - y), hypot(ce - c, se - s))
 
 
+def already(side: int, scene: Scene) -> Found:
+    """Nothing to fly: the point of the circle next to the start."""
+    return phase_of(scene[0], scene[1], side, scene[5], scene[6]), side, (0.0, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0)
+
+
+def holding(side: int, scene: Scene) -> bool:
+    """Whether the start is on the circle and along it, up to rounding."""
+    return missed(0, 0.0, 0.0, 0.0, already(side, scene)[0], side, scene) <= 3.0 * scene[7]
+
+
 def fastest(x: float, y: float, c: float, s: float, R: float, side: int, wx: float, wy: float) -> Joined:
-    """The fastest maneuver onto the circle; call it where `status_of` is OK."""
+    """The fastest maneuver onto the circle from (x, y), heading along the unit vector (c, s); nan where there is none.
+
+    No maneuver is faster by more than `PROVEN` times R + T; docs/wind.md, section 5, says how the answer itself is
+    found and what bears it out. `Status.NOT_CONVERGED` where it does not end on the circle when flown.
+    """
+    status = status_of(x, y, c, s, R, wx, wy)
+    if status != 0:
+        return status, 0, 0, nan, nan, nan, nan, nan
+    if hypot(wx, wy) < CALM:
+        wx, wy = 0.0, 0.0
     dust = rounding(x, y, R)
     scene = (x, y, c, s, R, wx, wy, dust / 3.0)
     best = (0.0, 0, NO_WAY)
     for one in (1, -1):
+        if side != -one and holding(one, scene):
+            best = already(one, scene)
+    if side == 0:
+        # The better side first: the other is then soon done with.
+        best = tried_round(-1, scene, tried_round(1, scene, best))
+    first = best[1] if best[1] != 0 else 1
+    for one in (first, -first):
         if side != -one:
             best = searched(one, scene, best)
-    held = best[1]
-    word, t1, t2, t3, azimuth = exact(best, scene)
+    word, t1, t2, t3, phase = sharpened(best, scene)
     word, t1, t2, t3 = flown(word, t1, t2, t3, dust)
-    px, py, _, _, _ = join(azimuth, held, scene)
-    return held, word, t1, t2, t3, atan2(py, px), missed(word, t1, t2, t3, azimuth, held, scene)
+    miss = missed(word, t1, t2, t3, phase, best[1], scene)
+    # The wind carries the rounding of the durations along; a miss that is nan is no better.
+    if not miss <= dust + ROUNDING * (t1 + t2 + t3):
+        return Status.NOT_CONVERGED + 0, 0, 0, nan, nan, nan, nan, nan
+    px, py, _, _, _ = held(phase, best[1], R, wx, wy)
+    return status, best[1], word, t1, t2, t3, atan2(py, px), miss

@@ -11,13 +11,14 @@ roots of convex decreasing functions, those of LRL and RLR lie where a function 
 
 from math import acos, atan2, ceil, cos, hypot, inf, pi, sin, sqrt
 
-from loiter.kernel.angles import TWO_PI, snapped, turn_of
+from loiter.kernel.angles import TWO_PI, snapped, turned_by
 
-# What all words share: the headings at the start and at the pose as unit vectors (c0, s0) and (c, s), the wind (wx, wy),
-# and the slack of `angles.snapped`.
+# What all words share: the headings at the start and at the pose as unit vectors (c0, s0) and (c, s), the wind
+# (wx, wy), and the slack of `angles.snapped`.
 Ends = tuple[float, float, float, float, float, float, float]
 
-# A way to the pose: time, word, three durations, and its adjoint (docs/wind.md, section 3): lambda and the unit vector p.
+# A way to the pose: time, word, three durations, and its adjoint (docs/wind.md, section 3), lambda and the unit
+# vector p.
 Way = tuple[float, int, float, float, float, float, float, float]
 
 NO_WAY = (inf, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0)
@@ -28,11 +29,6 @@ NEWTON_STEPS = 60
 
 # While the straight piece of LSR or RSL turns by up to pi, each of its two arcs passes a whole turn once at most.
 WHOLE_TURNS = 2
-
-
-def turned_by(u: int, ax: float, ay: float, bx: float, by: float) -> float:
-    """Duration in [0, 2 pi] of the arc of control u that takes the heading a to the heading b."""
-    return turn_of(u * (ax * by - ay * bx), ax * bx + ay * by)
 
 
 def interception(dx: float, dy: float, wx: float, wy: float) -> float:
@@ -69,7 +65,7 @@ def alike(u: int, dx: float, dy: float, ends: Ends) -> Way:
         ax, ay = dx - wx * arcs, dy - wy * arcs
         straight = interception(ax, ay, wx, wy)
         ex, ey = ax - wx * straight, ay - wy * straight
-        first = snapped(turned_by(u, c0, s0, ex, ey), 1.0, slack)
+        first = snapped(turned_by(u, c0, s0, ex, ey), 1.0 + straight, slack)
         last = max(arcs - first, 0.0)
         if first <= arcs + slack and last < TWO_PI:
             length = hypot(ex, ey)
@@ -80,7 +76,7 @@ def alike(u: int, dx: float, dy: float, ends: Ends) -> Way:
 
 
 def tangent(u: int, dx: float, dy: float) -> tuple[float, float, float]:
-    """The straight piece of LSR (u = +1) or RSL between circles whose centres are d apart: its length, its direction."""
+    """The straight piece of LSR (u = +1) or RSL between circles whose centres are d apart: length and direction."""
     square = dx * dx + dy * dy
     straight = sqrt(max(square - 4.0, 0.0))
     return straight, (straight * dx - 2.0 * u * dy) / square, (straight * dy + 2.0 * u * dx) / square
@@ -88,7 +84,8 @@ def tangent(u: int, dx: float, dy: float) -> tuple[float, float, float]:
 
 def opposite(u: int, dx: float, dy: float, ends: Ends, until: float) -> Way:
     """LSR (u = +1) or RSL, the first of a time up to `until`; the centres must be two radii apart, or more."""
-    enter, leave = nearer(dx, dy, ends[4], ends[5], 2.0)
+    # Circles that overlap by rounding touch: two arcs, without a straight piece.
+    enter, leave = nearer(dx, dy, ends[4], ends[5], 2.0 - ends[6])
     way = NO_WAY
     if enter > 0.0:
         way = first_opposite(u, dx, dy, ends, 0.0, min(enter, until))
@@ -100,8 +97,8 @@ def opposite(u: int, dx: float, dy: float, ends: Ends, until: float) -> Way:
 def first_opposite(u: int, dx: float, dy: float, ends: Ends, begin: float, end: float) -> Way:
     """The first root between two times throughout which the centres are two radii apart, or more.
 
-    With its arcs continued beyond whole turns, length - T falls, with the slope -(1 + w . p), and is convex. So for each
-    number of turns it has at most one root, to which Newton's method rises from `begin`.
+    With its arcs continued beyond whole turns, length - T falls, with the slope -(1 + w . p), and is convex. So for
+    each number of turns it has at most one root, to which Newton's method rises from `begin`.
     """
     c0, s0, c, s, wx, wy, slack = ends
     straight, e1, e2 = tangent(u, dx - wx * begin, dy - wy * begin)
@@ -109,10 +106,10 @@ def first_opposite(u: int, dx: float, dy: float, ends: Ends, begin: float, end: 
     fewest = max(ceil((begin - arcs - straight) / TWO_PI), -WHOLE_TURNS)
     for turns in range(fewest, WHOLE_TURNS + 1):
         T, p1, p2 = risen(u, dx, dy, wx, wy, arcs + TWO_PI * turns, begin, end)
-        if T > end:
+        if end < T:
             break
         straight = tangent(u, dx - wx * T, dy - wy * T)[0]
-        first = snapped(turned_by(u, c0, s0, p1, p2), 1.0, slack)
+        first = snapped(turned_by(u, c0, s0, p1, p2), 1.0 + straight, slack)
         last = snapped(turned_by(u, c, s, p1, p2), 1.0, slack)
         if abs(first + straight + last - T) < pi:
             return first + straight + last, 42 - 15 * u, first, straight, last, 1.0, p1, p2
@@ -133,7 +130,7 @@ def risen(
         # The direction turns one way, by no more than pi in all.
         turned = 2.0 * u * atan2(e1 * p2 - e2 * p1, e1 * p1 + e2 * p2)
         before, T = T, T + (arcs + turned + straight - T) / (1.0 + wx * p1 + wy * p2)
-        if T <= before or T > end:
+        if before >= T or end < T:
             break
     return T, p1, p2
 
@@ -152,7 +149,7 @@ def alternating(u: int, dx: float, dy: float, ends: Ends, until: float) -> Way:
             outside = rotation + TWO_PI * turns
             middle = middle_arc(dx - wx * outside, dy - wy * outside, wx, wy)
             T = outside + 2.0 * middle
-            if T < inf and enter - slack <= T <= min(leave + slack, until, best[0]):
+            if inf > T and enter - slack <= T <= min(leave + slack, until, best[0]):
                 way = alternation(u, middle, dx - wx * T, dy - wy * T, ends)
                 if abs(way[0] - T) < pi:
                     best = way
@@ -191,6 +188,6 @@ def alternation(u: int, middle: float, dx: float, dy: float, ends: Ends) -> Way:
     # The headings at the switches: p turned by the angle whose cosine is lambda, against the outer arcs and with them.
     ax, ay = lam * p1 + u * across * p2, lam * p2 - u * across * p1
     bx, by = lam * p1 - u * across * p2, lam * p2 + u * across * p1
-    first = snapped(turned_by(u, c0, s0, ax, ay), 1.0, slack)
+    first = snapped(turned_by(u, c0, s0, ax, ay), 4.0, slack)
     last = snapped(turned_by(u, bx, by, c, s), 1.0, slack)
     return first + middle + last, 42 + 13 * u, first, middle, last, lam, p1, p2

@@ -1,9 +1,9 @@
-"""An independent search in wind: every root of every word to every point of joining, by scanning and bisection.
+"""An independent search in wind: every root of every word to points of joining all round, by scanning and bisection.
 
-It shares no code with the kernel: no adjoint, no transversality, no closed form beyond Dubins' lengths from pose to pose
-in the form of Shkel and Lumelsky (2001), and both middle arcs of RLR and LRL. The circle drifts with -w through still air; a
-word meets it at the azimuth a and the time T where its length to the pose there is T. The least T is found by trying
-azimuths all round, and then closer and closer ones.
+It shares no code with the kernel and knows no adjoint and no transversality: only the lengths of Dubins' words from
+pose to pose, as Shkel and Lumelsky (2001) write them, with both middle arcs of RLR and LRL. The circle drifts with -w
+through still air; a word meets it at an azimuth and a time T where its length to the pose there is T. The least T is
+found by trying azimuths all round, and then closer and closer ones.
 """
 
 from __future__ import annotations
@@ -17,9 +17,6 @@ from numpy import float64
 from numpy.typing import NDArray
 
 from loiter.verify.oracle import Planar
-
-# Steps of T in the first scan, in turn radii over airspeed: two roots closer than that are seen as none, or as one.
-STEP = 0.1
 
 # Lengths that differ by more from one step to the next have jumped by a whole turn.
 JUMP = 0.5 * pi
@@ -38,7 +35,10 @@ CLOSER, SHRINK, ROUNDS = 20, 0.1, 11
 # Local minima that are refined, the best first: a scan shows a valley as too high by up to a step or two.
 VALLEYS = 6
 
-# All have come round by then: two whole turns to spare, and three to fly, after flying straight across.
+# The time scanned at once.
+BLOCK = 2.0 * pi
+
+# What the arcs of the earliest meeting take together, at most, with turns to spare: how far the scan has to look.
 LONGEST_ARCS = 10.0 * pi
 
 
@@ -61,26 +61,29 @@ class Met(NamedTuple):
 Array = NDArray[float64]
 
 
-def earliest(start: Planar, circle: Drifting, joins: int) -> Met:
-    """The earliest meeting found from `joins` azimuths all round; `inf` where there is none."""
+def earliest(start: Planar, circle: Drifting, joins: int, step: float) -> Met:
+    """The earliest meeting found from `joins` azimuths all round and times a `step` apart; `inf` where there is none.
+
+    Two roots within a step are seen as none, and a valley between two azimuths as higher than it is.
+    """
     azimuths = 2.0 * pi * np.arange(joins) / joins
-    first = scanned(start, circle, azimuths)
+    first = scanned(start, circle, azimuths, step)
     lowest = np.flatnonzero((first <= np.roll(first, 1)) & (first <= np.roll(first, -1)) & (first < inf))
     valleys = lowest[np.argsort(first[lowest])][:VALLEYS]
     found = [refined(start, circle, Met(float(first[i]), float(azimuths[i])), 2.0 * pi / joins) for i in valleys]
     return min(found, default=Met(inf, 0.0))
 
 
-def scanned(start: Planar, circle: Drifting, azimuths: Array) -> Array:
-    """The first meeting at each azimuth, scanned for from the time when a straight flight could be there at all."""
+def scanned(start: Planar, circle: Drifting, azimuths: Array, step: float) -> Array:
+    """The first meeting at each azimuth, from when a straight flight could be at the circle until one is found."""
     wind, apart = hypot(circle.east, circle.north), hypot(start.east, start.north)
-    begin = max(apart - circle.radius, 0.0) / (1.0 + wind)
+    begin = abs(apart - circle.radius) / (1.0 + wind)
     end = (apart + circle.radius + LONGEST_ARCS) / (1.0 - wind)
     first = np.full(azimuths.shape, inf)
-    while begin < end and not (first < begin).any():
-        times = begin + STEP * np.arange(ceil(2.0 * pi / STEP) + 1)
-        first = np.minimum(first, roots(start, circle, azimuths, times))
-        begin = times[-1]
+    while begin < end and not (first < inf).any():
+        times = begin + step * np.arange(ceil(BLOCK / step) + 1)
+        first = roots(start, circle, azimuths, times)
+        begin = float(times[-1])
     return first
 
 
@@ -90,7 +93,8 @@ def refined(start: Planar, circle: Drifting, met: Met, width: float) -> Met:
         azimuths = met.azimuth + width * np.linspace(-1.0, 1.0, 2 * CLOSER + 1)
         # Joining a width later costs, or saves, at most some such widths' worth of flight.
         span = 2.0 * width * (1.0 + circle.radius) / (1.0 - hypot(circle.east, circle.north))
-        times = max(met.time - span, 0.0) + span * np.linspace(0.0, 1.0 + 1.0 / CLOSER, 2 * CLOSER + 1)
+        ahead: Array = span * np.linspace(0.0, 1.0 + 1.0 / CLOSER, 2 * CLOSER + 1)
+        times = max(met.time - span, 0.0) + ahead
         first = roots(start, circle, azimuths, times)
         best = int(np.argmin(first))
         met = min(met, Met(float(first[best]), float(azimuths[best])))
@@ -99,7 +103,7 @@ def refined(start: Planar, circle: Drifting, met: Met, width: float) -> Met:
 
 
 def roots(start: Planar, circle: Drifting, azimuths: Array, times: Array) -> Array:
-    """The first of `times`, to rounding, at which a word is as long as it should be, for each azimuth; `inf` if none."""
+    """For each azimuth the first time within `times` at which some word is as long; `inf` where there is none."""
     excess = excesses(start, circle, azimuths[:, np.newaxis], times[np.newaxis, :])
     before, after = excess[..., :-1], excess[..., 1:]
     # A word begins or ceases to reach the pose within a step: its root may lie between.
@@ -127,7 +131,8 @@ def excesses(start: Planar, circle: Drifting, azimuths: Array, times: Array) -> 
 def excess_of(start: Planar, circle: Drifting, azimuths: Array, times: Array, word: NDArray[np.intp]) -> Array:
     """Length less time, of one word for each place."""
     every = excesses(start, circle, azimuths, times)
-    return np.take_along_axis(every, word[np.newaxis, :], axis=0)[0]
+    one: Array = np.take_along_axis(every, word[np.newaxis, :], axis=0)[0]
+    return one
 
 
 def relative(start: Planar, circle: Drifting, azimuths: Array, times: Array) -> tuple[Array, Array, Array]:
