@@ -225,9 +225,10 @@ def sharpened(found: Found, scene: Scene) -> tuple[int, float, float, float, flo
     first, second, a, b = vanishing(way)
     if word != 0 and first != 0:
         a, b, there = two_arcs(first, second, a, b, phase, side, scene)
-        early = TOO_EARLY * (scene[7] + missed(word, t1, t2, t3, phase, side, scene))
-        if min(a, b) >= 0.0 and a + b <= way[0] + early:
-            return 10 + first + 4 * second, a, b, 0.0, there
+        pair, slack = 10 + first + 4 * second, scene[7]
+        late = a + b - way[0] - TOO_EARLY * missed(word, t1, t2, t3, phase, side, scene)
+        if min(a, b) >= 0.0 and max(late, missed(pair, a, b, 0.0, there, side, scene)) <= 3.0 * slack:
+            return pair, a, b, 0.0, there
     return word, t1, t2, t3, phase
 
 
@@ -269,12 +270,12 @@ def fastest(x: float, y: float, c: float, s: float, R: float, side: int, wx: flo
     for one in (1, -1):
         if side != -one and holding(one, scene):
             best = already(one, scene)
-    if side == 0:
+    if side == 0 and best[1] == 0:
         # The better side first: the other is then soon done with.
-        best = tried_round(-1, scene, tried_round(1, scene, best))
+        best = settled(tried_round(-1, scene, tried_round(1, scene, best)), TWO_PI / JOINS, scene)
     first = best[1] if best[1] != 0 else 1
     for one in (first, -first):
-        if side != -one:
+        if side != -one and best[2][0] > 0.0:
             best = searched(one, scene, best)
     word, t1, t2, t3, phase = sharpened(best, scene)
     word, t1, t2, t3 = flown(word, t1, t2, t3, dust)

@@ -105,34 +105,29 @@ def first_opposite(u: int, dx: float, dy: float, ends: Ends, begin: float, end: 
     arcs = turned_by(u, c0, s0, e1, e2) + turned_by(u, c, s, e1, e2)
     fewest = max(ceil((begin - arcs - straight) / TWO_PI), -WHOLE_TURNS)
     for turns in range(fewest, WHOLE_TURNS + 1):
-        T, p1, p2 = risen(u, dx, dy, wx, wy, arcs + TWO_PI * turns, begin, end)
-        if end < T:
+        time = risen(u, dx, dy, wx, wy, arcs + TWO_PI * turns, begin, end)
+        if time > end:
             break
-        straight = tangent(u, dx - wx * T, dy - wy * T)[0]
+        straight, p1, p2 = tangent(u, dx - wx * time, dy - wy * time)
         first = snapped(turned_by(u, c0, s0, p1, p2), 1.0 + straight, slack)
         last = snapped(turned_by(u, c, s, p1, p2), 1.0, slack)
-        if abs(first + straight + last - T) < pi:
+        if abs(first + straight + last - time) < pi:
             return first + straight + last, 42 - 15 * u, first, straight, last, 1.0, p1, p2
     return NO_WAY
 
 
-def risen(
-    u: int, dx: float, dy: float, wx: float, wy: float, arcs: float, begin: float, end: float
-) -> tuple[float, float, float]:
-    """The time >= `begin` at which LSR or RSL takes T when its arcs take `arcs` at `begin`, and its direction then.
-
-    A time beyond `end` means that the root lies beyond it.
-    """
+def risen(u: int, dx: float, dy: float, wx: float, wy: float, arcs: float, begin: float, end: float) -> float:
+    """The time >= `begin` at which LSR or RSL takes T when its arcs take `arcs` at `begin`; beyond `end`, any time."""
     _, e1, e2 = tangent(u, dx - wx * begin, dy - wy * begin)
-    T, p1, p2 = begin, e1, e2
+    time = begin
     for _ in range(NEWTON_STEPS):
-        straight, p1, p2 = tangent(u, dx - wx * T, dy - wy * T)
+        straight, p1, p2 = tangent(u, dx - wx * time, dy - wy * time)
         # The direction turns one way, by no more than pi in all.
         turned = 2.0 * u * atan2(e1 * p2 - e2 * p1, e1 * p1 + e2 * p2)
-        before, T = T, T + (arcs + turned + straight - T) / (1.0 + wx * p1 + wy * p2)
-        if before >= T or end < T:
+        before, time = time, time + (arcs + turned + straight - time) / (1.0 + wx * p1 + wy * p2)
+        if time <= before or time > end:
             break
-    return T, p1, p2
+    return time
 
 
 def alternating(u: int, dx: float, dy: float, ends: Ends, until: float) -> Way:
@@ -148,10 +143,10 @@ def alternating(u: int, dx: float, dy: float, ends: Ends, until: float) -> Way:
         for turns in (-1.0, 0.0, 1.0):
             outside = rotation + TWO_PI * turns
             middle = middle_arc(dx - wx * outside, dy - wy * outside, wx, wy)
-            T = outside + 2.0 * middle
-            if inf > T and enter - slack <= T <= min(leave + slack, until, best[0]):
-                way = alternation(u, middle, dx - wx * T, dy - wy * T, ends)
-                if abs(way[0] - T) < pi:
+            time = outside + 2.0 * middle
+            if inf > time and enter - slack <= time <= min(leave + slack, until, best[0]):
+                way = alternation(u, middle, dx - wx * time, dy - wy * time, ends)
+                if abs(way[0] - time) < pi:
                     best = way
     return best
 
