@@ -81,7 +81,7 @@ def scanned(start: Planar, circle: Drifting, azimuths: Array, step: float) -> Ar
     end = (apart + circle.radius + LONGEST_ARCS) / (1.0 - wind)
     first = np.full(azimuths.shape, inf)
     while begin < end and not (first < inf).any():
-        times = begin + step * np.arange(ceil(BLOCK / step) + 1)
+        times: Array = np.linspace(begin, begin + BLOCK, ceil(BLOCK / step) + 1)
         first = roots(start, circle, azimuths, times)
         begin = float(times[-1])
     return first
