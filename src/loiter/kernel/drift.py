@@ -26,12 +26,12 @@ Joined = tuple[int, int, int, float, float, float, float, float]
 # A wind that carries nothing within REACH by a rounding, and whose square would not be a normal number.
 CALM = 2.0**-400
 
-# Points of joining tried first. What the answer is does not depend on it; 16 to 64 take about the same time.
+# Points of joining tried first.
 JOINS = 32
 
-# The search ends with cells of this angle, 2 pi/4096: nothing can be faster than the answer by more than the time that
+# Then cells are halved so often, to 2 pi/4096: nothing can be faster than the answer by more than the time that
 # the hold takes through one, at most R/(1 - |w|) times it.
-PROVEN = TWO_PI / 4000.0
+HALVINGS = 7
 
 # Every other step of `settled` bisects, so that twice 53 leave nothing of a double, and some to spare.
 SETTLING_STEPS = 120
@@ -122,7 +122,7 @@ def searched(side: int, scene: Scene, best: Found) -> Found:
     for i in range(JOINS):
         time, best = probed(cells[i][0], width, side, scene, best)
         cells[i] = (cells[i][0], time)
-    while width > PROVEN:
+    for _ in range(HALVINGS):
         if best[2][0] < known:
             best = settled(best, width, scene)
             known = best[2][0]
