@@ -77,7 +77,7 @@ def moved(scene, time):
 def test_the_end_is_on_the_circle_and_along_it(scene, side):
     status, held_side, *_, angle, miss = maneuver = solved(scene, side)
     x, y, c, s, R, wx, wy = flown(scene, steps(maneuver))
-    size = rounding(*scene[:2], R) + 1e-14 * sum(maneuver[3:6])
+    size = 2.0 * rounding(*scene[:2], R) + 1e-14 * sum(maneuver[3:6])
     assert status == Status.OK
     assert hypot(x, y) == pytest.approx(R, abs=size)
     assert hypot(x - R * cos(angle), y - R * sin(angle)) <= size

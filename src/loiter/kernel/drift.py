@@ -280,8 +280,8 @@ def fastest(x: float, y: float, c: float, s: float, R: float, side: int, wx: flo
     word, t1, t2, t3, phase = sharpened(best, scene)
     word, t1, t2, t3 = flown(word, t1, t2, t3, dust)
     miss = missed(word, t1, t2, t3, phase, best[1], scene)
-    # The wind carries the rounding of the durations along; a miss that is nan is no better.
-    if not miss <= dust + ROUNDING * (t1 + t2 + t3):
+    # Each piece has its slack, which the wind may double, and rounds its duration. A miss that is nan is no better.
+    if not miss <= 2.0 * dust + ROUNDING * (t1 + t2 + t3):
         return Status.NOT_CONVERGED + 0, 0, 0, nan, nan, nan, nan, nan
     px, py, _, _, _ = held(phase, best[1], R, wx, wy)
     return status, best[1], word, t1, t2, t3, atan2(py, px), miss
