@@ -3,10 +3,10 @@
 from math import cos, pi, sin
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
-from loiter.kernel.angles import TWO_PI, rotation, snapped, turn_of
+from loiter.kernel.angles import NONE, TWO_PI, angle, rotation, snapped, total
 
 angles = st.floats(0.0, TWO_PI, exclude_max=True)
 lengths = st.floats(1e-3, 1e3)
@@ -14,27 +14,66 @@ lengths = st.floats(1e-3, 1e3)
 
 @given(angles, angles, lengths, lengths)
 def test_a_rotation_is_the_difference_of_the_angles(a, b, p, q):
-    turned = rotation(p * cos(a), p * sin(a), q * cos(b), q * sin(b))
+    turned = angle(rotation(p * cos(a), p * sin(a), q * cos(b), q * sin(b)))
     assert 0.0 <= turned <= TWO_PI
     assert abs((turned - (b - a) + pi) % TWO_PI - pi) < 1e-14
 
 
 @given(st.floats(1e-300, 1e-3))
-def test_small_rotations_keep_all_their_digits(angle):
-    assert rotation(1.0, 0.0, cos(angle), sin(angle)) == pytest.approx(angle, rel=4e-16)
+def test_small_rotations_keep_all_their_digits(small):
+    assert angle(rotation(1.0, 0.0, cos(small), sin(small))) == pytest.approx(small, rel=4e-16)
 
 
 @pytest.mark.parametrize("cross", [0.0, -0.0])
 def test_no_rotation_has_no_sign(cross):
-    assert str(turn_of(cross, 1.0)) == "0.0"
+    assert str(angle((cross, 1.0))) == "0.0"
 
 
 @pytest.mark.parametrize("cross", [0.0, -0.0])
 def test_half_a_turn_is_half_a_turn_either_way(cross):
-    assert turn_of(cross, -1.0) in (pi, -pi + TWO_PI)
+    assert angle((cross, -1.0)) in (pi, -pi + TWO_PI)
+
+
+def lacking(small):
+    """The rotation that lacks a small angle to a full turn."""
+    return rotation(1.0, 0.0, cos(small), -sin(small))
 
 
 def test_a_turn_that_lacks_the_slack_counts_as_none():
-    assert snapped(TWO_PI - 1e-9, 10.0, 1.1e-8) == 0.0
-    assert snapped(TWO_PI - 1e-9, 10.0, 0.9e-8) == TWO_PI - 1e-9
-    assert snapped(1e-9, 10.0, 1e-3) == 1e-9
+    assert angle(snapped(lacking(1e-9), 100.0, 1.1e-8)) == 0.0
+    assert snapped(lacking(1e-9), 100.0, 0.9e-8) == lacking(1e-9)
+    assert snapped((sin(1e-9), cos(1e-9)), 100.0, 1e-3) == (sin(1e-9), cos(1e-9))
+
+
+@given(st.floats(1e-9, 3.0), lengths, lengths)
+def test_what_counts_as_none_is_no_longer_than_the_slack(small, radius, slack):
+    if angle(snapped(lacking(small), radius * radius, slack)) == 0.0:
+        assert small * radius <= slack * (1.0 + 1e-9)
+
+
+@given(angles, angles, angles, lengths, lengths, lengths)
+@example(pi, pi, 0.0, 1.0, 1.0, 1.0)
+@example(pi, pi, pi, 1.0, 1.0, 1.0)
+@example(0.5 * pi, 1.5 * pi, 0.0, 1.0, 1.0, 1.0)
+def test_rotations_add_up(a, b, c, p, q, r):
+    parts = [(length * sin(part), length * cos(part)) for part, length in ((a, p), (b, q), (c, r))]
+    # A sum that rounding brings to a whole turn is that turn, never none.
+    assert total(*parts) == pytest.approx(sum(map(angle, parts)), abs=2e-14)
+
+
+@pytest.mark.parametrize("cross", [0.0, -0.0])
+@pytest.mark.parametrize("halves", [0, 1, 2, 3])
+def test_exact_half_turns_add_up(cross, halves):
+    turns = [(cross, -1.0)] * halves + [NONE] * (3 - halves)
+    assert total(*turns) == halves * pi
+
+
+def test_a_vector_without_length_is_not_rotated():
+    still = rotation(0.0, -0.0, 3.0, -4.0)
+    assert angle(still) == 0.0
+    assert total((1.0, 2.0), still, still) == angle((1.0, 2.0))
+
+
+@given(st.floats(1e-300, 1e-3), st.floats(1e-300, 1e-3))
+def test_small_rotations_add_up_to_all_their_digits(a, b):
+    assert total((sin(a), cos(a)), NONE, (sin(b), cos(b))) == pytest.approx(a + b, rel=8e-16)

@@ -3,11 +3,13 @@
 from math import acos, hypot, inf, pi, sqrt
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
 
+from loiter.kernel.angles import angle
 from loiter.kernel.codes import Word
 from loiter.kernel.exact import beyond
-from loiter.kernel.extremals import extremals, lrl, onto_axis, rl
+from loiter.kernel.extremals import duration, durations, extremals, fastest, lrl, near_circle, onto_axis, rl
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import rounding
 from strategies import coordinates, radii
@@ -17,13 +19,14 @@ U = {"L": 1, "S": 0, "R": -1}
 
 def reached(x, y, R):
     """The extremals that reach the target, with the switching points they pass, the end last."""
-    for word, *durations in extremals(x, y, R, rounding(x, y, R) / 3.0):
-        if durations[0] < inf:
+    for extremal in extremals(x, y, R, rounding(x, y, R) / 3.0):
+        if duration(extremal) < inf:
+            letters, times = Word(extremal[0]).letters, durations(extremal)
             points, here = [], (x, y)
-            for letter, t in zip(Word(word).letters, durations, strict=False):
+            for letter, t in zip(letters, times, strict=False):
                 here = flow(*here, U[letter], t)
                 points.append(here)
-            yield Word(word).letters, durations, points
+            yield letters, times, points
 
 
 @settings(max_examples=500)
@@ -31,8 +34,8 @@ def reached(x, y, R):
 def test_every_extremal_ends_at_the_target(x, y, R):
     found = list(reached(x, y, R))
     assert found
-    for _, durations, points in found:
-        assert min(durations) >= 0.0
+    for _, times, points in found:
+        assert min(times) >= 0.0
         assert hypot(points[-1][0], points[-1][1] - R) <= rounding(x, y, R)
 
 
@@ -45,18 +48,19 @@ def test_straight_pieces_lie_on_the_line_through_the_centre(x, y, R):
 
 @given(coordinates, coordinates, radii)
 def test_last_arcs_after_a_straight_piece_last_as_long_as_the_radius_says(x, y, R):
-    for word, durations, _ in reached(x, y, R):
+    for word, times, _ in reached(x, y, R):
         if word[1:] == "SL":
-            assert durations[2] == pytest.approx(acos(1.0 / (1.0 + R)), abs=1e-15)
+            assert times[2] == pytest.approx(acos(1.0 / (1.0 + R)), abs=1e-15)
         if word[1:] == "SR":
-            assert durations[2] == pytest.approx(pi - acos(1.0 / (R - 1.0)), abs=1e-7 if R < 2.1 else 1e-14)
+            assert times[2] == pytest.approx(pi - acos(1.0 / (R - 1.0)), abs=1e-7 if R < 2.1 else 1e-14)
 
 
 @settings(max_examples=500)
 @given(coordinates, coordinates, radii)
 def test_lrl_switches_where_the_maximum_principle_asks(x, y, R):
-    _, first, middle, _ = lrl(x, y, R, 0.0, beyond(x, y, R, 2.0), beyond(x, y, 2.0 - R, 2.0))
-    if first < inf:
+    extremal = lrl(x, y, R, 0.0, beyond(x, y, R, 2.0), beyond(x, y, 2.0 - R, 2.0))
+    first, middle, _ = durations(extremal)
+    if duration(extremal) < inf:
         xa, ya = flow(x, y, 1, first)
         xb, yb = flow(xa, ya, -1, middle)
         assert xb * ya == pytest.approx(-xa * yb, abs=1e-12 * (1.0 + x * x + y * y + R * R))
@@ -65,7 +69,7 @@ def test_lrl_switches_where_the_maximum_principle_asks(x, y, R):
 
 @pytest.mark.parametrize("branch", [-1.0, 1.0])
 def test_rl_meets_the_last_circle_on_the_side_of_its_branch(branch):
-    _, first, last, _ = rl(-0.53, 0.31, 1.0, 0.0, beyond(-0.53, 0.31, 1.0, -2.0), branch)
+    first, last, _ = durations(rl(-0.53, 0.31, 1.0, 0.0, beyond(-0.53, 0.31, 1.0, -2.0), branch))
     x1, y1 = flow(-0.53, 0.31, -1, first)
     assert x1 * branch > 0.0
     assert hypot(x1, y1 + 1.0) == pytest.approx(2.0, abs=1e-15)
@@ -75,9 +79,37 @@ def test_rl_meets_the_last_circle_on_the_side_of_its_branch(branch):
 @pytest.mark.parametrize("y", [1e-4, 1e-9, 1e-20, 1e-300])
 def test_a_tiny_turn_onto_the_axis_keeps_its_digits(y):
     # From (-9, y) the right turn about (0, 1) lasts y/9 to first order.
-    assert onto_axis(-9.0, -y, -1.0, 0.0)[0] == pytest.approx(y / 9.0, rel=max(4e-16, y))
+    assert angle(onto_axis(-9.0, -y, -1.0, 0.0)[0]) == pytest.approx(y / 9.0, rel=max(4e-16, y))
 
 
 def test_no_straight_piece_inside_two_turn_radii():
     words = {word for word, _, _ in reached(0.2, 0.1, sqrt(3.0))}
     assert not any("SR" in word for word in words)
+
+
+@settings(max_examples=1000)
+@given(coordinates, coordinates, radii)
+@example(0.0, -1.0, 3.0)  # the centre of L, where the last LRL begins
+@example(0.0, 1.0, 1.0)
+@example(-3e-289, -3.0, 1.0)
+def test_the_three_words_that_are_tried_are_as_fast_as_all_eleven(x, y, R):
+    """docs/theory.md, section 4: for each first turn one word, and from y < 0 one more."""
+    slack = rounding(x, y, R) / 3.0
+    least, best = fastest(x, y, R, slack, True)
+    assert least == pytest.approx(min(map(duration, extremals(x, y, R, slack))), abs=rounding(x, y, R))
+    assert duration(best) == least
+
+
+@settings(max_examples=300)
+@given(coordinates, coordinates, radii)
+def test_the_time_of_an_extremal_is_the_sum_of_its_pieces(x, y, R):
+    for extremal in extremals(x, y, R, rounding(x, y, R) / 3.0):
+        if duration(extremal) < inf:
+            assert duration(extremal) == pytest.approx(sum(durations(extremal)), rel=1e-15, abs=4e-15)
+
+
+@given(coordinates, coordinates, radii, st.floats(0.0, 10.0))
+def test_next_to_a_circle_means_within_the_slack_of_it(x, y, radius, slack):
+    away = abs(hypot(x, y) - radius)
+    assume(abs(away - slack) > 1e-12 * (1.0 + away + slack + radius))
+    assert near_circle(x * x + y * y - radius * radius, radius, slack) == (away <= slack)

@@ -176,7 +176,7 @@ def test_the_miss_stays_below_the_tolerance(R, side, tolerance, dx, dy, x, y):
 def test_at_the_target_nothing_is_left_to_do(R, side):
     held = optimum(0.0, side * R, R, side, 0.0)
     assert held == (side, Word.EMPTY, 0.0, 0.0, 0.0)
-    assert first_control(0.0, side * R, R, side, 0.0) == -side / R
+    assert first_control(R, held) == -side / R
 
 
 @given(radii, one_way, st.floats(0.0, 2.0 * pi))
@@ -226,6 +226,7 @@ def test_what_cannot_be_solved_has_a_status(x, y, R, tolerance, status):
 @given(coordinates, coordinates, radii, sides, controls, st.floats(0.0, 3.0))
 def test_the_feedback_law_is_the_first_letter(x, y, R, side, u, t):
     x, y = flow(x, y, u, t)
-    word = Word(optimum(x, y, R, side, 0.0)[1]).letters
+    best = optimum(x, y, R, side, 0.0)
+    word = Word(best[1]).letters
     assume(word)
-    assert first_control(x, y, R, side, 0.0) == {"L": 1.0, "S": 0.0, "R": -1.0}[word[0]]
+    assert first_control(R, best) == {"L": 1.0, "S": 0.0, "R": -1.0}[word[0]]

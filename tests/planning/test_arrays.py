@@ -30,8 +30,8 @@ def test_arrays_give_what_the_scalar_functions_give():
     assert solution.miss == pytest.approx(
         [miss(x, y, q, m) for x, y, q, m in zip(X, Y, R, MANEUVERS, strict=True)], abs=1e-13
     )
-    assert np.array_equal(loiter.min_time(X, Y, R, TURNS), solution.time)
-    expected = [first_control(x, y, q, SIDES[t], 0.0) for x, y, q, t in zip(X, Y, R, TURNS, strict=True)]
+    assert loiter.min_time(X, Y, R, TURNS) == pytest.approx(solution.time, abs=1e-13, rel=0.0)
+    expected = [first_control(q, maneuver) for q, maneuver in zip(R, MANEUVERS, strict=True)]
     assert loiter.control(X, Y, R, TURNS).tolist() == expected
 
 
@@ -114,3 +114,79 @@ def test_a_circle_as_tight_as_the_aircraft_turns_is_solved_in_spite_of_rounding(
 
 def test_an_endless_tolerance_is_refused():
     assert loiter.solve(4.0, 4.0, 1.0, "cw", inf).status == Status.BAD_TOLERANCE
+
+
+def test_results_go_where_they_are_wanted():
+    out = np.empty((2, 3000))
+    assert loiter.min_time(X, Y, [[1.0], [2.5]], out=out) is out
+    assert np.array_equal(out, loiter.min_time(X, Y, [[1.0], [2.5]]))
+    blank = loiter.solve(np.zeros(3000), 1.0)
+    assert loiter.solve(X, Y, R, TURNS, out=blank) is blank
+    assert np.array_equal(blank.durations, loiter.solve(X, Y, R, TURNS).durations)
+    x, y = np.empty(3), np.empty(3)
+    loiter.reduce(np.arange(3), 1, 90, Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=1.0), out=(x, y))
+    assert x.tolist() == [0.0, 1.0, 2.0]
+    assert y.tolist() == [1.0, 1.0, 1.0]
+
+
+@pytest.mark.parametrize("workers", [2, 3, -1])
+def test_threads_share_the_work(workers):
+    grid = X.reshape(30, 100), Y.reshape(30, 100), R.reshape(30, 100), TURNS.reshape(30, 100)
+    assert np.array_equal(loiter.min_time(*grid, workers=workers), loiter.min_time(*grid))
+    assert np.array_equal(loiter.control(*grid, workers=workers), loiter.control(*grid))
+    alone, shared = loiter.solve(*grid), loiter.solve(*grid, workers=workers)
+    assert all(np.array_equal(a, b) for a, b in zip(alone, shared, strict=True))
+    assert loiter.min_time(4.0, 4.0, workers=workers) == loiter.min_time(4.0, 4.0)
+    assert loiter.min_time(X[:1], Y[:1], workers=workers).shape == (1,)
+    out = np.empty(3000)
+    loiter.min_time(X, Y, 1.0, workers=workers, out=out)
+    assert np.array_equal(out, loiter.min_time(X, Y))
+
+
+@pytest.mark.parametrize("workers", [0, -2, 1.5, "2", None])
+def test_an_impossible_number_of_workers_is_refused(workers):
+    with pytest.raises(InvalidArgument, match="workers"):
+        loiter.min_time([0.0, 1.0], 0.0, workers=workers)
+
+
+def test_turns_may_be_codes():
+    codes = np.array([SIDES[turn] for turn in TURNS], dtype=np.int8)
+    assert np.array_equal(loiter.min_time(X, Y, R, codes), loiter.min_time(X, Y, R, TURNS))
+    assert loiter.min_time(0.0, 1.0, 1.0, Side.CW) == 0.0
+
+
+def test_dask_arrays_stay_lazy_and_chunked():
+    array = pytest.importorskip("dask.array")
+    x, y = array.from_array(X, chunks=700), array.from_array(Y, chunks=700)
+    times, solution = loiter.min_time(x, y, 2.5, "cw"), loiter.solve(x, y, 2.5, "cw")
+    assert times.chunks == x.chunks
+    assert np.array_equal(times.compute(scheduler="threads"), loiter.min_time(X, Y, 2.5, "cw"))
+    assert np.array_equal(loiter.control(x, y).compute(scheduler="processes", num_workers=1), loiter.control(X, Y))
+    expected = loiter.solve(X, Y, 2.5, "cw")
+    for lazy, values in zip(solution, expected, strict=True):
+        assert np.array_equal(lazy.compute(scheduler="threads"), values)
+    orbit, uav = Orbit(10.0, 20.0, 80.0), Aircraft(18.0, max_bank_deg=35.0)
+    for lazy, values in zip(loiter.reduce(x, y, 30.0, orbit, uav), loiter.reduce(X, Y, 30.0, orbit, uav), strict=True):
+        assert lazy.compute() == pytest.approx(values, abs=1e-15)
+
+
+def test_columns_of_pandas_stay_columns():
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"x": X, "y": Y}, index=np.arange(3000) + 7)
+    times = loiter.min_time(frame.x, frame.y, 1.5)
+    assert times.index.equals(frame.index)
+    assert np.array_equal(times, loiter.min_time(X, Y, 1.5))
+    assert np.array_equal(loiter.solve(frame.x, frame.y).time, loiter.solve(X, Y).time)
+    x, _ = loiter.reduce(frame.x, frame.y, 90.0, Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=1.0))
+    assert x.index.equals(frame.index)
+
+
+def test_arrays_of_xarray_keep_their_names():
+    xarray = pytest.importorskip("xarray")
+    x = xarray.DataArray(X.reshape(30, 100), dims=("run", "step"))
+    y = xarray.DataArray(Y[:100], dims=("step",))
+    times = loiter.min_time(x, y)
+    assert times.dims == ("run", "step")
+    assert np.array_equal(times, loiter.min_time(X.reshape(30, 100), Y[:100]))
+    lazy = xarray.apply_ufunc(loiter.min_time, x.chunk(run=10), y, dask="parallelized", output_dtypes=[float])
+    assert np.array_equal(lazy.compute(), times)

@@ -16,6 +16,7 @@ Nothing is mirrored: `side` is +1 for the target (0, R), -1 for (0, -R), and L, 
 
 from math import hypot, nan
 
+from loiter.kernel.angles import angle
 from loiter.kernel.extremals import onto_axis
 from loiter.kernel.motion import flow, fly
 from loiter.kernel.synthesis import rounding
@@ -53,9 +54,9 @@ def at_switch(x: float, y: float, u: int, R: float) -> Adjoint:
 
 def of_arc(x: float, y: float, R: float, side: int, u: int, t: float) -> Adjoint:
     """Lambda and psi at the start (x, y) of a single arc of duration t onto the circle, as chosen above."""
-    to_axis, _ = onto_axis(x, u * y, -1.0 * u * side, 0.0)
-    if to_axis < t:
-        psi1, psi2 = turned(1.0, 0.0, u, -to_axis)
+    to_axis, c = onto_axis(x, u * y, -1.0 * u * side, 0.0)
+    if c >= 0.0 and angle(to_axis) < t:
+        psi1, psi2 = turned(1.0, 0.0, u, -angle(to_axis))
         return 1.0, psi1, psi2
     lam, psi1, psi2 = at_switch(x, y, u, R)
     # Past half a turn of the small circle lambda would be negative; there lambda = 0 is as near as psi can come.

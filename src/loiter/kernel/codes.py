@@ -46,9 +46,13 @@ class Status(IntEnum):
     RADIUS_TOO_SMALL = 2
     OUT_OF_RANGE = 3
     BAD_TOLERANCE = 4
-    WIND_TOO_STRONG = 5
-    NOT_HELD = 6
-    NOT_CONVERGED = 7
+    BAD_AIRCRAFT = 5
+    BAD_ORBIT = 6
+    BAD_TURN = 7
+    MALFORMED = 8
+    WIND_TOO_STRONG = 9
+    NOT_HELD = 10
+    NOT_CONVERGED = 11
 
     @property
     def message(self) -> str:
@@ -62,6 +66,10 @@ _MESSAGES = {
     Status.RADIUS_TOO_SMALL: "the circle is tighter than the minimum turn radius: R must be at least 1",
     Status.OUT_OF_RANGE: "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn",
     Status.BAD_TOLERANCE: "the tolerance must be zero or positive, and below 2**52 turn radii",
+    Status.BAD_AIRCRAFT: "airspeed and turn limit must be positive, finite numbers, and a bank below 90 degrees",
+    Status.BAD_ORBIT: "the circle needs a finite centre and a positive, finite radius",
+    Status.BAD_TURN: "the turn must be cw, ccw or either",
+    Status.MALFORMED: "the line has more or fewer fields than the header, or is not UTF-8",
     Status.WIND_TOO_STRONG: "the wind relative to the circle is as fast as the aircraft: |w| must be below 1",
     Status.NOT_HELD: "the circle is too tight to be held in this wind: R must be at least (1 + |w|)**2",
     Status.NOT_CONVERGED: "no maneuver was found that ends on the circle when flown",

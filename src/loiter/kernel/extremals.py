@@ -2,57 +2,67 @@
 
 docs/theory.md, section 3, derives them from the maximum principle (11)-(18). Each function takes the reduced state
 (x, y), the radius R >= 1 and `slack`, the arc length that a rotation may lack to a full turn and count as none
-(`angles.snapped`). It returns the word and the durations of its pieces in flying order; the first duration is `inf`
-where the word does not reach the target. The counter-clockwise circle is the mirror image: pass -y, swap L and R.
+(`angles.snapped`). It returns the word and its three pieces in flying order, arcs as rotations, the middle one with the
+length flown straight; that length is `inf` where the word does not reach the target. The counter-clockwise circle is
+the mirror image: pass -y, swap L and R.
 
 In the reduced plane L turns clockwise about (0, -1) at radius rp, R counter-clockwise about (0, 1) at radius rm.
 Differences of squares are written as products, (R - y) (R + y + 2) for (R + 1)^2 - (y + 1)^2, so that a state near a
 circle keeps its digits; those that tell on which side of a circle it lies come from `exact.beyond`.
 """
 
-from math import atan2, hypot, inf, sqrt
+from math import inf, sqrt
 
-from loiter.kernel.angles import rotation, snapped, turn_of
+from loiter.kernel.angles import NONE, Rotation, angle, rotation, snapped, total
 from loiter.kernel.codes import Word
 from loiter.kernel.exact import beyond
 
-Extremal = tuple[Word, float, float, float]
+# Word, first arc, length of the straight piece, second arc where there is no straight piece, third piece.
+Extremal = tuple[Word, Rotation, float, Rotation, Rotation]
 
 
-def onto_axis(x: float, y: float, end: float, slack: float) -> tuple[float, float]:
-    """Left turn from (x, y) until it meets the axis y = 0 at (end c, 0), end = -1 or +1: its duration, and c.
+def duration(extremal: Extremal) -> float:
+    """T, the whole time of an extremal; `inf` where it does not reach the target."""
+    _, first, straight, middle, last = extremal
+    return straight + total(first, middle, last)
 
-    c = sqrt(rp^2 - 1); duration `inf` where the turn never meets the axis (rp < 1). A right turn is the mirror image:
-    pass -y. The cross product is end (c y + c - end x); where end x > 0, c - end x = y (y + 2) / (c + end x), so the
-    rotation keeps the sign of y down to its last bit.
+
+def durations(extremal: Extremal) -> tuple[float, float, float]:
+    """The durations of its pieces in flying order, 0 past the last."""
+    _, first, straight, middle, last = extremal
+    return angle(first), straight + angle(middle), angle(last)
+
+
+def onto_axis(x: float, y: float, end: float, slack: float) -> tuple[Rotation, float]:
+    """Left turn from (x, y) until it meets the axis y = 0 at (end c, 0), end = -1 or +1: the rotation, and c.
+
+    c = sqrt(rp^2 - 1), -1 where the turn never meets the axis (rp < 1). A right turn is the mirror image: pass -y.
+    The cross product is end (c y + c - end x); where end x > 0, c - end x = y (y + 2) / (c + end x), so the rotation
+    keeps the sign of y down to its last bit.
     """
     rise = y * (y + 2.0)
     c2 = x * x + rise
-    if c2 < 0.0:
-        return inf, 0.0
-    c = sqrt(c2)
+    c = sqrt(max(c2, 0.0))
     along = end * x
-    gap = rise / (c + along) if along > 0.0 else c - along
-    return snapped(turn_of(end * (c * y + gap), c * along + y + 1.0), sqrt(c2 + 1.0), slack), c
+    # Both products times c + along where that is safe, which spares a division.
+    scale = c + along if along > 0.0 else 1.0
+    gap = rise if along > 0.0 else c - along
+    products = end * (c * y * scale + gap), (c * along + y + 1.0) * scale
+    return snapped(products, c2 + 1.0, slack), c if c2 >= 0.0 else -1.0
 
 
 def external_join(word: Word, x: float, y: float, R: float, slack: float) -> Extremal:
     """LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1))."""
     first, c = onto_axis(x, y, -1.0, slack)
     X = sqrt(R * (R + 2.0))
-    if c < X:
-        return word, inf, 0.0, 0.0
-    return word, first, c - X, atan2(X, 1.0)
+    return word, first, c - X if c >= X else inf, NONE, (X, 1.0)
 
 
 def internal_join(word: Word, x: float, y: float, R: float, slack: float) -> Extremal:
     """LSR, R >= 2: onto the axis at (c, 0), straight to (X, 0), X = sqrt(R (R - 2)), right for pi - acos(1/(R - 1))."""
     first, c = onto_axis(x, y, 1.0, slack)
-    X2 = R * (R - 2.0)
-    if c * c > X2:
-        return word, inf, 0.0, 0.0
-    X = sqrt(X2)
-    return word, first, X - c, atan2(X, -1.0)
+    X = sqrt(max(R * (R - 2.0), 0.0))
+    return word, first, X - c if R >= 2.0 and 0.0 <= c <= X else inf, NONE, (X, -1.0)
 
 
 def lsl(x: float, y: float, R: float, slack: float) -> Extremal:
@@ -75,14 +85,19 @@ def rsr(x: float, y: float, R: float, slack: float) -> Extremal:
     return internal_join(Word.RSR, x, -y, R, slack)
 
 
+def near_circle(beyond2: float, radius: float, slack: float) -> bool:
+    """Whether a point is within `slack` of a circle, from the square of its distance from the centre less radius^2."""
+    inwards = min(slack, radius)
+    return -inwards * (2.0 * radius - inwards) <= beyond2 <= slack * (2.0 * radius + slack)
+
+
 def l(x: float, y: float, R: float, slack: float, outer: float) -> Extremal:
     """Left along the last circle, radius R + 1 about (0, -1): the limit of RL, taken within `slack` of that circle.
 
     `outer` is rp^2 - (R + 1)^2, `exact.beyond(x, y, R, 2)`.
     """
-    if abs(outer) > slack * (hypot(x, y + 1.0) + R + 1.0):
-        return Word.L, inf, 0.0, 0.0
-    return Word.L, snapped(turn_of(-x, y + 1.0), R + 1.0, slack), 0.0, 0.0
+    reaches = near_circle(outer, R + 1.0, slack)
+    return Word.L, snapped((-x, y + 1.0), (R + 1.0) * (R + 1.0), slack), 0.0 if reaches else inf, NONE, NONE
 
 
 def r(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
@@ -90,9 +105,8 @@ def r(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
 
     `inner` is rm^2 - (R - 1)^2, `exact.beyond(x, y, R, -2)`.
     """
-    if R == 1.0 or abs(inner) > slack * (hypot(x, y - 1.0) + R - 1.0):
-        return Word.R, inf, 0.0, 0.0
-    return Word.R, snapped(turn_of(x, y - 1.0), R - 1.0, slack), 0.0, 0.0
+    reaches = R > 1.0 and near_circle(inner, R - 1.0, slack)
+    return Word.R, snapped((x, y - 1.0), (R - 1.0) * (R - 1.0), slack), 0.0 if reaches else inf, NONE, NONE
 
 
 def rl(x: float, y: float, R: float, slack: float, inner: float, branch: float) -> Extremal:
@@ -102,12 +116,10 @@ def rl(x: float, y: float, R: float, slack: float, inner: float, branch: float) 
     8 (R + 1) - q.
     """
     p = 8.0 * (R + 1.0) - inner
-    if inner < 0.0 or p < 0.0:
-        return Word.RL, inf, 0.0, 0.0
-    x1 = branch * 0.25 * sqrt(p * inner)
-    first = rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner)
-    last = turn_of(-x1, R + 1.0 - 0.25 * inner)
-    return Word.RL, snapped(first, hypot(x, y - 1.0), slack), snapped(last, R + 1.0, slack), 0.0
+    x1 = branch * 0.25 * sqrt(max(p * inner, 0.0))
+    first = snapped(rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner), inner + (R - 1.0) * (R - 1.0), slack)
+    last = snapped((-x1, R + 1.0 - 0.25 * inner), (R + 1.0) * (R + 1.0), slack)
+    return Word.RL, first, 0.0 if inner >= 0.0 and p >= 0.0 else inf, last, NONE
 
 
 def lr(x: float, y: float, R: float, slack: float, outer: float, fold: float, branch: float) -> Extremal:
@@ -116,12 +128,10 @@ def lr(x: float, y: float, R: float, slack: float, outer: float, fold: float, br
     The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = -`outer` = (R + 1)^2 - rp^2, p = `fold` =
     rp^2 - (R - 3)^2, `exact.beyond(x, y, 2 - R, 2)`.
     """
-    if R == 1.0 or outer > 0.0 or fold < 0.0:
-        return Word.LR, inf, 0.0, 0.0
-    x1 = branch * 0.25 * sqrt(fold * -outer)
-    first = rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0)
-    last = turn_of(x1, R - 1.0 + 0.25 * outer)
-    return Word.LR, snapped(first, hypot(x, y + 1.0), slack), snapped(last, R - 1.0, slack), 0.0
+    x1 = branch * 0.25 * sqrt(max(-outer * fold, 0.0))
+    first = snapped(rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0), outer + (R + 1.0) * (R + 1.0), slack)
+    last = snapped((x1, R - 1.0 + 0.25 * outer), (R - 1.0) * (R - 1.0), slack)
+    return Word.LR, first, 0.0 if R > 1.0 and outer <= 0.0 and fold >= 0.0 else inf, last, NONE
 
 
 def lrl(x: float, y: float, R: float, slack: float, outer: float, fold: float) -> Extremal:
@@ -135,23 +145,28 @@ def lrl(x: float, y: float, R: float, slack: float, outer: float, fold: float) -
     k, K, d = x * x + y * (y + 2.0), R * (R + 2.0), -0.25 * outer
     h = K + 0.5 * outer
     D = h * h - 3.0 * d * d
-    if R > 3.0 or fold > 0.0 or D < 0.0 or h >= 6.0:
-        return Word.LRL, inf, 0.0, 0.0
-    w = -fold * (8.0 * (R + 3.0) - outer) / (16.0 * (6.0 - h + sqrt(D)))
-    a = 6.0 / (h + sqrt(D))
-    m = sqrt(0.5 * a * w)
-    ya, yb = k / (1.0 + sqrt(max(1.0 + a * k, 0.0))), K / (1.0 + sqrt(1.0 + a * K))
+    reaches = R <= 3.0 and fold <= 0.0 and D >= 0.0 and h < 6.0
+    root = sqrt(max(D, 0.0))
+    above, below = h + root, 6.0 - h + root if reaches else 1.0
+    share = 1.0 / (above * below)
+    w = -fold * (8.0 * (R + 3.0) - outer) * 0.0625 * above * share
+    a = 6.0 * below * share
+    m = sqrt(max(0.5 * a * w, 0.0))
+    # ya = k/q; every vector is taken q times.
+    q = 1.0 + sqrt(max(1.0 + a * k, 0.0))
+    ya, yb = k, k + d * q
     xa, xb = m * ya, -m * yb
-    first = rotation(xa, ya + 1.0, x, y + 1.0)
+    first = snapped(rotation(xa, ya + q, x, y + 1.0), outer + (R + 1.0) * (R + 1.0), slack)
     # ya - 1 and yb - 1 from what they are small by: at R = 1 both vanish on the last arc.
-    middle = rotation(xa, -0.5 * (w + d), xb, -0.5 * (w - d))
-    return Word.LRL, snapped(first, hypot(x, y + 1.0), slack), middle, turn_of(-xb, yb + 1.0)
+    middle = rotation(xa, -0.5 * (w + d) * q, xb, -0.5 * (w - d) * q)
+    last = -xb, yb + q
+    return Word.LRL, first, 0.0 if reaches else inf, middle, last
 
 
 def extremals(x: float, y: float, R: float, slack: float) -> tuple[Extremal, ...]:
-    """The extremals for the target (0, R) that can win, limits apart; those that do not reach it begin with `inf`.
+    """Every extremal for the target (0, R), in the order in which ties are decided.
 
-    In the order in which ties are decided: next to the end of a straight piece, words with and without it tie.
+    Next to the end of a straight piece, words with and without it tie.
     """
     outer, inner, fold = beyond(x, y, R, 2.0), beyond(x, y, R, -2.0), beyond(x, y, 2.0 - R, 2.0)
     return (
@@ -167,3 +182,60 @@ def extremals(x: float, y: float, R: float, slack: float) -> tuple[Extremal, ...
         lr(x, y, R, slack, outer, fold, 1.0),
         lrl(x, y, R, slack, outer, fold),
     )
+
+
+def chosen(condition: bool, a: Extremal, b: Extremal) -> Extremal:
+    """Extremal a where the condition holds, else b: number by number, so that it compiles to selects, not branches."""
+    word = a[0] if condition else b[0]
+    first = a[1][0] if condition else b[1][0], a[1][1] if condition else b[1][1]
+    straight = a[2] if condition else b[2]
+    middle = a[3][0] if condition else b[3][0], a[3][1] if condition else b[3][1]
+    last = a[4][0] if condition else b[4][0], a[4][1] if condition else b[4][1]
+    return word, first, straight, middle, last
+
+
+def left_first(x: float, y: float, R: float, slack: float, outer: float, fold: float) -> Extremal:
+    """The extremal that can win among those that begin with L, told by rp (docs/theory.md, section 4); see `detour`."""
+    alone = l(x, y, R, slack, outer)
+    best = lrl(x, y, R, slack, outer, fold)
+    if R > 1.0:
+        inside = chosen(outer >= -4.0 * R, lr(x, y, R, slack, outer, fold, 1.0), lsr(x, y, R, slack))
+        best = chosen(fold <= 0.0 and R <= 3.0, best, inside)
+    if y < 0.0:
+        best = chosen(outer >= 0.0, lsl(x, y, R, slack), best)
+    return chosen(alone[2] == 0.0, alone, best)
+
+
+def right_first(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
+    """The extremal that can win among those that begin with R, told by rm (docs/theory.md, section 4); see `detour`."""
+    best = chosen(inner > 4.0 * R, rsl(x, y, R, slack), rl(x, y, R, slack, inner, -1.0))
+    if y < 0.0:
+        best = chosen(inner < 0.0, rsr(x, y, R, slack), best)
+    if R > 1.0:
+        alone = r(x, y, R, slack, inner)
+        best = chosen(alone[2] == 0.0, alone, best)
+    return best
+
+
+def detour(x: float, y: float, R: float, slack: float, outer: float, inner: float, fold: float) -> Extremal:
+    """The one extremal with the other crossing that can win, from y < 0 alone: its first arc ends before the axis."""
+    return chosen(inner > 4.0 * R, rl(x, y, R, slack, inner, 1.0), lr(x, y, R, slack, outer, fold, -1.0))
+
+
+def fastest(x: float, y: float, R: float, slack: float, exact: bool) -> tuple[float, Extremal]:
+    """The least T and its extremal: of three words at most, one for each first turn and the detour."""
+    outer, inner, fold = beyond(x, y, R, 2.0), beyond(x, y, R, -2.0), beyond(x, y, 2.0 - R, 2.0)
+    right = right_first(x, y, R, slack, inner)
+    left = left_first(x, y, R, slack, outer, fold)
+    if exact and R == 1.0 and not y < 0.0:
+        best = chosen(left[2] == 0.0 and left[1][0] >= 0.0, left, right)
+        return duration(best), best
+    least, time = duration(right), duration(left)
+    best = chosen(time < least, left, right)
+    least = time if time < least else least
+    if y < 0.0:
+        other = detour(x, y, R, slack, outer, inner, fold)
+        time = duration(other)
+        best = chosen(time < least, other, best)
+        least = time if time < least else least
+    return least, best

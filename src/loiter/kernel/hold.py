@@ -7,7 +7,7 @@ against the wind, whichever way round; side +1 is clockwise, -1 counter-clockwis
 
 from math import cos, hypot, sin, sqrt
 
-from loiter.kernel.angles import turned_by
+from loiter.kernel.angles import angle, turned_by
 
 # A pose on the circle: position, heading as a unit vector, ground speed.
 Pose = tuple[float, float, float, float, float]
@@ -38,7 +38,7 @@ def held(phase: float, side: int, R: float, wx: float, wy: float) -> Pose:
 def phase_of(x: float, y: float, side: int, wx: float, wy: float) -> float:
     """The phase of the point of the circle next to (x, y)."""
     dx, dy = downwind(wx, wy)
-    return turned_by(-side, -dx, -dy, side * y, -side * x)
+    return angle(turned_by(-side, -dx, -dy, side * y, -side * x))
 
 
 def hold_rate(phase: float, side: int, R: float, wx: float, wy: float) -> float:

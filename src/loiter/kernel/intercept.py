@@ -11,7 +11,7 @@ roots of convex decreasing functions, those of LRL and RLR lie where a function 
 
 from math import acos, atan2, ceil, cos, hypot, inf, pi, sin, sqrt
 
-from loiter.kernel.angles import TWO_PI, snapped, turned_by
+from loiter.kernel.angles import TWO_PI, angle, snapped, turned_by
 
 # What all words share: the headings at the start and at the pose as unit vectors (c0, s0) and (c, s), the wind
 # (wx, wy), and the slack of `angles.snapped`.
@@ -57,15 +57,20 @@ def nearer(dx: float, dy: float, wx: float, wy: float, limit: float) -> tuple[fl
     return 0.0, -gap / (root - along) if root > along else inf
 
 
+def arc(u: int, ax: float, ay: float, bx: float, by: float, radius: float, slack: float) -> float:
+    """Duration of the arc of control u from heading (ax, ay) to (bx, by), none if a full turn but for the slack."""
+    return angle(snapped(turned_by(u, ax, ay, bx, by), radius * radius, slack))
+
+
 def alike(u: int, dx: float, dy: float, ends: Ends) -> Way:
     """LSL (u = +1) or RSR: t1 + t3 is the rotation from start to pose, or a turn more, and the rest an interception."""
     c0, s0, c, s, wx, wy, slack = ends
-    rotation = snapped(turned_by(u, c0, s0, c, s), 1.0, slack)
+    rotation = arc(u, c0, s0, c, s, 1.0, slack)
     for arcs in (rotation, rotation + TWO_PI):
         ax, ay = dx - wx * arcs, dy - wy * arcs
         straight = interception(ax, ay, wx, wy)
         ex, ey = ax - wx * straight, ay - wy * straight
-        first = snapped(turned_by(u, c0, s0, ex, ey), 1.0 + straight, slack)
+        first = arc(u, c0, s0, ex, ey, 1.0 + straight, slack)
         last = max(arcs - first, 0.0)
         if first <= arcs + slack and last < TWO_PI:
             length = hypot(ex, ey)
@@ -102,15 +107,15 @@ def first_opposite(u: int, dx: float, dy: float, ends: Ends, begin: float, end: 
     """
     c0, s0, c, s, wx, wy, slack = ends
     straight, e1, e2 = tangent(u, dx - wx * begin, dy - wy * begin)
-    arcs = turned_by(u, c0, s0, e1, e2) + turned_by(u, c, s, e1, e2)
+    arcs = angle(turned_by(u, c0, s0, e1, e2)) + angle(turned_by(u, c, s, e1, e2))
     fewest = max(ceil((begin - arcs - straight) / TWO_PI), -WHOLE_TURNS)
     for turns in range(fewest, WHOLE_TURNS + 1):
         time = risen(u, dx, dy, wx, wy, arcs + TWO_PI * turns, begin, end)
         if time > end:
             break
         straight, p1, p2 = tangent(u, dx - wx * time, dy - wy * time)
-        first = snapped(turned_by(u, c0, s0, p1, p2), 1.0 + straight, slack)
-        last = snapped(turned_by(u, c, s, p1, p2), 1.0, slack)
+        first = arc(u, c0, s0, p1, p2, 1.0 + straight, slack)
+        last = arc(u, c, s, p1, p2, 1.0, slack)
         if abs(first + straight + last - time) < pi:
             return first + straight + last, 42 - 15 * u, first, straight, last, 1.0, p1, p2
     return NO_WAY
@@ -139,7 +144,7 @@ def alternating(u: int, dx: float, dy: float, ends: Ends, until: float) -> Way:
     enter, leave = nearer(dx, dy, wx, wy, 4.0)
     best = NO_WAY
     if enter <= until:
-        rotation = snapped(turned_by(u, c0, s0, c, s), 1.0, slack)
+        rotation = arc(u, c0, s0, c, s, 1.0, slack)
         for turns in (-1.0, 0.0, 1.0):
             outside = rotation + TWO_PI * turns
             middle = middle_arc(dx - wx * outside, dy - wy * outside, wx, wy)
@@ -183,6 +188,6 @@ def alternation(u: int, middle: float, dx: float, dy: float, ends: Ends) -> Way:
     # The headings at the switches: p turned by the angle whose cosine is lambda, against the outer arcs and with them.
     ax, ay = lam * p1 + u * across * p2, lam * p2 - u * across * p1
     bx, by = lam * p1 - u * across * p2, lam * p2 + u * across * p1
-    first = snapped(turned_by(u, c0, s0, ax, ay), 4.0, slack)
-    last = snapped(turned_by(u, bx, by, c, s), 1.0, slack)
+    first = arc(u, c0, s0, ax, ay, 4.0, slack)
+    last = arc(u, bx, by, c, s, 1.0, slack)
     return first + middle + last, 42 + 13 * u, first, middle, last, lam, p1, p2

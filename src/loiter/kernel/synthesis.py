@@ -1,10 +1,10 @@
-"""Which extremal wins: the optimum, every extremal in order, the feedback law. The only branching of the kernel."""
+"""Which extremal wins: the optimum, every extremal in order, the feedback law."""
 
 from itertools import pairwise
 from math import cbrt, hypot, inf, isfinite
 
 from loiter.kernel.codes import Side, Status
-from loiter.kernel.extremals import Extremal, extremals
+from loiter.kernel.extremals import Extremal, durations, extremals, fastest
 from loiter.kernel.motion import flow
 
 # A maneuver: the side that it holds, its word, the durations of its pieces (0 past the last).
@@ -28,17 +28,23 @@ def held_radius(R: float) -> float:
     return 1.0 if 1.0 - ROUNDING <= R < 1.0 else R
 
 
+def solvable(x: float, y: float, R: float, tolerance: float) -> bool:
+    """Whether `status_of` is OK: a state and a circle within REACH, the circle one that can be held."""
+    near = abs(x) <= REACH and abs(y) <= REACH and 0.0 <= tolerance <= REACH
+    return near and 1.0 - ROUNDING <= R <= REACH
+
+
 def status_of(x: float, y: float, R: float, tolerance: float) -> Status:
     """`Status.OK`, or why there is nothing to solve."""
+    if solvable(x, y, R, tolerance):
+        return Status.OK
     if not (isfinite(x) and isfinite(y) and isfinite(R)):
         return Status.NOT_FINITE
     if held_radius(R) < 1.0:
         return Status.RADIUS_TOO_SMALL
     if abs(x) > REACH or abs(y) > REACH or R > REACH:
         return Status.OUT_OF_RANGE
-    if not 0.0 <= tolerance <= REACH:
-        return Status.BAD_TOLERANCE
-    return Status.OK
+    return Status.BAD_TOLERANCE
 
 
 def mirrored(word: int) -> int:
@@ -72,7 +78,8 @@ def slack_of(x: float, y: float, R: float, tolerance: float) -> float:
 
 def as_flown(extremal: Extremal, dust: float, side: int) -> Flown:
     """An extremal of the clockwise circle as the maneuver flown onto the circle of the given side."""
-    word, t1, t2, t3 = flown(extremal[0] + 0, extremal[1], extremal[2], extremal[3], dust)
+    t1, t2, t3 = durations(extremal)
+    word, t1, t2, t3 = flown(extremal[0] + 0, t1, t2, t3, dust)
     return side, mirrored(word) if side < 0 else word, t1, t2, t3
 
 
@@ -84,23 +91,35 @@ def near_side(y: float) -> int:
 def optimum(x: float, y: float, R: float, side: int, tolerance: float) -> Flown:
     """The fastest maneuver onto the circle from the reduced state (x, y); call it where `status_of` is OK.
 
-    For *either* the near side is as fast as the far one, but for what the tolerance lets pass; so both are asked.
+    For *either* the near side is as fast as the far one, but for what a tolerance lets pass; only then both are asked.
     """
-    if side != Side.EITHER:
-        return one_sided(x, y, R, side, tolerance)
-    near = one_sided(x, y, R, near_side(y), tolerance)
+    near = one_sided(x, y, R, asked_side(y, side), tolerance)
+    if side != Side.EITHER or tolerance == 0.0:
+        return near
     far = one_sided(x, y, R, -near_side(y), tolerance)
-    return far if duration(far) < duration(near) - rounding(x, y, R) else near
+    return far if sooner(far, near, rounding(x, y, R)) else near
+
+
+def asked_side(y: float, side: int) -> int:
+    """The side asked for, for *either* the near one."""
+    return side + 0 if side != Side.EITHER else near_side(y)
+
+
+def sooner(maneuver: Flown, other: Flown, dust: float) -> bool:
+    """Whether a maneuver is faster than another by more than rounding."""
+    return duration(maneuver) < duration(other) - dust
 
 
 def one_sided(x: float, y: float, R: float, side: int, tolerance: float) -> Flown:
     """The fastest maneuver onto the circle held on one side."""
-    found = extremals(x, side * y, R, slack_of(x, y, R, tolerance))
-    best = found[0]
-    for extremal in found:
-        if extremal[1] + extremal[2] + extremal[3] < best[1] + best[2] + best[3]:
-            best = extremal
+    _, best = fastest(x, side * y, R, slack_of(x, y, R, tolerance), tolerance == 0.0)
     return as_flown(best, rounding(x, y, R), side)
+
+
+def least_time(x: float, y: float, R: float, side: int, tolerance: float) -> float:
+    """T of `one_sided`, without its pieces; it may count a piece that, shorter than rounding, is not flown."""
+    time, _ = fastest(x, side * y, R, slack_of(x, y, R, tolerance), tolerance == 0.0)
+    return time
 
 
 def duration(maneuver: Flown) -> float:
@@ -109,14 +128,19 @@ def duration(maneuver: Flown) -> float:
 
 
 def ranked(x: float, y: float, R: float, side: int, tolerance: float) -> list[Flown]:
-    """Every extremal that reaches the circle, each once, fastest first; for *either*, those of both sides."""
+    """Every extremal that reaches the circle, each once, fastest first; for *either*, those of both sides.
+
+    Left out is what only a tolerance lets end sooner than the optimum: it ends beside the target, not on it.
+    """
     dust = rounding(x, y, R)
+    least = duration(optimum(x, y, R, side, tolerance)) - dust
     sides = (near_side(y), -near_side(y)) if side == Side.EITHER else (side,)
     maneuvers: list[Flown] = []
     for s in sides:
         for extremal in extremals(x, s * y, R, slack_of(x, y, R, tolerance)):
             maneuver = as_flown(extremal, dust, s)
-            if duration(maneuver) < inf and not any(same(maneuver, other, dust) for other in maneuvers):
+            known = any(same(maneuver, other, dust) for other in maneuvers)
+            if least <= duration(maneuver) < inf and not known:
                 maneuvers.append(maneuver)
     return sorted(maneuvers, key=duration)
 
@@ -163,10 +187,9 @@ def letter(maneuver: Flown, t: float) -> int:
     return 0
 
 
-def first_control(x: float, y: float, R: float, side: int, tolerance: float) -> float:
-    """Feedback law: the first control of the optimum; at the target the rate -1/R or 1/R that holds the circle."""
-    side, word, _, _, _ = optimum(x, y, R, side, tolerance)
-    return (word & 3) - 2.0 if word else -side / R
+def first_control(R: float, maneuver: Flown) -> float:
+    """Feedback law: the first control of a maneuver; at the target the rate -1/R or 1/R that holds the circle."""
+    return (maneuver[1] & 3) - 2.0 if maneuver[1] else -maneuver[0] / R
 
 
 def miss(x: float, y: float, R: float, maneuver: Flown) -> float:

@@ -1,55 +1,64 @@
-"""The kernel's functions, unchanged, compiled by Numba into NumPy ufuncs. The only file that imports Numba."""
+"""The kernel's functions, unchanged, as NumPy ufuncs of float64; importing it loads them, compiled once a machine.
 
-from math import nan
+`min_time(x, y, R, side, tolerance)` and `control(...)` give one array, `reduce(x, y, c, s)` two. `solve(x, y, R, side,
+tolerance, three)` gives time, word, durations (..., 3), status, side held and miss; `three`, any array of length 3,
+only tells their number. Words, statuses and sides are the int8 codes of `kernel/codes.py`. They broadcast, take `out=`,
+release the interpreter's lock, and ask for no memory beyond the results.
+"""
+
+import ctypes
+from importlib import import_module
+from pathlib import Path
 from typing import Any
 
-import numba
+import numpy as np
 
-from loiter.kernel.codes import Status
-from loiter.kernel.rebinding import rebound
-from loiter.kernel.synthesis import duration, first_control, held_radius, miss, optimum, status_of
+from loiter.kernel.objects import addresses
 
-_OK = int(Status.OK)
+# Place of PyUFunc_FromFuncAndDataAndSignature in NumPy's table of functions (numpy/__ufunc_api.h), part of its ABI.
+FROM_FUNCTIONS = 31
+NO_IDENTITY = -1  # PyUFunc_None
 
-
-def _compiled(function: Any) -> Any:
-    return rebound(function, finish=numba.njit)
-
-
-_optimum, _duration, _miss = _compiled(optimum), _compiled(duration), _compiled(miss)
-_status_of, _first_control, _held_radius = _compiled(status_of), _compiled(first_control), _compiled(held_radius)
-
-
-@numba.vectorize("float64(float64, float64, float64, int64, float64)")
-def min_time(x, y, R, side, tolerance):
-    """T, or nan where the status is not OK."""
-    if _status_of(x, y, R, tolerance) != _OK:
-        return nan
-    return _duration(_optimum(x, y, _held_radius(R), side, tolerance))
+# Inputs and outputs, d for float64 and b for int8; the signature of a generalised ufunc.
+TYPES = {
+    "min_time": ("ddddd", "d", None),
+    "control": ("ddddd", "d", None),
+    "reduce": ("dddd", "dd", None),
+    "solve": ("dddddd", "dbdbbd", "(),(),(),(),(),(n)->(),(),(n),(),(),()"),
+}
 
 
-@numba.vectorize("float64(float64, float64, float64, int64, float64)")
-def control(x, y, R, side, tolerance):
-    """The first control of the optimum, or nan where the status is not OK."""
-    if _status_of(x, y, R, tolerance) != _OK:
-        return nan
-    return _first_control(x, y, _held_radius(R), side, tolerance)
+def _sources() -> list[Path]:
+    return sorted(Path(__file__).parent.glob("*.py"))
 
 
-@numba.guvectorize(
-    "void(float64, float64, float64, int64, float64, float64[:],"
-    " float64[:], int8[:], float64[:], int8[:], int8[:], float64[:])",
-    "(),(),(),(),(),(n)->(),(),(n),(),(),()",
-)
-def solve(x, y, R, side, tolerance, three, time, word, durations, status, held, missed):
-    """Time, word, durations, status, side held, miss; `three` only gives `durations` its length."""
-    status[0] = _status_of(x, y, R, tolerance)
-    if status[0] != _OK:
-        time[0], durations[:], missed[0] = nan, nan, nan
-        word[0], held[0] = 0, 0
-        return
-    R = _held_radius(R)
-    maneuver = _optimum(x, y, R, side, tolerance)
-    held[0], word[0], durations[0], durations[1], durations[2] = maneuver
-    time[0] = _duration(maneuver)
-    missed[0] = _miss(x, y, R, maneuver)
+def _built() -> Any:
+    from loiter.kernel.loops import build
+
+    return build()
+
+
+def _constructor() -> Any:
+    """NumPy's own constructor of a ufunc from an inner loop."""
+    pointer = ctypes.pythonapi.PyCapsule_GetPointer
+    pointer.restype, pointer.argtypes = ctypes.c_void_p, [ctypes.py_object, ctypes.c_char_p]
+    capsule = import_module("numpy._core._multiarray_umath")._UFUNC_API
+    table = ctypes.cast(pointer(capsule, None), ctypes.POINTER(ctypes.c_void_p))
+    void, text, number = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int
+    kind = ctypes.PYFUNCTYPE(ctypes.py_object, void, void, text, *[number] * 4, text, text, number, text)
+    return kind(table[FROM_FUNCTIONS])
+
+
+def _ufunc(name: str, address: int) -> Any:
+    inputs, outputs, signature = TYPES[name]
+    loops, data = (ctypes.c_void_p * 1)(address), (ctypes.c_void_p * 1)(None)
+    types = bytes(np.dtype(code).num for code in inputs + outputs)
+    texts = name.encode(), signature.encode() if signature else None
+    # NumPy keeps no more than the pointers.
+    _KEPT.append((loops, data, types, texts))
+    return _constructor()(loops, data, types, 1, len(inputs), len(outputs), NO_IDENTITY, texts[0], None, 0, texts[1])
+
+
+_KEPT: list[Any] = []
+
+min_time, control, reduce, solve = map(_ufunc, TYPES, addresses(tuple(TYPES), _sources(), _built))

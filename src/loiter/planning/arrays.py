@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -35,25 +39,41 @@ class Solution(NamedTuple):
 
 
 def min_time(
-    x: ArrayLike, y: ArrayLike, radius: ArrayLike = 1.0, turn: ArrayLike = "either", tolerance: ArrayLike = 0.0
+    x: ArrayLike,
+    y: ArrayLike,
+    radius: ArrayLike = 1.0,
+    turn: ArrayLike = "either",
+    tolerance: ArrayLike = 0.0,
+    *,
+    out: Any = None,
+    workers: int = 1,
 ) -> Any:
     """Least time T to the circle from reduced states (x, y), in units of turn radius over airspeed.
 
     `x`, `y` are the coordinates (2) of docs/theory.md and `radius` the circle's, all in turn radii; `turn` is "cw",
-    "ccw" or "either", `tolerance` that of `plan`, in turn radii. Arguments broadcast; float64 comes back. A state that
-    cannot be solved (nan, infinite, radius < 1) gives nan; `solve` says why. Raises `InvalidArgument` for an unknown
-    turn. The first call of a process compiles the kernel, which takes seconds.
+    "ccw" or "either", or a `Side` code; `tolerance` is that of `plan`, in turn radii. It behaves as a ufunc: arguments
+    broadcast, float64 comes back, `out` is an array to fill; Dask arrays, pandas columns and xarray's arrays come back
+    as what they are. A state that cannot be solved (nan, infinite, radius < 1) gives nan; `solve` says why. `workers`
+    threads share NumPy arrays, -1 for one a core. Raises `InvalidArgument` for an unknown turn or number of workers.
+    The first call on a machine compiles the kernel, some ten seconds; the code is kept in the user's cache folder.
 
     >>> round(float(loiter.min_time(4.0, 4.0)), 4)
     6.9136
     >>> loiter.min_time([0.0, 1.0], 1.0, radius=[1.0, 0.5], turn="cw")
     array([ 0., nan])
     """
-    return _apply("min_time", x, y, radius, _sides(turn), tolerance)
+    return _one("min_time", (x, y, radius, _sides(turn), tolerance), out, workers)
 
 
 def control(
-    x: ArrayLike, y: ArrayLike, radius: ArrayLike = 1.0, turn: ArrayLike = "either", tolerance: ArrayLike = 0.0
+    x: ArrayLike,
+    y: ArrayLike,
+    radius: ArrayLike = 1.0,
+    turn: ArrayLike = "either",
+    tolerance: ArrayLike = 0.0,
+    *,
+    out: Any = None,
+    workers: int = 1,
 ) -> Any:
     """The feedback law: first control of the optimum at (x, y), -1 (right), 0 or +1 (left), as float64.
 
@@ -63,34 +83,64 @@ def control(
     >>> loiter.control([4.0, -0.53, -3.0], [4.0, 0.31, 0.0])
     array([-1.,  1.,  0.])
     """
-    return _apply("control", x, y, radius, _sides(turn), tolerance)
+    return _one("control", (x, y, radius, _sides(turn), tolerance), out, workers)
 
 
 def solve(
-    x: ArrayLike, y: ArrayLike, radius: ArrayLike = 1.0, turn: ArrayLike = "either", tolerance: ArrayLike = 0.0
+    x: ArrayLike,
+    y: ArrayLike,
+    radius: ArrayLike = 1.0,
+    turn: ArrayLike = "either",
+    tolerance: ArrayLike = 0.0,
+    *,
+    out: Solution | None = None,
+    workers: int = 1,
 ) -> Solution:
     """Optimal maneuvers from reduced states (x, y): time, word, durations, status. Arguments and errors as `min_time`.
+
+    NumPy and Dask arrays come back as what they are, other columns as NumPy arrays; `out` is a `Solution` to fill.
 
     >>> loiter.solve(4.0, 4.0).durations.round(4)
     array([2.6994, 3.1669, 1.0472])
     """
-    return Solution(*_apply("solve", x, y, radius, _sides(turn), tolerance, np.empty(3)))
+    arguments: tuple[Any, ...] = (x, y, radius, _sides(turn), tolerance)
+    arguments = tuple(a if _lazy(a) else np.asarray(a) for a in arguments)
+    if any(map(_lazy, arguments)):
+        return Solution(*_ufunc("solve")(*arguments, np.empty(3)))
+    if out is None:
+        shape = np.broadcast_shapes(*(a.shape for a in arguments))
+        shapes = {name: (*shape, 3) if name == "durations" else shape for name in Solution._fields}
+        out = Solution(*(np.empty(shapes[name], _DTYPES.get(name, np.float64)) for name in Solution._fields))
+    _shared(lambda *blocks, out: _ufunc("solve")(*blocks, np.empty(3), out=out), arguments, tuple(out), workers)
+    return out
+
+
+_DTYPES = {"word": np.int8, "status": np.int8, "side": np.int8}
 
 
 def reduce(
-    east_m: ArrayLike, north_m: ArrayLike, heading_deg: ArrayLike, orbit: Orbit, aircraft: Aircraft
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    east_m: ArrayLike,
+    north_m: ArrayLike,
+    heading_deg: ArrayLike,
+    orbit: Orbit,
+    aircraft: Aircraft,
+    *,
+    out: tuple[Any, Any] | None = None,
+) -> tuple[Any, Any]:
     """Reduced states (x, y), equation (2), in turn radii, of aircraft at local positions with compass headings.
 
-    Arguments broadcast. The circle's radius for the other functions is `orbit.radius_m / aircraft.turn_radius_m`.
+    Arguments broadcast, `out` is two arrays to fill; Dask arrays, pandas columns and xarray's arrays come back as what
+    they are. The circle's radius for the other functions is `orbit.radius_m / aircraft.turn_radius_m`.
     """
     r = aircraft.turn_radius_m
-    east = (np.asarray(east_m, dtype=np.float64) - orbit.east_m) / r
-    north = (np.asarray(north_m, dtype=np.float64) - orbit.north_m) / r
-    c, s = _heading_vectors()(np.asarray(heading_deg, dtype=np.float64))
-    # The formula is arithmetic alone, so it takes arrays as they are.
-    x, y = motion.reduce(*cast("tuple[float, float, float, float]", (east, north, c, s)))
-    return np.asarray(x), np.asarray(y)
+    east: Any = np.subtract(east_m, orbit.east_m, dtype=np.float64) / r
+    north: Any = np.subtract(north_m, orbit.north_m, dtype=np.float64) / r
+    c, s = _heading_vectors()(np.multiply(heading_deg, 1.0, dtype=np.float64))
+    if any(map(_lazy, (east, north, c))):
+        # Dask does not apply a ufunc of two results; the formula is arithmetic alone.
+        return motion.reduce(east, north, c, s)
+    reduced: tuple[Any, Any] = _ufunc("reduce")(east, north, c, s, **({} if out is None else {"out": out}))
+    return reduced
 
 
 @cache
@@ -99,21 +149,74 @@ def _heading_vectors() -> Function:
     return rebound(heading_vector, arithmetic)
 
 
-def _sides(turn: ArrayLike) -> NDArray[np.int64]:
-    sides: NDArray[np.int64] = np.vectorize(_side, otypes=[np.int64])(turn)
-    return sides
+def _sides(turn: ArrayLike) -> Any:
+    """`Side` codes, int8, of turns by name or by code."""
+    if isinstance(turn, str):
+        return np.int8(_side(turn))
+    turns = np.asarray(turn)
+    if turns.dtype.kind == "i" and turns.size and min(Side) <= turns.min() and turns.max() <= max(Side):
+        return turns.astype(np.int8, copy=False)
+    names, places = np.unique(turns, return_inverse=True) if turns.dtype != object else (turns.ravel(), ...)
+    codes = np.array([_side(name) for name in names], dtype=np.int8)
+    return codes[places].reshape(turns.shape)
 
 
 def _side(turn: Any) -> Side:
-    if turn not in tuple(Turn):
-        raise InvalidArgument("turn", f"is {turn!r}: it must be cw, ccw or either")
-    return SIDES[Turn(turn)]
+    if turn in tuple(Turn):
+        return SIDES[Turn(turn)]
+    if isinstance(turn, (int, np.integer)) and not isinstance(turn, bool) and turn in tuple(Side):
+        return Side(int(turn))
+    raise InvalidArgument("turn", f"is {turn!r}: it must be cw, ccw or either")
 
 
-def _apply(name: str, *arguments: ArrayLike) -> Any:
-    # Numba takes a second to import and the kernel seconds to compile, which a single plan must not pay.
+def _ufunc(name: str) -> Any:
+    # The kernel is loaded, and compiled if need be, by the first call; a single plan does without it.
     from loiter.kernel import ufuncs
 
-    # Compiled code works out branches that it then leaves, with nan and inf in them; the status tells bad input.
-    with np.errstate(all="ignore"):
-        return getattr(ufuncs, name)(*arguments)
+    return getattr(ufuncs, name)
+
+
+def _lazy(argument: object) -> bool:
+    """Whether an argument is an array of another library, which knows how to apply ufuncs of several results."""
+    return hasattr(argument, "__array_function__") and not isinstance(argument, (np.ndarray, np.generic))
+
+
+def _one(name: str, arguments: tuple[Any, ...], out: Any, workers: int) -> Any:
+    """A ufunc of one result, by threads where that is asked for and all arguments are NumPy's."""
+    ufunc = _ufunc(name)
+    arrays = [a if hasattr(a, "__array_ufunc__") else np.asarray(a, dtype=np.float64) for a in arguments]
+    if workers == 1 or not all(isinstance(a, (np.ndarray, np.generic)) for a in arrays):
+        return ufunc(*arrays) if out is None else ufunc(*arrays, out=out)
+    if out is None:
+        out = np.empty(np.broadcast_shapes(*(a.shape for a in arrays)))
+    _shared(lambda *blocks, out: ufunc(*blocks, out=out), tuple(arrays), (out,), workers)
+    return out[()]
+
+
+def _shared(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[Any, ...], workers: int) -> None:
+    """Do the work on slices of the longest axis, a thread each; the ufuncs hold no lock and share no memory."""
+    count = _threads(workers)
+    shape = out[0].shape
+    axis = int(np.argmax(shape)) if shape else 0
+    if count == 1 or not shape or shape[axis] < count:
+        work(*arrays, out=out)
+        return
+    views = [np.broadcast_to(a, shape) for a in arrays]
+    edges = np.linspace(0, shape[axis], count + 1).astype(int)
+    slices = [(*[slice(None)] * axis, slice(start, end)) for start, end in pairwise(edges)]
+    with ThreadPoolExecutor(count) as pool:
+        tasks = [pool.submit(work, *(v[s] for v in views), out=tuple(o[s] for o in out)) for s in slices]
+    for task in tasks:
+        task.result()
+
+
+def _threads(workers: int) -> int:
+    if not isinstance(workers, int) or workers == 0 or workers < -1:
+        raise InvalidArgument("workers", f"is {workers!r}: it must be a whole number from 1, or -1 for one a core")
+    return (
+        workers
+        if workers > 0
+        else len(os.sched_getaffinity(0))
+        if hasattr(os, "sched_getaffinity")
+        else os.cpu_count() or 1
+    )

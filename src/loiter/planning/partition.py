@@ -8,7 +8,7 @@ import numpy as np
 
 from loiter.errors import InvalidArgument, as_float, positive
 from loiter.kernel.codes import Word
-from loiter.planning.arrays import Solution, min_time, solve
+from loiter.planning.arrays import Solution, solve
 from loiter.planning.model import Turn
 
 if TYPE_CHECKING:
@@ -84,8 +84,8 @@ def partition(radius: float = 1.0, turn: str = "either", *, reach: float | None 
 
 def worth(regions: Partition) -> Floats:
     """What a free choice of direction is worth on the grid of a partition: its T less that of *either*, (ny, nx)."""
-    either: Floats = min_time(regions.x[np.newaxis, :], regions.y[:, np.newaxis], regions.radius)
-    return regions.time - either
+    either = solve(regions.x[np.newaxis, :], regions.y[:, np.newaxis], regions.radius)
+    return regions.time - either.time
 
 
 def boundaries(regions: Partition) -> tuple[Boundary, ...]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from math import atan2, hypot, pi, radians, sqrt
 
+from loiter.kernel.angles import angle
 from loiter.kernel.codes import Side
 from loiter.kernel.extremals import onto_axis
 from loiter.kernel.synthesis import ROUNDING
@@ -141,7 +142,8 @@ def _crossings(piece: Piece) -> Iterator[float]:
 
     That is half the time, times lambda, that a start at this height loses by crossing, so rounding bounds it.
     """
-    ends = sorted(onto_axis(piece.x, piece.u * piece.y, end, 0.0)[0] for end in (-1.0, 1.0))
+    crossings = (onto_axis(piece.x, piece.u * piece.y, end, 0.0) for end in (-1.0, 1.0))
+    ends = sorted(angle(rotated) for rotated, c in crossings if c >= 0.0)
     bounds = [0.0, *(s for s in ends if s < piece.t), piece.t]
     heights = [abs(piece.at(0.5 * (a + b))[1]) for a, b in pairwise(bounds)]
     for s, (before, after) in zip(bounds[1:], pairwise(heights), strict=False):

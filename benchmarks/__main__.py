@@ -1,0 +1,25 @@
+"""Measure everything, print the table, and write it and the plot to benchmarks/results."""
+
+import argparse
+from pathlib import Path
+
+from benchmarks import report, states, tables
+
+RESULTS = Path(__file__).parent / "results"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    parser.add_argument("--rows", type=float, default=1e8, metavar="N", help="largest table, 0 for none (default 1e8)")
+    most = int(parser.parse_args().rows)
+    rows, runs = states.measure(), tables.measure(most)
+    RESULTS.mkdir(exist_ok=True)
+    text = report.table(rows, runs)
+    (RESULTS / "table.md").write_text(text)
+    report.draw(rows, runs, RESULTS / "plot.png")
+    print(text)
+    print(f"written: {RESULTS / 'table.md'}, {RESULTS / 'plot.png'}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,42 @@
+"""What one would use instead: a sweep of Dubins paths, a nonlinear program, a grid. None of them knows the kernel."""
+
+from math import cos, pi, remainder, sin
+
+import numpy as np
+
+from loiter.verify.collocation import collocate
+from loiter.verify.oracle import Circle, Planar, Search
+from loiter.verify.reachability import reach
+
+HEADINGS = 360
+
+
+def sweep(x, y, R, sides):
+    """OMPL's Dubins distance to `HEADINGS` poses round the circle, each way asked for; the least. Turn radius 1."""
+    space = Search(1.0).space
+    start, goal = space.allocState(), space.allocState()
+    start.setX(x)
+    start.setY(y)
+    start.setYaw(0.0)
+    least = float("inf")
+    for side in sides:
+        for i in range(HEADINGS):
+            azimuth = 2.0 * pi * i / HEADINGS
+            goal.setX(R * cos(azimuth))
+            goal.setY(R * sin(azimuth))
+            goal.setYaw(remainder(azimuth - side * pi / 2.0, 2.0 * pi))
+            least = min(least, space.distance(start, goal))
+    return least
+
+
+def program(x, y, R, sides):
+    """Direct collocation by CasADi and IPOPT (`loiter.verify.collocation`)."""
+    return collocate(Planar(x, y, 0.0), [Circle(R, side == 1) for side in sides]).time
+
+
+def grid(R, sides, cells):
+    """A map of T by hj-reachability: abscissae, ordinates and T, inf where it has not arrived."""
+    found = reach(R, sides, cells)
+    inside = np.hypot(found.x[:, np.newaxis], found.y) <= found.within
+    X, Y = np.broadcast_arrays(found.x[:, np.newaxis], found.y)
+    return X[inside], Y[inside], found.time[inside]

@@ -1,0 +1,108 @@
+"""The table and the plot of a run."""
+
+import os
+import platform
+from collections.abc import Sequence
+from pathlib import Path
+
+from benchmarks.states import Row
+from benchmarks.tables import Run
+
+
+def table(rows: Sequence[Row], runs: Sequence[Run]) -> str:
+    """Everything measured, as Markdown."""
+    lines = [f"Measured on {processor()}, {os.cpu_count()} cores, Python {platform.python_version()}.", ""]
+    for task in dict.fromkeys(row.task for row in rows):
+        lines += [
+            f"## {task}",
+            "",
+            "| | a state | of the first | largest error of T | mean error |",
+            "|---|---:|---:|---:|---:|",
+        ]
+        for row in rows:
+            if row.task == task:
+                errors = f"{error(row.largest)} | {error(row.mean)}"
+                lines.append(f"| {row.contender} | {duration(row.seconds)} | {share(row.ratio)} | {errors} |")
+        lines.append("")
+    return "\n".join(lines + (_batch(runs) if runs else []))
+
+
+def _batch(runs: Sequence[Run]) -> list[str]:
+    lines = ["## loiter batch, Parquet to Parquet", ""]
+    lines += ["| rows | workers | seconds | rows/s | of one worker | peak memory |", "|---:|---:|---:|---:|---:|---:|"]
+    alone = {run.rows: run.seconds for run in runs if run.workers == 1}
+    for run in runs:
+        speed, ratio = run.rows / run.seconds, run.seconds / alone[run.rows]
+        cells = (
+            f"{run.rows:,}",
+            run.workers,
+            f"{run.seconds:.1f}",
+            f"{speed:,.0f}",
+            f"{ratio:.2f}",
+            f"{run.peak_mib:.0f} MiB",
+        )
+        lines.append("| " + " | ".join(map(str, cells)) + " |")
+    return [*lines, ""]
+
+
+def processor() -> str:
+    """The processor's own name, where the system tells it."""
+    names = [line.split(":")[1].strip() for line in _cpuinfo() if line.startswith("model name")]
+    return names[0] if names else platform.machine()
+
+
+def _cpuinfo() -> list[str]:
+    try:
+        return Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        return []
+
+
+def duration(seconds: float) -> str:
+    """Seconds in the unit that leaves three digits."""
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds * 1e9:.3g} ns"
+
+
+def share(ratio: float) -> str:
+    """A ratio to the first line of its table."""
+    return f"{ratio:.3g}" if ratio >= 1e-3 else f"1/{1.0 / ratio:,.0f}"
+
+
+def error(value: float) -> str:
+    """An error of T; a dash where there is none to tell."""
+    return "" if value != value else f"{value:.1e}"
+
+
+def draw(rows: Sequence[Row], runs: Sequence[Run], path: Path) -> None:
+    """Accuracy over seconds a state, and rows a second over rows."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(11.0, 4.6), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    hidden = ("control", "solve", "threads")
+    shown = {
+        row.contender: row
+        for row in rows
+        if row.task.startswith("R = 1") and "< 40" not in row.task and not any(word in row.contender for word in hidden)
+    }
+    for name, row in shown.items():
+        ours = name.startswith("loiter")
+        left.loglog(row.seconds, max(row.mean, 1e-17), "o" if ours else "s", color="C0" if ours else "0.5")
+        below = "NumPy" in name
+        place = {"xytext": (6, -11 if below else 5), "textcoords": "offset points", "fontsize": 8}
+        left.annotate(name, (row.seconds, max(row.mean, 1e-17)), **place)
+    left.set(xlabel="seconds a state", ylabel="mean error of T", title="R = 1, either way")
+    left.set_xlim(left.get_xlim()[0], left.get_xlim()[1] * 100.0)
+    left.grid(alpha=0.3)
+    for workers in sorted({run.workers for run in runs}):
+        here = [run for run in runs if run.workers == workers]
+        label = f"{workers} worker" + ("s" if workers > 1 else "")
+        right.loglog([run.rows for run in here], [run.rows / run.seconds for run in here], "o-", label=label)
+    right.set(xlabel="rows", ylabel="rows a second", title="loiter batch, Parquet to Parquet")
+    right.grid(alpha=0.3)
+    if runs:
+        right.legend(frameon=False)
+    figure.savefig(path, dpi=150)

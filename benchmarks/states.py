@@ -1,0 +1,155 @@
+"""Seconds for one state, and how far off the answer is: the kernel, the plain formulas, what one would use instead."""
+
+import os
+from collections.abc import Callable
+from time import perf_counter
+from typing import NamedTuple
+
+import numpy as np
+
+import loiter
+from benchmarks import peers, plain
+from benchmarks.timing import least_times
+from loiter import Aircraft, Orbit, Pose
+from loiter.kernel import ufuncs
+from loiter.kernel.codes import Side
+
+COUNT = 1_000_000
+ROUNDS = 9
+CORES = os.cpu_count() or 1
+
+# The states of the paper's figures, where every word occurs, and starts mostly far off, which are RSL.
+NEAR, FAR = 4.0, 40.0
+
+
+class Row(NamedTuple):
+    """One line of the table: seconds a state, their ratio to the first line's, largest and mean error of T."""
+
+    task: str
+    contender: str
+    seconds: float
+    ratio: float
+    largest: float
+    mean: float
+
+
+def measure() -> list[Row]:
+    """All tasks; the first contender of each is its yardstick."""
+    return [*tight(NEAR, "|x|, |y| < 4"), *tight(FAR, "|x|, |y| < 40"), *any_circle(), *one_plan(), *others()]
+
+
+def tight(span: float, where: str) -> list[Row]:
+    """R = 1, *either*."""
+    x, y = np.random.default_rng(0).uniform(-span, span, (2, COUNT))
+    out = np.empty(COUNT)
+    calls = {
+        "plain formulas, Numba": lambda: plain.tight(x, y, out=out),
+        "plain formulas, NumPy": lambda: plain.tight_arrays(x, y),
+        "loiter.min_time": lambda: loiter.min_time(x, y, out=out),
+        f"loiter.min_time, {CORES} threads": lambda: loiter.min_time(x, y, out=out, workers=CORES),
+        "loiter.control": lambda: loiter.control(x, y, out=out),
+        "loiter.solve": lambda: loiter.solve(x, y),
+    }
+    results = {"plain formulas, Numba": plain.tight(x, y), "plain formulas, NumPy": plain.tight_arrays(x, y)}
+    return rows(f"R = 1, either, {where}", calls, results, scalar(x, y, np.ones(COUNT), np.zeros(COUNT, np.int8)))
+
+
+def any_circle() -> list[Row]:
+    """Any radius, any turn, one of each state."""
+    rng = np.random.default_rng(1)
+    R = 1.0 + rng.exponential(1.5, COUNT)
+    x, y = rng.uniform(-1.0, 1.0, (2, COUNT)) * (R + 3.0)
+    side = rng.integers(-1, 2, COUNT).astype(np.int8)
+    out = np.empty(COUNT)
+    calls = {
+        "plain formulas, Numba": lambda: plain.any_circle(x, y, R, side, out=out),
+        "loiter.min_time": lambda: loiter.min_time(x, y, R, side, out=out),
+        f"loiter.min_time, {CORES} threads": lambda: loiter.min_time(x, y, R, side, out=out, workers=CORES),
+        "loiter.solve": lambda: loiter.solve(x, y, R, side),
+    }
+    results = {"plain formulas, Numba": plain.any_circle(x, y, R, side)}
+    return rows("any R, any turn", calls, results, scalar(x, y, R, side))
+
+
+def scalar(x, y, R, side) -> np.ndarray:
+    """T by the scalar functions, for the first ten thousand states: what errors are counted from."""
+    from loiter.kernel.synthesis import duration, optimum
+
+    first = zip(x[:10_000].tolist(), y[:10_000].tolist(), R[:10_000].tolist(), side[:10_000].tolist(), strict=True)
+    return np.array([duration(optimum(*state, 0.0)) for state in first])
+
+
+def rows(
+    task: str, calls: dict[str, Callable[[], object]], results: dict[str, np.ndarray], true: np.ndarray
+) -> list[Row]:
+    """Times of all contenders; errors of those whose results are known, and of our own."""
+    times = least_times(calls, ROUNDS)
+    yardstick = next(iter(times.values()))
+    table = []
+    for name, seconds in times.items():
+        found = results[name] if name in results else getattr(calls[name](), "time", calls[name]())
+        error = np.abs(found[: len(true)] - true) if "control" not in name else np.array([np.nan])
+        table.append(Row(task, name, seconds / COUNT, seconds / yardstick, float(error.max()), float(error.mean())))
+    return table
+
+
+def one_plan() -> list[Row]:
+    """One plan as plain Python, in SI, beside the sweep for the same scene."""
+    uav, pose, orbit = Aircraft(18.0, max_bank_deg=35.0), Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0)
+    r = uav.turn_radius_m
+    state = -400.0 / r, 120.0 / r, 80.0 / r
+    times = least_times(
+        {
+            "OMPL, 360 headings each way": lambda: peers.sweep(*state, (1, -1)),
+            "loiter.plan": lambda: loiter.plan(pose, orbit, uav),
+        },
+        50,
+    )
+    best = float(ufuncs.min_time(*state, 0, 0.0))
+    yardstick = times["OMPL, 360 headings each way"]
+    errors = {"OMPL, 360 headings each way": peers.sweep(*state, (1, -1)) - best, "loiter.plan": 0.0}
+    return [Row("one plan", name, s, s / yardstick, errors[name], errors[name]) for name, s in times.items()]
+
+
+def others() -> list[Row]:
+    """R = 1, *either*: the sweep, a nonlinear program, a grid, as accurate as they are, and the kernel."""
+    task, sides = "R = 1, either, other methods", (Side.CW, Side.CCW)
+    x, y = np.random.default_rng(2).uniform(-NEAR, NEAR, (2, 400))
+    true = scalar(x, y, np.ones(400), np.zeros(400, np.int8))
+    table = [
+        _others_row(
+            task, "OMPL, 360 headings each way", lambda n: [peers.sweep(*s, 1.0, sides) for s in _states(x, y, n)], true
+        )
+    ]
+    yardstick = table[0].seconds
+    table.append(
+        _others_row(
+            task, "CasADi, IPOPT", lambda n: [peers.program(*s, 1.0, sides) for s in _states(x, y, n)], true, 12
+        )
+    )
+    peers.grid(1.0, sides, 20)
+    begin = perf_counter()
+    gx, gy, times = peers.grid(1.0, sides, 80)
+    seconds = (perf_counter() - begin) / len(times)
+    error = np.abs(times - loiter.min_time(gx, gy))[np.isfinite(times)]
+    table.append(
+        Row(task, f"hj-reachability, {len(times)} nodes", seconds, 0.0, float(error.max()), float(error.mean()))
+    )
+    wide = np.random.default_rng(3).uniform(-NEAR, NEAR, (2, COUNT))
+    seconds = least_times({"": lambda: loiter.min_time(*wide)}, ROUNDS)[""] / COUNT
+    error = np.abs(loiter.min_time(x, y) - true)
+    table.append(Row(task, "loiter.min_time", seconds, 0.0, float(error.max()), float(error.mean())))
+    return [row._replace(ratio=row.seconds / yardstick) for row in table]
+
+
+def _states(x, y, count):
+    return zip(x[:count].tolist(), y[:count].tolist(), strict=True)
+
+
+def _others_row(task, name, answers, true, count=400) -> Row:
+    answers(1)
+    begin = perf_counter()
+    found = np.array(answers(count))
+    seconds = (perf_counter() - begin) / count
+    error = np.abs(found - true[:count])
+    return Row(task, name, seconds, 0.0, float(error.max()), float(error.mean()))

@@ -1,0 +1,108 @@
+"""Compiled code on disk: one object file for each state of the sources, published whole, loaded without Numba.
+
+Numba's own cache does not notice changed callees, and processes that fill it at the same time can leave an index and a
+data file that do not belong together, which ends in a segmentation fault (numba issues 4807 and 10128). Here the name
+of the file is a digest of everything that the code depends on, and the file appears by one rename.
+"""
+
+import hashlib
+import os
+import platform
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import llvmlite.binding as llvm
+
+# What compiled code may ask of the C library.
+C_LIBRARY = {"feclearexcept", "sqrt"}
+
+DIGEST = hashlib.sha256().digest_size
+
+
+def addresses(names: Sequence[str], sources: Iterable[Path], build: Callable[[], Any]) -> list[int]:
+    """Where the functions `names` lie in memory, loaded from the object file for `sources`.
+
+    If there is none, or it is damaged, it is made from `build()`, an LLVM module that has them all; if its folder
+    cannot be written, every process makes its own. The code stays loaded as long as the process lives.
+    """
+    _start()
+    path = folder() / f"{_digest(sources)}.o"
+    code = _read(path)
+    if code is None:
+        code = _emitted(build(), names)
+        _publish(path, code)
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine())
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    _ENGINES.append(engine)
+    return [engine.get_function_address(name) for name in names]
+
+
+def folder() -> Path:
+    """Where object files are kept: `loiter` in the user's cache folder, $XDG_CACHE_HOME or ~/.cache."""
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "loiter"
+
+
+def _digest(sources: Iterable[Path]) -> str:
+    """What the machine code depends on: the sources, the compilers and the processor."""
+    compilers = [f"{name} {version(name)}" for name in ("numba", "llvmlite")]
+    machine = [platform.platform(), llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()]
+    digest = hashlib.sha256("\n".join([sys.version, *compilers, *machine]).encode())
+    for source in sources:
+        digest.update(source.read_bytes())
+    return digest.hexdigest()
+
+
+def _read(path: Path) -> bytes | None:
+    with suppress(OSError):
+        data = path.read_bytes()
+        if hashlib.sha256(data[DIGEST:]).digest() == data[:DIGEST]:
+            return data[DIGEST:]
+    return None
+
+
+def _publish(path: Path, code: bytes) -> None:
+    part = path.with_suffix(f".{os.getpid()}.part")
+    with suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            part.write_bytes(hashlib.sha256(code).digest() + code)
+            part.replace(path)
+        finally:
+            part.unlink(missing_ok=True)
+
+
+def _start() -> None:
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+
+
+def _machine() -> Any:
+    target = llvm.Target.from_default_triple()
+    features = llvm.get_host_cpu_features().flatten()
+    return target.create_target_machine(cpu=llvm.get_host_cpu_name(), features=features, opt=3, jit=True)
+
+
+def _emitted(module: Any, names: Sequence[str]) -> bytes:
+    """Machine code of the functions `names`, with all that they call folded into them.
+
+    What Numba adds to report errors of Python, which the functions cannot raise, goes with that: it would need Numba.
+    """
+    for function in module.functions:
+        if not function.is_declaration and function.name not in names:
+            function.linkage = "internal"
+    machine = _machine()
+    builder = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=2))
+    builder.getModulePassManager().run(module, builder)
+    needs = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
+    assert needs <= C_LIBRARY, f"compiled code needs {needs - C_LIBRARY}"
+    code: bytes = machine.emit_object(module)
+    return code
+
+
+# The engines own the loaded code.
+_ENGINES: list[Any] = []
