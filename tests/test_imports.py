@@ -15,6 +15,7 @@ PUBLIC = [
     "Pose",
     "Segment",
     "Turn",
+    "Wind",
     "candidates",
     "control",
     "errors",

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from loiter import errors
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn
+from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
 from loiter.planning.solve import candidates, plan, plan_all
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ __all__ = [
     "Pose",
     "Segment",
     "Turn",
+    "Wind",
     "candidates",
     "control",
     "errors",

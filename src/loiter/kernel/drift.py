@@ -5,14 +5,14 @@ with (c, s) + w, |w| < 1. The point of joining is told by its phase (`hold`); fo
 (`intercept`), and the fastest of them is found by branch and bound.
 """
 
-from math import atan2, hypot, inf, isfinite, nan
+from math import atan2, cbrt, hypot, inf, isfinite, nan
 
 from loiter.kernel.angles import TWO_PI
 from loiter.kernel.codes import Status
 from loiter.kernel.hold import held, hold_rate, hold_time, phase_of, tightest_held
 from loiter.kernel.intercept import NO_WAY, Way, alike, alternating, interception, opposite
 from loiter.kernel.motion import fly
-from loiter.kernel.synthesis import REACH, ROUNDING, flown, rounding
+from loiter.kernel.synthesis import REACH, ROUNDING, Flown, apart, duration, flown, rounding
 
 # Start, heading, radius, wind, and the slack of `intercept.Ends`: x, y, c, s, R, wx, wy, slack.
 Scene = tuple[float, float, float, float, float, float, float, float]
@@ -46,6 +46,12 @@ ARC_STEPS = 8
 # By how much more than it misses by, the way found next to two arcs may be too early: both move with the adjoint, whose
 # length over lambda + p . w stays below 10 where lambda = 1 and |w| < 0.9.
 TOO_EARLY = 10.0
+
+# Points of joining all round between which `ranked` looks for valleys.
+VALLEYS = 128
+
+# Maneuvers tie whose times agree to this share of 1 + R + T: what the comparison of docs/wind.md, section 6, found.
+TIED = 1e-12
 
 
 def status_of(x: float, y: float, c: float, s: float, R: float, wx: float, wy: float) -> int:
@@ -253,19 +259,23 @@ def holding(side: int, scene: Scene) -> bool:
     return missed(0, 0.0, 0.0, 0.0, already(side, scene)[0], side, scene) <= 3.0 * scene[7]
 
 
+def scene_of(x: float, y: float, c: float, s: float, R: float, wx: float, wy: float) -> Scene:
+    """A start and a circle with the slack that rounding asks for; a wind of no account is none."""
+    if hypot(wx, wy) < CALM:
+        wx, wy = 0.0, 0.0
+    return x, y, c, s, R, wx, wy, rounding(x, y, R) / 3.0
+
+
 def fastest(x: float, y: float, c: float, s: float, R: float, side: int, wx: float, wy: float) -> Joined:
     """The fastest maneuver onto the circle from (x, y), heading along the unit vector (c, s); nan where there is none.
 
-    No maneuver is faster by more than `PROVEN` times R + T; docs/wind.md, section 5, says how the answer itself is
-    found and what bears it out. `Status.NOT_CONVERGED` where it does not end on the circle when flown.
+    docs/wind.md, section 5, says by how much another could be faster at most, how the answer itself is found and what
+    bears it out. `Status.NOT_CONVERGED` where it does not end on the circle when flown.
     """
     status = status_of(x, y, c, s, R, wx, wy)
     if status != 0:
         return status, 0, 0, nan, nan, nan, nan, nan
-    if hypot(wx, wy) < CALM:
-        wx, wy = 0.0, 0.0
-    dust = rounding(x, y, R)
-    scene = (x, y, c, s, R, wx, wy, dust / 3.0)
+    scene = scene_of(x, y, c, s, R, wx, wy)
     best = (0.0, 0, NO_WAY)
     for one in (1, -1):
         if side != -one and holding(one, scene):
@@ -277,11 +287,67 @@ def fastest(x: float, y: float, c: float, s: float, R: float, side: int, wx: flo
     for one in (first, -first):
         if side != -one and best[2][0] > 0.0:
             best = searched(one, scene, best)
-    word, t1, t2, t3, phase = sharpened(best, scene)
+    return joined(best, scene)
+
+
+def joined(found: Found, scene: Scene) -> Joined:
+    """What is found as it is flown; `Status.NOT_CONVERGED` where that does not end on the circle."""
+    x, y, _, _, R, wx, wy, _ = scene
+    dust = rounding(x, y, R)
+    word, t1, t2, t3, phase = sharpened(found, scene)
     word, t1, t2, t3 = flown(word, t1, t2, t3, dust)
-    miss = missed(word, t1, t2, t3, phase, best[1], scene)
+    miss = missed(word, t1, t2, t3, phase, found[1], scene)
     # Each piece has its slack, which the wind may double, and rounds its duration. A miss that is nan is no better.
     if not miss <= 2.0 * dust + ROUNDING * (t1 + t2 + t3):
         return Status.NOT_CONVERGED + 0, 0, 0, nan, nan, nan, nan, nan
-    px, py, _, _, _ = held(phase, best[1], R, wx, wy)
-    return status, best[1], word, t1, t2, t3, atan2(py, px), miss
+    px, py, _, _, _ = held(phase, found[1], R, wx, wy)
+    return Status.OK + 0, found[1], word, t1, t2, t3, atan2(py, px), miss
+
+
+def valleys(side: int, scene: Scene) -> list[Found]:
+    """The points of joining that are met sooner than those beside them, as far as `VALLEYS` points all round tell."""
+    width = TWO_PI / VALLEYS
+    tried = [(width * i, side, first_way(width * i, side, scene, inf)) for i in range(VALLEYS)]
+    times = [way[0] for _, _, way in tried]
+    return [
+        settled(found, width, scene)
+        for i, found in enumerate(tried)
+        if times[i] < inf and times[i] <= min(times[i - 1], times[(i + 1) % VALLEYS])
+    ]
+
+
+def ranked(x: float, y: float, c: float, s: float, R: float, side: int, wx: float, wy: float) -> list[Joined]:
+    """The maneuvers to points of joining that are met sooner than those beside them, each once, fastest first.
+
+    The fastest of each side asked for is among them; the list is empty where `fastest` finds none. For *either*, those
+    of both sides. Call it where `status_of` is OK.
+    """
+    scene = scene_of(x, y, c, s, R, wx, wy)
+    sides = [one for one in (1, -1) if side != -one]
+    best = [fastest(x, y, c, s, R, one, wx, wy) for one in sides]
+    if any(maneuver[0] != Status.OK for maneuver in best):
+        return []
+    others = [joined(found, scene) for one in sides for found in valleys(one, scene)]
+    # A valley is known to the root of rounding, a piece that vanishes in it to the cube root: `synthesis.optima`.
+    one_maneuver = 2.0 * cbrt(24.0 * rounding(x, y, R))
+    chosen: list[Joined] = []
+    for maneuver in sorted((m for m in (*best, *others) if m[0] == Status.OK), key=time_of):
+        if all(maneuver[1] != m[1] or apart(flight(maneuver), flight(m)) > one_maneuver for m in chosen):
+            chosen.append(maneuver)
+    return chosen
+
+
+def optima(x: float, y: float, c: float, s: float, R: float, side: int, wx: float, wy: float) -> list[Joined]:
+    """Those of `ranked` that tie with the first, up to what `fastest` resolves."""
+    maneuvers = ranked(x, y, c, s, R, side, wx, wy)
+    return [m for m in maneuvers if time_of(m) <= time_of(maneuvers[0]) * (1.0 + TIED) + TIED * (1.0 + R)]
+
+
+def flight(maneuver: Joined) -> Flown:
+    """The maneuver as still air has it: side, word, durations."""
+    return maneuver[1], maneuver[2], maneuver[3], maneuver[4], maneuver[5]
+
+
+def time_of(maneuver: Joined) -> float:
+    """T, the whole time of a maneuver."""
+    return duration(flight(maneuver))

@@ -114,7 +114,7 @@ def _draw_aircraft(axes: Axes, pose: Pose) -> None:
 def _piece(segment: Segment, maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     turned = abs(segment.curvature_per_m) * segment.length_m
     steps = 3 + math.ceil(turned / CHORD_RAD)  # a straight piece needs a middle, for its arrow
-    east, north, _ = along(segment, np.linspace(0.0, segment.length_m, steps), maneuver.aircraft)
+    east, north, _ = along(segment, np.linspace(0.0, segment.length_m, steps), maneuver.aircraft, maneuver.wind)
     return east, north
 
 
