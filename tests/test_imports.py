@@ -19,6 +19,7 @@ PUBLIC = [
     "candidates",
     "control",
     "errors",
+    "hold",
     "min_time",
     "plan",
     "plan_all",

@@ -4,6 +4,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from loiter import errors
+from loiter.planning.hold import hold
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
 from loiter.planning.solve import candidates, plan, plan_all
@@ -25,6 +26,7 @@ __all__ = [
     "candidates",
     "control",
     "errors",
+    "hold",
     "min_time",
     "plan",
     "plan_all",

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from loiter.errors import InvalidArgument, positive
 from loiter.planning.flight import over_ground, sampled
+from loiter.planning.hold import Hold
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Samples, Segment, Turn, Wind
 
 # More samples than this would not fit in the memory of a small machine: 7 arrays of 8 bytes each, 560 MB.
@@ -56,6 +57,11 @@ class Maneuver:
     def orbit_at_join(self) -> Orbit:
         """The circle when it is joined; it is `orbit` unless that moves."""
         return self.orbit.after(self.duration_s)
+
+    @property
+    def hold(self) -> Hold:
+        """What holding the circle takes from then on: bank, heading and ground speed against azimuth."""
+        return Hold(self.orbit, self.aircraft, self.wind, self.turn)
 
     def over_ground(self, pose: Pose) -> tuple[float, float]:
         """Track (compass degrees) and ground speed (metres per second) at a pose of this maneuver, by its heading."""

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from math import hypot, inf
+from math import inf
 from typing import NamedTuple
 
-from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, WindTooStrong, not_negative
+from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, not_negative
 from loiter.kernel import drift, motion
 from loiter.kernel.codes import Side, Status, Word
-from loiter.kernel.hold import tightest_held
 from loiter.kernel.synthesis import REACH, ROUNDING, Flown, held_radius, status_of
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import flown_from
+from loiter.planning.held import SIDES as SIDES
+from loiter.planning.held import air_past, check_held, too_tight
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Aircraft, Orbit, Pose, Segment, Turn, Wind
 
-SIDES = {Turn.CW: Side.CW, Turn.CCW: Side.CCW, Turn.EITHER: Side.EITHER}
 TURNS = {Side.CW: Turn.CW, Side.CCW: Turn.CCW}
 
 
@@ -55,18 +55,10 @@ def normalised(pose: Pose, orbit: Orbit, aircraft: Aircraft, tolerance_m: float)
     scene = Scene(x, y, held_radius(orbit.radius_m / r), SIDES[orbit.turn], tolerance)
     status = status_of(scene.x, scene.y, scene.R, scene.tolerance)
     if status == Status.RADIUS_TOO_SMALL:
-        raise RadiusTooSmall(_too_tight(orbit, aircraft))
+        raise RadiusTooSmall(too_tight(orbit, aircraft))
     if status != Status.OK or not _numbers(aircraft):
         raise _too_large(pose, orbit, aircraft)
     return scene
-
-
-def air_past(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> tuple[float, float]:
-    """The velocity of the air past the circle over the airspeed, east and north; none where rounding alone is left."""
-    V, (east, north) = aircraft.airspeed_m_s, wind.velocity_m_s
-    wx, wy = east - orbit.velocity_east_m_s, north - orbit.velocity_north_m_s
-    alike = ROUNDING * (wind.speed_m_s + hypot(orbit.velocity_east_m_s, orbit.velocity_north_m_s))
-    return (wx / V, wy / V) if hypot(wx, wy) > alike else (0.0, 0.0)
 
 
 def drifting(pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind, tolerance_m: float) -> Drifting:
@@ -78,20 +70,6 @@ def drifting(pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind, tolerance
     if drift.status_of(*scene[:5], wx, wy) != Status.OK or not _numbers(aircraft):
         raise _too_large(pose, orbit, aircraft)
     return scene
-
-
-def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:
-    """Raise where the aircraft cannot hold the circle all round: `WindTooStrong` or `RadiusTooSmall`."""
-    (wx, wy), R = air_past(orbit, aircraft, wind), orbit.radius_m / aircraft.turn_radius_m
-    status = drift.status_of(0.0, 0.0, 1.0, 0.0, R, wx, wy)
-    if status == Status.WIND_TOO_STRONG:
-        V, speed = aircraft.airspeed_m_s, hypot(wx, wy) * aircraft.airspeed_m_s
-        raise WindTooStrong(
-            f"{_air(orbit, speed)} leaves an aircraft of {V:g} m/s no circle to hold: "
-            f"its airspeed must be above {speed:.4g} m/s"
-        )
-    if status in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
-        raise RadiusTooSmall(_too_tight(orbit, aircraft) if wx == wy == 0.0 else _not_held(orbit, aircraft, wx, wy))
 
 
 def _place(pose: Pose, orbit: Orbit, aircraft: Aircraft) -> tuple[float, float]:
@@ -110,41 +88,6 @@ def _too_large(pose: Pose, orbit: Orbit, aircraft: Aircraft) -> LoiterError:
         f"the scene is too large for double precision: {orbit.distance_m(pose):g} m from the centre of a circle of "
         f"{orbit.radius_m:g} m, with a turn radius of {aircraft.turn_radius_m:g} m at an airspeed of "
         f"{aircraft.airspeed_m_s:g} m/s; distances must stay below 2**52 turn radii"
-    )
-
-
-def _air(orbit: Orbit, speed: float) -> str:
-    return f"air that passes the circle at {speed:.4g} m/s" if orbit.moves else f"a wind of {speed:.4g} m/s"
-
-
-def _not_held(orbit: Orbit, aircraft: Aircraft, wx: float, wy: float) -> str:
-    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_held(wx, wy)
-    bank = f"{aircraft.bank_deg(orbit.radius_m / tightest):.4g} deg"
-    if aircraft.max_bank_deg is not None:
-        limit, need = f"{aircraft.max_bank_deg:.4g} deg of bank", bank
-    elif aircraft.max_turn_rate_deg_s is not None:
-        rate = aircraft.max_turn_rate_deg_s * r * tightest / orbit.radius_m
-        limit, need = f"{aircraft.max_turn_rate_deg_s:.4g} deg/s", f"{rate:.4g} deg/s ({bank} of bank)"
-    else:
-        limit, need = f"a turn radius of {r:.4g} m", f"a turn radius of {orbit.radius_m / tightest:.4g} m"
-    return (
-        f"orbit radius {orbit.radius_m:g} m cannot be held in {_air(orbit, hypot(wx, wy) * V)} "
-        f"at {V:g} m/s and {limit}: it needs {tightest * r:.4g} m, or {need}"
-    )
-
-
-def _too_tight(orbit: Orbit, aircraft: Aircraft) -> str:
-    r, V, needed = aircraft.turn_radius_m, aircraft.airspeed_m_s, aircraft.bank_deg(orbit.radius_m)
-    if aircraft.max_bank_deg is not None:
-        limit, need = f" and {aircraft.max_bank_deg:.4g} deg of bank", f"{needed:.4g} deg"
-    elif aircraft.max_turn_rate_deg_s is not None:
-        rate = aircraft.max_turn_rate_deg_s * r / orbit.radius_m
-        limit, need = f" and {aircraft.max_turn_rate_deg_s:.4g} deg/s", f"{rate:.4g} deg/s ({needed:.4g} deg of bank)"
-    else:
-        limit, need = "", f"{needed:.4g} deg of bank"
-    return (
-        f"orbit radius {orbit.radius_m:g} m is tighter than the aircraft can turn: "
-        f"{r:.4g} m at {V:g} m/s{limit}; it needs {need}"
     )
 
 

@@ -6,9 +6,10 @@ from loiter.errors import NotConverged
 from loiter.kernel import drift
 from loiter.kernel.codes import Status
 from loiter.kernel.synthesis import Flown, miss, optima, optimum, ranked
+from loiter.planning.held import air_past
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind
-from loiter.planning.scaling import Scene, air_past, drifting, maneuver, normalised
+from loiter.planning.scaling import Scene, drifting, maneuver, normalised
 
 
 def plan(
