@@ -93,9 +93,9 @@ PLACES = {"inside": inside, "near": near, "far": far}
 
 
 def compare(states: int, seed: int) -> Iterator[Difference]:
-    """Solve and search `states` random scenes, one by one; raises `InvalidArgument` for a negative number."""
-    if states < 0:
-        raise InvalidArgument("states", f"is {states}: it must be at least 0")
+    """Solve and search `states` random scenes, one by one; raises `InvalidArgument` for fewer than one."""
+    if states < 1:
+        raise InvalidArgument("states", f"is {states}: it must be at least 1")
     return map(difference, scenes(states, seed))
 
 
