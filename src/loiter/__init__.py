@@ -11,7 +11,7 @@ from loiter.planning.solve import candidates, plan, plan_all
 
 if TYPE_CHECKING:
     from loiter import verify as verify
-    from loiter.planning.arrays import control, min_time, reduce, solve
+    from loiter.planning.arrays import control, min_time, min_time_in_wind, reduce, solve, solve_in_wind
 
 __version__ = "0.1.0"
 
@@ -28,10 +28,12 @@ __all__ = [
     "errors",
     "hold",
     "min_time",
+    "min_time_in_wind",
     "plan",
     "plan_all",
     "reduce",
     "solve",
+    "solve_in_wind",
 ]
 
 
@@ -41,7 +43,7 @@ def __dir__() -> list[str]:
 
 def __getattr__(name: str) -> Any:
     # The array functions need NumPy, which a single plan does not load.
-    if name in {"control", "min_time", "reduce", "solve"}:
+    if name in {"control", "min_time", "min_time_in_wind", "reduce", "solve", "solve_in_wind"}:
         from loiter.planning import arrays
 
         return getattr(arrays, name)

@@ -13,7 +13,7 @@ from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 from strategies import windy_scenes
 
-settings.register_profile("hold", deadline=None, max_examples=50)
+settings.register_profile("hold", deadline=None, max_examples=25)
 settings.load_profile("hold")
 
 UAV, ORBIT, WIND = Aircraft(18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, 120.0), Wind(8.0, 250.0)

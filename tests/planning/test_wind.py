@@ -15,7 +15,7 @@ from planning.flying import fly
 from strategies import scenes, windy_scenes
 
 # A solve takes milliseconds, a list of all of them tens.
-settings.register_profile("wind", deadline=None, max_examples=40)
+settings.register_profile("wind", deadline=None, max_examples=25)
 settings.load_profile("wind")
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
