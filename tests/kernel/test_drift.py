@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from loiter.kernel.codes import Side, Status, Word
-from loiter.kernel.drift import fastest, first_way, slope
+from loiter.kernel.drift import fastest, first_way, optima, ranked, slope
 from loiter.kernel.hold import held, hold_rate, hold_time, phase_of, tightest_held
 from loiter.kernel.motion import reduce
 from loiter.kernel.rebinding import rebound
@@ -310,3 +310,34 @@ def test_compiled_it_is_the_same():
             0.4 * sin(5 * i),
         )
         assert compiled()(*scene) == pytest.approx(fastest(*scene), abs=1e-9)
+
+
+@given(scenes(), sides)
+def test_what_is_ranked_begins_with_the_fastest_and_ends_on_the_circle(scene, side):
+    x, y, c, s, R, wx, wy = scene
+    found = ranked(x, y, c, s, R, side, wx, wy)
+    times = [sum(maneuver[3:6]) for maneuver in found]
+    assert times == sorted(times)
+    assert times[0] == pytest.approx(least_time(scene, side), abs=moved(scene, times[0]))
+    assert {maneuver[1] for maneuver in found} == ({1, -1} if side == Side.EITHER else {side})
+    tied = optima(x, y, c, s, R, side, wx, wy)
+    assert tied == found[: len(tied)]
+    assert sum(tied[-1][3:6]) <= times[0] + 1e-11 * (R + times[0])
+    for status, *_, miss in found:
+        assert status == Status.OK
+        assert miss <= 2.0 * rounding(x, y, R) + 1e-14 * times[-1]
+
+
+@given(scenes(), one_way)
+def test_no_point_beside_a_ranked_one_is_met_sooner(scene, side):
+    x, y, c, s, R, wx, wy = scene
+    inner = (*scene, rounding(x, y, R) / 3.0)
+    for _, held_side, _, t1, t2, t3, azimuth, _ in ranked(x, y, c, s, R, side, wx, wy):
+        phase, time = phase_of(cos(azimuth), sin(azimuth), held_side, wx, wy), t1 + t2 + t3
+        beside = [first_way(phase + d, held_side, inner, inf)[0] for d in (-1e-4, 1e-4)]
+        assert min(beside) >= time - moved(scene, time)
+
+
+def test_a_side_without_an_answer_leaves_none(monkeypatch):
+    monkeypatch.setattr("loiter.kernel.drift.missed", lambda *_: nan)
+    assert ranked(3.0, 1.0, 1.0, 0.0, 2.0, Side.EITHER, 0.1, 0.0) == []

@@ -361,3 +361,9 @@ def test_a_search_that_ends_beside_the_circle_is_no_answer(monkeypatch, solve):
     monkeypatch.setattr("loiter.kernel.drift.missed", lambda *_: nan)
     with pytest.raises(NotConverged, match=f"^{Status.NOT_CONVERGED.message}: pose -400 120 90, wind 8 m/s from 250"):
         solve(POSE, ORBIT, UAV, WIND)
+
+
+def test_samples_of_a_start_on_the_circle_are_one():
+    """Heading across a wind from the west, the track is off by the crab angle."""
+    samples = plan(Pose(0.0, 120.0, 90.0), ORBIT, UAV, Wind(6.0, 270.0)).sample(1.0)
+    assert [column.tolist() for column in samples] == [[0.0], [0.0], [120.0], [90.0], [0.0], [90.0], [24.0]]

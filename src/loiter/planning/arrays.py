@@ -133,7 +133,7 @@ class WindSolution(NamedTuple):
 def min_time_in_wind(
     x: ArrayLike,
     y: ArrayLike,
-    heading: ArrayLike,
+    angle: ArrayLike,
     radius: ArrayLike,
     turn: ArrayLike,
     wind_x: ArrayLike,
@@ -146,13 +146,13 @@ def min_time_in_wind(
     >>> round(float(loiter.min_time_in_wind(-10.0, 0.0, 0.0, 3.0, "cw", 0.3, 0.0)), 4)
     5.9162
     """
-    return solve_in_wind(x, y, heading, radius, turn, wind_x, wind_y, workers=workers).time[()]
+    return solve_in_wind(x, y, angle, radius, turn, wind_x, wind_y, workers=workers).time[()]
 
 
 def solve_in_wind(
     x: ArrayLike,
     y: ArrayLike,
-    heading: ArrayLike,
+    angle: ArrayLike,
     radius: ArrayLike,
     turn: ArrayLike,
     wind_x: ArrayLike,
@@ -162,17 +162,17 @@ def solve_in_wind(
 ) -> WindSolution:
     """Optimal maneuvers in wind (docs/wind.md): time, word, durations, status, side, point of joining.
 
-    `x`, `y` are the position from the circle's centre and `radius` its radius, in turn radii; `heading` is in radians,
-    counter-clockwise from x; `wind_x`, `wind_y` the velocity of the air past the circle (the wind less the circle's
-    own) over the airspeed; `turn` as for `min_time`. Arguments broadcast; NumPy arrays come back. Where the status is
-    not `OK` (nan, a wind as fast as the aircraft, a circle too tight to be held in it, a search that did not converge)
-    the floats are nan. From some thousand states on they run compiled, in a third of a millisecond each; compiling
-    takes some ten seconds, once a process. `workers` threads share the work, -1 for one a core. Raises
-    `InvalidArgument` for an unknown turn or number of workers.
+    `x`, `y` are the position from the circle's centre and `radius` its radius, in turn radii; `angle` is the direction
+    of the nose in radians, counter-clockwise from x; `wind_x`, `wind_y` the velocity of the air past the circle (the
+    wind less the circle's own) over the airspeed; `turn` as for `min_time`. Arguments broadcast; NumPy arrays come
+    back. Where the status is not `OK` (nan, a wind as fast as the aircraft, a circle too tight to be held in it, a
+    search that did not converge) the floats are nan. From some thousand states on they run compiled, in a third of a
+    millisecond each; compiling takes some ten seconds, once a process. `workers` threads share the work, -1 for one a
+    core. Raises `InvalidArgument` for an unknown turn or number of workers.
     """
-    angle = np.asarray(heading, dtype=np.float64)
+    angles = np.asarray(angle, dtype=np.float64)
     with np.errstate(invalid="ignore"):
-        vectors = np.cos(angle), np.sin(angle)
+        vectors = np.cos(angles), np.sin(angles)
     columns = np.broadcast_arrays(x, y, *vectors, radius, _sides(turn), wind_x, wind_y)
     states = np.stack([np.asarray(column, dtype=np.float64).ravel() for column in columns], axis=1)
     answers = np.empty_like(states)
