@@ -1,7 +1,7 @@
 # make demo   plan a real entry: the table on the screen, the picture in demo.png
 # make test   format, lint, types, import contract, tests, examples in the docs
 # make bench  what answers cost, beside other methods: table and plot in benchmarks/results; ROWS=0 spares the tables
-# make verify all four witnesses, the search over 100,000 random scenes
+# make verify all witnesses, the search over 100,000 random scenes in still air and 1,000 in wind
 # make pins   write the requirement files anew from pyproject.toml
 PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin
@@ -40,6 +40,7 @@ bench: .venv/dev.stamp
 
 verify: .venv/dev.stamp
 	$(BIN)/loiter verify --states 100000
+	$(BIN)/loiter verify --witness wind --states 1000
 
 pins: .venv/dev.stamp
 	$(BIN)/python -m pip install -q uv

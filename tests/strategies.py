@@ -1,10 +1,10 @@
 """What Hypothesis draws: reduced states, radii, sides, scenes in SI; and what rounding does to T."""
 
-from math import sqrt
+from math import atan2, cos, degrees, hypot, pi, sin, sqrt
 
 from hypothesis import strategies as st
 
-from loiter import Aircraft, Orbit, Pose, Turn
+from loiter import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.kernel.codes import Side
 from loiter.kernel.synthesis import rounding
 
@@ -31,6 +31,19 @@ def scenes(draw: st.DrawFn) -> tuple[Pose, Orbit, Aircraft]:
     uav = draw(aircraft)
     radius = uav.turn_radius_m * draw(st.floats(1.0, 8.0))
     return draw(poses), Orbit(draw(metres), draw(metres), radius, draw(turns)), uav
+
+
+@st.composite
+def windy_scenes(draw: st.DrawFn, windiest: float = 0.6) -> tuple[Pose, Orbit, Aircraft, Wind]:
+    """A scene with a circle that may move, and a wind in which the aircraft can hold it."""
+    pose, orbit, uav = draw(scenes())
+    velocity = draw(st.one_of(st.just((0.0, 0.0)), st.tuples(st.floats(-15.0, 15.0), st.floats(-15.0, 15.0))))
+    past, towards = draw(st.floats(1e-6, windiest)) * uav.airspeed_m_s, draw(st.floats(0.0, 2.0 * pi))
+    east, north = velocity[0] + past * sin(towards), velocity[1] + past * cos(towards)
+    wind = Wind(hypot(east, north), degrees(atan2(-east, -north)))
+    radius = uav.turn_radius_m * (1.0 + past / uav.airspeed_m_s) ** 2 * draw(st.floats(1.0 + 1e-9, 4.0))
+    orbit = Orbit(orbit.east_m, orbit.north_m, radius, orbit.turn, *velocity)
+    return pose, orbit, uav, wind
 
 
 def blur(x: float, y: float, R: float) -> float:

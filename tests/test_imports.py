@@ -15,14 +15,18 @@ PUBLIC = [
     "Pose",
     "Segment",
     "Turn",
+    "Wind",
     "candidates",
     "control",
     "errors",
+    "hold",
     "min_time",
+    "min_time_in_wind",
     "plan",
     "plan_all",
     "reduce",
     "solve",
+    "solve_in_wind",
 ]
 HEAVY = {"numba", "matplotlib", "numpy", "rich", "cyclopts", "pyproj", "ompl"}
 PLAN = ["plan", "--pose", "-400", "120", "90", "--orbit", "0", "0", "80", "--airspeed", "18", "--bank", "35"]

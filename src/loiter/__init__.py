@@ -4,14 +4,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from loiter import errors
+from loiter.planning.hold import hold
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn
+from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
 from loiter.planning.solve import candidates, plan, plan_all
 
 if TYPE_CHECKING:
     from loiter import batch as batch
     from loiter import verify as verify
-    from loiter.planning.arrays import control, min_time, reduce, solve
+    from loiter.planning.arrays import control, min_time, min_time_in_wind, reduce, solve, solve_in_wind
 
 __version__ = "0.1.0"
 
@@ -22,14 +23,18 @@ __all__ = [
     "Pose",
     "Segment",
     "Turn",
+    "Wind",
     "candidates",
     "control",
     "errors",
+    "hold",
     "min_time",
+    "min_time_in_wind",
     "plan",
     "plan_all",
     "reduce",
     "solve",
+    "solve_in_wind",
 ]
 
 
@@ -39,7 +44,7 @@ def __dir__() -> list[str]:
 
 def __getattr__(name: str) -> Any:
     # The array functions need NumPy, which a single plan does not load.
-    if name in {"control", "min_time", "reduce", "solve"}:
+    if name in {"control", "min_time", "min_time_in_wind", "reduce", "solve", "solve_in_wind"}:
         from loiter.planning import arrays
 
         return getattr(arrays, name)

@@ -18,7 +18,15 @@ class InvalidArgument(LoiterError):
 
 
 class RadiusTooSmall(LoiterError):
-    """The circle is tighter than the aircraft can turn."""
+    """The circle is tighter than the aircraft can turn, or than it can hold in this wind."""
+
+
+class WindTooStrong(LoiterError):
+    """The air passes the circle as fast as the aircraft flies, or faster."""
+
+
+class NotConverged(LoiterError):
+    """No maneuver was found that ends on the circle when flown."""
 
 
 class OutOfRange(LoiterError):

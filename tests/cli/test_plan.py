@@ -95,6 +95,7 @@ def test_the_admissible_control_of_example_2_is_an_alternative(planned):
 def test_json_holds_these_names(planned):
     answer = planned(FAR)
     maneuver = {"duration_s", "length_m", "word", "turn", "join", "miss_m", "segments"}
+    maneuver |= {"wind", "join_over_ground", "hold"}
     assert set(answer) == maneuver | {"alternatives"}
     assert all(set(other) == maneuver | {"later_s"} for other in answer["alternatives"])
     assert set(answer["join"]) == {"east_m", "north_m", "heading_deg"}
@@ -353,7 +354,7 @@ def test_the_table_prints_where_only_ascii_can_be_written():
 def test_the_examples_of_the_help_run(shown, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     examples = re.findall(r"^  loiter (plan .*)$", shown("--help").replace("\\\n", ""), re.MULTILINE)
-    assert len(examples) == 2
+    assert len(examples) == 3
     for example in examples:
         assert "joins in" in shown(example)
     assert [path.name for path in tmp_path.iterdir()] == ["entry.png"]
@@ -367,6 +368,7 @@ def test_the_help_names_each_command(shown, arguments):
 def test_the_help_of_plan_names_each_option(shown):
     named = set(re.findall(r"--[a-z-]+", shown("plan --help")))
     scene, limits = {"--pose", "--orbit", "--turn", "--tolerance", "--airspeed"}, {"--bank", "--turn-radius"}
+    scene |= {"--wind", "--orbit-velocity"}
     assert scene | limits | {"--turn-rate", "--all", "--json", "--plot"} <= named
 
 

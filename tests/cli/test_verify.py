@@ -6,7 +6,7 @@ import pytest
 
 import loiter
 from loiter.cli.app import main
-from loiter.verify import compare
+from loiter.verify import compare, met
 from loiter.verify.compare import PLACES
 
 EIGHT = ["verify", "--witness", "search", "--states", "8", "--seed", "1"]
@@ -100,3 +100,20 @@ def test_a_witness_that_cannot_come_says_so_before_the_first_begins(capsys, monk
 def test_an_unknown_witness_is_refused(capsys):
     assert main(["verify", "--witness", "oracle"]) == 2
     assert "--witness" in capsys.readouterr().err
+
+
+def test_the_wind_is_a_witness_that_comes_when_it_is_named(capsys):
+    assert main(["verify", "--witness", "wind", "--states", "6", "--seed", "2"]) == 0
+    first, *rows = [line for line in capsys.readouterr().out.splitlines() if line]
+    assert first == "wind: agrees"
+    assert [row.split()[:2] for row in rows[1:5]] == [["inside", "2"], ["near", "2"], ["far", "2"], ["all", "6"]]
+    assert [row.split()[4] for row in rows[1:5]] == ["0"] * 4
+
+
+def test_a_plan_in_wind_that_is_late_is_told(capsys, monkeypatch):
+    late = met.Difference(next(met.scenes(1, 0)), 1.0, 1e-3, 0.0, 0.0)
+    monkeypatch.setattr(met, "compare", lambda states, seed: iter([late] * states))
+    assert main(["verify", "--witness", "wind"]) == 1
+    out = capsys.readouterr().out
+    assert out.startswith("wind: DISAGREES")
+    assert re.search(r"^inside +20 +1\.0e-03 +0\.0e\+00 +20 ", out, re.MULTILINE)

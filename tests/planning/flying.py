@@ -4,9 +4,9 @@ from cmath import exp
 from math import degrees, pi, radians
 
 
-def fly(start, segments, airspeed):
+def fly(start, segments, airspeed, wind=(0.0, 0.0)):
     """East, north and compass heading at the end of segments flown one after the other, each from its letter,
-    duration and curvature alone."""
+    duration and curvature alone; the air moves with `wind`, east and north."""
     place = complex(start.east_m, start.north_m)
     course = pi / 2 - radians(start.heading_deg % 360.0)
     for segment in segments:
@@ -18,4 +18,5 @@ def fly(start, segments, airspeed):
         else:
             place += length * exp(1j * course)
         course += turned
+        place += complex(*wind) * segment.duration_s
     return place.real, place.imag, degrees(pi / 2 - course) % 360.0

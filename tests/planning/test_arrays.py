@@ -155,6 +155,8 @@ def test_turns_may_be_codes():
     assert loiter.min_time(0.0, 1.0, 1.0, Side.CW) == 0.0
 
 
+# Pickling a ufunc looks through all modules, and mpmath, which other tests load, warns of that.
+@pytest.mark.filterwarnings(r"ignore:the \w+ (private )?module is deprecated:DeprecationWarning:mpmath")
 def test_dask_arrays_stay_lazy_and_chunked():
     array = pytest.importorskip("dask.array")
     x, y = array.from_array(X, chunks=700), array.from_array(Y, chunks=700)

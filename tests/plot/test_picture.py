@@ -1,13 +1,15 @@
 """What the picture shows, read back from the artists on its axes."""
 
+from dataclasses import replace
 from math import cos, hypot, radians, sin
 
 import numpy as np
 import pytest
 from matplotlib.colors import same_color, to_rgb
 
-from loiter import Aircraft, Orbit, Pose, candidates, plan_all
+from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan_all
 from loiter.plot.picture import draw
+from planning.flying import fly
 
 UAV, UNIT = Aircraft(18.0, max_bank_deg=35.0), Aircraft(1.0, min_turn_radius_m=1.0)
 FAR = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), UAV
@@ -283,3 +285,72 @@ def test_two_directions_that_both_count_as_joined_can_be_drawn():
     best = plan_all(Pose(0.0, 0.0, 0.0), Orbit(0.0, 0.0, 80.0), UAV, tolerance_m=1000.0)
     assert [m.segments for m in best] == [(), ()]
     assert len(artists(draw(best[:1], best[1:]).axes[0], "join")) == 1
+
+
+# Wind, and circles that move
+
+WINDY = {
+    "wind": (Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), UAV, Wind(8.0, 250.0)),
+    "a circle that moves": (Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0, "either", 5.0, -3.0), UAV, None),
+    "both": (Pose(30.0, 20.0, 200.0), Orbit(0.0, 0.0, 160.0, "cw", -4.0, 2.0), UAV, Wind(6.0, 20.0)),
+}
+each_windy_scene = pytest.mark.parametrize("scene", WINDY.values(), ids=WINDY)
+
+
+@each_windy_scene
+def test_in_wind_the_ground_track_is_drawn(scene):
+    axes, [best], _ = drawn(scene)
+    east, north = (0.0, 0.0) if scene[3] is None else scene[3].velocity_m_s
+    for line, segment in zip(segment_lines(axes), best.segments, strict=True):
+        end = fly(segment.start, [segment], UAV.airspeed_m_s, (east, north))
+        assert points(line)[0] == place(segment.start)
+        assert points(line)[-1] == pytest.approx(end[:2], abs=1e-9)
+        half = replace(segment, duration_s=segment.duration_s / 2.0)
+        middle = fly(segment.start, [half], UAV.airspeed_m_s, (east, north))[:2]
+        chord = np.hypot(*np.diff(points(line), axis=0).T).max()
+        assert np.hypot(*(points(line) - middle).T).min() <= 0.51 * chord
+
+
+@each_windy_scene
+def test_the_circle_is_drawn_where_it_is_joined_and_faint_where_it_was(scene):
+    axes, [best], _ = drawn(scene)
+    [circle], before = artists(axes, "circle"), artists(axes, "circle at the start")
+    [join] = artists(axes, "join")
+    centre = np.array(circle.get_center())
+    assert hypot(*(points(join)[0] - centre)) == pytest.approx(scene[1].radius_m, abs=1e-9)
+    orbit = scene[1]
+    moved = np.array([orbit.velocity_east_m_s, orbit.velocity_north_m_s]) * best.duration_s
+    assert centre == pytest.approx(moved, abs=1e-9)
+    assert [artist.get_center() for artist in before] == ([(0.0, 0.0)] if orbit.moves else [])
+    [mark] = artists(axes, "centre")
+    assert points(mark)[0] == pytest.approx(centre)
+    assert ("circle at the start" in legend(axes)) == orbit.moves
+    ways = artists(axes, "way of the centre")
+    assert [points(way)[-1].tolist() for way in ways] == ([centre.tolist()] if orbit.moves else [])
+
+
+@each_windy_scene
+def test_the_wind_arrow_points_where_the_air_goes(scene):
+    axes, _, _ = drawn(scene)
+    arrows, labels = artists(axes, "wind"), artists(axes, "wind label")
+    wind = scene[3]
+    assert len(arrows) == len(labels) == (wind is not None)
+    for arrow, label in zip(arrows, labels, strict=True):
+        pointed = np.array(arrow.xy) - np.array(arrow.xyann)
+        assert pointed / hypot(*pointed) == pytest.approx(np.array(wind.velocity_m_s) / wind.speed_m_s)
+        assert label.get_text() == f"wind {wind.speed_m_s:g} m/s\nfrom {wind.from_deg:g} deg"
+
+
+@pytest.mark.parametrize("from_deg", [0.0, 90.0, 180.0, 270.0])
+def test_the_wind_arrow_is_not_cut_off_and_hides_nothing(from_deg):
+    pose, orbit, uav, _ = WINDY["wind"]
+    figure = draw(plan_all(pose, orbit, uav, Wind(8.0, from_deg)))
+    figure.draw_without_rendering()
+    axes = figure.axes[0]
+    for artist in (*artists(axes, "wind"), *artists(axes, "wind label")):
+        box = artist.get_window_extent()
+        assert figure.bbox.y0 <= box.y0
+        assert figure.bbox.x0 <= box.x0
+        assert box.y1 <= figure.bbox.y1
+        assert box.y0 >= axes.bbox.y1 - 1.0
+        assert not box.overlaps(axes.title.get_window_extent())

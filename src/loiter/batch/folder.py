@@ -6,6 +6,7 @@ import fcntl
 import json
 import os
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
@@ -101,10 +102,11 @@ def belongs(folder: Path, job: str) -> bool:
         return False
 
 
-def finish(folder: Path, target: Path) -> None:
-    """Put the output in its place, and remove what led to it."""
+def finish(folder: Path, target: Path, workers: int) -> None:
+    """Put the output in its place, and remove what led to it, which for large files is work for several threads."""
     (folder / OUTPUT).replace(target)
-    _delete(folder, _FINISHED)
+    with ThreadPoolExecutor(workers) as pool:
+        list(pool.map(Path.unlink, list(_matching(folder, _FINISHED))))
 
 
 def finished_parts(folder: Path) -> list[Path]:

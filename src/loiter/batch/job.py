@@ -98,7 +98,7 @@ def carry_out(asked: Request, workers: int, scheduler: str | None, tell: Tell) -
         counts = _written(asked, job, parts, finished, crew, meter, lambda: tell(Progress(meter.rows // 2, total)))
         if _description(asked) != description:
             raise InvalidArgument("source", f"is {str(asked.source)!r}: it changed while it was read")
-        folder.finish(here, asked.target)
+        folder.finish(here, asked.target, workers)
     seconds = time.monotonic() - started
     return Summary(total, counts, len(parts), resumed, total - earlier, seconds)
 

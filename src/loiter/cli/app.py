@@ -15,7 +15,7 @@ from loiter.cli import certificates, report
 from loiter.cli.sentences import sentence
 from loiter.cli.status import CHECK_FAILED, INTERRUPTED, USAGE_ERROR
 from loiter.errors import LoiterError
-from loiter.planning.model import Aircraft, Orbit, Pose, Turn
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.plot import files
 
 app = App(
@@ -27,13 +27,15 @@ app = App(
     help_format="plaintext",
     help="""The fastest way onto a holding circle for a fixed-wing aircraft.
 
-An aircraft of constant speed turns left or right, no tighter than its turn radius. It is to join a circle tangentially, in the least time, and to stay on it, clockwise or counter-clockwise, whichever is sooner. The answer is exact: the least of the extremals of Pontryagin's maximum principle that can win, in closed form.
+An aircraft of constant speed turns left or right, no tighter than its turn radius. It is to join a circle tangentially, in the least time, and to stay on it, clockwise or counter-clockwise, whichever is sooner. The answer is exact: the least of the extremals of Pontryagin's maximum principle that can win, in closed form. In wind, and onto a circle that moves, it is found by branch and bound over the point of joining.
 
 Positions are metres east and north of any local origin; headings are degrees clockwise from north.""",
     help_epilogue="""Examples
   loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35
   loiter plan --pose -400 120 90 --orbit 0 0 80 --turn cw \\
       --airspeed 18 --turn-radius 50 --plot entry.png
+  loiter plan --pose -400 120 90 --orbit 0 0 120 --wind 8 250 \\
+      --airspeed 18 --bank 35
   eval "$(loiter completion bash)"
 
 Exit status
@@ -45,8 +47,9 @@ Exit status
 )  # fmt: skip
 
 scene = Group("Scene", sort_key=1)
+air = Group("Wind, and circles that move", sort_key=3)
 aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sort_key=2)
-output = Group("Output", sort_key=3)
+output = Group("Output", sort_key=4)
 
 
 @app.command(name="plan")
@@ -69,10 +72,24 @@ def plan_command(
         Parameter(
             group=scene,
             metavar="METRES",
-            help="Metres by which a start may lie beyond the last arc and still count as on it, so that noise does not send "
-            "the aircraft round again.",
+            help="In still air: metres by which a start may lie beyond the last arc and still count as on it, so that noise "
+            "does not send the aircraft round again.",
         ),
     ] = 0.0,
+    wind: Annotated[
+        tuple[float, float] | None,
+        Parameter(
+            group=air, metavar="SPEED FROM", help="Metres per second, and the compass direction the wind comes from."
+        ),
+    ] = None,
+    orbit_velocity: Annotated[
+        tuple[float, float],
+        Parameter(
+            group=air,
+            metavar="EAST NORTH",
+            help="How the circle moves over the ground, metres per second; --orbit is where it is at the start.",
+        ),
+    ] = (0.0, 0.0),
     airspeed: Annotated[float, Parameter(group=aircraft, metavar="M_PER_S", help="True airspeed, metres per second.")],
     bank: Annotated[float | None, Parameter(group=aircraft, metavar="DEGREES", help="Largest bank, degrees.")] = None,
     turn_radius: Annotated[
@@ -106,10 +123,11 @@ def plan_command(
     if plot is not None:
         files.check_format(plot)
     uav = Aircraft(airspeed, max_bank_deg=bank, min_turn_radius_m=turn_radius, max_turn_rate_deg_s=turn_rate)
-    start, circle = Pose(*pose), Orbit(*orbit, turn=Turn(turn))
-    best = loiter.plan_all(start, circle, uav, tolerance_m=tolerance)
+    start, circle = Pose(*pose), Orbit(*orbit, Turn(turn), *orbit_velocity)
+    moving_air = CALM if wind is None else Wind(*wind)
+    best = loiter.plan_all(start, circle, uav, moving_air, tolerance_m=tolerance)
     # What the other direction would cost is told even where one was asked for.
-    known = loiter.candidates(start, replace(circle, turn=Turn.EITHER), uav, tolerance_m=tolerance)
+    known = loiter.candidates(start, replace(circle, turn=Turn.EITHER), uav, moving_air, tolerance_m=tolerance)
     others = [m for m in known if not any(m.turn == b.turn and m.segments == b.segments for b in best)]
     proofs = [loiter.verify.certify(m, tolerance_m=tolerance) for m in (best if all_ else best[:1]) if certify]
     if plot is not None:

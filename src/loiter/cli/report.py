@@ -4,12 +4,14 @@ import json
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
+from math import atan2, degrees, hypot
 
 from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import Orbit, Pose
 
 ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
 
@@ -44,18 +46,39 @@ def described(maneuver: Maneuver) -> dict[str, object]:
         "word": maneuver.word,
         "turn": maneuver.turn.value,
         "join": asdict(maneuver.join),
+        "wind": asdict(maneuver.wind),
+        "join_over_ground": _join_over_ground(maneuver),
+        "hold": {
+            "least_bank_deg": maneuver.hold.least_bank_deg,
+            "largest_bank_deg": maneuver.hold.largest_bank_deg,
+            "largest_bank_azimuth_deg": maneuver.hold.largest_bank_azimuth_deg,
+        },
         "miss_m": maneuver.miss_m,
         "segments": [asdict(segment) for segment in maneuver.segments],
     }
 
 
+def _join_over_ground(maneuver: Maneuver) -> dict[str, float]:
+    """Track and ground speed where the circle is joined, and where its centre is then."""
+    track_deg, speed = maneuver.over_ground(maneuver.join)
+    centre = maneuver.orbit_at_join
+    return {
+        "track_deg": track_deg,
+        "ground_speed_m_s": speed,
+        "centre_east_m": centre.east_m,
+        "centre_north_m": centre.north_m,
+    }
+
+
 def print_tables(best: Sequence[Maneuver], others: Sequence[Maneuver], *, everything: bool) -> None:
     """Print the first of `best`, or with `everything` each, and what the other direction costs."""
-    lines: list[RenderableType] = []
+    lines: list[RenderableType] = [weather(best[0])] if _windy(best[0]) else []
     for maneuver in best if everything else best[:1]:
         lines.append(Text(headline(maneuver), style="bold"))
         if maneuver.segments:
             lines += [table(maneuver), peel_off(maneuver)]
+        if _windy(maneuver):
+            lines += hold_in_wind(maneuver)
         if maneuver.miss_m > SHOWN * maneuver.orbit.radius_m:
             lines.append(f"Ends {maneuver.miss_m:.3g} m off the point of joining, within the tolerance.")
     lines.append(other_direction(best, others))
@@ -80,7 +103,7 @@ def headline(maneuver: Maneuver) -> str:
     time, length = _formats(maneuver)
     return (
         f"{maneuver.word}, {maneuver.turn.described}: joins in {time(maneuver.duration_s)} "
-        f"after {length(maneuver.length_m)}"
+        f"after {length(maneuver.length_m)}{' through the air' if _windy(maneuver) else ''}"
     )
 
 
@@ -90,7 +113,8 @@ def table(maneuver: Maneuver) -> Table:
     rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     rows.add_column("in", justify="right")
     rows.add_column("do", justify="left")
-    for heading in ("for", "length", "from the centre", "heading, deg"):
+    columns = ["for", "length", "from the centre", "heading, deg"]
+    for heading in columns + ["track, deg", "ground speed"] * _windy(maneuver):
         rows.add_column(heading, justify="right")
     for segment in maneuver.segments:
         rows.add_row(
@@ -98,18 +122,65 @@ def table(maneuver: Maneuver) -> Table:
             ACTIONS[segment.letter],
             time(segment.duration_s),
             length(segment.length_m),
-            length(maneuver.orbit.distance_m(segment.start)),
+            length(maneuver.orbit.after(segment.start_s).distance_m(segment.start)),
             _degrees(segment.start.heading_deg),
+            *_over_ground(maneuver, segment.start),
         )
     rows.add_row(
         time(maneuver.duration_s),
         f"hold {maneuver.turn.described}",
         "",
         "",
-        length(maneuver.orbit.distance_m(maneuver.join)),
+        length(maneuver.orbit_at_join.distance_m(maneuver.join)),
         _degrees(maneuver.join.heading_deg),
+        *_over_ground(maneuver, maneuver.join),
     )
     return rows
+
+
+def _over_ground(maneuver: Maneuver, pose: Pose) -> list[str]:
+    """Cells for track and ground speed; none in still air about a circle that rests."""
+    if not _windy(maneuver):
+        return []
+    track_deg, speed = maneuver.over_ground(pose)
+    return [_degrees(track_deg), f"{speed:.1f} m/s"]
+
+
+def weather(maneuver: Maneuver) -> str:
+    """One line: the wind, and how the circle moves."""
+    wind, orbit = maneuver.wind, maneuver.orbit
+    text = f"Wind {wind.speed_m_s:g} m/s from {_degrees(wind.from_deg)} deg" if wind.speed_m_s else "Still air"
+    if not orbit.moves:
+        return f"{text}."
+    east, north = orbit.velocity_east_m_s, orbit.velocity_north_m_s
+    return (
+        f"{text}; the circle moves at {hypot(east, north):.3g} m/s towards {_degrees(degrees(atan2(east, north)))} deg."
+    )
+
+
+def hold_in_wind(maneuver: Maneuver) -> list[str]:
+    """What the wind asks of the hold, and where a circle that moves is joined."""
+    lines, hold = [], maneuver.hold
+    if maneuver.orbit.moves and maneuver.segments:
+        centre = _place(maneuver, maneuver.orbit_at_join)
+        lines.append(f"When it is joined the circle's centre is at {centre}.")
+    least, most = f"{hold.least_bank_deg:.1f}", f"{hold.largest_bank_deg:.1f}"
+    if least == most:
+        lines.append(f"Bank on the circle: {most} deg.")
+    else:
+        azimuth = round(hold.largest_bank_azimuth_deg) % 360
+        lines.append(f"Bank on the circle: {least} to {most} deg, most at azimuth {azimuth:03d} deg.")
+    return lines
+
+
+def _place(maneuver: Maneuver, place: Pose | Orbit) -> str:
+    _, length = _formats(maneuver)
+    return f"{length(place.east_m)} east, {length(place.north_m)} north"
+
+
+def _windy(maneuver: Maneuver) -> bool:
+    """Whether the ground track differs from the path through the air, or the circle moves."""
+    return maneuver.wind.speed_m_s > 0.0 or maneuver.orbit.moves
 
 
 def peel_off(maneuver: Maneuver) -> str:
@@ -117,7 +188,9 @@ def peel_off(maneuver: Maneuver) -> str:
     time, length = _formats(maneuver)
     last = maneuver.segments[-1]
     when = f"in {time(last.start_s)}" if len(maneuver.segments) > 1 else "now"
-    return f"Peel off: {ACTIONS[last.letter]} {when}, {length(maneuver.orbit.distance_m(last.start))} from the centre."
+    away = length(maneuver.orbit.after(last.start_s).distance_m(last.start))
+    where = f", at {_place(maneuver, last.start)}" if _windy(maneuver) else ""
+    return f"Peel off: {ACTIONS[last.letter]} {when}, {away} from the centre{where}."
 
 
 def other_direction(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> str:
@@ -126,7 +199,7 @@ def other_direction(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> str
     other = next(m for m in (*best, *others) if m.turn != first.turn)
     later = other.duration_s - first.duration_s
     subject = other.turn.described.capitalize()
-    if abs(later) <= SAME_TIME * other.duration_s:
+    if other in best or abs(later) <= SAME_TIME * other.duration_s:
         return f"{subject} takes the same time."
     return f"{subject} would join {_difference(abs(later))} {'later' if later > 0.0 else 'sooner'}."
 

@@ -33,6 +33,10 @@ OPTIONS = {
     "orbit east_m": "--orbit EAST",
     "orbit north_m": "--orbit NORTH",
     "orbit radius_m": "--orbit RADIUS",
+    "orbit velocity_east_m_s": "--orbit-velocity EAST",
+    "orbit velocity_north_m_s": "--orbit-velocity NORTH",
+    "wind speed_m_s": "--wind SPEED",
+    "wind from_deg": "--wind FROM",
 }
 
 

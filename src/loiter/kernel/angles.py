@@ -33,6 +33,12 @@ def angle(rotated: Rotation) -> float:
     return turned + TWO_PI if turned < 0.0 else turned + 0.0
 
 
+def turned_by(u: int, ax: float, ay: float, bx: float, by: float) -> Rotation:
+    """Rotation of the arc of control u = +1 or -1 that takes the heading (ax, ay) to (bx, by)."""
+    cross, dot = rotation(ax, ay, bx, by)
+    return u * cross, dot
+
+
 def snapped(rotated: Rotation, radius2: float, slack: float) -> Rotation:
     """The rotation, or none where it lacks at most `slack` of arc length to a full turn; `radius2`: radius squared.
 

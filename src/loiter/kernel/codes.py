@@ -51,6 +51,9 @@ class Status(IntEnum):
     BAD_TURN = 7
     BAD_POSE = 8
     MALFORMED = 9
+    WIND_TOO_STRONG = 10
+    NOT_HELD = 11
+    NOT_CONVERGED = 12
 
     @property
     def message(self) -> str:
@@ -60,7 +63,7 @@ class Status(IntEnum):
 
 _MESSAGES = {
     Status.OK: "solved",
-    Status.NOT_FINITE: "the state or the radius is nan or infinite",
+    Status.NOT_FINITE: "the state, the radius or the wind is nan or infinite",
     Status.RADIUS_TOO_SMALL: "the circle is tighter than the minimum turn radius: R must be at least 1",
     Status.OUT_OF_RANGE: "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn",
     Status.BAD_TOLERANCE: "the tolerance must be zero or positive, and below 2**52 turn radii",
@@ -69,4 +72,7 @@ _MESSAGES = {
     Status.BAD_TURN: "the turn must be cw, ccw or either",
     Status.BAD_POSE: "east, north and heading must be finite numbers",
     Status.MALFORMED: "the line has more or fewer fields than the header, or is not UTF-8",
+    Status.WIND_TOO_STRONG: "the wind relative to the circle is as fast as the aircraft: |w| must be below 1",
+    Status.NOT_HELD: "the circle is too tight to be held in this wind: R must be at least (1 + |w|)**2",
+    Status.NOT_CONVERGED: "no maneuver was found that ends on the circle when flown",
 }

@@ -1,42 +1,54 @@
-"""A maneuver flown exactly: the pose after a piece, and samples along the way."""
+"""A maneuver flown exactly: the pose after a piece, and samples along the way.
+
+A piece is an arc or a line through the air, which drifts: over the ground arcs are trochoids.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from math import degrees
+from math import atan2, degrees, hypot
 from typing import TYPE_CHECKING, Any
 
 from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.synthesis import ROUNDING
 from loiter.planning.compass import heading_vector, wrapped
-from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment
+from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment, Wind
 
 if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import NDArray
 
 
-def flown_from(start: Pose, u: int, length_m: float, turn_radius_m: float) -> Pose:
-    """The pose after `length_m` metres with control u from `start`."""
-    return Pose(*_flown(start, u, length_m, turn_radius_m, motion.fly))
+def flown_from(start: Pose, u: int, length_m: float, aircraft: Aircraft, wind: Wind) -> Pose:
+    """The pose over the ground after `length_m` metres through the air with control u from `start`."""
+    return Pose(*_flown(start, u, length_m, aircraft, wind, motion.fly))
 
 
-def along(segment: Segment, length_m: NDArray[float64], aircraft: Aircraft) -> tuple[NDArray[float64], ...]:
-    """East and north (metres) and heading (degrees) at distances `length_m` from the start of a segment."""
+def along(segment: Segment, length_m: NDArray[float64], aircraft: Aircraft, wind: Wind) -> tuple[NDArray[float64], ...]:
+    """East and north (metres, over the ground) and heading (degrees) `length_m` through the air into a segment."""
     import numpy as np
 
-    u, r = CONTROLS[segment.letter], aircraft.turn_radius_m
-    return tuple(np.broadcast_arrays(*_flown(segment.start, u, length_m, r, _fly_arrays())))
+    u = CONTROLS[segment.letter]
+    return tuple(np.broadcast_arrays(*_flown(segment.start, u, length_m, aircraft, wind, _fly_arrays())))
 
 
-def sampled(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, step_s: float) -> Samples:
+def over_ground(heading_deg: float, aircraft: Aircraft, wind: Wind) -> tuple[float, float]:
+    """Track (degrees) and ground speed (metres per second) of an aircraft on a heading."""
+    if wind.speed_m_s == 0.0:
+        return wrapped(heading_deg), aircraft.airspeed_m_s
+    east, north = _velocity(*heading_vector(heading_deg), aircraft, wind)
+    return wrapped(degrees(atan2(east, north))), hypot(east, north)
+
+
+def sampled(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: Wind, step_s: float) -> Samples:
     """The samples of `Maneuver.sample`, which documents and checks the arguments."""
     import numpy as np
 
     if not segments:
-        return Samples(*np.array([[0.0], [start.east_m], [start.north_m], [wrapped(start.heading_deg)], [0.0]]))
+        here = [0.0, start.east_m, start.north_m, wrapped(start.heading_deg), 0.0]
+        return Samples(*np.array([*here, *over_ground(start.heading_deg, aircraft, wind)])[:, np.newaxis])
     ends_s = segments[-1].start_s + segments[-1].duration_s
     # A last step that rounding alone leaves over is none.
     times = np.append(np.arange(0.0, ends_s * (1.0 - ROUNDING), step_s), ends_s)
@@ -46,18 +58,38 @@ def sampled(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, step_s
     for i, segment in enumerate(segments):
         here = under_way == i
         flown_m = (times[here] - segment.start_s) * aircraft.airspeed_m_s
-        columns[:3, here] = along(segment, flown_m, aircraft)
+        columns[:3, here] = along(segment, flown_m, aircraft, wind)
         columns[3, here] = segment.curvature_per_m
-    return Samples(times, *columns)
+    return Samples(times, *columns, *_tracks(columns[2], aircraft, wind))
 
 
-def _flown(start: Pose, u: int, length_m: Any, r: float, fly: Function) -> tuple[Any, Any, Any]:
-    """East, north and heading after `length_m` (a number or an array) with control u."""
-    t = length_m / r
+def _tracks(heading_deg: NDArray[float64], aircraft: Aircraft, wind: Wind) -> tuple[NDArray[float64], ...]:
+    """Tracks and ground speeds: `over_ground` for arrays."""
+    import numpy as np
+
+    if wind.speed_m_s == 0.0:
+        return heading_deg.copy(), np.full_like(heading_deg, aircraft.airspeed_m_s)
+    angles = np.radians(heading_deg)
+    east, north = _velocity(np.sin(angles), np.cos(angles), aircraft, wind)
+    track_deg: Any = wrapped(np.degrees(np.arctan2(east, north)))
+    return track_deg, np.hypot(east, north)
+
+
+def _velocity(east: Any, north: Any, aircraft: Aircraft, wind: Wind) -> tuple[Any, Any]:
+    """The velocity over the ground, metres per second, of an aircraft that heads along a unit vector."""
+    wind_east, wind_north = wind.velocity_m_s
+    return aircraft.airspeed_m_s * east + wind_east, aircraft.airspeed_m_s * north + wind_north
+
+
+def _flown(start: Pose, u: int, length_m: Any, aircraft: Aircraft, wind: Wind, fly: Function) -> tuple[Any, Any, Any]:
+    """East, north and heading after `length_m` through the air (a number or an array) with control u."""
+    r = aircraft.turn_radius_m
+    t, time_s = length_m / r, length_m / aircraft.airspeed_m_s
     east, north, _, _ = fly(0.0, 0.0, *heading_vector(start.heading_deg), u, t)
+    wind_east, wind_north = wind.velocity_m_s
     # A heading is counted clockwise, a control counter-clockwise. A large heading, not wrapped, would swallow the turn.
     heading = wrapped(wrapped(start.heading_deg) - u * t * degrees(1.0))
-    return start.east_m + r * east, start.north_m + r * north, heading
+    return start.east_m + r * east + wind_east * time_s, start.north_m + r * north + wind_north * time_s, heading
 
 
 @cache

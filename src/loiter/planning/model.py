@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import atan, degrees, hypot, radians, tan
 from typing import TYPE_CHECKING, NamedTuple
 
-from loiter.errors import InvalidArgument, as_float, number, positive
+from loiter.errors import InvalidArgument, as_float, not_negative, number, positive
+from loiter.planning.compass import heading_vector
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -105,14 +106,18 @@ TURN_LIMITS = {"max_bank_deg": "degrees", "min_turn_radius_m": "metres", "max_tu
 class Orbit:
     """The holding circle: its centre (metres, local east and north), its radius and the direction asked for.
 
-    `turn` is a `Turn` or its value: "cw", "ccw" or "either" (whichever is sooner; the default).
-    Raises `InvalidArgument` for coordinates that are not finite, a radius that is not positive, an unknown turn.
+    `turn` is a `Turn` or its value: "cw", "ccw" or "either" (whichever is sooner; the default). A circle that moves
+    (about a ship, a car, a thermal) has a constant velocity over the ground, metres per second; its centre is then
+    where it is at the start of the maneuver. Raises `InvalidArgument` for coordinates or velocities that are not
+    finite, a radius that is not positive, an unknown turn.
     """
 
     east_m: float
     north_m: float
     radius_m: float
     turn: Turn = Turn.EITHER
+    velocity_east_m_s: float = 0.0
+    velocity_north_m_s: float = 0.0
 
     def __post_init__(self) -> None:
         east_m, north_m = number("orbit east_m", self.east_m, "metres"), number("orbit north_m", self.north_m, "metres")
@@ -120,10 +125,52 @@ class Orbit:
         if self.turn not in tuple(Turn):
             raise InvalidArgument("turn", f"is {self.turn!r}: it must be cw, ccw or either")
         _keep(self, turn=Turn(self.turn))
+        for name in ("velocity_east_m_s", "velocity_north_m_s"):
+            _keep(self, **{name: number(f"orbit {name}", getattr(self, name), "metres per second")})
+
+    @property
+    def moves(self) -> bool:
+        """Whether the circle moves over the ground."""
+        return self.velocity_east_m_s != 0.0 or self.velocity_north_m_s != 0.0
+
+    def after(self, time_s: float) -> Orbit:
+        """The circle `time_s` seconds later: itself unless it moves."""
+        if not self.moves:
+            return self
+        east_m, north_m = self.velocity_east_m_s * time_s, self.velocity_north_m_s * time_s
+        return replace(self, east_m=self.east_m + east_m, north_m=self.north_m + north_m)
 
     def distance_m(self, pose: Pose) -> float:
         """Distance of a pose from the centre, metres."""
         return hypot(pose.east_m - self.east_m, pose.north_m - self.north_m)
+
+
+@dataclass(frozen=True, slots=True)
+class Wind:
+    """A constant, level wind: its speed and the compass direction that it comes from (270 blows towards the east).
+
+    Raises `InvalidArgument` for a speed that is negative or not finite and for a direction that is not finite.
+
+    >>> Wind(5.0, from_deg=270.0).velocity_m_s
+    (5.0, 0.0)
+    """
+
+    speed_m_s: float
+    from_deg: float
+
+    def __post_init__(self) -> None:
+        _keep(self, speed_m_s=not_negative("wind speed_m_s", self.speed_m_s, "metres per second"))
+        _keep(self, from_deg=number("wind from_deg", self.from_deg, "degrees"))
+
+    @property
+    def velocity_m_s(self) -> tuple[float, float]:
+        """How the air moves over the ground: metres per second towards the east and the north."""
+        east, north = heading_vector(self.from_deg)
+        # From 0.0, so that no component is -0.0.
+        return 0.0 - self.speed_m_s * east, 0.0 - self.speed_m_s * north
+
+
+CALM = Wind(0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,10 +191,12 @@ class Pose:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """One piece of a maneuver with constant control.
+    """One piece of a maneuver with constant control: an arc or a straight line through the air.
 
     `letter` is "L" (left turn), "S" (straight) or "R" (right turn); `start_s` is when it begins, counted from the
-    start of the maneuver; `curvature_per_m` is positive to the left, 0 on a straight piece.
+    start of the maneuver; `curvature_per_m` is positive to the left, 0 on a straight piece. `length_m` and
+    `curvature_per_m` are those through the air; `start` and `end` are places over the ground, with headings (where the
+    nose points), not tracks.
     """
 
     letter: str
@@ -160,10 +209,16 @@ class Segment:
 
 
 class Samples(NamedTuple):
-    """A maneuver at given times: five float64 arrays of one length; curvature positive to the left."""
+    """A maneuver at given times: seven float64 arrays of one length.
+
+    Places are over the ground. `heading_deg` is where the nose points, `track_deg` the course over the ground; in still
+    air they are equal. `curvature_per_m` is through the air, positive to the left.
+    """
 
     time_s: NDArray[float64]
     east_m: NDArray[float64]
     north_m: NDArray[float64]
     heading_deg: NDArray[float64]
     curvature_per_m: NDArray[float64]
+    track_deg: NDArray[float64]
+    ground_speed_m_s: NDArray[float64]

@@ -11,17 +11,23 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
+from matplotlib.text import OffsetFrom
 from numpy.typing import NDArray
 
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import along
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Orbit, Pose, Segment, Turn
+from loiter.planning.model import Orbit, Pose, Segment, Turn, Wind
 
 # Okabe and Ito's palette, told apart in all common forms of colour blindness.
 COLOURS = {"L": "#009E73", "S": "#0072B2", "R": "#D55E00"}
 MEANINGS = {"L": "left turn", "S": "straight", "R": "right turn"}
 FAINT = "#b0b0b0"
+AT_THE_START: dict[str, Any] = {"color": FAINT, "linewidth": 1.2, "linestyle": "--"}
+
+# The wind's arrow: points from the upper left corner of the axes to its middle, and its length.
+WIND_COLOUR = "#505050"
+WIND_PLACE, WIND_LENGTH = np.array([14.0, 14.0]), 22.0
 MARKS: dict[str, dict[str, Any]] = {
     "switch": {"marker": "o", "markersize": 6, "markerfacecolor": "white"},
     "join": {"marker": "o", "markersize": 9, "markerfacecolor": "black"},
@@ -34,7 +40,9 @@ CHORD_RAD = math.radians(2.0)
 def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = ()) -> Figure:
     """Draw maneuvers of one scene: `best` coloured by segment, `others` faint, start, switches and join marked.
 
-    East is to the right, north up, axes equal, in metres. The first of `best` gives the title.
+    East is to the right, north up, axes equal, in metres. The first of `best` gives the title. In wind tracks are those
+    over the ground, and an arrow beside the title shows where the air goes. A circle that moves is drawn where it is
+    when it is joined, faint where it is at the start; `others` end where it is for each of them.
     """
     first = best[0]
     figure = Figure(figsize=(8.0, 6.4), layout="constrained")
@@ -46,13 +54,17 @@ def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = ()) -> Figure:
     axes.set_axisbelow(True)
     for maneuver in (other for other in others if other.segments):
         axes.plot(*_track(maneuver), color=FAINT, linewidth=1.0, alpha=0.6, zorder=1, gid="candidate")
-    _draw_circle(axes, first.orbit, {maneuver.turn for maneuver in best})
+    if first.orbit.moves:
+        _draw_movement(axes, first)
+    _draw_circle(axes, first.orbit_at_join, {maneuver.turn for maneuver in best})
     for maneuver in best:
         _draw_path(axes, maneuver)
     _draw_aircraft(axes, first.start)
     axes.set_xlabel("east (m)")
     axes.set_ylabel("north (m)")
     axes.set_title(_title(best))
+    if first.wind.speed_m_s > 0.0:
+        _draw_wind(axes, first.wind)
     axes.legend(handles=_legend(best, others), loc="best", fontsize="small", framealpha=0.9)
     axes.margins(0.08)
     return figure
@@ -93,6 +105,37 @@ def _draw_circle(axes: Axes, orbit: Orbit, turns: set[Turn]) -> None:
             _arrow(axes, centre[0] + orbit.radius_m * np.cos(arc), centre[1] + orbit.radius_m * np.sin(arc), "black")
 
 
+def _draw_movement(axes: Axes, maneuver: Maneuver) -> None:
+    """The circle at the start, and the way of its centre until it is joined."""
+    before, after = maneuver.orbit, maneuver.orbit_at_join
+    centre = (before.east_m, before.north_m)
+    axes.add_patch(Circle(centre, before.radius_m, fill=False, zorder=1, gid="circle at the start", **AT_THE_START))
+    way = np.linspace(centre, (after.east_m, after.north_m), 3).T
+    axes.plot(*way, color=FAINT, linewidth=1.0, linestyle=":", gid="way of the centre")
+    _arrow(axes, way[0], way[1], FAINT)
+
+
+def _draw_wind(axes: Axes, wind: Wind) -> None:
+    """An arrow that points where the air goes, in points beside the title, so that it hides nothing."""
+    towards = np.array(wind.velocity_m_s) / wind.speed_m_s
+    tail, head = WIND_PLACE - 0.5 * WIND_LENGTH * towards, WIND_PLACE + 0.5 * WIND_LENGTH * towards
+    corner: dict[str, Any] = {"xycoords": OffsetFrom(axes.patch, (0.0, 1.0)), "annotation_clip": False}
+    style = {
+        "arrowstyle": "-|>",
+        "color": WIND_COLOUR,
+        "linewidth": 2.0,
+        "mutation_scale": 14.0,
+        "shrinkA": 0,
+        "shrinkB": 0,
+    }
+    axes.annotate(
+        "", xy=tuple(head), xytext=tuple(tail), textcoords=corner["xycoords"], arrowprops=style, gid="wind", **corner
+    )
+    label = f"wind {wind.speed_m_s:.3g} m/s\nfrom {wind.from_deg % 360.0:.0f} deg"
+    beside = WIND_PLACE + np.array([0.6 * WIND_LENGTH, 0.0])
+    axes.annotate(label, xy=tuple(beside), va="center", fontsize="small", color=WIND_COLOUR, gid="wind label", **corner)
+
+
 def _arrow(axes: Axes, east: NDArray[np.float64], north: NDArray[np.float64], colour: str) -> None:
     i = len(east) // 2
     axes.annotate(
@@ -114,7 +157,7 @@ def _draw_aircraft(axes: Axes, pose: Pose) -> None:
 def _piece(segment: Segment, maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     turned = abs(segment.curvature_per_m) * segment.length_m
     steps = 3 + math.ceil(turned / CHORD_RAD)  # a straight piece needs a middle, for its arrow
-    east, north, _ = along(segment, np.linspace(0.0, segment.length_m, steps), maneuver.aircraft)
+    east, north, _ = along(segment, np.linspace(0.0, segment.length_m, steps), maneuver.aircraft, maneuver.wind)
     return east, north
 
 
@@ -127,6 +170,8 @@ def _legend(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> list[Line2D
     letters = dict.fromkeys(segment.letter for maneuver in best for segment in maneuver.segments)
     handles = [Line2D([], [], color=COLOURS[letter], linewidth=2.6, label=MEANINGS[letter]) for letter in letters]
     handles.append(Line2D([], [], color="black", linewidth=1.4, label="holding circle"))
+    if best[0].orbit.moves:
+        handles.append(Line2D([], [], label="circle at the start", **AT_THE_START))
     handles += [Line2D([], [], color="black", linestyle="none", **style, label=label) for label, style in MARKS.items()]
     handles += [
         Line2D([], [], color=FAINT, label=f"{other.word} {other.turn.value}: {_later(other, best)}")

@@ -16,11 +16,15 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.codes import Word
+from loiter.planning.held import air_past
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import candidates
+from loiter.verify import drifting
 from loiter.verify.conditions import residuals
 from loiter.verify.proof import Candidate, Flight, Piece, Residual, flight_of
+
+ON_THE_CIRCLE = "the start is on the circle: there is nothing to decide, and the target is all there is to check"
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +64,7 @@ class Certificate:
     switches: tuple[Switch, ...]
     residuals: tuple[Residual, ...]
     others: tuple[Candidate, ...]
-    pieces: tuple[Piece, ...]
+    pieces: tuple[Piece | drifting.Leg, ...]
     tie_s: float
 
     @property
@@ -134,7 +138,8 @@ class Certificate:
 def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
     """The certificate of a maneuver, optimal or not; `tolerance_m` (metres) is that with which it was planned.
 
-    Everything is worked out anew from the start, the letters and the durations. Raises `InvalidArgument` for letters
+    Everything is worked out anew from the start, the letters and the durations. In wind, and for a circle that moves,
+    the conditions are those of docs/wind.md, section 3. Raises `InvalidArgument` for letters
     that are no word of at most three pieces, durations that are negative or not finite, or a turn that is neither cw
     nor ccw, else as `plan`.
 
@@ -144,6 +149,8 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
     (True, 1.0, 'LSL', 16.45)
     """
     others = _others(maneuver, tolerance_m)
+    if air_past(maneuver.orbit, maneuver.aircraft, maneuver.wind) != (0.0, 0.0):
+        return _in_wind(maneuver, tolerance_m, others)
     flight = flight_of(maneuver, tolerance_m, others)
     unit_s = maneuver.aircraft.turn_radius_m / maneuver.aircraft.airspeed_m_s
     certain = bool(flight.pieces)
@@ -161,6 +168,36 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
     )
 
 
+def _in_wind(maneuver: Maneuver, tolerance_m: float, others: tuple[Candidate, ...]) -> Certificate:
+    """The certificate in wind, whose adjoint is docs/wind.md's: psi is (p.e, p.Je), phi is f."""
+    flight = drifting.flight_of(maneuver, tolerance_m)
+    legs, unit_s = flight.legs, maneuver.aircraft.turn_radius_m / maneuver.aircraft.airspeed_m_s
+    ends = [sum(leg.t for leg in legs[:i]) * unit_s for i in range(1, len(legs))]
+    switches = (
+        Switch(time, maneuver.word[i : i + 2], *leg.at(0.0)[:4])
+        for i, (time, leg) in enumerate(zip(ends, legs[1:], strict=True))
+    )
+    return Certificate(
+        maneuver,
+        flight.lam if legs else None,
+        legs[0].at(0.0)[2:4] if legs else None,
+        _choice_in_wind(len(legs)),
+        tuple(switches),
+        tuple(drifting.residuals(flight, maneuver, others)),
+        others,
+        tuple(legs),
+        flight.tie * unit_s,
+    )
+
+
+def _choice_in_wind(pieces: int) -> str:
+    if pieces == 0:
+        return ON_THE_CIRCLE
+    if pieces == 1:
+        return "a single arc has many adjoints: this is the one that violates the conditions least"
+    return "the adjoint is unique: the pieces and the condition at the circle fix it"
+
+
 def _switches(flight: Flight, unit_s: float) -> tuple[Switch, ...]:
     times = [sum(piece.t for piece in flight.pieces[:i]) * unit_s for i in range(1, len(flight.pieces))]
     return tuple(
@@ -171,7 +208,7 @@ def _switches(flight: Flight, unit_s: float) -> tuple[Switch, ...]:
 
 def _others(maneuver: Maneuver, tolerance_m: float) -> tuple[Candidate, ...]:
     """Every candidate but the maneuver itself."""
-    found = candidates(maneuver.start, maneuver.orbit, maneuver.aircraft, tolerance_m=tolerance_m)
+    found = candidates(maneuver.start, maneuver.orbit, maneuver.aircraft, maneuver.wind, tolerance_m=tolerance_m)
     return tuple(
         Candidate(other.word, other.turn, other.duration_s, other.duration_s - maneuver.duration_s)
         for other in found
@@ -181,7 +218,7 @@ def _others(maneuver: Maneuver, tolerance_m: float) -> tuple[Candidate, ...]:
 
 def _choice(flight: Flight, letters: str) -> str:
     if not flight.pieces:
-        return "the start is on the circle: there is nothing to decide, and the target is all there is to check"
+        return ON_THE_CIRCLE
     if len(flight.pieces) > 1:
         return "psi is unique: phi = 0 at a switch fixes it"
     arc = "a single arc" if len(letters) == 1 else "a single arc (the other is there by rounding alone)"

@@ -62,6 +62,11 @@ IPOPT: dict[str, Any] = {
 }
 
 
+# East and north.
+Wind = tuple[float, float]
+CALM = (0.0, 0.0)
+
+
 @dataclass(frozen=True, slots=True)
 class Flight:
     """What the program found: the time, the way round, and each interval's control and length, in flying order.
@@ -107,34 +112,36 @@ def check_installed() -> None:
         raise MissingPackage("the collocation needs CasADi, which is not installed: pip install casadi")
 
 
-def collocate(start: Planar, circles: Sequence[Circle]) -> Flight:
+def collocate(start: Planar, circles: Sequence[Circle], wind: Wind = CALM) -> Flight:
     """The fastest flight found from `start` onto one of `circles` (about the origin), both in turn radii.
+
+    `wind` is the air's velocity relative to the circles, east and north, over the airspeed.
 
     Every guess is improved on the coarse mesh, the best valleys on the fine one. Raises `MissingPackage` without
     CasADi, `ArithmeticError` where IPOPT finds no flight at all.
     """
     check_installed()
-    coarse = [flight for circle in circles for flight in on_even_mesh(start, circle, COARSE)]
-    refined = [fine for valley in valleys(coarse) for fine in on_free_mesh(start, circles, valley)]
+    coarse = [flight for circle in circles for flight in on_even_mesh(start, circle, COARSE, wind)]
+    refined = [fine for valley in valleys(coarse) for fine in on_free_mesh(start, circles, valley, wind)]
     if not refined:
         raise ArithmeticError(f"IPOPT found no flight from {start}")
     return min(refined, key=lambda flight: flight.time)
 
 
-def on_even_mesh(start: Planar, circle: Circle, intervals: int) -> Iterator[Flight]:
+def on_even_mesh(start: Planar, circle: Circle, intervals: int, wind: Wind = CALM) -> Iterator[Flight]:
     """Every guess improved on a mesh of equal intervals; those that IPOPT gives up are left out."""
     for first, second, time in guesses(start, circle):
         controls = [first] * (intervals // 2) + [second] * (intervals - intervals // 2)
-        yield from improved(start, circle, controls, [time / intervals] * intervals, even=True)
+        yield from improved(start, circle, controls, [time / intervals] * intervals, wind, even=True)
 
 
-def on_free_mesh(start: Planar, circles: Sequence[Circle], coarse: Flight) -> Iterator[Flight]:
+def on_free_mesh(start: Planar, circles: Sequence[Circle], coarse: Flight, wind: Wind) -> Iterator[Flight]:
     """A coarse flight improved on a mesh of `FINE` intervals, whose lengths are free."""
     (circle,) = (circle for circle in circles if circle.clockwise == coarse.clockwise)
     parts = FINE // len(coarse.lengths)
     controls = [u for u in coarse.controls for _ in range(parts)]
     lengths = [h / parts for h in coarse.lengths for _ in range(parts)]
-    return improved(start, circle, controls, lengths, even=False)
+    return improved(start, circle, controls, lengths, wind, even=False)
 
 
 def valleys(flights: Sequence[Flight]) -> list[Flight]:
@@ -161,7 +168,7 @@ def guesses(start: Planar, circle: Circle) -> Iterator[tuple[float, float, float
 
 
 def improved(
-    start: Planar, circle: Circle, controls: Sequence[float], lengths: Sequence[float], *, even: bool
+    start: Planar, circle: Circle, controls: Sequence[float], lengths: Sequence[float], wind: Wind, *, even: bool
 ) -> Iterator[Flight]:
     """The flight that IPOPT makes of a guess; nothing where it gives up."""
     import numpy as np
@@ -170,8 +177,8 @@ def improved(
     poses, steps = np.full(3 * (n + 1), inf), lengths[:1] if even else lengths
     lower = np.concatenate([-poses, np.full(n, -1.0), np.zeros(len(steps))])
     upper = np.concatenate([poses, np.full(n, 1.0), np.full(len(steps), LONGEST * max(lengths))])
-    guess = np.concatenate([np.ravel(flown(start, controls, lengths)), controls, steps])
-    parameters = [*start, circle.radius, 1.0 if circle.clockwise else -1.0]
+    guess = np.concatenate([np.ravel(flown(start, controls, lengths, wind)), controls, steps])
+    parameters = [*start, circle.radius, 1.0 if circle.clockwise else -1.0, *wind]
     solver = program(n, even)
     found = solver(x0=guess, p=parameters, lbx=lower, ubx=upper, lbg=0.0, ubg=0.0)
     if solver.stats()["success"]:
@@ -195,11 +202,11 @@ def read(
     return Flight(time, circle.clockwise, tuple(controls.tolist()), tuple(lengths.tolist()), error, gap)
 
 
-def flown(start: Planar, controls: Sequence[float], lengths: Sequence[float]) -> list[Planar]:
+def flown(start: Planar, controls: Sequence[float], lengths: Sequence[float], wind: Wind = CALM) -> list[Planar]:
     """The poses between intervals, from the chord of each arc along the course at half time."""
     poses = [start]
     for u, h in zip(controls, lengths, strict=True):
-        east, north, angle = poses[-1]
+        east, north, angle = poses[-1][0] + h * wind[0], poses[-1][1] + h * wind[1], poses[-1][2]
         half = 0.5 * u * h
         chord = h * (sin(half) / half if half else 1.0)
         poses.append(Planar(east + chord * cos(angle + half), north + chord * sin(angle + half), angle + u * h))
@@ -210,15 +217,16 @@ def flown(start: Planar, controls: Sequence[float], lengths: Sequence[float]) ->
 def program(n: int, even: bool) -> Any:
     """The nonlinear program on `n` intervals, with one common length or each its own.
 
-    Unknowns: n + 1 poses, n controls, the lengths. Parameters: the start, the radius, +1 (clockwise) or -1.
+    Unknowns: n + 1 poses, n controls, the lengths. Parameters: the start, the radius, +1 (clockwise) or -1, the wind.
     """
     import casadi as ca
 
-    z, u, p = ca.SX.sym("z", 3, n + 1), ca.SX.sym("u", n), ca.SX.sym("p", 5)
+    z, u, p = ca.SX.sym("z", 3, n + 1), ca.SX.sym("u", n), ca.SX.sym("p", 7)
     steps = ca.SX.sym("h", 1 if even else n)
     h = ca.repmat(steps, n, 1) if even else steps
-    defects = [z[:, k + 1] - z[:, k] - h[k] * collocated(z[2, k], u[k], h[k]) for k in range(n)]
-    constraints = ca.vertcat(z[:, 0] - p[:3], *defects, off_circle(z[:, n], p[3], p[4]))
+    drift = ca.vertcat(p[5:], 0.0)
+    defects = [z[:, k + 1] - z[:, k] - h[k] * (collocated(z[2, k], u[k], h[k]) + drift) for k in range(n)]
+    constraints = ca.vertcat(z[:, 0] - p[:3], *defects, off_circle(z[:, n], p[3], p[4], p[5:]))
     unknowns = ca.vertcat(ca.reshape(z, -1, 1), u, steps)
     return ca.nlpsol("entry", "ipopt", {"x": unknowns, "p": p, "f": ca.sum1(h), "g": constraints}, IPOPT)
 
@@ -233,11 +241,13 @@ def collocated(angle: Any, u: Any, h: Any) -> Any:
     return ca.vertcat(east, north, u)
 
 
-def off_circle(pose: Any, radius: Any, side: Any) -> Any:
-    """Zero where the pose is on the circle and along it: the centre abeam, `radius` to the right (side 1) or left."""
+def off_circle(pose: Any, radius: Any, side: Any, wind: Any) -> Any:
+    """Zero where the vehicle is on the circle and moves along it: the centre abeam, `radius` right (side 1) or left."""
     import casadi as ca
 
     east, north, angle = pose[0], pose[1], pose[2]
-    ahead = -east * ca.cos(angle) - north * ca.sin(angle)
-    right = -east * ca.sin(angle) + north * ca.cos(angle)
+    vx, vy = ca.cos(angle) + wind[0], ca.sin(angle) + wind[1]
+    speed = ca.sqrt(vx * vx + vy * vy)
+    ahead = (-east * vx - north * vy) / speed
+    right = (-east * vy + north * vx) / speed
     return ca.vertcat(ahead, right - side * radius)

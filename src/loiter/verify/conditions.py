@@ -40,7 +40,7 @@ def _arrival(flight: Flight, maneuver: Maneuver, tolerance_m: float) -> Iterator
     scene, (end, size, *_) = flight.scene, flight.accuracy
     x, y = flight.end[:2] if flight.pieces else (scene.x, scene.y)
     yield Residual("target", "x(T) = 0, y(T) = R or -R (8)-(10)", hypot(x, y - flight.side * scene.R), end)
-    join = normalised(maneuver.join, maneuver.orbit, maneuver.aircraft, tolerance_m)
+    join = normalised(maneuver.join, maneuver.orbit_at_join, maneuver.aircraft, tolerance_m)
     # A heading is rounded at each of three pieces, twice, and the course errs by that much over the whole length.
     headings = 6.0 * 2.0**-52 * radians(abs(maneuver.start.heading_deg) + 720.0)
     far = maneuver.length_m / maneuver.aircraft.turn_radius_m + scene.R

@@ -143,11 +143,9 @@ class Flight(NamedTuple):
 def flight_of(maneuver: Maneuver, tolerance_m: float, others: tuple[Candidate, ...]) -> Flight:
     """The maneuver from its start, its letters and its durations alone."""
     scene = normalised(maneuver.start, maneuver.orbit, maneuver.aircraft, tolerance_m)
-    if maneuver.turn not in (Turn.CW, Turn.CCW):
-        raise InvalidArgument("maneuver", f"holds the circle {str(maneuver.turn)!r}: it must be cw or ccw")
-    word, durations = _word(maneuver), _durations(maneuver)
+    turn, word, durations = side_of(maneuver), word_of(maneuver), durations_of(maneuver)
     x, y, R = scene.x, scene.y, scene.R
-    side, size = int(SIDES[maneuver.turn]), rounding(x, y, R)
+    side, size = int(SIDES[turn]), rounding(x, y, R)
     lam, pieces = _pieces(x, y, R, side, word, durations)
     if len(pieces) == 2 and pieces[0].u * pieces[1].u < 0:
         word, lam, pieces = _one_arc(x, y, R, side, word, durations, size) or (word, lam, pieces)
@@ -188,7 +186,15 @@ def _accuracy(scene: Scene, size: float, pieces: list[Piece]) -> Accuracy:
     return Accuracy(end, size, angle, size ** (2.0 / 3.0))
 
 
-def _word(maneuver: Maneuver) -> int:
+def side_of(maneuver: Maneuver) -> Turn:
+    """The direction in which the circle is held; raises `InvalidArgument` where that is neither cw nor ccw."""
+    if maneuver.turn not in (Turn.CW, Turn.CCW):
+        raise InvalidArgument("maneuver", f"holds the circle {str(maneuver.turn)!r}: it must be cw or ccw")
+    return Turn(maneuver.turn)
+
+
+def word_of(maneuver: Maneuver) -> int:
+    """The code of the word; raises `InvalidArgument` for letters that are none."""
     if not maneuver.segments:
         return int(Word.EMPTY)
     if maneuver.word not in Word.__members__ or maneuver.word == Word.EMPTY.name:
@@ -197,8 +203,8 @@ def _word(maneuver: Maneuver) -> int:
     return int(Word[maneuver.word])
 
 
-def _durations(maneuver: Maneuver) -> list[float]:
-    """Durations in turn radii over airspeed."""
+def durations_of(maneuver: Maneuver) -> list[float]:
+    """Durations in turn radii over airspeed; raises `InvalidArgument` for those that cannot be flown."""
     seconds = [segment.duration_s for segment in maneuver.segments]
     durations = [as_float(t) * maneuver.aircraft.airspeed_m_s / maneuver.aircraft.turn_radius_m for t in seconds]
     # The longest straight piece is REACH turn radii, an arc adds 2 pi at most; 8 leaves room for altered maneuvers.

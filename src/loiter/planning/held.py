@@ -1,0 +1,70 @@
+"""Whether an aircraft can hold a circle in the air that passes it, and the sentence where it cannot."""
+
+from math import hypot
+
+from loiter.errors import RadiusTooSmall, WindTooStrong
+from loiter.kernel import drift
+from loiter.kernel.codes import Side, Status
+from loiter.kernel.hold import tightest_held
+from loiter.kernel.synthesis import ROUNDING
+from loiter.planning.model import Aircraft, Orbit, Turn, Wind
+
+SIDES = {Turn.CW: Side.CW, Turn.CCW: Side.CCW, Turn.EITHER: Side.EITHER}
+
+
+def air_past(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> tuple[float, float]:
+    """The velocity of the air past the circle over the airspeed, east and north; none where rounding alone is left."""
+    V, (east, north) = aircraft.airspeed_m_s, wind.velocity_m_s
+    wx, wy = east - orbit.velocity_east_m_s, north - orbit.velocity_north_m_s
+    alike = ROUNDING * (wind.speed_m_s + hypot(orbit.velocity_east_m_s, orbit.velocity_north_m_s))
+    return (wx / V, wy / V) if hypot(wx, wy) > alike else (0.0, 0.0)
+
+
+def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:
+    """Raise where the aircraft cannot hold the circle all round: `WindTooStrong` or `RadiusTooSmall`."""
+    (wx, wy), R = air_past(orbit, aircraft, wind), orbit.radius_m / aircraft.turn_radius_m
+    status = drift.status_of(0.0, 0.0, 1.0, 0.0, R, wx, wy)
+    if status == Status.WIND_TOO_STRONG:
+        V, speed = aircraft.airspeed_m_s, hypot(wx, wy) * aircraft.airspeed_m_s
+        raise WindTooStrong(
+            f"{_air(orbit, speed)} leaves an aircraft of {V:g} m/s no circle to hold: "
+            f"its airspeed must be above {speed:.4g} m/s"
+        )
+    if status in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
+        raise RadiusTooSmall(too_tight(orbit, aircraft) if wx == wy == 0.0 else _not_held(orbit, aircraft, wx, wy))
+
+
+def too_tight(orbit: Orbit, aircraft: Aircraft) -> str:
+    """The sentence for a circle that is tighter than the turn radius."""
+    r, V, needed = aircraft.turn_radius_m, aircraft.airspeed_m_s, aircraft.bank_deg(orbit.radius_m)
+    if aircraft.max_bank_deg is not None:
+        limit, need = f" and {aircraft.max_bank_deg:.4g} deg of bank", f"{needed:.4g} deg"
+    elif aircraft.max_turn_rate_deg_s is not None:
+        rate = aircraft.max_turn_rate_deg_s * r / orbit.radius_m
+        limit, need = f" and {aircraft.max_turn_rate_deg_s:.4g} deg/s", f"{rate:.4g} deg/s ({needed:.4g} deg of bank)"
+    else:
+        limit, need = "", f"{needed:.4g} deg of bank"
+    return (
+        f"orbit radius {orbit.radius_m:g} m is tighter than the aircraft can turn: "
+        f"{r:.4g} m at {V:g} m/s{limit}; it needs {need}"
+    )
+
+
+def _air(orbit: Orbit, speed: float) -> str:
+    return f"air that passes the circle at {speed:.4g} m/s" if orbit.moves else f"a wind of {speed:.4g} m/s"
+
+
+def _not_held(orbit: Orbit, aircraft: Aircraft, wx: float, wy: float) -> str:
+    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_held(wx, wy)
+    bank = f"{aircraft.bank_deg(orbit.radius_m / tightest):.4g} deg"
+    if aircraft.max_bank_deg is not None:
+        limit, need = f"{aircraft.max_bank_deg:.4g} deg of bank", bank
+    elif aircraft.max_turn_rate_deg_s is not None:
+        rate = aircraft.max_turn_rate_deg_s * r * tightest / orbit.radius_m
+        limit, need = f"{aircraft.max_turn_rate_deg_s:.4g} deg/s", f"{rate:.4g} deg/s ({bank} of bank)"
+    else:
+        limit, need = f"a turn radius of {r:.4g} m", f"a turn radius of {orbit.radius_m / tightest:.4g} m"
+    return (
+        f"orbit radius {orbit.radius_m:g} m cannot be held in {_air(orbit, hypot(wx, wy) * V)} "
+        f"at {V:g} m/s and {limit}: it needs {tightest * r:.4g} m, or {need}"
+    )

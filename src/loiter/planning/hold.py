@@ -1,0 +1,117 @@
+"""The hold: what flying round the circle takes in wind, all the way round (docs/wind.md, section 2)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, degrees, pi
+from typing import TYPE_CHECKING, NamedTuple
+
+from loiter.errors import InvalidArgument, positive
+from loiter.kernel.hold import held, hold_rate, phase_of
+from loiter.planning.compass import heading_vector, wrapped
+from loiter.planning.flight import over_ground
+from loiter.planning.held import SIDES, air_past, check_held
+from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+# A finer step all round would take seconds and tell nothing new.
+FINEST_DEG = 1e-3
+
+# Phases of the hold (`kernel.hold`) at which it heads against the wind that passes the circle, and with it.
+UPWIND, DOWNWIND = 0.0, pi
+
+
+class HoldPoint(NamedTuple):
+    """The hold at one azimuth: what it flies there. Angles in compass degrees, bank towards the centre."""
+
+    azimuth_deg: float
+    heading_deg: float
+    track_deg: float
+    ground_speed_m_s: float
+    bank_deg: float
+
+
+class Round(NamedTuple):
+    """The hold all the way round: five float64 arrays of one length, as `HoldPoint`; azimuths from 0, below 360."""
+
+    azimuth_deg: NDArray[float64]
+    heading_deg: NDArray[float64]
+    track_deg: NDArray[float64]
+    ground_speed_m_s: NDArray[float64]
+    bank_deg: NDArray[float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Hold:
+    """A circle held in a wind. An azimuth is the compass direction from the centre, wherever that is then.
+
+    The bank is that of a coordinated, level turn, tan(bank) = airspeed times rate of turn over g, towards the centre
+    all round. Against the wind that passes the circle the aircraft turns slowest, with it fastest.
+    """
+
+    orbit: Orbit
+    aircraft: Aircraft
+    wind: Wind
+    turn: Turn
+
+    @property
+    def least_bank_deg(self) -> float:
+        """The least bank, where the aircraft heads against the wind."""
+        return self._at(UPWIND).bank_deg
+
+    @property
+    def largest_bank_deg(self) -> float:
+        """The largest bank, where it heads with the wind."""
+        return self._at(DOWNWIND).bank_deg
+
+    @property
+    def largest_bank_azimuth_deg(self) -> float:
+        """Where the bank is largest; in still air, where it is the same all round, any azimuth."""
+        return self._at(DOWNWIND).azimuth_deg
+
+    def at(self, azimuth_deg: float) -> HoldPoint:
+        """Heading, track, ground speed and bank at an azimuth."""
+        east, north = heading_vector(azimuth_deg)
+        phase = phase_of(east, north, SIDES[self.turn], *air_past(self.orbit, self.aircraft, self.wind))
+        return self._at(phase)._replace(azimuth_deg=wrapped(azimuth_deg))
+
+    def sample(self, step_deg: float = 1.0) -> Round:
+        """The hold every `step_deg` degrees of azimuth from 0 on, below 360.
+
+        Raises `InvalidArgument` for a step below a thousandth of a degree.
+        """
+        import numpy as np
+
+        if positive("step_deg", step_deg, "degrees") < FINEST_DEG:
+            raise InvalidArgument("step_deg", f"is {step_deg}: it must be at least {FINEST_DEG:g} degrees")
+        return Round(*np.array([self.at(azimuth) for azimuth in np.arange(0.0, 360.0, step_deg).tolist()]).T)
+
+    def _at(self, phase: float) -> HoldPoint:
+        r, side = self.aircraft.turn_radius_m, SIDES[self.turn]
+        scene = self.orbit.radius_m / r, *air_past(self.orbit, self.aircraft, self.wind)
+        x, y, c, s, _ = held(phase, side, *scene)
+        heading_deg = wrapped(degrees(atan2(c, s)))
+        track_deg, speed = over_ground(heading_deg, self.aircraft, self.wind)
+        bank_deg = self.aircraft.bank_deg(r / hold_rate(phase, side, *scene))
+        return HoldPoint(wrapped(degrees(atan2(x, y))), heading_deg, track_deg, speed, bank_deg)
+
+
+def hold(orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, turn: Turn | str | None = None) -> Hold:
+    """What holding a circle takes: heading, ground speed and bank against azimuth. `turn` is the orbit's if absent.
+
+    Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held, `InvalidArgument` for a turn that is
+    neither cw nor ccw.
+
+    >>> from loiter import Aircraft, Orbit, Wind, hold
+    >>> h = hold(Orbit(0.0, 0.0, 120.0, "cw"), Aircraft(18.0, max_bank_deg=35.0), Wind(8.0, from_deg=250.0))
+    >>> round(h.least_bank_deg, 1), round(h.largest_bank_deg, 1), round(h.largest_bank_azimuth_deg)
+    (4.9, 29.9, 340)
+    """
+    wind, turn = CALM if wind is None else wind, orbit.turn if turn is None else turn
+    if turn not in (Turn.CW, Turn.CCW):
+        raise InvalidArgument("turn", f"is {str(turn)!r}: a circle is held cw or ccw")
+    check_held(orbit, aircraft, wind)
+    return Hold(orbit, aircraft, wind, Turn(turn))

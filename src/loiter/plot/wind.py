@@ -1,0 +1,109 @@
+"""What wind does to the fastest entry; `python -m loiter.plot.wind docs/wind.png` draws the picture of docs/wind.md."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap, SymLogNorm
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+from numpy.typing import NDArray
+
+from loiter.planning.arrays import min_time_in_wind
+from loiter.planning.model import Aircraft, Orbit, Pose, Wind
+from loiter.planning.solve import plan
+from loiter.plot.files import save_figure
+from loiter.plot.picture import MARKS
+
+# All in turn radii and airspeeds, so that the pictures hold for every aircraft. The circle can be held in all winds.
+AIRCRAFT, RADIUS = Aircraft(1.0, min_turn_radius_m=1.0), 2.7
+SPEEDS = (0.0, 0.15, 0.3, 0.45, 0.6)
+START = Pose(-9.0, 2.5, 90.0)
+
+# The wind of the map blows north across the course; how far the map reaches.
+MAP_WIND, REACH = 0.4, 8.0
+
+# Colours for differences of a tenth to several; beneath TIED there are none but those of rounding.
+SCALE, TIED = SymLogNorm(0.1, vmin=-4.5, vmax=4.5), 1e-9
+TIED_COLOUR = ListedColormap(["#a6dcc8"])
+
+
+def draw(cells: int = 100) -> Figure:
+    """Entries from one start in winds of several speeds; where which direction is sooner, in still air and in wind.
+
+    Lengths are in turn radii, times in turn radii over airspeed; `cells` points a side make the maps.
+    """
+    figure = Figure(figsize=(9.4, 8.0), layout="constrained")
+    rows: list[Any] = [["tracks", "tracks"], ["still", "windy"]]
+    tracks, still, windy = figure.subplot_mosaic(rows, height_ratios=[2, 3]).values()
+    _draw_tracks(tracks)
+    for axes, wind, title in (
+        (still, 0.0, "Still air: tied wherever the entry has a straight piece"),
+        (windy, MAP_WIND, f"Wind of {MAP_WIND:g} from the south: tied on the black lines"),
+    ):
+        mesh = _draw_worth(axes, wind, cells)
+        axes.set_title(title, fontsize="medium")
+    bar = figure.colorbar(mesh, ax=[still, windy], shrink=0.9, ticks=[-3.0, -1.0, -0.3, 0.0, 0.3, 1.0, 3.0])
+    bar.ax.set_yticklabels(["3", "1", "0.3", "0", "0.3", "1", "3"])
+    bar.set_label("clockwise sooner by        clockwise later by")
+    for axes in (tracks, still, windy):
+        axes.set_aspect("equal")
+        axes.set_xlabel("east (turn radii)")
+        axes.set_ylabel("north (turn radii)")
+    return figure
+
+
+def _draw_tracks(axes: Axes) -> None:
+    _draw_circle(axes)
+    for speed in SPEEDS:
+        m = plan(START, Orbit(0.0, 0.0, RADIUS), AIRCRAFT, Wind(speed, from_deg=180.0))
+        track = m.sample(0.02)
+        colour = colormaps["viridis"](0.9 * speed / SPEEDS[-1])
+        label = f"{speed:.2f}: {m.word} {m.turn.value}, T = {m.duration_s:.2f}"
+        axes.plot(track.east_m, track.north_m, color=colour, linewidth=2.0, label=label, gid="track", zorder=3)
+        axes.plot([m.join.east_m], [m.join.north_m], color=colour, linestyle="none", gid="join", **JOIN, zorder=4)
+    axes.plot([START.east_m], [START.north_m], color="black", marker=">", markersize=9, linestyle="none", gid="start")
+    axes.set_title("The fastest entry bends with the wind")
+    axes.legend(title="wind from the south, in airspeeds", loc="center right", fontsize="small", title_fontsize="small")
+    axes.set_xlim(START.east_m - 1.0, 9.5)
+    axes.set_ylim(-RADIUS - 0.6, RADIUS + 0.9)
+
+
+JOIN: dict[str, Any] = MARKS["join"] | {"markersize": 6, "markerfacecolor": "white"}
+
+
+def differences(wind: float, cells: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The grid's coordinates and T clockwise less T counter-clockwise, heading east in a wind that blows north."""
+    # An even number of points keeps clear of the axes.
+    line = np.linspace(-REACH, REACH, cells)
+    east, north = np.meshgrid(line, line)
+    cw, ccw = (min_time_in_wind(east, north, 0.0, RADIUS, turn, 0.0, wind) for turn in ("cw", "ccw"))
+    return line, cw - ccw
+
+
+def _draw_worth(axes: Axes, wind: float, cells: int) -> Any:
+    line, later = differences(wind, cells)
+    tied = np.abs(later) < TIED
+    mesh = axes.pcolormesh(line, line, later, cmap="PuOr", norm=SCALE, shading="nearest", rasterized=True, gid="later")
+    if wind == 0.0:
+        shown = np.ma.masked_where(~tied, tied)
+        axes.pcolormesh(line, line, shown, cmap=TIED_COLOUR, shading="nearest", rasterized=True, gid="tied")
+        axes.text(-REACH + 0.4, -REACH + 0.4, "tied", fontsize="medium", color="black")
+    else:
+        axes.contour(line, line, later, levels=[0.0], colors="black", linewidths=1.8)
+    _draw_circle(axes)
+    return mesh
+
+
+def _draw_circle(axes: Axes) -> None:
+    axes.add_patch(Circle((0.0, 0.0), RADIUS, fill=False, color="black", linewidth=1.4, gid="circle"))
+    axes.plot([0.0], [0.0], marker="+", color="black", markersize=8, linestyle="none", gid="centre")
+
+
+if __name__ == "__main__":
+    save_figure("plot", Path(sys.argv[1]), draw())

@@ -1,0 +1,343 @@
+"""The fastest way onto a circle in wind: the laws it obeys, the hold, degenerate starts, and still air as its limit."""
+
+from functools import cache
+from itertools import pairwise
+from math import atan2, cos, hypot, inf, isnan, nan, pi, sin, sqrt
+
+import numba
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from loiter.kernel.codes import Side, Status, Word
+from loiter.kernel.drift import fastest, first_way, optima, ranked, slope
+from loiter.kernel.hold import held, hold_rate, hold_time, phase_of, tightest_held
+from loiter.kernel.motion import reduce
+from loiter.kernel.rebinding import rebound
+from loiter.kernel.synthesis import duration, optimum, rounding
+from strategies import blur, coordinates, one_way, radii, sides
+
+# A plain solve takes milliseconds, tens of them in a shallow valley on a busy machine.
+settings.register_profile("drift", deadline=None, max_examples=50)
+settings.load_profile("drift")
+
+angles = st.one_of(st.floats(0.0, 2.0 * pi), st.sampled_from([0.0, pi / 2, pi, 3 * pi / 2]))
+CONTROLS = {"L": 1.0, "S": 0.0, "R": -1.0}
+
+WINDIEST = 0.6
+
+
+@st.composite
+def scenes(draw, windiest=WINDIEST):
+    """Start, heading, radius, wind: what the kernel takes, but for the side."""
+    # Below the square root of the least double directions have no digits; the kernel takes such winds for calm.
+    wind = draw(st.one_of(st.just(0.0), st.floats(1e-100, windiest)))
+    azimuth, angle = draw(angles), draw(angles)
+    wx, wy = wind * cos(azimuth), wind * sin(azimuth)
+    R = tightest_held(wx, wy) * draw(st.one_of(st.just(1.0), st.floats(1.0, 2.5)))
+    return draw(coordinates), draw(coordinates), cos(angle), sin(angle), R, wx, wy
+
+
+def solved(scene, side):
+    x, y, c, s, R, wx, wy = scene
+    return fastest(x, y, c, s, R, side, wx, wy)
+
+
+def least_time(scene, side):
+    status, _, _, t1, t2, t3, _, _ = solved(scene, side)
+    assert status == Status.OK
+    return t1 + t2 + t3
+
+
+def steps(maneuver):
+    return [(CONTROLS[letter], t) for letter, t in zip(Word(maneuver[2]).letters, maneuver[3:6], strict=False)]
+
+
+def flown(scene, pieces):
+    """The scene after a flight, turns of any radius included: positions as complex numbers, nothing of the kernel's."""
+    x, y, c, s, R, wx, wy = scene
+    z, e, w = complex(x, y), complex(c, s), complex(wx, wy)
+    for u, t in pieces:
+        turned = complex(cos(u * t), sin(u * t))
+        z += w * t + (e * t if abs(u) < 1e-6 else e * (turned - 1.0) / (1j * u))
+        e *= turned
+    return z.real, z.imag, e.real / abs(e), e.imag / abs(e), R, wx, wy
+
+
+def moved(scene, time):
+    """How far rounding of the start, or of a flight, may move T: as in still air, over the least ground speed.
+
+    Four times that: still air's share is for the last circle alone, and here either may be touched, at either end.
+    """
+    x, y, _, _, R, wx, wy = scene
+    return 4.0 * blur(abs(x) + time, y, R) / (1.0 - hypot(wx, wy))
+
+
+@given(scenes(), sides)
+def test_the_end_is_on_the_circle_and_along_it(scene, side):
+    status, held_side, *_, angle, miss = maneuver = solved(scene, side)
+    x, y, c, s, R, wx, wy = flown(scene, steps(maneuver))
+    size = 2.0 * rounding(*scene[:2], R) + 1e-14 * sum(maneuver[3:6])
+    assert status == Status.OK
+    assert hypot(x, y) == pytest.approx(R, abs=size)
+    assert hypot(x - R * cos(angle), y - R * sin(angle)) <= size
+    assert miss <= size
+    # Over the ground the vehicle moves along the circle, the right way round.
+    vx, vy = c + wx, s + wy
+    assert (x * vx + y * vy) / R == pytest.approx(0.0, abs=size)
+    assert (x * vy - y * vx) * held_side < 0.0
+    assert side in (Side.EITHER, held_side)
+    assert min(maneuver[3:6]) >= 0.0
+
+
+@given(scenes(), sides, st.floats(-3.0, 3.0), st.floats(-3.0, 3.0))
+def test_a_moving_circle_is_a_fixed_one_in_the_wind_that_blows_past_it(scene, side, vx, vy):
+    """Flown over the ground, in the wind w + v, the maneuver ends on the circle that has moved with v."""
+    maneuver = solved(scene, side)
+    x, y, c, s, R, wx, wy = scene
+    over_ground = flown((x, y, c, s, R, wx + vx, wy + vy), steps(maneuver))
+    time = sum(maneuver[3:6])
+    assert hypot(over_ground[0] - vx * time, over_ground[1] - vy * time) == pytest.approx(R, abs=1e-12 * (100.0 + time))
+
+
+@given(coordinates, coordinates, angles, radii, sides)
+def test_still_air_gives_the_closed_form(x, y, angle, R, side):
+    c, s = cos(angle), sin(angle)
+    closed = duration(optimum(*reduce(x, y, c, s), R, side, 0.0))
+    assert least_time((x, y, c, s, R, 0.0, 0.0), side) == pytest.approx(closed, abs=blur(x, y, R))
+
+
+@given(coordinates, coordinates, angles, st.floats(1.01, 10.0), sides, st.floats(1e-14, 1e-4), angles)
+def test_a_light_wind_changes_little(x, y, angle, R, side, wind, azimuth):
+    """In a wind w the vehicle ends |w| T off; T is continuous, and moves with the root of that at the steepest."""
+    c, s = cos(angle), sin(angle)
+    calm = least_time((x, y, c, s, R, 0.0, 0.0), side)
+    windy = least_time((x, y, c, s, R, wind * cos(azimuth), wind * sin(azimuth)), side)
+    off = wind * (calm + R)
+    assert windy == pytest.approx(calm, abs=4.0 * (sqrt(off) + sqrt((R + 1.0) / (R - 1.0) * off)))
+
+
+@given(scenes(), one_way)
+def test_mirror_law(scene, side):
+    x, y, c, s, R, wx, wy = scene
+    one, other = solved(scene, side), solved((x, -y, c, -s, R, wx, -wy), -side)
+    assert sum(one[3:6]) == pytest.approx(sum(other[3:6]), abs=moved(scene, sum(one[3:6])))
+    assume(one[3:6] == pytest.approx(other[3:6], abs=1e-6))
+    assert other[1] == -one[1]
+
+
+@given(scenes(), sides, angles)
+def test_turning_everything_changes_nothing(scene, side, angle):
+    x, y, c, s, R, wx, wy = scene
+    a, b = cos(angle), sin(angle)
+    turned = (
+        [a * p - b * q for p, q in ((x, y), (c, s), (wx, wy))],
+        [b * p + a * q for p, q in ((x, y), (c, s), (wx, wy))],
+    )
+    (x1, c1, w1), (y1, s1, w2) = turned
+    time = least_time(scene, side)
+    assert least_time((x1, y1, c1, s1, R * (1.0 + 1e-15), w1, w2), side) == pytest.approx(time, abs=moved(scene, time))
+
+
+@given(scenes())
+def test_either_is_the_better_of_the_two(scene):
+    both = [least_time(scene, side) for side in (Side.CW, Side.CCW)]
+    assert least_time(scene, Side.EITHER) == pytest.approx(min(both), abs=moved(scene, min(both)))
+
+
+@given(scenes(), sides, st.floats(0.0, 1.0))
+def test_along_the_optimum_the_time_left_falls_at_unit_rate(scene, side, share):
+    maneuver = solved(scene, side)
+    time = sum(maneuver[3:6])
+    to_fly, pieces = share * time, []
+    for u, t in steps(maneuver):
+        pieces.append((u, min(t, to_fly)))
+        to_fly -= pieces[-1][1]
+    left = least_time(flown(scene, pieces), maneuver[1])
+    assert left == pytest.approx((1.0 - share) * time, abs=moved(scene, time))
+
+
+pieces_of_flight = st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(0.0, 4.0)), max_size=3)
+
+
+@given(scenes(), sides, pieces_of_flight)
+def test_nothing_beats_the_answer(scene, side, pieces):
+    """Bellman's inequality: after any admissible flight, turns of any radius included, the best is no sooner."""
+    spent = sum(t for _, t in pieces)
+    after = least_time(flown(scene, pieces), side)
+    assert least_time(scene, side) <= spent + after + moved(scene, spent + after)
+
+
+@given(scenes(), sides, st.sampled_from([-1.0, 1.0]))
+def test_a_whole_turn_first_never_helps(scene, side, u):
+    """The words leave out arcs of a whole turn and more."""
+    after = least_time(flown(scene, [(u, 2.0 * pi)]), side)
+    assert least_time(scene, side) <= 2.0 * pi + after + moved(scene, 2.0 * pi + after)
+
+
+@given(scenes(), one_way, st.floats(0.0, 2.0 * pi), st.floats(0.0, 1.0))
+def test_whoever_joins_can_follow_the_circle(scene, side, phase, width):
+    """T(s') <= T(s) + (s' - s): what branch and bound rests on, for the first ways as they are computed."""
+    x, y, _, _, R, wx, wy = scene
+    inner = (*scene, rounding(x, y, R) / 3.0)
+    ahead = phase + width * (2.0 * pi - phase)
+    earlier, later = (first_way(p, side, inner, inf)[0] for p in (phase, ahead))
+    parts = [phase + (ahead - phase) * i / 50 for i in range(51)]
+    hold = sum(hold_time(b, b - a, side, R, wx, wy) for a, b in pairwise(parts))
+    assert earlier < inf
+    assert later <= earlier + hold + moved(scene, later)
+
+
+@given(scenes(), one_way, st.floats(0.0, 2.0 * pi))
+def test_the_slope_is_the_derivative_of_the_time(scene, side, phase):
+    x, y, _, _, R, wx, wy = scene
+    inner, h = (*scene, rounding(x, y, R) / 3.0), 1e-5
+    ways = [first_way(phase + d, side, inner, inf) for d in (-h, 0.0, h)]
+    there = slope(ways[1], phase, side, inner)
+    speed = held(phase, side, R, wx, wy)[4]
+    measured = (ways[2][0] - ways[0][0]) / (2.0 * h * R / speed)
+    assert there <= 1.0 + 1e-9
+    # Next to where a piece vanishes neither is to be had.
+    assume(len({way[1] for way in ways}) == 1 and min(ways[1][2:5]) > 0.05 and abs(ways[2][0] - ways[0][0]) < 0.05)
+    assume(abs(ways[2][0] - 2.0 * ways[1][0] + ways[0][0]) < 1e-8)
+    assert measured == pytest.approx(there, abs=1e-3)
+
+
+@given(scenes(), sides)
+def test_the_adjoint_of_three_pieces_is_transversal(scene, side):
+    """(5), worked out from the maneuver alone: the straight piece gives p, or the headings at the switches do."""
+    maneuver = solved(scene, side)
+    pieces = steps(maneuver)
+    assume(len(pieces) == 3 and min(t for _, t in pieces) > 1e-3)
+    before, (u, t) = complex(*flown(scene, pieces[:1])[2:4]), pieces[1]
+    p, lam = before, 1.0
+    if u:
+        p, lam = -before * complex(cos(u * t / 2), sin(u * t / 2)), -cos(t / 2)
+    x, y, c, s, R, wx, wy = flown(scene, pieces)
+    e, w, last, hold = complex(c, s), complex(wx, wy), pieces[2][0], -maneuver[1]
+    k = hold_rate(phase_of(x, y, maneuver[1], wx, wy), maneuver[1], R, wx, wy)
+    along = (p.conjugate() * e).real
+    residual = (p.conjugate() * (e + w)).real + last * hold * k * (lam - along)
+    assert lam + (p.conjugate() * w).real >= -1e-9
+    assert residual == pytest.approx(0.0, abs=1e-6)
+
+
+@given(scenes(), one_way, st.floats(0.0, 2.0 * pi))
+def test_the_hold_flies_along_the_circle_at_its_rate(scene, side, phase):
+    *_, R, wx, wy = scene
+    h = 1e-6
+    (x0, y0, c0, s0, _), (x, y, c, s, g), (x1, y1, c1, s1, _) = (held(phase + d, side, R, wx, wy) for d in (-h, 0, h))
+    assert (x1 - x0, y1 - y0) == pytest.approx((2 * h * R * (c + wx) / g, 2 * h * R * (s + wy) / g), abs=1e-9)
+    turned, time = atan2(c0 * s1 - s0 * c1, c0 * c1 + s0 * s1), 2 * h * R / g
+    assert turned / time == pytest.approx(-side * hold_rate(phase, side, R, wx, wy), abs=1e-6)
+    assert (
+        phase_of(x, y, side, wx, wy) == pytest.approx(phase % (2.0 * pi), abs=1e-9) or phase_of(x, y, side, wx, wy) > 6
+    )
+
+
+@given(st.floats(0.0, 0.95), angles, one_way)
+def test_the_tightest_circle_takes_the_full_rate_downwind_and_nowhere_more(wind, azimuth, side):
+    wx, wy = wind * cos(azimuth), wind * sin(azimuth)
+    R = tightest_held(wx, wy)
+    rates = [hold_rate(2.0 * pi * i / 360, side, R, wx, wy) for i in range(360)]
+    assert max(rates) == pytest.approx(1.0, abs=1e-12)
+    assert rates[180] == pytest.approx(1.0, abs=1e-12)
+
+
+@given(scenes(), one_way, st.floats(0.0, 2.0 * pi))
+def test_on_the_circle_and_along_it_nothing_is_left_to_do(scene, side, phase):
+    *_, R, wx, wy = scene
+    x, y, c, s, _ = held(phase, side, R, wx, wy)
+    for asked in (side, Side.EITHER):
+        status, held_side, word, *durations, angle, miss = fastest(x, y, c, s, R, asked, wx, wy)
+        assert (status, held_side, word, durations) == (Status.OK, side, Word.EMPTY, [0.0, 0.0, 0.0])
+        assert cos(angle - atan2(y, x)) == pytest.approx(1.0)
+        assert miss <= rounding(x, y, R)
+    assert least_time((x, y, c, s, R, wx, wy), -side) > 1.0
+
+
+@pytest.mark.parametrize("wind", [5e-324, 1e-310, 1e-200, 1e-17])
+def test_a_wind_of_no_account_is_calm(wind):
+    calm, windy = (least_time((3.0, 1.0, 0.6, 0.8, 2.0, w, w), Side.EITHER) for w in (0.0, wind))
+    assert windy == pytest.approx(calm, abs=1e-14)
+
+
+@pytest.mark.parametrize("wind", [0.95, 0.99])
+def test_almost_as_windy_as_the_aircraft_is_fast(wind):
+    for i in range(12):
+        scene = (6.0 * cos(i), 6.0 * sin(i), cos(3 * i), sin(3 * i), tightest_held(wind, 0.0), wind, 0.0)
+        assert 0.0 < least_time(scene, Side.EITHER) < 40.0 / (1.0 - wind)
+
+
+@pytest.mark.parametrize(
+    ("change", "status"),
+    [
+        ({"R": 1.21}, Status.OK),
+        ({"R": 1.2}, Status.NOT_HELD),
+        ({"R": 0.99}, Status.RADIUS_TOO_SMALL),
+        ({"wx": 1.0}, Status.WIND_TOO_STRONG),
+        ({"wx": -0.8, "wy": 0.8}, Status.WIND_TOO_STRONG),
+        ({"x": nan}, Status.NOT_FINITE),
+        ({"s": nan}, Status.NOT_FINITE),
+        ({"wy": inf}, Status.NOT_FINITE),
+        ({"R": nan}, Status.NOT_FINITE),
+        ({"y": 1e17}, Status.OUT_OF_RANGE),
+    ],
+)
+def test_what_cannot_be_solved_has_a_status(change, status):
+    arguments = {"x": 3.0, "y": 1.0, "c": 1.0, "s": 0.0, "R": 2.0, "side": Side.CW, "wx": 0.0, "wy": 0.1} | change
+    answer = fastest(**arguments)
+    assert answer[0] == status
+    assert Status(answer[0]).message
+    assert isnan(answer[3]) == (status != Status.OK)
+
+
+@cache
+def compiled():
+    return rebound(fastest, finish=numba.njit)
+
+
+def test_compiled_it_is_the_same():
+    for i in range(40):
+        scene = (
+            5.0 * cos(i),
+            4.0 * sin(2 * i),
+            cos(3 * i),
+            sin(3 * i),
+            3.0,
+            Side.EITHER,
+            0.4 * cos(5 * i),
+            0.4 * sin(5 * i),
+        )
+        assert compiled()(*scene) == pytest.approx(fastest(*scene), abs=1e-9)
+
+
+@given(scenes(), sides)
+def test_what_is_ranked_begins_with_the_fastest_and_ends_on_the_circle(scene, side):
+    x, y, c, s, R, wx, wy = scene
+    found = ranked(x, y, c, s, R, side, wx, wy)
+    times = [sum(maneuver[3:6]) for maneuver in found]
+    assert times == sorted(times)
+    assert times[0] == pytest.approx(least_time(scene, side), abs=moved(scene, times[0]))
+    assert {maneuver[1] for maneuver in found} == ({1, -1} if side == Side.EITHER else {side})
+    tied = optima(x, y, c, s, R, side, wx, wy)
+    assert tied == found[: len(tied)]
+    assert sum(tied[-1][3:6]) <= times[0] + 1e-11 * (R + times[0])
+    for status, *_, miss in found:
+        assert status == Status.OK
+        assert miss <= 2.0 * rounding(x, y, R) + 1e-14 * times[-1]
+
+
+@given(scenes(), one_way)
+def test_no_point_beside_a_ranked_one_is_met_sooner(scene, side):
+    x, y, c, s, R, wx, wy = scene
+    inner = (*scene, rounding(x, y, R) / 3.0)
+    for _, held_side, _, t1, t2, t3, azimuth, _ in ranked(x, y, c, s, R, side, wx, wy):
+        phase, time = phase_of(cos(azimuth), sin(azimuth), held_side, wx, wy), t1 + t2 + t3
+        beside = [first_way(phase + d, held_side, inner, inf)[0] for d in (-1e-4, 1e-4)]
+        assert min(beside) >= time - moved(scene, time)
+
+
+def test_a_side_without_an_answer_leaves_none(monkeypatch):
+    monkeypatch.setattr("loiter.kernel.drift.missed", lambda *_: nan)
+    assert ranked(3.0, 1.0, 1.0, 0.0, 2.0, Side.EITHER, 0.1, 0.0) == []

@@ -1,0 +1,160 @@
+"""The certificate in wind: it holds for plans, and fails for what is no optimum."""
+
+import json
+from dataclasses import replace
+from math import cos, degrees, inf, pi, sin
+
+import pytest
+from hypothesis import given, settings
+
+import loiter
+from loiter import Aircraft, Orbit, Pose, Wind, candidates, hold, plan, plan_all
+from loiter.errors import InvalidArgument
+from loiter.kernel import drift
+from loiter.planning.scaling import drifting, maneuver
+from loiter.verify import certify
+from loiter.verify.met import scenes
+from strategies import windy_scenes
+
+settings.register_profile("certificate in wind", deadline=None, max_examples=12)
+settings.load_profile("certificate in wind")
+
+UAV, UNIT = Aircraft(18.0, max_bank_deg=35.0), Aircraft(1.0, min_turn_radius_m=1.0)
+ORBIT, WIND = Orbit(0.0, 0.0, 120.0), Wind(8.0, 250.0)
+SCENE = Pose(-400.0, 120.0, 90.0), ORBIT, UAV, WIND
+NAMES = ["target", "course", "join", "turn", "motion", "turning", "slope", "norm", "multiplier", "sign", "hamiltonian"]
+NAMES += ["transversality", "gradient", "bellman", "fastest"]
+
+
+@given(windy_scenes())
+def test_plans_are_proved(scene):
+    for m in plan_all(*scene):
+        certificate = certify(m)
+        assert certificate.valid, str(certificate)
+
+
+def test_plans_of_the_comparison_are_proved_and_most_gradients_known():
+    """Random scenes as the search has them: inside, near and far, circles of the least radius that can be held."""
+    skipped = 0
+    for scene in list(scenes(30, 17)):
+        if scene.wind_east == scene.wind_north == 0.0:
+            continue
+        east, north, angle = scene.start
+        velocity = -scene.wind_east, -scene.wind_north
+        orbit = Orbit(0.0, 0.0, scene.radius, {1: "cw", -1: "ccw", 0: "either"}[int(scene.side)], *velocity)
+        certificate = certify(plan(Pose(east, north, 90.0 - degrees(angle)), orbit, UNIT))
+        assert certificate.valid, str(certificate)
+        assert [residual.name for residual in certificate.residuals] == NAMES
+        skipped += certificate.residual("gradient").skipped
+    assert skipped <= 3
+
+
+def test_a_loser_is_an_extremal_that_is_not_the_fastest():
+    best, *losers = candidates(*SCENE)
+    assert losers
+    for loser in losers:
+        certificate = certify(loser)
+        assert {residual.name for residual in certificate.failed} <= {"fastest", "gradient", "bellman"}
+        assert certificate.residual("fastest").failed
+        assert f"{best.word} {best.turn.value} is faster" in str(certificate)
+
+
+def joined_at(phase, side):
+    """The first way to another point of the circle: flown right, but not the fastest."""
+    pose, orbit, uav, wind = SCENE
+    scene = drifting(pose, orbit, uav, wind, 0.0)
+    inner = drift.scene_of(*scene[:5], scene.wx, scene.wy)
+    way = drift.first_way(phase, side, inner, inf)
+    return maneuver(pose, orbit, uav, wind, (side, *way[1:5]), 0.0)
+
+
+@pytest.mark.parametrize("phase", [0.5, 2.0, 4.5])
+def test_a_way_to_another_point_of_the_circle_is_not_transversal(phase):
+    certificate = certify(joined_at(phase, 1))
+    failed = {residual.name for residual in certificate.failed}
+    assert failed >= {"transversality", "fastest"}
+    assert not failed & {"target", "course", "join", "turn", "motion"}
+
+
+@pytest.mark.parametrize(
+    ("piece", "longer", "name"), [(0, 0.01, "target"), (1, 0.01, "target"), (2, 0.001, "target"), (2, -0.01, "course")]
+)
+def test_a_maneuver_that_ends_beside_the_circle_is_caught(piece, longer, name):
+    m = plan(*SCENE)
+    segments = list(m.segments)
+    segments[piece] = replace(segments[piece], duration_s=segments[piece].duration_s + longer)
+    assert certify(replace(m, segments=tuple(segments))).residual(name).failed
+
+
+def test_a_join_that_is_told_wrongly_is_caught():
+    m = plan(*SCENE)
+    end = replace(m.segments[-1], end=replace(m.join, east_m=m.join.east_m + 1e-6))
+    assert certify(replace(m, segments=(*m.segments[:-1], end))).residual("join").failed
+
+
+def test_the_wrong_direction_is_caught():
+    m = plan(*SCENE)
+    assert certify(replace(m, turn=m.turn.other)).residual("turn").failed
+    assert certify(replace(m, orbit=replace(ORBIT, turn=m.turn.other))).residual("turn").failed
+
+
+def test_the_maneuver_of_another_wind_is_caught():
+    assert {"target", "join"} <= {r.name for r in certify(replace(plan(*SCENE), wind=Wind(8.1, 250.0))).failed}
+
+
+@pytest.mark.parametrize("azimuth", [20.0, 200.0])
+@pytest.mark.parametrize("turn", ["cw", "ccw"])
+def test_on_the_circle_there_is_nothing_to_prove_but_that(azimuth, turn):
+    heading = hold(ORBIT, UAV, WIND, turn=turn).at(azimuth).heading_deg
+    here = Pose(120.0 * sin(azimuth * pi / 180.0), 120.0 * cos(azimuth * pi / 180.0), heading)
+    certificate = certify(plan(here, ORBIT, UAV, WIND))
+    assert certificate.valid
+    assert (certificate.lam, certificate.psi, certificate.pieces) == (None, None, ())
+    assert "nothing to decide" in certificate.choice
+
+
+@pytest.mark.parametrize("u", ["L", "R"])
+@pytest.mark.parametrize("azimuth", [20.0, 200.0])
+def test_a_single_arc_is_proved(u, azimuth):
+    """Flown backwards from the circle: on the last arc already."""
+    scene = drifting(SCENE[0], ORBIT, UAV, WIND, 0.0)
+    point = hold(ORBIT, UAV, WIND, turn="cw").at(azimuth)
+    angle, w, sign, t = (90.0 - point.heading_deg) * pi / 180.0, complex(scene.wx, scene.wy), {"L": 1, "R": -1}[u], 0.4
+    out = (90.0 - azimuth) * pi / 180.0
+    end, after = scene.R * complex(cos(out), sin(out)), complex(cos(angle), sin(angle))
+    before = after * complex(cos(t), -sign * sin(t))
+    q = (end - (after - before) / (1j * sign) - w * t) * UAV.turn_radius_m
+    heading = 90.0 - degrees(angle - sign * t)
+    m = plan(Pose(q.real, q.imag, heading), replace(ORBIT, turn="cw"), UAV, WIND)
+    assert certify(m).valid, str(certify(m))
+
+
+@given(windy_scenes())
+def test_a_circle_that_drifts_with_the_air_has_the_certificate_of_still_air(scene):
+    pose, orbit, uav, wind = scene
+    east, north = wind.velocity_m_s
+    drifting_along = replace(orbit, velocity_east_m_s=east, velocity_north_m_s=north)
+    certificate = certify(plan(pose, drifting_along, uav, wind))
+    assert certificate.valid, str(certificate)
+    assert certificate.residual("join").equation == "the last pose, reduced by (2), is the target"
+
+
+def test_it_goes_into_print_json_and_history():
+    certificate = certify(plan(*SCENE))
+    text, plain = str(certificate), json.loads(json.dumps(certificate.to_dict(), allow_nan=False))
+    assert text.startswith("Certificate of RSL, clockwise: valid.")
+    assert "the runner-up RSR ccw takes 0.46 s more" in text
+    assert [switch["letters"] for switch in plain["switches"]] == ["RS", "SL"]
+    assert (plain["valid"], plain["lambda"], plain["runner_up"]) == (True, 1.0, "RSR")
+    for piece in certificate.history(20):
+        for instant in piece:
+            assert abs(abs(instant.phi) + instant.psi1 - certificate.lam) < 1e-9
+            assert instant.u * instant.phi >= -1e-9
+
+
+def test_what_is_no_maneuver_is_refused():
+    m = plan(*SCENE)
+    with pytest.raises(InvalidArgument, match="it must be cw or ccw"):
+        certify(replace(m, turn=loiter.Turn.EITHER))
+    with pytest.raises(InvalidArgument, match="has the word 'LLL'"):
+        certify(replace(m, segments=tuple(replace(s, letter="L") for s in m.segments)))
