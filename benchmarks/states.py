@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable
+from math import nan
 from time import perf_counter
 from typing import NamedTuple
 
@@ -13,6 +14,7 @@ from benchmarks.timing import least_times
 from loiter import Aircraft, Orbit, Pose
 from loiter.kernel import ufuncs
 from loiter.kernel.codes import Side
+from loiter.verify import met
 
 COUNT = 1_000_000
 ROUNDS = 9
@@ -35,7 +37,7 @@ class Row(NamedTuple):
 
 def measure() -> list[Row]:
     """All tasks; the first contender of each is its yardstick."""
-    return [*tight(NEAR, "|x|, |y| < 4"), *tight(FAR, "|x|, |y| < 40"), *any_circle(), *one_plan(), *others()]
+    return [*tight(NEAR, "|x|, |y| < 4"), *tight(FAR, "|x|, |y| < 40"), *any_circle(), *wind(), *one_plan(), *others()]
 
 
 def tight(span: float, where: str) -> list[Row]:
@@ -71,6 +73,30 @@ def any_circle() -> list[Row]:
     return rows("any R, any turn", calls, results, scalar(x, y, R, side))
 
 
+def wind() -> list[Row]:
+    """|w| up to 0.6, R from (1 + |w|)^2 to 2.5 of it: compiled and as plain Python, beside the search over words."""
+    drawn = list(met.scenes(3000, 0))
+    columns = [
+        (s.start.east, s.start.north, s.start.angle, s.radius, int(s.side), s.wind_east, s.wind_north) for s in drawn
+    ]
+    x, y, angle, R, side, wx, wy = np.array(columns).T
+    few = [column[:100] for column in (x, y, angle, R, side.astype(np.int8), wx, wy)]
+    all_ = x, y, angle, R, side.astype(np.int8), wx, wy
+    times = least_times(
+        {"plain Python": lambda: loiter.solve_in_wind(*few), "compiled": lambda: loiter.solve_in_wind(*all_)}, 3
+    )
+    begin = perf_counter()
+    searched = [met.difference(scene) for scene in drawn[:20]]
+    search = (perf_counter() - begin) / 20
+    apart = [max(d.later, d.earlier) for d in searched]
+    rows = [("search over points, words and times, NumPy", search, max(apart), float(np.mean(apart)))]
+    rows += [
+        (f"loiter.solve_in_wind, {name}", seconds / count, nan, nan)
+        for (name, seconds), count in zip(times.items(), (100, 3000), strict=True)
+    ]
+    return [Row("wind", name, seconds, seconds / search, largest, mean) for name, seconds, largest, mean in rows]
+
+
 def scalar(x, y, R, side) -> np.ndarray:
     """T by the scalar functions, for the first ten thousand states: what errors are counted from."""
     from loiter.kernel.synthesis import duration, optimum
@@ -88,7 +114,7 @@ def rows(
     table = []
     for name, seconds in times.items():
         found = results[name] if name in results else getattr(calls[name](), "time", calls[name]())
-        error = np.abs(found[: len(true)] - true) if "control" not in name else np.array([np.nan])
+        error = np.abs(found[: len(true)] - true) if "control" not in name else np.array([nan])
         table.append(Row(task, name, seconds / COUNT, seconds / yardstick, float(error.max()), float(error.mean())))
     return table
 
@@ -107,7 +133,8 @@ def one_plan() -> list[Row]:
     )
     best = float(ufuncs.min_time(*state, 0, 0.0))
     yardstick = times["OMPL, 360 headings each way"]
-    errors = {"OMPL, 360 headings each way": peers.sweep(*state, (1, -1)) - best, "loiter.plan": 0.0}
+    planned = loiter.plan(pose, orbit, uav).length_m / r
+    errors = {"OMPL, 360 headings each way": peers.sweep(*state, (1, -1)) - best, "loiter.plan": abs(planned - best)}
     return [Row("one plan", name, s, s / yardstick, errors[name], errors[name]) for name, s in times.items()]
 
 
