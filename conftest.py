@@ -6,6 +6,7 @@ import shlex
 from collections.abc import Iterator
 from contextlib import chdir, redirect_stdout
 from pathlib import Path
+from typing import Any
 
 import pytest
 from sybil import Example, Sybil
@@ -33,6 +34,19 @@ def run_console(example: Example) -> str | None:
         if (printed.getvalue().rstrip(), status) != (expected.rstrip(), 0):
             return f"{command}\nprinted (status {status}):\n{printed.getvalue()}"
     return None
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Workers share the tests one by one, but a document's examples, which build on one another, stay together."""
+    from xdist.scheduler import LoadScopeScheduling
+
+    class ByDocument(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            path, _, _ = nodeid.partition("::")
+            return path if path.endswith(".md") else nodeid
+
+    return ByDocument(config, log)
 
 
 @pytest.fixture(scope="module")

@@ -115,10 +115,9 @@ def _small_parts(monkeypatch):
 
 def test_without_a_scheduler_one_sentence_says_so(tmp_path):
     write(poses(5), tmp_path / "in.parquet")
-    command = [Path(sys.executable).with_name("loiter"), "batch", "in.parquet", "out.parquet", *OPTIONS]
-    done = subprocess.run(
-        [*command, "--scheduler", "tcp://127.0.0.1:9"], capture_output=True, text=True, cwd=tmp_path, env=ENVIRONMENT
-    )
+    arguments = ["batch", "in.parquet", "out.parquet", *OPTIONS, "--scheduler", "tcp://127.0.0.1:9"]
+    command = [sys.executable, "-c", BATCH, *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=ENVIRONMENT)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "loiter: --scheduler is 'tcp://127.0.0.1:9': no Dask scheduler answers there\n"
     assert [path.name for path in tmp_path.iterdir()] == ["in.parquet"]

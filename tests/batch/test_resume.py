@@ -66,7 +66,7 @@ def script(*arguments):
 
 @pytest.mark.parametrize(
     ("source", "target", "times"),
-    [("in.parquet", "out.parquet", 20), ("in.csv", "out.csv.gz", 5)],
+    [("in.parquet", "out.parquet", 20), ("in.csv", "out.csv.gz", 4)],
 )
 def test_killed_at_any_moment_it_goes_on_to_the_same_bytes(tmp_path, source, target, times):
     write(poses(10_000), tmp_path / source, 250)
