@@ -67,7 +67,11 @@ def batch(
     ] = None,
     tolerance: Annotated[
         float,
-        Parameter(group=work, metavar="METRES", help="As for loiter plan: by how much a start may miss the last arc."),
+        Parameter(
+            group=work,
+            metavar="METRES",
+            help="As for loiter plan: by how much a start may miss the last arc in still air.",
+        ),
     ] = 0.0,
     workers: Annotated[
         int | None,
