@@ -228,6 +228,10 @@ def test_the_description_says_what_the_parts_depend_on(job, monkeypatch):
         "orbit_radius_m": 80.0,
         "airspeed_m_s": 18.0,
         "max_bank_deg": 35.0,
+        "wind_speed_m_s": 0.0,
+        "wind_from_deg": 0.0,
+        "orbit_velocity_east_m_s": 0.0,
+        "orbit_velocity_north_m_s": 0.0,
     }
 
 

@@ -1,5 +1,6 @@
 """`loiter batch`: refusals before any work, the closing summary, help."""
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -58,8 +59,28 @@ TABLES = {
     "airspeed twice": (column("airspeed_m_s", ZERO), OPTIONS, ["--airspeed is given, and by"]),
     "limit twice": (column("max_bank_deg", ZERO), OPTIONS, ["--bank is given, and", "max_bank_deg"]),
     "another limit": (column("max_turn_rate_deg_s", ZERO), OPTIONS, ["--bank is given, and", "max_turn_rate_deg_s"]),
+    "wind twice": (
+        lambda t: column("wind_speed_m_s", ZERO)(column("wind_from_deg", ZERO)(t)),
+        [*OPTIONS, "--wind", "5", "270"],
+        ["--wind is given, and by the table's column wind_speed_m_s too"],
+    ),
+    "half a wind": (column("wind_from_deg", ZERO), OPTIONS, ["IN has a column wind_from_deg but no wind_speed_m_s"]),
+    "text for wind": (
+        lambda t: column("wind_speed_m_s", ["5"] * 5)(column("wind_from_deg", ZERO)(t)),
+        OPTIONS,
+        ["IN", "column wind_speed_m_s of string", "numbers"],
+    ),
+    "velocity twice": (
+        lambda t: column("orbit_velocity_east_m_s", ZERO)(column("orbit_velocity_north_m_s", ZERO)(t)),
+        [*OPTIONS, "--orbit-velocity", "0", "0"],
+        ["--orbit-velocity is given, and by the table's column orbit_velocity_east_m_s too"],
+    ),
+    "half a velocity": (column("orbit_velocity_east_m_s", ZERO), OPTIONS, ["IN has", "no orbit_velocity_north_m_s"]),
 }
 VALUES = {
+    "wind speed": ([*OPTIONS, "--wind", "-1", "270"], ["--wind SPEED is -1.0"]),
+    "wind of one": ([*OPTIONS, "--wind", "5"], ["--wind needs 2 numbers, SPEED FROM"]),
+    "velocity": ([*OPTIONS, "--orbit-velocity", "1", "inf"], ["--orbit-velocity NORTH is inf"]),
     "bank": ([*without("bank"), "--bank", "90"], ["--bank is 90.0", "between 0 and 90"]),
     "airspeed": ([*without("airspeed"), "--airspeed", "-1"], ["--airspeed is -1.0"]),
     "radius": ([*without("orbit"), "--orbit", "0", "0", "0"], ["--orbit RADIUS is 0.0"]),
@@ -189,6 +210,19 @@ def test_the_summary_counts_what_is_bad(capsys, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["in.parquet", "out.parquet"]
 
 
+def test_wind_and_velocity_are_those_of_loiter_plan(capsys, tmp_path):
+    source, options = write(poses(3), tmp_path / "in.parquet"), ["--orbit", "0", "0", "120", *OPTIONS[4:]]
+    air = ["--wind", "6", "250", "--orbit-velocity", "2", "-1"]
+    assert main(["batch", str(source), str(tmp_path / "out.parquet"), *options, *air]) == 0
+    for row in read(tmp_path / "out.parquet"):
+        pose = [str(row[name]) for name in ("east_m", "north_m", "heading_deg")]
+        capsys.readouterr()
+        assert main(["plan", "--json", "--pose", *pose, *options, *air]) == 0
+        planned = json.loads(capsys.readouterr().out)
+        assert (row["word"], row["turn"]) == (planned["word"], planned["turn"])
+        assert row["duration_s"] == pytest.approx(planned["duration_s"])
+
+
 def test_an_older_output_is_replaced(capsys, tmp_path):
     (tmp_path / "out.csv").write_text("older")
     write(poses(5), tmp_path / "in.parquet")
@@ -201,6 +235,8 @@ def test_help_names_every_column_and_option(capsys):
     text = " ".join(capsys.readouterr().out.split())
     names = ["east_m", "orbit_radius_m", "max_turn_rate_deg_s", "join_heading_deg", "duration_3_s", "OUT.parts"]
     options = ["--orbit", "--turn", "--airspeed", "--bank", "--turn-radius", "--turn-rate", "--tolerance", "--workers"]
+    names += ["wind_speed_m_s", "wind_from_deg", "orbit_velocity_east_m_s", "orbit_velocity_north_m_s"]
+    options += ["--wind SPEED FROM", "--orbit-velocity EAST NORTH"]
     assert [word for word in [*names, *options, "--scheduler", "IN", "OUT"] if word not in text] == []
 
 

@@ -5,8 +5,9 @@ from math import inf, nan
 import numpy as np
 import pytest
 
-from loiter import Aircraft, Orbit, Pose, plan
+from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.errors import LoiterError
+from loiter.kernel import drift
 from loiter.kernel.codes import Side, Status, Word
 from loiter.planning.entries import BLOCK, UNKNOWN, States, entries
 from loiter.planning.model import TURN_LIMITS
@@ -38,16 +39,18 @@ def row(states, i):
     one = States(*(v[i].item() if isinstance(v, np.ndarray) else v for v in states))
     turn = {int(side): turn for turn, side in SIDES.items()}[one.side]
     aircraft = Aircraft(one.airspeed_m_s, **{one.limit: one.turn_limit})
-    return Pose(*one[:3]), Orbit(*one[3:6], turn), aircraft, one.tolerance_m
+    velocity = one.orbit_velocity_east_m_s, one.orbit_velocity_north_m_s
+    wind = Wind(one.wind_speed_m_s, one.wind_from_deg)
+    return Pose(*one[:3]), Orbit(*one[3:6], turn, *velocity), aircraft, wind, one.tolerance_m
 
 
 def assert_planned(states, rows):
     """The rows are solved as `plan` solves them."""
     found = entries(states)
     for i in rows:
-        pose, orbit, aircraft, tolerance = row(states, i)
+        pose, orbit, aircraft, wind, tolerance = row(states, i)
         try:
-            expected = plan(pose, orbit, aircraft, tolerance_m=tolerance)
+            expected = plan(pose, orbit, aircraft, wind, tolerance_m=tolerance)
         except LoiterError:
             assert found.status[i] != Status.OK
             continue
@@ -96,6 +99,46 @@ def test_rows_beyond_the_first_block_are_solved_too():
         assert there[2 * BLOCK :] == pytest.approx(here, nan_ok=True)
 
 
+def blown(states, seed=3):
+    """The same rows in winds of up to 40 m/s, seldom strong, about circles that move, a quarter of them calm."""
+    random, count = np.random.default_rng(seed), len(states.east_m)
+    speed, velocity = random.uniform(0.0, 1.0, count) ** 3 * 40.0, random.normal(0.0, 2.0, (2, count))
+    speed[::4], velocity[:, ::4] = 0.0, 0.0
+    return States(*states[:11], speed, random.uniform(-360.0, 720.0, count), *velocity)
+
+
+@pytest.mark.parametrize("origin", ORIGINS.values(), ids=ORIGINS)
+def test_rows_in_wind_are_solved_as_plan_solves_them(origin):
+    assert_planned(blown(drawn(100, origin, seed=4)), range(100))
+
+
+def test_a_wind_and_a_velocity_that_all_rows_share_are_numbers():
+    shared = {"wind_speed_m_s": 5.0, "wind_from_deg": 250.0, "orbit_velocity_east_m_s": -1.0}
+    assert_planned(drawn(40)._replace(**shared), range(40))
+    # One aircraft and one circle too.
+    one = {"orbit_east_m": 5.0, "orbit_north_m": 0.0, "orbit_radius_m": 200.0, "side": 0, "airspeed_m_s": 18.0}
+    assert_planned(drawn(40)._replace(turn_limit=35.0, **one, **shared), range(40))
+
+
+def test_where_no_air_passes_the_circle_the_bytes_are_those_of_still_air():
+    states, zero = drawn(300), np.zeros(300)
+    still = entries(states)
+    calm = entries(states._replace(wind_speed_m_s=zero, wind_from_deg=zero + 77.0, orbit_velocity_east_m_s=zero))
+    for one, other in zip(still, calm, strict=True):
+        assert one.tobytes() == other.tobytes()
+    drifts = entries(states._replace(wind_speed_m_s=5.0, wind_from_deg=270.0, orbit_velocity_east_m_s=5.0))
+    assert drifts.join_east_m == pytest.approx(still.join_east_m + 5.0 * still.duration_s, nan_ok=True)
+    assert drifts.duration_s.tobytes() == still.duration_s.tobytes()
+
+
+def test_a_row_in_wind_that_no_maneuver_is_found_for_says_so(monkeypatch):
+    lost = float(Status.NOT_CONVERGED), 0.0, 0.0, *[nan] * 5
+    monkeypatch.setattr(drift, "fastest", lambda *scene: lost)
+    found = entries(drawn(2)._replace(wind_speed_m_s=np.array([0.0, 3.0])))
+    assert found.status.tolist() == [Status.OK, Status.NOT_CONVERGED]
+    assert np.isnan(found.join_heading_deg).tolist() == [False, True]
+
+
 @pytest.mark.parametrize("tolerance", [0.0, 0.5])
 def test_the_tolerance_is_that_of_plan(tolerance):
     # On the circle the right way round, but for some centimetres.
@@ -123,8 +166,25 @@ GOOD = {
     "side": 0,
     "airspeed_m_s": 18.0,
     "turn_limit": 35.0,
+    "wind_speed_m_s": 0.0,
+    "wind_from_deg": 0.0,
+    "orbit_velocity_east_m_s": 0.0,
+    "orbit_velocity_north_m_s": 0.0,
 }
+VELOCITY = ("orbit_velocity_east_m_s", "orbit_velocity_north_m_s")
 BAD = [
+    *(({"wind_speed_m_s": value}, Status.BAD_WIND) for value in (nan, inf, -1.0)),
+    *(({"wind_from_deg": value}, Status.BAD_WIND) for value in (nan, -inf)),
+    *(({name: value}, Status.BAD_ORBIT) for name in VELOCITY for value in (nan, inf)),
+    *(({"wind_speed_m_s": value}, Status.WIND_TOO_STRONG) for value in (18.0, 30.0)),
+    ({"orbit_velocity_north_m_s": -30.0}, Status.WIND_TOO_STRONG),
+    ({"wind_speed_m_s": 1e300, "orbit_velocity_east_m_s": 1e300}, Status.WIND_TOO_STRONG),
+    ({"wind_speed_m_s": 8.0}, Status.NOT_HELD),
+    ({"wind_speed_m_s": 8.0, "orbit_radius_m": 40.0}, Status.RADIUS_TOO_SMALL),
+    ({"wind_speed_m_s": 3.0, "east_m": 1e30}, Status.OUT_OF_RANGE),
+    ({"wind_speed_m_s": 3.0, "heading_deg": nan}, Status.BAD_POSE),
+    ({"wind_speed_m_s": 3.0, "side": UNKNOWN}, Status.BAD_TURN),
+    ({"wind_speed_m_s": 3.0, "airspeed_m_s": nan}, Status.BAD_AIRCRAFT),
     *(({name: value}, Status.BAD_POSE) for name in ("east_m", "north_m", "heading_deg") for value in (nan, inf, -inf)),
     *(({name: value}, Status.BAD_ORBIT) for name in ("orbit_east_m", "orbit_north_m") for value in (nan, inf)),
     *(({"orbit_radius_m": value}, Status.BAD_ORBIT) for value in (nan, inf, 0.0, -80.0)),

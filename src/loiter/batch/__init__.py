@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from loiter.errors import InvalidArgument, MissingPackage
-from loiter.planning.model import Aircraft, Orbit, Turn
+from loiter.planning.model import Aircraft, Orbit, Turn, Wind
 
 if TYPE_CHECKING:
     from loiter.batch.job import Progress as Progress
@@ -29,6 +29,8 @@ def run(
     orbit: Orbit | None = None,
     turn: Turn | str | None = None,
     aircraft: Aircraft | Mapping[str, float] | None = None,
+    wind: Wind | None = None,
+    orbit_velocity_m_s: tuple[float, float] | None = None,
     tolerance_m: float = 0.0,
     workers: int | None = None,
     scheduler: str | None = None,
@@ -36,8 +38,9 @@ def run(
 ) -> Summary:
     """Plan the fastest entry of every row of a table; docs/batch.md says which columns it may have and which it gets.
 
-    `source` and `target` end in .parquet, .csv or .csv.gz. `orbit`, `turn` and `aircraft` stand for columns that the
-    table does not have; `aircraft` may be a part of one, such as {"airspeed_m_s": 18.0} beside a column max_bank_deg.
+    `source` and `target` end in .parquet, .csv or .csv.gz. `orbit`, `turn`, `aircraft` and `wind` stand for columns
+    that the table does not have; `aircraft` may be a part of one, such as {"airspeed_m_s": 18.0} beside a column
+    max_bank_deg. Circles move as `orbit` does, or those of columns with `orbit_velocity_m_s`, (east, north).
     `workers` threads work, as many as there are cores, or the Dask cluster with the scheduler at the address
     `scheduler`.
     `progress` hears every now and then how far the job is.
@@ -54,8 +57,8 @@ def run(
     from loiter.batch import job
     from loiter.batch.columns import shared
 
-    count = _workers(workers, scheduler)
-    asked = job.request(Path(source), Path(target), shared(orbit, turn, aircraft), tolerance_m)
+    count, given = _workers(workers, scheduler), shared(orbit, turn, aircraft, wind, orbit_velocity_m_s)
+    asked = job.request(Path(source), Path(target), given, tolerance_m)
     return job.carry_out(asked, count, scheduler, progress)
 
 
@@ -64,7 +67,9 @@ def plan(
     *,
     orbit: Orbit | None = None,
     aircraft: Aircraft | Mapping[str, float] | None = None,
+    wind: Wind | None = None,
     turn: Turn | str | None = None,
+    orbit_velocity_m_s: tuple[float, float] | None = None,
     tolerance_m: float = 0.0,
 ) -> Any:
     """The same for a pandas or a Dask data frame: a frame with the added columns, its index kept.
@@ -75,7 +80,7 @@ def plan(
     from loiter.batch.columns import shared
     from loiter.batch.frames import planned
 
-    return planned(frame, shared(orbit, turn, aircraft), tolerance_m)
+    return planned(frame, shared(orbit, turn, aircraft, wind, orbit_velocity_m_s), tolerance_m)
 
 
 def _workers(workers: int | None, scheduler: str | None) -> int:

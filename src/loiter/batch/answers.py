@@ -18,6 +18,8 @@ from loiter.batch.columns import (
     STATUSES,
     TURN,
     TURNS,
+    VELOCITY,
+    WIND,
     WORDS,
     Columns,
     carried,
@@ -39,17 +41,20 @@ _WORD_INDEX[list(WORDS)] = range(len(WORDS))
 _WORDS, _TURNS, _STATUSES = views.text([word.letters for word in WORDS]), views.text(TURNS), views.text(STATUSES)
 
 
-def answered(batch: pa.RecordBatch, columns: Columns) -> pa.RecordBatch:
-    """The batch's carried columns and the added ones; columns encoded by a dictionary come out plain."""
+def answered(batch: pa.RecordBatch, columns: Columns, compiled: bool | None = None) -> pa.RecordBatch:
+    """The batch's carried columns and the added ones; columns encoded by a dictionary come out plain.
+
+    `compiled` is that of `entries`.
+    """
     # All but the mark of malformed lines, which is the last one.
     names = carried(batch.schema.names[:-1] if columns.text else batch.schema.names)
     kept = [plain(batch.column(name)) for name in names]
-    return pa.RecordBatch.from_arrays([*kept, *answers(batch, columns)], [*names, *ADDED.names])
+    return pa.RecordBatch.from_arrays([*kept, *answers(batch, columns, compiled)], [*names, *ADDED.names])
 
 
-def answers(batch: pa.RecordBatch, columns: Columns) -> list[pa.Array]:
+def answers(batch: pa.RecordBatch, columns: Columns, compiled: bool | None = None) -> list[pa.Array]:
     """The added columns, in the order of `ADDED`."""
-    found = entries(states(batch, columns))
+    found = entries(states(batch, columns), compiled=compiled)
     status = found.status
     if columns.text:
         status = np.where(views.numbers(batch.column(-1)), np.int8(Status.MALFORMED), status)
@@ -68,7 +73,7 @@ def states(batch: pa.RecordBatch, columns: Columns) -> States:
     values: dict[str, Any] = {**columns.shared, **read}
     side = _sides(batch.column(TURN)) if columns.turn is None else int(SIDES[columns.turn])
     return States(
-        **{name: values[name] for name in (*POSE, *ORBIT, AIRSPEED)},
+        **{name: values[name] for name in (*POSE, *ORBIT, AIRSPEED, *WIND, *VELOCITY)},
         side=side,
         turn_limit=values[columns.limit],
         limit=columns.limit,

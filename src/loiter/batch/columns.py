@@ -11,13 +11,15 @@ import pyarrow as pa
 
 from loiter.errors import InvalidArgument, not_negative
 from loiter.kernel.codes import Status, Word
-from loiter.planning.model import TURN_LIMITS, Aircraft, Orbit, Turn
+from loiter.planning.model import TURN_LIMITS, Aircraft, Orbit, Turn, Wind
 
 POSE = ("east_m", "north_m", "heading_deg")
 ORBIT = ("orbit_east_m", "orbit_north_m", "orbit_radius_m")
 AIRSPEED = "airspeed_m_s"
 TURN = "turn"
-KNOWN = (*POSE, *ORBIT, AIRSPEED, *TURN_LIMITS, TURN)
+WIND = ("wind_speed_m_s", "wind_from_deg")
+VELOCITY = ("orbit_velocity_east_m_s", "orbit_velocity_north_m_s")
+KNOWN = (*POSE, *ORBIT, AIRSPEED, *TURN_LIMITS, TURN, *WIND, *VELOCITY)
 
 _TEXT = pa.dictionary(pa.int8(), pa.string())
 
@@ -65,9 +67,17 @@ class Columns:
     text: bool
 
 
-def shared(orbit: Orbit | None, turn: Turn | str | None, aircraft: Aircraft | Mapping[str, float] | None) -> Shared:
+def shared(
+    orbit: Orbit | None,
+    turn: Turn | str | None,
+    aircraft: Aircraft | Mapping[str, float] | None,
+    wind: Wind | None = None,
+    orbit_velocity_m_s: tuple[float, float] | None = None,
+) -> Shared:
     """What the options give, checked. `aircraft` may be a part of one, by the names of `Aircraft`."""
-    numbers: dict[str, float] = {}
+    numbers = _velocity(orbit, orbit_velocity_m_s)
+    if wind is not None:
+        numbers |= zip(WIND, (wind.speed_m_s, wind.from_deg), strict=True)
     if orbit is not None:
         numbers |= zip(ORBIT, (orbit.east_m, orbit.north_m, orbit.radius_m), strict=True)
         # Either way round is an orbit's default: it does not say that somebody asked for it.
@@ -75,6 +85,19 @@ def shared(orbit: Orbit | None, turn: Turn | str | None, aircraft: Aircraft | Ma
     if turn is not None and turn not in tuple(Turn):
         raise InvalidArgument("turn", f"is {turn!r}: it must be cw, ccw or either")
     return Shared(numbers | _aircraft(aircraft), None if turn is None else Turn(turn))
+
+
+def _velocity(orbit: Orbit | None, alone: tuple[float, float] | None) -> dict[str, float]:
+    """How the circle moves: as told `alone`, or by itself; rest is an orbit's default, as either way round is."""
+    if alone is None:
+        return {} if orbit is None or not orbit.moves else _by_name(orbit)
+    if orbit is not None and orbit.moves:
+        raise InvalidArgument("orbit_velocity_m_s", "is given, and by the orbit too")
+    return _by_name(Orbit(0.0, 0.0, 1.0, Turn.EITHER, *alone))
+
+
+def _by_name(orbit: Orbit) -> dict[str, float]:
+    return dict(zip(VELOCITY, (orbit.velocity_east_m_s, orbit.velocity_north_m_s), strict=True))
 
 
 def _aircraft(aircraft: Aircraft | Mapping[str, float] | None) -> dict[str, float]:
@@ -102,13 +125,16 @@ def columns(argument: str, schema: pa.Schema, options: Shared, tolerance_m: floa
     _need(argument, names, options.numbers, "orbit", ORBIT)
     _need(argument, names, options.numbers, AIRSPEED, (AIRSPEED,))
     limit = _limit(argument, names, options.numbers)
+    calm = _calm(argument, names, options.numbers, "wind", WIND)
+    resting = _calm(argument, names, options.numbers, "orbit_velocity_m_s", VELOCITY)
     turn = options.turn
     if TURN in names:
         if turn is not None:
             raise InvalidArgument(TURN, "is given, and by the table's column turn too")
     elif turn is None:
         turn = Turn.EITHER
-    found = Columns(dict(options.numbers), limit, turn, not_negative("tolerance_m", tolerance_m, "metres"), text)
+    numbers = {**options.numbers, **calm, **resting}
+    found = Columns(numbers, limit, turn, not_negative("tolerance_m", tolerance_m, "metres"), text)
     if not text:
         _check_types(argument, schema, found)
     return found
@@ -116,7 +142,12 @@ def columns(argument: str, schema: pa.Schema, options: Shared, tolerance_m: floa
 
 def numbers_read(found: Columns) -> list[str]:
     """The names of the columns of numbers that are read."""
-    return [name for name in (*POSE, *ORBIT, AIRSPEED, found.limit) if name not in found.shared]
+    return [name for name in (*POSE, *ORBIT, AIRSPEED, found.limit, *WIND, *VELOCITY) if name not in found.shared]
+
+
+def drifting(found: Columns) -> bool:
+    """Whether the air may pass the circle of some row."""
+    return any(found.shared.get(name, 1.0) != 0.0 for name in (WIND[0], *VELOCITY))
 
 
 def carried(names: Iterable[str]) -> list[str]:
@@ -138,14 +169,26 @@ def _check_names(argument: str, names: list[str]) -> None:
 
 def _need(argument: str, names: list[str], given: Mapping[str, float], option: str, wanted: tuple[str, ...]) -> None:
     """Check that either the option or all its columns are there."""
+    if not _has(argument, names, given, option, wanted):
+        raise InvalidArgument(option, f"is needed: the table has no column {wanted[0]}")
+
+
+def _calm(
+    argument: str, names: list[str], given: Mapping[str, float], option: str, wanted: tuple[str, ...]
+) -> dict[str, float]:
+    """Nought for each column where neither the option nor any of its columns is there."""
+    return {} if _has(argument, names, given, option, wanted) else dict.fromkeys(wanted, 0.0)
+
+
+def _has(argument: str, names: list[str], given: Mapping[str, float], option: str, wanted: tuple[str, ...]) -> bool:
+    """Whether the option or its columns are there, both and a part of them refused."""
     there = [name for name in wanted if name in names]
     absent = [name for name in wanted if name not in names]
     if there and wanted[0] in given:
         raise InvalidArgument(option, f"is given, and by the table's column {there[0]} too")
     if there and absent:
         raise InvalidArgument(argument, f"has a column {there[0]} but no {' and no '.join(absent)}")
-    if absent and wanted[0] not in given:
-        raise InvalidArgument(option, f"is needed: the table has no column {absent[0]}")
+    return bool(there) or wanted[0] in given
 
 
 def _limit(argument: str, names: list[str], given: Mapping[str, float]) -> str:

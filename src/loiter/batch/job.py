@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,10 +13,11 @@ import pyarrow as pa
 
 import loiter
 from loiter.batch import cluster, folder, ingest, outputs, tables
-from loiter.batch.columns import STATUSES, Columns, Shared, columns
+from loiter.batch.columns import STATUSES, Columns, Shared, columns, drifting
 from loiter.batch.parts import Job, append_part, is_whole
 from loiter.batch.runner import Crew, Meter, local_crew, work
 from loiter.errors import InvalidArgument, Unfinished
+from loiter.planning import arrays
 
 
 class Progress(NamedTuple):
@@ -82,19 +83,22 @@ def carry_out(asked: Request, workers: int, scheduler: str | None, tell: Tell) -
         known = folder.resumed(here, description)
         # Absolute paths, since workers of a cluster stand elsewhere.
         table = asked.source.absolute() if asked.source_kind == ".parquet" else here / folder.INGESTED
-        job = Job(table, here, asked.columns, outputs.part_schema(asked.schema), folder.digest(description))
+        part_rows, batch_rows = _sizes(asked)
+        schema = outputs.part_schema(asked.schema)
+        job = Job(table, here, asked.columns, schema, folder.digest(description), batch_rows)
         if client is not None:
             cluster.check_workers(client, job, asked.source)
         if not table.exists():
             _read_in(asked, table, tell)
-        parts = tables.parts_of(table, tables.PART_ROWS)
+        parts = tables.parts_of(table, part_rows, cut=drifting(asked.columns))
         # Files that are there, not names that are asked for: a network's file system remembers what it did not find.
         whole = {path for path in folder.finished_parts(here) if is_whole(path)}
         finished = {part.number for part in parts if folder.part_path(here, part.number) in whole}
         _tell_of_earlier(known, here, len(finished), len(parts), tell)
         meter = Meter(sum(part.rows for part in parts if part.number in finished))
         total, earlier, resumed = sum(part.rows for part in parts), meter.rows, len(finished)
-        crew = _crew(client, workers, meter, idle=resumed == len(parts))
+        job = replace(job, compiled=drifting(asked.columns) and total >= arrays.COMPILED_FROM)
+        crew = _crew(client, workers, meter, idle=resumed == len(parts), compiled=job.compiled)
         counts = _written(asked, job, parts, finished, crew, meter, lambda: tell(Progress(meter.rows // 2, total)))
         if _description(asked) != description:
             raise InvalidArgument("source", f"is {str(asked.source)!r}: it changed while it was read")
@@ -107,13 +111,22 @@ def _connection(scheduler: str | None) -> AbstractContextManager[Any]:
     return nullcontext() if scheduler is None else cluster.connected(scheduler)
 
 
-def _crew(client: Any, workers: int, meter: Meter, *, idle: bool) -> AbstractContextManager[Crew]:
-    return local_crew(workers, meter, idle=idle) if client is None else cluster.cluster_crew(client, meter)
+def _crew(client: Any, workers: int, meter: Meter, *, idle: bool, compiled: bool) -> AbstractContextManager[Crew]:
+    if client is not None:
+        return cluster.cluster_crew(client, meter)
+    return local_crew(workers, meter, idle=idle, compiled=compiled)
+
+
+def _sizes(asked: Request) -> tuple[int, int]:
+    """How many rows a part and a batch have."""
+    if drifting(asked.columns):
+        return tables.PART_ROWS_IN_WIND, tables.BATCH_ROWS_IN_WIND
+    return tables.PART_ROWS, tables.BATCH_ROWS
 
 
 def _description(asked: Request) -> dict[str, Any]:
     """What must be the same for one run of a job to go on from another's parts."""
-    stat = asked.source.stat()
+    stat, (part_rows, batch_rows) = asked.source.stat(), _sizes(asked)
     return {
         "program": loiter.__version__,
         "source": str(asked.source.resolve()),
@@ -121,8 +134,8 @@ def _description(asked: Request) -> dict[str, Any]:
         "mtime_ns": stat.st_mtime_ns,
         "schema": [f"{field.name}: {field.type}" for field in asked.schema],
         "columns": asdict(asked.columns),
-        "part_rows": tables.PART_ROWS,
-        "batch_rows": tables.BATCH_ROWS,
+        "part_rows": part_rows,
+        "batch_rows": batch_rows,
     }
 
 

@@ -14,7 +14,7 @@ import pyarrow as pa
 from loiter.batch.answers import answered
 from loiter.batch.columns import STATUSES, Columns
 from loiter.batch.folder import belongs, part_path
-from loiter.batch.tables import PART_ROWS, Part, batches
+from loiter.batch.tables import BATCH_ROWS, PART_ROWS, Part, batches
 from loiter.batch.views import numbers
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Job:
     """What every part needs to know, here or on another machine.
 
     `table` is the Parquet file that is read, `folder` where the parts go, `schema` that of the parts; `digest` tells
-    the job from others.
+    the job from others. `batch_rows` are solved at a time; `compiled` is that of `entries`, the same for every part.
     """
 
     table: Path
@@ -39,6 +39,8 @@ class Job:
     columns: Columns
     schema: pa.Schema
     digest: str
+    batch_rows: int = BATCH_ROWS
+    compiled: bool = False
 
 
 def solve_part(job: Job, part: Part, tick: Tick = lambda rows: None) -> None:
@@ -52,8 +54,8 @@ def solve_part(job: Job, part: Part, tick: Tick = lambda rows: None) -> None:
     unfinished = path.with_name(f"{path.name}.{token_hex(4)}.tmp")
     try:
         with pa.OSFile(str(unfinished), "wb") as sink, pa.ipc.new_file(sink, job.schema) as writer:
-            for batch in batches(job.table, range(part.first, part.last)):
-                writer.write_batch(answered(batch, job.columns))
+            for batch in batches(job.table, part, job.batch_rows):
+                writer.write_batch(answered(batch, job.columns, job.compiled))
                 tick(batch.num_rows)
         # A worker may outlive its job, and its folder be another's by now.
         if belongs(job.folder, job.digest):

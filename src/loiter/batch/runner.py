@@ -57,11 +57,14 @@ class Crew(NamedTuple):
 
 
 @contextmanager
-def local_crew(workers: int, meter: Meter, *, idle: bool) -> Iterator[Crew]:
-    """Threads of this process: `workers` of them are busy, solving or appending; only appending where `idle`."""
+def local_crew(workers: int, meter: Meter, *, idle: bool, compiled: bool) -> Iterator[Crew]:
+    """Threads of this process: `workers` of them are busy, solving or appending; only appending where `idle`.
+
+    `compiled` is that of `Job`.
+    """
     if not idle:
         # Not in a thread, which an interrupt would not reach.
-        compile_kernel()
+        compile_kernel(in_wind=compiled)
     with threads(workers, meter) as pool:
         yield Crew(
             lambda job, part: pool.submit(solve_part, job, part, meter.tick),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -26,13 +26,19 @@ BATCH_ROWS = 1 << 16
 READ_BYTES = 1 << 20
 
 
+# The same where the air passes the circle: a row takes a thousand times as long there, and a part half a minute.
+PART_ROWS_IN_WIND = 1 << 16
+BATCH_ROWS_IN_WIND = 1 << 12
+
+
 class Part(NamedTuple):
-    """Row groups `first` to `last` - 1 of a table, `rows` in all; `number` counts the parts."""
+    """`rows` rows of the row groups `first` to `last` - 1, past `skip` of them; `number` counts the parts."""
 
     number: int
     first: int
     last: int
     rows: int
+    skip: int = 0
 
 
 def kind(argument: str, path: Path) -> Kind:
@@ -68,8 +74,11 @@ def parquet_schema(argument: str, path: Path) -> pa.Schema:
         raise unreadable(argument, path, error) from error
 
 
-def parts_of(path: Path, rows: int) -> list[Part]:
-    """A Parquet file as runs of whole row groups of up to `rows` rows; a larger row group is a part of its own."""
+def parts_of(path: Path, rows: int, *, cut: bool = False) -> list[Part]:
+    """A Parquet file as runs of whole row groups of up to `rows` rows.
+
+    A larger row group is a part of its own, or several where row groups may be `cut`: each of them reads it.
+    """
     with opened(path) as file:
         sizes = [file.metadata.row_group(i).num_rows for i in range(file.metadata.num_row_groups)]
     parts: list[Part] = []
@@ -77,14 +86,30 @@ def parts_of(path: Path, rows: int) -> list[Part]:
         if parts and parts[-1].rows + size <= rows:
             parts[-1] = parts[-1]._replace(last=i + 1, rows=parts[-1].rows + size)
         else:
-            parts.append(Part(len(parts), i, i + 1, size))
+            step = rows if cut else max(size, 1)
+            for skip in range(0, max(size, 1), step):
+                parts.append(Part(len(parts), i, i + 1, min(step, size - skip), skip))
     return parts
 
 
-def batches(path: Path, row_groups: Sequence[int]) -> Iterator[pa.RecordBatch]:
-    """The rows of some row groups, in order, a batch at a time; raises `OSError` where they cannot be read."""
+def batches(path: Path, part: Part, rows: int) -> Iterator[pa.RecordBatch]:
+    """The rows of a part, in order, up to `rows` at a time; raises `OSError` where they cannot be read."""
     try:
         with opened(path) as file:
-            yield from file.iter_batches(BATCH_ROWS, row_groups=row_groups, use_threads=False)
+            yield from _within(
+                part, file.iter_batches(rows, row_groups=range(part.first, part.last), use_threads=False)
+            )
     except (OSError, pa.ArrowException) as error:
         raise OSError(f"{path} cannot be read, {reason(error)}") from error
+
+
+def _within(part: Part, of_groups: Iterable[pa.RecordBatch]) -> Iterator[pa.RecordBatch]:
+    """What of the batches of its row groups belongs to a part."""
+    skip, left = part.skip, part.rows
+    for batch in of_groups:
+        mine = batch.slice(min(skip, batch.num_rows), left)
+        skip, left = max(skip - batch.num_rows, 0), left - mine.num_rows
+        if mine.num_rows:
+            yield mine
+        if not left:
+            return

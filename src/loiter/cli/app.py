@@ -149,7 +149,7 @@ app.command(
     "loiter.cli.batch:batch",
     help="""Plan the fastest entry of every row of a table: Parquet or CSV, any size.
 
-IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; and max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s. What no column gives, an option must.
+IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s; wind_speed_m_s and wind_from_deg; and orbit_velocity_east_m_s and orbit_velocity_north_m_s. What no column gives, an option must, but for the turn, the wind and the circle's velocity.
 
 OUT has the columns and the rows of IN, in their order, and then duration_s, word, turn (cw or ccw, in the place of that asked for), join_east_m, join_north_m, join_heading_deg, duration_1_s, duration_2_s, duration_3_s and status. A bad row gets nan, or an empty field, and a status other than ok; it stops nothing.
 

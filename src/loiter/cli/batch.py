@@ -17,7 +17,7 @@ from rich.text import Text
 import loiter
 from loiter.cli.numbers import whole
 from loiter.kernel.codes import Status
-from loiter.planning.model import Orbit, Turn
+from loiter.planning.model import Orbit, Turn, Wind
 
 if TYPE_CHECKING:
     from loiter.batch import Progress, Summary
@@ -49,9 +49,29 @@ def batch(
     turn_rate: Annotated[
         float | None, Parameter(group=shared, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
     ] = None,
+    wind: Annotated[
+        tuple[float, float] | None,
+        Parameter(
+            group=shared,
+            metavar="SPEED FROM",
+            help="Metres per second, and the compass direction the wind comes from; calm if absent.",
+        ),
+    ] = None,
+    orbit_velocity: Annotated[
+        tuple[float, float] | None,
+        Parameter(
+            group=shared,
+            metavar="EAST NORTH",
+            help="How the circle moves over the ground, metres per second; at rest if absent.",
+        ),
+    ] = None,
     tolerance: Annotated[
         float,
-        Parameter(group=work, metavar="METRES", help="As for loiter plan: by how much a start may miss the last arc."),
+        Parameter(
+            group=work,
+            metavar="METRES",
+            help="As for loiter plan: by how much a start may miss the last arc in still air.",
+        ),
     ] = 0.0,
     workers: Annotated[
         int | None,
@@ -76,6 +96,8 @@ def batch(
             orbit=None if orbit is None else Orbit(*orbit),
             turn=None if turn is None else Turn(turn),
             aircraft=given,
+            wind=None if wind is None else Wind(*wind),
+            orbit_velocity_m_s=orbit_velocity,
             tolerance_m=tolerance,
             workers=workers,
             scheduler=scheduler,

@@ -27,6 +27,8 @@ OPTIONS = {
     "orbit": "--orbit",
     "workers": "--workers",
     "scheduler": "--scheduler",
+    "wind": "--wind",
+    "orbit_velocity_m_s": "--orbit-velocity",
     "pose east_m": "--pose EAST",
     "pose north_m": "--pose NORTH",
     "pose heading_deg": "--pose HEADING",

@@ -54,6 +54,7 @@ class Status(IntEnum):
     WIND_TOO_STRONG = 10
     NOT_HELD = 11
     NOT_CONVERGED = 12
+    BAD_WIND = 13
 
     @property
     def message(self) -> str:
@@ -68,11 +69,12 @@ _MESSAGES = {
     Status.OUT_OF_RANGE: "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn",
     Status.BAD_TOLERANCE: "the tolerance must be zero or positive, and below 2**52 turn radii",
     Status.BAD_AIRCRAFT: "airspeed and turn limit must be positive, finite numbers, and a bank below 90 degrees",
-    Status.BAD_ORBIT: "the circle needs a finite centre and a positive, finite radius",
+    Status.BAD_ORBIT: "the circle needs a finite centre and velocity, and a positive, finite radius",
     Status.BAD_TURN: "the turn must be cw, ccw or either",
     Status.BAD_POSE: "east, north and heading must be finite numbers",
     Status.MALFORMED: "the line has more or fewer fields than the header, or is not UTF-8",
     Status.WIND_TOO_STRONG: "the wind relative to the circle is as fast as the aircraft: |w| must be below 1",
     Status.NOT_HELD: "the circle is too tight to be held in this wind: R must be at least (1 + |w|)**2",
     Status.NOT_CONVERGED: "no maneuver was found that ends on the circle when flown",
+    Status.BAD_WIND: "the wind needs a finite speed, zero or positive, and a finite direction",
 }

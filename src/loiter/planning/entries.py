@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, reduce
 from math import degrees, inf, nan
+from operator import and_
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -12,10 +13,14 @@ from loiter.kernel import motion
 from loiter.kernel.codes import Status, Word
 from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.synthesis import REACH, ROUNDING
+from loiter.planning import arrays
 from loiter.planning.compass import heading_vector, wrapped
-from loiter.planning.model import CONTROLS, radius_at_bank, radius_at_rate
+from loiter.planning.held import relative
+from loiter.planning.model import CONTROLS, radius_at_bank, radius_at_rate, wind_velocity
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
@@ -32,7 +37,8 @@ class States(NamedTuple):
     """Rows to solve: float64 arrays of one length n, or, but for the pose, one number where all rows share it.
 
     `side` holds `loiter.kernel.codes.Side` codes (int8), `UNKNOWN` among them. `limit` names what `turn_limit` is:
-    "max_bank_deg", "min_turn_radius_m" or "max_turn_rate_deg_s". What all rows share is taken as checked.
+    "max_bank_deg", "min_turn_radius_m" or "max_turn_rate_deg_s". The circle is where it is at the start. What all rows
+    share is taken as checked.
     """
 
     east_m: Floats
@@ -46,13 +52,17 @@ class States(NamedTuple):
     turn_limit: Floats | float
     limit: str
     tolerance_m: float = 0.0
+    wind_speed_m_s: Floats | float = 0.0
+    wind_from_deg: Floats | float = 0.0
+    orbit_velocity_east_m_s: Floats | float = 0.0
+    orbit_velocity_north_m_s: Floats | float = 0.0
 
 
 class Entries(NamedTuple):
     """The fastest entries, arrays of length n: nan and codes 0 where `status`, a `Status`, is not `OK`.
 
-    `word` holds `Word`, `side` `Side` codes (int8). The point of joining lies on the circle, its heading in [0, 360); a
-    piece that is not flown lasts 0 s.
+    `word` holds `Word`, `side` `Side` codes (int8). The point of joining lies on the circle as it is then, its heading
+    in [0, 360); a piece that is not flown lasts 0 s.
     """
 
     duration_s: Floats
@@ -67,23 +77,37 @@ class Entries(NamedTuple):
     status: Codes
 
 
-def entries(states: States) -> Entries:
-    """The fastest entry of each row, as `plan` gives it; the first call loads the kernel, which may take seconds."""
+def entries(states: States, *, compiled: bool | None = None) -> Entries:
+    """The fastest entry of each row, as `plan` gives it; the first call loads the kernel, which may take seconds.
+
+    `compiled` says whether rows in wind are solved by compiled code, which differs by rounding; their number if None.
+    """
     n = len(states.east_m)
-    columns: list[Any] = [np.empty(n, dtype=np.int8 if name in _CODES else np.float64) for name in Entries._fields]
+    found: list[Any] = [np.empty(n, dtype=np.int8 if name in _CODES else np.float64) for name in Entries._fields]
     with np.errstate(all="ignore"):
         for start in range(0, n, BLOCK):
-            rows = slice(start, start + BLOCK)
-            block: list[Any] = [value[rows] if isinstance(value, np.ndarray) else value for value in states]
-            for column, values in zip(columns, _solved(States(*block)), strict=True):
-                column[rows] = values
-    return Entries(*columns)
+            _solve(states, slice(start, start + BLOCK), _in_still_air, found)
+        windy = _windy(states)
+        if windy.size:
+            solve_rows = arrays.rows_in_wind(windy.size >= arrays.COMPILED_FROM if compiled is None else compiled)
+            _solve(states, windy, lambda rows: _in_wind(rows, solve_rows), found)
+    return Entries(*found)
 
 
-def compile_kernel() -> None:
+def compile_kernel(*, in_wind: bool = False) -> None:
     """Load and compile what `entries` needs, so that it does not happen in the midst of the work."""
     one = np.zeros(1)
-    entries(States(one, one, one, 0.0, 0.0, 1.0, 0, 1.0, 1.0, "min_turn_radius_m"))
+    calm = States(one, one, one, 0.0, 0.0, 1.0, 0, 1.0, 1.0, "min_turn_radius_m")
+    entries(calm)
+    if in_wind:
+        entries(calm._replace(orbit_radius_m=2.0, wind_speed_m_s=0.1), compiled=True)
+
+
+def _solve(states: States, rows: Any, solve: Callable[[States], Entries], found: list[Any]) -> None:
+    """Put the entries of some rows, a slice or their numbers, in their places."""
+    some: list[Any] = [value[rows] if isinstance(value, np.ndarray) else value for value in states]
+    for column, values in zip(found, solve(States(*some)), strict=True):
+        column[rows] = values
 
 
 _CODES = {"word", "side", "status"}
@@ -95,7 +119,8 @@ for _word in Word:
         _CONTROLS[_piece, _word] = CONTROLS[_letter]
 
 
-def _solved(s: States) -> Entries:
+def _in_still_air(s: States) -> Entries:
+    """The entries of rows whose circle the air does not pass; of others, which are then solved anew, anything."""
     r = _turn_radius(s)
     refused = _refused(s, r)
     east, north = s.east_m - s.orbit_east_m, s.north_m - s.orbit_north_m
@@ -108,26 +133,84 @@ def _solved(s: States) -> Entries:
     time, word, durations, status, side, _ = _kernel(x, y, R, s.side, _tolerance(s, r))
     if status.any():
         status = _explained(s, status, refused)
-    first, second, third = durations.T
-    turned = sum(u.take(word) * t for u, t in zip(_CONTROLS, (first, second, third), strict=True))
-    # A heading is counted clockwise, a control counter-clockwise. A large heading, not reduced, would swallow the turn.
-    heading: Any = wrapped(np.fmod(s.heading_deg, 360.0) - turned * degrees(1.0))
+    seconds = r / s.airspeed_m_s
+    time_s, (first_s, second_s, third_s) = time * seconds, durations.T * seconds
+    heading = _joining_heading(s, word, durations)
     c, v = _heading_vectors()(heading)
     # Clockwise the centre is to the right: the aircraft joins a radius to the left of it, along (-v, c).
     left = side * s.orbit_radius_m
-    seconds = r / s.airspeed_m_s
+    east, north = _centre_after(s, time_s)
     return Entries(
-        time * seconds,
+        time_s,
         word,
         side,
-        s.orbit_east_m - left * v,
-        s.orbit_north_m + left * c,
+        east - left * v,
+        north + left * c,
         heading,
-        first * seconds,
-        second * seconds,
-        third * seconds,
+        first_s,
+        second_s,
+        third_s,
         status,
     )
+
+
+def _in_wind(s: States, solve_rows: Function) -> Entries:
+    """The entries of rows whose circle the air passes; `solve_rows` is one of `arrays.rows_in_wind`."""
+    r = _turn_radius(s)
+    refused = _refused(s, r)
+    x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
+    scenes = np.empty((len(s.east_m), 8))
+    columns = np.where(refused, nan, x), y, *_heading_vectors()(s.heading_deg), s.orbit_radius_m / r, s.side
+    for i, column in enumerate((*columns, *_air_past(s))):
+        scenes[:, i] = column
+    answers = np.empty_like(scenes)
+    solve_rows(scenes, answers)
+    status, side, word = (answers[:, i].astype(np.int8) for i in range(3))
+    durations, azimuth = answers[:, 3:6], answers[:, 6]
+    seconds = r / s.airspeed_m_s
+    time_s, (first_s, second_s, third_s) = durations.sum(axis=1) * seconds, durations.T * seconds
+    east, north = _centre_after(s, time_s)
+    return Entries(
+        time_s,
+        word,
+        side,
+        east + s.orbit_radius_m * np.cos(azimuth),
+        north + s.orbit_radius_m * np.sin(azimuth),
+        _joining_heading(s, word, durations),
+        first_s,
+        second_s,
+        third_s,
+        _explained(s, status, refused),
+    )
+
+
+def _windy(s: States) -> NDArray[np.intp]:
+    """The numbers of the rows whose circle the air passes."""
+    if not any(np.ndim(v) or v for v in (s.wind_speed_m_s, s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)):
+        return np.empty(0, dtype=np.intp)
+    wx, wy = _air_past(s)
+    return np.flatnonzero(np.broadcast_to((wx != 0.0) | (wy != 0.0), s.east_m.shape))
+
+
+def _air_past(s: States) -> Any:
+    """As `held.air_past`."""
+    velocity = rebound(wind_velocity, {"heading_vector": _heading_vectors()})
+    air, circle = velocity(s.wind_speed_m_s, s.wind_from_deg), (s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)
+    return rebound(relative, {"hypot": np.hypot})(air, circle, s.airspeed_m_s)
+
+
+def _joining_heading(s: States, word: Any, durations: Any) -> Any:
+    turned = sum(u.take(word) * t for u, t in zip(_CONTROLS, durations.T, strict=True))
+    # A heading is counted clockwise, a control counter-clockwise. A large heading, not reduced, would swallow the turn.
+    return wrapped(np.fmod(s.heading_deg, 360.0) - turned * degrees(1.0))
+
+
+def _centre_after(s: States, time_s: Any) -> tuple[Any, Any]:
+    """Where the circle's centre is when it is joined."""
+    if not any(np.ndim(v) or v for v in (s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)):
+        return s.orbit_east_m, s.orbit_north_m
+    east_m, north_m = s.orbit_velocity_east_m_s * time_s, s.orbit_velocity_north_m_s * time_s
+    return s.orbit_east_m + east_m, s.orbit_north_m + north_m
 
 
 def _kernel(x: Any, y: Any, R: Any, side: Any, tolerance: Any) -> tuple[Any, ...]:
@@ -174,9 +257,13 @@ def _refused(s: States, r: Any) -> Any:
     refused: Any = np.where(_positive(REACH * r / s.airspeed_m_s), 0, Status.OUT_OF_RANGE)
     if isinstance(s.side, np.ndarray):
         refused = np.where(s.side == UNKNOWN, Status.BAD_TURN, refused)
-    if any(isinstance(v, np.ndarray) for v in (s.orbit_east_m, s.orbit_north_m, s.orbit_radius_m)):
-        held = np.isfinite(s.orbit_east_m) & np.isfinite(s.orbit_north_m) & _positive(s.orbit_radius_m)
+    circle = s.orbit_east_m, s.orbit_north_m, s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s
+    if any(isinstance(v, np.ndarray) for v in (*circle, s.orbit_radius_m)):
+        held = reduce(and_, map(np.isfinite, circle)) & _positive(s.orbit_radius_m)
         refused = np.where(held, refused, Status.BAD_ORBIT)
+    if any(isinstance(v, np.ndarray) for v in (s.wind_speed_m_s, s.wind_from_deg)):
+        blows = np.isfinite(s.wind_speed_m_s) & np.isfinite(s.wind_from_deg) & np.greater_equal(s.wind_speed_m_s, 0.0)
+        refused = np.where(blows, refused, Status.BAD_WIND)
     if any(isinstance(v, np.ndarray) for v in (s.airspeed_m_s, s.turn_limit)):
         banked = np.less(s.turn_limit, 90.0) if s.limit == "max_bank_deg" else True
         flies = _positive(s.airspeed_m_s) & _positive(s.turn_limit) & _positive(r) & banked

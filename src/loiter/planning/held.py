@@ -14,10 +14,15 @@ SIDES = {Turn.CW: Side.CW, Turn.CCW: Side.CCW, Turn.EITHER: Side.EITHER}
 
 def air_past(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> tuple[float, float]:
     """The velocity of the air past the circle over the airspeed, east and north; none where rounding alone is left."""
-    V, (east, north) = aircraft.airspeed_m_s, wind.velocity_m_s
-    wx, wy = east - orbit.velocity_east_m_s, north - orbit.velocity_north_m_s
-    alike = ROUNDING * (wind.speed_m_s + hypot(orbit.velocity_east_m_s, orbit.velocity_north_m_s))
-    return (wx / V, wy / V) if hypot(wx, wy) > alike else (0.0, 0.0)
+    return relative(wind.velocity_m_s, (orbit.velocity_east_m_s, orbit.velocity_north_m_s), aircraft.airspeed_m_s)
+
+
+def relative(air: tuple[float, float], circle: tuple[float, float], airspeed: float) -> tuple[float, float]:
+    """The velocity of the air less that of the circle, over the airspeed; free of branches, so as to serve arrays."""
+    wx, wy = air[0] - circle[0], air[1] - circle[1]
+    passes = hypot(wx, wy) > ROUNDING * (hypot(*air) + hypot(*circle))
+    # To 0.0, so that no component is -0.0.
+    return wx * passes / airspeed + 0.0, wy * passes / airspeed + 0.0
 
 
 def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:

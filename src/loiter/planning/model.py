@@ -30,6 +30,13 @@ def radius_at_rate(airspeed_m_s: float, turn_rate_deg_s: float) -> float:
     return airspeed_m_s / radians(turn_rate_deg_s)
 
 
+def wind_velocity(speed_m_s: float, from_deg: float) -> tuple[float, float]:
+    """How the air of a wind moves over the ground: metres per second towards the east and the north."""
+    east, north = heading_vector(from_deg)
+    # From 0.0, so that no component is -0.0.
+    return 0.0 - speed_m_s * east, 0.0 - speed_m_s * north
+
+
 class Turn(StrEnum):
     """Which way round the circle is held, as seen from above."""
 
@@ -165,9 +172,7 @@ class Wind:
     @property
     def velocity_m_s(self) -> tuple[float, float]:
         """How the air moves over the ground: metres per second towards the east and the north."""
-        east, north = heading_vector(self.from_deg)
-        # From 0.0, so that no component is -0.0.
-        return 0.0 - self.speed_m_s * east, 0.0 - self.speed_m_s * north
+        return wind_velocity(self.speed_m_s, self.from_deg)
 
 
 CALM = Wind(0.0, 0.0)
