@@ -16,8 +16,8 @@ from loiter.kernel import ufuncs
 from loiter.kernel.codes import Side
 from loiter.verify import met
 
-COUNT = 1_000_000
-ROUNDS = 9
+COUNT = 4_000_000
+ROUNDS = 7
 CORES = os.cpu_count() or 1
 
 # The states of the paper's figures, where every word occurs, and starts mostly far off, which are RSL.

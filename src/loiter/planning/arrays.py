@@ -295,12 +295,15 @@ def _shared(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[Any
     if count == 1 or not shape or shape[axis] < count:
         work(*arrays, out=out)
         return
-    views = [np.broadcast_to(a, shape) for a in arrays]
+    # What is one number stays one: the loops are faster for it.
+    views = [np.broadcast_to(a, shape) if np.ndim(a) else a for a in arrays]
     # Several slices a thread, so that one which is held up leaves work to the others.
-    edges = np.linspace(0, shape[axis], min(8 * count, shape[axis]) + 1).astype(int)
+    edges = np.linspace(0, shape[axis], min(4 * count, shape[axis]) + 1).astype(int)
     slices = [(*[slice(None)] * axis, slice(start, end)) for start, end in pairwise(edges)]
     with ThreadPoolExecutor(count) as pool:
-        tasks = [pool.submit(work, *(v[s] for v in views), out=tuple(o[s] for o in out)) for s in slices]
+        tasks = [
+            pool.submit(work, *(v[s] if np.ndim(v) else v for v in views), out=tuple(o[s] for o in out)) for s in slices
+        ]
     for task in tasks:
         task.result()
 
