@@ -91,8 +91,9 @@ def draw(rows: Sequence[Row], runs: Sequence[Run], path: Path) -> None:
     for name, row in shown.items():
         ours = name.startswith("loiter")
         left.loglog(row.seconds, max(row.mean, 1e-17), "o" if ours else "s", color="C0" if ours else "0.5")
-        below = "NumPy" in name
-        place = {"xytext": (6, -11 if below else 5), "textcoords": "offset points", "fontsize": 8}
+        # The three that are exact stand side by side: their names one above the other.
+        height = 20 if ours else -11 if "NumPy" in name else 5
+        place = {"xytext": (0 if ours else 6, height), "textcoords": "offset points", "fontsize": 8}
         left.annotate(name, (row.seconds, max(row.mean, 1e-17)), **place)
     left.set(xlabel="seconds a state", ylabel="mean error of T", title="R = 1, either way")
     left.set_xlim(left.get_xlim()[0], left.get_xlim()[1] * 100.0)
