@@ -223,7 +223,11 @@ def detour(x: float, y: float, R: float, slack: float, outer: float, inner: floa
 
 
 def fastest(x: float, y: float, R: float, slack: float, exact: bool) -> tuple[float, Extremal]:
-    """The least T and its extremal: of three words at most, one for each first turn and the detour."""
+    """The least T and its extremal: of three words at most, one for each first turn and the detour.
+
+    `exact` says that there is no tolerance. Then R = 1, y >= 0 takes no comparison, by the paper's section 6: the word
+    that begins with L wins where it is there and that arc is no longer than half a turn, up to the switching curve.
+    """
     outer, inner, fold = beyond(x, y, R, 2.0), beyond(x, y, R, -2.0), beyond(x, y, 2.0 - R, 2.0)
     right = right_first(x, y, R, slack, inner)
     left = left_first(x, y, R, slack, outer, fold)

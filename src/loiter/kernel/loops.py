@@ -228,6 +228,18 @@ def _sooner_ones(x, y, R, held, word, t1, t2, t3, asked, word_, t1_, t2_, t3_, f
 
 
 @_inlined
+def _solved(args, steps, start, count, x, y, R, tolerance, held, word, t1, t2, t3):
+    """Load a block of states and solve it, both sides of *either* where a tolerance asks for it."""
+    side, asked = _buffer(), _buffer()
+    word_, t1_, t2_, t3_ = _buffer(), _buffer(), _buffer(), _buffer()
+    _inputs(args, steps, start, count, x, y, R, side, tolerance)
+    for far in range(_passes(args, steps)):
+        _asked(y, side, tolerance, asked, far, count)
+        _optima(x, y, R, asked, tolerance, word_, t1_, t2_, t3_, count)
+        _sooner_ones(x, y, R, held, word, t1, t2, t3, asked, word_, t1_, t2_, t3_, far, count)
+
+
+@_inlined
 def _controls(x, y, R, tolerance, held, word, u, count):
     for i in range(count):
         first = _first_control(_held_radius(R[i]), (int(held[i]), int(word[i]), 0.0, 0.0, 0.0))
@@ -236,17 +248,11 @@ def _controls(x, y, R, tolerance, held, word, u, count):
 
 def control(args, dimensions, steps, data):
     """The first control of the optimum, or nan where the status is not OK."""
-    x, y, R, side, tolerance, asked = _buffer(), _buffer(), _buffer(), _buffer(), _buffer(), _buffer()
+    x, y, R, tolerance = _buffer(), _buffer(), _buffer(), _buffer()
     held, word, t1, t2, t3 = _buffer(), _buffer(), _buffer(), _buffer(), _buffer()
-    word_, t1_, t2_, t3_ = _buffer(), _buffer(), _buffer(), _buffer()
-    passes = _passes(args, steps)
     for start in range(0, dimensions[0], BLOCK):
         count = min(BLOCK, dimensions[0] - start)
-        _inputs(args, steps, start, count, x, y, R, side, tolerance)
-        for far in range(passes):
-            _asked(y, side, tolerance, asked, far, count)
-            _optima(x, y, R, asked, tolerance, word_, t1_, t2_, t3_, count)
-            _sooner_ones(x, y, R, held, word, t1, t2, t3, asked, word_, t1_, t2_, t3_, far, count)
+        _solved(args, steps, start, count, x, y, R, tolerance, held, word, t1, t2, t3)
         _controls(x, y, R, tolerance, held, word, t1, count)
         _store(t1, args[5], steps[5], start, count)
     _clear_flags(FLAGS)
@@ -274,18 +280,12 @@ def solve(args, dimensions, steps, data):
 
     After the strides of the twelve operands come those along that number, of the sixth operand and of the durations.
     """
-    x, y, R, side, tolerance, asked = _buffer(), _buffer(), _buffer(), _buffer(), _buffer(), _buffer()
+    x, y, R, tolerance = _buffer(), _buffer(), _buffer(), _buffer()
     held, word, t1, t2, t3 = _buffer(), _buffer(), _buffer(), _buffer(), _buffer()
-    word_, t1_, t2_, t3_ = _buffer(), _buffer(), _buffer(), _buffer()
     time, status, missed = _buffer(), _buffer(), _buffer()
-    passes = _passes(args, steps)
     for start in range(0, dimensions[0], BLOCK):
         count = min(BLOCK, dimensions[0] - start)
-        _inputs(args, steps, start, count, x, y, R, side, tolerance)
-        for far in range(passes):
-            _asked(y, side, tolerance, asked, far, count)
-            _optima(x, y, R, asked, tolerance, word_, t1_, t2_, t3_, count)
-            _sooner_ones(x, y, R, held, word, t1, t2, t3, asked, word_, t1_, t2_, t3_, far, count)
+        _solved(args, steps, start, count, x, y, R, tolerance, held, word, t1, t2, t3)
         _misses(x, y, R, held, word, t1, t2, t3, missed, count)
         _checked(x, y, R, tolerance, time, word, t1, t2, t3, held, missed, status, count)
         _store(time, args[6], steps[6], start, count)
