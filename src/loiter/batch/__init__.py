@@ -85,8 +85,9 @@ def plan(
 
 def _workers(workers: int | None, scheduler: str | None) -> int:
     if workers is None:
-        # The cores that this process may use, where the system tells.
-        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        from loiter.planning.arrays import cores
+
+        return cores()
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
         raise InvalidArgument("workers", f"is {workers!r}: it must be a whole number, at least 1")
     if scheduler is not None:

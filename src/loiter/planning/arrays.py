@@ -229,7 +229,7 @@ def reduce(
     r = aircraft.turn_radius_m
     east: Any = np.subtract(east_m, orbit.east_m, dtype=np.float64) / r
     north: Any = np.subtract(north_m, orbit.north_m, dtype=np.float64) / r
-    c, s = _heading_vectors()(np.multiply(heading_deg, 1.0, dtype=np.float64))
+    c, s = heading_vectors()(np.multiply(heading_deg, 1.0, dtype=np.float64))
     if any(map(_lazy, (east, north, c))):
         # Dask does not apply a ufunc of two results; the formula is arithmetic alone.
         return motion.reduce(east, north, c, s)
@@ -238,7 +238,8 @@ def reduce(
 
 
 @cache
-def _heading_vectors() -> Function:
+def heading_vectors() -> Function:
+    """`compass.heading_vector` for arrays."""
     arithmetic = {"sin": np.sin, "cos": np.cos, "radians": np.radians, "floor": np.floor, "fmod": np.fmod}
     return rebound(heading_vector, arithmetic)
 
@@ -311,10 +312,9 @@ def _shared(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[Any
 def _threads(workers: int) -> int:
     if not isinstance(workers, int) or workers == 0 or workers < -1:
         raise InvalidArgument("workers", f"is {workers!r}: it must be a whole number from 1, or -1 for one a core")
-    return (
-        workers
-        if workers > 0
-        else len(os.sched_getaffinity(0))
-        if hasattr(os, "sched_getaffinity")
-        else os.cpu_count() or 1
-    )
+    return workers if workers > 0 else cores()
+
+
+def cores() -> int:
+    """How many cores this process may use, where the system tells; else how many there are."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

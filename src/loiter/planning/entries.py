@@ -14,7 +14,7 @@ from loiter.kernel.codes import Status, Word
 from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.synthesis import REACH, ROUNDING
 from loiter.planning import arrays
-from loiter.planning.compass import heading_vector, wrapped
+from loiter.planning.compass import wrapped
 from loiter.planning.held import relative
 from loiter.planning.model import CONTROLS, radius_at_bank, radius_at_rate, wind_velocity
 
@@ -125,7 +125,7 @@ def _in_still_air(s: States) -> Entries:
     refused = _refused(s, r)
     east, north = s.east_m - s.orbit_east_m, s.north_m - s.orbit_north_m
     # The formula is arithmetic alone, so it takes arrays as they are.
-    reduced: Any = motion.reduce(east / r, north / r, *_heading_vectors()(s.heading_deg))
+    reduced: Any = motion.reduce(east / r, north / r, *arrays.heading_vectors()(s.heading_deg))
     x, y = reduced
     R = s.orbit_radius_m / r
     if np.any(refused):
@@ -136,7 +136,7 @@ def _in_still_air(s: States) -> Entries:
     seconds = r / s.airspeed_m_s
     time_s, (first_s, second_s, third_s) = time * seconds, durations.T * seconds
     heading = _joining_heading(s, word, durations)
-    c, v = _heading_vectors()(heading)
+    c, v = arrays.heading_vectors()(heading)
     # Clockwise the centre is to the right: the aircraft joins a radius to the left of it, along (-v, c).
     left = side * s.orbit_radius_m
     east, north = _centre_after(s, time_s)
@@ -160,7 +160,7 @@ def _in_wind(s: States, solve_rows: Function) -> Entries:
     refused = _refused(s, r)
     x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
     scenes = np.empty((len(s.east_m), 8))
-    columns = np.where(refused, nan, x), y, *_heading_vectors()(s.heading_deg), s.orbit_radius_m / r, s.side
+    columns = np.where(refused, nan, x), y, *arrays.heading_vectors()(s.heading_deg), s.orbit_radius_m / r, s.side
     for i, column in enumerate((*columns, *_air_past(s))):
         scenes[:, i] = column
     answers = np.empty_like(scenes)
@@ -194,7 +194,7 @@ def _windy(s: States) -> NDArray[np.intp]:
 
 def _air_past(s: States) -> Any:
     """As `held.air_past`."""
-    velocity = rebound(wind_velocity, {"heading_vector": _heading_vectors()})
+    velocity = rebound(wind_velocity, {"heading_vector": arrays.heading_vectors()})
     air, circle = velocity(s.wind_speed_m_s, s.wind_from_deg), (s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)
     return rebound(relative, {"hypot": np.hypot})(air, circle, s.airspeed_m_s)
 
@@ -229,12 +229,6 @@ def _turn_radius(s: States) -> Any:
 def _radius(limit: str) -> Function:
     formula = {"max_bank_deg": radius_at_bank, "max_turn_rate_deg_s": radius_at_rate}[limit]
     return rebound(formula, {"tan": np.tan, "radians": np.radians})
-
-
-@cache
-def _heading_vectors() -> Function:
-    arithmetic = {"sin": np.sin, "cos": np.cos, "radians": np.radians, "floor": np.floor, "fmod": np.fmod}
-    return rebound(heading_vector, arithmetic)
 
 
 def _tolerance(s: States, r: Any) -> Any:
