@@ -1,39 +1,17 @@
 """`loiter plan --wind --orbit-velocity`: its tables, its JSON, its sentences."""
 
-import json
 import re
-import shlex
 from math import atan2, cos, degrees, hypot, radians, sin
 
 import pytest
 
 import loiter
-from loiter.cli.app import main
 
 UAV = "--airspeed 18 --bank 35"
 FIXED = f"--pose -400 120 90 --orbit 0 0 120 {UAV} --wind 8 250"
 MOVING = f"--pose -400 120 90 --orbit 0 0 120 {UAV} --orbit-velocity 5 -3"
 BOTH = f"--pose 30 20 200 --orbit -10 5 160 {UAV} --wind 6 20 --orbit-velocity -4 2"
 each_scene = pytest.mark.parametrize("options", [FIXED, MOVING, BOTH], ids=["wind", "moving", "both"])
-
-
-@pytest.fixture
-def shown(capsys, monkeypatch):
-    """Runs `loiter plan` with options, which must succeed; gives what it prints."""
-    monkeypatch.setenv("COLUMNS", "100")
-
-    def run(options):
-        status = main(["plan", *shlex.split(options)])
-        out, err = capsys.readouterr()
-        assert (status, err) == (0, "")
-        return out
-
-    return run
-
-
-@pytest.fixture
-def planned(shown):
-    return lambda options: json.loads(shown(f"{options} --json"))
 
 
 def vectors(options):
@@ -91,7 +69,7 @@ def test_still_air_can_be_said(planned):
 
 @each_scene
 def test_the_table_shows_tracks_and_ground_speeds(shown, planned, options):
-    answer, text = planned(options), shown(options)
+    answer, text = planned(options), shown(f"plan {options}")
     wind, velocity, centre = vectors(options)
     rows = [re.split(r"\s{2,}", line.strip()) for line in text.splitlines() if line.endswith("m/s")]
     poses = [(s["start_s"], s["start"]) for s in answer["segments"]] + [(answer["duration_s"], answer["join"])]
@@ -107,7 +85,7 @@ def test_the_table_shows_tracks_and_ground_speeds(shown, planned, options):
 @each_scene
 def test_where_to_peel_off_over_the_ground(shown, planned, options):
     last = planned(options)["segments"][-1]["start"]
-    place = re.search(r"^Peel off: .*, at (\S+) m east, (\S+) m north\.$", shown(options), re.MULTILINE)
+    place = re.search(r"^Peel off: .*, at (\S+) m east, (\S+) m north\.$", shown(f"plan {options}"), re.MULTILINE)
     assert [float(value) for value in place.groups()] == pytest.approx([last["east_m"], last["north_m"]], abs=0.06)
 
 
@@ -120,32 +98,34 @@ def test_where_to_peel_off_over_the_ground(shown, planned, options):
     ],
 )
 def test_the_first_line_tells_wind_and_movement(shown, options, line):
-    assert shown(options).splitlines()[0] == line
+    assert shown(f"plan {options}").splitlines()[0] == line
 
 
 @each_scene
 def test_the_bank_on_the_circle(shown, planned, options):
     circle = planned(options)["hold"]
-    told = re.search(r"^Bank on the circle: (\S+) to (\S+) deg, most at azimuth (\d+) deg\.$", shown(options), re.M)
+    told = re.search(
+        r"^Bank on the circle: (\S+) to (\S+) deg, most at azimuth (\d+) deg\.$", shown(f"plan {options}"), re.M
+    )
     wanted = [circle["least_bank_deg"], circle["largest_bank_deg"], circle["largest_bank_azimuth_deg"]]
     assert [float(value) for value in told.groups()] == pytest.approx(wanted, abs=0.51)
 
 
 def test_a_circle_that_moves_with_the_air_is_held_with_one_bank(shown):
     options = f"--pose -400 120 90 --orbit 0 0 120 {UAV} --wind 8 270 --orbit-velocity 8 0"
-    assert "Bank on the circle: 15.4 deg." in shown(options).splitlines()
+    assert "Bank on the circle: 15.4 deg." in shown(f"plan {options}").splitlines()
 
 
 @pytest.mark.parametrize("options", [MOVING, BOTH])
 def test_where_the_centre_is_when_the_circle_is_joined(shown, planned, options):
-    there, text = planned(options)["join_over_ground"], shown(options)
+    there, text = planned(options)["join_over_ground"], shown(f"plan {options}")
     told = re.search(r"^When it is joined the circle's centre is at (\S+) m east, (\S+) m north\.$", text, re.M)
     wanted = [there["centre_east_m"], there["centre_north_m"]]
     assert [float(value) for value in told.groups()] == pytest.approx(wanted, abs=0.06)
 
 
 def test_directions_that_tie_take_the_same_time(shown):
-    text = shown(f"--pose -400 0 90 --orbit 0 0 120 {UAV} --wind 8 270")
+    text = shown(f"plan --pose -400 0 90 --orbit 0 0 120 {UAV} --wind 8 270")
     assert "2 maneuvers are optimal; --all shows each." in text
     assert "takes the same time." in text
 
@@ -155,22 +135,22 @@ def test_the_other_direction_is_told_in_wind(shown, planned, turn):
     answer = planned(f"{FIXED} --turn {turn}")
     assert answer["turn"] == turn
     assert ("ccw" if turn == "cw" else "cw") in {m["turn"] for m in answer["alternatives"]}
-    assert re.search(r"would join \S+ s (later|sooner)\.$", shown(f"{FIXED} --turn {turn}"), re.M)
+    assert re.search(r"would join \S+ s (later|sooner)\.$", shown(f"plan {FIXED} --turn {turn}"), re.M)
 
 
 def test_on_the_circle_there_is_nothing_to_fly_but_the_hold(shown):
     heading = loiter.hold(loiter.Orbit(0.0, 0.0, 120.0, "cw"), loiter.Aircraft(18.0, 35.0), loiter.Wind(8.0, 250.0))
-    text = shown(f"--pose 120 0 {heading.at(90.0).heading_deg!r} --orbit 0 0 120 {UAV} --wind 8 250")
+    text = shown(f"plan --pose 120 0 {heading.at(90.0).heading_deg!r} --orbit 0 0 120 {UAV} --wind 8 250")
     assert "On the circle already, clockwise: nothing to fly." in text
     assert "Bank on the circle: 4.9 to 29.9 deg" in text
 
 
 @each_scene
 def test_a_certificate_comes_with_it(shown, options):
-    assert "transversality  p.(e + w) + u h k (lambda - p.e) = 0 at T (5)" in shown(f"{options} --certify")
+    assert "transversality  p.(e + w) + u h k (lambda - p.e) = 0 at T (5)" in shown(f"plan {options} --certify")
 
 
 def test_a_picture_is_written(shown, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    shown(f"{BOTH} --plot entry.svg")
+    shown(f"plan {BOTH} --plot entry.svg")
     assert "<svg" in (tmp_path / "entry.svg").read_text("utf-8")

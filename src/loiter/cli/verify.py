@@ -1,4 +1,4 @@
-"""`loiter verify`: the answers beside four independent witnesses."""
+"""`loiter verify`: the answers beside independent witnesses, four in still air and one in wind."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Annotated, Any, Literal, NamedTuple
