@@ -1,0 +1,1 @@
+"""WGS84 latitude and longitude to local metres and back, and the air at an altitude."""

@@ -1,0 +1,1 @@
+"""A maneuver as files for maps, ground stations and autopilots; parameter files of autopilots read."""

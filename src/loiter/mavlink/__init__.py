@@ -1,0 +1,1 @@
+"""Missions over a MAVLink connection: sent, read back, watched."""
