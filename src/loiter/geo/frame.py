@@ -1,0 +1,127 @@
+"""WGS84 latitude and longitude to local metres and back, about a point: an azimuthal equidistant plane.
+
+The place at distance d along the geodesic of azimuth a from the origin has east = d sin(a), north = d cos(a). Distances
+from the origin are true; across, the plane stretches by c / sin(c) = 1 + c^2 / 6, with c the distance over the Earth's
+radius. Geodesics by pyproj (C. F. F. Karney, Algorithms for geodesics, J. Geodesy 87, 2013).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from loiter.errors import InvalidArgument, OutOfRange, number
+from loiter.planning.model import Pose
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import ArrayLike, NDArray
+
+# Here the plane stretches by 4.1e-5 across: a flight all the way in is off by less than 4 m, no more than what satellite
+# navigation is, and headings by less than 0.002 degrees.
+REACH_M = 100_000.0
+
+
+@dataclass(frozen=True, slots=True)
+class LocalFrame:
+    """A plane of metres east and north of an origin on the WGS84 ellipsoid, good within 100 km of it.
+
+    Take the circle's centre as the origin. Longitudes may be counted from -180 or from 0. Raises `InvalidArgument` for
+    a latitude that is not between -90 and 90 degrees and for values that are not finite.
+
+    >>> from loiter.geo import LocalFrame
+    >>> frame = LocalFrame(47.0, 8.0)
+    >>> east_m, north_m = frame.to_local(47.01, 8.0)
+    >>> round(float(north_m), 3)
+    1111.709
+    """
+
+    latitude_deg: float
+    longitude_deg: float
+
+    def __post_init__(self) -> None:
+        place = checked_place("origin", self.latitude_deg, self.longitude_deg)
+        object.__setattr__(self, "latitude_deg", place[0])
+        object.__setattr__(self, "longitude_deg", place[1])
+
+    def to_local(self, latitude_deg: ArrayLike, longitude_deg: ArrayLike) -> tuple[NDArray[float64], NDArray[float64]]:
+        """East and north, metres, of places in degrees; they broadcast. nan beyond 100 km and for what is no place."""
+        east, north, _ = self._rays(latitude_deg, longitude_deg)
+        return east, north
+
+    def to_geodetic(self, east_m: ArrayLike, north_m: ArrayLike) -> tuple[NDArray[float64], NDArray[float64]]:
+        """Latitude and longitude, degrees, of places in metres; they broadcast. nan beyond 100 km.
+
+        Longitudes are in [-180, 180].
+        """
+        import numpy as np
+
+        east, north = np.broadcast_arrays(np.asarray(east_m, float), np.asarray(north_m, float))
+        distance = np.hypot(east, north)
+        near = distance <= REACH_M
+        here = np.where(near, distance, 0.0)
+        azimuth = np.degrees(np.arctan2(np.where(near, east, 0.0), np.where(near, north, 0.0)))
+        lat0, lon0 = np.full_like(here, self.latitude_deg), np.full_like(here, self.longitude_deg)
+        longitude, latitude, _ = _geod().fwd(lon0, lat0, azimuth, here)
+        return np.where(near, latitude, np.nan), np.where(near, longitude, np.nan)
+
+    def convergence_deg(self, latitude_deg: ArrayLike, longitude_deg: ArrayLike) -> NDArray[float64]:
+        """What to add to a true heading at places in degrees to have it from the plane's north: degrees; they broadcast.
+
+        The meridians of two places are not parallel: 20 km east at a latitude of 60 degrees makes 0.3 degrees.
+        """
+        return self._rays(latitude_deg, longitude_deg)[2]
+
+    def pose(self, latitude_deg: float, longitude_deg: float, heading_deg: float) -> Pose:
+        """A pose from WGS84 degrees and a true heading.
+
+        Raises `InvalidArgument` for what is no place, `OutOfRange` for one more than 100 km from the origin.
+        """
+        lat, lon = checked_place("pose", latitude_deg, longitude_deg)
+        heading = number("pose heading_deg", heading_deg, "degrees")
+        east, north, convergence = (float(value) for value in self._rays(lat, lon))
+        if east != east:
+            raise OutOfRange(
+                f"the pose {lat:g} {lon:g} is more than {REACH_M / 1000.0:g} km from the origin "
+                f"{self.latitude_deg:g} {self.longitude_deg:g}: the plane is no good model of the Earth there"
+            )
+        return Pose(east, north, heading % 360.0 + convergence)
+
+    def _rays(self, latitude_deg: Any, longitude_deg: Any) -> tuple[NDArray[float64], ...]:
+        """East, north and convergence of places; nan where there is none within reach."""
+        import numpy as np
+
+        places = np.broadcast_arrays(np.asarray(latitude_deg, float), np.asarray(longitude_deg, float))
+        good = (np.abs(places[0]) <= 90.0) & np.isfinite(places[1])
+        lat, lon = np.where(good, places[0], self.latitude_deg), np.where(good, places[1], self.longitude_deg)
+        lat0, lon0 = np.full_like(lat, self.latitude_deg), np.full_like(lon, self.longitude_deg)
+        out, back, distance = _geod().inv(lon0, lat0, lon, lat)
+        angle = np.radians(out)
+        good &= distance <= REACH_M
+        # The geodesic arrives with the azimuth back + 180 and is, in the plane, straight.
+        convergence = (out - back) % 360.0 - 180.0
+        return tuple(
+            np.where(good, column, np.nan)
+            for column in (distance * np.sin(angle), distance * np.cos(angle), convergence)
+        )
+
+
+def checked_place(argument: str, latitude_deg: object, longitude_deg: object) -> tuple[float, float]:
+    """Latitude and longitude as floats; raises `InvalidArgument` for what is no place on Earth."""
+    lat = number(f"{argument} latitude_deg", latitude_deg, "degrees")
+    lon = number(f"{argument} longitude_deg", longitude_deg, "degrees")
+    if abs(lat) > 90.0:
+        raise InvalidArgument(f"{argument} latitude_deg", f"is {latitude_deg}: it must be between -90 and 90 degrees")
+    if abs(lon) > 360.0:
+        raise InvalidArgument(
+            f"{argument} longitude_deg", f"is {longitude_deg}: it must be between -360 and 360 degrees"
+        )
+    return lat, lon
+
+
+@cache
+def _geod() -> Any:
+    from pyproj import Geod
+
+    return Geod(ellps="WGS84")
