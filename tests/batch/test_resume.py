@@ -186,7 +186,7 @@ def touched_input():
 
 
 def other_program(monkeypatch):
-    monkeypatch.setattr(loiter, "__version__", "9.9.9")
+    monkeypatch.setattr(job, "__version__", "9.9.9")
 
 
 STALE = {

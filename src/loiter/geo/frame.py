@@ -131,6 +131,12 @@ class LocalFrame:
         )
 
 
+def degrees_of(latitude_deg: float, longitude_deg: float) -> str:
+    """A place as people write it, to a decimetre: "47.110000 N 8.230000 E"."""
+    north, east = "N" if latitude_deg >= 0.0 else "S", "E" if longitude_deg >= 0.0 else "W"
+    return f"{abs(latitude_deg):.6f} {north} {abs(longitude_deg):.6f} {east}"
+
+
 def checked_place(argument: str, latitude_deg: object, longitude_deg: object) -> tuple[float, float]:
     """Latitude and longitude as floats; raises `InvalidArgument` for what is no place on Earth."""
     lat = number(f"{argument} latitude_deg", latitude_deg, "degrees")
