@@ -16,7 +16,7 @@ import pytest
 
 import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, write
-from loiter.batch import folder, parts, tables
+from loiter.batch import folder, job, parts, tables
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, Unfinished
 
