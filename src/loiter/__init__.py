@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from loiter import io as io
     from loiter import mavlink as mavlink
     from loiter import verify as verify
+    from loiter import web as web
     from loiter.planning.arrays import control, min_time, min_time_in_wind, reduce, solve, solve_in_wind
 
 __all__ = [
@@ -51,6 +52,6 @@ def __getattr__(name: str) -> Any:
         from loiter.planning import arrays
 
         return getattr(arrays, name)
-    if name in {"batch", "geo", "guidance", "io", "mavlink", "verify"}:
+    if name in {"batch", "geo", "guidance", "io", "mavlink", "verify", "web"}:
         return import_module(f"loiter.{name}")
     raise AttributeError(f"module 'loiter' has no attribute {name!r}")

@@ -71,6 +71,10 @@ app.command(
     "loiter.cli.verify:verify",
     help="Compare plans with independent witnesses: search, 50 digits, collocation, reachability.",
 )
+app.command(
+    "loiter.cli.serve:serve",
+    help="Serve the page, where one drags the aircraft and sees the plan, and plans to programs, over HTTP.",
+)
 
 
 @app.command

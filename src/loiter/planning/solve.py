@@ -1,6 +1,7 @@
 """Plans: the optimum, every optimum, every extremal."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from loiter.errors import NotConverged
 from loiter.kernel import drift
@@ -8,7 +9,7 @@ from loiter.kernel.codes import Status
 from loiter.kernel.synthesis import Flown, miss, optima, optimum, ranked
 from loiter.planning.held import air_past
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.scaling import Scene, drifting, maneuver, normalised
 
 
@@ -66,6 +67,16 @@ def candidates(
     all round tell them apart.
     """
     return _solved(pose, orbit, aircraft, wind, tolerance_m, ranked, drift.ranked)
+
+
+def compared(
+    pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, tolerance_m: float = 0.0
+) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
+    """What `plan_all` gives, and beside it every other of `candidates`, those of the other direction too. As `plan`."""
+    either = replace(orbit, turn=Turn.EITHER)
+    known = candidates(pose, either, aircraft, wind, tolerance_m=tolerance_m)
+    best = plan_all(pose, orbit, aircraft, wind, tolerance_m=tolerance_m)
+    return best, tuple(m for m in known if not any(m.turn == b.turn and m.segments == b.segments for b in best))
 
 
 def _solved(

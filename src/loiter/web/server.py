@@ -1,0 +1,82 @@
+"""The server around the application: where it listens, how it ends."""
+
+from __future__ import annotations
+
+import signal
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from ipaddress import ip_address
+from urllib.parse import urlsplit
+
+import uvicorn
+
+from loiter.errors import InvalidArgument
+from loiter.web.app import create_app
+
+# Seconds that answers under way have when the server is told to end.
+FAREWELL_S = 3
+
+
+def serve(host: str, port: int, cors: str | None, announce: Callable[[str], object]) -> None:
+    """What `loiter.web.serve` documents."""
+    if cors is not None:
+        _check_origin(cors)
+    with _listening(host, port) as listener, _ending_alike(), suppress(KeyboardInterrupt):
+        app = create_app(cors)
+        config = uvicorn.Config(
+            app,
+            loop="asyncio",
+            http="h11",
+            ws="none",
+            lifespan="off",
+            proxy_headers=False,
+            server_header=False,
+            access_log=False,
+            log_config=None,
+            log_level="error",
+            timeout_graceful_shutdown=FAREWELL_S,
+        )
+        for line in _addresses(listener):
+            announce(line)
+        uvicorn.Server(config).run(sockets=[listener])
+
+
+@contextmanager
+def _listening(host: str, port: int) -> Iterator[socket.socket]:
+    """A socket that listens; raises `InvalidArgument` where that cannot be."""
+    if not 0 <= port <= 65535:
+        raise InvalidArgument("port", f"is {port}: it must be a whole number from 0 to 65535")
+    try:
+        family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+    except (OSError, UnicodeError) as error:
+        raise InvalidArgument("host", f"is {host!r}: it is no address of this machine") from error
+    try:
+        listener = socket.create_server(address[:2], family=family, backlog=2048)
+    except OSError as error:
+        raise InvalidArgument("port", f"is {port}: {host} cannot be used, {error.strerror}") from error
+    with listener:
+        yield listener
+
+
+@contextmanager
+def _ending_alike() -> Iterator[None]:
+    """Let SIGTERM end the process as Ctrl-C does, before the server runs and after."""
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _addresses(listener: socket.socket) -> Iterator[str]:
+    host, port = listener.getsockname()[:2]
+    yield f"http://{f'[{host}]' if ':' in host else host}:{port}/"
+    if not ip_address(host.partition("%")[0]).is_loopback:
+        yield "Others on the network can reach it: it asks nobody for a name or a password."
+
+
+def _check_origin(cors: str) -> None:
+    parts = urlsplit(cors)
+    if parts.scheme not in ("http", "https") or not parts.netloc or cors != f"{parts.scheme}://{parts.netloc}":
+        raise InvalidArgument("cors", f"is {cors!r}: it must be an origin such as http://localhost:8000")
