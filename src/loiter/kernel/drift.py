@@ -340,7 +340,12 @@ def ranked(x: float, y: float, c: float, s: float, R: float, side: int, wx: floa
 def optima(x: float, y: float, c: float, s: float, R: float, side: int, wx: float, wy: float) -> list[Joined]:
     """Those of `ranked` that tie with the first, up to what `fastest` resolves."""
     maneuvers = ranked(x, y, c, s, R, side, wx, wy)
-    return [m for m in maneuvers if time_of(m) <= time_of(maneuvers[0]) * (1.0 + TIED) + TIED * (1.0 + R)]
+    return [m for m in maneuvers if tied(time_of(m), time_of(maneuvers[0]), R)]
+
+
+def tied(T: float, least: float, R: float) -> bool:
+    """Whether a maneuver that takes T takes no longer than the least, up to what `fastest` resolves."""
+    return T <= least * (1.0 + TIED) + TIED * (1.0 + R)
 
 
 def flight(maneuver: Joined) -> Flown:

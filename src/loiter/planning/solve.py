@@ -72,11 +72,25 @@ def candidates(
 def compared(
     pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, tolerance_m: float = 0.0
 ) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
-    """What `plan_all` gives, and beside it every other of `candidates`, those of the other direction too. As `plan`."""
-    either = replace(orbit, turn=Turn.EITHER)
+    """What `plan_all` gives, and every other extremal, of the other direction too, fastest first. As `plan`.
+
+    In wind it takes half the time of `plan_all` and `candidates` one after the other.
+    """
+    wind, either = CALM if wind is None else wind, replace(orbit, turn=Turn.EITHER)
     known = candidates(pose, either, aircraft, wind, tolerance_m=tolerance_m)
-    best = plan_all(pose, orbit, aircraft, wind, tolerance_m=tolerance_m)
+    if air_past(orbit, aircraft, wind) == (0.0, 0.0):
+        best = plan_all(pose, orbit, aircraft, wind, tolerance_m=tolerance_m)
+    else:
+        best = _tied(tuple(replace(m, orbit=orbit) for m in known if orbit.turn in (Turn.EITHER, m.turn)))
     return best, tuple(m for m in known if not any(m.turn == b.turn and m.segments == b.segments for b in best))
+
+
+def _tied(maneuvers: tuple[Maneuver, ...]) -> tuple[Maneuver, ...]:
+    """Those that tie with the first, of maneuvers in wind, fastest first: `drift.optima` in SI."""
+    first = maneuvers[0]
+    r, v = first.aircraft.turn_radius_m, first.aircraft.airspeed_m_s
+    T, R = [m.duration_s * v / r for m in maneuvers], first.orbit.radius_m / r
+    return tuple(m for m, t in zip(maneuvers, T, strict=True) if drift.tied(t, T[0], R))
 
 
 def _solved(
