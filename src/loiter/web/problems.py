@@ -12,6 +12,7 @@ from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
+from starlette.routing import Match
 
 from loiter.errors import InvalidArgument, LoiterError, NotConverged, OutOfRange, RadiusTooSmall, WindTooStrong
 from loiter.planning.model import TURN_LIMITS
@@ -36,6 +37,15 @@ PLACES = {name: (f"aircraft.{name}", f"aircraft/{name}") for name in ("airspeed_
     "turn limit": ("the turn limit of the aircraft", "aircraft"),
     "turn radius": ("the turn radius of the aircraft", "aircraft"),
     "frame": ("origin", "origin"),
+}
+
+
+# What pydantic finds, by its kind, where its own sentence would speak of Python.
+SAID = {
+    "missing": "is needed",
+    "extra_forbidden": "is not known",
+    "model_attributes_type": "must be an object",
+    "model_type": "must be an object",
 }
 
 
@@ -128,7 +138,7 @@ def _detail(error: Mapping[str, Any]) -> dict[str, str]:
     where, *path = [str(part) for part in error["loc"]]
     name = ".".join(path) or "the body"
     message = error["msg"].replace("Input should", "it should").removeprefix("Value error, ")
-    said = {"missing": "is needed", "extra_forbidden": "is not known"}.get(error["type"], f"is wrong: {message}")
+    said = SAID.get(error["type"], f"is wrong: {message}")
     place = (
         {"parameter": path[0]} if where in ("query", "path") else {"pointer": "".join(["#", *("/" + p for p in path)])}
     )
@@ -143,7 +153,16 @@ def _by_status(request: Request, error: Exception) -> Response:
         HTTPStatus.METHOD_NOT_ALLOWED: f"{request.method} is not understood at {request.url.path}",
     }
     detail = said.get(HTTPStatus(error.status_code), error.detail)
-    return problem(error.status_code, detail, instance=request.url.path, headers=error.headers)
+    headers = {"Allow": _allowed(request)} if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED else error.headers
+    return problem(error.status_code, detail, instance=request.url.path, headers=headers)
+
+
+def _allowed(request: Request) -> str:
+    """The methods of all routes of a path: the framework knows those of the first."""
+    routes = [route for route in request.app.routes if route.matches(request.scope)[0] != Match.NONE]
+    return ", ".join(
+        sorted({method for route in routes for method in getattr(route, "methods", None) or ["GET", "HEAD"]})
+    )
 
 
 def _failed(request: Request, error: Exception) -> Response:
