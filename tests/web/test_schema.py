@@ -1,9 +1,7 @@
 """Schemathesis reads the OpenAPI and asks what it allows, and what it does not: no 5xx, every answer as described."""
 
-import pytest
 import schemathesis
 from hypothesis import HealthCheck, settings
-from schemathesis.checks import load_all_checks, not_a_server_error
 from schemathesis.specs.openapi.checks import positive_data_acceptance
 
 from loiter.web.app import create_app

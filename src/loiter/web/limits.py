@@ -26,10 +26,8 @@ STRINGS = re.compile(rb'"(?:[^"\\]|\\.)*"?', re.DOTALL)
 class Limits:
     """Reads the body of a request to an app, whole and within limits, and gives the app its time."""
 
-    def __init__(self, app: ASGIApp, body_s: float = BODY_S, answer_s: float = ANSWER_S) -> None:
+    def __init__(self, app: ASGIApp) -> None:
         self.app = app
-        self.body_s = body_s
-        self.answer_s = answer_s
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve a request, or refuse it with a problem document."""
@@ -53,10 +51,10 @@ class Limits:
 
     async def _body(self, scope: Scope, receive: Receive) -> bytes:
         try:
-            async with asyncio.timeout(self.body_s):
+            async with asyncio.timeout(BODY_S):
                 body = await _read(scope, receive)
         except TimeoutError:
-            late = f"the body did not arrive within {self.body_s:g} s"
+            late = f"the body did not arrive within {BODY_S:g} s"
             raise HTTPException(HTTPStatus.REQUEST_TIMEOUT, late, {"connection": "close"}) from None
         if depth(body) > MOST_DEPTH:
             raise HTTPException(HTTPStatus.BAD_REQUEST, f"the body is nested more than {MOST_DEPTH} levels deep")
@@ -64,10 +62,10 @@ class Limits:
 
     async def _answered(self, scope: Scope, receive: Receive, send: Send) -> None:
         try:
-            async with asyncio.timeout(self.answer_s):
+            async with asyncio.timeout(ANSWER_S):
                 await self.app(scope, receive, send)
         except TimeoutError:
-            late = f"the answer took longer than {self.answer_s:g} s"
+            late = f"the answer took longer than {ANSWER_S:g} s"
             raise HTTPException(HTTPStatus.SERVICE_UNAVAILABLE, late, {"retry-after": "10"}) from None
 
 
