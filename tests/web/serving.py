@@ -4,7 +4,7 @@ import json
 import socket
 import subprocess
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 # A server whose constants are others, as {"limits.BODY_S": 0.3}: nobody wants to wait for the real ones.
 RUN = """
@@ -37,14 +37,18 @@ def connected(port):
         yield wire
 
 
+def answered(wire):
+    """Every byte until the connection ends."""
+    said = []
+    with suppress(ConnectionResetError):
+        while more := wire.recv(65536):
+            said.append(more)
+    return b"".join(said)
+
+
 def heard(wire):
     """Everything that is said until the connection ends: status, headers, body; None where nothing is."""
-    said = b""
-    try:
-        while more := wire.recv(65536):
-            said += more
-    except ConnectionResetError:
-        pass
+    said = answered(wire)
     if not said:
         return None
     head, _, body = said.partition(b"\r\n\r\n")

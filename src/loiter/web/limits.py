@@ -16,6 +16,9 @@ from loiter.web.problems import problem
 MOST_BYTES = 64 * 1024
 MOST_DEPTH = 32
 
+# The head of a request: its address, which may hold a scene, and its headers.
+MOST_HEAD = 32 * 1024
+
 # Seconds for a body to arrive, and for its answer to be made.
 BODY_S = 10.0
 ANSWER_S = 60.0
@@ -70,7 +73,11 @@ class Limits:
 
 
 async def _read(scope: Scope, receive: Receive) -> bytes:
-    """The body; raises for one that says that it is too large, or is."""
+    """The body; raises for a head or a body that is too large, or says so."""
+    head = [scope["path"].encode(), scope["query_string"], *(part for header in scope["headers"] for part in header)]
+    if sum(map(len, head)) > MOST_HEAD:
+        detail = f"the head of the request is too large: more than {MOST_HEAD:,} bytes"
+        raise HTTPException(HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE, detail)
     said = next((value for name, value in scope["headers"] if name == b"content-length"), b"0")
     body = bytearray()
     more = True
