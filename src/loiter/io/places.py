@@ -1,0 +1,34 @@
+"""Local metres as degrees on the Earth, and headings of the plane as true ones."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from loiter.errors import OutOfRange
+from loiter.geo.frame import REACH_M, LocalFrame
+from loiter.planning.compass import wrapped
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import ArrayLike, NDArray
+
+
+def degrees(frame: LocalFrame, east_m: ArrayLike, north_m: ArrayLike) -> tuple[list[float], list[float]]:
+    """Latitudes and longitudes, WGS84 degrees. Raises `OutOfRange` for places beyond the reach of the frame."""
+    import numpy as np
+
+    latitude, longitude = frame.to_geodetic(east_m, north_m)
+    if np.isnan(latitude).any():
+        raise OutOfRange(
+            f"the maneuver goes more than {REACH_M / 1000.0:g} km from the frame's origin {frame.latitude_deg:g} "
+            f"{frame.longitude_deg:g}: take the circle's centre as the origin"
+        )
+    return latitude.tolist(), longitude.tolist()
+
+
+def true_headings(frame: LocalFrame, heading_deg: ArrayLike, latitude: ArrayLike, longitude: ArrayLike) -> list[float]:
+    """Headings from true north, in [0, 360), of headings from the plane's north at places in degrees."""
+    import numpy as np
+
+    turned: NDArray[float64] = np.asarray(heading_deg, float) - frame.convergence_deg(latitude, longitude)
+    return [wrapped(heading) for heading in turned.tolist()]
