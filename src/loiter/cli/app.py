@@ -32,7 +32,7 @@ Positions are metres east and north of any local origin, or WGS84 degrees; headi
   loiter plan --pose -400 120 90 --orbit 0 0 120 --wind 8 250 \\
       --airspeed 18 --bank 35
   loiter plan --pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 \\
-      --airspeed 18 --bank 35 --altitude 900
+      --airspeed 18 --bank 35 --altitude 900 --save entry.plan
   eval "$(loiter completion bash)"
 
 Exit status
