@@ -289,11 +289,12 @@ def test_curvature_is_positive_to_the_left_and_that_of_the_piece_that_begins():
     assert m.word == "RSL"
     assert samples.curvature_per_m[:3].tolist() == [-1.0, -1.0, 0.0]
     assert samples.curvature_per_m[-1] == 1.0
+    assert samples.ground_curvature_per_m.tolist() == samples.curvature_per_m.tolist()
 
 
 def test_samples_of_a_start_on_the_circle_are_one():
     samples = plan(Pose(0.0, 1.0, -270.0), UNIT_CIRCLE, UNIT).sample(0.1)
-    assert [column.tolist() for column in samples] == [[0.0], [0.0], [1.0], [90.0], [0.0], [90.0], [1.0]]
+    assert [column.tolist() for column in samples] == [[0.0], [0.0], [1.0], [90.0], [0.0], [90.0], [1.0], [0.0]]
 
 
 @pytest.mark.parametrize("step", [0.0, -1.0, nan, 1e-12, "often"])

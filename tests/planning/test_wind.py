@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, candidates, plan, plan_all
 from loiter.errors import InvalidArgument, NotConverged, OutOfRange, RadiusTooSmall, WindTooStrong
 from loiter.kernel.codes import Status
+from loiter.planning.flight import sampled_at
+from loiter.planning.model import Segment
 from planning.flying import fly
 from strategies import scenes, windy_scenes
 
@@ -270,6 +272,43 @@ def test_the_track_is_the_direction_in_which_the_samples_move():
     assert np.degrees(np.arctan2(east, north)) % 360.0 == pytest.approx(samples.track_deg, abs=0.05)
 
 
+@given(windy_scenes(), st.floats(0.0, 1.0))
+def test_the_curvature_over_the_ground_is_that_of_the_track(scene, part):
+    """By differences of a flight from the same heading: the cross product of velocity and acceleration."""
+    m = plan(*scene)
+    samples = m.sample(max(0.1, m.duration_s / 1e4))
+    i = round(part * (samples.time_s.size - 1))
+    v, k, dt = m.aircraft.airspeed_m_s, samples.curvature_per_m[i], 0.01
+    here = Pose(0.0, 0.0, samples.heading_deg[i])
+    letter = "L" if k > 0.0 else "R" if k < 0.0 else "S"
+    before, after = (fly(here, [Segment(letter, 0.0, t, v * t, k, here, here)], v, air(m.wind)) for t in (-dt, dt))
+    velocity = [(b - a) / (2.0 * dt) for a, b in zip(before[:2], after[:2], strict=True)]
+    acceleration = [(a + b) / dt**2 for a, b in zip(before[:2], after[:2], strict=True)]
+    cross = velocity[0] * acceleration[1] - velocity[1] * acceleration[0]
+    assert samples.ground_curvature_per_m[i] * samples.ground_speed_m_s[i] ** 3 == pytest.approx(
+        cross, abs=1e-3 * v**3 / m.aircraft.turn_radius_m
+    )
+
+
+def test_the_curvature_over_the_ground_of_a_headwind_and_a_tailwind():
+    """At 18 m/s in 6 m/s along the track, v^2 k V / V^3: a turn is tighter upwind, by (18/12)^2, and wider downwind."""
+    tight = 1.0 / UAV.turn_radius_m
+    here = Pose(-400.0, 0.0, 90.0)
+    for from_deg, speed in ((90.0, 12.0), (270.0, 24.0)):
+        segment = Segment("L", 0.0, 1.0, 18.0, tight, here, here)
+        samples = sampled_at(np.array([0.0]), here, [segment], UAV, Wind(6.0, from_deg))
+        assert samples.ground_curvature_per_m == pytest.approx(tight * (18.0 / speed) ** 2, rel=1e-14)
+
+
+def test_where_the_wind_stops_the_aircraft_the_track_has_no_curvature():
+    here = Pose(0.0, 0.0, 0.0)
+    segment = Segment("R", 0.0, 1.0, 18.0, -1.0 / UAV.turn_radius_m, here, here)
+    samples = sampled_at(np.array([0.0, 1.0]), here, [segment], UAV, Wind(18.0, 0.0))
+    assert samples.ground_speed_m_s[0] == 0.0
+    assert np.isnan(samples.ground_curvature_per_m[0])
+    assert samples.ground_curvature_per_m[1] < 0.0
+
+
 # Refusals
 
 
@@ -366,4 +405,4 @@ def test_a_search_that_ends_beside_the_circle_is_no_answer(monkeypatch, solve):
 def test_samples_of_a_start_on_the_circle_are_one():
     """Heading across a wind from the west, the track is off by the crab angle."""
     samples = plan(Pose(0.0, 120.0, 90.0), ORBIT, UAV, Wind(6.0, 270.0)).sample(1.0)
-    assert [column.tolist() for column in samples] == [[0.0], [0.0], [120.0], [90.0], [0.0], [90.0], [24.0]]
+    assert [column.tolist() for column in samples] == [[0.0], [0.0], [120.0], [90.0], [0.0], [90.0], [24.0], [0.0]]

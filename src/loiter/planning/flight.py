@@ -47,32 +47,53 @@ def sampled(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: 
     import numpy as np
 
     if not segments:
-        here = [0.0, start.east_m, start.north_m, wrapped(start.heading_deg), 0.0]
-        return Samples(*np.array([*here, *over_ground(start.heading_deg, aircraft, wind)])[:, np.newaxis])
+        return sampled_at(np.zeros(1), start, segments, aircraft, wind)
     ends_s = segments[-1].start_s + segments[-1].duration_s
     # A last step that rounding alone leaves over is none.
     times = np.append(np.arange(0.0, ends_s * (1.0 - ROUNDING), step_s), ends_s)
-    # The piece under way at each time: the last that has begun.
-    under_way = np.searchsorted([segment.start_s for segment in segments], times, side="right") - 1
-    columns = np.empty((4, times.size))
-    for i, segment in enumerate(segments):
-        here = under_way == i
-        flown_m = (times[here] - segment.start_s) * aircraft.airspeed_m_s
-        columns[:3, here] = along(segment, flown_m, aircraft, wind)
-        columns[3, here] = segment.curvature_per_m
-    return Samples(times, *columns, *_tracks(columns[2], aircraft, wind))
+    return sampled_at(times, start, segments, aircraft, wind)
 
 
-def _tracks(heading_deg: NDArray[float64], aircraft: Aircraft, wind: Wind) -> tuple[NDArray[float64], ...]:
-    """Tracks and ground speeds: `over_ground` for arrays."""
+def sampled_at(
+    time_s: NDArray[float64], start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: Wind
+) -> Samples:
+    """The samples at given times, seconds from the start in ascending order; without segments all are the start."""
     import numpy as np
 
+    columns = np.empty((4, time_s.size))
+    columns[:] = np.array([[start.east_m], [start.north_m], [wrapped(start.heading_deg)], [0.0]])
+    # The piece under way at each time: the last that has begun.
+    under_way = np.searchsorted([segment.start_s for segment in segments], time_s, side="right") - 1
+    for i, segment in enumerate(segments):
+        here = under_way == i
+        flown_m = (time_s[here] - segment.start_s) * aircraft.airspeed_m_s
+        columns[:3, here] = along(segment, flown_m, aircraft, wind)
+        columns[3, here] = segment.curvature_per_m
+    return Samples(time_s, *columns, *_over_ground(columns[2], columns[3], aircraft, wind))
+
+
+def _over_ground(
+    heading_deg: NDArray[float64], curvature_per_m: NDArray[float64], aircraft: Aircraft, wind: Wind
+) -> tuple[NDArray[float64], ...]:
+    """Tracks and ground speeds, `over_ground` for arrays, and curvatures over the ground.
+
+    A turn of curvature k at the airspeed v accelerates by a = v^2 k across the heading h, to the left. Over the ground
+    the velocity is V = v h + w and the acceleration the same, so the curvature V x a / |V|^3 is v^2 k (V.h) / |V|^3.
+    """
+    import numpy as np
+
+    v = aircraft.airspeed_m_s
     if wind.speed_m_s == 0.0:
-        return heading_deg.copy(), np.full_like(heading_deg, aircraft.airspeed_m_s)
+        return heading_deg.copy(), np.full_like(heading_deg, v), curvature_per_m.copy()
     angles = np.radians(heading_deg)
-    east, north = _velocity(np.sin(angles), np.cos(angles), aircraft, wind)
+    h_east, h_north = np.sin(angles), np.cos(angles)
+    east, north = _velocity(h_east, h_north, aircraft, wind)
     track_deg: Any = wrapped(np.degrees(np.arctan2(east, north)))
-    return track_deg, np.hypot(east, north)
+    speed = np.hypot(east, north)
+    # Where a wind as fast as the aircraft stops it the track has a cusp.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ground_curvature = v * v * curvature_per_m * (east * h_east + north * h_north) / speed**3
+    return track_deg, speed, ground_curvature
 
 
 def _velocity(east: Any, north: Any, aircraft: Aircraft, wind: Wind) -> tuple[Any, Any]:

@@ -9,7 +9,7 @@ from loiter.planning.flight import over_ground, sampled
 from loiter.planning.hold import Hold
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Samples, Segment, Turn, Wind
 
-# More samples than this would not fit in the memory of a small machine: 7 arrays of 8 bytes each, 560 MB.
+# More samples than this would not fit in the memory of a small machine: 8 arrays of 8 bytes each, 640 MB.
 MAX_SAMPLES = 10_000_000
 
 
@@ -68,10 +68,10 @@ class Maneuver:
         return over_ground(pose.heading_deg, self.aircraft, self.wind)
 
     def sample(self, step_s: float) -> Samples:
-        """The ground track: position, heading, curvature, track and ground speed every `step_s` seconds from 0.
+        """The ground track: position, heading, track, ground speed and curvatures every `step_s` seconds from 0.
 
         The last sample is the point of joining. In wind a turn, an arc through the air, is a trochoid over the ground.
-        At an instant of switching the curvature is that of the piece that begins. Headings are in [0, 360).
+        At an instant of switching the curvatures are those of the piece that begins. Headings are in [0, 360).
         Raises `InvalidArgument` for a step that is not positive or so small that memory would not hold the samples.
         """
         if self.duration_s / positive("step_s", step_s, "seconds") > MAX_SAMPLES:

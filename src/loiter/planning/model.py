@@ -214,10 +214,11 @@ class Segment:
 
 
 class Samples(NamedTuple):
-    """A maneuver at given times: seven float64 arrays of one length.
+    """A maneuver at given times: eight float64 arrays of one length.
 
     Places are over the ground. `heading_deg` is where the nose points, `track_deg` the course over the ground; in still
-    air they are equal. `curvature_per_m` is through the air, positive to the left.
+    air they are equal. `curvature_per_m` is through the air, `ground_curvature_per_m` over the ground, both positive to
+    the left; the latter is nan where the aircraft stands still over the ground.
     """
 
     time_s: NDArray[float64]
@@ -227,3 +228,4 @@ class Samples(NamedTuple):
     curvature_per_m: NDArray[float64]
     track_deg: NDArray[float64]
     ground_speed_m_s: NDArray[float64]
+    ground_curvature_per_m: NDArray[float64]

@@ -1,0 +1,24 @@
+"""Local metres as degrees on the Earth."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from loiter.errors import OutOfRange
+from loiter.geo.frame import REACH_M, LocalFrame
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+def degrees(frame: LocalFrame, east_m: ArrayLike, north_m: ArrayLike) -> tuple[list[float], list[float]]:
+    """Latitudes and longitudes, WGS84 degrees. Raises `OutOfRange` for places beyond the reach of the frame."""
+    import numpy as np
+
+    latitude, longitude = frame.to_geodetic(east_m, north_m)
+    if np.isnan(latitude).any():
+        raise OutOfRange(
+            f"the maneuver goes more than {REACH_M / 1000.0:g} km from the frame's origin {frame.latitude_deg:g} "
+            f"{frame.longitude_deg:g}: take the circle's centre as the origin"
+        )
+    return latitude.tolist(), longitude.tolist()
