@@ -10,6 +10,7 @@ import re
 import socket
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
+from math import inf
 from time import monotonic
 from typing import Any, NamedTuple
 
@@ -118,8 +119,7 @@ def opened(connection: str, timeout_s: float) -> Any:
     check(connection)
     mavlink = packets()
     try:
-        with _patience(timeout_s):
-            port = _opened(connection)
+        port = _opened(connection, timeout_s)
     except ImportError as error:
         raise MissingPackage(f"a serial line needs {error.name}: pip install pyserial") from error
     except OSError as error:
@@ -128,8 +128,7 @@ def opened(connection: str, timeout_s: float) -> Any:
     port.mav.robust_parsing = True
     # pymavlink would look at the first byte and, for MAVLink 2, exchange `mav` and set an environment variable.
     port.first_byte = False
-    # It prints what goes wrong with a stream, and then goes on as if nothing had.
-    port.handle_eof = port.handle_disconnect = _hung_up
+    # A serial port that is dead prints so, unless that is known.
     port.portdead = True
     return port
 
@@ -147,23 +146,29 @@ def check(connection: object) -> None:
         raise InvalidArgument("connection", f"is {connection!r}: ports are numbers from 1 to 65535")
 
 
-def found(port: Any, connection: str, system: int | None, component: int, timeout_s: float) -> Vehicle:
+def found(
+    port: Any, connection: str, system: int | None, component: int, timeout_s: float, *, beats: bool = True
+) -> Vehicle:
     """The vehicle whose autopilot is heard on a port: the one with that system number, or else the only one.
 
-    Heartbeats of our own go out meanwhile: the other end of `udpout` does not know of us before. Raises `LinkFailed`
-    where it is not heard in time, and where several are and none was asked for.
+    Heartbeats of our own go out meanwhile where `beats`: the other end of `udpout` does not know of us before. Raises
+    `LinkFailed` where it is not heard in time, and where several are and none was asked for.
     """
     vehicles: dict[int, Vehicle] = {}
-    deadline = monotonic() + timeout_s
-    for message in _listened(port, lambda: deadline):
-        if message.get_type() == "HEARTBEAT" and message.autopilot != NO_AUTOPILOT:
-            sender = message.get_srcSystem()
-            if sender not in vehicles and system is None:
-                deadline = min(deadline, monotonic() + ALONE_S)
-            old = message.get_msgbuf()[:1] == b"\xfe"
-            vehicles[sender] = Vehicle(sender, component, message.autopilot, old)
-            if sender == system:
-                return vehicles[sender]
+    deadline, next_beat = monotonic() + timeout_s, -inf
+    while (now := monotonic()) < deadline:
+        if beats and now >= next_beat:
+            _send(port, heartbeat(), old=False)
+            next_beat = now + BEAT_S
+        message = _receive(port, min(deadline - now, BEAT_S))
+        if message is None or message.get_type() != "HEARTBEAT" or message.autopilot == NO_AUTOPILOT:
+            continue
+        vehicle = _vehicle(message, component)
+        if vehicle.system == system:
+            return vehicle
+        if system is None and not vehicles:
+            deadline = min(deadline, monotonic() + ALONE_S)
+        vehicles[vehicle.system] = vehicle
     if system is None and len(vehicles) == 1:
         return next(iter(vehicles.values()))
     raise LinkFailed(_not_found(connection, system, vehicles, timeout_s))
@@ -183,34 +188,47 @@ def packets() -> Any:
     return ardupilotmega
 
 
-def _opened(connection: str) -> Any:
+def _opened(connection: str, timeout_s: float) -> Any:
     from pymavlink import mavutil
 
     network = _NETWORK.fullmatch(connection)
     if network is None:
         device, _, baud = connection.partition(",")
-        return mavutil.mavserial(device, int(baud or BAUD), source_system=OUR_SYSTEM)
+        return mavutil.mavserial(device, int(baud or BAUD))
     kind, host, port = network.groups()
     address = socket.gethostbyname(host)
     if kind == "tcp":
-        return mavutil.mavtcp(f"{address}:{port}", retries=1, source_system=OUR_SYSTEM)
+        return _tcp(f"{address}:{port}", timeout_s)
     if kind == "udpin":
         # pymavlink would share the port with whoever listens there already, so that one of the two hears nothing.
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             probe.bind((address, int(port)))
-    return mavutil.mavudp(f"{address}:{port}", input=kind == "udpin", source_system=OUR_SYSTEM)
+    return mavutil.mavudp(f"{address}:{port}", input=kind == "udpin")
 
 
-def _listened(port: Any, deadline: Callable[[], float]) -> Iterator[Any]:
-    """Every message until the deadline, which may move; heartbeats go out."""
-    next_beat = 0.0
-    while (now := monotonic()) < deadline():
-        if now >= next_beat:
-            _send(port, heartbeat(), old=False)
-            next_beat = now + BEAT_S
-        message = _receive(port, min(deadline() - now, next_beat - now))
-        if message is not None:
-            yield message
+def _tcp(address: str, timeout_s: float) -> Any:
+    from pymavlink import mavutil
+
+    class Tcp(mavutil.mavtcp):  # type: ignore[misc]
+        """pymavlink's, but that it waits no longer than asked, and raises what it would print."""
+
+        def do_connect(self) -> None:
+            self.port = socket.create_connection(self.destination_addr, timeout_s)
+            self.port.setblocking(False)
+            self.port.setsockopt(socket.SOL_TCP, socket.TCP_NODELAY, 1)
+
+        def handle_eof(self) -> None:
+            raise ConnectionResetError("the other end hung up")
+
+        handle_disconnect = handle_eof
+
+    return Tcp(address)
+
+
+def _vehicle(heartbeat: Any, component: int) -> Vehicle:
+    # 0xFE begins a packet of MAVLink 1.
+    old = heartbeat.get_msgbuf()[:1] == b"\xfe"
+    return Vehicle(heartbeat.get_srcSystem(), component, heartbeat.autopilot, old)
 
 
 def _not_found(connection: str, system: int | None, vehicles: dict[int, Vehicle], timeout_s: float) -> str:
@@ -241,18 +259,3 @@ def _sender(message: Any) -> tuple[int, int]:
 
 def _reason(error: OSError) -> str:
     return (error.strerror or str(error)).lower()
-
-
-def _hung_up(*arguments: Any) -> None:
-    raise ConnectionResetError("the other end hung up")
-
-
-@contextmanager
-def _patience(timeout_s: float) -> Iterator[None]:
-    """Sockets made meanwhile give up after `timeout_s`: pymavlink's wait for TCP as long as the system does, minutes."""
-    before = socket.getdefaulttimeout()
-    socket.setdefaulttimeout(timeout_s)
-    try:
-        yield
-    finally:
-        socket.setdefaulttimeout(before)

@@ -14,10 +14,8 @@ from struct import pack, unpack
 from typing import Any, NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.io.items import Autopilot, Frame, Mission, MissionItem
+from loiter.io.items import Autopilot, Command, Frame, Mission, MissionItem
 from loiter.mavlink.link import Vehicle, packets
-
-WAYPOINT, LOITER_UNLIM, LOITER_TURNS, LOITER_TIME, LOITER_TO_ALT = 16, 17, 18, 19, 31
 
 # The MAV_FRAMEs in which x and y are latitude and longitude, and the twin of each: PX4 answers with those whose names
 # end in INT.
@@ -54,7 +52,7 @@ def encoded(mission: Mission, vehicle: Vehicle) -> list[StoredItem]:
     """
     if not mission.items:
         raise InvalidArgument("mission", "has no items")
-    home = MissionItem(WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
+    home = MissionItem(Command.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
     items = (home, *mission.items) if keeps_home(vehicle) else mission.items
     if len(items) > MOST_ITEMS:
         raise InvalidArgument("mission", f"has {len(items)} items: MAVLink counts no further than {MOST_ITEMS}")
@@ -95,9 +93,7 @@ def unpacked(message: Any) -> StoredItem:
     return StoredItem(*head, params, message.x, message.y, message.z)
 
 
-def compared(
-    sent: Sequence[StoredItem], kept: Sequence[StoredItem], vehicle: Vehicle
-) -> tuple[list[str], list[str]]:
+def compared(sent: Sequence[StoredItem], kept: Sequence[StoredItem], vehicle: Vehicle) -> tuple[list[str], list[str]]:
     """In words, where a vehicle keeps something else than it was sent: what is wrong, and what its autopilot cuts.
 
     ArduPilot's home is its own affair, and which item is the current one that of every vehicle.
@@ -112,7 +108,7 @@ def compared(
         for name in was:
             if not _equal(was[name], now[name]):
                 expected = _equal(may[name], now[name], _tolerance(name, vehicle))
-                said = f"{called(seq, vehicle)} has {name} {now[name]:.9g} there, {was[name]:.9g} here"
+                said = f"{called(seq, vehicle)} has {now[name]:.9g} for {name}, not {was[name]:.9g}"
                 (cut if expected else wrong).append(said)
     return wrong, cut
 
@@ -123,22 +119,28 @@ def same(some: Sequence[StoredItem], others: Sequence[StoredItem], vehicle: Vehi
 
 
 def _encoded(item: MissionItem, seq: int, name: str) -> StoredItem:
-    if not all(map(isfinite, item[3:6])) or any(map(isinf, item.params)):
-        raise InvalidArgument("mission", f"has numbers that are not finite in {name}: {item}")
-    lat, lon, scale = item.latitude_deg, item.longitude_deg, 1.0
-    if item.frame in _TWINS:
-        if abs(lat) > 90.0 or abs(lon) > 360.0:
-            raise InvalidArgument("mission", f"has no place on Earth in {name}: {lat:g} {lon:g}")
-        scale = PER_DEGREE
-        lon -= 360.0 * trunc(lon / 180.0) if abs(lon) > 180.0 else 0.0
+    if any(map(isinf, (*item.params, item.altitude_m))):
+        raise InvalidArgument("mission", f"has an infinite number in {name}: {item}")
     try:
-        # What does not fit is found here, not halfway through a transfer.
-        pack("<2i", x := round(lat * scale), y := round(lon * scale))
+        x, y = _place(item, name)
         p1, p2, p3, p4, z = map(_float32, (*item.params, item.altitude_m))
-        pack("<BH", item.frame, item.command)
+        # What does not fit is found here, not halfway through a transfer.
+        pack("<BH2i", item.frame, item.command, x, y)
     except (StructError, OverflowError) as error:
-        raise InvalidArgument("mission", f"has numbers that are too large for MAVLink in {name}: {item}") from error
+        raise InvalidArgument("mission", f"has a number that is too large for MAVLink in {name}: {item}") from error
     return StoredItem(item.frame, item.command, int(seq == 0), int(item.autocontinue), (p1, p2, p3, p4), x, y, z)
+
+
+def _place(item: MissionItem, name: str) -> tuple[int, int]:
+    """Latitude and longitude in 1e-7 degrees; what an item without a place has instead, as it is, nan as 0."""
+    lat, lon = item.latitude_deg, item.longitude_deg
+    if item.frame not in _TWINS:
+        return round(lat if isfinite(lat) else 0.0), round(lon if isfinite(lon) else 0.0)
+    if not (abs(lat) <= 90.0 and abs(lon) <= 360.0):
+        raise InvalidArgument("mission", f"has no place on Earth in {name}: {lat:g} {lon:g}")
+    if abs(lon) > 180.0:
+        lon -= copysign(360.0, lon)
+    return round(lat * PER_DEGREE), round(lon * PER_DEGREE)
 
 
 def _decoded(item: StoredItem) -> MissionItem:
@@ -167,17 +169,17 @@ def _as_stored(item: StoredItem, vehicle: Vehicle) -> StoredItem:
 def _ardupilot(command: int, params: Params) -> Params:
     a, b, c, d = params
     match command:
-        case 16:
+        case Command.NAV_WAYPOINT:
             return 0.0, min(_whole(b), 255.0), min(_whole(c), 255.0), 0.0
-        case 17:
+        case Command.NAV_LOITER_UNLIM:
             return 0.0, 0.0, _whole(c), 0.0
-        case 18:
+        case Command.NAV_LOITER_TURNS:
             # A byte for the radius, in tens of metres above 255.
             radius = abs(c) if abs(c) <= 255.0 else 10.0 * min(_whole(abs(c) * 0.1), 255.0)
             return min(_whole(a), 255.0), 0.0, copysign(_whole(radius), c), float(d > 0.0)
-        case 19:
+        case Command.NAV_LOITER_TIME:
             return _whole(a), 0.0, -1.0 if c < 0.0 else 1.0, float(d > 0.0)
-        case 31:
+        case Command.NAV_LOITER_TO_ALT:
             return 0.0, _whole(b), 0.0, float(d > 0.0)
     return params
 
@@ -185,13 +187,13 @@ def _ardupilot(command: int, params: Params) -> Params:
 def _px4(command: int, params: Params) -> Params:
     a, b, c, d = params
     match command:
-        case 16:
+        case Command.NAV_WAYPOINT:
             return a, b, 0.0, d % 360.0
-        case 17:
+        case Command.NAV_LOITER_UNLIM:
             return 0.0, 0.0, c, d % 360.0
-        case 19:
+        case Command.NAV_LOITER_TIME:
             return a, float(b > 0.0), c, float(d > 0.0)
-        case 31:
+        case Command.NAV_LOITER_TO_ALT:
             return float(a > 0.0), b, 0.0, float(d > 0.0)
     return params
 

@@ -1,7 +1,7 @@
 """The mission protocol of MAVLink: a mission read from a vehicle, and one sent to it.
 
-https://mavlink.io/en/services/mission.html. The receiver of a mission asks for each item, so whoever receives says again
-what was not answered. Time is measured from the last progress.
+https://mavlink.io/en/services/mission.html. The receiver of a mission asks for each item, so whoever receives says
+again what was not answered. Time is measured from the last progress.
 """
 
 from __future__ import annotations
@@ -51,7 +51,9 @@ def receive(link: Link, timeout_s: float, progress: Progress = lambda done, tota
     return items
 
 
-def send(link: Link, items: Sequence[StoredItem], timeout_s: float, progress: Progress = lambda done, total: None) -> None:
+def send(
+    link: Link, items: Sequence[StoredItem], timeout_s: float, progress: Progress = lambda done, total: None
+) -> None:
     """Every item to a vehicle, as it asks for them.
 
     Returns when the vehicle has accepted them, or has asked for all of them and then says no more: only reading them
@@ -64,7 +66,7 @@ def send(link: Link, items: Sequence[StoredItem], timeout_s: float, progress: Pr
             if attempt.run():
                 return
             progressed = attempt.progressed
-        raise LinkFailed(f"{link.vehicle.named} began {ATTEMPTS} times to take the mission and never took it whole")
+        raise LinkFailed(f"{attempt.stuck}, {ATTEMPTS} times over")
 
 
 def clear(link: Link, timeout_s: float) -> None:
@@ -104,7 +106,8 @@ class _Sending:
             elif message.get_type() == "MISSION_ACK":
                 done = self._acknowledged(message.type)
             else:
-                done = self._asked(message.seq, now)
+                self._asked(message.seq, now)
+                continue
             if done is not None:
                 return done
 
@@ -130,7 +133,7 @@ class _Sending:
         if self._complete:
             return self._unacknowledged(now)
         if now >= self._end():
-            raise LinkFailed(self._stuck())
+            raise LinkFailed(f"{self.stuck}: no progress in {self.timeout_s:g} s")
         if self.last < 0:
             self._begin()
             return None
@@ -156,7 +159,7 @@ class _Sending:
         if self.answered[0] != seq or now - self.answered[1] > DOUBLED_S:
             self._send_item(seq, now)
         if now >= self._end():
-            raise LinkFailed(self._stuck())
+            raise LinkFailed(f"{self.stuck}: no progress in {self.timeout_s:g} s")
 
     def _send_item(self, seq: int, now: float) -> None:
         self.link.send(packet(self.items[seq], seq, self.link.vehicle))
@@ -179,10 +182,12 @@ class _Sending:
     def _what(self) -> str:
         return called(self.last, self.link.vehicle) if self.last >= 0 else "the mission"
 
-    def _stuck(self) -> str:
-        said = f"; it said last that {self.refusal}" if self.refusal else ""
-        what = f"got no further than {self._what()}" if self.last >= 0 else "did not ask for the mission"
-        return f"{self.link.vehicle.named} {what} in {self.timeout_s:g} s{said}"
+    @property
+    def stuck(self) -> str:
+        """How far it came, in words, and why no further as far as the vehicle said."""
+        said = f", saying that {self.refusal}" if self.refusal else ""
+        what = f"asked for no more than {self._what()}" if self.last >= 0 else "did not ask for the mission"
+        return f"{self.link.vehicle.named} {what}{said}"
 
 
 def _answer(link: Link, wanted: Any, kind: str, repeat_s: float, timeout_s: float, seq: int | None = None) -> Any:
