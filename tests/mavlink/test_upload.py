@@ -212,7 +212,9 @@ def test_items_that_are_always_out_of_sequence():
         def on_mission_item_int(self, message):
             self.acknowledge(13)
 
-    fails(Refuses(), "asked for no more than item 1 .*MAV_MISSION_INVALID_SEQUENCE.: no progress in 0.5 s", timeout_s=0.5)
+    fails(
+        Refuses(), "asked for no more than item 1, .*MAV_MISSION_INVALID_SEQUENCE.: no progress in 0.5 s", timeout_s=0.5
+    )
 
 
 @pytest.mark.parametrize("result", [1, 14])
@@ -261,7 +263,9 @@ def test_an_item_that_is_changed_is_found_and_the_old_mission_sent_back(change):
         def stored(self, m):
             return changed(super().stored(m)) if m.command == 17 else super().stored(m)
 
-    fails(Changes(), f"system 1 .PX4. does not keep what it was sent: item 5 has {said}.*; its old mission was sent back")
+    fails(
+        Changes(), f"system 1 .PX4. does not keep what it was sent: item 5 has {said}.*; its old mission was sent back"
+    )
 
 
 def test_a_flipped_radius_is_found_on_ardupilot_too():
@@ -271,7 +275,10 @@ def test_a_flipped_radius_is_found_on_ardupilot_too():
             return kept[:2] + ((0.0, 0.0, -kept[2][2], 0.0),) + kept[3:] if m.command == 17 else kept
 
     flips = Flips([Plane.home, *OLD[1:]])
-    with flying(flips), pytest.raises(LinkFailed, match="item 5 has 80 for parameter 3, not -80; its old mission was sent ba"):
+    with (
+        flying(flips),
+        pytest.raises(LinkFailed, match="item 5 has 80 for parameter 3, not -80; its old mission was sent ba"),
+    ):
         upload(NEW, flips.connection, system=1)
     assert flips.mission == [Plane.home, *OLD[1:]]
 

@@ -304,6 +304,13 @@ class Lossy:
         self.far.close()
 
 
+def free_port():
+    """A port where nobody listens now."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
 @contextmanager
 def flying(vehicle):
     """A vehicle while its thread runs."""
