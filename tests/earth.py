@@ -15,11 +15,12 @@ from strategies import windy_scenes
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 WIND = Wind(8.0, from_deg=250.0)
 FRAME = LocalFrame(47.0, 8.0)
+FROM_THE_WEST, FROM_THE_EAST = Pose(-400.0, 120.0, 90.0), Pose(400.0, 120.0, 270.0)
 
 
-def entry(turn="either", wind=None, radius_m=120.0, frame=FRAME, **orbit):
+def entry(turn="either", wind=None, frame=FRAME, pose=FROM_THE_WEST, **orbit):
     """An entry of three pieces, and the frame that it lies in."""
-    return plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, radius_m, turn, **orbit), UAV, wind), frame
+    return plan(pose, Orbit(0.0, 0.0, 120.0, turn, **orbit), UAV, wind), frame
 
 
 # Named scenes: both ways round, wind, nothing to fly, tiny, huge and far north, and on the antimeridian.
@@ -33,8 +34,9 @@ SCENES = {
     "huge": (plan(Pose(-60e3, 9e3, 30.0), Orbit(0.0, 0.0, 20e3), Aircraft(250.0, max_bank_deg=30.0)), FRAME),
     "north": entry(frame=LocalFrame(78.2, 15.6)),
     "south": entry(frame=LocalFrame(-33.9, -70.8)),
-    "antimeridian": entry("cw", frame=LocalFrame(-17.0, 179.9985)),
-    "antimeridian from the east": entry("ccw", WIND, frame=LocalFrame(52.0, -179.9985)),
+    # 110 m from the centre, where both the way and the circle cross it.
+    "antimeridian": entry("cw", frame=LocalFrame(-17.0, -179.998967)),
+    "antimeridian from the east": entry("ccw", WIND, LocalFrame(52.0, 179.9984), FROM_THE_EAST),
 }
 
 frames = st.builds(LocalFrame, st.floats(-80.0, 80.0), st.floats(-180.0, 180.0))

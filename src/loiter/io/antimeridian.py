@@ -36,16 +36,22 @@ def cut_line(longitude_deg: Sequence[float], latitude_deg: Sequence[float]) -> l
 def cut_ring(longitude_deg: Sequence[float], latitude_deg: Sequence[float]) -> list[list[Position]]:
     """The parts of what a closed ring surrounds, each a ring that runs counter-clockwise.
 
-    One that goes round a pole is closed along the pole and the antimeridian. Meridians must cut the ring at most twice,
+    One that goes round a pole is closed along the antimeridian and the pole. Meridians must cut the ring at most twice,
     as they do a circle.
     """
     ring = list(zip(_unwrapped(longitude_deg), latitude_deg, strict=True))
     if abs(ring[-1][0] - ring[0][0]) > 180.0:
-        pole = copysign(90.0, ring[0][1])
-        ring += [(ring[-1][0], pole), (ring[0][0], pole), ring[0]]
+        return [_counter_clockwise(_round_a_pole(ring))]
     bands = range(_band(min(ring)[0]), _band(max(ring)[0]) + 1)
     parts = [_moved(_clipped(_clipped(ring, 360.0 * k - 180.0, 1), 360.0 * k + 180.0, -1), k) for k in bands]
     return [_counter_clockwise(part) for part in parts if _area(part) != 0.0] or [_moved(ring, bands[0])]
+
+
+def _round_a_pole(ring: list[Position]) -> list[Position]:
+    line = sorted((longitude - 360.0 * _band(longitude), latitude) for longitude, latitude in ring[:-1])
+    edge = _between(line[-1], (line[0][0] + 360.0, line[0][1]), 180.0)
+    pole = copysign(90.0, edge)
+    return [(-180.0, edge), *line, (180.0, edge), (180.0, pole), (-180.0, pole), (-180.0, edge)]
 
 
 def _unwrapped(longitude_deg: Sequence[float]) -> list[float]:

@@ -18,6 +18,8 @@ from loiter.io.reading import Source, shown
 FIXED_WING = 1  # MAV_TYPE_FIXED_WING
 DO_JUMP = 177  # MAV_CMD_DO_JUMP
 
+LONGEST_INTEGER = 20
+
 # QGroundControl's AltitudeMode of each frame.
 ALTITUDE_MODES = {Frame.ABOVE_SEA: 2, Frame.ABOVE_HOME: 1, Frame.ABOVE_TERRAIN: 4}
 
@@ -90,8 +92,12 @@ def _parsed(source: Source, text: str) -> dict[str, Any]:
     def refused(word: str) -> float:
         raise source.fault(f"{word} is no number in JSON")
 
+    def whole(digits: str) -> float:
+        # Python refuses to read integers of thousands of digits; as a float one that large is infinite.
+        return int(digits) if len(digits) <= LONGEST_INTEGER else float(digits)
+
     try:
-        document = json.loads(text, object_pairs_hook=once, parse_constant=refused)
+        document = json.loads(text, object_pairs_hook=once, parse_constant=refused, parse_int=whole)
     except json.JSONDecodeError as error:
         raise source.fault(f"it is not JSON, {error.msg.lower()} in line {error.lineno}") from error
     except RecursionError as error:

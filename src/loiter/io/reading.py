@@ -12,8 +12,9 @@ from loiter.errors import InvalidArgument
 # MAVLink's largest mission, 65,535 items, takes some 26 MB as an indented plan.
 MAX_BYTES = 32_000_000
 
-# Digits of other scripts, underscores, nan and inf, all of which `float` takes, are none.
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+# Digits of other scripts, underscores, nan and inf, all of which `float` takes, are none. Each digit can be matched in
+# one way only: a long number is refused as fast as it is read.
+NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 SHOWN = 40
 
@@ -62,8 +63,5 @@ def shown(value: object) -> str:
     """A value as a sentence quotes it: on one line and short."""
     if isinstance(value, dict | list):
         return "a list" if isinstance(value, list) else "an object"
-    # A long number is not turned into digits first: Python refuses some.
-    if isinstance(value, int) and abs(value) > 10**SHOWN:
-        return "a huge number"
     text = repr(value)
     return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."
