@@ -427,9 +427,8 @@ def test_a_caller_that_fails_halfway_leaves_the_old_mission():
         if (doing, done) == ("send", 2):
             raise RuntimeError("no room on the screen")
 
-    with flying(Plane([Plane.home, *OLD[1:]])) as vehicle:
-        with pytest.raises(RuntimeError, match="no room"):
-            upload(NEW, vehicle.connection, system=1, on_progress=step)
+    with flying(Plane([Plane.home, *OLD[1:]])) as vehicle, pytest.raises(RuntimeError, match="no room"):
+        upload(NEW, vehicle.connection, system=1, on_progress=step)
     assert vehicle.mission == [Plane.home, *OLD[1:]]
 
 

@@ -37,9 +37,17 @@ class StartOptions:
         Parameter(
             group=scene,
             metavar="LAT LON HEADING",
-            help="The aircraft: WGS84 degrees, and degrees from true north; with --orbit-lla.",
+            help="The aircraft: WGS84 degrees, and degrees from true north.",
         ),
     ] = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class PlacedStartOptions(StartOptions):
+    """Where the aircraft is, in degrees; metres are understood, and refused where they mean nothing."""
+
+    pose: Annotated[tuple[float, float, float] | None, Parameter(show=False)] = None
 
 
 @Parameter(name="*")
@@ -54,7 +62,7 @@ class OrbitOptions:
             consume_multiple=True,
             show_default=False,
             metavar="EAST NORTH RADIUS",
-            help="The circle: its centre and its radius, metres. --params may give the radius.",
+            help="The circle: its centre and its radius, metres.",
         ),
     ] = ()
     orbit_lla: Annotated[
@@ -64,7 +72,7 @@ class OrbitOptions:
             consume_multiple=True,
             show_default=False,
             metavar="LAT LON RADIUS",
-            help="The circle: its centre in WGS84 degrees, its radius in metres.",
+            help="The circle: its centre in WGS84 degrees, its radius in metres, which --params may give.",
         ),
     ] = ()
     turn: Annotated[
@@ -98,6 +106,14 @@ class OrbitOptions:
         if self.turn is not None:
             return Turn(self.turn)
         return Turn.EITHER if preset is None or preset.turn is None else preset.turn
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class PlacedOrbitOptions(OrbitOptions):
+    """The circle, in degrees; as `PlacedStartOptions`."""
+
+    orbit: Annotated[tuple[float, ...], Parameter(show=False, consume_multiple=True)] = ()
 
 
 @Parameter(name="*")
