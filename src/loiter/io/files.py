@@ -70,6 +70,9 @@ def save(
     check_format(path)
     if altitude_m is not None:
         altitude_m = checked_altitude(altitude_m)
+    if autopilot not in tuple(Autopilot):
+        known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
+        raise InvalidArgument("autopilot", f"is {autopilot!r}: it must be {known}")
     content = _content(path.suffix.lower(), Request(maneuver, frame, altitude_m, spacing_m, chord_error_m, autopilot))
     write_whole("save", path, lambda file: file.write(content))
 

@@ -30,7 +30,7 @@ class Known(NamedTuple):
     units: float = 1.0
 
 
-# The names of ArduPlane 4.5 and before, and PX4's; the radii, whose sign is the direction, are of `signs`.
+# ArduPlane's names since version 4.5 and before it, and PX4's; the radii, whose sign is the direction, are of `signs`.
 PARAMETERS = {
     "AIRSPEED_CRUISE": Known(Autopilot.ARDUPILOT, "indicated_airspeed_m_s"),
     "TRIM_ARSPD_CM": Known(Autopilot.ARDUPILOT, "indicated_airspeed_m_s", 100.0),
@@ -79,8 +79,7 @@ def read_parameters(path: str | Path) -> Preset:
     read, a value that is no number or cannot be meant, two that contradict each other, and a file without any of these.
     """
     source = Source("parameters", Path(path))
-    entries = _entries(source, source.text())
-    known = [entry for entry in entries if entry.name in PARAMETERS]
+    known = _entries(source, source.text())
     if not known:
         raise source.fault(f"it has none of {', '.join(PARAMETERS)}")
     first = known[0]
@@ -94,13 +93,19 @@ def read_parameters(path: str | Path) -> Preset:
 
 
 def _entries(source: Source, text: str) -> list[Entry]:
-    """All parameters; the first line that is none of a comment decides for the format."""
+    """The parameters that are known; the first line that is more than a comment decides for the format."""
     lines = [(number, line.split("#")[0].strip()) for number, line in enumerate(text.splitlines(), start=1)]
     rows = [(number, line) for number, line in lines if line]
     if not rows:
         raise source.fault("it has no parameters")
     fields = _five_columns if len(rows[0][1].split("\t")) == 5 else _name_and_value
-    entries = [_entry(source, number, line, fields) for number, line in rows]
+    named = [(number, *_named(source, number, line, fields)) for number, line in rows]
+    # The values of others are their own business: PX4 has some that are nan.
+    entries = [
+        Entry(number, name, value, source.number(f"line {number}: {name}", value))
+        for number, name, value in named
+        if name in PARAMETERS
+    ]
     values: dict[str, Entry] = {}
     for entry in entries:
         other = values.setdefault(entry.name, entry)
@@ -109,12 +114,12 @@ def _entries(source: Source, text: str) -> list[Entry]:
     return entries
 
 
-def _entry(source: Source, number: int, line: str, fields: Callable[[str], tuple[str, str] | None]) -> Entry:
+def _named(source: Source, number: int, line: str, fields: Callable[[str], tuple[str, str] | None]) -> tuple[str, str]:
+    """Name and value of a line."""
     found = fields(line)
     if found is None or not NAME.fullmatch(found[0]):
         raise source.fault(f"line {number} is {shown(line)}: it is no parameter with a value")
-    name, text = found
-    return Entry(number, name, text, source.number(f"line {number}: {name}", text))
+    return found
 
 
 def _name_and_value(line: str) -> tuple[str, str] | None:
