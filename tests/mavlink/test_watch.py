@@ -75,11 +75,12 @@ def watched(vehicle, reports, **options):
 @pytest.mark.parametrize(("start", "turn"), [(START, Turn.CW), (MIRRORED, Turn.CCW)])
 def test_the_circle_comes_nearer_and_the_direction_stays(start, turn):
     flight = Flight(start)
-    reports = watched(flight, 20)
+    reports = watched(flight, 8, period_s=0.2)
     times = [report.time_to_join_s for report in reports]
     assert {report.turn for report in reports} == {turn, flight.maneuver.turn} == {turn}
-    assert flight.maneuver.duration_s > times[0] > 8.0
-    assert all(after < before for before, after in pairwise(times) if before > 1.0)
+    assert flight.maneuver.duration_s > times[0] > 7.0
+    assert all(after <= before for before, after in pairwise(times) if before > 1.0)
+    assert times[-1] < times[0] - 4.0
     assert all(report.problem == "" and report.wind_source == WindSource.STILL_AIR for report in reports)
     assert all(report.other_costs_s > 0.0 and report.age_s < 1.0 for report in reports[:3])
     first = reports[0]
@@ -141,7 +142,8 @@ def test_the_wind_is_the_one_given_or_the_one_reported(autopilot):
     assert {report.wind_source for report in felt} == {WindSource.VEHICLE}
     assert felt[0].wind.velocity_m_s == pytest.approx(WIND.velocity_m_s, abs=1e-5)
     assert {report.plan.wind for report in felt} == {felt[0].wind}
-    assert all(after < before for before, after in pairwise(report.time_to_join_s for report in felt))
+    assert all(after <= before for before, after in pairwise(report.time_to_join_s for report in felt))
+    assert felt[-1].time_to_join_s < felt[0].time_to_join_s - 1.0
     given = watched(Felt(autopilot), 1, orbit=orbit, wind=Wind(3.0, 10.0))
     assert (given[0].wind, given[0].wind_source) == (Wind(3.0, 10.0), WindSource.GIVEN)
 
@@ -206,7 +208,7 @@ def test_a_refused_command_is_told_in_words(result):
 
 
 def test_a_command_that_is_never_answered_fails():
-    with pytest.raises(LinkFailed, match="did not answer the command to hold the circle in 0.4 s"):
+    with pytest.raises(LinkFailed, match=r"did not answer the command to hold the circle in 0.4 s"):
         watched(Answers(), 1, send=True, timeout_s=0.4)
 
 
@@ -262,11 +264,11 @@ def test_a_vehicle_that_falls_silent_ends_the_watch():
             if time.monotonic() - (self.begun or time.monotonic()) < 0.5:
                 super().send(message)
 
-    taken = []
-    dies = Dies()
-    with flying(dies), closing(watch(dies.connection, ORBIT, FRAME, UAV, period_s=0.1, timeout_s=0.5)) as each:
-        with pytest.raises(LinkFailed, match=r"system 1 \(ArduPilot\) has been silent for 0.5 s"):
-            taken.extend(each)
+    taken, dies = [], Dies()
+    reports = watch(dies.connection, ORBIT, FRAME, UAV, period_s=0.1, timeout_s=0.5)
+    silent = r"system 1 \(ArduPilot\) has been silent for 0.5 s"
+    with flying(dies), closing(reports), pytest.raises(LinkFailed, match=silent):
+        taken.extend(reports)
     assert taken[0].plan
 
 
@@ -281,7 +283,7 @@ def test_a_circle_that_moves_is_watched_and_not_held():
     moving = Orbit(0.0, 0.0, 120.0, velocity_east_m_s=3.0)
     reports = watched(Flight(), 5, orbit=moving)
     assert [r.plan.orbit.east_m for r in reports] == pytest.approx([3.0 * r.time_s for r in reports])
-    with pytest.raises(InvalidArgument, match="send tells a vehicle to hold a circle that rests"):
+    with pytest.raises(InvalidArgument, match=r"send tells a vehicle to hold a circle that rests"):
         watch("udpout:127.0.0.1:14550", moving, FRAME, UAV, send=True)
 
 

@@ -23,6 +23,9 @@ REPEAT_S, ITEM_REPEAT_S = 1.5, 0.25
 # heard for longer one has given up, or lost what it was asked for: the transfer begins anew, five times at the most.
 SILENCE_S, ATTEMPTS = 4.0, 5
 
+# How often the last item is sent again to a vehicle that neither accepts the mission nor asks for more.
+REPEATS = 3
+
 # An item asked for again so soon has been sent already: the line has doubled the request. No vehicle repeats one sooner
 # than after 0.25 s.
 DOUBLED_S = 0.1
@@ -91,7 +94,7 @@ class _Sending:
         self.progressed = progressed
         self.last = -1  # the last item that was asked for
         self.answered = -1, 0.0  # the item sent last, and when
-        self.repeated = False  # whether the last item was sent again without being asked for
+        self.repeats = 0  # how often the last item was sent without being asked for
         self.refusal = ""
         self.heard = self.said = self.begun = monotonic()
 
@@ -141,9 +144,9 @@ class _Sending:
 
     def _unacknowledged(self, now: float) -> bool | None:
         """The last item or its acknowledgement was lost. The item again makes PX4 acknowledge it again."""
-        if self.repeated or now >= self._end():
+        if self.repeats >= REPEATS or now >= self._end():
             return True
-        self.repeated = True
+        self.repeats += 1
         self._send_item(self.last, now)
         return None
 
@@ -174,7 +177,7 @@ class _Sending:
         # ArduPilot says so of an item that came twice, and goes on; a vehicle that is busy will not be for ever.
         if result == INVALID_SEQUENCE or (self.last < 0 and result in BUSY):
             return None
-        if self._complete and self.repeated:
+        if self._complete and self.repeats:
             # ArduPilot refuses a last item that comes again after it has taken all.
             return True
         raise LinkFailed(f"{self.link.vehicle.named} refused {self._what()}: {self.refusal}")
