@@ -192,8 +192,8 @@ def test_a_vehicle_that_takes_part_of_a_mission_again_and_again(kind):
     done, seconds = simulated(vehicle, NEW)
     assert re.search(r"asked for no more than item [34], 5 times over; it", str(done))
     assert vehicle.mission[1:] == OLD[1:]
-    # Five seconds until the vehicle gives up, four until we begin anew.
-    assert seconds < 5.0 * (4.0 + 5.0) + 1.0
+    # So long until the vehicle gives up, four seconds until we begin anew.
+    assert seconds < 5.0 * (vehicle.give_up_s + 4.0) + 1.0
 
 
 @pytest.mark.parametrize("at", [0, 3, 4])
@@ -454,6 +454,23 @@ def test_a_vehicle_that_gives_up_by_itself_begins_anew():
 
     vehicle = Tires()
     succeeds(vehicle)
+
+
+def test_a_vehicle_that_gives_up_before_the_last_item_gets_the_mission_again():
+    """It refuses the last item when that comes again, as one that has taken it all would: reading back tells."""
+
+    class Tires(Plane):
+        tired = False
+
+        def on_mission_item_int(self, message):
+            if self.expected == message.seq + 1 == len(NEW.items) + 1 and not self.tired:
+                self.tired, self.incoming = True, None
+                return
+            super().on_mission_item_int(message)
+
+    vehicle = Tires()
+    succeeds(vehicle)
+    assert vehicle.heard["MISSION_COUNT"] == 2
 
 
 def far(**fields):

@@ -74,7 +74,7 @@ class Vehicle:
     """An autopilot that holds a mission and changes it only when it has a new one whole."""
 
     system, component, autopilot, version = 1, 1, 12, 2
-    beat_s, repeat_s, give_up_s = 0.05, 0.04, 0.5
+    beat_s, repeat_s, give_up_s = 0.05, 0.025, 0.5  # a tenth of PX4's, as the library's time-outs in most tests
     sends_int_requests = True
 
     def __init__(self, mission=OLD):
@@ -88,6 +88,11 @@ class Vehicle:
         self.expected = 0
         self.asked = self.progressed = self.next_beat = 0.0
         self.clock = time.monotonic
+
+    def take_time(self):
+        """Repeats requests and gives up as late as real autopilots do."""
+        self.beat_s, self.repeat_s, self.give_up_s = 1.0, 10.0 * self.repeat_s, 10.0 * self.give_up_s
+        return self
 
     def open(self):
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -209,7 +214,7 @@ class Vehicle:
 class Plane(Vehicle):
     """ArduPlane: its home is item 0, items are replaced one by one, values are cut, nothing can be cancelled."""
 
-    autopilot = 3
+    autopilot, repeat_s, give_up_s = 3, 0.1, 0.8
     sends_int_requests = False
     home = item(x=450000000, y=70000000, z=400.0)
 
@@ -383,8 +388,7 @@ class Port:
 
 def simulated(vehicle, new, fate=lambda: 1, timeout_s=15.0):
     """What comes of an upload, a Summary or a LinkFailed, and the seconds that it would have taken."""
-    vehicle.repeat_s, vehicle.give_up_s = 0.25, 5.0
-    port = Port(vehicle, fate)
+    port = Port(vehicle.take_time(), fate)
     with pytest.MonkeyPatch.context() as patch:
         for (module, name), seconds in WAITS.items():
             patch.setattr(module, name, seconds)

@@ -56,18 +56,18 @@ def receive(link: Link, timeout_s: float, progress: Progress = lambda done, tota
 
 def send(
     link: Link, items: Sequence[StoredItem], timeout_s: float, progress: Progress = lambda done, total: None
-) -> None:
+) -> bool:
     """Every item to a vehicle, as it asks for them.
 
-    Returns when the vehicle has accepted them, or has asked for all of them and then says no more: only reading them
-    back tells. Raises `LinkFailed` where it refuses, or makes no progress for `timeout_s`.
+    Whether it has accepted them; False where it has asked for all of them and then says no more, so that only reading
+    them back tells. Raises `LinkFailed` where it refuses, or makes no progress for `timeout_s`.
     """
     with _cancelling(link):
         progressed = monotonic()
         for _ in range(ATTEMPTS):
             attempt = _Sending(link, items, timeout_s, progress, progressed)
             if attempt.run():
-                return
+                return attempt.accepted
             progressed = attempt.progressed
         raise LinkFailed(f"{attempt.stuck}, {ATTEMPTS} times over")
 
@@ -95,11 +95,12 @@ class _Sending:
         self.last = -1  # the last item that was asked for
         self.answered = -1, 0.0  # the item sent last, and when
         self.repeats = 0  # how often the last item was sent without being asked for
+        self.accepted = False
         self.refusal = ""
         self.heard = self.said = self.begun = monotonic()
 
     def run(self) -> bool:
-        """Whether the vehicle has all items, as far as it says; False where it has given up halfway."""
+        """Whether the vehicle has asked for all items; False where it has given up halfway."""
         self._begin()
         while True:
             message = self.link.receive({"MISSION_REQUEST_INT", "MISSION_REQUEST", "MISSION_ACK"}, self._deadline())
@@ -172,7 +173,8 @@ class _Sending:
     def _acknowledged(self, result: int) -> bool | None:
         if result == ACCEPTED:
             # One that comes too early belongs to an earlier transfer.
-            return True if self._complete else None
+            self.accepted = self._complete
+            return self.accepted or None
         self.refusal = mission_result(result)
         # ArduPilot says so of an item that came twice, and goes on; a vehicle that is busy will not be for ever.
         if result == INVALID_SEQUENCE or (self.last < 0 and result in BUSY):
