@@ -138,7 +138,7 @@ def test_a_vehicle_that_gives_no_mission_gets_none():
             pass
 
     silent = Secretive()
-    fails(silent, r"system 1 \(PX4\) did not answer in 15 s when asked for the mission")
+    fails(silent, r"system 1 \(PX4\) did not answer in 15 s when asked to give its mission")
     assert silent.heard["MISSION_COUNT"] == 0
 
 
@@ -253,7 +253,7 @@ def test_a_vehicle_that_stays_busy_says_so():
             self.partner = self.who(message)
             self.acknowledge(14)
 
-    fails(Busy(), "refused to give the mission: it takes no missions from this station")
+    fails(Busy(), "refused to give its mission: it takes no missions from this station")
 
 
 CHANGES = {

@@ -114,8 +114,9 @@ def compared(sent: Sequence[StoredItem], kept: Sequence[StoredItem], vehicle: Ve
 
 
 def same(some: Sequence[StoredItem], others: Sequence[StoredItem], vehicle: Vehicle) -> bool:
-    """Whether two missions that a vehicle gave are one and the same."""
-    return compared(some, others, vehicle) == ([], [])
+    """Whether two missions that a vehicle gave are one and the same, but for what its autopilot rounds."""
+    wrong, _ = compared(some, others, vehicle)
+    return not wrong
 
 
 def _encoded(item: MissionItem, seq: int, name: str) -> StoredItem:

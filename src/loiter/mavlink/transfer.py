@@ -43,12 +43,13 @@ def receive(link: Link, timeout_s: float, progress: Progress = lambda done, tota
     to, mavlink = _to(link), packets()
     with _cancelling(link):
         wanted = mavlink.MAVLink_mission_request_list_message(*to, 0)
-        total = _answer(link, wanted, "MISSION_COUNT", REPEAT_S, timeout_s).count
+        total = _answer(link, wanted, "give its mission", "MISSION_COUNT", REPEAT_S, timeout_s).count
         items: list[StoredItem] = []
         for seq in range(total):
             progress(seq, total)
             wanted = mavlink.MAVLink_mission_request_int_message(*to, seq, 0)
-            items.append(unpacked(_answer(link, wanted, "MISSION_ITEM_INT", ITEM_REPEAT_S, timeout_s, seq)))
+            asked = f"give {called(seq, link.vehicle)}"
+            items.append(unpacked(_answer(link, wanted, asked, "MISSION_ITEM_INT", ITEM_REPEAT_S, timeout_s, seq)))
         progress(total, total)
         link.send(mavlink.MAVLink_mission_ack_message(*to, ACCEPTED, 0))
     return items
@@ -75,7 +76,7 @@ def send(
 def clear(link: Link, timeout_s: float) -> None:
     """A vehicle left without a mission; raises `LinkFailed` where it refuses or is silent."""
     wanted = packets().MAVLink_mission_clear_all_message(*_to(link), 0)
-    _answer(link, wanted, "MISSION_ACK", REPEAT_S, timeout_s)
+    _answer(link, wanted, "clear its mission", "MISSION_ACK", REPEAT_S, timeout_s)
 
 
 def cancel(link: Link) -> None:
@@ -195,8 +196,10 @@ class _Sending:
         return f"{self.link.vehicle.named} {what}{said}"
 
 
-def _answer(link: Link, wanted: Any, kind: str, repeat_s: float, timeout_s: float, seq: int | None = None) -> Any:
-    """The answer to a message, which is repeated until it comes.
+def _answer(
+    link: Link, wanted: Any, asked: str, kind: str, repeat_s: float, timeout_s: float, seq: int | None = None
+) -> Any:
+    """The answer of one kind to a message, which is repeated until it comes; `asked` is what for, in words.
 
     A refusal may be a late answer to something else, and that of a busy vehicle passes: it counts when time is up.
     """
@@ -211,10 +214,9 @@ def _answer(link: Link, wanted: Any, kind: str, repeat_s: float, timeout_s: floa
                 deadline = max(deadline, begun + BUSY_S)
             elif message.get_type() == kind and (seq is None or message.seq == seq):
                 return message
-    asked = "the mission" if seq is None else called(seq, link.vehicle)
     if refusal:
-        raise LinkFailed(f"{link.vehicle.named} refused to give {asked}: {refusal}")
-    raise LinkFailed(f"{link.vehicle.named} did not answer in {timeout_s:g} s when asked for {asked}")
+        raise LinkFailed(f"{link.vehicle.named} refused to {asked}: {refusal}")
+    raise LinkFailed(f"{link.vehicle.named} did not answer in {timeout_s:g} s when asked to {asked}")
 
 
 def _to(link: Link) -> tuple[int, int]:
