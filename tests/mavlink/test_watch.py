@@ -8,12 +8,15 @@ from math import isnan, nan, radians
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.geo import LocalFrame
 from loiter.io.signs import circle
 from loiter.mavlink import WindSource, watch
+from loiter.mavlink.telemetry import Telemetry
 from loiter.planning.flight import over_ground
 from mavlink.vehicle import ACCEPTED, Vehicle, flying, free_port, mavlink
 
@@ -314,3 +317,29 @@ def test_a_caller_who_takes_long_gets_the_present_not_the_past():
 def test_arguments_are_checked_at_once(options, argument):
     with pytest.raises(InvalidArgument, match=f"^{argument} "):
         watch("udpout:127.0.0.1:14550", ORBIT, FRAME, UAV, **options)
+
+
+singles = st.floats(width=32)
+degrees = st.one_of(st.integers(-(2**31), 2**31 - 1), st.integers(465_000_000, 475_000_000), st.integers(0, 90_000_000))
+
+
+@given(
+    lat=degrees,
+    lon=degrees,
+    hdg=st.integers(0, 65535),
+    yaw=singles,
+    wind=st.tuples(singles, singles),
+    px4=st.booleans(),
+)
+@settings(max_examples=200, deadline=None)
+def test_whatever_a_vehicle_says_is_a_report(lat, lon, hdg, yaw, wind, px4):
+    telemetry, module = Telemetry(), import_module("loiter.mavlink.watch")
+    telemetry.hear(mavlink.MAVLink_global_position_int_message(0, lat, lon, 0, 0, 0, 0, 0, hdg), 10.0)
+    telemetry.hear(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, yaw, 0.0, 0.0, 0.0), 10.0)
+    if px4:
+        telemetry.hear(mavlink.MAVLink_wind_cov_message(0, *wind, 0.0, 1.0, 1.0, 612.0, 1.0, 1.0), 10.0)
+    else:
+        telemetry.hear(mavlink.MAVLink_wind_message(*wind, 0.0), 10.0)
+    report = module._Planner(ORBIT, FRAME, UAV, None, 5.0).report(telemetry, 10.1, 0.1, False)
+    assert (report.plan is None) == bool(report.problem)
+    assert report.plan is None or report.time_to_join_s >= 0.0
