@@ -8,13 +8,16 @@ from loiter.planning.hold import hold
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
 from loiter.planning.solve import candidates, plan, plan_all
+from loiter.version import __version__ as __version__
 
 if TYPE_CHECKING:
     from loiter import batch as batch
+    from loiter import geo as geo
+    from loiter import guidance as guidance
+    from loiter import io as io
+    from loiter import mavlink as mavlink
     from loiter import verify as verify
     from loiter.planning.arrays import control, min_time, min_time_in_wind, reduce, solve, solve_in_wind
-
-__version__ = "0.1.0"
 
 __all__ = [
     "Aircraft",
@@ -48,6 +51,6 @@ def __getattr__(name: str) -> Any:
         from loiter.planning import arrays
 
         return getattr(arrays, name)
-    if name in {"batch", "verify"}:
+    if name in {"batch", "geo", "guidance", "io", "mavlink", "verify"}:
         return import_module(f"loiter.{name}")
     raise AttributeError(f"module 'loiter' has no attribute {name!r}")

@@ -17,6 +17,7 @@ import pytest
 import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, write
 from loiter.batch import folder, parts, tables
+from loiter.batch import job as jobs
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, Unfinished
 
@@ -186,7 +187,7 @@ def touched_input():
 
 
 def other_program(monkeypatch):
-    monkeypatch.setattr(loiter, "__version__", "9.9.9")
+    monkeypatch.setattr(jobs, "__version__", "9.9.9")
 
 
 STALE = {

@@ -76,7 +76,7 @@ def test_the_admissible_control_of_example_2_is_an_alternative(planned):
 def test_json_holds_these_names(planned):
     answer = planned(FAR)
     maneuver = {"duration_s", "length_m", "word", "turn", "join", "miss_m", "segments"}
-    maneuver |= {"wind", "join_over_ground", "hold"}
+    maneuver |= {"wind", "join_over_ground", "hold", "aircraft"}
     assert set(answer) == maneuver | {"alternatives"}
     assert all(set(other) == maneuver | {"later_s"} for other in answer["alternatives"])
     assert set(answer["join"]) == {"east_m", "north_m", "heading_deg"}
@@ -307,7 +307,7 @@ def test_json_and_a_picture_come_together(planned, tmp_path, monkeypatch):
 )
 def test_the_picture_shows_one_optimum_or_each_over_the_rest_of_the_direction(shown, monkeypatch, options, bold, words):
     drawn = []
-    monkeypatch.setattr(files, "save", lambda _, best, others: drawn.extend((best, others)))
+    monkeypatch.setattr(files, "save", lambda _, best, others, frame: drawn.extend((best, others)))
     shown(f"plan --pose 3 0 90 {UNIT} --plot entry.png {options}")
     best, others = drawn
     assert len(best) == bold
@@ -335,10 +335,10 @@ def test_the_table_prints_where_only_ascii_can_be_written():
 def test_the_examples_of_the_help_run(shown, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     examples = re.findall(r"^  loiter (plan .*)$", shown("--help").replace("\\\n", ""), re.MULTILINE)
-    assert len(examples) == 3
+    assert len(examples) == 4
     for example in examples:
         assert "joins in" in shown(example)
-    assert [path.name for path in tmp_path.iterdir()] == ["entry.png"]
+    assert {path.name for path in tmp_path.iterdir()} == {"entry.png", "entry.plan"}
 
 
 @pytest.mark.parametrize("arguments", ["", "--help", "-h"])

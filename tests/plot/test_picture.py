@@ -8,6 +8,7 @@ import pytest
 from matplotlib.colors import same_color, to_rgb
 
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan_all
+from loiter.geo import LocalFrame
 from loiter.plot.picture import draw
 from planning.flying import fly
 
@@ -212,8 +213,8 @@ def test_the_circle_is_drawn_where_it_is(scene):
 def circle_arrows(axes, orbit):
     """Each black arrow's tail and head, from the centre of the circle."""
     centre = np.array([orbit.east_m, orbit.north_m])
-    black = [arrow for arrow in axes.texts if arrow.arrowprops and arrow.arrowprops["color"] == "black"]
-    return [(np.array(arrow.xyann) - centre, np.array(arrow.xy) - centre) for arrow in black]
+    held = [arrow for arrow in axes.texts if (arrow.get_gid() or "").startswith("held")]
+    return [(np.array(arrow.xyann) - centre, np.array(arrow.xy) - centre) for arrow in held]
 
 
 @pytest.mark.parametrize("everything", [False, True])
@@ -225,6 +226,27 @@ def test_arrows_on_the_circle_point_the_way_it_is_held(scene, everything):
         assert [hypot(*tail), hypot(*head)] == pytest.approx([scene[1].radius_m] * 2, abs=1e-9 * size(scene))
         senses.append("cw" if tail[0] * head[1] - tail[1] * head[0] < 0.0 else "ccw")
     assert set(senses) == {maneuver.turn.value for maneuver in best}
+
+
+@each_scene
+def test_the_scale_bar_is_as_long_as_it_says_and_north_is_up(scene):
+    axes, _, _ = drawn(scene)
+    axes.figure.draw_without_rendering()
+    [bar] = [artist for artist in axes.artists if artist.get_gid() == "scale"]
+    box = bar.size_bar.get_children()[0]
+    number, unit = bar.txt_label.get_text().split()
+    assert box.get_width() == pytest.approx(float(number) * {"m": 1.0, "km": 1000.0}[unit], rel=1e-9)
+    west, east = axes.get_xlim()
+    assert 0.04 < box.get_width() / (east - west) < 0.4
+    [north] = [arrow for arrow in axes.texts if arrow.get_gid() == "north"]
+    assert north.xy[0] == north.xyann[0]
+    assert north.xy[1] > north.xyann[1]
+
+
+def test_the_axes_say_where_on_earth_they_begin():
+    assert draw(plan_all(*FAR)).axes[0].get_xlabel() == "east (m)"
+    placed = draw(plan_all(*FAR), frame=LocalFrame(-33.5, 179.25)).axes[0]
+    assert placed.get_xlabel() == "east of 33.500000 S 179.250000 E (m)"
 
 
 def test_arrows_of_both_directions_stand_apart():

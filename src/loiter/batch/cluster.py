@@ -11,12 +11,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import loiter
 from loiter.batch.folder import belongs
 from loiter.batch.parts import Job, solve_part
 from loiter.batch.runner import Crew, Meter, threads
 from loiter.batch.tables import Part, reason
 from loiter.errors import InvalidArgument
+from loiter.version import __version__
 
 # Seconds to wait for a scheduler, and for its first worker.
 CONNECT_S = 5
@@ -125,7 +125,7 @@ def _cause(error: BaseException) -> BaseException:
 def check_workers(client: Any, job: Job, source: Path) -> None:
     """Raise `InvalidArgument` where a worker does not see the input or the job's folder, or has another program."""
     size = source.stat().st_size
-    found = client.run(_sight, job, source.absolute(), size, loiter.__version__, on_error="return")
+    found = client.run(_sight, job, source.absolute(), size, __version__, on_error="return")
     for worker, problem in found.items():
         if problem:
             said = problem if isinstance(problem, str) else reason(problem)
@@ -134,8 +134,8 @@ def check_workers(client: Any, job: Job, source: Path) -> None:
 
 def _sight(job: Job, source: Path, size: int, version: str) -> str:
     """What keeps the worker that runs this from taking part; "" if nothing does."""
-    if loiter.__version__ != version:
-        return f"it has loiter {loiter.__version__}, not {version}"
+    if __version__ != version:
+        return f"it has loiter {__version__}, not {version}"
     if not source.exists() or source.stat().st_size != size:
         return f"it does not see {source}; workers need a file system in common with this machine"
     if not belongs(job.folder, job.digest):

@@ -11,13 +11,13 @@ from typing import Any, NamedTuple
 
 import pyarrow as pa
 
-import loiter
 from loiter.batch import cluster, folder, ingest, outputs, tables
 from loiter.batch.columns import STATUSES, Columns, Shared, columns, drifting
 from loiter.batch.parts import Job, append_part, is_whole
 from loiter.batch.runner import Crew, Meter, local_crew, work
 from loiter.errors import InvalidArgument, Unfinished
 from loiter.planning import arrays
+from loiter.version import __version__
 
 
 class Progress(NamedTuple):
@@ -128,7 +128,7 @@ def _description(asked: Request) -> dict[str, Any]:
     """What must be the same for one run of a job to go on from another's parts."""
     stat, (part_rows, batch_rows) = asked.source.stat(), _sizes(asked)
     return {
-        "program": loiter.__version__,
+        "program": __version__,
         "source": str(asked.source.resolve()),
         "size": stat.st_size,
         "mtime_ns": stat.st_mtime_ns,

@@ -3,13 +3,14 @@
 import json
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
 from math import atan2, degrees, hypot
 
 from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from loiter.geo import LocalFrame
+from loiter.geo.frame import degrees_of
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Pose
 
@@ -31,54 +32,26 @@ def print_json(document: dict[str, object]) -> None:
     sys.stdout.write("\n")
 
 
-def answer(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> dict[str, object]:
-    """The first of `best` as plain values; its `alternatives` are the rest of `best`, then `others`."""
-    first, *rest = best
-    alternatives = [described(m) | {"later_s": m.duration_s - first.duration_s} for m in (*rest, *others)]
-    return described(first) | {"alternatives": alternatives}
+def print_tables(
+    best: Sequence[Maneuver],
+    others: Sequence[Maneuver],
+    *,
+    everything: bool,
+    frame: LocalFrame | None = None,
+    remark: str = "",
+) -> None:
+    """Print the first of `best`, or with `everything` each, and what the other direction costs; `remark` before all.
 
-
-def described(maneuver: Maneuver) -> dict[str, object]:
-    """A maneuver as plain values, for JSON."""
-    return {
-        "duration_s": maneuver.duration_s,
-        "length_m": maneuver.length_m,
-        "word": maneuver.word,
-        "turn": maneuver.turn.value,
-        "join": asdict(maneuver.join),
-        "wind": asdict(maneuver.wind),
-        "join_over_ground": _join_over_ground(maneuver),
-        "hold": {
-            "least_bank_deg": maneuver.hold.least_bank_deg,
-            "largest_bank_deg": maneuver.hold.largest_bank_deg,
-            "largest_bank_azimuth_deg": maneuver.hold.largest_bank_azimuth_deg,
-        },
-        "miss_m": maneuver.miss_m,
-        "segments": [asdict(segment) for segment in maneuver.segments],
-    }
-
-
-def _join_over_ground(maneuver: Maneuver) -> dict[str, float]:
-    """Track and ground speed where the circle is joined, and where its centre is then."""
-    track_deg, speed = maneuver.over_ground(maneuver.join)
-    centre = maneuver.orbit_at_join
-    return {
-        "track_deg": track_deg,
-        "ground_speed_m_s": speed,
-        "centre_east_m": centre.east_m,
-        "centre_north_m": centre.north_m,
-    }
-
-
-def print_tables(best: Sequence[Maneuver], others: Sequence[Maneuver], *, everything: bool) -> None:
-    """Print the first of `best`, or with `everything` each, and what the other direction costs."""
-    lines: list[RenderableType] = [weather(best[0])] if _windy(best[0]) else []
+    With a frame headings are true, and places are told in degrees.
+    """
+    lines: list[RenderableType] = [remark] if remark else []
+    lines += [weather(best[0])] if _windy(best[0]) else []
     for maneuver in best if everything else best[:1]:
         lines.append(Text(headline(maneuver), style="bold"))
         if maneuver.segments:
-            lines += [table(maneuver), peel_off(maneuver)]
+            lines += [table(maneuver, frame), peel_off(maneuver, frame)]
         if _windy(maneuver):
-            lines += hold_in_wind(maneuver)
+            lines += hold_in_wind(maneuver, frame)
         if maneuver.miss_m > SHOWN * maneuver.orbit.radius_m:
             lines.append(f"Ends {maneuver.miss_m:.3g} m off the point of joining, within the tolerance.")
     lines.append(other_direction(best, others))
@@ -107,7 +80,7 @@ def headline(maneuver: Maneuver) -> str:
     )
 
 
-def table(maneuver: Maneuver) -> Table:
+def table(maneuver: Maneuver, frame: LocalFrame | None = None) -> Table:
     """A row for each piece and one for the join."""
     time, length = _formats(maneuver)
     rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
@@ -123,8 +96,8 @@ def table(maneuver: Maneuver) -> Table:
             time(segment.duration_s),
             length(segment.length_m),
             length(maneuver.orbit.after(segment.start_s).distance_m(segment.start)),
-            _degrees(segment.start.heading_deg),
-            *_over_ground(maneuver, segment.start),
+            _degrees(segment.start.heading_deg - _convergence_deg(segment.start, frame)),
+            *_over_ground(maneuver, segment.start, frame),
         )
     rows.add_row(
         time(maneuver.duration_s),
@@ -132,18 +105,23 @@ def table(maneuver: Maneuver) -> Table:
         "",
         "",
         length(maneuver.orbit_at_join.distance_m(maneuver.join)),
-        _degrees(maneuver.join.heading_deg),
-        *_over_ground(maneuver, maneuver.join),
+        _degrees(maneuver.join.heading_deg - _convergence_deg(maneuver.join, frame)),
+        *_over_ground(maneuver, maneuver.join, frame),
     )
     return rows
 
 
-def _over_ground(maneuver: Maneuver, pose: Pose) -> list[str]:
+def _over_ground(maneuver: Maneuver, pose: Pose, frame: LocalFrame | None) -> list[str]:
     """Cells for track and ground speed; none in still air about a circle that rests."""
     if not _windy(maneuver):
         return []
     track_deg, speed = maneuver.over_ground(pose)
-    return [_degrees(track_deg), f"{speed:.1f} m/s"]
+    return [_degrees(track_deg - _convergence_deg(pose, frame)), f"{speed:.1f} m/s"]
+
+
+def _convergence_deg(pose: Pose, frame: LocalFrame | None) -> float:
+    """What a heading of the plane has too much to be true."""
+    return 0.0 if frame is None else pose.heading_deg - frame.place(pose).heading_deg
 
 
 def weather(maneuver: Maneuver) -> str:
@@ -158,11 +136,11 @@ def weather(maneuver: Maneuver) -> str:
     )
 
 
-def hold_in_wind(maneuver: Maneuver) -> list[str]:
+def hold_in_wind(maneuver: Maneuver, frame: LocalFrame | None = None) -> list[str]:
     """What the wind asks of the hold, and where a circle that moves is joined."""
     lines, hold = [], maneuver.hold
     if maneuver.orbit.moves and maneuver.segments:
-        centre = _place(maneuver, maneuver.orbit_at_join)
+        centre = _place(maneuver, maneuver.orbit_at_join, frame)
         lines.append(f"When it is joined the circle's centre is at {centre}.")
     least, most = f"{hold.least_bank_deg:.1f}", f"{hold.largest_bank_deg:.1f}"
     if least == most:
@@ -173,7 +151,9 @@ def hold_in_wind(maneuver: Maneuver) -> list[str]:
     return lines
 
 
-def _place(maneuver: Maneuver, place: Pose | Orbit) -> str:
+def _place(maneuver: Maneuver, place: Pose | Orbit, frame: LocalFrame | None) -> str:
+    if frame is not None:
+        return degrees_of(*frame.place(Pose(place.east_m, place.north_m, 0.0))[:2])
     _, length = _formats(maneuver)
     return f"{length(place.east_m)} east, {length(place.north_m)} north"
 
@@ -183,13 +163,13 @@ def _windy(maneuver: Maneuver) -> bool:
     return maneuver.wind.speed_m_s > 0.0 or maneuver.orbit.moves
 
 
-def peel_off(maneuver: Maneuver) -> str:
+def peel_off(maneuver: Maneuver, frame: LocalFrame | None = None) -> str:
     """Where the last piece begins: "Peel off: turn left in 12.4 s, 138 m from the centre."."""
     time, length = _formats(maneuver)
     last = maneuver.segments[-1]
     when = f"in {time(last.start_s)}" if len(maneuver.segments) > 1 else "now"
     away = length(maneuver.orbit.after(last.start_s).distance_m(last.start))
-    where = f", at {_place(maneuver, last.start)}" if _windy(maneuver) else ""
+    where = f", at {_place(maneuver, last.start, frame)}" if _windy(maneuver) or frame is not None else ""
     return f"Peel off: {ACTIONS[last.letter]} {when}, {away} from the centre{where}."
 
 

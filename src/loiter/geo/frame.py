@@ -9,18 +9,27 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from loiter.errors import InvalidArgument, OutOfRange, number
+from loiter.planning.compass import wrapped
 from loiter.planning.model import Pose
 
 if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import ArrayLike, NDArray
 
-# Here the plane stretches by 4.1e-5 across: a flight all the way in is off by less than 4 m, no more than what satellite
-# navigation is, and headings by less than 0.002 degrees.
+# Here the plane stretches by 4.1e-5 across: a flight all the way in is off by less than 4 m, no more than satellite
+# navigation, and headings by less than 0.002 degrees.
 REACH_M = 100_000.0
+
+
+class Place(NamedTuple):
+    """A place on Earth and a heading there: WGS84 degrees, the heading clockwise from true north, in [0, 360)."""
+
+    latitude_deg: float
+    longitude_deg: float
+    heading_deg: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,9 +76,10 @@ class LocalFrame:
         return np.where(near, latitude, np.nan), np.where(near, longitude, np.nan)
 
     def convergence_deg(self, latitude_deg: ArrayLike, longitude_deg: ArrayLike) -> NDArray[float64]:
-        """What to add to a true heading at places in degrees to have it from the plane's north: degrees; they broadcast.
+        """What to add to true headings at places in degrees, to count them from the plane's north; they broadcast.
 
-        The meridians of two places are not parallel: 20 km east at a latitude of 60 degrees makes 0.3 degrees.
+        The meridians of two places are not parallel: 20 km east at a latitude of 60 degrees makes 0.3 degrees. nan
+        where `to_local` gives nan.
         """
         return self._rays(latitude_deg, longitude_deg)[2]
 
@@ -79,14 +89,28 @@ class LocalFrame:
         Raises `InvalidArgument` for what is no place, `OutOfRange` for one more than 100 km from the origin.
         """
         lat, lon = checked_place("pose", latitude_deg, longitude_deg)
-        heading = number("pose heading_deg", heading_deg, "degrees")
+        heading = number("pose true heading_deg", heading_deg, "degrees")
         east, north, convergence = (float(value) for value in self._rays(lat, lon))
         if east != east:
-            raise OutOfRange(
-                f"the pose {lat:g} {lon:g} is more than {REACH_M / 1000.0:g} km from the origin "
-                f"{self.latitude_deg:g} {self.longitude_deg:g}: the plane is no good model of the Earth there"
-            )
+            raise self._too_far(f"{lat:g} {lon:g}")
         return Pose(east, north, heading % 360.0 + convergence)
+
+    def place(self, pose: Pose) -> Place:
+        """Where a pose of the plane is on Earth, and its true heading.
+
+        Raises `OutOfRange` for one more than 100 km from the origin.
+        """
+        latitude, longitude = (float(value) for value in self.to_geodetic(pose.east_m, pose.north_m))
+        if latitude != latitude:
+            raise self._too_far(f"{pose.east_m:g} m east, {pose.north_m:g} m north")
+        heading = pose.heading_deg % 360.0 - float(self.convergence_deg(latitude, longitude))
+        return Place(latitude, longitude, wrapped(heading))
+
+    def _too_far(self, where: str) -> OutOfRange:
+        return OutOfRange(
+            f"the place {where} is more than {REACH_M / 1000.0:g} km from the origin {self.latitude_deg:g} "
+            f"{self.longitude_deg:g}: a plane is no good model of the Earth there"
+        )
 
     def _rays(self, latitude_deg: Any, longitude_deg: Any) -> tuple[NDArray[float64], ...]:
         """East, north and convergence of places; nan where there is none within reach."""
@@ -105,6 +129,12 @@ class LocalFrame:
             np.where(good, column, np.nan)
             for column in (distance * np.sin(angle), distance * np.cos(angle), convergence)
         )
+
+
+def degrees_of(latitude_deg: float, longitude_deg: float) -> str:
+    """A place as people write it, to a decimetre: "47.110000 N 8.230000 E"."""
+    north, east = "N" if latitude_deg >= 0.0 else "S", "E" if longitude_deg >= 0.0 else "W"
+    return f"{abs(latitude_deg):.6f} {north} {abs(longitude_deg):.6f} {east}"
 
 
 def checked_place(argument: str, latitude_deg: object, longitude_deg: object) -> tuple[float, float]:

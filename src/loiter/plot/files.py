@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from loiter.errors import InvalidArgument
+from loiter.geo import LocalFrame
 from loiter.planning.maneuver import Maneuver
 from loiter.writing import write_whole
 
@@ -22,7 +23,9 @@ def check_format(path: Path) -> None:
         raise InvalidArgument("plot", f"is {str(path)!r}: the file name must end in {', '.join(FORMATS)}")
 
 
-def save(path: str | Path, best: Sequence[Maneuver], others: Sequence[Maneuver] = ()) -> None:
+def save(
+    path: str | Path, best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: LocalFrame | None = None
+) -> None:
     """Write the picture of `picture.draw` to `path`, in the format of its ending: .png, .svg or .pdf.
 
     The file appears whole or not at all; an older one stays until then. Raises `InvalidArgument` for another ending and
@@ -32,7 +35,7 @@ def save(path: str | Path, best: Sequence[Maneuver], others: Sequence[Maneuver] 
     check_format(path)
     from loiter.plot.picture import draw
 
-    save_figure("plot", path, draw(best, others))
+    save_figure("plot", path, draw(best, others, frame=frame))
 
 
 def save_figure(argument: str, path: Path, figure: Figure) -> None:

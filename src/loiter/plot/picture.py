@@ -12,8 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 from matplotlib.text import OffsetFrom
+from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 from numpy.typing import NDArray
 
+from loiter.geo import LocalFrame
+from loiter.geo.frame import degrees_of
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import along
 from loiter.planning.maneuver import Maneuver
@@ -24,6 +27,8 @@ COLOURS = {"L": "#009E73", "S": "#0072B2", "R": "#D55E00"}
 MEANINGS = {"L": "left turn", "S": "straight", "R": "right turn"}
 FAINT = "#b0b0b0"
 AT_THE_START: dict[str, Any] = {"color": FAINT, "linewidth": 1.2, "linestyle": "--"}
+
+ARROW: dict[str, Any] = {"arrowstyle": "-|>", "shrinkA": 0.0, "shrinkB": 0.0}
 
 # The wind's arrow: points from the upper left corner of the axes to its middle, and its length.
 WIND_COLOUR = "#505050"
@@ -37,12 +42,13 @@ MARKS: dict[str, dict[str, Any]] = {
 CHORD_RAD = math.radians(2.0)
 
 
-def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = ()) -> Figure:
+def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: LocalFrame | None = None) -> Figure:
     """Draw maneuvers of one scene: `best` coloured by segment, `others` faint, start, switches and join marked.
 
-    East is to the right, north up, axes equal, in metres. The first of `best` gives the title. In wind tracks are those
-    over the ground, and an arrow beside the title shows where the air goes. A circle that moves is drawn where it is
-    when it is joined, faint where it is at the start; `others` end where it is for each of them.
+    East is to the right, north up, axes equal, in metres, with a scale bar; with a frame they say where their origin is
+    on Earth. The first of `best` gives the title. In wind tracks are those over the ground, and an arrow beside the
+    title shows where the air goes. A circle that moves is drawn where it is when it is joined, faint where it is at the
+    start; `others` end where it is for each of them.
     """
     first = best[0]
     figure = Figure(figsize=(8.0, 6.4), layout="constrained")
@@ -60,13 +66,16 @@ def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = ()) -> Figure:
     for maneuver in best:
         _draw_path(axes, maneuver)
     _draw_aircraft(axes, first.start)
-    axes.set_xlabel("east (m)")
+    origin = "" if frame is None else f" of {degrees_of(frame.latitude_deg, frame.longitude_deg)}"
+    axes.set_xlabel(f"east{origin} (m)")
     axes.set_ylabel("north (m)")
     axes.set_title(_title(best))
     if first.wind.speed_m_s > 0.0:
         _draw_wind(axes, first.wind)
-    axes.legend(handles=_legend(best, others), loc="best", fontsize="small", framealpha=0.9)
     axes.margins(0.08)
+    _draw_north(axes)
+    _draw_scale(axes)
+    axes.legend(handles=_legend(best, others), loc="best", fontsize="small", framealpha=0.9)
     return figure
 
 
@@ -102,7 +111,8 @@ def _draw_circle(axes: Axes, orbit: Orbit, turns: set[Turn]) -> None:
         for quarter in range(4):
             angle = math.radians(45.0 + 90.0 * quarter - 8.0 * sense * (len(turns) - 1))
             arc = angle + sense * np.array([0.0, CHORD_RAD])
-            _arrow(axes, centre[0] + orbit.radius_m * np.cos(arc), centre[1] + orbit.radius_m * np.sin(arc), "black")
+            east, north = centre[0] + orbit.radius_m * np.cos(arc), centre[1] + orbit.radius_m * np.sin(arc)
+            _arrow(axes, east, north, "black", gid=f"held {turn}")
 
 
 def _draw_movement(axes: Axes, maneuver: Maneuver) -> None:
@@ -120,14 +130,7 @@ def _draw_wind(axes: Axes, wind: Wind) -> None:
     towards = np.array(wind.velocity_m_s) / wind.speed_m_s
     tail, head = WIND_PLACE - 0.5 * WIND_LENGTH * towards, WIND_PLACE + 0.5 * WIND_LENGTH * towards
     corner: dict[str, Any] = {"xycoords": OffsetFrom(axes.patch, (0.0, 1.0)), "annotation_clip": False}
-    style = {
-        "arrowstyle": "-|>",
-        "color": WIND_COLOUR,
-        "linewidth": 2.0,
-        "mutation_scale": 14.0,
-        "shrinkA": 0,
-        "shrinkB": 0,
-    }
+    style = ARROW | {"color": WIND_COLOUR, "linewidth": 2.0, "mutation_scale": 14.0}
     axes.annotate(
         "", xy=tuple(head), xytext=tuple(tail), textcoords=corner["xycoords"], arrowprops=style, gid="wind", **corner
     )
@@ -136,13 +139,48 @@ def _draw_wind(axes: Axes, wind: Wind) -> None:
     axes.annotate(label, xy=tuple(beside), va="center", fontsize="small", color=WIND_COLOUR, gid="wind label", **corner)
 
 
-def _arrow(axes: Axes, east: NDArray[np.float64], north: NDArray[np.float64], colour: str) -> None:
+def _draw_north(axes: Axes) -> None:
+    """An arrow to the north, in points beside the title, on the right as the wind's is on the left."""
+    corner: dict[str, Any] = {"xycoords": OffsetFrom(axes.patch, (1.0, 1.0)), "annotation_clip": False}
+    ends: dict[str, Any] = {"xy": (-12.0, 27.0), "xytext": (-12.0, 5.0), "textcoords": corner["xycoords"]}
+    style = ARROW | {"color": "black", "linewidth": 1.6, "mutation_scale": 13.0}
+    axes.annotate("", **ends, arrowprops=style, gid="north", **corner)
+    axes.annotate("N", xy=(-20.0, 11.0), ha="right", fontsize="medium", gid="north label", **corner)
+
+
+def _draw_scale(axes: Axes) -> None:
+    """A bar of a round length in the lower right corner, about a fifth of the axes wide."""
+    axes.apply_aspect()
+    west, east = axes.get_xlim()
+    length = round_length((east - west) / 5.0)
+    text = f"{length / 1000.0:g} km" if length >= 1000.0 else f"{length:g} m"
+    bar = AnchoredSizeBar(
+        axes.transData, length, text, "lower right", pad=0.8, frameon=False, size_vertical=length / 60.0
+    )
+    bar.set_gid("scale")
+    axes.add_artist(bar)
+
+
+def round_length(most: float) -> float:
+    """The largest of 1, 2, 5 times a power of ten that is at most `most`.
+
+    >>> round_length(237.0), round_length(0.05)
+    (200.0, 0.05)
+    """
+    decade = 10.0 ** math.floor(math.log10(most))
+    return max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= most)
+
+
+def _arrow(
+    axes: Axes, east: NDArray[np.float64], north: NDArray[np.float64], colour: str, gid: str | None = None
+) -> None:
     i = len(east) // 2
     axes.annotate(
         "",
         xy=(east[i], north[i]),
         xytext=(east[i - 1], north[i - 1]),
-        arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 15.0, "shrinkA": 0.0, "shrinkB": 0.0},
+        arrowprops=ARROW | {"color": colour, "mutation_scale": 15.0},
+        gid=gid,
         zorder=4,
     )
 

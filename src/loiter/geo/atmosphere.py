@@ -1,0 +1,68 @@
+"""The air at an altitude: how much faster than its airspeed indicator says an aircraft flies.
+
+The troposphere of the International Standard Atmosphere (ISO 2533:1975; ICAO Doc 7488): the temperature falls linearly
+with the altitude, and the pressure by the hydrostatic equation. Altitudes are pressure altitudes, in metres.
+"""
+
+from __future__ import annotations
+
+from math import pow, sqrt
+
+from loiter.errors import InvalidArgument, number, positive
+from loiter.planning.model import STANDARD_GRAVITY_M_S2
+
+SEA_LEVEL_K = 288.15
+LAPSE_K_PER_M = 0.0065
+ZERO_CELSIUS_K = 273.15
+GAS_CONSTANT = 287.05287  # J/(kg K), of dry air
+
+# g / (R L): the hydrostatic equation in air that cools linearly.
+PRESSURE_EXPONENT = STANDARD_GRAVITY_M_S2 / (GAS_CONSTANT * LAPSE_K_PER_M)
+
+# From a little below the Dead Sea to the tropopause, where the temperature falls no further.
+LOWEST_M, HIGHEST_M = -500.0, 11_000.0
+
+
+def density_ratio(altitude_m: float, temperature_c: float | None = None) -> float:
+    """Density of the air over that of the standard atmosphere at sea level.
+
+    `temperature_c` is that of the air outside, degrees Celsius; the standard one if absent. Raises `InvalidArgument`
+    for an altitude outside -500 to 11,000 m and a temperature that is not above absolute zero.
+
+    >>> round(density_ratio(2000.0), 4), round(density_ratio(2000.0, temperature_c=30.0), 4)
+    (0.8216, 0.7457)
+    """
+    altitude = number("altitude_m", altitude_m, "metres")
+    if not LOWEST_M <= altitude <= HIGHEST_M:
+        raise InvalidArgument("altitude_m", f"is {altitude_m:g}: it must be between {LOWEST_M:g} and {HIGHEST_M:g} m")
+    standard = SEA_LEVEL_K - LAPSE_K_PER_M * altitude
+    pressure_ratio = pow(standard / SEA_LEVEL_K, PRESSURE_EXPONENT)
+    return pressure_ratio * SEA_LEVEL_K / (standard if temperature_c is None else _kelvin(temperature_c))
+
+
+def true_airspeed(indicated_airspeed_m_s: float, altitude_m: float, temperature_c: float | None = None) -> float:
+    """True airspeed, metres per second: V / sqrt(density ratio).
+
+    What is indicated is taken as equivalent airspeed, as autopilots take it: below a third of the speed of sound they
+    differ by less than 1 %. Raises as `density_ratio`, and for an airspeed that is not positive.
+
+    >>> round(true_airspeed(18.0, 2000.0), 2)
+    19.86
+    """
+    indicated = positive("indicated_airspeed_m_s", indicated_airspeed_m_s, "metres per second")
+    return indicated / sqrt(density_ratio(altitude_m, temperature_c))
+
+
+def density_altitude_m(altitude_m: float, temperature_c: float | None = None) -> float:
+    """The altitude, metres, at which the standard atmosphere is as dense; the altitude itself in standard air."""
+    ratio = density_ratio(altitude_m, temperature_c)
+    return SEA_LEVEL_K / LAPSE_K_PER_M * (1.0 - pow(ratio, 1.0 / (PRESSURE_EXPONENT - 1.0)))
+
+
+def _kelvin(temperature_c: float) -> float:
+    kelvin = number("temperature_c", temperature_c, "degrees Celsius") + ZERO_CELSIUS_K
+    if kelvin <= 0.0:
+        raise InvalidArgument(
+            "temperature_c", f"is {temperature_c:g}: nothing is colder than {-ZERO_CELSIUS_K} degrees"
+        )
+    return kelvin

@@ -1,0 +1,67 @@
+"""Maneuvers as plain values: what becomes JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+
+from loiter.geo import LocalFrame
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import Pose
+
+
+def answer(best: Sequence[Maneuver], others: Sequence[Maneuver], frame: LocalFrame | None = None) -> dict[str, object]:
+    """The first of `best` as plain values; its `alternatives` are the rest of `best`, then `others`."""
+    first, *rest = best
+    alternatives = [described(m, frame) | {"later_s": m.duration_s - first.duration_s} for m in (*rest, *others)]
+    return described(first, frame) | {"alternatives": alternatives}
+
+
+def described(maneuver: Maneuver, frame: LocalFrame | None = None) -> dict[str, object]:
+    """A maneuver as plain values, for JSON; with a frame its poses say where on Earth they are."""
+    return {
+        "duration_s": maneuver.duration_s,
+        "length_m": maneuver.length_m,
+        "word": maneuver.word,
+        "turn": maneuver.turn.value,
+        "join": _pose(maneuver.join, frame),
+        "wind": asdict(maneuver.wind),
+        "join_over_ground": _join_over_ground(maneuver),
+        "hold": {
+            "least_bank_deg": maneuver.hold.least_bank_deg,
+            "largest_bank_deg": maneuver.hold.largest_bank_deg,
+            "largest_bank_azimuth_deg": maneuver.hold.largest_bank_azimuth_deg,
+        },
+        "miss_m": maneuver.miss_m,
+        "segments": [
+            asdict(segment) | {"start": _pose(segment.start, frame), "end": _pose(segment.end, frame)}
+            for segment in maneuver.segments
+        ],
+        "aircraft": {
+            "airspeed_m_s": maneuver.aircraft.airspeed_m_s,
+            "turn_radius_m": maneuver.aircraft.turn_radius_m,
+        },
+    }
+
+
+def _pose(pose: Pose, frame: LocalFrame | None) -> dict[str, float]:
+    if frame is None:
+        return asdict(pose)
+    place = frame.place(pose)
+    return asdict(pose) | {
+        "latitude_deg": place.latitude_deg,
+        "longitude_deg": place.longitude_deg,
+        "true_heading_deg": place.heading_deg,
+    }
+
+
+def _join_over_ground(maneuver: Maneuver) -> dict[str, float]:
+    """Track and ground speed where the circle is joined, and where its centre is then."""
+    track_deg, speed = maneuver.over_ground(maneuver.join)
+    centre = maneuver.orbit_at_join
+    return {
+        "track_deg": track_deg,
+        "ground_speed_m_s": speed,
+        "centre_east_m": centre.east_m,
+        "centre_north_m": centre.north_m,
+    }

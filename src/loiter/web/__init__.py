@@ -1,0 +1,1 @@
+"""The page and its service: the plan as one drags the aircraft."""

@@ -1,0 +1,162 @@
+"""`loiter plan` with places in degrees, altitudes and indicated airspeeds."""
+
+import json
+from itertools import pairwise
+from math import cos, radians, sin
+
+import pytest
+from geographiclib.geodesic import Geodesic
+
+import loiter
+from loiter import Aircraft, Orbit
+from loiter.cli.app import main
+
+UAV = "--airspeed 18 --bank 35"
+PLACED = "--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120"
+
+
+def test_degrees_and_metres_give_the_same_plan(planned):
+    # The start in metres from the centre, by the witness: a geodesic's length and its azimuth there.
+    line = Geodesic.WGS84.Inverse(47.11, 8.23, 47.1, 8.2)
+    heading = 90.0 + line["azi1"] - line["azi2"]
+    east, north = (line["s12"] * f(radians(line["azi1"])) for f in (sin, cos))
+    metres = planned(f"--pose {east} {north} {heading} --orbit 0 0 120 {UAV}")
+    degrees = planned(f"{PLACED} {UAV}")
+    assert degrees["duration_s"] == pytest.approx(metres["duration_s"], abs=1e-8)
+    assert degrees["word"] == metres["word"]
+
+
+def test_json_says_where_on_earth_and_true_headings(planned):
+    answer = planned(f"{PLACED} {UAV}")
+    start, join = answer["segments"][0]["start"], answer["join"]
+    assert (start["latitude_deg"], start["longitude_deg"], start["true_heading_deg"]) == pytest.approx(
+        (47.1, 8.2, 90.0)
+    )
+    away = Geodesic.WGS84.Inverse(47.11, 8.23, join["latitude_deg"], join["longitude_deg"])["s12"]
+    assert away == pytest.approx(120.0, abs=1e-6)
+
+
+def test_the_table_tells_true_headings_and_places_in_degrees(shown):
+    text = shown(f"plan {PLACED} {UAV}")
+    first = next(line for line in text.splitlines() if "turn left" in line)
+    assert first.endswith("090.0")
+    assert "at 47.109365 N 8.228103 E" in text
+
+
+def test_across_the_antimeridian(planned):
+    near = planned(f"--pose-lla 10 179.99 90 --orbit-lla 10.01 -179.99 120 {UAV}")
+    elsewhere = planned(f"--pose-lla 10 19.99 90 --orbit-lla 10.01 20.01 120 {UAV}")
+    assert near["duration_s"] == pytest.approx(elsewhere["duration_s"], abs=1e-8)
+
+
+def test_an_indicated_airspeed_is_a_higher_true_one_in_thin_air(planned, shown):
+    scene = "--pose -400 120 90 --orbit 0 0 120 --indicated-airspeed 18 --bank 35"
+    # Density over that at sea level, ISO 2533: 1.0065 / 1.225 at 2000 m.
+    assert planned(f"{scene} --altitude 2000")["aircraft"]["airspeed_m_s"] == pytest.approx(
+        18.0 * (1.225 / 1.0065) ** 0.5, rel=1e-4
+    )
+    assert planned(f"{scene} --altitude 2000 --temperature 30")["aircraft"]["turn_radius_m"] > 1.3 * 47.18
+    assert shown(f"plan {scene} --altitude 2000").startswith(
+        "True airspeed 19.86 m/s: 18 indicated, density altitude 2000 m.\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (f"--orbit-lla 47 8 120 {UAV}", "--pose or --pose-lla is needed, and not both"),
+        (f"{PLACED} --pose 1 2 3 {UAV}", "--pose or --pose-lla is needed, and not both"),
+        (f"--pose 1 2 3 {UAV}", "--orbit or --orbit-lla is needed, and not both"),
+        (f"--pose 1 2 3 --orbit-lla 47 8 120 {UAV}", "--pose-lla and --orbit-lla go together"),
+        (f"--pose-lla 47 8 3 --orbit 1 2 120 {UAV}", "--pose-lla and --orbit-lla go together"),
+        (f"--pose-lla 47 8 3 --orbit-lla 47 8 {UAV}", "--orbit-lla needs 3 numbers, centre and radius"),
+        (
+            f"--pose-lla 91 8 3 --orbit-lla 47 8 120 {UAV}",
+            "--pose-lla LAT is 91.0: it must be between -90 and 90 degrees",
+        ),
+        (f"--pose-lla 47 8 nan --orbit-lla 47 8 120 {UAV}", "--pose-lla HEADING is nan: it must be a finite number"),
+        (
+            f"--pose-lla 47 8 3 --orbit-lla 47 361 120 {UAV}",
+            "--orbit-lla LON is 361.0: it must be between -360 and 360",
+        ),
+        (f"--pose-lla 49 8 3 --orbit-lla 47 8 120 {UAV}", "the place 49 8 is more than 100 km from the origin 47 8"),
+        (f"{PLACED} --bank 35", "--airspeed is needed, or --indicated-airspeed"),
+        (f"{PLACED} {UAV} --indicated-airspeed 17", "--airspeed and --indicated-airspeed are given: one is enough"),
+        (
+            f"{PLACED} --bank 35 --indicated-airspeed 17 --altitude 12000",
+            "--altitude is 12000",
+        ),
+        (f"{PLACED} --bank 35 --indicated-airspeed 17 --temperature -300", "--temperature is -300: nothing is colder"),
+        (f"{PLACED} --bank 35 --indicated-airspeed nan", "--indicated-airspeed is nan: it must be a positive"),
+    ],
+)
+def test_what_cannot_be_placed(capsys, options, sentence):
+    assert main(["plan", *options.split()]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert err.startswith(f"loiter: {sentence}")
+
+
+# Files
+
+
+@pytest.mark.parametrize("ending", ["geojson", "kml", "gpx", "csv", "plan", "waypoints"])
+def test_saving_writes_what_the_library_writes(shown, tmp_path, ending):
+    path = tmp_path / f"entry.{ending}"
+    shown(f"plan {PLACED} {UAV} --altitude 900 --spacing 100 --save {path}")
+    frame = loiter.geo.LocalFrame(47.11, 8.23)
+    best = loiter.plan(frame.pose(47.1, 8.2, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0))
+    loiter.io.save(best, tmp_path / f"same.{ending}", frame=frame, altitude_m=900.0, spacing_m=100.0)
+    assert path.read_bytes() == (tmp_path / f"same.{ending}").read_bytes()
+
+
+def test_a_mission_follows_the_options(shown, tmp_path):
+    path = tmp_path / "entry.plan"
+    shown(f"plan {PLACED} {UAV} --altitude 900 --spacing 50 --chord-error 0.2 --autopilot px4 --save {path}")
+    plan = json.loads(path.read_text())
+    places = [item["params"][4:6] for item in plan["mission"]["items"][:-1]]
+    steps = [Geodesic.WGS84.Inverse(*a, *b)["s12"] for a, b in pairwise(places)]
+    assert max(steps) < 50.001
+    assert plan["mission"]["firmwareType"] == 12
+
+
+ARDUPLANE = "AIRSPEED_CRUISE,18.0\nROLL_LIMIT_DEG,35\nWP_LOITER_RAD,-120\n"
+
+
+def test_a_parameter_file_gives_aircraft_radius_and_direction(planned, tmp_path):
+    (tmp_path / "plane.param").write_text(ARDUPLANE)
+    preset = f"--params {tmp_path / 'plane.param'}"
+    answer = planned(f"--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 {preset}")
+    same = planned(f"{PLACED} {UAV} --turn ccw")
+    assert (answer["duration_s"], answer["turn"]) == (same["duration_s"], "ccw")
+    # Options stand above the file, and thin air below neither.
+    assert planned(f"{PLACED} {preset} --turn cw")["turn"] == "cw"
+    assert planned(f"{PLACED} {preset} --airspeed 20")["aircraft"]["airspeed_m_s"] == 20.0
+    assert planned(f"{PLACED} {preset} --turn-radius 99")["aircraft"]["turn_radius_m"] == 99.0
+    assert planned(f"{PLACED} {preset} --altitude 3000")["aircraft"]["airspeed_m_s"] > 20.5
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (f"{PLACED} {UAV} --save entry.plan", "--altitude is missing: a .plan"),
+        (f"{PLACED} {UAV} --save entry.doc", "--save is 'entry.doc'"),
+        (f"--pose 1 2 3 --orbit 0 0 120 {UAV} --save entry.kml", "--orbit-lla is missing: a .kml"),
+        (f"{PLACED} {UAV} --altitude 900 --save entry.plan --spacing 0", "--spacing is 0.0"),
+        (f"{PLACED} {UAV} --altitude 900 --save entry.plan --chord-error -1", "--chord-error is -1.0"),
+        (f"{PLACED} {UAV} --altitude nan --save entry.plan", "--altitude is nan"),
+        (f"{PLACED} {UAV} --altitude 900 --orbit-velocity 1 0 --save entry.plan", "--orbit moves over the ground"),
+        (
+            f"{PLACED} {UAV} --altitude 900 --save nowhere/entry.plan",
+            "--save is 'nowhere/entry.plan': it cannot be written",
+        ),
+        (f"{PLACED} --params none.param", "--params file 'none.param': it cannot be read"),
+    ],
+)
+def test_what_cannot_be_saved(capsys, tmp_path, monkeypatch, options, sentence):
+    monkeypatch.chdir(tmp_path)
+    assert main(["plan", *options.split()]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert err.startswith(f"loiter: {sentence}")
+    assert list(tmp_path.iterdir()) == []
