@@ -50,20 +50,20 @@ def test_a_file_is_sent_as_it_is(shown, tmp_path, ending):
     ("arguments", "status", "sentence"),
     [
         (f"{PLACED} --connect nowhere", 2, "--connect is 'nowhere'"),
-        (f"{PLACED} --connect udpin:127.0.0.1:{free_port()} --timeout 0", 2, "--timeout is 0.0: it must be a positive"),
-        (f"{PLACED} --connect udpin:127.0.0.1:{free_port()} --system 300", 2, "--system is 300: it must be a whole"),
-        (f"{PLACED} --connect udpin:127.0.0.1:{free_port()} --timeout 0.3", 3, "no heartbeat of a vehicle in 0.3 s"),
-        (f"entry.plan --connect udpin:127.0.0.1:{free_port()}", 2, "mission file 'entry.plan': it cannot be read"),
-        (f"entry.plan {PLACED} --connect udpin:127.0.0.1:{free_port()}", 2, "mission and a scene are given"),
+        (f"{PLACED} --connect udpin:127.0.0.1:PORT --timeout 0", 2, "--timeout is 0.0: it must be a positive"),
+        (f"{PLACED} --connect udpin:127.0.0.1:PORT --system 300", 2, "--system is 300: it must be a whole"),
+        (f"{PLACED} --connect udpin:127.0.0.1:PORT --timeout 0.3", 3, "no heartbeat of a vehicle in 0.3 s"),
+        ("entry.plan --connect udpin:127.0.0.1:PORT", 2, "mission file 'entry.plan': it cannot be read"),
+        (f"entry.plan {PLACED} --connect udpin:127.0.0.1:PORT", 2, "mission and a scene are given"),
         ("--connect x --pose 1 2 3 --orbit 1 2 80 --airspeed 18 --bank 35", 2, "--pose-lla and --orbit-lla are needed"),
-        (f"{PLACED.replace('900', 'nan')} --connect udpin:127.0.0.1:{free_port()}", 2, "--altitude is nan"),
+        (f"{PLACED.replace('900', 'nan')} --connect udpin:127.0.0.1:PORT", 2, "--altitude is nan"),
         ("--connect x --pose-lla 47 8 0 --orbit-lla 47 8 80 --airspeed 18 --bank 35", 2, "--altitude is needed"),
         (PLACED, 2, "--connect needs a value, LINK"),
     ],
 )
 def test_what_cannot_be_sent(ended, tmp_path, monkeypatch, arguments, status, sentence):
     monkeypatch.chdir(tmp_path)
-    got, _, err = ended(f"upload {arguments}")
+    got, _, err = ended(f"upload {arguments}".replace("PORT", str(free_port())))
     assert got == status
     assert err.startswith(f"loiter: {sentence}"), err
 
