@@ -84,10 +84,12 @@ export function answerView(hover) {
     buttons.forEach((button, i) => button.classList.toggle("lit", i === index));
   }
 
-  /** @param {Proof | null} proof */
+  /** @param {Proof | null} proof  null while it is under way */
   function prove(proof) {
-    verdict.className = proof ? (proof.certificate.valid ? "valid" : "invalid") : "";
-    verdict.textContent = proof ? judged(proof) : "…";
+    verdict.classList.toggle("waiting", proof === null);
+    if (!proof) return;
+    verdict.className = proof.certificate.valid ? "valid" : "invalid";
+    verdict.textContent = judged(proof);
   }
   return { draw, drawList, highlight, prove };
 }

@@ -66,6 +66,7 @@ function change(scene, event) {
 const ask = latest(
   async (/** @type {{scene: Scene, number: number}} */ { scene }) => /** @type {Answer} */ (await (await post("/api/plan", scene)).json()),
   (answer, { number }) => {
+    if (failed) say("");
     failed = false;
     [state.answer, state.drawn] = [answer, number];
     answered();
@@ -84,10 +85,10 @@ function answered() {
   if (fitNext) arrive(state.answer);
   else view.drawAnswer();
   settle(state.drawn);
-  if (message.classList.contains("bad")) say("");
   words.draw(shown());
   reduced.draw();
   line.plan(state.answer);
+  words.prove(null);
   fly(ghost.time());
   plan.dataset.drawn = String(state.drawn);
 }
@@ -123,33 +124,52 @@ function rest() {
   resting = window.setTimeout(async () => {
     if (state.drawn < state.asked) return rest();
     history.replaceState(null, "", toLink(state.scene, state.units));
-    if (failed || !state.answer) return;
+    if (failed || !state.answer) return rested();
     spoken.textContent = state.answer.instruction;
     words.drawList(shown());
     taking.draw();
-    askProof({ scene: state.scene, number: state.asked });
     askMap(state.answer);
+    askProof({ scene: state.scene, number: state.asked });
   }, REST_MS);
 }
 
 const askProof = latest(
   async (/** @type {{scene: Scene, number: number}} */ { scene }) => /** @type {Proof} */ (await (await post("/api/certificate", scene)).json()),
   (proof, { number }) => {
-    if (number !== state.asked) return;
-    line.prove(proof);
-    words.prove(proof);
+    proved = number;
+    if (number === state.asked) [line, words].forEach((each) => each.prove(proof));
     fly(ghost.time());
-    plan.dataset.proved = String(number);
+    rested();
   },
-  (error) => say(error.message, true),
+  (error, { number }) => {
+    proved = number;
+    say(error.message, true);
+    rested();
+  },
 );
 
-let mapped = "";
+let proved = 0;
+let mapped = ""; // the map that is asked for
+let mapShown = "";
 const askMapAt = latest(
   async (/** @type {string} */ query) => /** @type {Synthesis} */ (await (await get(`/api/synthesis?${query}`)).json()),
-  (synthesis) => reduced.map(synthesis),
-  (error) => say(error.message, true),
+  (synthesis, query) => {
+    mapShown = query;
+    reduced.map(synthesis);
+    rested();
+  },
+  (error) => {
+    mapped = mapShown;
+    say(error.message, true);
+    rested();
+  },
 );
+
+/** Tell those who watch that nothing is under way any more. */
+function rested() {
+  const quiet = failed || (proved === state.asked && mapped === mapShown);
+  if (quiet && state.drawn === state.asked) plan.dataset.rested = String(state.asked);
+}
 
 /** @param {Answer} answer */
 function askMap({ reduced: here }) {
@@ -248,8 +268,9 @@ function wire() {
   speeds.addEventListener("change", () => ghost.setSpeed(Number(speeds.value)));
   play.addEventListener("click", () => playing(!ghost.playing()));
   slider.addEventListener("input", () => {
+    const share = Number(slider.value) / 1000;
     playing(false);
-    ghost.seek((Number(slider.value) / 1000) * (state.answer?.duration_s ?? 0));
+    ghost.seek(share * (state.answer?.duration_s ?? 0));
   });
   const presets = byId("presets", HTMLElement);
   presets.append(

@@ -22,11 +22,12 @@
 import { heading, vector } from "./compass.js";
 import { makeHandle, place, pointOf } from "./handle.js";
 import { byId, polyline, set, show, svg } from "./svg.js";
-import { pieces } from "./track.js";
+import { at, pieces } from "./track.js";
 import { decimalsFor, difference, fixed, length, nice, tidy, unit, wrapped } from "./units.js";
 import { contains, fitted, panned, toScreen, toWorld, zoomed } from "./view.js";
 
-const MARGIN = 64; // pixels between what must be seen and the edge
+// Pixels between what must be seen and the edge, for buttons, dial, labels and key; less on a small screen.
+const MARGINS = { left: 84, right: 64, top: 40, bottom: 64 };
 const LEVER = 62; // pixels from the aircraft to the handle that turns it
 const TINY = 30; // pixels: no handle of the radius is nearer to the centre
 const DIAL = 42; // pixels: the wind dial's radius, half the airspeed
@@ -80,6 +81,8 @@ export function planView(shown, change, hover) {
     if (!answer) drawCircle(layer.circle, view, scene, answer);
     handles.draw(scene, units);
     drawAnswer();
+    fly(flown);
+    highlight(lit);
   }
 
   function drawAnswer() {
@@ -93,8 +96,11 @@ export function planView(shown, change, hover) {
     layer.marks.replaceChildren(...best.flatMap((maneuver) => drawMarks(view, maneuver, scene)));
   }
 
+  /** @type {number | null} */
+  let lit = null;
   /** @param {number | null} index */
   function highlight(index) {
+    lit = index;
     const { answer } = shown();
     const other = answer && index !== null ? sorted(answer).others[index] : undefined;
     Array.from(layer.others.children).forEach((child, i) => child.classList.toggle("lit", i === index));
@@ -103,8 +109,11 @@ export function planView(shown, change, hover) {
     if (other) callout(label, view, other);
   }
 
+  /** @type {Instant | null} */
+  let flown = null;
   /** @param {Instant | null} instant */
   function fly(instant) {
+    flown = instant;
     show(ghost, instant !== null);
     if (!instant) return;
     const [x, y] = toScreen(view, instant.east_m, instant.north_m);
@@ -113,7 +122,13 @@ export function planView(shown, change, hover) {
 
   function fit() {
     const { scene, answer } = shown();
-    look(fitted(view, extent(scene, answer), margin()));
+    const points = extent(scene, answer);
+    bearing_deg = freest(scene, points);
+    const near = fitted(view, points, margin());
+    // The handle of the heading is as long at any scale; one step brings it into the view.
+    const [east, north] = vector(scene.pose.heading_deg);
+    const reach = LEVER / near.scale;
+    look(fitted(view, [...points, [scene.pose.east_m + reach * east, scene.pose.north_m + reach * north]], margin()));
   }
 
   function keep() {
@@ -122,7 +137,11 @@ export function planView(shown, change, hover) {
     else draw();
   }
 
-  const margin = () => Math.min(MARGIN, 0.13 * Math.min(view.width, view.height));
+  const margin = () => {
+    const share = Math.min(1, view.width / 640, view.height / 420);
+    const { left, right, top, bottom } = MARGINS;
+    return { left: left * share, right: right * share, top: top * share, bottom: bottom * share };
+  };
 
   moves(root, () => view, look, fit);
   /** @param {number} width @param {number} height */
@@ -154,6 +173,21 @@ function extent({ pose, orbit }, answer) {
   const r = Math.abs(orbit.radius_m);
   for (const [east, north] of centres) points.push([east - r, north - r], [east + r, north + r]);
   return points;
+}
+
+/**
+ * The bearing at which the circle is farthest from what else is drawn: for the handle of its radius.
+ *
+ * @param {Scene} scene
+ * @param {Point[]} points
+ */
+function freest({ orbit }, points) {
+  const bearings = Array.from({ length: 24 }, (_, k) => 15 * k + 7);
+  const room = bearings.map((bearing) => {
+    const [east, north] = vector(bearing).map((part) => part * orbit.radius_m);
+    return Math.min(...points.map(([x, y]) => Math.hypot(x - orbit.east_m - east, y - orbit.north_m - north)));
+  });
+  return bearings[room.indexOf(Math.max(...room))];
 }
 
 /**
@@ -336,13 +370,26 @@ function drawMarks(view, maneuver, scene) {
   });
   const [cx, cy] = toScreen(view, join.east_m, join.north_m);
   const joined = svg("circle", { cx, cy, r: 6, class: "join" });
-  const texts = [beside([cx, cy], centre, -1, `join ${fixed(duration_s, decimals)} s`)];
+  const taken = Array.from({ length: 81 }, (_, i) => at(maneuver.track, (i / 80) * duration_s)).map(({ east_m, north_m }) => toScreen(view, east_m, north_m));
+  taken.push(...rim(centre, Math.hypot(cx - centre[0], cy - centre[1])));
+  const texts = [beside([cx, cy], taken, `join ${fixed(duration_s, decimals)} s`)];
   for (const { pose, time, last } of ends) {
     const point = toScreen(view, pose.east_m, pose.north_m);
     const crowded = Math.hypot(point[0] - cx, point[1] - cy) < 26 || nearStart(view, scene, point);
-    if (last && !crowded) texts.push(beside(point, centre, 1, `peel off ${fixed(time, decimals)} s`));
+    if (last && !crowded) texts.push(beside(point, taken, `peel off ${fixed(time, decimals)} s`));
   }
   return [...marks, joined, ...texts];
+}
+
+/**
+ * Points round a circle.
+ *
+ * @param {Point} centre
+ * @param {number} r
+ * @returns {Point[]}
+ */
+function rim([x, y], r) {
+  return Array.from({ length: 72 }, (_, k) => vector(5 * k)).map(([east, north]) => [x + r * east, y - r * north]);
 }
 
 /**
@@ -356,19 +403,23 @@ function nearStart(view, { pose }, [x, y]) {
 }
 
 /**
- * A text beside a point, on the side away from a centre (+1) or towards it (-1).
+ * A text beside a point, on the side where it covers the fewest of the points that are taken.
  *
  * @param {Point} point
- * @param {Point} centre
- * @param {1 | -1} side
+ * @param {Point[]} taken
  * @param {string} text
  */
-function beside([x, y], centre, side, text) {
-  const [dx, dy] = [x - centre[0], y - centre[1]];
-  const far = Math.hypot(dx, dy) || 1;
-  const [ux, uy] = [(side * dx) / far, (side * dy) / far];
-  const anchor = Math.abs(ux) < 0.3 ? "middle" : ux > 0 ? "start" : "end";
-  return svg("text", { x: x + 14 * ux, y: y + 17 * uy + 4, "text-anchor": anchor, class: "halo" }, [text]);
+function beside([x, y], taken, text) {
+  const width = 6.6 * text.length;
+  const sides = [0, 45, 90, 135, 180, 225, 270, 315].map((bearing) => {
+    const [ux, up] = vector(bearing);
+    const left = x + 13 * ux + (width / 2) * (Math.abs(ux) < 0.1 ? -1 : Math.sign(ux) - 1);
+    const middle = y - 17 * up;
+    const covered = taken.filter(([px, py]) => px > left - 4 && px < left + width + 4 && Math.abs(py - middle) < 10);
+    return { left, middle, covered: covered.length };
+  });
+  const best = sides.reduce((least, side) => (side.covered < least.covered ? side : least));
+  return svg("text", { x: best.left, y: best.middle + 4, class: "halo" }, [text]);
 }
 
 /**

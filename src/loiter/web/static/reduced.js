@@ -47,7 +47,7 @@ export function reducedView(shown, move) {
     svg("circle", { r: 12, class: "focus" }),
     svg("circle", { r: 7, class: "statedot" }),
   ]);
-  root.append(axes, curves, words, path, targets, ghost, state);
+  root.append(axes, curves, path, words, targets, ghost, state);
   /** @type {View} */
   let view = { scale: 40, east: 0, north: 0, width: 380, height: 380 };
   /** @type {Synthesis | null} */
