@@ -57,7 +57,7 @@ def test_radius_and_direction_stand_where_mavlink_says(command):
 
 
 def test_every_command_that_mavlink_gives_a_loiter_radius_with_a_sign_is_in_the_table():
-    """Apart from figures of eight, whose sign tells another thing, and waypoints and vehicles that are passed by."""
+    """Apart from figures of eight, whose sign tells another thing, and waypoints passed by and vehicles followed."""
     signed = {
         number
         for number, entry in DEFINITIONS.items()

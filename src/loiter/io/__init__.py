@@ -1,6 +1,21 @@
 """A maneuver as files for maps, ground stations and autopilots; parameter files of autopilots read."""
 
+from loiter.io.files import FORMATS, check_format, read_mission, save
 from loiter.io.items import Autopilot, Command, Frame, Mission, MissionItem
 from loiter.io.mission import mission
+from loiter.io.parameters import Preset, read_parameters
 
-__all__ = ["Autopilot", "Command", "Frame", "Mission", "MissionItem", "mission"]
+__all__ = [
+    "FORMATS",
+    "Autopilot",
+    "Command",
+    "Frame",
+    "Mission",
+    "MissionItem",
+    "Preset",
+    "check_format",
+    "mission",
+    "read_mission",
+    "read_parameters",
+    "save",
+]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from loiter.errors import InvalidArgument, number
 from loiter.geo.frame import REACH_M, LocalFrame
 from loiter.io.items import Command, Frame, Mission, MissionItem
+from loiter.io.limits import HIGHEST_M
 from loiter.io.places import degrees
 from loiter.io.signs import with_circle
 from loiter.io.track import steps, vertices
@@ -53,7 +54,7 @@ def mission(
     >>> len(flight.items), flight.items[-1].params
     (11, (0.0, 0.0, 80.0, 0.0))
     """
-    altitude_m = number("altitude_m", altitude_m, "metres above mean sea level")
+    altitude_m = checked_altitude(altitude_m)
     orbit = _standing(maneuver.orbit)
     track = vertices(maneuver, steps(maneuver, spacing_m, chord_error_m, BEND_PER_M))
     if track.time_s.size + 1 > MAX_ITEMS:
@@ -68,6 +69,16 @@ def mission(
     (centre,) = zip(*degrees(frame, [orbit.east_m], [orbit.north_m]), strict=True)
     loiter = MissionItem(Command.NAV_LOITER_UNLIM, Frame.ABOVE_SEA, params, *centre, altitude_m)
     return Mission((*waypoints, loiter), (*places[0], altitude_m))
+
+
+def checked_altitude(altitude_m: float) -> float:
+    """The altitude as a float; raises `InvalidArgument` for one that is not finite or that no mission may have."""
+    altitude_m = number("altitude_m", altitude_m, "metres above mean sea level")
+    if abs(altitude_m) > HIGHEST_M:
+        raise InvalidArgument(
+            "altitude_m", f"is {altitude_m:g}: it must be from {-HIGHEST_M:g} to {HIGHEST_M:g} metres"
+        )
+    return altitude_m
 
 
 def _standing(orbit: Orbit) -> Orbit:

@@ -1,4 +1,4 @@
-"""Local metres as degrees on the Earth."""
+"""Local metres as degrees on the Earth, and headings of the plane as true ones."""
 
 from __future__ import annotations
 
@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING
 
 from loiter.errors import OutOfRange
 from loiter.geo.frame import REACH_M, LocalFrame
+from loiter.planning.compass import wrapped
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from numpy import float64
+    from numpy.typing import ArrayLike, NDArray
 
 
 def degrees(frame: LocalFrame, east_m: ArrayLike, north_m: ArrayLike) -> tuple[list[float], list[float]]:
@@ -22,3 +24,11 @@ def degrees(frame: LocalFrame, east_m: ArrayLike, north_m: ArrayLike) -> tuple[l
             f"{frame.longitude_deg:g}: take the circle's centre as the origin"
         )
     return latitude.tolist(), longitude.tolist()
+
+
+def true_headings(frame: LocalFrame, heading_deg: ArrayLike, latitude: ArrayLike, longitude: ArrayLike) -> list[float]:
+    """Headings from true north, in [0, 360), of headings from the plane's north at places in degrees."""
+    import numpy as np
+
+    turned: NDArray[float64] = np.asarray(heading_deg, float) - frame.convergence_deg(latitude, longitude)
+    return [wrapped(heading) for heading in turned.tolist()]

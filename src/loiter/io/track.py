@@ -7,7 +7,7 @@ wind is constant. Where what should be straight is drawn bent, with the curvatur
 
 from __future__ import annotations
 
-from math import ceil, pi, sqrt
+from math import ceil, hypot, pi, sqrt
 from typing import TYPE_CHECKING
 
 from loiter.errors import InvalidArgument, positive
@@ -52,8 +52,9 @@ def _wanted(
     straight = segment.curvature_per_m == 0.0
     # A straight piece has one ground speed; on an arc it is nowhere above the sum.
     speed = maneuver.over_ground(segment.start)[1] if straight else v + maneuver.wind.speed_m_s
-    acceleration = v * v * abs(segment.curvature_per_m) + speed * speed * bend_per_m
-    by_chord = sqrt(acceleration / (8.0 * chord_error_m))
+    # The root of the acceleration, without a square that may overflow.
+    root = hypot(v * sqrt(abs(segment.curvature_per_m)), speed * sqrt(bend_per_m))
+    by_chord = root / sqrt(8.0 * chord_error_m)
     by_spacing = 0.0 if spacing_m is None else speed / spacing_m
     return segment.duration_s * max(by_chord, by_spacing)
 

@@ -345,7 +345,7 @@ def optima(x: float, y: float, c: float, s: float, R: float, side: int, wx: floa
 
 def tied(T: float, least: float, R: float) -> bool:
     """Whether a maneuver that takes T takes no longer than the least, up to what `fastest` resolves."""
-    return T <= least * (1.0 + TIED) + TIED * (1.0 + R)
+    return T - least <= TIED * (1.0 + R + least)
 
 
 def flight(maneuver: Joined) -> Flown:

@@ -230,11 +230,16 @@ def reduce(
     east: Any = np.subtract(east_m, orbit.east_m, dtype=np.float64) / r
     north: Any = np.subtract(north_m, orbit.north_m, dtype=np.float64) / r
     c, s = heading_vectors()(np.multiply(heading_deg, 1.0, dtype=np.float64))
-    if any(map(_lazy, (east, north, c))):
-        # Dask does not apply a ufunc of two results; the formula is arithmetic alone.
+    lazy = any(map(_lazy, (east, north, c)))
+    if lazy or (out is None and max(np.size(east), np.size(north), np.size(c)) < KERNEL_FROM):
+        # The formula is arithmetic alone, and Dask does not apply a ufunc of two results.
         return motion.reduce(east, north, c, s)
     reduced: tuple[Any, Any] = _ufunc("reduce")(east, north, c, s, **({} if out is None else {"out": out}))
     return reduced
+
+
+# Fewer states are reduced without the compiled kernel, which takes a tenth of a second to load, or ten to compile.
+KERNEL_FROM = 10_000
 
 
 @cache

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from math import atan, degrees, hypot, radians, tan
+from math import atan2, degrees, hypot, inf, radians, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.errors import InvalidArgument, as_float, not_negative, number, positive
@@ -95,14 +95,21 @@ class Aircraft:
         """Minimum turn radius, metres: V^2 / (g tan bank), or V over the turn rate."""
         if self.min_turn_radius_m is not None:
             return self.min_turn_radius_m
-        if self.max_turn_rate_deg_s is not None:
-            return radius_at_rate(self.airspeed_m_s, self.max_turn_rate_deg_s)
-        assert self.max_bank_deg is not None  # exactly one limit is given
-        return radius_at_bank(self.airspeed_m_s, self.max_bank_deg)
+        try:
+            if self.max_turn_rate_deg_s is not None:
+                return radius_at_rate(self.airspeed_m_s, self.max_turn_rate_deg_s)
+            assert self.max_bank_deg is not None  # exactly one limit is given
+            return radius_at_bank(self.airspeed_m_s, self.max_bank_deg)
+        except ZeroDivisionError:
+            # A limit next to the least double is 0 in radians.
+            return inf
 
     def bank_deg(self, radius_m: float) -> float:
-        """Bank of a coordinated turn of the given radius at this airspeed, degrees: atan(V^2 / (g radius))."""
-        return degrees(atan(self.airspeed_m_s * self.airspeed_m_s / (STANDARD_GRAVITY_M_S2 * radius_m)))
+        """Bank of a coordinated turn of the given radius at this airspeed, degrees: atan(V^2 / (g radius)).
+
+        90 at a radius of 0, as one may be by rounding.
+        """
+        return degrees(atan2(self.airspeed_m_s * self.airspeed_m_s, STANDARD_GRAVITY_M_S2 * radius_m))
 
 
 # The three ways to give the limit, with their units.

@@ -31,6 +31,9 @@ SHARE = 0.437
 # continuous: by NARROW, or its root.
 JUMP = 1e-3
 
+# Neighbours on a boundary lie at most a cell's diagonal apart; so many grid steps bridge a coarse corner.
+BRIDGED = 3.0
+
 # A first piece shorter than this next to a boundary vanishes on it: its length is NARROW or its root.
 VANISHING = 1e-3
 
@@ -108,6 +111,24 @@ def boundaries(regions: Partition) -> tuple[Boundary, ...]:
         Boundary(kind, words, np.array(rows)[:, :2], np.array(rows)[:, 2])
         for (kind, words), rows in sorted(found.items())
     )
+
+
+def lines(regions: Partition, curve: Boundary) -> list[Floats]:
+    """The points of a curve as lines (n, 2): each next to the nearest left, another line where that is too far away."""
+    gap = BRIDGED * (regions.x[1] - regions.x[0])
+    left = curve.points[np.argsort(curve.points[:, 0])]
+    here, left = left[0], left[1:]
+    found = [[here]]
+    while len(left):
+        distance = np.hypot(*(left - here).T)
+        nearest = int(distance.argmin())
+        if distance[nearest] > gap:
+            found.append([])
+            nearest = 0
+        # A copy: a view would keep what is left of the points alive, once for each point.
+        here, left = left[nearest].copy(), np.delete(left, nearest, axis=0)
+        found[-1].append(here)
+    return [np.array(line) for line in found]
 
 
 def _kind(words: tuple[str, str], vanish: tuple[bool, bool]) -> str:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from loiter.kernel.codes import Word
 from loiter.planning.model import Turn
-from loiter.planning.partition import Boundary, Partition, worth
+from loiter.planning.partition import Boundary, Partition, lines, worth
 
 # The hue of a region is its first control (as on the plan view), its shade tells words of one control apart.
 SHADES = {
@@ -109,27 +109,10 @@ def _draw_curve(axes: Axes, regions: Partition, kind: str, curves: Sequence[Boun
     style = LINES[kind]
     for curve in curves:
         if curve.kind == kind:
-            # Neighbours on a curve lie at most a cell's diagonal apart; three steps bridge a coarse corner.
-            line = _joined(curve.points, 3.0 * (regions.x[1] - regions.x[0]))
+            # Between two lines nan lifts the pen.
+            line = np.concatenate([np.vstack([line, [np.nan, np.nan]]) for line in lines(regions, curve)])
             axes.plot(*line.T, **style, solid_capstyle="round", gid=f"{kind} {' '.join(curve.words)}")
     return Line2D([], [], **style)
-
-
-def _joined(points: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
-    """The points of a curve in order, each next to the nearest left, with nan where none is nearer than `gap`."""
-    left = points[np.argsort(points[:, 0])]
-    here, left = left[0], left[1:]
-    line = [here]
-    while len(left):
-        distance = np.hypot(*(left - here).T)
-        nearest = int(distance.argmin())
-        if distance[nearest] > gap:
-            line.append(np.array([np.nan, np.nan]))
-            nearest = 0
-        # A copy: a view would keep what is left of the points alive, once for each point.
-        here, left = left[nearest].copy(), np.delete(left, nearest, axis=0)
-        line.append(here)
-    return np.array(line)
 
 
 def _draw_targets(axes: Axes, regions: Partition) -> None:

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, NamedTuple
 
-from pydantic import BaseModel, ConfigDict, Field, Strict
+from pydantic import BaseModel, ConfigDict, Field, Strict, field_validator
+from pydantic.json_schema import SkipJsonSchema
 
 from loiter.geo import LocalFrame
 from loiter.planning import model
@@ -21,6 +22,10 @@ Positive = Annotated[Number, Field(json_schema_extra={"exclusiveMinimum": 0.0})]
 NotNegative = Annotated[Number, Field(json_schema_extra={"minimum": 0.0})]
 Latitude = Annotated[Number, Field(json_schema_extra={"minimum": -90.0, "maximum": 90.0})]
 Longitude = Annotated[Number, Field(json_schema_extra={"minimum": -360.0, "maximum": 360.0})]
+
+
+# Finer polylines would be no truer: autopilots fly to metres.
+LEAST_CHORD_ERROR_M = 0.01
 
 
 class Request(BaseModel):
@@ -136,10 +141,34 @@ class Scene(Request):
         )
 
 
+class ExportOptions(Scene):
+    """What is to be planned, and how it is to be written; numbers as for `loiter plan --save`."""
+
+    altitude_m: Number | None = Field(None, description="Above mean sea level; missions need it.")
+    spacing_m: Positive | None = Field(None, description="Points are at most so many metres apart.")
+    chord_error_m: Annotated[Number, Field(json_schema_extra={"minimum": LEAST_CHORD_ERROR_M})] = Field(
+        1.0, description="The track is nowhere further from the lines between points, metres."
+    )
+    autopilot: Literal["ardupilot", "px4"] = Field("ardupilot", description="Whom a .plan is for.")
+
+    @field_validator("chord_error_m")
+    @classmethod
+    def _coarse(cls, chord_error_m: float) -> float:
+        """Refuse what would make files too large."""
+        if not chord_error_m >= LEAST_CHORD_ERROR_M:
+            raise ValueError(f"it is {chord_error_m:g} and must be at least {LEAST_CHORD_ERROR_M:g}")
+        return chord_error_m
+
+
 class Answer(BaseModel):
     """A part of an answer: finite numbers only."""
 
     model_config = ConfigDict(allow_inf_nan=False)
+
+
+def _absent(schema: dict[str, Any]) -> None:
+    """What is not told has no value, not even null."""
+    del schema["default"]
 
 
 class Pose(Answer):
@@ -148,9 +177,15 @@ class Pose(Answer):
     east_m: float
     north_m: float
     heading_deg: float
-    latitude_deg: float = Field(0.0, description="WGS84; with an origin only.")
-    longitude_deg: float = Field(0.0, description="WGS84; with an origin only.")
-    true_heading_deg: float = Field(0.0, description="From true north; with an origin only.")
+    latitude_deg: float | SkipJsonSchema[None] = Field(
+        None, description="WGS84; with an origin only.", json_schema_extra=_absent
+    )
+    longitude_deg: float | SkipJsonSchema[None] = Field(
+        None, description="WGS84; with an origin only.", json_schema_extra=_absent
+    )
+    true_heading_deg: float | SkipJsonSchema[None] = Field(
+        None, description="From true north, as latitude_deg.", json_schema_extra=_absent
+    )
 
 
 class Wind(Answer):
@@ -259,6 +294,93 @@ class Candidates(Answer):
     """Every extremal, fastest first."""
 
     candidates: list[LaterManeuver]
+
+
+class Switch(Answer):
+    """An instant of switching: from and to which letter, the reduced state there, and psi."""
+
+    time_s: float
+    letters: str
+    x: float
+    y: float
+    psi1: float
+    psi2: float
+
+
+class Residual(Answer):
+    """One condition of the maximum principle, and how far it is off; null where it could not be checked."""
+
+    name: str
+    equation: str
+    value: float | None
+    bound: float | None
+    note: str
+    verdict: Literal["holds", "FAILED", "skipped"]
+
+
+class Candidate(Answer):
+    """Another extremal, and how much later it joins."""
+
+    word: str
+    turn: Literal["cw", "ccw"]
+    duration_s: float
+    later_s: float
+
+
+class Certificate(Answer):
+    """The proof of a maneuver, or what speaks against it; lambda and psi are null where nothing is to be flown."""
+
+    valid: bool
+    word: str
+    turn: Literal["cw", "ccw"]
+    duration_s: float
+    lam: float | None = Field(alias="lambda")
+    psi: tuple[float, float] | None
+    choice: str
+    switches: list[Switch]
+    residuals: list[Residual]
+    candidates: list[Candidate]
+    runner_up: str | None
+    margin_s: float | None
+
+
+class Series(Answer):
+    """The proof over time: control, switching function, adjoint; pieces one after the other, both ends of each."""
+
+    time_s: list[float]
+    u: list[int]
+    phi: list[float]
+    psi1: list[float]
+    psi2: list[float]
+    switches_s: list[float]
+
+
+class Proof(Answer):
+    """The certificate of the first optimal maneuver, and what a picture of it shows."""
+
+    certificate: Certificate
+    series: Series
+
+
+class Curve(Answer):
+    """A line between two regions: what changes there, between which words, and its points."""
+
+    kind: Literal["jump", "same", "straight", "switch", "tie"]
+    words: tuple[str, str]
+    x: list[float]
+    y: list[float]
+
+
+class Synthesis(Answer):
+    """The optimal synthesis of the reduced plane on a grid, in turn radii."""
+
+    radius: float
+    turn: TurnName
+    x: list[float]
+    y: list[float]
+    words: list[str]
+    region: list[list[int]] = Field(description="Rows of y: which of the words wins; -1 for none.")
+    curves: list[Curve]
 
 
 class Health(Answer):

@@ -7,10 +7,14 @@ from typing import Any
 
 from loiter.io.document import answer, described
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.solve import candidates, compared
+from loiter.planning.solve import candidates, compared, plan_all
+from loiter.verify.certificate import Instant, certify
 from loiter.web.models import Asked
 from loiter.web.texts import command, instruction, python
 from loiter.web.tracks import track
+
+# Chords of a sine over a hundredth of a turn depart from it by 0.05 % of its height.
+STEPS = 100
 
 
 def plan(asked: Asked) -> dict[str, Any]:
@@ -43,6 +47,16 @@ def every(asked: Asked) -> dict[str, Any]:
             for m in found
         ]
     }
+
+
+def proof(asked: Asked) -> dict[str, Any]:
+    """`models.Proof`: what `loiter plan --certify --json` prints, and the curves of its picture."""
+    first = plan_all(*asked[:4], tolerance_m=asked.tolerance_m)[0]
+    certificate = certify(first, tolerance_m=asked.tolerance_m)
+    instants = [instant for piece in certificate.history(STEPS) for instant in piece]
+    series = {name: [getattr(instant, name) for instant in instants] for name in Instant._fields}
+    switches = [switch.time_s for switch in certificate.switches]
+    return {"certificate": certificate.to_dict(), "series": series | {"switches_s": switches}}
 
 
 def _other_turn_later_s(first: Maneuver, known: Sequence[Maneuver]) -> float | None:

@@ -12,6 +12,7 @@ from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
+from starlette.routing import Match
 
 from loiter.errors import InvalidArgument, LoiterError, NotConverged, OutOfRange, RadiusTooSmall, WindTooStrong
 from loiter.planning.model import TURN_LIMITS
@@ -30,11 +31,21 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str, str]] = {
     RequestValidationError: (HTTPStatus.UNPROCESSABLE_ENTITY, "invalid-request", "The request does not fit the schema"),
 }
 
-# Where the library's arguments stand in the JSON; those of two words, "pose east_m", stand where they say.
-PLACES = {name: f"aircraft {name}" for name in ("airspeed_m_s", *TURN_LIMITS)} | {
-    "turn": "orbit turn",
-    "turn limit": "aircraft",
-    "turn radius": "aircraft",
+# What the JSON calls the library's arguments, and where they stand in it; "pose east_m" stands where it says.
+PLACES = {name: (f"aircraft.{name}", f"aircraft/{name}") for name in ("airspeed_m_s", *TURN_LIMITS)} | {
+    "turn": ("orbit.turn", "orbit/turn"),
+    "turn limit": ("the turn limit of the aircraft", "aircraft"),
+    "turn radius": ("the turn radius of the aircraft", "aircraft"),
+    "frame": ("origin", "origin"),
+}
+
+
+# What pydantic finds, by its kind, where its own sentence would speak of Python.
+SAID = {
+    "missing": "is needed",
+    "extra_forbidden": "is not known",
+    "model_attributes_type": "must be an object",
+    "model_type": "must be an object",
 }
 
 
@@ -89,19 +100,26 @@ def install(app: FastAPI) -> None:
 
 
 def sentence(error: LoiterError) -> tuple[str, str]:
-    """The library's sentence in the names of the JSON, and the place that it is about, or ""."""
+    """The library's sentence in the names of the JSON, and where that stands which it is about, or ""."""
     if not isinstance(error, InvalidArgument):
         return str(error), ""
-    place = PLACES.get(error.argument, error.argument)
-    return f"{place.replace(' ', '.')} {error.problem}", place
+    argument = error.argument
+    name, place = PLACES.get(argument, (argument.replace(" ", "."), argument.replace(" ", "/")))
+    return f"{name} {error.problem}", place
 
 
 def _refused(request: Request, error: Exception) -> Response:
     assert isinstance(error, LoiterError)
     status, kind, title = next(TABLE[cls] for cls in type(error).__mro__ if cls in TABLE)
     detail, place = sentence(error)
-    errors = [{"detail": detail, "pointer": "#/" + place.replace(" ", "/")}] if place else []
+    where = {"pointer": f"#/{place}"} if request.method == "POST" else {"parameter": _parameter(request, place)}
+    errors = [{"detail": detail, **where}] if place else []
     return problem(status, detail, kind=kind, title=title, instance=request.url.path, errors=errors)
+
+
+def _parameter(request: Request, place: str) -> str:
+    """The parameter of a query that a place is in: the scene's, where there is one, has it all."""
+    return "scene" if "scene" in request.query_params else place
 
 
 def _misfit(request: Request, error: Exception) -> Response:
@@ -109,7 +127,7 @@ def _misfit(request: Request, error: Exception) -> Response:
     assert isinstance(error, RequestValidationError)
     found = error.errors()
     if found[0]["type"] == "json_invalid":
-        detail = f"the body is not JSON: {found[0]['ctx']['error']} at position {found[0]['loc'][-1]}"
+        detail = f"what came is not JSON: {found[0]['ctx']['error']}"
         return problem(HTTPStatus.BAD_REQUEST, detail, instance=request.url.path)
     errors = [_detail(one) for one in found]
     status, kind, title = TABLE[RequestValidationError]
@@ -119,8 +137,8 @@ def _misfit(request: Request, error: Exception) -> Response:
 def _detail(error: Mapping[str, Any]) -> dict[str, str]:
     where, *path = [str(part) for part in error["loc"]]
     name = ".".join(path) or "the body"
-    message = error["msg"]
-    said = {"missing": "is needed", "extra_forbidden": "is not known"}.get(error["type"], f"is wrong: {message}")
+    message = error["msg"].replace("Input should", "it should").removeprefix("Value error, ")
+    said = SAID.get(error["type"], f"is wrong: {message}")
     place = (
         {"parameter": path[0]} if where in ("query", "path") else {"pointer": "".join(["#", *("/" + p for p in path)])}
     )
@@ -130,11 +148,21 @@ def _detail(error: Mapping[str, Any]) -> dict[str, str]:
 def _by_status(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     said = {
+        HTTPStatus.BAD_REQUEST: "what came is not JSON",
         HTTPStatus.NOT_FOUND: f"nothing is at {request.url.path}",
         HTTPStatus.METHOD_NOT_ALLOWED: f"{request.method} is not understood at {request.url.path}",
     }
     detail = said.get(HTTPStatus(error.status_code), error.detail)
-    return problem(error.status_code, detail, instance=request.url.path, headers=error.headers)
+    headers = {"Allow": _allowed(request)} if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED else error.headers
+    return problem(error.status_code, detail, instance=request.url.path, headers=headers)
+
+
+def _allowed(request: Request) -> str:
+    """The methods of all routes of a path: the framework knows those of the first."""
+    routes = [route for route in request.app.routes if route.matches(request.scope)[0] != Match.NONE]
+    return ", ".join(
+        sorted({method for route in routes for method in getattr(route, "methods", None) or ["GET", "HEAD"]})
+    )
 
 
 def _failed(request: Request, error: Exception) -> Response:

@@ -7,12 +7,15 @@ import socket
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from ipaddress import ip_address
+from threading import Thread
 from urllib.parse import urlsplit
 
 import uvicorn
 
 from loiter.errors import InvalidArgument
 from loiter.web.app import create_app
+from loiter.web.connections import Connection
+from loiter.web.synthesis import FIRST_CELLS, synthesis
 
 # Seconds that answers under way have when the server is told to end.
 FAREWELL_S = 3
@@ -27,7 +30,7 @@ def serve(host: str, port: int, cors: str | None, announce: Callable[[str], obje
         config = uvicorn.Config(
             app,
             loop="asyncio",
-            http="h11",
+            http=Connection,
             ws="none",
             lifespan="off",
             proxy_headers=False,
@@ -39,6 +42,8 @@ def serve(host: str, port: int, cors: str | None, announce: Callable[[str], obje
         )
         for line in _addresses(listener):
             announce(line)
+        # The map that the page shows first. It needs the compiled kernel, which takes ten seconds, once on a machine.
+        Thread(target=synthesis, args=(1.0, "either", None, FIRST_CELLS)).start()
         uvicorn.Server(config).run(sockets=[listener])
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from loiter.io.chart import ACTIONS
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, TURN_LIMITS, Aircraft, Orbit, Turn
 from loiter.web.models import Asked
 
-ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
 LIMIT_OPTIONS = {
     "max_bank_deg": "--bank",
     "min_turn_radius_m": "--turn-radius",

@@ -17,18 +17,13 @@ from starlette.exceptions import HTTPException
 Given = TypeVar("Given")
 Made = TypeVar("Made")
 
-THREADS = 4
-
-# Under way and waiting together; the next is told to come again.
-MOST = 128
-
 
 class Workers:
-    """The threads, and how many places are free."""
+    """So many threads, and places for so many requests, under way and waiting together."""
 
-    def __init__(self) -> None:
-        self.pool = ThreadPoolExecutor(THREADS, "loiter-web")
-        self.places = BoundedSemaphore(MOST)
+    def __init__(self, threads: int, places: int) -> None:
+        self.pool = ThreadPoolExecutor(threads, "loiter-web")
+        self.places = BoundedSemaphore(places)
 
     async def run(self, make: Callable[[Given], Made], given: Given) -> Made:
         """`make(given)` by a thread; raises the exception for 503 where too many wait.

@@ -1,0 +1,105 @@
+"""Files of a maneuver, in the format of their ending, written whole or not at all; missions read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from loiter.errors import InvalidArgument
+from loiter.geo.frame import LocalFrame
+from loiter.io.chart import Chart, chart
+from loiter.io.geojson import geojson
+from loiter.io.gpx import gpx
+from loiter.io.items import Autopilot, Mission
+from loiter.io.kml import kml
+from loiter.io.mission import checked_altitude, mission
+from loiter.io.qgcplan import qgcplan, read_qgcplan
+from loiter.io.reading import Source
+from loiter.io.table import table
+from loiter.io.track import steps, vertices
+from loiter.io.wpl import MARK, read_wpl, wpl
+from loiter.planning.maneuver import Maneuver
+from loiter.writing import write_whole
+
+MAPS: dict[str, Callable[[Chart], bytes]] = {".geojson": geojson, ".kml": kml, ".gpx": gpx}
+MISSIONS = (".plan", ".waypoints", ".txt")
+TABLES = (".csv",)
+FORMATS = (*MAPS, *TABLES, *MISSIONS)
+
+
+class Request(NamedTuple):
+    """What a file is to show, as `save` is asked for it."""
+
+    maneuver: Maneuver
+    frame: LocalFrame | None
+    altitude_m: float | None
+    spacing_m: float | None
+    chord_error_m: float
+    autopilot: Autopilot
+
+
+def check_format(path: Path) -> None:
+    """Raise `InvalidArgument` unless the ending of `path` names a format that `save` writes."""
+    if path.suffix.lower() not in FORMATS:
+        raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in {', '.join(FORMATS)}")
+
+
+def save(
+    maneuver: Maneuver,
+    path: str | Path,
+    *,
+    frame: LocalFrame | None = None,
+    altitude_m: float | None = None,
+    spacing_m: float | None = None,
+    chord_error_m: float = 1.0,
+    autopilot: Autopilot = Autopilot.ARDUPILOT,
+) -> None:
+    """Write a maneuver to `path`, in the format of its ending.
+
+    .geojson, .kml and .gpx are maps; .csv is the track with tangents and curvatures; .plan (QGroundControl) and
+    .waypoints or .txt (`QGC WPL 110`) are missions, `io.mission.mission`. All is over the ground. `frame` says where on
+    Earth the maneuver is: without it only .csv can be written. `altitude_m`, above mean sea level, is needed for
+    missions. Points are at most `spacing_m` metres apart, where it is given, and nowhere is the track further than
+    `chord_error_m` metres from the line between two. `autopilot` is whom a .plan is for.
+
+    The file appears whole or not at all; an older one stays until then. Raises `InvalidArgument` for another ending,
+    for what is missing, for numbers that cannot be meant and a file that cannot be written, and as `mission`.
+    """
+    path = Path(path)
+    check_format(path)
+    if altitude_m is not None:
+        altitude_m = checked_altitude(altitude_m)
+    if autopilot not in tuple(Autopilot):
+        known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
+        raise InvalidArgument("autopilot", f"is {autopilot!r}: it must be {known}")
+    content = _content(path.suffix.lower(), Request(maneuver, frame, altitude_m, spacing_m, chord_error_m, autopilot))
+    write_whole("save", path, lambda file: file.write(content))
+
+
+def read_mission(path: str | Path) -> Mission:
+    """The mission in a QGroundControl plan or a `QGC WPL 110` file, told apart by what is in them.
+
+    Raises `InvalidArgument`, with the file and what is wrong where, for a file that is neither or cannot be read.
+    """
+    source = Source("mission", Path(path))
+    text = source.text()
+    if text.startswith(MARK):
+        return read_wpl(source, text)
+    if text.lstrip().startswith("{"):
+        return read_qgcplan(source, text)
+    raise source.fault("it is neither a QGroundControl plan nor a QGC WPL 110 file")
+
+
+def _content(ending: str, request: Request) -> bytes:
+    maneuver, frame, altitude_m, spacing_m, chord_error_m, autopilot = request
+    if ending in TABLES:
+        return table(vertices(maneuver, steps(maneuver, spacing_m, chord_error_m)), frame, altitude_m)
+    if frame is None:
+        raise InvalidArgument("frame", f"is missing: a {ending} file needs places on Earth; .csv does not")
+    if ending in MAPS:
+        return MAPS[ending](chart(maneuver, frame, altitude_m, spacing_m, chord_error_m))
+    if altitude_m is None:
+        raise InvalidArgument("altitude_m", f"is missing: a {ending} file needs metres above mean sea level")
+    plan = mission(maneuver, frame, altitude_m, spacing_m=spacing_m, chord_error_m=chord_error_m)
+    return qgcplan(plan, autopilot, maneuver.aircraft.airspeed_m_s) if ending == ".plan" else wpl(plan)

@@ -1,0 +1,67 @@
+"""Text files that others wrote: read within bounds, and refused in one sentence that names the file."""
+
+from __future__ import annotations
+
+import re
+from math import inf, isfinite
+from pathlib import Path
+from typing import NamedTuple
+
+from loiter.errors import InvalidArgument
+
+# MAVLink's largest mission, 65,535 items, takes some 26 MB as an indented plan.
+MAX_BYTES = 32_000_000
+
+# Digits of other scripts, underscores, nan and inf, all of which `float` takes, are none. Each digit can be matched in
+# one way only: a long number is refused as fast as it is read.
+NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+
+SHOWN = 40
+
+
+class Source(NamedTuple):
+    """Where a text comes from: the argument that gave the path, and the path."""
+
+    argument: str
+    path: Path
+
+    def fault(self, problem: str) -> InvalidArgument:
+        """What to raise; `problem` is what is wrong in the file."""
+        return InvalidArgument(self.argument, f"file {str(self.path)!r}: {problem}")
+
+    def text(self) -> str:
+        """The whole file. Raises `InvalidArgument` where it cannot be read, is too large, or is not UTF-8."""
+        try:
+            with self.path.open("rb") as file:
+                content = file.read(MAX_BYTES + 1)
+        # A name with a nul byte is a ValueError.
+        except (OSError, ValueError) as error:
+            raise self.fault(f"it cannot be read, {getattr(error, 'strerror', None) or error}") from error
+        if len(content) > MAX_BYTES:
+            raise self.fault(f"it is longer than {MAX_BYTES:,} bytes")
+        try:
+            return content.decode("utf-8-sig")
+        except UnicodeDecodeError as error:
+            raise self.fault(f"it is not UTF-8 text, see byte {error.start}") from error
+
+    def number(self, where: str, text: str) -> float:
+        """A finite number from its text; `where` says what and in which line or item."""
+        value = float(text) if NUMBER.fullmatch(text) else inf
+        if not isfinite(value):
+            raise self.fault(f"{where} is {shown(text)}: it must be a finite number")
+        return value
+
+    def integer(self, where: str, text: str, largest: int) -> int:
+        """A whole number from 0 to `largest` from its text."""
+        # More digits than `largest` has would be a larger number, or one with leading noughts.
+        if not (text.isascii() and text.isdigit() and len(text) <= len(str(largest)) and int(text) <= largest):
+            raise self.fault(f"{where} is {shown(text)}: it must be a whole number from 0 to {largest}")
+        return int(text)
+
+
+def shown(value: object) -> str:
+    """A value as a sentence quotes it: on one line and short."""
+    if isinstance(value, dict | list):
+        return "a list" if isinstance(value, list) else "an object"
+    text = repr(value)
+    return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."

@@ -1,0 +1,137 @@
+"""Missions of maneuvers: where their items are, and which way round they hold."""
+
+from itertools import pairwise
+from math import inf, nan
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from earth import FRAME, SCENES, UAV, apart_m, at_time, entry, off_lines, on_earth, placed, switches
+from loiter import Orbit, Pose, Turn, plan
+from loiter.errors import InvalidArgument, OutOfRange
+from loiter.geo import LocalFrame
+from loiter.io import Command, Frame, mission
+from loiter.io.mission import BEND_PER_M, MAX_ITEMS
+from loiter.io.signs import circle
+from loiter.io.track import steps, vertices
+from loiter.planning.flight import sampled_at
+
+settings.register_profile("missions", deadline=None, max_examples=25)
+settings.load_profile("missions")
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_waypoints_lie_on_the_track_and_the_loiter_on_the_centre(name):
+    m, frame = SCENES[name]
+    flown = mission(m, frame, 600.0)
+    *waypoints, loiter = flown.items
+    times = vertices(m, steps(m, None, 1.0, BEND_PER_M)).time_s
+    assert len(times) == len(waypoints)
+    for item, time in zip(waypoints, times, strict=True):
+        assert (item.command, item.frame, item.params) == (Command.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0,) * 4)
+        assert (item.altitude_m, item.autocontinue) == (600.0, True)
+        place = on_earth(frame, *at_time(m, time)[:2])[:2]
+        assert apart_m((item.latitude_deg, item.longitude_deg), place) < 1e-6
+    assert (loiter.command, loiter.frame, loiter.altitude_m) == (Command.NAV_LOITER_UNLIM, Frame.ABOVE_SEA, 600.0)
+    assert circle(loiter.command, loiter.params) == (m.orbit.radius_m, m.turn)
+    centre = on_earth(frame, m.orbit.east_m, m.orbit.north_m)[:2]
+    assert apart_m((loiter.latitude_deg, loiter.longitude_deg), centre) < 1e-6
+    assert flown.home == (waypoints[0].latitude_deg, waypoints[0].longitude_deg, 600.0)
+
+
+@pytest.mark.parametrize(("turn", "sign"), [(Turn.CW, 1.0), (Turn.CCW, -1.0)])
+def test_the_sign_of_the_radius_is_the_way_round(turn, sign):
+    m, frame = entry(turn)
+    assert mission(m, frame, 0.0).items[-1].params == (0.0, 0.0, sign * 120.0, 0.0)
+
+
+@given(placed(0.3), st.floats(0.5, 20.0))
+def test_every_switch_is_a_waypoint(scene, error):
+    m, frame = scene
+    items = mission(m, frame, 100.0, chord_error_m=error).items
+    for time in switches(m):
+        place = on_earth(frame, *at_time(m, time)[:2])[:2]
+        assert min(apart_m((item.latitude_deg, item.longitude_deg), place) for item in items[:-1]) < 1e-5
+
+
+def test_far_from_the_origin_waypoints_are_where_geodesics_stay_on_the_track():
+    """Between two waypoints an autopilot flies the geodesic, straight in the plane about the waypoint, and not the line
+    that is straight in the plane of the maneuver."""
+    m = plan(Pose(-70e3, -60e3, 45.0), Orbit(60e3, -75e3, 500.0), UAV)
+    frame = LocalFrame(60.0, 8.0)
+    for error in (0.05, 1.0):
+        items = mission(m, frame, 100.0, chord_error_m=error).items[:-1]
+        times = vertices(m, steps(m, None, error, BEND_PER_M)).time_s
+        for i, (a, b) in enumerate(pairwise(items)):
+            here = LocalFrame(a.latitude_deg, a.longitude_deg)
+            dense = np.linspace(times[i], times[i + 1], 9)
+            track = sampled_at(dense, m.start, m.segments, m.aircraft, m.wind)
+            east, north = here.to_local(*frame.to_geodetic(track.east_m, track.north_m))
+            end = complex(*map(float, here.to_local(b.latitude_deg, b.longitude_deg)))
+            if not np.isnan(east).any():
+                assert off_lines(east + 1j * north, 0.0, end).max() <= error
+        assert len(items) > 6
+
+
+def test_a_spacing_brings_more_waypoints():
+    m, frame = entry("cw")
+    items = mission(m, frame, 100.0, spacing_m=10.0).items[:-1]
+    places = [(item.latitude_deg, item.longitude_deg) for item in items]
+    assert max(apart_m(a, b) for a, b in pairwise(places)) <= 10.0
+    assert len(items) > m.length_m / 10.0
+
+
+def test_a_start_on_the_circle_is_a_waypoint_and_a_loiter():
+    m, frame = SCENES["on the circle"]
+    assert [item.command for item in mission(m, frame, 100.0).items] == [16, 17]
+
+
+# Refusals
+
+
+def test_a_circle_that_moves_is_no_loiter():
+    m, frame = entry(velocity_east_m_s=5.0)
+    with pytest.raises(InvalidArgument, match=r"^orbit moves over the ground: the loiter of a mission stays where"):
+        mission(m, frame, 100.0)
+
+
+@pytest.mark.parametrize("radius", [0.5, 65536.0])
+def test_a_circle_that_autopilots_do_not_hold_is_refused(radius):
+    aircraft = UAV.__class__(0.5, min_turn_radius_m=0.4)
+    m = plan(Pose(0.0, radius, 90.0), Orbit(0.0, 0.0, radius), aircraft)
+    with pytest.raises(InvalidArgument, match=r"^orbit radius_m is .*: the loiter of a mission takes 1 to 65535 metre"):
+        mission(m, FRAME, 100.0)
+
+
+def test_more_items_than_autopilots_hold_are_refused():
+    m, frame = entry("cw")
+    with pytest.raises(
+        InvalidArgument,
+        match=rf"^mission would have \d+ items: autopilots hold some {MAX_ITEMS}; allow a larger chord error "
+        r"than 1 m or spacing than 0.1 m$",
+    ):
+        mission(m, frame, 100.0, spacing_m=0.1)
+    with pytest.raises(InvalidArgument, match=r"; allow a larger chord error than 1e-06 m$"):
+        mission(m, frame, 100.0, chord_error_m=1e-6)
+
+
+def test_a_mission_beyond_the_reach_of_the_frame_is_refused():
+    m = plan(Pose(-120e3, 0.0, 90.0), Orbit(0.0, 0.0, 120.0), UAV)
+    with pytest.raises(OutOfRange, match=r"^the maneuver goes more than 100 km from the frame's origin 47 8: take the"):
+        mission(m, FRAME, 100.0)
+
+
+@pytest.mark.parametrize("altitude", [nan, inf, "600", None, True])
+def test_an_altitude_is_a_number(altitude):
+    with pytest.raises(
+        InvalidArgument, match=r"^altitude_m is .*: it must be a finite number of metres above mean sea"
+    ):
+        mission(*entry("cw"), altitude)
+
+
+@pytest.mark.parametrize("altitude", [83_001.0, -1e300])
+def test_an_altitude_is_one_that_autopilots_take(altitude):
+    with pytest.raises(InvalidArgument, match=r"^altitude_m is .*: it must be from -83000 to 83000 metres$"):
+        mission(*entry("cw"), altitude)
