@@ -112,5 +112,6 @@ function judged({ certificate }) {
   const { valid, residuals, runner_up, margin_s } = certificate;
   if (!valid) return "Some condition of the maximum principle fails; loiter plan --certify tells which.";
   const margin = runner_up !== null && margin_s !== null ? ` Runner-up ${runner_up}, ${difference(margin_s)} later.` : "";
-  return `All ${residuals.length} conditions hold.${margin}`;
+  const held = residuals.filter(({ verdict }) => verdict === "holds").length;
+  return `All ${held} conditions hold.${margin}`;
 }

@@ -27,12 +27,14 @@ const CELLS = 280; // of the map, a side: 1.5 pixels each, and the curves cover 
 
 /** @type {{scene: Scene, units: Units, answer: Answer | null, asked: number, drawn: number}} */
 const state = { scene: PRESETS[0].scene, units: "metric", answer: null, asked: 0, drawn: 0 };
-const shown = () => ({ ...state, stale: failed });
+const shown = () => state;
 const message = byId("message", HTMLElement);
 const spoken = byId("spoken", HTMLElement);
 const plan = byId("plan", SVGSVGElement);
 let failed = false;
 let fitNext = true;
+/** @type {number[] | null} */
+let spanNext = null; // the view of the link that was opened
 
 /** Pointer moves whose path is not drawn yet: the scene's number and when the move happened. @type {{asked: number, at: number}[]} */
 const moves = [];
@@ -67,19 +69,28 @@ const ask = latest(
   async (/** @type {{scene: Scene, number: number}} */ { scene }) => /** @type {Answer} */ (await (await post("/api/plan", scene)).json()),
   (answer, { number }) => {
     if (failed) say("");
-    failed = false;
+    fail(false);
     [state.answer, state.drawn] = [answer, number];
     answered();
   },
   (error, { number }) => {
-    failed = true;
+    fail(true);
     state.drawn = number;
     settle(number);
     say(error.message, true);
-    view.draw();
     plan.dataset.drawn = String(number);
   },
 );
+
+/**
+ * The last good plan stays, faint, while a scene has none.
+ *
+ * @param {boolean} on
+ */
+function fail(on) {
+  failed = on;
+  byId("main", HTMLElement).classList.toggle("stale", on);
+}
 
 function answered() {
   if (fitNext) arrive(state.answer);
@@ -101,6 +112,8 @@ function answered() {
 function arrive(answer) {
   fitNext = false;
   view.fit();
+  if (spanNext) view.showSpan(spanNext);
+  spanNext = null;
   speed(speedFor(answer?.duration_s ?? 0));
 }
 
@@ -123,7 +136,7 @@ function rest() {
   clearTimeout(resting);
   resting = window.setTimeout(async () => {
     if (state.drawn < state.asked) return rest();
-    history.replaceState(null, "", toLink(state.scene, state.units));
+    relink();
     if (failed || !state.answer) return rested();
     spoken.textContent = state.answer.instruction;
     words.drawList(shown());
@@ -131,6 +144,15 @@ function rest() {
     askMap(state.answer);
     askProof({ scene: state.scene, number: state.asked });
   }, REST_MS);
+}
+
+const link = () => toLink(state.scene, state.units, view.span());
+const relink = () => history.replaceState(null, "", link());
+let looking = 0;
+/** The address follows the view once it rests. */
+function moved() {
+  clearTimeout(looking);
+  looking = window.setTimeout(relink, REST_MS);
 }
 
 const askProof = latest(
@@ -203,7 +225,7 @@ function hover(index) {
 
 const slider = byId("clock", HTMLInputElement);
 const ghost = clock(() => state.answer?.duration_s ?? 0, fly);
-const view = planView(shown, change, hover);
+const view = planView(shown, change, hover, moved);
 const reduced = reducedView(shown, (x, y, event) => {
   if (!state.answer) return;
   const place = placeOf(x, y, state.scene, state.answer.aircraft.turn_radius_m);
@@ -212,7 +234,7 @@ const reduced = reducedView(shown, (x, y, event) => {
 const line = timeLine((time) => ghost.seek(time));
 const words = answerView(hover);
 const panel = controls(shown, typed, (sentence) => say(sentence, true));
-const taking = takeAway(shown, () => location.origin + location.pathname + toLink(state.scene, state.units), say);
+const taking = takeAway(shown, () => location.origin + location.pathname + link(), say);
 
 /** @param {Scene} scene @param {Event} event */
 function typed(scene, event) {
@@ -236,9 +258,11 @@ function begin(scene) {
 function open() {
   if (location.hash.length < 2) return begin(PRESETS[0].scene);
   try {
-    const { scene, units } = fromLink(location.hash);
+    const { scene, units, view: span } = fromLink(location.hash);
     [state.units, unitsChoice.value] = [units, units];
     begin(scene);
+    showOrigin(scene);
+    spanNext = span;
   } catch (error) {
     begin(PRESETS[0].scene);
     say(/** @type {Error} */ (error).message, true);
@@ -294,8 +318,15 @@ function wire() {
   addEventListener("hashchange", open);
 }
 
+const [latitude, longitude] = ["latitude", "longitude"].map((id) => byId(id, HTMLInputElement));
+
+/** @param {Scene} scene */
+function showOrigin({ origin }) {
+  latitude.value = String(origin?.latitude_deg ?? "");
+  longitude.value = String(origin?.longitude_deg ?? "");
+}
+
 function wireOrigin() {
-  const [latitude, longitude] = ["latitude", "longitude"].map((id) => byId(id, HTMLInputElement));
   for (const input of [latitude, longitude])
     input.addEventListener("input", () => {
       const [latitude_deg, longitude_deg] = [latitude.valueAsNumber, longitude.valueAsNumber];

@@ -15,7 +15,6 @@
  * @property {Scene} scene
  * @property {Units} units
  * @property {Answer | null} answer
- * @property {boolean} stale  whether the answer is that of an earlier scene
  *
  * @typedef {(scene: Scene, event: Event) => void} Change
  */
@@ -53,8 +52,9 @@ export function sorted(answer) {
  * @param {() => Shown} shown
  * @param {Change} change
  * @param {(index: number | null) => void} hover  one of the others is pointed at
+ * @param {() => void} moved  the user has moved the view
  */
-export function planView(shown, change, hover) {
+export function planView(shown, change, hover, moved) {
   const root = byId("plan", SVGSVGElement);
   const layer = Object.fromEntries(
     ["grid", "circle", "others", "best", "marks", "wind", "handles"].map((name) => [name, svg("g", { class: `layer ${name}` })]),
@@ -64,6 +64,7 @@ export function planView(shown, change, hover) {
   root.append(layer.grid, layer.circle, layer.others, layer.best, layer.marks, layer.wind, ghost, label, layer.handles);
   /** @type {View} */
   let view = { scale: 1, east: 0, north: 0, width: 800, height: 600 };
+  let own = false; // whether the user has moved the view
   let bearing_deg = 150; // where on the circle the handle of its radius sits
 
   const handles = makeHandles(root, layer.handles, shown, change, () => view, (deg) => (bearing_deg = deg), () => bearing_deg);
@@ -71,7 +72,9 @@ export function planView(shown, change, hover) {
   /** @param {View} next */
   function look(next) {
     view = next;
+    own = true;
     draw();
+    moved();
   }
 
   function draw() {
@@ -86,9 +89,8 @@ export function planView(shown, change, hover) {
   }
 
   function drawAnswer() {
-    const { scene, answer, stale } = shown();
+    const { scene, answer } = shown();
     if (!answer) return;
-    root.classList.toggle("stale", stale);
     const { best, others } = sorted(answer);
     drawCircle(layer.circle, view, scene, answer);
     layer.best.replaceChildren(...best.flatMap((maneuver) => drawBest(view, maneuver)));
@@ -128,7 +130,10 @@ export function planView(shown, change, hover) {
     // The handle of the heading is as long at any scale; one step brings it into the view.
     const [east, north] = vector(scene.pose.heading_deg);
     const reach = LEVER / near.scale;
-    look(fitted(view, [...points, [scene.pose.east_m + reach * east, scene.pose.north_m + reach * north]], margin()));
+    view = fitted(view, [...points, [scene.pose.east_m + reach * east, scene.pose.north_m + reach * north]], margin());
+    own = false;
+    draw();
+    moved();
   }
 
   function keep() {
@@ -152,7 +157,19 @@ export function planView(shown, change, hover) {
     if (first) fit();
     else keep();
   }
-  return { draw, drawAnswer, highlight, fly, fit, keep, resize, zoom: (/** @type {number} */ factor) => look(zoomed(view, [view.width / 2, view.height / 2], factor)) };
+
+  /** What the link tells of a view that the user has moved: its middle and how many metres it is wide. */
+  function span() {
+    return own ? [view.east, view.north, view.width / view.scale].map((metres) => tidy(metres, 0.1 / view.scale)) : null;
+  }
+
+  /** @param {number[]} span */
+  function showSpan([east, north, wide]) {
+    look({ ...view, east, north, scale: view.width / wide });
+  }
+
+  const zoom = (/** @type {number} */ factor) => look(zoomed(view, [view.width / 2, view.height / 2], factor));
+  return { draw, drawAnswer, highlight, fly, fit, keep, resize, zoom, span, showSpan };
 }
 
 /**
