@@ -29,7 +29,7 @@ import { contains, fitted, panned, toScreen, toWorld, zoomed } from "./view.js";
 const MARGINS = { left: 84, right: 64, top: 40, bottom: 64 };
 const LEVER = 62; // pixels from the aircraft to the handle that turns it
 const TINY = 30; // pixels: no handle of the radius is nearer to the centre
-const DIAL = 42; // pixels: the wind dial's radius, half the airspeed
+const DIALS = { small: 28, large: 42 }; // pixels: the wind dial's radius, half the airspeed
 const GRID = 84; // pixels: lines of the grid are no closer
 
 /** An aeroplane from above, nose up, some 30 pixels long. */
@@ -389,11 +389,12 @@ function drawMarks(view, maneuver, scene) {
   const joined = svg("circle", { cx, cy, r: 6, class: "join" });
   const taken = Array.from({ length: 81 }, (_, i) => at(maneuver.track, (i / 80) * duration_s)).map(({ east_m, north_m }) => toScreen(view, east_m, north_m));
   taken.push(...rim(centre, Math.hypot(cx - centre[0], cy - centre[1])));
-  const texts = [beside([cx, cy], taken, `join ${fixed(duration_s, decimals)} s`)];
+  taken.push(...handled(view, scene));
+  const texts = [beside(view, [cx, cy], taken, `join ${fixed(duration_s, decimals)} s`)];
   for (const { pose, time, last } of ends) {
     const point = toScreen(view, pose.east_m, pose.north_m);
     const crowded = Math.hypot(point[0] - cx, point[1] - cy) < 26 || nearStart(view, scene, point);
-    if (last && !crowded) texts.push(beside(point, taken, `peel off ${fixed(time, decimals)} s`));
+    if (last && !crowded) texts.push(beside(view, point, taken, `peel off ${fixed(time, decimals)} s`));
   }
   return [...marks, joined, ...texts];
 }
@@ -420,20 +421,35 @@ function nearStart(view, { pose }, [x, y]) {
 }
 
 /**
+ * Points that the aircraft and the handle of its heading cover.
+ *
+ * @param {View} view
+ * @param {Scene} scene
+ * @returns {Point[]}
+ */
+function handled(view, { pose }) {
+  const [x, y] = toScreen(view, pose.east_m, pose.north_m);
+  const [east, north] = vector(pose.heading_deg);
+  return Array.from({ length: 16 }, (_, k) => [x + (5 * k - 12) * east, y - (5 * k - 12) * north]);
+}
+
+/**
  * A text beside a point, on the side where it covers the fewest of the points that are taken.
  *
+ * @param {View} view
  * @param {Point} point
  * @param {Point[]} taken
  * @param {string} text
  */
-function beside([x, y], taken, text) {
+function beside(view, [x, y], taken, text) {
   const width = 6.6 * text.length;
   const sides = [0, 45, 90, 135, 180, 225, 270, 315].map((bearing) => {
     const [ux, up] = vector(bearing);
     const left = x + 13 * ux + (width / 2) * (Math.abs(ux) < 0.1 ? -1 : Math.sign(ux) - 1);
     const middle = y - 17 * up;
     const covered = taken.filter(([px, py]) => px > left - 4 && px < left + width + 4 && Math.abs(py - middle) < 10);
-    return { left, middle, covered: covered.length };
+    const cut = left < 4 || left + width > view.width - 4;
+    return { left, middle, covered: covered.length + (cut ? 1000 : 0) };
   });
   const best = sides.reduce((least, side) => (side.covered < least.covered ? side : least));
   return svg("text", { x: best.left, y: best.middle + 4, class: "halo" }, [text]);
@@ -452,9 +468,11 @@ function beside([x, y], taken, text) {
  */
 function makeHandles(root, layer, shown, change, viewed, turned, bearing) {
   const lever = svg("path", { class: "lever" });
-  const dial = svg("g", { class: "dial" }, [svg("circle", { r: DIAL }), svg("circle", { r: DIAL / 2, class: "half" })]);
+  const rings = [svg("circle"), svg("circle", { class: "half" })];
+  const dial = svg("g", { class: "dial" }, rings);
+  const face = () => (viewed().width < 500 ? DIALS.small : DIALS.large);
   const shaft = svg("path", { class: "shaft" });
-  const calm = svg("text", { class: "dialtext", "text-anchor": "middle" });
+  const calm = svg("text", { class: "dialtext halo", "text-anchor": "middle" });
   const disc = (/** @type {number} */ r) => svg("circle", { r, class: "touch" });
   const ring = (/** @type {number} */ r) => svg("circle", { r, class: "focus" });
   const aircraft = svg("g", { id: "aircraft" }, [disc(24), ring(23), svg("path", { d: AEROPLANE, class: "aeroplane" })]);
@@ -467,7 +485,7 @@ function makeHandles(root, layer, shown, change, viewed, turned, bearing) {
   const at = () => toScreen(viewed(), shown().scene.pose.east_m, shown().scene.pose.north_m);
   const hub = () => toScreen(viewed(), shown().scene.orbit.east_m, shown().scene.orbit.north_m);
   /** @returns {Point} */
-  const pivot = () => [viewed().width - DIAL - 22, DIAL + 30];
+  const pivot = () => [viewed().width - Math.max(56, face() + 22), face() + (face() === DIALS.large ? 30 : 14)];
   // A tenth of a pixel: what a drag is rounded to; and a tenth of a line of the grid: what a key moves by.
   const fine = () => 0.1 / viewed().scale;
   const step = () => {
@@ -492,13 +510,13 @@ function makeHandles(root, layer, shown, change, viewed, turned, bearing) {
     const [east, north] = air ? vector(air.from_deg) : [0, 0];
     return air ? [-air.speed_m_s * east, -air.speed_m_s * north] : [0, 0];
   };
-  const perSpeed = () => (2 * DIAL) / shown().scene.aircraft.airspeed_m_s;
+  const perSpeed = () => (2 * face()) / shown().scene.aircraft.airspeed_m_s;
   /** @returns {Point} */
   const tipAt = () => {
     const [east, north] = blowing();
     const [x, y] = pivot();
     const speed = Math.hypot(east, north);
-    const far = speed > 0 ? Math.min(speed * perSpeed(), 2 * DIAL) / speed : 0;
+    const far = speed > 0 ? Math.min(speed * perSpeed(), 2 * face()) / speed : 0;
     return [x + far * east, y - far * north];
   };
   /** @returns {Point} */
@@ -567,7 +585,7 @@ function makeHandles(root, layer, shown, change, viewed, turned, bearing) {
     to: ([x, y], event) => {
       const [left, top] = pivot();
       const far = Math.hypot(x - left, y - top);
-      const share = (far < 3 ? 0 : Math.min(1, (1.9 * DIAL) / far)) / perSpeed();
+      const share = (far < 3 ? 0 : Math.min(1, (1.9 * face()) / far)) / perSpeed();
       setWind((x - left) * share, (top - y) * share, event);
     },
     by: (right, up, event) => {
@@ -603,9 +621,10 @@ function makeHandles(root, layer, shown, change, viewed, turned, bearing) {
     const text = air ? `${fixed(air.speed_m_s / size, 1)} ${name} from ${fixed(air.from_deg, 0)}°` : "calm";
     place(wind, tip, air?.speed_m_s ?? 0, air ? text : "calm");
     wind.querySelector(".tip")?.setAttribute("transform", `rotate(${air ? air.from_deg + 180 : 0})`);
+    rings.forEach((ring, i) => ring.setAttribute("r", String(face() / (i + 1))));
     dial.setAttribute("transform", `translate(${x} ${y})`);
     shaft.setAttribute("d", polyline([[x, y], tip]));
-    set(calm, { x, y: y + DIAL + 18 });
+    set(calm, { x, y: y + face() + 18 });
     calm.textContent = air ? text : "wind: calm";
   }
   return { draw };
