@@ -212,6 +212,27 @@ def test_the_arrow_keys_move_each_handle(page):
         assert len(set(texts)) == 3
 
 
+def test_many_moves_make_few_requests_and_the_last_one_is_answered(page):
+    x, y = middle(page, "aircraft")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    asked = len(page.watched.requests)
+    page.evaluate(
+        """([x, y]) => { for (let k = 1; k <= 20; k++) document.getElementById("aircraft").dispatchEvent(
+            new PointerEvent("pointermove", { pointerId: 1, bubbles: true, clientX: x - 3 * k, clientY: y + k })); }""",
+        [x, y],
+    )
+    page.mouse.up()
+    settle(page)
+    requests = [url for url in page.watched.requests[asked:] if url.endswith("/api/plan")]
+    assert len(requests) == 2
+    assert_shows_the_plan(page)
+    # Each move knows how long it waited for its path, on the page's clock.
+    waits = page.evaluate("performance.getEntriesByName('move to path').map(measure => measure.duration)")
+    assert len(waits) == 20
+    assert min(waits) > 0.0
+
+
 def test_a_finger_drags_on_a_phone(opened):
     page = opened(**PHONE)
     before = scene(page)

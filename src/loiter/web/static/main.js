@@ -59,7 +59,7 @@ function change(scene, event) {
   state.asked += 1;
   if (event instanceof PointerEvent) moves.push({ asked: state.asked, at: event.timeStamp });
   plan.dataset.asked = String(state.asked);
-  view.draw();
+  view.drawScene();
   panel.draw(shown());
   ask({ scene, number: state.asked });
   rest();

@@ -78,14 +78,19 @@ export function planView(shown, change, hover, moved) {
   }
 
   function draw() {
-    const { scene, units, answer } = shown();
-    set(root, { "data-scale": view.scale, "data-east": view.east, "data-north": view.north, "data-scene": JSON.stringify(scene) });
-    drawGrid(layer.grid, view, units);
-    if (!answer) drawCircle(layer.circle, view, scene, answer);
-    handles.draw(scene, units);
+    drawGrid(layer.grid, view, shown().units);
+    drawScene();
     drawAnswer();
     fly(flown);
     highlight(lit);
+  }
+
+  /** What follows the pointer at once; paths wait for their answer. */
+  function drawScene() {
+    const { scene, units, answer } = shown();
+    set(root, { "data-scale": view.scale, "data-east": view.east, "data-north": view.north, "data-scene": JSON.stringify(scene) });
+    drawCircle(layer.circle, view, scene, answer);
+    handles.draw(scene, units);
   }
 
   function drawAnswer() {
@@ -169,7 +174,7 @@ export function planView(shown, change, hover, moved) {
   }
 
   const zoom = (/** @type {number} */ factor) => look(zoomed(view, [view.width / 2, view.height / 2], factor));
-  return { draw, drawAnswer, highlight, fly, fit, keep, resize, zoom, span, showSpan };
+  return { draw, drawScene, drawAnswer, highlight, fly, fit, keep, resize, zoom, span, showSpan };
 }
 
 /**
