@@ -41,6 +41,10 @@ class MissingPackage(LoiterError):
     """An optional package is needed for what was asked; the sentence says how to install it."""
 
 
+class LinkFailed(LoiterError):
+    """A vehicle was not reached, refused, or keeps something else than it was sent; the sentence says what is left."""
+
+
 def number(argument: str, value: object, unit: str) -> float:
     """`value` as a finite float."""
     return _checked(argument, value, f"a finite number of {unit}", isfinite(as_float(value)))

@@ -1,10 +1,14 @@
 """`loiter plan` with places in degrees, altitudes and indicated airspeeds."""
 
+import json
+from itertools import pairwise
 from math import cos, radians, sin
 
 import pytest
 from geographiclib.geodesic import Geodesic
 
+import loiter
+from loiter import Aircraft, Orbit
 from loiter.cli.app import main
 
 UAV = "--airspeed 18 --bank 35"
@@ -91,3 +95,68 @@ def test_what_cannot_be_placed(capsys, options, sentence):
     out, err = capsys.readouterr()
     assert (out, err.count("\n")) == ("", 1)
     assert err.startswith(f"loiter: {sentence}")
+
+
+# Files
+
+
+@pytest.mark.parametrize("ending", ["geojson", "kml", "gpx", "csv", "plan", "waypoints"])
+def test_saving_writes_what_the_library_writes(shown, tmp_path, ending):
+    path = tmp_path / f"entry.{ending}"
+    shown(f"plan {PLACED} {UAV} --altitude 900 --spacing 100 --save {path}")
+    frame = loiter.geo.LocalFrame(47.11, 8.23)
+    best = loiter.plan(frame.pose(47.1, 8.2, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0))
+    loiter.io.save(best, tmp_path / f"same.{ending}", frame=frame, altitude_m=900.0, spacing_m=100.0)
+    assert path.read_bytes() == (tmp_path / f"same.{ending}").read_bytes()
+
+
+def test_a_mission_follows_the_options(shown, tmp_path):
+    path = tmp_path / "entry.plan"
+    shown(f"plan {PLACED} {UAV} --altitude 900 --spacing 50 --chord-error 0.2 --autopilot px4 --save {path}")
+    plan = json.loads(path.read_text())
+    places = [item["params"][4:6] for item in plan["mission"]["items"][:-1]]
+    steps = [Geodesic.WGS84.Inverse(*a, *b)["s12"] for a, b in pairwise(places)]
+    assert max(steps) < 50.001
+    assert plan["mission"]["firmwareType"] == 12
+
+
+ARDUPLANE = "AIRSPEED_CRUISE,18.0\nROLL_LIMIT_DEG,35\nWP_LOITER_RAD,-120\n"
+
+
+def test_a_parameter_file_gives_aircraft_radius_and_direction(planned, tmp_path):
+    (tmp_path / "plane.param").write_text(ARDUPLANE)
+    preset = f"--params {tmp_path / 'plane.param'}"
+    answer = planned(f"--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 {preset}")
+    same = planned(f"{PLACED} {UAV} --turn ccw")
+    assert (answer["duration_s"], answer["turn"]) == (same["duration_s"], "ccw")
+    # Options stand above the file, and thin air below neither.
+    assert planned(f"{PLACED} {preset} --turn cw")["turn"] == "cw"
+    assert planned(f"{PLACED} {preset} --airspeed 20")["aircraft"]["airspeed_m_s"] == 20.0
+    assert planned(f"{PLACED} {preset} --turn-radius 99")["aircraft"]["turn_radius_m"] == 99.0
+    assert planned(f"{PLACED} {preset} --altitude 3000")["aircraft"]["airspeed_m_s"] > 20.5
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (f"{PLACED} {UAV} --save entry.plan", "--altitude is missing: a .plan"),
+        (f"{PLACED} {UAV} --save entry.doc", "--save is 'entry.doc'"),
+        (f"--pose 1 2 3 --orbit 0 0 120 {UAV} --save entry.kml", "--orbit-lla is missing: a .kml"),
+        (f"{PLACED} {UAV} --altitude 900 --save entry.plan --spacing 0", "--spacing is 0.0"),
+        (f"{PLACED} {UAV} --altitude 900 --save entry.plan --chord-error -1", "--chord-error is -1.0"),
+        (f"{PLACED} {UAV} --altitude nan --save entry.plan", "--altitude is nan"),
+        (f"{PLACED} {UAV} --altitude 900 --orbit-velocity 1 0 --save entry.plan", "--orbit moves over the ground"),
+        (
+            f"{PLACED} {UAV} --altitude 900 --save nowhere/entry.plan",
+            "--save is 'nowhere/entry.plan': it cannot be written",
+        ),
+        (f"{PLACED} --params none.param", "--params file 'none.param': it cannot be read"),
+    ],
+)
+def test_what_cannot_be_saved(capsys, tmp_path, monkeypatch, options, sentence):
+    monkeypatch.chdir(tmp_path)
+    assert main(["plan", *options.split()]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert err.startswith(f"loiter: {sentence}")
+    assert list(tmp_path.iterdir()) == []

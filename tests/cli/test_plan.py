@@ -338,7 +338,7 @@ def test_the_examples_of_the_help_run(shown, tmp_path, monkeypatch):
     assert len(examples) == 4
     for example in examples:
         assert "joins in" in shown(example)
-    assert [path.name for path in tmp_path.iterdir()] == ["entry.png"]
+    assert {path.name for path in tmp_path.iterdir()} == {"entry.png", "entry.plan"}
 
 
 @pytest.mark.parametrize("arguments", ["", "--help", "-h"])

@@ -32,6 +32,12 @@ def test_parts_of_a_line_make_up_the_line(start, moves):
         assert before[-1][1] == after[0][1]
 
 
+def test_the_last_longitude_before_the_antimeridian_stays_on_the_map():
+    ((a, b),) = cut_line([179.99999999999997, 179.99999999999997], [0.0, 1.0])
+    assert (abs(a[0]), a[1], abs(b[0]), b[1]) == pytest.approx((180.0, 0.0, 180.0, 1.0), abs=1e-13)
+    assert max(abs(a[0]), abs(b[0])) <= 180.0
+
+
 def test_a_line_that_does_not_cross_is_one_part():
     assert cut_line([179.0, 179.5, 178.0], [1.0, 2.0, 3.0]) == [[(179.0, 1.0), (179.5, 2.0), (178.0, 3.0)]]
 

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 from hypothesis import given, settings
-from strategies import scenes, windy_scenes
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, candidates, plan_all
 from loiter.planning.solve import compared
+from strategies import scenes, windy_scenes
 
 
 def one_by_one(pose, orbit, aircraft, wind, tolerance_m=0.0):

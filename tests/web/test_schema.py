@@ -1,18 +1,52 @@
 """Schemathesis reads the OpenAPI and asks what it allows, and what it does not: no 5xx, every answer as described."""
 
+from pathlib import Path
+
 import pytest
 import schemathesis
 from hypothesis import HealthCheck, settings
-from schemathesis.checks import load_all_checks, not_a_server_error
 from schemathesis.specs.openapi.checks import positive_data_acceptance
 
 from loiter.web.app import create_app
+from loiter.web.models import EXAMPLE, IN_WIND, Scene
+from loiter.web.openapi import REFUSALS
+
+DOCS = Path(__file__).parents[2] / "docs" / "service.md"
 
 schema = schemathesis.openapi.from_asgi("/openapi.json", create_app())
 
 
 @schema.parametrize()
-@settings(max_examples=40, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=25, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
 def test_every_answer_is_as_described(case):
     # What a schema cannot say, that the circle can be held in this wind, the library refuses with 422.
     case.call_and_validate(excluded_checks=[positive_data_acceptance])
+
+
+def operations():
+    return {
+        (method.upper(), path): operation
+        for path, methods in schema.raw_schema["paths"].items()
+        for method, operation in methods.items()
+    }
+
+
+def test_every_operation_says_what_it_is_for_and_how_it_refuses():
+    for operation in operations().values():
+        assert operation["description"].endswith(".")
+        assert {"200", *(str(int(status)) for status in REFUSALS)} == set(operation["responses"])
+
+
+def test_every_operation_is_in_the_documentation():
+    text = DOCS.read_text()
+    assert [f"{method} {path}" for method, path in operations() if f"`{method} {path}" not in text] == []
+
+
+@pytest.mark.parametrize("name", ["PoseIn", "OrbitIn", "AircraftIn", "WindIn", "Scene", "ExportOptions"])
+def test_requests_forbid_what_they_do_not_know(name):
+    assert schema.raw_schema["components"]["schemas"][name]["additionalProperties"] is False
+
+
+@pytest.mark.parametrize("example", [EXAMPLE, IN_WIND])
+def test_the_examples_can_be_planned(example):
+    assert Scene.model_validate(example).asked().aircraft.turn_radius_m > 0.0

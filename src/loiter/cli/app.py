@@ -10,8 +10,8 @@ from cyclopts import App, CycloptsError, Parameter
 
 import loiter
 from loiter.cli.sentences import sentence
-from loiter.cli.status import INTERRUPTED, USAGE_ERROR
-from loiter.errors import LoiterError
+from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR
+from loiter.errors import LinkFailed, LoiterError
 
 app = App(
     name="loiter",
@@ -32,7 +32,7 @@ Positions are metres east and north of any local origin, or WGS84 degrees; headi
   loiter plan --pose -400 120 90 --orbit 0 0 120 --wind 8 250 \\
       --airspeed 18 --bank 35
   loiter plan --pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 \\
-      --airspeed 18 --bank 35 --altitude 900
+      --airspeed 18 --bank 35 --altitude 900 --save entry.plan
   eval "$(loiter completion bash)"
 
 Exit status
@@ -40,6 +40,7 @@ Exit status
   1  a check failed (loiter verify, loiter plan --certify)
   2  the request cannot be met: one sentence on standard error says why,
      and no file is left half written
+  3  a vehicle is not there, is silent or refuses: it keeps the mission it had
   130  interrupted; what a batch job has finished is kept""",
 )  # fmt: skip
 
@@ -58,6 +59,11 @@ OUT has the columns and the rows of IN, in their order, and then duration_s, wor
 
 OUT appears whole or not at all. What is finished is kept in OUT.parts until then: a job that was interrupted goes on from there when the same command is given again.""",
 )
+app.command(
+    "loiter.cli.mavlink:upload",
+    help="Send the fastest entry to a vehicle as a mission, and read it back to see that it is there, item by item.",
+)
+app.command("loiter.cli.mavlink:watch", help="Listen to a vehicle and print, live, the fastest entry from where it is.")
 app.command(
     "loiter.cli.synthesis:synthesis",
     help="Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions.",
@@ -103,7 +109,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"loiter: {sentence(error)}", file=sys.stderr)  # noqa: T201
         if isinstance(error, OSError):
             _abandon_output()
-        return USAGE_ERROR
+        return LINK_FAILED if isinstance(error, LinkFailed) else USAGE_ERROR
     except KeyboardInterrupt as interrupt:
         # A batch job says what is kept of it.
         if str(interrupt):

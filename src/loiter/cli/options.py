@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Literal, NamedTuple
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from cyclopts import Group, Parameter
 
@@ -12,20 +13,14 @@ from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 
-
-class Preset(NamedTuple):
-    """What a parameter file says."""
-
-    indicated_airspeed_m_s: float | None
-    max_bank_deg: float | None
-    loiter_radius_m: float | None
-    turn: Turn | None
-
+if TYPE_CHECKING:
+    from loiter.io.parameters import Preset
 
 scene = Group("Scene", sort_key=1)
 aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sort_key=2)
 air = Group("Wind, and circles that move", sort_key=3)
 output = Group("Output", sort_key=5)
+missions = Group("Missions", sort_key=6)
 
 
 @Parameter(name="*")
@@ -42,9 +37,17 @@ class StartOptions:
         Parameter(
             group=scene,
             metavar="LAT LON HEADING",
-            help="The aircraft: WGS84 degrees, and degrees from true north; with --orbit-lla.",
+            help="The aircraft: WGS84 degrees, and degrees from true north.",
         ),
     ] = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class PlacedStartOptions(StartOptions):
+    """Where the aircraft is, in degrees; metres are understood, and refused where they mean nothing."""
+
+    pose: Annotated[tuple[float, float, float] | None, Parameter(show=False)] = None
 
 
 @Parameter(name="*")
@@ -59,7 +62,7 @@ class OrbitOptions:
             consume_multiple=True,
             show_default=False,
             metavar="EAST NORTH RADIUS",
-            help="The circle: its centre and its radius, metres. --params may give the radius.",
+            help="The circle: its centre and its radius, metres.",
         ),
     ] = ()
     orbit_lla: Annotated[
@@ -69,7 +72,7 @@ class OrbitOptions:
             consume_multiple=True,
             show_default=False,
             metavar="LAT LON RADIUS",
-            help="The circle: its centre in WGS84 degrees, its radius in metres.",
+            help="The circle: its centre in WGS84 degrees, its radius in metres, which --params may give.",
         ),
     ] = ()
     turn: Annotated[
@@ -107,6 +110,14 @@ class OrbitOptions:
 
 @Parameter(name="*")
 @dataclass(frozen=True)
+class PlacedOrbitOptions(OrbitOptions):
+    """The circle, in degrees; as `PlacedStartOptions`."""
+
+    orbit: Annotated[tuple[float, ...], Parameter(show=False, consume_multiple=True)] = ()
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
 class AircraftOptions:
     """The aircraft: by options, or by its autopilot's parameters, and the air that it flies in."""
 
@@ -128,6 +139,14 @@ class AircraftOptions:
     turn_rate: Annotated[
         float | None, Parameter(group=aircraft, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
     ] = None
+    params: Annotated[
+        Path | None,
+        Parameter(
+            group=aircraft,
+            metavar="FILE",
+            help="Parameters of ArduPlane (.param) or PX4 (.params): they give what no option does, the indicated airspeed, the bank limit, and the circle's radius and direction.",
+        ),
+    ] = None
     altitude: Annotated[
         float | None,
         Parameter(
@@ -143,7 +162,11 @@ class AircraftOptions:
 
     def preset(self) -> Preset | None:
         """What the parameter file says."""
-        return None
+        if self.params is None:
+            return None
+        from loiter.io.parameters import read_parameters
+
+        return read_parameters(self.params)
 
     def aircraft(self, preset: Preset | None) -> Aircraft:
         """The aircraft; an option stands above the parameter file."""
@@ -203,6 +226,25 @@ class WindOptions:
     def moving_air(self) -> Wind:
         """The wind; none is still air."""
         return CALM if self.wind is None else Wind(*self.wind)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class MissionOptions:
+    """How a mission follows the track."""
+
+    spacing: Annotated[
+        float | None,
+        Parameter(
+            group=missions, metavar="METRES", help="Waypoints at most so far apart; as far as they may if absent."
+        ),
+    ] = None
+    chord_error: Annotated[
+        float,
+        Parameter(
+            group=missions, metavar="METRES", help="By how much straight lines between waypoints may cut a turn."
+        ),
+    ] = 1.0
 
 
 class Scene(NamedTuple):

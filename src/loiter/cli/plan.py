@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
@@ -12,17 +12,22 @@ import loiter
 from loiter.cli import certificates, report
 from loiter.cli.options import (
     AircraftOptions,
+    MissionOptions,
     OrbitOptions,
     StartOptions,
     WindOptions,
+    missions,
     output,
     scene,
     scene_of,
 )
 from loiter.cli.status import CHECK_FAILED
 from loiter.io.document import answer
+from loiter.io.items import Autopilot
 from loiter.planning.model import Turn
 from loiter.plot import files
+
+AUTOPILOTS = {"ardupilot": Autopilot.ARDUPILOT, "px4": Autopilot.PX4}
 
 
 def plan(
@@ -59,11 +64,25 @@ def plan(
             help="Prove each maneuver shown by the maximum principle, equation by equation; JSON, and the picture that --plot then draws to FILE-certificate, hold the proof of the first.",
         ),
     ] = False,
+    save: Annotated[
+        Path | None,
+        Parameter(
+            group=output,
+            metavar="FILE",
+            help="Write the maneuver: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) or .waypoints (QGC WPL 110) for autopilots.",
+        ),
+    ] = None,
+    waypoints: MissionOptions = MissionOptions(),
+    autopilot: Annotated[
+        Literal["ardupilot", "px4"], Parameter(group=missions, help="Whose habits a .plan follows.")
+    ] = "ardupilot",
 ) -> int:
     """Plan the fastest entry onto a holding circle: what to fly, for how long, where to peel off."""
     asked = scene_of(start, circle, uav, air)
     if plot is not None:
         files.check_format(plot)
+    if save is not None:
+        loiter.io.check_format(save)
     best = loiter.plan_all(asked.start, asked.circle, asked.aircraft, asked.wind, tolerance_m=tolerance)
     # What the other direction would cost is told even where one was asked for.
     either = replace(asked.circle, turn=Turn.EITHER)
@@ -75,6 +94,16 @@ def plan(
         files.save(plot, best if all_ else best[:1], losers if all_ else [*best[1:], *losers], frame=asked.frame)
         if proofs:
             certificates.save_picture(plot, proofs[0])
+    if save is not None:
+        loiter.io.save(
+            best[0],
+            save,
+            frame=asked.frame,
+            altitude_m=uav.altitude,
+            spacing_m=waypoints.spacing,
+            chord_error_m=waypoints.chord_error,
+            autopilot=AUTOPILOTS[autopilot],
+        )
     if json:
         proof = {"certificate": proofs[0].to_dict()} if proofs else {}
         report.print_json(answer(best, others, asked.frame) | proof)

@@ -67,7 +67,8 @@ def _band(longitude: float) -> int:
 
 
 def _moved(part: list[Position], band: int) -> list[Position]:
-    return [(longitude - 360.0 * band, latitude) for longitude, latitude in part]
+    # The sum in `_band` is rounded: the last digit before 180 may be counted as beyond.
+    return [(min(180.0, max(-180.0, longitude - 360.0 * band)), latitude) for longitude, latitude in part]
 
 
 def _between(a: Position, b: Position, longitude: float) -> float:

@@ -12,7 +12,7 @@ from loiter.io.track import steps, vertices
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit
 
-# ArduPlane on boards with 16 kB of storage holds some 720 items of 15 bytes, PX4 from 500 to 2000.
+# ArduPlane holds 724 items, home included, on boards with 16 kB of storage (StorageManager.cpp), PX4 500 or 2000.
 MAX_ITEMS = 700
 
 # What ArduPlane keeps of a loiter's radius: whole metres in 16 bits. 0 would be its own default.

@@ -33,7 +33,7 @@ PICTURES = 16
 
 def create_app(cors: str | None = None) -> ASGIApp:
     """The service as an ASGI application; `cors` is the one other origin whose pages may ask it."""
-    api = FastAPI(title="loiter", version=__version__, docs_url=None, redoc_url=None)
+    api = FastAPI(title="loiter", version=__version__, docs_url=None, redoc_url=None, redirect_slashes=False)
     problems.install(api)
     openapi.install(api)
     workers = Workers(THREADS, PLACES)

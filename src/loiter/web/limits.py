@@ -16,6 +16,9 @@ from loiter.web.problems import problem
 MOST_BYTES = 64 * 1024
 MOST_DEPTH = 32
 
+# The head of a request: its address, which may hold a scene, and its headers.
+MOST_HEAD = 32 * 1024
+
 # Seconds for a body to arrive, and for its answer to be made.
 BODY_S = 10.0
 ANSWER_S = 60.0
@@ -26,10 +29,8 @@ STRINGS = re.compile(rb'"(?:[^"\\]|\\.)*"?', re.DOTALL)
 class Limits:
     """Reads the body of a request to an app, whole and within limits, and gives the app its time."""
 
-    def __init__(self, app: ASGIApp, body_s: float = BODY_S, answer_s: float = ANSWER_S) -> None:
+    def __init__(self, app: ASGIApp) -> None:
         self.app = app
-        self.body_s = body_s
-        self.answer_s = answer_s
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve a request, or refuse it with a problem document."""
@@ -53,10 +54,10 @@ class Limits:
 
     async def _body(self, scope: Scope, receive: Receive) -> bytes:
         try:
-            async with asyncio.timeout(self.body_s):
+            async with asyncio.timeout(BODY_S):
                 body = await _read(scope, receive)
         except TimeoutError:
-            late = f"the body did not arrive within {self.body_s:g} s"
+            late = f"the body did not arrive within {BODY_S:g} s"
             raise HTTPException(HTTPStatus.REQUEST_TIMEOUT, late, {"connection": "close"}) from None
         if depth(body) > MOST_DEPTH:
             raise HTTPException(HTTPStatus.BAD_REQUEST, f"the body is nested more than {MOST_DEPTH} levels deep")
@@ -64,15 +65,19 @@ class Limits:
 
     async def _answered(self, scope: Scope, receive: Receive, send: Send) -> None:
         try:
-            async with asyncio.timeout(self.answer_s):
+            async with asyncio.timeout(ANSWER_S):
                 await self.app(scope, receive, send)
         except TimeoutError:
-            late = f"the answer took longer than {self.answer_s:g} s"
+            late = f"the answer took longer than {ANSWER_S:g} s"
             raise HTTPException(HTTPStatus.SERVICE_UNAVAILABLE, late, {"retry-after": "10"}) from None
 
 
 async def _read(scope: Scope, receive: Receive) -> bytes:
-    """The body; raises for one that says that it is too large, or is."""
+    """The body; raises for a head or a body that is too large, or says so."""
+    head = [scope["path"].encode(), scope["query_string"], *(part for header in scope["headers"] for part in header)]
+    if sum(map(len, head)) > MOST_HEAD:
+        detail = f"the head of the request is too large: more than {MOST_HEAD:,} bytes"
+        raise HTTPException(HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE, detail)
     said = next((value for name, value in scope["headers"] if name == b"content-length"), b"0")
     body = bytearray()
     more = True

@@ -18,6 +18,7 @@ REFUSALS = {
     HTTPStatus.REQUEST_ENTITY_TOO_LARGE: "The body is too large.",
     HTTPStatus.UNSUPPORTED_MEDIA_TYPE: "The body is not application/json.",
     HTTPStatus.UNPROCESSABLE_ENTITY: "It does not fit the schema, or the library refuses it: the type says why.",
+    HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE: "The address or the headers are too large.",
     HTTPStatus.SERVICE_UNAVAILABLE: "Too many ask at once: come again.",
 }
 

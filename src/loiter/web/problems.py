@@ -158,11 +158,10 @@ def _by_status(request: Request, error: Exception) -> Response:
 
 
 def _allowed(request: Request) -> str:
-    """The methods of all routes of a path: the framework knows those of the first."""
+    """The methods of all routes of a path, as the framework knows those of the first; files are read."""
     routes = [route for route in request.app.routes if route.matches(request.scope)[0] != Match.NONE]
-    return ", ".join(
-        sorted({method for route in routes for method in getattr(route, "methods", None) or ["GET", "HEAD"]})
-    )
+    methods = {method for route in routes for method in getattr(route, "methods", None) or ()}
+    return ", ".join(sorted(methods or {"GET", "HEAD"}))
 
 
 def _failed(request: Request, error: Exception) -> Response:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import socket
 from collections.abc import Callable, Iterator
@@ -15,6 +16,7 @@ import uvicorn
 from loiter.errors import InvalidArgument
 from loiter.web.app import create_app
 from loiter.web.connections import Connection
+from loiter.web.limits import MOST_HEAD
 from loiter.web.synthesis import FIRST_CELLS, synthesis
 
 # Seconds that answers under way have when the server is told to end.
@@ -33,6 +35,7 @@ def serve(host: str, port: int, cors: str | None, announce: Callable[[str], obje
             http=Connection,
             ws="none",
             lifespan="off",
+            h11_max_incomplete_event_size=MOST_HEAD,
             proxy_headers=False,
             server_header=False,
             access_log=False,
@@ -59,7 +62,8 @@ def _listening(host: str, port: int) -> Iterator[socket.socket]:
     try:
         listener = socket.create_server(address[:2], family=family, backlog=2048)
     except OSError as error:
-        raise InvalidArgument("port", f"is {port}: {host} cannot be used, {error.strerror}") from error
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise InvalidArgument("port", f"is {port}: {host} cannot be used, {reason}") from error
     with listener:
         yield listener
 

@@ -48,7 +48,7 @@ def python(asked: Asked) -> str:
     wind = f", {asked.wind!r}" if asked.wind != CALM else ""
     tolerance = f", tolerance_m={asked.tolerance_m!r}" if asked.tolerance_m else ""
     limit = _limit(asked.aircraft)
-    names = ", ".join(["Aircraft", "Orbit", "Pose", *(["Wind"] if wind else []), "plan"])
+    names = ", ".join(["Aircraft", "Orbit", "Pose", *(["Wind"] if wind else []), "plan_all"])
     return "\n".join(
         [
             f"from loiter import {names}",
@@ -56,7 +56,7 @@ def python(asked: Asked) -> str:
             f"pose = {asked.pose!r}",
             f"orbit = {_orbit(asked.orbit)}",
             f"uav = Aircraft(airspeed_m_s={asked.aircraft.airspeed_m_s!r}, {limit}={getattr(asked.aircraft, limit)!r})",
-            f"m = plan(pose, orbit, uav{wind}{tolerance})",
+            f"m, *as_fast = plan_all(pose, orbit, uav{wind}{tolerance})",
             "print(m.word, m.turn.value, m.duration_s)",
         ]
     )

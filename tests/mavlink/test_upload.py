@@ -1,0 +1,499 @@
+"""Missions sent to vehicles that keep to the protocol, and to such as do not: the new mission, or the old one."""
+
+import os
+import signal
+import threading
+import time
+
+import pytest
+
+from loiter.errors import InvalidArgument, LinkFailed
+from loiter.io.items import Command, Frame, Mission, MissionItem
+from loiter.mavlink import download, transfer, upload
+from mavlink.vehicle import CANCELLED, OLD, Plane, Vehicle, flying, item, kept, mavlink, mission
+
+NEW = mission("ccw")
+TURNS = ["cw", "ccw"]
+
+
+def fails(vehicle, sentence, timeout_s=1.0, new=NEW):
+    """The upload fails with a sentence, and the vehicle has its old mission."""
+    with flying(vehicle), pytest.raises(LinkFailed, match=sentence) as failure:
+        upload(new, vehicle.connection, system=1, timeout_s=timeout_s)
+    assert vehicle.mission == OLD
+    return str(failure.value)
+
+
+@pytest.mark.parametrize("turn", TURNS)
+@pytest.mark.parametrize("kind", [Vehicle, Plane])
+def test_a_mission_arrives_as_it_was_sent(kind, turn):
+    new, done = mission(turn), []
+    with flying(kind()) as vehicle:
+        summary = upload(new, vehicle.connection, on_progress=lambda *step: done.append(step))
+        back = download(vehicle.connection, system=1)
+    home = [Plane.home] if kind is Plane else []
+    assert vehicle.mission == home + kept(new)
+    assert vehicle.mission[-1][2][2] == (80.0 if turn == "cw" else -80.0)
+    assert [i._replace(autocontinue=True) for i in back.items] == [
+        i._replace(latitude_deg=round(i.latitude_deg, 7), longitude_deg=round(i.longitude_deg, 7)) for i in new.items
+    ]
+    assert (summary.system, summary.component, summary.items, summary.cut) == (1, 1, 5, ())
+    assert summary.replaced == len(OLD) - len(home)
+    assert summary.autopilot == ("ArduPilot" if kind is Plane else "PX4")
+    assert done[0] == ("read", 0, 3)
+    assert done[-1] == ("check", len(home) + 5, len(home) + 5)
+
+
+def test_the_home_of_ardupilot_is_item_0_and_comes_back_as_the_home():
+    with flying(Plane()) as vehicle:
+        upload(NEW, vehicle.connection, system=1)
+        assert vehicle.heard["MISSION_ITEM_INT"] == len(NEW.items) + 1
+        assert download(vehicle.connection, system=1).home == (45.0, 7.0, 400.0)
+
+
+def test_what_ardupilot_cuts_is_said_and_is_no_fault():
+    new = mission("ccw", radius_m=80.7)
+    with flying(Plane()) as vehicle:
+        summary = upload(new, vehicle.connection, system=1)
+    assert summary.cut == ("item 5 has -80 for parameter 3, not -80.6999969",)
+
+
+def test_an_empty_vehicle_takes_a_mission_and_may_be_left_empty():
+    with flying(Vehicle([])) as vehicle:
+        upload(NEW, vehicle.connection, system=1)
+        assert vehicle.mission == kept(NEW)
+
+    class Flips(Vehicle):
+        def stored(self, m):
+            return item(m.command, m.frame, (0.0, 0.0, -m.param3, 0.0), m.x, m.y, m.z)
+
+    with flying(Flips([])) as vehicle, pytest.raises(LinkFailed, match="its old mission was sent back"):
+        upload(NEW, vehicle.connection, system=1)
+    assert vehicle.mission == []
+
+
+def test_older_requests_are_answered_too():
+    class Older(Vehicle):
+        sends_int_requests = False
+
+    with flying(Older()) as vehicle:
+        upload(NEW, vehicle.connection, system=1)
+    assert vehicle.mission == kept(NEW)
+
+
+def test_a_vehicle_that_speaks_mavlink_1_is_spoken_to_in_it():
+    class First(Vehicle):
+        version = 1
+
+        def on_mission_item_int(self, message):
+            assert message.get_msgbuf()[0] == 0xFE
+            super().on_mission_item_int(message)
+
+    with flying(First()) as vehicle:
+        upload(NEW, vehicle.connection, system=1)
+    assert vehicle.mission == kept(NEW)
+
+
+def test_a_vehicle_that_never_says_a_word_is_not_found():
+    class Mute(Vehicle):
+        def beat(self):
+            pass
+
+    fails(Mute(), "no heartbeat of system 1 in 0.3 s on udpout:.*: heard no vehicle at all", timeout_s=0.3)
+
+
+def test_another_system_is_named():
+    with flying(Plane()) as vehicle, pytest.raises(LinkFailed, match=r"of system 7 .*: heard system 1 \(ArduPilot\)"):
+        upload(NEW, vehicle.connection, system=7, timeout_s=0.3)
+    assert vehicle.mission == OLD
+    assert set(vehicle.heard) == {"HEARTBEAT"}
+
+
+def test_one_of_two_vehicles_is_not_taken_by_chance():
+    class Both(Vehicle):
+        def beat(self):
+            for self.mav.srcSystem in (2, 1):
+                super().beat()
+
+    both = Both()
+    with flying(both), pytest.raises(LinkFailed, match=r"several .* system 1 \(PX4\) and system 2 \(PX4\): say which"):
+        upload(NEW, both.connection)
+    with flying(Both()) as vehicle:
+        assert upload(NEW, vehicle.connection, system=1).system == 1
+
+
+def test_a_vehicle_that_gives_no_mission_gets_none():
+    class Secretive(Vehicle):
+        def on_mission_request_list(self, message):
+            pass
+
+    silent = Secretive()
+    fails(silent, r"system 1 \(PX4\) did not answer in 0.3 s when asked for the mission", timeout_s=0.3)
+    assert silent.heard["MISSION_COUNT"] == 0
+
+
+def test_a_vehicle_that_takes_no_notice_of_a_mission():
+    class Deaf(Vehicle):
+        def on_mission_count(self, message):
+            pass
+
+    deaf = Deaf()
+    fails(deaf, "did not ask for the mission: no progress in 0.5 s; it still has its old mission", timeout_s=0.5)
+    assert deaf.heard["MISSION_COUNT"] > 2
+
+
+@pytest.mark.parametrize("items", [1, 4])
+@pytest.mark.parametrize("kind", [Vehicle, Plane])
+def test_a_vehicle_that_falls_silent_halfway(kind, items):
+    class Dies(kind):
+        def on_mission_item_int(self, message):
+            if message.seq < items:
+                super().on_mission_item_int(message)
+            else:
+                self.dead = True
+
+        def send(self, message):
+            if not getattr(self, "dead", False):
+                super().send(message)
+
+    with flying(Dies()) as vehicle, pytest.raises(LinkFailed, match="whether it has its old mission is not known"):
+        upload(mission(waypoints=6), vehicle.connection, system=1, timeout_s=0.3)
+    if kind is Vehicle:
+        assert vehicle.mission == OLD
+
+
+@pytest.mark.parametrize("kind", [Vehicle, Plane])
+def test_a_vehicle_that_takes_part_of_a_mission_again_and_again(kind):
+    class Stops(kind):
+        whole, give_up_s = False, 0.1
+
+        def on_mission_item_int(self, message):
+            if message.seq < 3 or self.whole:
+                super().on_mission_item_int(message)
+
+        def on_mission_count(self, message):
+            self.whole = message.count == len(OLD)
+            super().on_mission_count(message)
+
+    stops = Stops([Plane.home, *OLD[1:]] if kind is Plane else OLD)
+    with flying(stops), pytest.raises(LinkFailed, match="asked for no more than item [34], 5 times over; it"):
+        upload(NEW, stops.connection, system=1, timeout_s=1.0)
+    assert stops.mission[1:] == OLD[1:]
+
+
+@pytest.mark.parametrize("at", [0, 3, 4])
+@pytest.mark.parametrize("result", [*range(1, 13), 14, 15])
+def test_a_refusal_is_told_in_words_and_at_its_item(result, at):
+    class Refuses(Vehicle):
+        def on_mission_item_int(self, message):
+            if message.seq == at:
+                self.incoming = None
+                self.acknowledge(result)
+            else:
+                super().on_mission_item_int(message)
+
+    name = mavlink.enums["MAV_MISSION_RESULT"][result].name
+    fails(Refuses(), rf"refused item {at + 1}: .* \({name}\); it still has its old mission")
+
+
+@pytest.mark.parametrize("result", range(1, 16))
+def test_a_mission_is_refused_before_its_first_item(result):
+    class Refuses(Vehicle):
+        def on_mission_count(self, message):
+            self.partner = self.who(message)
+            self.acknowledge(result)
+
+    name = mavlink.enums["MAV_MISSION_RESULT"][result].name
+    assert name in fails(Refuses(), "still has its old mission", timeout_s=0.5)
+
+
+def test_items_that_are_always_out_of_sequence():
+    class Refuses(Vehicle):
+        def on_mission_item_int(self, message):
+            self.acknowledge(13)
+
+    fails(
+        Refuses(), "asked for no more than item 1, .*MAV_MISSION_INVALID_SEQUENCE.: no progress in 0.5 s", timeout_s=0.5
+    )
+
+
+@pytest.mark.parametrize("result", [1, 14])
+def test_a_vehicle_busy_with_another_transfer_is_waited_for(result):
+    class Busy(Vehicle):
+        free_at = None
+
+        def on_mission_count(self, message):
+            self.free_at = self.free_at or time.monotonic() + 0.4
+            self.partner = self.who(message)
+            if time.monotonic() < self.free_at:
+                self.acknowledge(result)
+            else:
+                super().on_mission_count(message)
+
+    with flying(Busy()) as vehicle:
+        upload(NEW, vehicle.connection, system=1, timeout_s=0.3)
+    assert vehicle.mission == kept(NEW)
+
+
+def test_a_vehicle_that_stays_busy_says_so():
+    class Busy(Vehicle):
+        def on_mission_request_list(self, message):
+            self.partner = self.who(message)
+            self.acknowledge(14)
+
+    fails(Busy(), "refused to give the mission: it takes no missions from this station", timeout_s=0.3)
+
+
+CHANGES = {
+    "radius flipped": (lambda i: i[:2] + ((0.0, 0.0, -i[2][2], 0.0),) + i[3:], "80 for parameter 3, not -80"),
+    "another command": (lambda i: (18, *i[1:]), "18 for command, not 17"),
+    "another frame": (lambda i: (i[0], 3, *i[2:]), "3 for frame, not 0"),
+    "a centimetre aside": (lambda i: (*i[:3], i[3] + 1, *i[4:]), "470010001 for x, not 470010000"),
+    "another longitude": (lambda i: (*i[:4], i[4] - 1, *i[5:]), "80019999 for y"),
+    "higher": (lambda i: (*i[:5], i[5] + 0.25, i[6]), "510.25 for altitude, not 510"),
+    "stops after each": (lambda i: (*i[:6], 0), "0 for autocontinue, not 1"),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_an_item_that_is_changed_is_found_and_the_old_mission_sent_back(change):
+    changed, said = CHANGES[change]
+
+    class Changes(Vehicle):
+        def stored(self, m):
+            return changed(super().stored(m)) if m.command == 17 else super().stored(m)
+
+    fails(
+        Changes(), f"system 1 .PX4. does not keep what it was sent: item 5 has {said}.*; its old mission was sent back"
+    )
+
+
+def test_a_flipped_radius_is_found_on_ardupilot_too():
+    class Flips(Plane):
+        def stored(self, m):
+            kept = super().stored(m)
+            return kept[:2] + ((0.0, 0.0, -kept[2][2], 0.0),) + kept[3:] if m.command == 17 else kept
+
+    flips = Flips([Plane.home, *OLD[1:]])
+    with (
+        flying(flips),
+        pytest.raises(LinkFailed, match="item 5 has 80 for parameter 3, not -80; its old mission was sent ba"),
+    ):
+        upload(NEW, flips.connection, system=1)
+    assert flips.mission == [Plane.home, *OLD[1:]]
+
+
+def test_a_mission_cut_short_is_found():
+    class Forgets(Vehicle):
+        def acknowledge(self, result):
+            if len(self.mission) > len(OLD):
+                self.mission = self.mission[:-1]
+            super().acknowledge(result)
+
+    fails(Forgets(), "it keeps 4 items of 5; its old mission was sent back")
+
+
+def test_a_vehicle_that_accepts_before_it_has_all_items_is_not_believed():
+    class Hasty(Vehicle):
+        def ask(self):
+            super().ask()
+            if self.expected > len(OLD) and len(self.incoming) == 3:
+                self.incoming = None
+                self.acknowledge(0)
+
+    fails(Hasty(), "asked for no more than item 4, 5 times over; it still has its old mission")
+
+
+def test_a_vehicle_that_cannot_be_given_its_old_mission_back():
+    class Spoils(Vehicle):
+        def stored(self, m):
+            return item(m.command, m.frame, (9.0, 9.0, 9.0, 9.0), m.x, m.y, m.z)
+
+    with flying(Spoils()) as vehicle, pytest.raises(LinkFailed, match="; its old mission could not be sent back: see"):
+        upload(NEW, vehicle.connection, system=1)
+    assert len(vehicle.mission) == len(OLD)
+
+
+def test_requests_doubled_and_out_of_order():
+    class Muddles(Vehicle):
+        def ask(self):
+            super().ask()
+            super().ask()
+            if self.incoming:
+                self.send(mavlink.MAVLink_mission_request_int_message(*self.partner, len(self.incoming) - 1, 0))
+
+    with flying(Muddles()) as vehicle:
+        upload(NEW, vehicle.connection, system=1)
+    assert vehicle.mission == kept(NEW)
+    # An item that is asked for twice at once is sent once: some vehicles append whatever comes.
+    assert vehicle.heard["MISSION_ITEM_INT"] < 2 * len(NEW.items)
+
+
+def test_an_item_beyond_the_last_is_not_made_up():
+    class Greedy(Vehicle):
+        def ask(self):
+            self.asked = time.monotonic()
+            seq = 7 if len(self.incoming) == 2 and self.expected > len(OLD) else len(self.incoming)
+            self.send(mavlink.MAVLink_mission_request_int_message(*self.partner, seq, 0))
+
+    greedy = Greedy()
+    fails(greedy, "asks for item number 7 of a mission whose last is 4; it still has its old mission")
+    assert greedy.heard["MISSION_ACK"]
+
+
+@pytest.mark.parametrize("kind", [Vehicle, Plane])
+@pytest.mark.parametrize("lost", [1, 99])
+def test_a_lost_acknowledgement_is_made_up_for(kind, lost):
+    class Mumbles(kind):
+        mumbled = 0
+
+        def acknowledge(self, result):
+            self.mumbled += result == 0
+            if result or self.mumbled > lost:
+                super().acknowledge(result)
+
+    with flying(Mumbles()) as vehicle:
+        upload(NEW, vehicle.connection, system=1)
+    assert vehicle.mission[-5:] == kept(NEW)
+
+
+def test_a_vehicle_that_starts_over_is_followed():
+    class Restarts(Vehicle):
+        restarted = False
+
+        def on_mission_item_int(self, message):
+            super().on_mission_item_int(message)
+            if self.incoming is not None and len(self.incoming) == 3 and not self.restarted:
+                self.restarted, self.incoming = True, None
+
+    with flying(Restarts()) as vehicle:
+        upload(NEW, vehicle.connection, system=1)
+    assert vehicle.mission == kept(NEW)
+    assert vehicle.heard["MISSION_COUNT"] == 2
+
+
+def test_fences_and_rally_points_are_no_missions():
+    class Fenced(Vehicle):
+        def ask(self):
+            self.send(mavlink.MAVLink_mission_request_int_message(*self.partner, 2, 1))
+            self.send(mavlink.MAVLink_mission_ack_message(*self.partner, 5, 2))
+            self.send(mavlink.MAVLink_mission_ack_message(9, 9, 5, 0))
+            super().ask()
+
+    with flying(Fenced()) as vehicle:
+        upload(NEW, vehicle.connection, system=1)
+    assert vehicle.mission == kept(NEW)
+
+
+@pytest.mark.parametrize("kind", [Vehicle, Plane])
+def test_ctrl_c_halfway_leaves_the_old_mission(kind):
+    class Slow(kind):
+        interrupted = False
+
+        def on_mission_item_int(self, message):
+            if message.seq == 3 and not self.interrupted:
+                self.interrupted = True
+                os.kill(os.getpid(), signal.SIGINT)
+                return
+            super().on_mission_item_int(message)
+
+    assert threading.current_thread() is threading.main_thread()
+    old = [Plane.home, *OLD[1:]] if kind is Plane else OLD
+    with flying(Slow(old)) as vehicle, pytest.raises(KeyboardInterrupt, match="interrupted; system 1 .* its old missi"):
+        upload(NEW, vehicle.connection, system=1, timeout_s=5.0)
+    assert vehicle.mission == old
+    assert vehicle.heard["MISSION_ACK"] >= 2
+
+
+def test_ctrl_c_while_reading_changes_nothing():
+    class Slow(Vehicle):
+        def on_mission_request_int(self, message):
+            os.kill(os.getpid(), signal.SIGINT)
+
+        def on_mission_ack(self, message):
+            self.cancelled = message.type == CANCELLED
+
+    slow = Slow()
+    with flying(slow):
+        with pytest.raises(KeyboardInterrupt):
+            upload(NEW, slow.connection, system=1)
+        time.sleep(0.1)
+    assert slow.mission == OLD
+    assert slow.cancelled
+
+
+def test_a_caller_that_fails_halfway_leaves_the_old_mission():
+    def step(doing, done, total):
+        if (doing, done) == ("send", 2):
+            raise RuntimeError("no room on the screen")
+
+    with flying(Plane([Plane.home, *OLD[1:]])) as vehicle, pytest.raises(RuntimeError, match="no room"):
+        upload(NEW, vehicle.connection, system=1, on_progress=step)
+    assert vehicle.mission == [Plane.home, *OLD[1:]]
+
+
+def test_a_vehicle_that_gives_up_by_itself_begins_anew():
+    """As mavsdk's does after it has asked for an item five times."""
+
+    class Tires(Vehicle):
+        tired = 0
+
+        def on_mission_item_int(self, message):
+            if len(self.incoming or []) == 2 and self.tired < 2:
+                self.tired, self.incoming = self.tired + 1, None
+            super().on_mission_item_int(message)
+
+    with flying(Tires()) as vehicle:
+        upload(NEW, vehicle.connection, system=1, timeout_s=2.0)
+    assert vehicle.mission == kept(NEW)
+
+
+def far(**fields):
+    return Mission((NEW.items[0]._replace(**fields),), NEW.home)
+
+
+@pytest.mark.parametrize(
+    ("new", "sentence"),
+    [
+        (Mission((), NEW.home), "mission has no items"),
+        (far(latitude_deg=91.0), "mission has no place on Earth in item 1: 91 8"),
+        (far(longitude_deg=float("nan")), "mission has no place on Earth in item 1: 47 nan"),
+        (far(altitude_m=float("inf")), "mission has an infinite number in item 1"),
+        (far(params=(1e39, 0.0, 0.0, 0.0)), "mission has a number that is too large for MAVLink in item 1"),
+        (far(command=70000), "mission has a number that is too large for MAVLink in item 1"),
+        (Mission(NEW.items[:1] * 65536, NEW.home), "mission has 65536 items: MAVLink counts no further than 65535"),
+    ],
+)
+def test_a_mission_that_cannot_be_sent_is_refused_before_anything_is(new, sentence):
+    with flying(Vehicle()) as vehicle, pytest.raises(InvalidArgument, match=sentence):
+        upload(new, vehicle.connection, system=1)
+    assert set(vehicle.heard) <= {"HEARTBEAT"}
+
+
+def test_ardupilot_needs_a_home():
+    nowhere = NEW._replace(home=(float("nan"), float("nan"), float("nan")))
+    with flying(Plane()) as vehicle, pytest.raises(InvalidArgument, match="has no place on Earth in the home"):
+        upload(nowhere, vehicle.connection, system=1)
+    with flying(Vehicle()) as vehicle:
+        upload(nowhere, vehicle.connection, system=1)
+    assert vehicle.mission == kept(NEW)
+
+
+def test_an_item_without_a_place_goes_as_it_is():
+    speed = MissionItem(178, Frame.NOWHERE, (0.0, 18.0, -1.0, 0.0), float("nan"), 3.0, 0.0)
+    with flying(Vehicle()) as vehicle:
+        upload(Mission((speed, *NEW.items), NEW.home), vehicle.connection, system=1)
+        assert download(vehicle.connection, system=1).items[0] == speed._replace(latitude_deg=0.0)
+    assert vehicle.mission[0] == item(178, 2, (0.0, 18.0, -1.0, 0.0), 0, 3, 0.0)
+
+
+def test_a_parameter_may_be_the_autopilots_own():
+    nan = float("nan")
+    new = Mission((MissionItem(Command.NAV_WAYPOINT, 0, (0.0, 0.0, 0.0, nan), 47.0, 8.0, 500.0),), NEW.home)
+    with flying(Vehicle()) as vehicle:
+        assert upload(new, vehicle.connection, system=1).cut == ()
+
+
+def test_real_time_outs_follow_the_protocol(real_time):
+    """https://mavlink.io/en/services/mission.html: 1500 ms, and 250 ms for items."""
+    assert (transfer.REPEAT_S, transfer.ITEM_REPEAT_S) == (1.5, 0.25)

@@ -1,0 +1,311 @@
+"""Flights that say where they are, watched: the plan from there, the direction kept, a command only where asked for."""
+
+import time
+from contextlib import closing
+from importlib import import_module
+from itertools import islice, pairwise
+from math import isnan, nan, radians
+
+import numpy as np
+import pytest
+
+from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
+from loiter.errors import InvalidArgument, LinkFailed
+from loiter.geo import LocalFrame
+from loiter.io.signs import circle
+from loiter.mavlink import WindSource, watch
+from loiter.planning.flight import over_ground
+from mavlink.vehicle import ACCEPTED, Vehicle, flying, free_port, mavlink
+
+UAV = Aircraft(18.0, max_bank_deg=35.0)
+ORBIT = Orbit(30.0, -20.0, 80.0)
+FRAME = LocalFrame(47.0, 8.0)
+# RL onto the clockwise circle, 4.91 s sooner than onto the other; and in the mirror.
+START = Pose(120.0, 40.0, 100.0)
+MIRRORED = Pose(120.0, -80.0, 80.0)
+# Both directions tie, as they do wherever the way leads straight towards the centre.
+TIED = Pose(-250.0, 60.0, 60.0)
+STEP_S = 0.002
+WIND = Wind(5.0, from_deg=250.0)
+
+
+class Flight(Vehicle):
+    """Flies a maneuver, `haste` times as fast as time passes, then on round the circle's tangent; streams at 100 Hz."""
+
+    autopilot, haste = 3, 4.0
+    attitude = position = True
+    result = ACCEPTED
+
+    def __init__(self, start=START, orbit=ORBIT, wind=None):
+        super().__init__()
+        self.maneuver = plan(start, orbit, UAV, wind)
+        self.track = self.maneuver.sample(STEP_S)
+        self.begun, self.next_position = None, 0.0
+
+    def idle(self, now):
+        super().idle(now)
+        self.begun = self.begun or now
+        if now >= self.next_position:
+            self.next_position = now + 0.01
+            self.stream(self.haste * (now - self.begun))
+
+    def stream(self, time_s):
+        sample = min(round(time_s / STEP_S), self.track.time_s.size - 1)
+        east, north, heading = (float(self.track[i][sample]) for i in (1, 2, 3))
+        lat, lon = (float(value) for value in FRAME.to_geodetic(east, north))
+        heading -= float(FRAME.convergence_deg(lat, lon))
+        _, speed = over_ground(heading, UAV, self.maneuver.wind)
+        if self.attitude:
+            self.send(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, radians(heading), 0.0, 0.0, 0.0))
+        if self.position:
+            hdg = round(heading % 360.0 * 100.0) % 36000
+            place = round(lat * 1e7), round(lon * 1e7), 612_500, 100_000
+            self.send(mavlink.MAVLink_global_position_int_message(0, *place, 0, 0, 0, hdg))
+        self.send(mavlink.MAVLink_vfr_hud_message(17.5, speed, 0, 50, 612.5, 0.0))
+
+
+def watched(vehicle, reports, **options):
+    """So many reports of a flight."""
+    options = {"system": 1, "period_s": 0.1, "timeout_s": 1.0, **options}
+    orbit, frame, wind = options.pop("orbit", ORBIT), options.pop("frame", FRAME), options.pop("wind", None)
+    with flying(vehicle), closing(watch(vehicle.connection, orbit, frame, UAV, wind, **options)) as each:
+        return list(islice(each, reports))
+
+
+@pytest.mark.parametrize(("start", "turn"), [(START, Turn.CW), (MIRRORED, Turn.CCW)])
+def test_the_circle_comes_nearer_and_the_direction_stays(start, turn):
+    flight = Flight(start)
+    reports = watched(flight, 20)
+    times = [report.time_to_join_s for report in reports]
+    assert {report.turn for report in reports} == {turn, flight.maneuver.turn} == {turn}
+    assert flight.maneuver.duration_s > times[0] > 8.0
+    assert all(after < before for before, after in pairwise(times) if before > 1.0)
+    assert all(report.problem == "" and report.wind_source == WindSource.STILL_AIR for report in reports)
+    assert all(report.other_costs_s > 0.0 and report.age_s < 1.0 for report in reports[:3])
+    first = reports[0]
+    assert (first.control, first.next_control) == (flight.maneuver.word[0], flight.maneuver.word[1])
+    assert 0.0 < first.next_in_s < flight.maneuver.segments[0].duration_s
+    assert (first.altitude_m, first.airspeed_m_s) == (612.5, 17.5)
+    # Fewer seconds are left than when the flight began, by what has passed.
+    flown = flight.maneuver.duration_s - times[0]
+    east, north = (float(np.interp(flown, flight.track.time_s, flight.track[i])) for i in (1, 2))
+    assert (first.plan.start.east_m, first.plan.start.north_m) == pytest.approx((east, north), abs=0.2)
+
+
+def test_of_two_directions_that_tie_the_first_is_kept():
+    reports = watched(Flight(TIED), 10)
+    assert len({report.turn for report in reports}) == 1
+    assert [report.other_costs_s for report in reports] == pytest.approx([0.0] * 10, abs=1e-6)
+
+
+def test_the_end_is_the_hold():
+    flight = Flight()
+    flight.haste = 40.0
+    last = watched(flight, 6)[-1]
+    assert last.time_to_join_s < 1.0
+    assert last.next_control == "R"
+    assert not last.commanded
+
+
+def test_only_heartbeats_go_out_and_on_udpout_only():
+    out = Flight()
+    watched(out, 5)
+    assert set(out.heard) == {"HEARTBEAT"}
+    flight, port = Flight(), free_port()
+    flight.peer = "127.0.0.1", port
+    with flying(flight), closing(watch(f"udpin:127.0.0.1:{port}", ORBIT, FRAME, UAV, period_s=0.1)) as each:
+        assert all(report.plan for report in islice(each, 5))
+    assert not flight.heard
+
+
+class Felt(Flight):
+    """A flight in a wind that it reports, as ArduPilot does or as PX4 does."""
+
+    def __init__(self, autopilot):
+        self.autopilot = autopilot
+        super().__init__(wind=WIND, orbit=Orbit(30.0, -20.0, 120.0))
+
+    def stream(self, time_s):
+        east, north = WIND.velocity_m_s
+        if self.autopilot == 3:
+            self.send(mavlink.MAVLink_wind_message(WIND.from_deg - 360.0, WIND.speed_m_s, 0.0))
+        else:
+            self.send(mavlink.MAVLink_wind_cov_message(0, north, east, 0.0, 1.0, 1.0, 612.0, 1.0, 1.0))
+        super().stream(time_s)
+
+
+@pytest.mark.parametrize("autopilot", [3, 12])
+def test_the_wind_is_the_one_given_or_the_one_reported(autopilot):
+    orbit = Orbit(30.0, -20.0, 120.0)
+    felt = watched(Felt(autopilot), 8, orbit=orbit)
+    assert {report.wind_source for report in felt} == {WindSource.VEHICLE}
+    assert felt[0].wind.velocity_m_s == pytest.approx(WIND.velocity_m_s, abs=1e-5)
+    assert {report.plan.wind for report in felt} == {felt[0].wind}
+    assert all(after < before for before, after in pairwise(report.time_to_join_s for report in felt))
+    given = watched(Felt(autopilot), 1, orbit=orbit, wind=Wind(3.0, 10.0))
+    assert (given[0].wind, given[0].wind_source) == (Wind(3.0, 10.0), WindSource.GIVEN)
+
+
+@pytest.mark.parametrize(("start", "turn"), [(START, Turn.CW), (MIRRORED, Turn.CCW)])
+@pytest.mark.parametrize(("autopilot", "command"), [(3, 192), (0, 192), (12, 34)])
+def test_the_vehicle_is_told_to_hold_the_circle_where_that_is_asked_for(start, turn, autopilot, command):
+    """DO_REPOSITION (192) in general; PX4 takes a direction from DO_ORBIT (34) only."""
+    flight = Flight(start)
+    flight.autopilot = autopilot
+    reports = watched(flight, 5, send=True)
+    (told,) = flight.commands
+    assert all(report.commanded for report in reports)
+    assert (told.command, told.frame, told.target_system, told.target_component) == (command, 0, 1, 1)
+    params = told.param1, told.param2, told.param3, told.param4
+    assert circle(told.command, params) == (80.0, turn)
+    if command == 192:
+        assert params == (-1.0, 1.0, 80.0, 0.0 if turn == Turn.CW else 1.0)
+    lat, lon = FRAME.to_geodetic(30.0, -20.0)
+    assert (told.x, told.y, told.z) == (round(float(lat) * 1e7), round(float(lon) * 1e7), 612.5)
+
+
+def test_the_altitude_may_be_asked_for():
+    flight = Flight()
+    watched(flight, 1, send=True, altitude_m=700.0)
+    assert flight.commands[0].z == 700.0
+
+
+class Answers(Flight):
+    """Answers commands with the given results, one after the other; None is silence."""
+
+    def __init__(self, *results):
+        super().__init__()
+        self.results = list(results)
+
+    def on_command_int(self, message):
+        self.commands.append(message)
+        result = self.results.pop(0) if self.results else None
+        if result is not None:
+            self.send(mavlink.MAVLink_command_ack_message(message.command, result, 0, 0, *self.who(message)))
+        if result == 5:
+            self.send(mavlink.MAVLink_command_ack_message(400, 4, 0, 0, *self.who(message)))
+            self.on_command_int(message)
+
+
+def test_a_command_is_repeated_until_it_is_answered():
+    answers = Answers(None, None, ACCEPTED)
+    assert watched(answers, 2, send=True)[-1].commanded
+    assert len(answers.commands) == 3
+
+
+def test_a_command_under_way_is_waited_for():
+    answers = Answers(5, 5, ACCEPTED)
+    assert watched(answers, 1, send=True)[0].commanded
+
+
+@pytest.mark.parametrize("result", [1, 2, 3, 4, 7, 8, 77])
+def test_a_refused_command_is_told_in_words(result):
+    name = mavlink.enums["MAV_RESULT"][result].name if result < 9 else "MAV_RESULT 77"
+    with pytest.raises(LinkFailed, match=rf"system 1 \(ArduPilot\) refused to hold the circle: .*{name}"):
+        watched(Answers(result), 1, send=True)
+
+
+def test_a_command_that_is_never_answered_fails():
+    with pytest.raises(LinkFailed, match="did not answer the command to hold the circle in 0.4 s"):
+        watched(Answers(), 1, send=True, timeout_s=0.4)
+
+
+def test_no_position_and_no_heading_are_said():
+    flight = Flight()
+    flight.position = False
+    (report,) = watched(flight, 1)
+    assert report.problem == "no position yet: the vehicle sends no GLOBAL_POSITION_INT, or has no fix"
+    assert report.plan is None
+    assert isnan(report.latitude_deg)
+    assert isnan(report.time_to_join_s)
+    assert (report.turn, report.control, report.next_control) == (None, "", "")
+
+    class Lost(Flight):
+        def stream(self, time_s):
+            self.send(mavlink.MAVLink_global_position_int_message(0, 0, 0, 0, 0, 0, 0, 0, 0))
+
+    assert watched(Lost(), 1)[0].problem.startswith("no position yet")
+
+    class Headless(Flight):
+        def stream(self, time_s):
+            self.send(mavlink.MAVLink_global_position_int_message(0, 470000000, 80000000, 0, 0, 0, 0, 0, 65535))
+
+    assert watched(Headless(), 1)[0].problem == "no heading: the vehicle knows none"
+
+
+def test_the_heading_comes_with_the_position_where_there_is_no_attitude():
+    flight = Flight()
+    flight.attitude = False
+    (report,) = watched(flight, 1)
+    assert report.problem == ""
+    assert report.heading_deg == pytest.approx(report.plan.start.heading_deg, abs=0.01)
+
+
+def test_an_old_position_is_no_position(monkeypatch):
+    monkeypatch.setattr(import_module("loiter.mavlink.watch"), "STALE_S", 0.3)
+
+    class Fades(Flight):
+        def stream(self, time_s):
+            self.position = time_s < 0.5
+            super().stream(time_s)
+
+    reports = watched(Fades(), 10)
+    assert reports[0].plan
+    assert reports[-1].plan is None
+    assert reports[-1].problem == f"no position for {reports[-1].age_s:.1f} s"
+    assert reports[-1].latitude_deg == pytest.approx(47.0, abs=0.01)
+
+
+def test_a_vehicle_that_falls_silent_ends_the_watch():
+    class Dies(Flight):
+        def send(self, message):
+            if time.monotonic() - (self.begun or time.monotonic()) < 0.5:
+                super().send(message)
+
+    taken = []
+    dies = Dies()
+    with flying(dies), closing(watch(dies.connection, ORBIT, FRAME, UAV, period_s=0.1, timeout_s=0.5)) as each:
+        with pytest.raises(LinkFailed, match=r"system 1 \(ArduPilot\) has been silent for 0.5 s"):
+            taken.extend(each)
+    assert taken[0].plan
+
+
+def test_what_cannot_be_planned_is_said_and_the_watch_goes_on():
+    far = watched(Flight(), 2, frame=LocalFrame(49.0, 8.0))
+    assert all("more than 100 km from the origin 49 8" in report.problem for report in far)
+    storm = watched(Flight(), 2, wind=Wind(17.0, 0.0))
+    assert all(report.plan is None and "wind" in report.problem for report in storm)
+
+
+def test_a_circle_that_moves_is_watched_and_not_held():
+    moving = Orbit(0.0, 0.0, 120.0, velocity_east_m_s=3.0)
+    reports = watched(Flight(), 5, orbit=moving)
+    assert [r.plan.orbit.east_m for r in reports] == pytest.approx([3.0 * r.time_s for r in reports])
+    with pytest.raises(InvalidArgument, match="send tells a vehicle to hold a circle that rests"):
+        watch("udpout:127.0.0.1:14550", moving, FRAME, UAV, send=True)
+
+
+def test_a_caller_who_takes_long_gets_the_present_not_the_past():
+    flight = Flight()
+    with flying(flight), closing(watch(flight.connection, ORBIT, FRAME, UAV, system=1, period_s=0.1)) as each:
+        next(each)
+        time.sleep(1.0)
+        late = next(each)
+        flown = flight.haste * (time.monotonic() - flight.begun)
+    assert late.time_to_join_s == pytest.approx(flight.maneuver.duration_s - flown, abs=0.5)
+
+
+@pytest.mark.parametrize(
+    ("options", "argument"),
+    [
+        ({"period_s": 0.0}, "period_s"),
+        ({"timeout_s": nan}, "timeout_s"),
+        ({"tolerance_m": -1.0}, "tolerance_m"),
+        ({"altitude_m": nan}, "altitude_m"),
+        ({"system": 256}, "system"),
+        ({"component": 0}, "component"),
+    ],
+)
+def test_arguments_are_checked_at_once(options, argument):
+    with pytest.raises(InvalidArgument, match=f"^{argument} "):
+        watch("udpout:127.0.0.1:14550", ORBIT, FRAME, UAV, **options)

@@ -1,0 +1,333 @@
+"""Vehicles on a loopback port, each in a thread: they speak MAVLink by pymavlink and keep missions by the protocol.
+
+`Vehicle` is one that takes a mission whole or not at all, as PX4 does; `Plane` has the habits of ArduPlane. Tests
+derive those that misbehave. `Lossy` is a line that loses packets.
+"""
+
+import random
+import socket
+import threading
+import time
+from collections import Counter
+from contextlib import contextmanager
+
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
+
+from loiter.io.items import Command, Frame, Mission, MissionItem
+from loiter.io.signs import with_circle
+
+ACCEPTED, ERROR, INVALID_SEQUENCE, DENIED, CANCELLED = 0, 1, 13, 14, 15
+
+
+def item(command=16, frame=0, params=(0.0, 0.0, 0.0, 0.0), x=470000000, y=80000000, z=500.0, autocontinue=1):
+    """An item as a vehicle keeps it."""
+    return command, frame, params, x, y, z, autocontinue
+
+
+OLD = [item(x=460000000 + i, z=100.0 + i) for i in range(3)]
+
+
+def mission(turn="cw", waypoints=4, radius_m=80.0):
+    """A mission to send: waypoints and a loiter that ArduPilot and PX4 keep to the last bit."""
+    none = (0.0, 0.0, 0.0, 0.0)
+    places = [(47.0 + i * 1.23e-4, 8.0 - i * 3.21e-5, 500.0 + 0.5 * i) for i in range(waypoints)]
+    loiter = with_circle(Command.NAV_LOITER_UNLIM, none, radius_m, turn)
+    items = [MissionItem(Command.NAV_WAYPOINT, Frame.ABOVE_SEA, none, *place) for place in places]
+    last = MissionItem(Command.NAV_LOITER_UNLIM, Frame.ABOVE_SEA, loiter, 47.001, 8.002, 510.0)
+    return Mission((*items, last), (47.0, 8.0, 400.0))
+
+
+def kept(mission):
+    """The items of a mission as a vehicle has to keep them; degrees as the protocol counts them."""
+    return [
+        item(i.command, i.frame, i.params, round(i.latitude_deg * 1e7), round(i.longitude_deg * 1e7), i.altitude_m)
+        for i in mission.items
+    ]
+
+
+class _Wire:
+    """What a MAVLink object writes to."""
+
+    def __init__(self, vehicle):
+        self.vehicle = vehicle
+
+    def write(self, packet):
+        self.vehicle.transmit(packet)
+
+
+class Vehicle:
+    """An autopilot that holds a mission and changes it only when it has a new one whole."""
+
+    system, component, autopilot, version = 1, 1, 12, 2
+    beat_s, repeat_s, give_up_s = 0.05, 0.04, 0.5
+    sends_int_requests = True
+
+    def __init__(self, mission=OLD):
+        self.mission = list(mission)
+        self.heard = Counter()
+        self.commands = []
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 0))
+        self.socket.settimeout(0.01)
+        self.port = self.socket.getsockname()[1]
+        self.mav = mavlink.MAVLink(_Wire(self), self.system, self.component)
+        self.mav.robust_parsing = True
+        self.peer = None
+        self.incoming = None  # the items that come, while they come
+        self.expected = 0
+        self.asked = self.progressed = self.next_beat = 0.0
+        self.running = True
+        self.thread = threading.Thread(target=self.run)
+
+    @property
+    def connection(self):
+        return f"udpout:127.0.0.1:{self.port}"
+
+    def run(self):
+        while self.running:
+            try:
+                data, self.peer = self.socket.recvfrom(65535)
+            except TimeoutError:
+                data = b""
+            for message in self.mav.parse_buffer(data) or []:
+                self.heard[message.get_type()] += 1
+                handler = getattr(self, f"on_{message.get_type().lower()}", None)
+                if handler and getattr(message, "target_system", self.system) == self.system:
+                    handler(message)
+            if self.peer:
+                self.idle(time.monotonic())
+        self.socket.close()
+
+    def idle(self, now):
+        if now >= self.next_beat:
+            self.next_beat = now + self.beat_s
+            self.beat()
+        if self.incoming is not None and now - self.asked > self.repeat_s:
+            self.ask()
+        if self.incoming is not None and now - self.progressed > self.give_up_s:
+            self.incoming = None
+
+    def beat(self):
+        self.send(mavlink.MAVLink_heartbeat_message(1, self.autopilot, 0, 0, 4, 3))
+
+    def send(self, message):
+        self.mav.send(message, force_mavlink1=self.version == 1)
+
+    def transmit(self, packet):
+        self.socket.sendto(packet, self.peer)
+
+    def stop(self):
+        self.running = False
+        self.thread.join()
+
+    # A mission taken.
+
+    def on_mission_count(self, message):
+        self.incoming, self.expected, self.progressed = [], message.count, time.monotonic()
+        self.partner = message.get_srcSystem(), message.get_srcComponent()
+        self.ask()
+
+    def ask(self):
+        self.asked = time.monotonic()
+        kind = mavlink.MAVLink_mission_request_int_message
+        if not self.sends_int_requests:
+            kind = mavlink.MAVLink_mission_request_message
+        self.send(kind(*self.partner, len(self.incoming), 0))
+
+    def on_mission_item_int(self, message):
+        if self.incoming is None or message.seq != len(self.incoming):
+            return
+        self.progressed = time.monotonic()
+        self.incoming.append(self.stored(message))
+        if len(self.incoming) < self.expected:
+            self.ask()
+        else:
+            self.mission, self.incoming = self.incoming, None
+            self.acknowledge(ACCEPTED)
+
+    def stored(self, m):
+        params = m.param1, m.param2, m.param3, m.param4
+        return item(m.command, m.frame, params, m.x, m.y, m.z, m.autocontinue)
+
+    def acknowledge(self, result):
+        self.send(mavlink.MAVLink_mission_ack_message(*self.partner, result, 0))
+
+    def on_mission_ack(self, message):
+        if message.type == CANCELLED:
+            self.incoming = None
+
+    def on_mission_clear_all(self, message):
+        self.mission, self.incoming = [], None
+        self.partner = message.get_srcSystem(), message.get_srcComponent()
+        self.acknowledge(ACCEPTED)
+
+    # A mission given.
+
+    def on_mission_request_list(self, message):
+        self.partner = message.get_srcSystem(), message.get_srcComponent()
+        self.send(mavlink.MAVLink_mission_count_message(*self.partner, len(self.mission), 0))
+
+    def on_mission_request_int(self, message):
+        if message.seq < len(self.mission):
+            command, frame, params, x, y, z, autocontinue = self.mission[message.seq]
+            head = *self.partner, message.seq, frame, command, 0, autocontinue
+            self.send(mavlink.MAVLink_mission_item_int_message(*head, *params, x, y, z, 0))
+
+    # A command.
+
+    def on_command_int(self, message):
+        self.commands.append(message)
+        self.send(mavlink.MAVLink_command_ack_message(message.command, ACCEPTED, 0, 0, *self.who(message)))
+
+    @staticmethod
+    def who(message):
+        return message.get_srcSystem(), message.get_srcComponent()
+
+
+class Plane(Vehicle):
+    """ArduPlane: its home is item 0, items are replaced one by one, values are cut, nothing can be cancelled."""
+
+    autopilot = 3
+    sends_int_requests = False
+    home = item(x=450000000, y=70000000, z=400.0)
+
+    def on_mission_request_list(self, message):
+        if self.incoming is not None:
+            return self.deny(message, DENIED)
+        return super().on_mission_request_list(message)
+
+    def deny(self, message, result):
+        self.partner = self.who(message)
+        self.acknowledge(result)
+
+    def on_mission_count(self, message):
+        del self.mission[message.count :]
+        super().on_mission_count(message)
+
+    def on_mission_item_int(self, message):
+        if self.incoming is None:
+            return self.deny(message, ERROR)
+        if message.seq != len(self.incoming):
+            return self.deny(message, INVALID_SEQUENCE)
+        self.mission[message.seq : message.seq + 1] = [self.home if message.seq == 0 else self.stored(message)]
+        kept = list(self.mission)
+        super().on_mission_item_int(message)
+        self.mission = kept
+        return None
+
+    def stored(self, m):
+        """As AP_Mission keeps a waypoint and an unlimited loiter: whole metres, centimetres."""
+        frame = {5: 0, 6: 3}.get(m.frame, m.frame)
+        params = (0.0, 0.0, float(int(m.param3)), 0.0) if m.command == 17 else (0.0, float(int(m.param2)), 0.0, 0.0)
+        return item(m.command, frame, params, m.x, m.y, int(m.z * 100.0) / 100.0)
+
+    def on_mission_ack(self, message):
+        pass
+
+
+class Lossy:
+    """A line on loopback that loses a share of the packets each way, and may double, hold back and mutilate them."""
+
+    def __init__(self, port, loss=0.2, seed=1, noise=0.0, disorder=0.0):
+        self.random, self.loss, self.noise, self.disorder = random.Random(seed), loss, noise, disorder
+        self.near, self.far = (socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(2))
+        self.near.bind(("127.0.0.1", 0))
+        self.far.connect(("127.0.0.1", port))
+        for end in (self.near, self.far):
+            end.settimeout(0.02)
+        self.port = self.near.getsockname()[1]
+        self.peer = None
+        self.passed, self.lost, self.spoilt = Counter(), Counter(), Counter()
+        self.running = True
+        self.threads = [threading.Thread(target=self.run, args=(way,)) for way in ("out", "back")]
+
+    @property
+    def connection(self):
+        return f"udpout:127.0.0.1:{self.port}"
+
+    def run(self, way):
+        held = None
+        while self.running:
+            packet = self.take(way)
+            if packet is None:
+                continue
+            if self.random.random() < self.loss:
+                self.lost[way] += 1
+                continue
+            self.passed[way] += 1
+            held, packets = self.disordered(held, packet)
+            for each in packets:
+                self.give(way, self.noisy(way, each))
+
+    def take(self, way):
+        try:
+            if way == "back":
+                return self.far.recv(65535)
+            packet, self.peer = self.near.recvfrom(65535)
+        except (TimeoutError, ConnectionRefusedError):
+            return None
+        return packet
+
+    def disordered(self, held, packet):
+        """One packet kept for later, and those that go now."""
+        chance = self.random.random()
+        if held is None and chance < self.disorder:
+            return packet, []
+        packets = [packet, packet] if chance > 1.0 - self.disorder else [packet]
+        return None, packets if held is None else [*packets, held]
+
+    def noisy(self, way, packet):
+        if self.random.random() >= self.noise:
+            return packet
+        self.spoilt[way] += 1
+        chance = self.random.random()
+        if chance < 0.3:
+            return self.random.randbytes(self.random.randrange(1, 300))
+        if chance < 0.6:
+            return packet[: self.random.randrange(len(packet) + 1)]
+        spoilt = bytearray(packet)
+        for _ in range(self.random.randrange(1, 4)):
+            spoilt[self.random.randrange(len(spoilt))] = self.random.randrange(256)
+        return bytes(spoilt) + self.random.randbytes(self.random.randrange(20))
+
+    def give(self, way, packet):
+        if way == "out":
+            self.far.send(packet)
+        elif self.peer:
+            self.near.sendto(packet, self.peer)
+
+    def stop(self):
+        self.running = False
+        for thread in self.threads:
+            thread.join()
+        self.near.close()
+        self.far.close()
+
+
+def free_port():
+    """A port where nobody listens now."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@contextmanager
+def flying(vehicle):
+    """A vehicle while its thread runs."""
+    vehicle.thread.start()
+    try:
+        yield vehicle
+    finally:
+        vehicle.stop()
+
+
+@contextmanager
+def lossy(vehicle_port, **options):
+    """A line that loses packets, while it stands."""
+    line = Lossy(vehicle_port, **options)
+    for thread in line.threads:
+        thread.start()
+    try:
+        yield line
+    finally:
+        line.stop()

@@ -1,0 +1,335 @@
+"""What is refused, and how: problem documents (RFC 9457) with the library's own sentences."""
+
+import asyncio
+import json
+
+import httpx
+import jsonschema
+import pytest
+
+import loiter
+from loiter.errors import LoiterError
+from loiter.web.app import create_app
+from loiter.web.problems import TABLE, TYPES, Problem
+from web.serving import connected, heard
+from web.test_api import ORIGIN, STILL, WINDY, asked
+
+SCHEMA = Problem.model_json_schema()
+
+
+def changed(scene=STILL, **changes):
+    """A scene with some numbers changed: orbit__radius_m=40."""
+    scene = json.loads(json.dumps(scene))
+    for name, value in changes.items():
+        *parts, last = name.split("__")
+        inner = scene
+        for part in parts:
+            inner = inner.setdefault(part, {})
+        inner[last] = value
+    return scene
+
+
+@pytest.fixture
+def refused(client):
+    """Asks for what must be refused; gives the problem document."""
+
+    def refused(status, method, path, **request):
+        said = client.request(method, path, **request)
+        problem = said.json()
+        jsonschema.validate(problem, SCHEMA)
+        assert (said.status_code, problem["status"]) == (status, status)
+        assert said.headers["content-type"] == "application/problem+json"
+        assert problem["instance"] == path
+        return problem
+
+    return refused
+
+
+def asking(app, **options):
+    """Asks an application in this process."""
+
+    async def once(method, path, request):
+        transport = httpx.ASGITransport(app, **options)
+        async with httpx.AsyncClient(transport=transport, base_url="http://localhost") as client:
+            return await client.request(method, path, **request)
+
+    return lambda method, path, **request: asyncio.run(once(method, path, request))
+
+
+# What the library refuses
+
+REFUSED = [
+    (changed(aircraft__airspeed_m_s=0), "invalid-argument", "#/aircraft/airspeed_m_s", "aircraft.airspeed_m_s is 0.0"),
+    (changed(aircraft__max_bank_deg=90), "invalid-argument", "#/aircraft/max_bank_deg", "between 0 and 90 degrees"),
+    (changed(aircraft__max_bank_deg=5e-324), "invalid-argument", "#/aircraft", "radius of the aircraft is inf"),
+    (changed(aircraft__min_turn_radius_m=50), "invalid-argument", "#/aircraft", "min_turn_radius_m were given"),
+    (changed(aircraft__max_bank_deg=None), "invalid-argument", "#/aircraft", "none was given"),
+    (changed(orbit__radius_m=-1), "invalid-argument", "#/orbit/radius_m", "orbit.radius_m is -1.0"),
+    (changed(tolerance_m=-1), "invalid-argument", "#/tolerance_m", "tolerance_m is -1.0"),
+    (changed(wind={"speed_m_s": -5, "from_deg": 0}), "invalid-argument", "#/wind/speed_m_s", "wind.speed_m_s is -5.0"),
+    (changed(origin={"latitude_deg": 91, "longitude_deg": 0}), "invalid-argument", "#/origin/latitude_deg", "91"),
+    (changed(orbit__radius_m=40), "radius-too-small", None, "it needs 39.56 deg"),
+    (changed(wind={"speed_m_s": 20, "from_deg": 0}), "wind-too-strong", None, "its airspeed must be above 20 m/s"),
+    (changed(pose__east_m=1e30), "out-of-range", None, "too large for double precision: 1e+30 m"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("path", ["/api/plan", "/api/candidates", "/api/certificate", "/api/export/csv"])
+@pytest.mark.parametrize(("scene", "kind", "pointer", "said"), REFUSED)
+def test_what_the_library_refuses_is_refused_in_its_words(refused, path, scene, kind, pointer, said):
+    problem = refused(422, "POST", path, json=scene)
+    assert problem["type"] == TYPES + kind
+    assert said in problem["detail"]
+    assert [error["pointer"] for error in problem.get("errors", [])] == ([] if pointer is None else [pointer])
+
+
+@pytest.mark.parametrize("path", ["/api/plan", "/api/candidates", "/api/export/csv"])
+def test_places_too_far_for_a_plane_are_refused(refused, path):
+    problem = refused(422, "POST", path, json=changed(pose__east_m=1e6, origin=ORIGIN))
+    assert (problem["type"], "more than 100 km" in problem["detail"]) == (TYPES + "out-of-range", True)
+
+
+def test_the_sentence_is_the_librarys(refused):
+    scene = changed(WINDY, orbit__radius_m=60)
+    with pytest.raises(loiter.errors.RadiusTooSmall) as error:
+        loiter.plan(*asked(scene))
+    assert refused(422, "POST", "/api/plan", json=scene)["detail"] == str(error.value)
+
+
+def subclasses(cls):
+    return {cls}.union(*map(subclasses, cls.__subclasses__()))
+
+
+def test_every_error_of_the_library_has_a_status():
+    assert all(any(parent in TABLE for parent in error.__mro__) for error in subclasses(LoiterError))
+
+
+# What does not fit the schema
+
+MISFITS = [
+    ({}, [("#/pose", "pose is needed"), ("#/orbit", "orbit is needed"), ("#/aircraft", "aircraft is needed")]),
+    (changed(height_m=3), [("#/height_m", "height_m is not known")]),
+    (changed(pose__east=3), [("#/pose/east", "pose.east is not known")]),
+    (changed(pose__east_m="3"), [("#/pose/east_m", "pose.east_m is wrong: it should be a valid number")]),
+    (changed(pose__east_m=True), [("#/pose/east_m", "pose.east_m is wrong: it should be a valid number")]),
+    (changed(pose__east_m=None), [("#/pose/east_m", "pose.east_m is wrong: it should be a valid number")]),
+    (changed(pose__east_m=10**400), [("#/pose/east_m", "pose.east_m is wrong: it should be a valid number")]),
+    (changed(orbit__turn="left"), [("#/orbit/turn", "orbit.turn is wrong: it should be 'either', 'cw' or 'ccw'")]),
+    (changed(pose=[1, 2, 3]), [("#/pose", "pose must be an object")]),
+    ([], [("#", "the body must be an object")]),
+]
+
+
+@pytest.mark.parametrize(("body", "errors"), MISFITS, ids=[errors[0][1] for _, errors in MISFITS])
+def test_what_does_not_fit_the_schema_is_told_one_by_one(refused, body, errors):
+    problem = refused(422, "POST", "/api/plan", json=body)
+    assert problem["type"] == TYPES + "invalid-request"
+    assert [(error["pointer"], error["detail"]) for error in problem["errors"]] == errors
+    assert problem["detail"] == errors[0][1]
+
+
+@pytest.mark.parametrize(
+    ("number", "said"),
+    [("NaN", "nan"), ("Infinity", "inf"), ("-Infinity", "-inf"), ("1e400", "inf"), ("-1e400", "-inf")],
+)
+@pytest.mark.parametrize("name", ["east_m", "radius_m", "airspeed_m_s", "tolerance_m"])
+def test_numbers_that_are_not_finite_are_refused(refused, name, number, said):
+    scene = changed(tolerance_m=1, pose__east_m=-400.5)
+    text = json.dumps(scene)
+    old = {"east_m": "-400.5", "radius_m": "80", "airspeed_m_s": "18", "tolerance_m": "1"}[name]
+    content = text.replace(f'"{name}": {old}', f'"{name}": {number}').encode()
+    problem = refused(422, "POST", "/api/plan", content=content, headers={"content-type": "application/json"})
+    assert f"{name} is {said}: it must be" in problem["detail"]
+
+
+BROKEN = {
+    "cut off": b'{"pose": ',
+    "no JSON": b"pose",
+    "no text": b"\xff\xfe\x00",
+    "too deep": b'{"pose":' * 40,
+    "brackets": b"[" * 60_000,
+    "too long a number": b'{"tolerance_m": ' + b"1" * 5000 + b"}",
+}
+
+
+@pytest.mark.parametrize("body", BROKEN.values(), ids=BROKEN)
+def test_what_is_no_json_or_too_deep_is_refused(refused, body):
+    problem = refused(400, "POST", "/api/plan", content=body, headers={"content-type": "application/json"})
+    assert problem["type"] == "about:blank"
+    assert "JSON" in problem["detail"] or "nested" in problem["detail"]
+
+
+def test_brackets_in_strings_are_not_deep(refused):
+    # As deep as it gets would be refused with 400: this is a field that is not known.
+    name = '"' + "[" * 100 + '\\"['
+    body = f"{{{json.dumps(name)}: 1}}".encode()
+    problem = refused(422, "POST", "/api/plan", content=body, headers={"content-type": "application/json"})
+    assert problem["errors"][-1]["detail"] == f"{name} is not known"
+
+
+def test_what_is_no_text_is_quoted_in_ascii(client):
+    said = client.post("/api/plan", content=b'{"\\ud800": 1}', headers={"content-type": "application/json"})
+    assert said.status_code == 422
+    assert said.content.isascii()
+
+
+@pytest.mark.parametrize("kind", ["text/plain", "application/x-www-form-urlencoded", "multipart/form-data", ""])
+def test_a_body_that_is_not_called_json_is_refused(refused, kind):
+    refused(415, "POST", "/api/plan", content=json.dumps(STILL), headers={"content-type": kind})
+
+
+def test_a_body_may_say_its_encoding(client):
+    kind = {"content-type": "Application/JSON; charset=utf-8"}
+    assert client.post("/api/plan", content=json.dumps(STILL), headers=kind).status_code == 200
+
+
+def test_an_empty_body_is_needed(refused):
+    problem = refused(422, "POST", "/api/plan", headers={"content-type": "application/json"})
+    assert problem["detail"] == "the body is needed"
+
+
+# Queries, paths, methods
+
+QUERIES = [
+    ("radius=0.5", "radius", "radius is 0.5: it must be at least 1"),
+    ("radius=nan", "radius", "radius is nan"),
+    ("radius=one", "radius", "radius is wrong"),
+    ("reach=-1", "reach", "reach is -1.0"),
+    ("reach=inf", "reach", "reach is inf"),
+    ("cells=401", "cells", "less than or equal to 400"),
+    ("cells=7", "cells", "greater than or equal to 8"),
+    ("turn=left", "turn", "'either', 'cw' or 'ccw'"),
+]
+
+
+@pytest.mark.parametrize(("query", "parameter", "said"), QUERIES, ids=[query for query, _, _ in QUERIES])
+def test_a_parameter_that_cannot_be_used_is_named(refused, query, parameter, said):
+    problem = refused(422, "GET", "/api/synthesis", params=dict([query.split("=")]))
+    assert [error["parameter"] for error in problem["errors"]] == [parameter]
+    assert said in problem["detail"]
+
+
+@pytest.mark.parametrize(
+    ("scene", "status", "said"),
+    [
+        ("{", 400, "JSON"),
+        ("3", 422, "scene must be an object"),
+        (json.dumps(STILL | {"x": 1}), 422, "scene.x is not known"),
+        (json.dumps(changed(orbit__radius_m=-1)), 422, "orbit.radius_m is -1.0"),
+        (json.dumps(STILL), 422, "origin is missing"),
+    ],
+)
+def test_a_link_is_checked_as_a_body_is(refused, scene, status, said):
+    problem = refused(status, "GET", "/api/export/kml", params={"scene": scene})
+    assert said in problem["detail"]
+    assert all(error["parameter"] == "scene" for error in problem.get("errors", []))
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"chord_error_m": 0.001}, "chord_error_m is wrong: it is 0.001 and must be at least 0.01"),
+        ({"spacing_m": 0.001}, "spacing_m is 0.001: the file would have"),
+        ({"spacing_m": 0}, "spacing_m is 0.0: it must be a positive"),
+        ({"altitude_m": 1e300}, "altitude_m"),
+        ({"autopilot": "none"}, "autopilot is wrong: it should be 'ardupilot' or 'px4'"),
+    ],
+)
+def test_a_file_that_cannot_be_written_is_refused(refused, options, said):
+    problem = refused(422, "POST", "/api/export/csv", json=STILL | options)
+    assert said in problem["detail"]
+
+
+def test_a_mission_needs_an_altitude(refused):
+    problem = refused(422, "POST", "/api/export/plan", json=STILL | {"origin": ORIGIN})
+    assert problem["errors"][0]["pointer"] == "#/altitude_m"
+
+
+def test_an_unknown_format_is_refused(refused):
+    assert refused(422, "POST", "/api/export/pdf", json=STILL)["errors"][0]["parameter"] == "format"
+
+
+@pytest.mark.parametrize("path", ["/nothing", "/api", "/api/plan/", "/static/nothing.js", "/static/", "/docs"])
+def test_nothing_is_there(refused, path):
+    assert refused(404, "GET", path)["detail"] == f"nothing is at {path}"
+
+
+@pytest.mark.parametrize(
+    "path", ["/static/../app.py", "/static/%2e%2e/app.py", "/static/..%2fapp.py", "/static//etc/passwd"]
+)
+def test_no_file_outside_the_page_is_served(port, path):
+    with connected(port) as wire:
+        wire.sendall(f"GET {path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n".encode())
+        status, headers, _ = heard(wire)
+    assert (status, headers["content-type"]) == (404, "application/problem+json")
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "allowed"),
+    [
+        ("GET", "/api/plan", "POST"),
+        ("POST", "/api/synthesis", "GET"),
+        ("DELETE", "/api/export/kml", "GET, POST"),
+        ("OPTIONS", "/api/plan", "POST"),
+        ("PUT", "/", "GET, HEAD"),
+        ("POST", "/static/main.js", "GET, HEAD"),
+    ],
+)
+def test_a_method_that_is_not_understood_is_refused(client, method, path, allowed):
+    said = client.request(method, path)
+    assert (said.status_code, said.headers["allow"]) == (405, allowed)
+    assert said.json()["detail"] == f"{method} is not understood at {path}"
+
+
+# Headers
+
+
+ANSWERS = [
+    ("GET", "/", {}),
+    ("GET", "/static/main.js", {}),
+    ("GET", "/healthz", {}),
+    ("GET", "/openapi.json", {}),
+    ("POST", "/api/plan", {"json": STILL}),
+    ("POST", "/api/export/svg", {"json": STILL}),
+    ("POST", "/api/plan", {"json": {}}),
+    ("POST", "/api/plan", {"content": b"x" * 70_000}),
+    ("GET", "/nothing", {}),
+    ("GET", "/api/plan", {}),
+]
+
+
+@pytest.mark.parametrize(("method", "path", "request_"), ANSWERS)
+def test_every_answer_keeps_the_page_to_itself(client, method, path, request_):
+    headers = client.request(method, path, **request_).headers
+    policy = dict(part.split(" ", 1) for part in headers["content-security-policy"].split("; "))
+    assert policy["default-src"] == "'none'"
+    assert policy["script-src"] == policy["style-src"] == policy["connect-src"] == "'self'"
+    assert policy["frame-ancestors"] == "'none'"
+    assert not any(word in headers["content-security-policy"] for word in ("unsafe", "http", "*"))
+    assert (headers["x-content-type-options"], headers["referrer-policy"]) == ("nosniff", "no-referrer")
+    assert headers["cross-origin-resource-policy"] == headers["cross-origin-opener-policy"] == "same-origin"
+    assert headers["cache-control"] == ("no-cache" if path in ("/", "/static/main.js") else "no-store")
+    assert not {"access-control-allow-origin", "server"} & set(headers)
+
+
+def test_what_fails_inside_is_told_without_its_reasons(monkeypatch):
+    def failing(asked):
+        raise RuntimeError("secret")
+
+    monkeypatch.setattr("loiter.web.plans.plan", failing)
+    said = asking(create_app(), raise_app_exceptions=False)("POST", "/api/plan", json=STILL)
+    assert (said.status_code, said.json()["title"]) == (500, "Internal Server Error")
+    assert "secret" not in said.text
+    assert said.headers["x-content-type-options"] == "nosniff"
+
+
+def test_another_origin_may_ask_where_that_is_allowed():
+    page = {"origin": "http://localhost:8000"}
+    ask = asking(create_app("http://localhost:8000"))
+    asked_first = {"access-control-request-method": "POST", "access-control-request-headers": "content-type"}
+    before = ask("OPTIONS", "/api/plan", headers=page | asked_first)
+    said = [ask("POST", "/api/plan", headers=page, json=scene) for scene in (STILL, {})]
+    stranger = ask("POST", "/api/plan", headers={"origin": "http://localhost:9000"}, json=STILL)
+    assert before.status_code == 200
+    assert {answer.headers["access-control-allow-origin"] for answer in (before, *said)} == {page["origin"]}
+    assert "access-control-allow-origin" not in stranger.headers

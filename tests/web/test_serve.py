@@ -1,0 +1,110 @@
+"""`loiter serve` as a program: where it listens, what it says, how it ends."""
+
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import httpx
+import pytest
+
+from loiter.cli.app import main
+from loiter.errors import MissingPackage
+from loiter.web import serve
+from web.serving import connected, serving
+from web.test_api import STILL
+
+
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM])
+def test_it_says_where_it_is_and_ends_cleanly(end):
+    with serving() as (port, process):
+        assert httpx.post(f"http://127.0.0.1:{port}/api/plan", json=STILL, timeout=30.0).status_code == 200
+        # One that is still there does not keep it.
+        with connected(port):
+            process.send_signal(end)
+            assert process.wait(20) == 0
+        assert (process.stdout.read(), process.stderr.read()) == (b"", b"")
+
+
+def test_an_answer_under_way_is_finished_first():
+    with serving() as (port, process), httpx.Client(timeout=30.0) as client:
+        with client.stream("GET", f"http://127.0.0.1:{port}/api/synthesis?cells=400") as said:
+            process.terminate()
+            said.read()
+        assert said.json()["radius"] == 1.0
+        assert process.wait(20) == 0
+
+
+@pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="a file of Linux")
+def test_it_listens_on_this_machine_alone():
+    with serving() as (port, _):
+        rows = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()[1:]]
+    # State 0A listens; addresses are hexadecimal, the last byte first.
+    listening = {row[1] for row in rows if row[3] == "0A"}
+    assert f"0100007F:{port:04X}" in listening
+    assert f"00000000:{port:04X}" not in listening
+
+
+def test_it_warns_where_others_can_reach_it(monkeypatch):
+    said = []
+    monkeypatch.setattr("uvicorn.Server.run", lambda *_, **__: None)
+    serve(host="0.0.0.0", port=0, announce=said.append)
+    assert said[0].startswith("http://0.0.0.0:")
+    assert said[1:] == ["Others on the network can reach it: it asks nobody for a name or a password."]
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "127.0.0.2"])
+def test_it_does_not_warn_on_loopback(monkeypatch, host):
+    said = []
+    monkeypatch.setattr("uvicorn.Server.run", lambda *_, **__: None)
+    serve(host=host, port=0, announce=said.append)
+    assert len(said) == 1
+
+
+@pytest.fixture
+def refused(capsys):
+    def refused(*options):
+        status = main(["serve", *options])
+        out, err = capsys.readouterr()
+        assert (status, out, err.count("\n")) == (2, "", 1)
+        return err
+
+    return refused
+
+
+def test_a_port_in_use_is_refused(refused):
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        sentence = refused("--port", str(port))
+    assert sentence == f"loiter: --port is {port}: 127.0.0.1 cannot be used, Address already in use\n"
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--port", "70000"], "--port is 70000: it must be a whole number from 0 to 65535"),
+        (["--port", "-1"], "--port is -1"),
+        (["--port", "http"], "--port is 'http': it must be a whole number"),
+        (["--host", "no.such.host.invalid"], "--host is 'no.such.host.invalid': it is no address of this machine"),
+        (["--host", "192.0.2.1"], "192.0.2.1"),
+        (["--cors", "*"], "--cors is '*': it must be an origin such as"),
+        (["--cors", "http://localhost:8000/"], "--cors is 'http://localhost:8000/'"),
+        (["--cors", "localhost"], "--cors is 'localhost'"),
+    ],
+)
+def test_what_cannot_be_served_is_refused(refused, options, said):
+    assert said in refused(*options)
+
+
+@pytest.mark.parametrize("package", ["fastapi", "uvicorn"])
+def test_a_missing_package_is_told_with_how_to_install_it(monkeypatch, package):
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(MissingPackage, match=rf'needs {package}: pip install "loiter\[web\]" brings it'):
+        serve()
+
+
+def test_naming_the_room_does_not_load_the_framework():
+    code = "import loiter, sys; loiter.web.serve; print({'fastapi', 'uvicorn', 'pydantic'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "set()\n"
