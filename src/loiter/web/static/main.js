@@ -36,7 +36,11 @@ let fitNext = true;
 /** @type {number[] | null} */
 let spanNext = null; // the view of the link that was opened
 
-/** Pointer moves whose path is not drawn yet: the scene's number and when the move happened. @type {{asked: number, at: number}[]} */
+/**
+ * Pointer moves whose path is not drawn yet: the scene's number and when the move happened.
+ *
+ * @type {{asked: number, at: number}[]}
+ */
 const moves = [];
 
 /**
@@ -66,7 +70,8 @@ function change(scene, event) {
 }
 
 const ask = latest(
-  async (/** @type {{scene: Scene, number: number}} */ { scene }) => /** @type {Answer} */ (await (await post("/api/plan", scene)).json()),
+  async (/** @type {{scene: Scene, number: number}} */ { scene }) =>
+    /** @type {Answer} */ (await (await post("/api/plan", scene)).json()),
   (answer, { number }) => {
     if (failed) say("");
     fail(false);
@@ -156,7 +161,8 @@ function moved() {
 }
 
 const askProof = latest(
-  async (/** @type {{scene: Scene, number: number}} */ { scene }) => /** @type {Proof} */ (await (await post("/api/certificate", scene)).json()),
+  async (/** @type {{scene: Scene, number: number}} */ { scene }) =>
+    /** @type {Proof} */ (await (await post("/api/certificate", scene)).json()),
   (proof, { number }) => {
     proved = number;
     if (number === state.asked) [line, words].forEach((each) => each.prove(proof));
@@ -195,12 +201,22 @@ function rested() {
 
 /** @param {Answer} answer */
 function askMap({ reduced: here }) {
-  const windy = state.scene.wind !== null || state.scene.orbit.velocity_east_m_s !== 0 || state.scene.orbit.velocity_north_m_s !== 0;
+  const { turn } = state.scene.orbit;
+  const windy =
+    state.scene.wind !== null ||
+    state.scene.orbit.velocity_east_m_s !== 0 ||
+    state.scene.orbit.velocity_north_m_s !== 0;
   byId("map", HTMLElement).classList.toggle("windy", windy);
   // Circles of the turn radius come out a rounding off; the map is that of the kernel, from 1 up.
   const radius = Math.max(1, Number(here.radius.toFixed(3)));
-  byId("map-title", HTMLElement).textContent = `R = ${Number(radius.toPrecision(3))}, ${state.scene.orbit.turn === "either" ? "either way" : state.scene.orbit.turn}`;
-  const query = new URLSearchParams({ radius: String(radius), turn: state.scene.orbit.turn, reach: String(reachFor(radius, here)), cells: String(CELLS) }).toString();
+  byId("map-title", HTMLElement).textContent =
+    `R = ${Number(radius.toPrecision(3))}, ${turn === "either" ? "either way" : turn}`;
+  const query = new URLSearchParams({
+    radius: String(radius),
+    turn: state.scene.orbit.turn,
+    reach: String(reachFor(radius, here)),
+    cells: String(CELLS),
+  }).toString();
   if (query !== mapped) askMapAt(query);
   mapped = query;
 }
@@ -337,7 +353,11 @@ function wireOrigin() {
 
 /** Drawings are as large as their boxes. */
 function follow() {
-  const boxes = { plan: byId("plan-box", HTMLElement), map: byId("map", HTMLElement), line: byId("line-box", HTMLElement) };
+  const boxes = {
+    plan: byId("plan-box", HTMLElement),
+    map: byId("map", HTMLElement),
+    line: byId("line-box", HTMLElement),
+  };
   const measure = () => {
     view.resize(Math.round(boxes.plan.clientWidth), Math.round(boxes.plan.clientHeight));
     reduced.resize(Math.round(boxes.map.clientWidth));

@@ -147,6 +147,8 @@ function numbers(given, name, count, fallback) {
   if (text === null && fallback) return fallback;
   const values = (text ?? "").split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
   if (values.length !== count || !values.every(Number.isFinite))
-    throw new Error(`The link's ${name} is "${text ?? ""}": it needs ${count === 1 ? "a number" : `${count} numbers`}.`);
+    throw new Error(
+      `The link's ${name} is "${text ?? ""}": it needs ${count === 1 ? "a number" : `${count} numbers`}.`,
+    );
   return values;
 }

@@ -79,7 +79,12 @@ export function fitted(view, points, { left, right, top, bottom }) {
   const high = (view.height - top - bottom) / Math.max(north[1] - north[0], Number.MIN_VALUE);
   const scale = Math.min(SCALES.most, Math.max(SCALES.least, Math.min(wide, high)));
   const middle = [(east[0] + east[1]) / 2, (north[0] + north[1]) / 2];
-  return { ...view, scale, east: middle[0] + (right - left) / 2 / scale, north: middle[1] + (top - bottom) / 2 / scale };
+  return {
+    ...view,
+    scale,
+    east: middle[0] + (right - left) / 2 / scale,
+    north: middle[1] + (top - bottom) / 2 / scale,
+  };
 }
 
 /**
