@@ -123,10 +123,15 @@ def assert_shows_the_plan(page):
         assert distance(path, exact) < off
         assert distance(exact, path) < off
         assert np.abs(path[[0, -1]] - exact[[0, -1]]).max() < PIXELS / scale
-    letters = page.locator("#plan .best .piece").evaluate_all(
-        "pieces => pieces.map(piece => piece.dataset.letter).join('')"
+    pieces = page.locator("#plan .best .piece").evaluate_all(
+        "all => all.map(one => [one.dataset.letter, one.getAttribute('d')])"
     )
-    assert letters == "".join(maneuver.word for maneuver in best)
+    segments = [segment for maneuver in best for segment in maneuver.segments]
+    assert [letter for letter, _ in pieces] == [segment.letter for segment in segments]
+    for (_, path), segment in zip(pieces, segments, strict=True):
+        ends, scale = to_metres(page, points_of(path)[[0, -1]])
+        exact = [[pose.east_m, pose.north_m] for pose in (segment.start, segment.end)]
+        assert np.abs(ends - exact).max() < PIXELS / scale
     decimals = 2 if asked[1].radius_m >= 10.0 else 3
     assert page.locator("#time").inner_text() == f"{best[0].duration_s:.{decimals}f} s"
     return best[0]

@@ -12,6 +12,7 @@ import pytest
 
 import loiter
 from golden.paper import EXAMPLES
+from loiter.kernel.codes import Word
 from web import browsing
 from web.browsing import assert_shows_the_plan, press, scene, settle, to_metres, values
 
@@ -190,7 +191,9 @@ def test_what_is_dragged_stays_under_the_pointer(page):
 
 
 def test_the_state_dragged_is_the_state_of_the_aircraft(page):
+    left, top = middle(page, "state")
     drag(page, "state", -60, 35)
+    assert middle(page, "state") == pytest.approx((left - 60, top + 35), abs=0.6)
     pose, orbit, aircraft, _ = values(scene(page))
     x, y = loiter.reduce(pose.east_m, pose.north_m, pose.heading_deg, orbit, aircraft)
     text = page.locator("#state").get_attribute("aria-valuetext")
@@ -381,6 +384,8 @@ def test_the_map_is_the_synthesis_of_the_scene(page):
     }
     assert sum(most[word] != shade for word, shade in pairs) <= 8
     assert len(set(most.values())) == len(most)
+    # The hue is that of the first control: green turns left, orange right.
+    assert all((red > green) == (Word(int(word)).letters[0] == "R") for word, (red, green, *_) in most.items())
     for kind in ("switch", "jump", "tie"):
         assert page.locator(f"#reduced .curve.{kind}").count() > 0
     assert "LRL" in page.locator("#reduced .words text").all_text_contents()
@@ -439,7 +444,7 @@ def test_a_map_without_a_place_on_earth_is_refused_in_a_sentence(page):
 def test_python_and_command_give_the_same_duration(page):
     press(page, "In wind")
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])
-    expected = loiter.plan(*values(scene(page))).duration_s
+    expected = loiter.plan_all(*values(scene(page)))[0].duration_s
     page.get_by_role("button", name="Copy Python").click()
     names = {"print": lambda *_: None}
     exec(clipboard(page), names)
@@ -448,7 +453,7 @@ def test_python_and_command_give_the_same_duration(page):
     words = clipboard(page).split()
     assert words[0] == "loiter"
     told = run([browsing.SCRIPT, *words[1:], "--json"], capture_output=True, check=True, text=True)
-    assert json.loads(told.stdout)["duration_s"] == pytest.approx(expected, rel=1e-12)
+    assert json.loads(told.stdout)["duration_s"] == expected
 
 
 def clipboard(page):
