@@ -2,21 +2,14 @@
 
 import pytest
 
-from loiter.mavlink import command, link, transfer
-
-WAITS = {
-    link: ["BEAT_S", "ALONE_S"],
-    transfer: ["REPEAT_S", "ITEM_REPEAT_S", "SILENCE_S", "DOUBLED_S", "BUSY_S"],
-    command: ["REPEAT_S"],
-}
+from mavlink.vehicle import WAITS
 
 
 @pytest.fixture(autouse=True)
 def quick(request, monkeypatch):
     if "real_time" not in request.fixturenames:
-        for module, names in WAITS.items():
-            for name in names:
-                monkeypatch.setattr(module, name, getattr(module, name) / 10.0)
+        for (module, name), seconds in WAITS.items():
+            monkeypatch.setattr(module, name, seconds / 10.0)
 
 
 @pytest.fixture

@@ -1,7 +1,7 @@
-"""Vehicles on a loopback port, each in a thread: they speak MAVLink by pymavlink and keep missions by the protocol.
+"""Vehicles that speak MAVLink by pymavlink and keep missions by the protocol, and lines to them that lose packets.
 
-`Vehicle` is one that takes a mission whole or not at all, as PX4 does; `Plane` has the habits of ArduPlane. Tests
-derive those that misbehave. `Lossy` is a line that loses packets.
+`Vehicle` takes a mission whole or not at all, as PX4 does; `Plane` has the habits of ArduPlane. Tests derive those that
+misbehave. `flying` lets one live on a loopback port, in a thread; `Port` is one without sockets and without time.
 """
 
 import random
@@ -11,10 +11,14 @@ import time
 from collections import Counter
 from contextlib import contextmanager
 
+import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
+from loiter.errors import LinkFailed
 from loiter.io.items import Command, Frame, Mission, MissionItem
 from loiter.io.signs import with_circle
+from loiter.mavlink import command, link, transfer
+from loiter.mavlink.missions import replace
 
 ACCEPTED, ERROR, INVALID_SEQUENCE, DENIED, CANCELLED = 0, 1, 13, 14, 15
 
@@ -23,6 +27,17 @@ def item(command=16, frame=0, params=(0.0, 0.0, 0.0, 0.0), x=470000000, y=800000
     """An item as a vehicle keeps it."""
     return command, frame, params, x, y, z, autocontinue
 
+
+# The seconds that the library waits for this and that.
+WAITS = {
+    (module, name): getattr(module, name)
+    for module, names in {
+        link: ["BEAT_S", "ALONE_S"],
+        transfer: ["REPEAT_S", "ITEM_REPEAT_S", "SILENCE_S", "DOUBLED_S", "BUSY_S"],
+        command: ["REPEAT_S"],
+    }.items()
+    for name in names
+}
 
 OLD = [item(x=460000000 + i, z=100.0 + i) for i in range(3)]
 
@@ -59,25 +74,34 @@ class Vehicle:
     """An autopilot that holds a mission and changes it only when it has a new one whole."""
 
     system, component, autopilot, version = 1, 1, 12, 2
-    beat_s, repeat_s, give_up_s = 0.05, 0.04, 0.5
+    beat_s, repeat_s, give_up_s = 0.05, 0.025, 0.5  # a tenth of PX4's, as the library's time-outs in most tests
     sends_int_requests = True
 
     def __init__(self, mission=OLD):
         self.mission = list(mission)
         self.heard = Counter()
         self.commands = []
-        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.bind(("127.0.0.1", 0))
-        self.socket.settimeout(0.01)
-        self.port = self.socket.getsockname()[1]
         self.mav = mavlink.MAVLink(_Wire(self), self.system, self.component)
         self.mav.robust_parsing = True
         self.peer = None
         self.incoming = None  # the items that come, while they come
         self.expected = 0
         self.asked = self.progressed = self.next_beat = 0.0
+        self.clock = time.monotonic
+
+    def take_time(self):
+        """Repeats requests and gives up as late as real autopilots do."""
+        self.beat_s, self.repeat_s, self.give_up_s = 1.0, 10.0 * self.repeat_s, 10.0 * self.give_up_s
+        return self
+
+    def open(self):
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 0))
+        self.socket.settimeout(0.01)
+        self.port = self.socket.getsockname()[1]
         self.running = True
         self.thread = threading.Thread(target=self.run)
+        self.thread.start()
 
     @property
     def connection(self):
@@ -89,14 +113,16 @@ class Vehicle:
                 data, self.peer = self.socket.recvfrom(65535)
             except TimeoutError:
                 data = b""
-            for message in self.mav.parse_buffer(data) or []:
-                self.heard[message.get_type()] += 1
-                handler = getattr(self, f"on_{message.get_type().lower()}", None)
-                if handler and getattr(message, "target_system", self.system) == self.system:
-                    handler(message)
+            self.take(data)
             if self.peer:
-                self.idle(time.monotonic())
-        self.socket.close()
+                self.idle(self.clock())
+
+    def take(self, data):
+        for message in self.mav.parse_buffer(data) or []:
+            self.heard[message.get_type()] += 1
+            handler = getattr(self, f"on_{message.get_type().lower()}", None)
+            if handler and getattr(message, "target_system", self.system) == self.system:
+                handler(message)
 
     def idle(self, now):
         if now >= self.next_beat:
@@ -119,16 +145,17 @@ class Vehicle:
     def stop(self):
         self.running = False
         self.thread.join()
+        self.socket.close()
 
     # A mission taken.
 
     def on_mission_count(self, message):
-        self.incoming, self.expected, self.progressed = [], message.count, time.monotonic()
+        self.incoming, self.expected, self.progressed = [], message.count, self.clock()
         self.partner = message.get_srcSystem(), message.get_srcComponent()
         self.ask()
 
     def ask(self):
-        self.asked = time.monotonic()
+        self.asked = self.clock()
         kind = mavlink.MAVLink_mission_request_int_message
         if not self.sends_int_requests:
             kind = mavlink.MAVLink_mission_request_message
@@ -137,7 +164,7 @@ class Vehicle:
     def on_mission_item_int(self, message):
         if self.incoming is None or message.seq != len(self.incoming):
             return
-        self.progressed = time.monotonic()
+        self.progressed = self.clock()
         self.incoming.append(self.stored(message))
         if len(self.incoming) < self.expected:
             self.ask()
@@ -187,7 +214,7 @@ class Vehicle:
 class Plane(Vehicle):
     """ArduPlane: its home is item 0, items are replaced one by one, values are cut, nothing can be cancelled."""
 
-    autopilot = 3
+    autopilot, repeat_s, give_up_s = 3, 0.1, 0.8
     sends_int_requests = False
     home = item(x=450000000, y=70000000, z=400.0)
 
@@ -314,7 +341,7 @@ def free_port():
 @contextmanager
 def flying(vehicle):
     """A vehicle while its thread runs."""
-    vehicle.thread.start()
+    vehicle.open()
     try:
         yield vehicle
     finally:
@@ -331,3 +358,45 @@ def lossy(vehicle_port, **options):
         yield line
     finally:
         line.stop()
+
+
+class Port:
+    """What pymavlink calls a connection, with a vehicle behind it in the same thread; time passes only in waiting.
+
+    `fate` says of each packet how many of it arrive.
+    """
+
+    def __init__(self, vehicle, fate=lambda: 1):
+        self.vehicle, self.fate, self.now = vehicle, fate, 1000.0
+        self.arrived = []
+        self.mav = mavlink.MAVLink(_Wire(self), 250, 190)
+        vehicle.clock = lambda: self.now
+        vehicle.peer = "us"
+        vehicle.transmit = lambda packet: self.arrived.extend([packet] * self.fate())
+
+    def transmit(self, packet):
+        for _ in range(self.fate()):
+            self.vehicle.take(packet)
+
+    def recv_match(self, blocking, timeout):
+        end = self.now + timeout
+        while not self.arrived and self.now < end:
+            self.now += min(0.02, end - self.now)
+            self.vehicle.idle(self.now)
+        return self.mav.decode(bytearray(self.arrived.pop(0))) if self.arrived else None
+
+
+def simulated(vehicle, new, fate=lambda: 1, timeout_s=15.0):
+    """What comes of an upload, a Summary or a LinkFailed, and the seconds that it would have taken."""
+    port = Port(vehicle.take_time(), fate)
+    with pytest.MonkeyPatch.context() as patch:
+        for (module, name), seconds in WAITS.items():
+            patch.setattr(module, name, seconds)
+            patch.setattr(module, "monotonic", lambda: port.now)
+        begun = port.now
+        target = link.Vehicle(vehicle.system, vehicle.component, vehicle.autopilot, vehicle.version == 1)
+        try:
+            done = replace(link.Link(port, target), new, timeout_s, lambda *step: None)
+        except LinkFailed as failure:
+            done = failure
+        return done, port.now - begun

@@ -16,6 +16,7 @@ def one_by_one(pose, orbit, aircraft, wind, tolerance_m=0.0):
 
 
 @given(scenes())
+@settings(deadline=None)
 def test_in_still_air_it_is_both(scene):
     assert compared(*scene, tolerance_m=0.1) == one_by_one(*scene, None, 0.1)
 

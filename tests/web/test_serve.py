@@ -1,5 +1,6 @@
 """`loiter serve` as a program: where it listens, what it says, how it ends."""
 
+import asyncio
 import signal
 import socket
 import subprocess
@@ -12,6 +13,7 @@ import pytest
 from loiter.cli.app import main
 from loiter.errors import MissingPackage
 from loiter.web import serve
+from loiter.web.server import _listening
 from web.serving import connected, serving
 from web.test_api import STILL
 
@@ -60,6 +62,23 @@ def test_it_does_not_warn_on_loopback(monkeypatch, host):
     monkeypatch.setattr("uvicorn.Server.run", lambda *_, **__: None)
     serve(host=host, port=0, announce=said.append)
     assert len(said) == 1
+
+
+def test_answers_are_sent_at_once():
+    with _listening("127.0.0.1", 0) as listener:
+        assert listener.proto == socket.IPPROTO_TCP
+
+        async def sends_at_once():
+            accepted = asyncio.Future()
+            handled = await asyncio.start_server(lambda _, writer: accepted.set_result(writer), sock=listener)
+            _, writer = await asyncio.open_connection(*listener.getsockname())
+            option = (await accepted).get_extra_info("socket").getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+            for one in (writer, accepted.result(), handled):
+                one.close()
+                await one.wait_closed()
+            return option
+
+        assert asyncio.run(sends_at_once())
 
 
 @pytest.fixture

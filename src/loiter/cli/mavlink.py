@@ -28,6 +28,7 @@ from loiter.cli.options import (
 )
 from loiter.errors import InvalidArgument
 from loiter.io.items import Mission
+from loiter.mavlink.missions import TIMEOUT_S
 
 if TYPE_CHECKING:
     from loiter.mavlink import Report
@@ -65,7 +66,7 @@ def upload(
     *,
     connect: Connect,
     system: System = None,
-    timeout: Timeout = 10.0,
+    timeout: Timeout = TIMEOUT_S,
     start: PlacedStartOptions = PlacedStartOptions(),
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
@@ -81,8 +82,9 @@ def upload(
         wanted = loiter.io.read_mission(mission)
     with _progress() as tell:
         done = loiter.mavlink.upload(wanted, connect, system=system, timeout_s=timeout, on_progress=tell)
+    kept = ", each as sent" if not done.cut else ""
     lines = [
-        f"Vehicle {done.system} ({done.autopilot}) has the mission: {done.items} items sent and read back, each as sent.",
+        f"Vehicle {done.system} ({done.autopilot}) has the mission: {done.items} items sent and read back{kept}.",
         f"It took the place of one of {done.replaced} items." if done.replaced else "It had none before.",
     ]
     report.write(*lines, *done.cut)
@@ -131,7 +133,7 @@ def watch(
     *,
     connect: Connect,
     system: System = None,
-    timeout: Timeout = 10.0,
+    timeout: Timeout = TIMEOUT_S,
     every: Annotated[float, Parameter(group=connection, metavar="SECONDS", help="How often a line is printed.")] = 1.0,
     reports: Annotated[
         int | None,

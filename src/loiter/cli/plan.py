@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -25,6 +24,7 @@ from loiter.cli.status import CHECK_FAILED
 from loiter.io.document import answer
 from loiter.io.items import Autopilot
 from loiter.planning.model import Turn
+from loiter.planning.solve import compared
 from loiter.plot import files
 
 AUTOPILOTS = {"ardupilot": Autopilot.ARDUPILOT, "px4": Autopilot.PX4}
@@ -83,11 +83,7 @@ def plan(
         files.check_format(plot)
     if save is not None:
         loiter.io.check_format(save)
-    best = loiter.plan_all(asked.start, asked.circle, asked.aircraft, asked.wind, tolerance_m=tolerance)
-    # What the other direction would cost is told even where one was asked for.
-    either = replace(asked.circle, turn=Turn.EITHER)
-    known = loiter.candidates(asked.start, either, asked.aircraft, asked.wind, tolerance_m=tolerance)
-    others = [m for m in known if not any(m.turn == b.turn and m.segments == b.segments for b in best)]
+    best, others = compared(asked.start, asked.circle, asked.aircraft, asked.wind, tolerance_m=tolerance)
     proofs = [loiter.verify.certify(m, tolerance_m=tolerance) for m in (best if all_ else best[:1]) if certify]
     if plot is not None:
         losers = [m for m in others if asked.circle.turn in (Turn.EITHER, m.turn)]

@@ -33,7 +33,6 @@ OPTIONS = {
     "orbit_lla": "--orbit-lla",
     "spacing_m": "--spacing",
     "chord_error_m": "--chord-error",
-    "params": "--params",
     "host": "--host",
     "port": "--port",
     "cors": "--cors",

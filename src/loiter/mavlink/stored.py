@@ -114,8 +114,9 @@ def compared(sent: Sequence[StoredItem], kept: Sequence[StoredItem], vehicle: Ve
 
 
 def same(some: Sequence[StoredItem], others: Sequence[StoredItem], vehicle: Vehicle) -> bool:
-    """Whether two missions that a vehicle gave are one and the same."""
-    return compared(some, others, vehicle) == ([], [])
+    """Whether two missions that a vehicle gave are one and the same, but for what its autopilot rounds."""
+    wrong, _ = compared(some, others, vehicle)
+    return not wrong
 
 
 def _encoded(item: MissionItem, seq: int, name: str) -> StoredItem:
@@ -125,10 +126,10 @@ def _encoded(item: MissionItem, seq: int, name: str) -> StoredItem:
         x, y = _place(item, name)
         p1, p2, p3, p4, z = map(_float32, (*item.params, item.altitude_m))
         # What does not fit is found here, not halfway through a transfer.
-        pack("<BH2i", item.frame, item.command, x, y)
+        frame, command, *_ = unpack("<BH2i", pack("<BH2i", item.frame, item.command, x, y))
     except (StructError, OverflowError) as error:
         raise InvalidArgument("mission", f"has a number that is too large for MAVLink in {name}: {item}") from error
-    return StoredItem(item.frame, item.command, int(seq == 0), int(item.autocontinue), (p1, p2, p3, p4), x, y, z)
+    return StoredItem(frame, command, int(seq == 0), int(item.autocontinue), (p1, p2, p3, p4), x, y, z)
 
 
 def _place(item: MissionItem, name: str) -> tuple[int, int]:

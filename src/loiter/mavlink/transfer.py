@@ -23,6 +23,9 @@ REPEAT_S, ITEM_REPEAT_S = 1.5, 0.25
 # heard for longer one has given up, or lost what it was asked for: the transfer begins anew, five times at the most.
 SILENCE_S, ATTEMPTS = 4.0, 5
 
+# How often the last item is sent again to a vehicle that neither accepts the mission nor asks for more.
+REPEATS = 3
+
 # An item asked for again so soon has been sent already: the line has doubled the request. No vehicle repeats one sooner
 # than after 0.25 s.
 DOUBLED_S = 0.1
@@ -40,12 +43,13 @@ def receive(link: Link, timeout_s: float, progress: Progress = lambda done, tota
     to, mavlink = _to(link), packets()
     with _cancelling(link):
         wanted = mavlink.MAVLink_mission_request_list_message(*to, 0)
-        total = _answer(link, wanted, "MISSION_COUNT", REPEAT_S, timeout_s).count
+        total = _answer(link, wanted, "give its mission", "MISSION_COUNT", REPEAT_S, timeout_s).count
         items: list[StoredItem] = []
         for seq in range(total):
             progress(seq, total)
             wanted = mavlink.MAVLink_mission_request_int_message(*to, seq, 0)
-            items.append(unpacked(_answer(link, wanted, "MISSION_ITEM_INT", ITEM_REPEAT_S, timeout_s, seq)))
+            asked = f"give {called(seq, link.vehicle)}"
+            items.append(unpacked(_answer(link, wanted, asked, "MISSION_ITEM_INT", ITEM_REPEAT_S, timeout_s, seq)))
         progress(total, total)
         link.send(mavlink.MAVLink_mission_ack_message(*to, ACCEPTED, 0))
     return items
@@ -53,18 +57,18 @@ def receive(link: Link, timeout_s: float, progress: Progress = lambda done, tota
 
 def send(
     link: Link, items: Sequence[StoredItem], timeout_s: float, progress: Progress = lambda done, total: None
-) -> None:
+) -> bool:
     """Every item to a vehicle, as it asks for them.
 
-    Returns when the vehicle has accepted them, or has asked for all of them and then says no more: only reading them
-    back tells. Raises `LinkFailed` where it refuses, or makes no progress for `timeout_s`.
+    Whether it has accepted them; False where it has asked for all of them and then says no more, so that only reading
+    them back tells. Raises `LinkFailed` where it refuses, or makes no progress for `timeout_s`.
     """
     with _cancelling(link):
         progressed = monotonic()
         for _ in range(ATTEMPTS):
             attempt = _Sending(link, items, timeout_s, progress, progressed)
             if attempt.run():
-                return
+                return attempt.accepted
             progressed = attempt.progressed
         raise LinkFailed(f"{attempt.stuck}, {ATTEMPTS} times over")
 
@@ -72,7 +76,7 @@ def send(
 def clear(link: Link, timeout_s: float) -> None:
     """A vehicle left without a mission; raises `LinkFailed` where it refuses or is silent."""
     wanted = packets().MAVLink_mission_clear_all_message(*_to(link), 0)
-    _answer(link, wanted, "MISSION_ACK", REPEAT_S, timeout_s)
+    _answer(link, wanted, "clear its mission", "MISSION_ACK", REPEAT_S, timeout_s)
 
 
 def cancel(link: Link) -> None:
@@ -91,12 +95,13 @@ class _Sending:
         self.progressed = progressed
         self.last = -1  # the last item that was asked for
         self.answered = -1, 0.0  # the item sent last, and when
-        self.repeated = False  # whether the last item was sent again without being asked for
+        self.repeats = 0  # how often the last item was sent without being asked for
+        self.accepted = False
         self.refusal = ""
         self.heard = self.said = self.begun = monotonic()
 
     def run(self) -> bool:
-        """Whether the vehicle has all items, as far as it says; False where it has given up halfway."""
+        """Whether the vehicle has asked for all items; False where it has given up halfway."""
         self._begin()
         while True:
             message = self.link.receive({"MISSION_REQUEST_INT", "MISSION_REQUEST", "MISSION_ACK"}, self._deadline())
@@ -141,9 +146,9 @@ class _Sending:
 
     def _unacknowledged(self, now: float) -> bool | None:
         """The last item or its acknowledgement was lost. The item again makes PX4 acknowledge it again."""
-        if self.repeated or now >= self._end():
+        if self.repeats >= REPEATS or now >= self._end():
             return True
-        self.repeated = True
+        self.repeats += 1
         self._send_item(self.last, now)
         return None
 
@@ -169,12 +174,13 @@ class _Sending:
     def _acknowledged(self, result: int) -> bool | None:
         if result == ACCEPTED:
             # One that comes too early belongs to an earlier transfer.
-            return True if self._complete else None
+            self.accepted = self._complete
+            return self.accepted or None
         self.refusal = mission_result(result)
         # ArduPilot says so of an item that came twice, and goes on; a vehicle that is busy will not be for ever.
         if result == INVALID_SEQUENCE or (self.last < 0 and result in BUSY):
             return None
-        if self._complete and self.repeated:
+        if self._complete and self.repeats:
             # ArduPilot refuses a last item that comes again after it has taken all.
             return True
         raise LinkFailed(f"{self.link.vehicle.named} refused {self._what()}: {self.refusal}")
@@ -190,8 +196,10 @@ class _Sending:
         return f"{self.link.vehicle.named} {what}{said}"
 
 
-def _answer(link: Link, wanted: Any, kind: str, repeat_s: float, timeout_s: float, seq: int | None = None) -> Any:
-    """The answer to a message, which is repeated until it comes.
+def _answer(
+    link: Link, wanted: Any, asked: str, kind: str, repeat_s: float, timeout_s: float, seq: int | None = None
+) -> Any:
+    """The answer of one kind to a message, which is repeated until it comes; `asked` is what for, in words.
 
     A refusal may be a late answer to something else, and that of a busy vehicle passes: it counts when time is up.
     """
@@ -206,10 +214,9 @@ def _answer(link: Link, wanted: Any, kind: str, repeat_s: float, timeout_s: floa
                 deadline = max(deadline, begun + BUSY_S)
             elif message.get_type() == kind and (seq is None or message.seq == seq):
                 return message
-    asked = "the mission" if seq is None else called(seq, link.vehicle)
     if refusal:
-        raise LinkFailed(f"{link.vehicle.named} refused to give {asked}: {refusal}")
-    raise LinkFailed(f"{link.vehicle.named} did not answer in {timeout_s:g} s when asked for {asked}")
+        raise LinkFailed(f"{link.vehicle.named} refused to {asked}: {refusal}")
+    raise LinkFailed(f"{link.vehicle.named} did not answer in {timeout_s:g} s when asked to {asked}")
 
 
 def _to(link: Link) -> tuple[int, int]:

@@ -40,7 +40,7 @@ _COMMAND_RESULTS = {
     10: "it takes no commands from this station (MAV_RESULT_NOT_IN_CONTROL)",
 }
 
-_AUTOPILOTS = {Autopilot.ARDUPILOT: "ArduPilot", Autopilot.PX4: "PX4"}
+_AUTOPILOTS: dict[int, str] = {0: "generic", Autopilot.ARDUPILOT: "ArduPilot", Autopilot.PX4: "PX4"}
 
 
 def mission_result(code: int) -> str:
@@ -55,4 +55,4 @@ def command_result(code: int) -> str:
 
 def autopilot_name(code: int) -> str:
     """Whose software a vehicle flies with."""
-    return next((name for known, name in _AUTOPILOTS.items() if known == code), f"autopilot {code} of MAV_AUTOPILOT")
+    return _AUTOPILOTS.get(code, f"autopilot {code} of MAV_AUTOPILOT")

@@ -19,6 +19,9 @@ from loiter.web.connections import Connection
 from loiter.web.limits import MOST_HEAD
 from loiter.web.synthesis import FIRST_CELLS, synthesis
 
+# Connections that may wait to be accepted.
+BACKLOG = 2048
+
 # Seconds that answers under way have when the server is told to end.
 FAREWELL_S = 3
 
@@ -56,15 +59,20 @@ def _listening(host: str, port: int) -> Iterator[socket.socket]:
     if not 0 <= port <= 65535:
         raise InvalidArgument("port", f"is {port}: it must be a whole number from 0 to 65535")
     try:
-        family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+        family, kind, protocol, _, address = socket.getaddrinfo(host, port, proto=socket.IPPROTO_TCP)[0]
     except (OSError, UnicodeError) as error:
         raise InvalidArgument("host", f"is {host!r}: it is no address of this machine") from error
-    try:
-        listener = socket.create_server(address[:2], family=family, backlog=2048)
-    except OSError as error:
-        reason = os.strerror(error.errno) if error.errno else str(error)
-        raise InvalidArgument("port", f"is {port}: {host} cannot be used, {reason}") from error
-    with listener:
+    # asyncio sends at once (TCP_NODELAY) only where the socket was made for TCP by name: else a short answer, head and
+    # body, waits 40 ms for the acknowledgement of its head.
+    with socket.socket(family, kind, protocol) as listener:
+        try:
+            # The addresses of connections that have ended wait a minute; Windows takes the same for sharing a port.
+            if os.name == "posix":
+                listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            listener.bind(address)
+            listener.listen(BACKLOG)
+        except OSError as error:
+            raise InvalidArgument("port", f"is {port}: {host} cannot be used, {error.strerror}") from error
         yield listener
 
 

@@ -1,0 +1,126 @@
+"""Items on the wire: they come back as they went, and only what an autopilot has to cut may differ."""
+
+from dataclasses import dataclass
+from math import copysign, inf, nan
+from struct import pack, unpack
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
+
+from loiter import Turn
+from loiter.io.items import Autopilot, Command, Frame, Mission, MissionItem
+from loiter.io.signs import circle, with_circle
+from loiter.mavlink.link import Vehicle
+from loiter.mavlink.stored import compared, decoded, encoded, packet, same, unpacked
+
+PX4, PLANE, OTHER = (Vehicle(1, 1, code) for code in (Autopilot.PX4, Autopilot.ARDUPILOT, 0))
+HOME = (47.0, 8.0, 400.0)
+singles = st.floats(width=32, allow_infinity=False, min_value=-(2.0**100), max_value=2.0**100)
+frames = st.sampled_from([Frame.ABOVE_SEA, Frame.ABOVE_HOME, Frame.ABOVE_TERRAIN])
+commands = st.one_of(st.integers(0, 65535), st.sampled_from(list(Command)))
+latitudes = st.integers(-900000000, 900000000).map(lambda x: x / 1e7)
+longitudes = st.integers(-1800000000, 1800000000).map(lambda x: x / 1e7)
+altitudes = st.floats(-1000.0, 50000.0, width=32)
+items = st.builds(
+    MissionItem, commands, frames, st.tuples(*[singles] * 4), latitudes, longitudes, altitudes, st.booleans()
+)
+
+
+def through(item, vehicle):
+    """An item packed, parsed by pymavlink and read."""
+    mav = mavlink.MAVLink(None, 250, 190)
+    return unpacked(mav.decode(bytearray(packet(item, 3, vehicle).pack(mav))))
+
+
+def single(value):
+    return unpack("<f", pack("<f", value))[0]
+
+
+@given(item=items, vehicle=st.sampled_from([PX4, PLANE, OTHER]))
+def test_an_item_comes_back_as_it_went(item, vehicle):
+    sent = encoded(Mission((item,), HOME), vehicle)
+    back = [through(each, vehicle) for each in sent]
+    assert repr(back) == repr(sent)
+    assert compared(sent, back, vehicle) == ([], [])
+    assert same(back, sent, vehicle)
+    assert repr(decoded(back, vehicle).items) == repr(
+        (item._replace(frame=int(item.frame), command=int(item.command)),)
+    )
+
+
+@given(lon=st.floats(-360.0, 360.0))
+@example(lon=181.0)
+@example(lon=-359.5)
+def test_longitudes_are_counted_from_0_or_from_180(lon):
+    (sent,) = encoded(Mission((MissionItem(16, 0, (0.0,) * 4, 1.0, lon, 5.0),), HOME), OTHER)
+    assert abs(sent.y) <= 1800000000
+    assert (sent.y / 1e7 - lon + 180.0) % 360.0 == pytest.approx(180.0, abs=1e-6)
+
+
+@dataclass
+class Kept:
+    """What AP_Mission keeps of a loiter, for aeroplanes: whole metres in 16 or 8 bits, and a bit for the direction."""
+
+    command: int
+
+    def of(self, item):
+        a, b, c, d = item.params
+        whole = {
+            17: (0.0, 0.0, float(int(c)), 0.0),
+            18: (float(min(255, int(a))), 0.0, self.tens(c), float(d > 0.0)),
+            19: (float(int(a)), 0.0, copysign(1.0, c), float(d > 0.0)),
+            31: (0.0, float(int(b)), 0.0, float(d > 0.0)),
+        }
+        return item._replace(
+            params=whole[self.command], z=single(int(single(item.z * 100.0)) * single(0.01)), autocontinue=1
+        )
+
+    @staticmethod
+    def tens(radius):
+        kept = float(int(abs(radius)) if abs(radius) <= 255.0 else 10 * min(255, int(abs(radius) * 0.1)))
+        return copysign(kept, radius)
+
+
+@pytest.mark.parametrize("command", [17, 18, 19, 31])
+@given(radius=st.floats(1.0, 5000.0, width=32), turn=st.sampled_from([Turn.CW, Turn.CCW]), z=altitudes)
+def test_what_ardupilot_cuts_is_expected_and_another_direction_is_not(command, radius, turn, z):
+    params = with_circle(command, (2.5, 0.0, 0.0, 1.0), radius, turn)
+    sent = encoded(Mission((MissionItem(command, 0, params, 47.0, 8.0, z),), HOME), PLANE)
+    stored = [sent[0]._replace(x=1, y=2), Kept(command).of(sent[1])]
+    wrong, cut = compared(sent, stored, PLANE)
+    assert wrong == []
+    assert all(sentence.startswith("item 1 has ") for sentence in cut)
+    # The same items from a vehicle of another kind are not what was sent.
+    assert compared(sent, stored, Vehicle(1, 1, 0))[0] or not cut
+    flipped = [
+        -value if value and i == (1 if command == 31 else 2) else value for i, value in enumerate(stored[1].params)
+    ]
+    other = [stored[0], stored[1]._replace(params=tuple(flipped))]
+    assert any("for parameter" in sentence for sentence in compared(sent, other, PLANE)[0])
+
+
+@pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
+def test_px4_answers_with_twin_frames_and_what_it_uses(turn):
+    params = with_circle(17, (0.0, 0.0, 0.0, -90.0), 80.5, turn)
+    sent = encoded(Mission((MissionItem(17, Frame.ABOVE_HOME, params, 47.0, 8.0, 50.0),), HOME), PX4)
+    stored = [sent[0]._replace(frame=6, params=(0.0, 0.0, sent[0].params[2], single(269.99998)))]
+    assert compared(sent, stored, PX4) == ([], ["item 1 has 269.999969 for parameter 4, not -90"])
+    assert circle(17, decoded(stored, PX4).items[0].params) == (80.5, turn)
+    assert decoded(stored, PX4).items[0].frame == Frame.ABOVE_HOME
+    assert compared(sent, [stored[0]._replace(frame=5)], PX4)[0] == ["item 1 has 0 for frame, not 3"]
+
+
+def test_the_home_of_ardupilot_is_its_own_and_is_not_compared():
+    sent = encoded(Mission((MissionItem(16, 0, (0.0,) * 4, 47.0, 8.0, 5.0),), HOME), PLANE)
+    assert (sent[0].command, sent[0].x, sent[0].y, sent[0].z) == (16, 470000000, 80000000, 400.0)
+    assert compared(sent, [sent[0]._replace(x=0, y=0, z=0.0), sent[1]], PLANE) == ([], [])
+    assert len(encoded(Mission((MissionItem(16, 0, (0.0,) * 4, 47.0, 8.0, 5.0),), (nan, nan, nan)), PX4)) == 1
+
+
+def test_nan_is_nan_and_not_a_number():
+    sent = encoded(Mission((MissionItem(16, 0, (0.0, 0.0, 0.0, nan), 47.0, 8.0, 5.0),), HOME), OTHER)
+    assert compared(sent, sent, OTHER) == ([], [])
+    for other in (0.0, inf):
+        assert compared(sent, [sent[0]._replace(params=(0.0, 0.0, 0.0, other))], OTHER)[0]

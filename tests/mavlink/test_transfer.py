@@ -1,0 +1,63 @@
+"""The protocol without sockets and without time: whatever is lost or doubled, the new mission or the old one."""
+
+from itertools import chain, repeat
+from random import Random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from loiter.errors import LinkFailed
+from loiter.mavlink.missions import TIMEOUT_S
+from mavlink.vehicle import OLD, Plane, Vehicle, kept, mission, simulated
+
+NEW = mission("ccw")
+
+
+def whole(vehicle):
+    return kept(NEW) if vehicle.autopilot != 3 else [Plane.home, *kept(NEW)]
+
+
+@pytest.mark.parametrize("kind", [Vehicle, Plane])
+@given(fates=st.lists(st.sampled_from([0, 1, 2]), max_size=120))
+@settings(max_examples=150, deadline=None)
+def test_the_new_mission_or_the_old_one_whatever_is_lost_or_doubled(kind, fates):
+    vehicle = kind([Plane.home, *OLD[1:]] if kind is Plane else OLD)
+    fate = chain(fates, repeat(1))
+    done, _ = simulated(vehicle, NEW, lambda: next(fate))
+    if isinstance(done, LinkFailed):
+        assert vehicle.mission[1:] == OLD[1:] or "is not known" in str(done)
+    else:
+        assert vehicle.mission == whole(vehicle)
+
+
+@pytest.mark.parametrize("kind", [Vehicle, Plane])
+@given(seed=st.integers(0, 10**9))
+@settings(max_examples=100, deadline=None)
+def test_one_packet_of_five_lost_each_way_stops_nothing(kind, seed):
+    vehicle, chance = kind(), Random(seed)
+    done, seconds = simulated(vehicle, NEW, lambda: int(chance.random() >= 0.2))
+    assert not isinstance(done, LinkFailed), done
+    assert vehicle.mission == whole(vehicle)
+    assert seconds < 60.0
+
+
+def test_without_losses_no_message_is_sent_twice():
+    vehicle = Vehicle()
+    simulated(vehicle, NEW)
+    assert vehicle.heard["MISSION_COUNT"] == 1
+    assert vehicle.heard["MISSION_ITEM_INT"] == len(NEW.items)
+    assert vehicle.heard["MISSION_REQUEST_LIST"] == 2
+    assert vehicle.heard["MISSION_REQUEST_INT"] == len(OLD) + len(NEW.items)
+    assert vehicle.heard["MISSION_ACK"] == 2
+
+
+@pytest.mark.parametrize("last", range(0, 34, 2))
+def test_a_line_that_dies_is_given_up_in_time(last):
+    """A time-out without progress, or the last item four times over, and time-outs to ask for what it has and had."""
+    left = iter(range(last))
+    vehicle = Vehicle()
+    done, seconds = simulated(vehicle, NEW, lambda: int(next(left, None) is not None))
+    assert isinstance(done, LinkFailed)
+    assert seconds < 2.0 * TIMEOUT_S + 4.0 * 1.5 + 0.5
+    assert vehicle.mission in (OLD, kept(NEW))
