@@ -7,8 +7,8 @@
  * @typedef {import("./types.js").Proof} Proof
  * @typedef {import("./plan.js").Shown} Shown
  */
-import { sorted } from "./plan.js";
 import { byId, html, wordOf } from "./svg.js";
+import { sorted } from "./track.js";
 import { decimalsFor, difference, fixed, length } from "./units.js";
 
 const TURNS = { cw: "clockwise", ccw: "counter-clockwise" };
@@ -40,7 +40,12 @@ export function answerView(hover) {
     facts.path.textContent = length(answer.length_m, units, decimalsFor(scene.orbit.radius_m, units));
     facts.word.replaceChildren(wordOf(answer.word), html("small", {}, [TURNS[answer.turn]]));
     facts.other.textContent = otherWay(answer);
-    facts.optimal.replaceChildren(String(answer.optimal), html("small", {}, [best.length > 1 ? best.map(({ word, turn }) => `${word} ${ROUND[turn]}`).join(", ") : "unique"]));
+    facts.optimal.replaceChildren(
+      String(answer.optimal),
+      html("small", {}, [
+        best.length > 1 ? best.map(({ word, turn }) => `${word} ${ROUND[turn]}`).join(", ") : "unique",
+      ]),
+    );
     facts.bank.textContent = banks(answer);
   }
 
@@ -66,7 +71,12 @@ export function answerView(hover) {
    * @param {number} [index]
    */
   function row({ word, turn, duration_s }, later, kind, index) {
-    const cells = [wordOf(word), html("span", { class: "round", title: TURNS[turn] }, [ROUND[turn], html("span", { class: "sr" }, [TURNS[turn]])]), html("span", { class: "duration" }, [`${fixed(duration_s, 2)} s`]), html("span", { class: "later" }, [later])];
+    const cells = [
+      wordOf(word),
+      html("span", { class: "round", title: TURNS[turn] }, [ROUND[turn], html("span", { class: "sr" }, [TURNS[turn]])]),
+      html("span", { class: "duration" }, [`${fixed(duration_s, 2)} s`]),
+      html("span", { class: "later" }, [later]),
+    ];
     const item = html("li", { class: kind });
     if (index === undefined) item.append(html("span", { class: "row" }, cells));
     else {
@@ -84,10 +94,12 @@ export function answerView(hover) {
     buttons.forEach((button, i) => button.classList.toggle("lit", i === index));
   }
 
-  /** @param {Proof | null} proof */
+  /** @param {Proof | null} proof  null while it is under way */
   function prove(proof) {
-    verdict.className = proof ? (proof.certificate.valid ? "valid" : "invalid") : "";
-    verdict.textContent = proof ? judged(proof) : "…";
+    verdict.classList.toggle("waiting", proof === null);
+    if (!proof) return;
+    verdict.className = proof.certificate.valid ? "valid" : "invalid";
+    verdict.textContent = judged(proof);
   }
   return { draw, drawList, highlight, prove };
 }
@@ -109,6 +121,8 @@ function banks({ hold }) {
 function judged({ certificate }) {
   const { valid, residuals, runner_up, margin_s } = certificate;
   if (!valid) return "Some condition of the maximum principle fails; loiter plan --certify tells which.";
-  const margin = runner_up !== null && margin_s !== null ? ` Runner-up ${runner_up}, ${difference(margin_s)} later.` : "";
-  return `All ${residuals.length} conditions hold.${margin}`;
+  const margin =
+    runner_up !== null && margin_s !== null ? ` Runner-up ${runner_up}, ${difference(margin_s)} later.` : "";
+  const held = residuals.filter(({ verdict }) => verdict === "holds").length;
+  return `All ${held} conditions hold.${margin}`;
 }

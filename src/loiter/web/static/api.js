@@ -14,7 +14,9 @@ export class Problem extends Error {}
  * @returns {Promise<Response>}
  */
 export async function post(path, body) {
-  return checked(fetch(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) }));
+  return checked(
+    fetch(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) }),
+  );
 }
 
 /**

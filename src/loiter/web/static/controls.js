@@ -37,12 +37,23 @@ const FIELDS = {
   "centre-east": { quantity: "length", get: ({ orbit }) => orbit.east_m, set: inOrbit("east_m") },
   "centre-north": { quantity: "length", get: ({ orbit }) => orbit.north_m, set: inOrbit("north_m") },
   "circle-radius": { quantity: "length", get: ({ orbit }) => orbit.radius_m, set: inOrbit("radius_m") },
-  "velocity-east": { quantity: "speed", get: ({ orbit }) => orbit.velocity_east_m_s, set: inOrbit("velocity_east_m_s") },
-  "velocity-north": { quantity: "speed", get: ({ orbit }) => orbit.velocity_north_m_s, set: inOrbit("velocity_north_m_s") },
+  "velocity-east": {
+    quantity: "speed",
+    get: ({ orbit }) => orbit.velocity_east_m_s,
+    set: inOrbit("velocity_east_m_s"),
+  },
+  "velocity-north": {
+    quantity: "speed",
+    get: ({ orbit }) => orbit.velocity_north_m_s,
+    set: inOrbit("velocity_north_m_s"),
+  },
   "wind-speed": {
     quantity: "speed",
     get: ({ wind }) => wind?.speed_m_s ?? 0,
-    set: (scene, speed_m_s) => ({ ...scene, wind: speed_m_s === 0 ? null : { speed_m_s, from_deg: scene.wind?.from_deg ?? 270 } }),
+    set: (scene, speed_m_s) => ({
+      ...scene,
+      wind: speed_m_s === 0 ? null : { speed_m_s, from_deg: scene.wind?.from_deg ?? 270 },
+    }),
   },
   "wind-from": {
     quantity: "degrees",
@@ -69,11 +80,15 @@ const LIMIT_FIELD = {
 export function controls(shown, change, complain) {
   const inputs = Object.fromEntries([...Object.keys(FIELDS), "limit"].map((id) => [id, byId(id, HTMLInputElement)]));
   const kind = byId("limit-kind", HTMLSelectElement);
-  const turns = Array.from(document.querySelectorAll("input[name=turn]")).filter((each) => each instanceof HTMLInputElement);
+  const turns = Array.from(document.querySelectorAll("input[name=turn]")).filter(
+    (each) => each instanceof HTMLInputElement,
+  );
 
   /** @param {string} id @param {Scene} scene @returns {{field: Field, quantity: Quantity}} */
   const fieldOf = (id, scene) =>
-    id === "limit" ? { field: LIMIT_FIELD, quantity: QUANTITIES[limitOf(scene)] } : { field: FIELDS[id], quantity: FIELDS[id].quantity };
+    id === "limit"
+      ? { field: LIMIT_FIELD, quantity: QUANTITIES[limitOf(scene)] }
+      : { field: FIELDS[id], quantity: FIELDS[id].quantity };
 
   for (const [id, input] of Object.entries(inputs))
     input.addEventListener("input", (event) => {
@@ -126,4 +141,5 @@ export function controls(shown, change, complain) {
 const shortened = (value) => Number(value.toPrecision(7));
 
 /** @param {HTMLInputElement} input */
-const labelOf = (input) => input.getAttribute("aria-label") ?? input.labels?.[0]?.querySelector("span")?.textContent ?? "The field";
+const labelOf = (input) =>
+  input.getAttribute("aria-label") ?? input.labels?.[0]?.querySelector("span")?.textContent ?? "The field";

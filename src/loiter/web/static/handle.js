@@ -10,6 +10,11 @@
  * @property {(right: number, up: number, event: Event) => void} by  move it by steps: 1, with shift 10
  */
 
+import { set } from "./svg.js";
+
+// A slider has to have ends; the plane has none.
+const FAR = 1e9;
+
 /** @type {Record<string, Point>} */
 const ARROWS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
@@ -35,7 +40,7 @@ export function pointOf(drawing, event) {
  */
 export function makeHandle(group, drawing, label, moves) {
   group.classList.add("handle");
-  for (const [name, value] of Object.entries({ tabindex: "0", role: "slider", "aria-label": label })) group.setAttribute(name, value);
+  set(group, { tabindex: 0, role: "slider", "aria-label": label, "aria-valuemin": -FAR, "aria-valuemax": FAR });
   drags(group, drawing, moves);
   group.addEventListener("keydown", (event) => {
     const arrow = ARROWS[event.key];
@@ -90,7 +95,6 @@ function drags(group, drawing, { where, to }) {
  * @param {string} text
  */
 export function place(group, [x, y], value, text) {
-  group.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
-  group.setAttribute("aria-valuenow", String(value));
-  group.setAttribute("aria-valuetext", text);
+  const transform = `translate(${x.toFixed(2)} ${y.toFixed(2)})`;
+  set(group, { transform, "aria-valuenow": value, "aria-valuetext": text });
 }

@@ -27,14 +27,20 @@ const CELLS = 280; // of the map, a side: 1.5 pixels each, and the curves cover 
 
 /** @type {{scene: Scene, units: Units, answer: Answer | null, asked: number, drawn: number}} */
 const state = { scene: PRESETS[0].scene, units: "metric", answer: null, asked: 0, drawn: 0 };
-const shown = () => ({ ...state, stale: failed });
+const shown = () => state;
 const message = byId("message", HTMLElement);
 const spoken = byId("spoken", HTMLElement);
 const plan = byId("plan", SVGSVGElement);
 let failed = false;
 let fitNext = true;
+/** @type {number[] | null} */
+let spanNext = null; // the view of the link that was opened
 
-/** Pointer moves whose path is not drawn yet: the scene's number and when the move happened. @type {{asked: number, at: number}[]} */
+/**
+ * Pointer moves whose path is not drawn yet: the scene's number and when the move happened.
+ *
+ * @type {{asked: number, at: number}[]}
+ */
 const moves = [];
 
 /**
@@ -57,37 +63,48 @@ function change(scene, event) {
   state.asked += 1;
   if (event instanceof PointerEvent) moves.push({ asked: state.asked, at: event.timeStamp });
   plan.dataset.asked = String(state.asked);
-  view.draw();
+  view.drawScene();
   panel.draw(shown());
   ask({ scene, number: state.asked });
   rest();
 }
 
 const ask = latest(
-  async (/** @type {{scene: Scene, number: number}} */ { scene }) => /** @type {Answer} */ (await (await post("/api/plan", scene)).json()),
+  async (/** @type {{scene: Scene, number: number}} */ { scene }) =>
+    /** @type {Answer} */ (await (await post("/api/plan", scene)).json()),
   (answer, { number }) => {
-    failed = false;
+    if (failed) say("");
+    fail(false);
     [state.answer, state.drawn] = [answer, number];
     answered();
   },
   (error, { number }) => {
-    failed = true;
+    fail(true);
     state.drawn = number;
     settle(number);
     say(error.message, true);
-    view.draw();
     plan.dataset.drawn = String(number);
   },
 );
+
+/**
+ * The last good plan stays, faint, while a scene has none.
+ *
+ * @param {boolean} on
+ */
+function fail(on) {
+  failed = on;
+  byId("main", HTMLElement).classList.toggle("stale", on);
+}
 
 function answered() {
   if (fitNext) arrive(state.answer);
   else view.drawAnswer();
   settle(state.drawn);
-  if (message.classList.contains("bad")) say("");
   words.draw(shown());
   reduced.draw();
   line.plan(state.answer);
+  words.prove(null);
   fly(ghost.time());
   plan.dataset.drawn = String(state.drawn);
 }
@@ -100,6 +117,8 @@ function answered() {
 function arrive(answer) {
   fitNext = false;
   view.fit();
+  if (spanNext) view.showSpan(spanNext);
+  spanNext = null;
   speed(speedFor(answer?.duration_s ?? 0));
 }
 
@@ -122,43 +141,82 @@ function rest() {
   clearTimeout(resting);
   resting = window.setTimeout(async () => {
     if (state.drawn < state.asked) return rest();
-    history.replaceState(null, "", toLink(state.scene, state.units));
-    if (failed || !state.answer) return;
+    relink();
+    if (failed || !state.answer) return rested();
     spoken.textContent = state.answer.instruction;
     words.drawList(shown());
     taking.draw();
-    askProof({ scene: state.scene, number: state.asked });
     askMap(state.answer);
+    askProof({ scene: state.scene, number: state.asked });
   }, REST_MS);
 }
 
+const link = () => toLink(state.scene, state.units, view.span());
+const relink = () => history.replaceState(null, "", link());
+let looking = 0;
+/** The address follows the view once it rests. */
+function moved() {
+  clearTimeout(looking);
+  looking = window.setTimeout(relink, REST_MS);
+}
+
 const askProof = latest(
-  async (/** @type {{scene: Scene, number: number}} */ { scene }) => /** @type {Proof} */ (await (await post("/api/certificate", scene)).json()),
+  async (/** @type {{scene: Scene, number: number}} */ { scene }) =>
+    /** @type {Proof} */ (await (await post("/api/certificate", scene)).json()),
   (proof, { number }) => {
-    if (number !== state.asked) return;
-    line.prove(proof);
-    words.prove(proof);
+    proved = number;
+    if (number === state.asked) [line, words].forEach((each) => each.prove(proof));
     fly(ghost.time());
-    plan.dataset.proved = String(number);
+    rested();
   },
-  (error) => say(error.message, true),
+  (error, { number }) => {
+    proved = number;
+    say(error.message, true);
+    rested();
+  },
 );
 
-let mapped = "";
+let proved = 0;
+let mapped = ""; // the map that is asked for
+let mapShown = "";
 const askMapAt = latest(
   async (/** @type {string} */ query) => /** @type {Synthesis} */ (await (await get(`/api/synthesis?${query}`)).json()),
-  (synthesis) => reduced.map(synthesis),
-  (error) => say(error.message, true),
+  (synthesis, query) => {
+    mapShown = query;
+    reduced.map(synthesis);
+    rested();
+  },
+  (error) => {
+    mapped = mapShown;
+    say(error.message, true);
+    rested();
+  },
 );
+
+/** Tell those who watch that nothing is under way any more. */
+function rested() {
+  const quiet = failed || (proved === state.asked && mapped === mapShown);
+  if (quiet && state.drawn === state.asked) plan.dataset.rested = String(state.asked);
+}
 
 /** @param {Answer} answer */
 function askMap({ reduced: here }) {
-  const windy = state.scene.wind !== null || state.scene.orbit.velocity_east_m_s !== 0 || state.scene.orbit.velocity_north_m_s !== 0;
+  const { turn } = state.scene.orbit;
+  const windy =
+    state.scene.wind !== null ||
+    state.scene.orbit.velocity_east_m_s !== 0 ||
+    state.scene.orbit.velocity_north_m_s !== 0;
   byId("map", HTMLElement).classList.toggle("windy", windy);
   // Circles of the turn radius come out a rounding off; the map is that of the kernel, from 1 up.
   const radius = Math.max(1, Number(here.radius.toFixed(3)));
-  byId("map-title", HTMLElement).textContent = `R = ${Number(radius.toPrecision(3))}, ${state.scene.orbit.turn === "either" ? "either way" : state.scene.orbit.turn}`;
-  const query = new URLSearchParams({ radius: String(radius), turn: state.scene.orbit.turn, reach: String(reachFor(radius, here)), cells: String(CELLS) }).toString();
+  byId("map-title", HTMLElement).textContent =
+    `R = ${Number(radius.toPrecision(3))}, ${turn === "either" ? "either way" : turn}`;
+  const query = new URLSearchParams({
+    radius: String(radius),
+    turn: state.scene.orbit.turn,
+    reach: String(reachFor(radius, here)),
+    cells: String(CELLS),
+  }).toString();
   if (query !== mapped) askMapAt(query);
   mapped = query;
 }
@@ -183,7 +241,7 @@ function hover(index) {
 
 const slider = byId("clock", HTMLInputElement);
 const ghost = clock(() => state.answer?.duration_s ?? 0, fly);
-const view = planView(shown, change, hover);
+const view = planView(shown, change, hover, moved);
 const reduced = reducedView(shown, (x, y, event) => {
   if (!state.answer) return;
   const place = placeOf(x, y, state.scene, state.answer.aircraft.turn_radius_m);
@@ -192,7 +250,7 @@ const reduced = reducedView(shown, (x, y, event) => {
 const line = timeLine((time) => ghost.seek(time));
 const words = answerView(hover);
 const panel = controls(shown, typed, (sentence) => say(sentence, true));
-const taking = takeAway(shown, () => location.origin + location.pathname + toLink(state.scene, state.units), say);
+const taking = takeAway(shown, () => location.origin + location.pathname + link(), say);
 
 /** @param {Scene} scene @param {Event} event */
 function typed(scene, event) {
@@ -216,9 +274,11 @@ function begin(scene) {
 function open() {
   if (location.hash.length < 2) return begin(PRESETS[0].scene);
   try {
-    const { scene, units } = fromLink(location.hash);
+    const { scene, units, view: span } = fromLink(location.hash);
     [state.units, unitsChoice.value] = [units, units];
     begin(scene);
+    showOrigin(scene);
+    spanNext = span;
   } catch (error) {
     begin(PRESETS[0].scene);
     say(/** @type {Error} */ (error).message, true);
@@ -248,8 +308,9 @@ function wire() {
   speeds.addEventListener("change", () => ghost.setSpeed(Number(speeds.value)));
   play.addEventListener("click", () => playing(!ghost.playing()));
   slider.addEventListener("input", () => {
+    const share = Number(slider.value) / 1000;
     playing(false);
-    ghost.seek((Number(slider.value) / 1000) * (state.answer?.duration_s ?? 0));
+    ghost.seek(share * (state.answer?.duration_s ?? 0));
   });
   const presets = byId("presets", HTMLElement);
   presets.append(
@@ -273,8 +334,15 @@ function wire() {
   addEventListener("hashchange", open);
 }
 
+const [latitude, longitude] = ["latitude", "longitude"].map((id) => byId(id, HTMLInputElement));
+
+/** @param {Scene} scene */
+function showOrigin({ origin }) {
+  latitude.value = String(origin?.latitude_deg ?? "");
+  longitude.value = String(origin?.longitude_deg ?? "");
+}
+
 function wireOrigin() {
-  const [latitude, longitude] = ["latitude", "longitude"].map((id) => byId(id, HTMLInputElement));
   for (const input of [latitude, longitude])
     input.addEventListener("input", () => {
       const [latitude_deg, longitude_deg] = [latitude.valueAsNumber, longitude.valueAsNumber];
@@ -285,7 +353,11 @@ function wireOrigin() {
 
 /** Drawings are as large as their boxes. */
 function follow() {
-  const boxes = { plan: byId("plan-box", HTMLElement), map: byId("map", HTMLElement), line: byId("line-box", HTMLElement) };
+  const boxes = {
+    plan: byId("plan-box", HTMLElement),
+    map: byId("map", HTMLElement),
+    line: byId("line-box", HTMLElement),
+  };
   const measure = () => {
     view.resize(Math.round(boxes.plan.clientWidth), Math.round(boxes.plan.clientHeight));
     reduced.resize(Math.round(boxes.map.clientWidth));

@@ -10,15 +10,25 @@
  * @typedef {import("./view.js").Point} Point
  */
 import { makeHandle, place } from "./handle.js";
-import { sorted } from "./plan.js";
 import { byId, polyline, set, show, svg } from "./svg.js";
-import { pieces } from "./track.js";
+import { pieces, sorted } from "./track.js";
 import { fixed, nice, tidy } from "./units.js";
 import { toScreen, toWorld } from "./view.js";
 
 /** How strongly a word shades its region: the hue is that of its first control. */
 const STRENGTH = /** @type {Record<string, number>} */ ({
-  RSR: 0.18, RSL: 0.3, RL: 0.52, RLR: 0.72, R: 0.72, LSR: 0.18, LSL: 0.3, LR: 0.52, LRL: 0.72, L: 0.72, SR: 0.6, SL: 0.6,
+  RSR: 0.18,
+  RSL: 0.3,
+  RL: 0.52,
+  RLR: 0.72,
+  R: 0.72,
+  LSR: 0.18,
+  LSL: 0.3,
+  LR: 0.52,
+  LRL: 0.72,
+  L: 0.72,
+  SR: 0.6,
+  SL: 0.6,
 });
 
 /**
@@ -40,14 +50,16 @@ export function reachFor(radius, { x, y }) {
 export function reducedView(shown, move) {
   const canvas = byId("regions", HTMLCanvasElement);
   const root = byId("reduced", SVGSVGElement);
-  const [axes, curves, words, path, targets] = ["axes", "curves", "words", "way", "targets"].map((name) => svg("g", { class: `layer ${name}` }));
+  const [axes, curves, words, path, targets] = ["axes", "curves", "words", "way", "targets"].map((name) =>
+    svg("g", { class: `layer ${name}` }),
+  );
   const ghost = svg("circle", { r: 5, class: "ghostdot" });
   const state = svg("g", { id: "state" }, [
     svg("circle", { r: 18, class: "touch" }),
     svg("circle", { r: 12, class: "focus" }),
     svg("circle", { r: 7, class: "statedot" }),
   ]);
-  root.append(axes, curves, words, path, targets, ghost, state);
+  root.append(axes, curves, path, words, targets, ghost, state);
   /** @type {View} */
   let view = { scale: 40, east: 0, north: 0, width: 380, height: 380 };
   /** @type {Synthesis | null} */
@@ -153,7 +165,9 @@ function paint(canvas, { region, words, x, y }) {
  * @returns {[number, number, number, number]}
  */
 function shade(word) {
-  const hue = getComputedStyle(document.documentElement).getPropertyValue(`--${word[0] || "S"}`).trim();
+  const hue = getComputedStyle(document.documentElement)
+    .getPropertyValue(`--${word[0] || "S"}`)
+    .trim();
   const [r, g, b] = [1, 3, 5].map((i) => parseInt(hue.slice(i, i + 2), 16));
   return [r, g, b, Math.round(255 * (STRENGTH[word] ?? 0.4))];
 }
@@ -221,7 +235,8 @@ function labels(view, { region, words, x, y }) {
 function deepest(rows, index) {
   const width = rows[0].length;
   const steps = rows.map((row) => row.map((value) => (value === index ? Infinity : 0)));
-  const reach = (/** @type {number} */ j, /** @type {number} */ i) => (j < 0 || i < 0 || j >= rows.length || i >= width ? 0 : steps[j][i]);
+  const reach = (/** @type {number} */ j, /** @type {number} */ i) =>
+    j < 0 || i < 0 || j >= rows.length || i >= width ? 0 : steps[j][i];
   let found = { depth: 0, row: 0, column: 0 };
   for (let j = 0; j < rows.length; j++)
     for (let i = 0; i < width; i++) steps[j][i] = Math.min(steps[j][i], reach(j - 1, i) + 1, reach(j, i - 1) + 1);
@@ -241,7 +256,10 @@ function deepest(rows, index) {
  * @param {Synthesis} synthesis
  */
 function goals(view, { radius, turn }) {
-  const ends = [{ turn: "cw", y: radius }, { turn: "ccw", y: -radius }].filter((end) => turn === "either" || turn === end.turn);
+  const ends = [
+    { turn: "cw", y: radius },
+    { turn: "ccw", y: -radius },
+  ].filter((end) => turn === "either" || turn === end.turn);
   return ends.map((end) => {
     const [cx, cy] = toScreen(view, 0, end.y);
     return svg("circle", { cx, cy, r: 4.5 });
@@ -254,6 +272,12 @@ function goals(view, { radius, turn }) {
  */
 function drawWay(view, maneuver) {
   const { x, y } = maneuver.track;
-  const lines = pieces(maneuver).map(({ letter, indices }) => ({ letter, d: polyline(indices.map((i) => toScreen(view, x[i], y[i]))) }));
-  return [...lines.map(({ d }) => svg("path", { d, class: "casing" })), ...lines.map(({ d, letter }) => svg("path", { d, class: `piece ${letter}` }))];
+  const lines = pieces(maneuver).map(({ letter, indices }) => ({
+    letter,
+    d: polyline(indices.map((i) => toScreen(view, x[i], y[i]))),
+  }));
+  return [
+    ...lines.map(({ d }) => svg("path", { d, class: "casing" })),
+    ...lines.map(({ d, letter }) => svg("path", { d, class: `piece ${letter}` })),
+  ];
 }

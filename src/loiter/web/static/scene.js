@@ -64,13 +64,15 @@ export function limitOf(given) {
 }
 
 /**
- * A scene and the units it is shown in as the fragment of a link, in the names of the command line's options.
+ * A scene, the units it is shown in and the view, if it is the user's own, as the fragment of a link, in the names of
+ * the command line's options.
  *
  * @param {Scene} given
  * @param {Units} units
+ * @param {number[] | null} view  middle east and north, width: metres
  * @returns {string}
  */
-export function toLink({ pose, orbit, aircraft, wind, tolerance_m, origin }, units) {
+export function toLink({ pose, orbit, aircraft, wind, tolerance_m, origin }, units, view) {
   const limit = limitOf({ pose, orbit, aircraft, wind, tolerance_m, origin });
   const parts = [
     `pose=${pose.east_m},${pose.north_m},${pose.heading_deg}`,
@@ -84,6 +86,7 @@ export function toLink({ pose, orbit, aircraft, wind, tolerance_m, origin }, uni
     parts.push(`orbit-velocity=${orbit.velocity_east_m_s},${orbit.velocity_north_m_s}`);
   if (tolerance_m !== 0) parts.push(`tolerance=${tolerance_m}`);
   if (origin) parts.push(`origin=${origin.latitude_deg},${origin.longitude_deg}`);
+  if (view) parts.push(`view=${view}`);
   if (units !== "metric") parts.push(`units=${units}`);
   return `#${parts.join("&")}`;
 }
@@ -92,24 +95,26 @@ export function toLink({ pose, orbit, aircraft, wind, tolerance_m, origin }, uni
  * What `toLink` wrote. Throws an Error with a sentence where the fragment is no scene.
  *
  * @param {string} hash
- * @returns {{scene: Scene, units: Units}}
+ * @returns {{scene: Scene, units: Units, view: number[] | null}}
  */
 export function fromLink(hash) {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
   const [east_m, north_m, heading_deg] = numbers(given, "pose", 3);
   const [centreEast, centreNorth, radius_m] = numbers(given, "orbit", 3);
+  const circle = { east_m: centreEast, north_m: centreNorth, radius_m };
   const limit = LIMITS.find((name) => given.has(LIMIT_KEYS[name])) ?? "max_bank_deg";
   const [velocity_east_m_s, velocity_north_m_s] = numbers(given, "orbit-velocity", 2, [0, 0]);
   return {
     scene: {
       pose: { east_m, north_m, heading_deg },
-      orbit: { ...{ east_m: centreEast, north_m: centreNorth, radius_m, turn: turnOf(given) }, velocity_east_m_s, velocity_north_m_s },
+      orbit: { ...circle, turn: turnOf(given), velocity_east_m_s, velocity_north_m_s },
       aircraft: { airspeed_m_s: numbers(given, "airspeed", 1)[0], [limit]: numbers(given, LIMIT_KEYS[limit], 1)[0] },
       wind: given.has("wind") ? windOf(numbers(given, "wind", 2)) : null,
       tolerance_m: numbers(given, "tolerance", 1, [0])[0],
       origin: given.has("origin") ? originOf(numbers(given, "origin", 2)) : null,
     },
     units: given.get("units") === "aviation" ? "aviation" : "metric",
+    view: given.has("view") ? numbers(given, "view", 3) : null,
   };
 }
 
@@ -142,6 +147,8 @@ function numbers(given, name, count, fallback) {
   if (text === null && fallback) return fallback;
   const values = (text ?? "").split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
   if (values.length !== count || !values.every(Number.isFinite))
-    throw new Error(`The link's ${name} is "${text ?? ""}": it needs ${count === 1 ? "a number" : `${count} numbers`}.`);
+    throw new Error(
+      `The link's ${name} is "${text ?? ""}": it needs ${count === 1 ? "a number" : `${count} numbers`}.`,
+    );
   return values;
 }

@@ -87,5 +87,9 @@ export function show(element, shown) {
  */
 export function wordOf(word) {
   if (!word) return html("span", { class: "word" }, ["on the circle"]);
-  return html("span", { class: "word" }, Array.from(word, (letter) => html("span", { class: letter }, [letter])));
+  return html(
+    "span",
+    { class: "word" },
+    Array.from(word, (letter) => html("span", { class: letter }, [letter])),
+  );
 }

@@ -28,7 +28,11 @@ export function takeAway(shown, link, say) {
   const list = byId("formats", HTMLElement);
   const altitude = byId("altitude", HTMLInputElement);
   for (const [format, name, use] of FORMATS) {
-    const button = html("button", { type: "button", title: use, "aria-label": `Save ${name}, ${use}`, "data-format": format }, [name]);
+    const button = html(
+      "button",
+      { type: "button", title: use, "aria-label": `Save ${name}, ${use}`, "data-format": format },
+      [name],
+    );
     button.addEventListener("click", () => fetchFile(format).catch((error) => say(error.message, true)));
     list.append(button);
   }
@@ -38,7 +42,8 @@ export function takeAway(shown, link, say) {
     const height = altitude.valueAsNumber;
     const body = { ...shown().scene, ...(Number.isFinite(height) ? { altitude_m: height } : {}) };
     const response = await post(`/api/export/${format}`, body);
-    const name = /filename="?([^";]+)"?/.exec(response.headers.get("Content-Disposition") ?? "")?.[1] ?? `entry.${format}`;
+    const name =
+      /filename="?([^";]+)"?/.exec(response.headers.get("Content-Disposition") ?? "")?.[1] ?? `entry.${format}`;
     save(await response.blob(), name);
     say(`${name} saved.`);
   }

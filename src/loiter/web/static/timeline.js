@@ -26,7 +26,9 @@ const AXIS = 166;
  */
 export function timeLine(seek) {
   const root = byId("timeline", SVGSVGElement);
-  const [back, strip, lines, ticks, reads] = ["back", "strip", "lines", "ticks", "reads"].map((name) => svg("g", { class: `layer ${name}` }));
+  const [back, strip, lines, ticks, reads] = ["back", "strip", "lines", "ticks", "reads"].map((name) =>
+    svg("g", { class: `layer ${name}` }),
+  );
   const cursor = svg("path", { class: "cursor" });
   root.append(back, strip, lines, ticks, cursor, reads);
   let width = 700;
@@ -53,8 +55,17 @@ export function timeLine(seek) {
 
   function draw() {
     const segments = answer?.segments ?? [];
-    strip.replaceChildren(...segments.flatMap(({ letter, start_s, duration_s }) => block(letter, across(start_s), across(start_s + duration_s))));
-    ticks.replaceChildren(...axis(end(), across, width), ...segments.slice(1).map(({ start_s }) => svg("path", { d: `M${across(start_s)} ${STRIP.top}V${AXIS - 12}`, class: "switchline" })));
+    strip.replaceChildren(
+      ...segments.flatMap(({ letter, start_s, duration_s }) =>
+        block(letter, across(start_s), across(start_s + duration_s)),
+      ),
+    );
+    ticks.replaceChildren(
+      ...axis(end(), across, width),
+      ...segments
+        .slice(1)
+        .map(({ start_s }) => svg("path", { d: `M${across(start_s)} ${STRIP.top}V${AXIS - 12}`, class: "switchline" })),
+    );
     root.classList.toggle("unproved", proof === null);
     if (proof) drawProof(proof);
   }
@@ -64,14 +75,19 @@ export function timeLine(seek) {
     const psi = [...series.psi1, ...series.psi2, ...(certificate.lambda === null ? [] : [certificate.lambda]), 0];
     const phiY = scaleFor([...series.phi, 0], PHI);
     const psiY = scaleFor(psi, PSI);
-    const line = (/** @type {number[]} */ values, /** @type {(value: number) => number} */ y, /** @type {string} */ name) =>
-      svg("path", { d: polyline(values.map((value, i) => [across(series.time_s[i]), y(value)])), class: name });
+    const line = (
+      /** @type {number[]} */ values,
+      /** @type {(value: number) => number} */ y,
+      /** @type {string} */ name,
+    ) => svg("path", { d: polyline(values.map((value, i) => [across(series.time_s[i]), y(value)])), class: name });
     back.replaceChildren(...level(phiY(0), width), ...level(psiY(0), width), ...names());
     lines.replaceChildren(
       line(series.phi, phiY, "phi"),
       line(series.psi1, psiY, "psi1"),
       line(series.psi2, psiY, "psi2"),
-      ...(certificate.lambda === null ? [] : [svg("path", { d: `M${LEFT} ${psiY(certificate.lambda)}H${width - RIGHT}`, class: "lambda" })]),
+      ...(certificate.lambda === null
+        ? []
+        : [svg("path", { d: `M${LEFT} ${psiY(certificate.lambda)}H${width - RIGHT}`, class: "lambda" })]),
     );
   }
 
@@ -88,7 +104,13 @@ export function timeLine(seek) {
       svg("text", { x: width - RIGHT + 8, y: PHI.top + 30, class: "phi" }, [`φ ${fixed(read(phi), 3)}`]),
       svg("text", { x: width - RIGHT + 8, y: PSI.top + 16, class: "psi1" }, [`ψ₁ ${fixed(read(psi1), 3)}`]),
       svg("text", { x: width - RIGHT + 8, y: PSI.top + 34, class: "psi2" }, [`ψ₂ ${fixed(read(psi2), 3)}`]),
-      ...(proof.certificate.lambda === null ? [] : [svg("text", { x: width - RIGHT + 8, y: PSI.top + 52, class: "lam" }, [`λ ${fixed(proof.certificate.lambda, 3)}`])]),
+      ...(proof.certificate.lambda === null
+        ? []
+        : [
+            svg("text", { x: width - RIGHT + 8, y: PSI.top + 52, class: "lam" }, [
+              `λ ${fixed(proof.certificate.lambda, 3)}`,
+            ]),
+          ]),
     );
   }
 
@@ -99,7 +121,8 @@ export function timeLine(seek) {
     draw();
   }
 
-  const seekAt = (/** @type {PointerEvent} */ event) => seek(((pointOf(root, event)[0] - LEFT) / (width - LEFT - RIGHT)) * end());
+  const seekAt = (/** @type {PointerEvent} */ event) =>
+    seek(((pointOf(root, event)[0] - LEFT) / (width - LEFT - RIGHT)) * end());
   root.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     root.setPointerCapture(event.pointerId);
@@ -119,11 +142,20 @@ export function timeLine(seek) {
  * @param {number} to
  */
 function block(letter, from, to) {
-  const bar = svg("rect", { x: from, y: STRIP.top, width: Math.max(0.5, to - from), height: STRIP.height, class: `bar ${letter}` });
+  const bar = svg("rect", {
+    x: from,
+    y: STRIP.top,
+    width: Math.max(0.5, to - from),
+    height: STRIP.height,
+    class: `bar ${letter}`,
+  });
   if (to - from < 16) return [bar];
   const words = /** @type {Record<string, string>} */ ({ L: "left", S: "straight", R: "right" });
   const text = to - from < 64 ? letter : words[letter];
-  return [bar, svg("text", { x: (from + to) / 2, y: STRIP.top + 15.5, "text-anchor": "middle", class: "barname" }, [text])];
+  return [
+    bar,
+    svg("text", { x: (from + to) / 2, y: STRIP.top + 15.5, "text-anchor": "middle", class: "barname" }, [text]),
+  ];
 }
 
 /**
@@ -164,6 +196,8 @@ function axis(end, across, width) {
   const decimals = Math.max(0, -Math.floor(Math.log10(step)));
   const count = Math.floor(end / step + 1e-9);
   return Array.from({ length: count + 1 }, (_, k) =>
-    svg("text", { x: across(k * step), y: AXIS + 3, "text-anchor": "middle", class: "tick" }, [`${fixed(k * step, decimals)}${k === count ? " s" : ""}`]),
+    svg("text", { x: across(k * step), y: AXIS + 3, "text-anchor": "middle", class: "tick" }, [
+      `${fixed(k * step, decimals)}${k === count ? " s" : ""}`,
+    ]),
   );
 }

@@ -5,6 +5,8 @@
  * @typedef {import("./types.js").Track} Track
  * @typedef {import("./types.js").Maneuver} Maneuver
  * @typedef {import("./types.js").Letter} Letter
+ * @typedef {import("./types.js").Answer} Answer
+ * @typedef {import("./types.js").Alternative} Alternative
  * @typedef {{east_m: number, north_m: number, heading_deg: number, x: number, y: number}} Instant
  */
 
@@ -70,4 +72,15 @@ export function pieces(maneuver) {
     const end_s = start_s + duration_s;
     return { letter, indices: times.flatMap((t, i) => (t >= start_s - near && t <= end_s + near ? [i] : [])) };
   });
+}
+
+/**
+ * The optimal maneuvers of an answer, and the others.
+ *
+ * @param {Answer} answer
+ * @returns {{best: Maneuver[], others: Alternative[]}}
+ */
+export function sorted(answer) {
+  const { alternatives, optimal } = answer;
+  return { best: [answer, ...alternatives.slice(0, optimal - 1)], others: alternatives.slice(optimal - 1) };
 }

@@ -76,7 +76,7 @@
  *
  * @typedef {object} Proof
  * @property {{valid: boolean, lambda: number | null, runner_up: string | null, margin_s: number | null,
- *   residuals: {name: string}[]}} certificate
+ *   residuals: {name: string, verdict: "holds" | "FAILED" | "skipped"}[]}} certificate
  * @property {Series} series
  *
  * @typedef {{kind: string, words?: string[], x: (number | null)[], y: (number | null)[]}} Curve

@@ -89,7 +89,8 @@ export function tidy(value, resolution) {
   const decimals = Math.min(12, Math.max(-12, -Math.floor(Math.log10(resolution))));
   const unitSize = 10 ** -decimals;
   // Dividing by a whole power of ten rounds once; multiplying by its inverse would leave 0.30000000000000004.
-  const whole = decimals >= 0 ? Math.round(value * 10 ** decimals) / 10 ** decimals : Math.round(value / unitSize) * unitSize;
+  const whole =
+    decimals >= 0 ? Math.round(value * 10 ** decimals) / 10 ** decimals : Math.round(value / unitSize) * unitSize;
   return whole + 0;
 }
 
@@ -100,7 +101,7 @@ export function tidy(value, resolution) {
  */
 export function nice(least) {
   const power = 10 ** Math.floor(Math.log10(least));
-  return (/** @type {number} */ ([1, 2, 5, 10].find((step) => step * power >= least * (1 - 1e-12)))) * power;
+  return /** @type {number} */ ([1, 2, 5, 10].find((step) => step * power >= least * (1 - 1e-12))) * power;
 }
 
 /**

@@ -60,23 +60,31 @@ export function panned(view, dx, dy) {
   return { ...view, east: view.east - dx / view.scale, north: view.north + dy / view.scale };
 }
 
+/** @typedef {{left: number, right: number, top: number, bottom: number}} Margins pixels */
+
 /**
- * The view that shows all points with a margin.
+ * The view that shows all points within its margins.
  *
  * @param {View} view for its size
  * @param {Point[]} points east and north
- * @param {number} margin pixels
+ * @param {Margins} margins
  * @returns {View}
  */
-export function fitted(view, points, margin) {
+export function fitted(view, points, { left, right, top, bottom }) {
   const [east, north] = [0, 1].map((axis) => {
     const values = points.map((point) => point[axis]);
     return [Math.min(...values), Math.max(...values)];
   });
-  const wide = (view.width - 2 * margin) / Math.max(east[1] - east[0], Number.MIN_VALUE);
-  const high = (view.height - 2 * margin) / Math.max(north[1] - north[0], Number.MIN_VALUE);
+  const wide = (view.width - left - right) / Math.max(east[1] - east[0], Number.MIN_VALUE);
+  const high = (view.height - top - bottom) / Math.max(north[1] - north[0], Number.MIN_VALUE);
   const scale = Math.min(SCALES.most, Math.max(SCALES.least, Math.min(wide, high)));
-  return { ...view, scale, east: (east[0] + east[1]) / 2, north: (north[0] + north[1]) / 2 };
+  const middle = [(east[0] + east[1]) / 2, (north[0] + north[1]) / 2];
+  return {
+    ...view,
+    scale,
+    east: middle[0] + (right - left) / 2 / scale,
+    north: middle[1] + (top - bottom) / 2 / scale,
+  };
 }
 
 /**

@@ -1,0 +1,137 @@
+"""A real browser on a real server, and what it shows, as numbers."""
+
+import json
+import re
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from playwright.sync_api import sync_playwright
+
+import loiter
+
+SCRIPT = Path(sys.executable).with_name("loiter")
+CHROMIUM = "/usr/bin/chromium"
+# Nothing but the page: no phone home, no graphics card.
+ARGUMENTS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+
+# Chords of the tracks are off by less than this many turn radii (the service's promise); a path is drawn to a hundredth
+# of a pixel in each coordinate.
+CHORDS, PIXELS = 0.002, 0.0071
+
+
+@contextmanager
+def served():
+    """The address of a `loiter serve` of its own."""
+    with subprocess.Popen([SCRIPT, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True) as process:
+        try:
+            yield process.stdout.readline().strip()
+        finally:
+            process.terminate()
+            process.wait(20)
+
+
+@contextmanager
+def browsing():
+    """A Chromium without a window."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, headless=True, args=ARGUMENTS)
+        try:
+            yield browser
+        finally:
+            browser.close()
+
+
+def settle(page):
+    """Wait until everything that was asked for is drawn: path, map, certificate, link."""
+    page.wait_for_function(
+        """() => { const { asked, drawn, rested } = document.getElementById("plan").dataset;
+                   return asked !== undefined && drawn === asked && rested === asked; }"""
+    )
+
+
+def press(page, name):
+    """Press a button and wait for what follows."""
+    page.get_by_role("button", name=name, exact=True).click()
+    settle(page)
+
+
+def scene(page):
+    """What the page asks for: the service's request."""
+    return json.loads(page.locator("#plan").get_attribute("data-scene"))
+
+
+def values(asked):
+    """The library's values of a request: pose, orbit, aircraft, wind."""
+    wind = None if asked["wind"] is None else loiter.Wind(**asked["wind"])
+    return loiter.Pose(**asked["pose"]), loiter.Orbit(**asked["orbit"]), loiter.Aircraft(**asked["aircraft"]), wind
+
+
+def to_metres(page, points):
+    """Points of the plan view, in pixels, as east and north."""
+    data = page.locator("#plan").evaluate(
+        "plan => ({...plan.dataset, width: plan.clientWidth, height: plan.clientHeight})"
+    )
+    scale = float(data["scale"])
+    x, y = np.asarray(points, dtype=float).T
+    east = float(data["east"]) + (x - data["width"] / 2) / scale
+    north = float(data["north"]) - (y - data["height"] / 2) / scale
+    return np.column_stack([east, north]), scale
+
+
+def points_of(path):
+    """The vertices of an SVG path of M and L."""
+    return np.array([[float(number) for number in pair] for pair in re.findall(r"[ML](\S+?) (-?[\d.]+)", path)])
+
+
+def drawn(page):
+    """The optimal paths drawn: a list of (n, 2) in metres, and pixels per metre."""
+    paths = page.locator("#plan .best .casing").evaluate_all("paths => paths.map(path => path.getAttribute('d'))")
+    found = [to_metres(page, points_of(path)) for path in paths]
+    return [points for points, _ in found], found[0][1]
+
+
+def distance(points, line):
+    """The largest distance of points (n, 2) from a polyline (m, 2)."""
+    start, along = line[:-1], np.diff(line, axis=0)
+    away = points[:, np.newaxis] - start
+    length2 = np.maximum((along**2).sum(axis=1), 1e-300)
+    share = np.clip((away * along).sum(axis=2) / length2, 0.0, 1.0)
+    return np.hypot(*np.moveaxis(away - share[..., np.newaxis] * along, 2, 0)).min(axis=1).max()
+
+
+def assert_shows_the_plan(page):
+    """What is drawn and written is what the library says of what is asked; returns the first optimal maneuver."""
+    asked = values(scene(page))
+    best = loiter.plan_all(*asked)
+    paths, scale = drawn(page)
+    assert len(paths) == len(best)
+    for path, maneuver in zip(paths, best, strict=True):
+        flown = maneuver.sample(maneuver.duration_s / 2000.0)
+        exact = np.column_stack([flown.east_m, flown.north_m])
+        off = CHORDS * asked[2].turn_radius_m + PIXELS / scale
+        assert distance(path, exact) < off
+        assert distance(exact, path) < off
+        assert np.abs(path[[0, -1]] - exact[[0, -1]]).max() < PIXELS / scale
+    pieces = page.locator("#plan .best .piece").evaluate_all(
+        "all => all.map(one => [one.dataset.letter, one.getAttribute('d')])"
+    )
+    segments = [segment for maneuver in best for segment in maneuver.segments]
+    assert [letter for letter, _ in pieces] == [segment.letter for segment in segments]
+    for (_, path), segment in zip(pieces, segments, strict=True):
+        ends, scale = to_metres(page, points_of(path)[[0, -1]])
+        exact = [[pose.east_m, pose.north_m] for pose in (segment.start, segment.end)]
+        assert np.abs(ends - exact).max() < PIXELS / scale
+    decimals = 2 if asked[1].radius_m >= 10.0 else 3
+    assert page.locator("#time").inner_text() == f"{best[0].duration_s:.{decimals}f} s"
+    return best[0]

@@ -1,0 +1,516 @@
+"""The page in a real browser, on a real server, beside the library."""
+
+import json
+import sys
+from io import StringIO
+from math import hypot
+from subprocess import run
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+import loiter
+from golden.paper import EXAMPLES
+from loiter.kernel.codes import Word
+from web import browsing
+from web.browsing import assert_shows_the_plan, press, scene, settle, to_metres, values
+
+AXE = browsing.Path(sys.prefix) / "node" / "node_modules" / "axe-core" / "axe.min.js"
+DESK = {"width": 1440, "height": 900}
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
+HANDLES = {
+    "aircraft": ("pose", {"east_m", "north_m"}),
+    "heading": ("pose", {"heading_deg"}),
+    "centre": ("orbit", {"east_m", "north_m"}),
+    "radius": ("orbit", {"radius_m"}),
+    "state": ("pose", {"east_m", "north_m"}),
+}
+
+
+@pytest.fixture(scope="module")
+def address():
+    with browsing.served() as address:
+        yield address
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with browsing.browsing() as browser:
+        yield browser
+
+
+class Watched:
+    """What a page asked for, and what it complained of, apart from refusals that a test provokes."""
+
+    def __init__(self):
+        self.requests, self.complaints = [], []
+
+    def watch(self, page):
+        page.on("request", lambda request: self.requests.append(request.url))
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on(
+            "console", lambda message: message.type in ("error", "warning") and self.complaints.append(message.text)
+        )
+
+
+@pytest.fixture
+def opened(browser, address):
+    """A function that opens the page; whatever it does, nothing leaves the machine and the console stays empty."""
+    watched, contexts = Watched(), []
+
+    def open_page(fragment="", **options):
+        contexts.append(browser.new_context(**({"viewport": DESK} | options)))
+        page = contexts[-1].new_page()
+        page.set_default_timeout(15_000)
+        watched.watch(page)
+        page.watched = watched
+        page.goto(address + fragment)
+        settle(page)
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    assert {url for url in watched.requests if not url.startswith((address, "blob:" + address))} == set()
+    assert watched.complaints == []
+
+
+@pytest.fixture
+def page(opened):
+    return opened()
+
+
+def middle(page, handle):
+    box = page.locator(f"#{handle} .touch").bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def drag(page, handle, dx, dy, steps=5):
+    x, y = middle(page, handle)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + dx, y + dy, steps=steps)
+    page.mouse.up()
+    settle(page)
+
+
+def told(page):
+    """What the page says, as soon as it says something."""
+    page.wait_for_function("() => document.getElementById('message').textContent !== ''")
+    return page.locator("#message").inner_text()
+
+
+def changed(before, after):
+    """The names of the numbers that differ, by part of the scene."""
+    return {
+        part: {name for name in after[part] if after[part][name] != before[part][name]}
+        for part in ("pose", "orbit", "aircraft")
+        if after[part] != before[part]
+    }
+
+
+# Plans
+
+
+def test_every_preset_shows_what_the_library_says(page):
+    names = page.locator("#presets button").all_inner_texts()
+    assert len(names) == 7
+    for name in names:
+        press(page, name)
+        maneuver = assert_shows_the_plan(page)
+        best = loiter.plan_all(*values(scene(page)))
+        assert page.locator("#optimal").inner_text().startswith(str(len(best)))
+        assert page.locator("#word .word").inner_text() == maneuver.word
+        assert page.locator("#timeline .switchline").count() == len(maneuver.segments) - 1
+        held = sum(residual.verdict == "holds" for residual in loiter.verify.certify(maneuver).residuals)
+        assert page.locator("#verdict").inner_text().startswith(f"All {held} conditions hold.")
+
+
+def test_the_papers_examples_are_there(page):
+    for example in EXAMPLES:
+        press(page, f"Paper, {example.name}")
+        assert page.locator("#time").inner_text() == f"{example.time:.3f} s"
+        assert page.locator("#candidates .best .word").all_inner_texts() == example.words
+
+
+def test_every_candidate_is_listed_with_what_it_loses(page):
+    pose, orbit, aircraft, wind = values(scene(page))
+    known = loiter.candidates(pose, orbit, aircraft, wind)
+    rows = page.locator("#candidates li")
+    assert rows.count() == len(known)
+    for row, maneuver in zip(rows.all(), known, strict=True):
+        assert row.locator(".word").inner_text() == maneuver.word
+        assert row.locator(".duration").inner_text() == f"{maneuver.duration_s:.2f} s"
+    row = rows.nth(1).locator("button")
+    row.focus()
+    later = known[1].duration_s - known[0].duration_s
+    assert page.locator("#plan .callout").text_content() == f"{known[1].word} {known[1].turn}: {later:.3g} s later"
+    assert page.locator("#plan .others .lit").count() == 1
+
+
+def test_pointing_at_a_losing_path_tells_it(page):
+    line = page.locator("#plan .others .reach").first
+    point = line.evaluate(
+        "path => { const p = path.getPointAtLength(0.3 * path.getTotalLength()); return [p.x, p.y]; }"
+    )
+    box = page.locator("#plan").bounding_box()
+    page.mouse.move(box["x"] + point[0], box["y"] + point[1])
+    assert "later" in page.locator("#plan .callout").text_content()
+
+
+# Handles
+
+
+def test_a_handle_dragged_changes_the_path_to_the_librarys(page):
+    for handle, (part, names) in HANDLES.items():
+        before = scene(page)
+        drag(page, handle, -31, 22)
+        assert changed(before, scene(page)) == {part: names}
+        assert_shows_the_plan(page)
+
+
+def test_the_wind_is_dragged_too(page):
+    drag(page, "wind", 14, 5)
+    wind = scene(page)["wind"]
+    assert wind["speed_m_s"] > 1.0
+    assert 270.0 < wind["from_deg"] < 300.0
+    assert_shows_the_plan(page)
+    assert page.locator("#map .note").is_visible()
+
+
+def test_what_is_dragged_stays_under_the_pointer(page):
+    for handle in ("aircraft", "centre"):
+        drag(page, handle, 40, -25)
+        box = page.locator("#plan").bounding_box()
+        x, y = middle(page, handle)
+        (here,), scale = to_metres(page, [[x - box["x"], y - box["y"]]])
+        part = scene(page)[HANDLES[handle][0]]
+        # A drag is rounded to a tenth of a pixel at most.
+        assert hypot(here[0] - part["east_m"], here[1] - part["north_m"]) < 0.2 / scale
+
+
+def test_the_state_dragged_is_the_state_of_the_aircraft(page):
+    left, top = middle(page, "state")
+    drag(page, "state", -60, 35)
+    assert middle(page, "state") == pytest.approx((left - 60, top + 35), abs=0.6)
+    pose, orbit, aircraft, _ = values(scene(page))
+    x, y = loiter.reduce(pose.east_m, pose.north_m, pose.heading_deg, orbit, aircraft)
+    text = page.locator("#state").get_attribute("aria-valuetext")
+    assert text.replace("−", "-") == f"x {float(x):.2f}, y {float(y):.2f} turn radii"
+
+
+def test_the_arrow_keys_move_each_handle(page):
+    for handle in [*HANDLES, "wind"]:
+        locator = page.locator(f"#{handle}")
+        assert locator.get_attribute("role") == "slider"
+        assert locator.get_attribute("aria-label")
+        texts = [locator.get_attribute("aria-valuetext")]
+        locator.focus()
+        for key in ("ArrowUp", "Shift+ArrowUp"):
+            page.keyboard.press(key)
+            settle(page)
+            texts.append(locator.get_attribute("aria-valuetext"))
+        assert_shows_the_plan(page)
+        assert len(set(texts)) == 3
+
+
+def test_many_moves_make_few_requests_and_the_last_one_is_answered(page):
+    x, y = middle(page, "aircraft")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    asked = len(page.watched.requests)
+    page.evaluate(
+        """([x, y]) => { for (let k = 1; k <= 20; k++) document.getElementById("aircraft").dispatchEvent(
+            new PointerEvent("pointermove", { pointerId: 1, bubbles: true, clientX: x - 3 * k, clientY: y + k })); }""",
+        [x, y],
+    )
+    page.mouse.up()
+    settle(page)
+    requests = [url for url in page.watched.requests[asked:] if url.endswith("/api/plan")]
+    assert len(requests) == 2
+    assert_shows_the_plan(page)
+    # Each move knows how long it waited for its path, on the page's clock.
+    waits = page.evaluate("performance.getEntriesByName('move to path').map(measure => measure.duration)")
+    assert len(waits) == 20
+    assert min(waits) > 0.0
+
+
+def test_a_finger_drags_on_a_phone(opened):
+    page = opened(**PHONE)
+    before = scene(page)
+    page.locator("#aircraft").scroll_into_view_if_needed()
+    x, y = middle(page, "aircraft")
+    session = page.context.new_cdp_session(page)
+    session.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]})
+    for k in range(1, 5):
+        session.send(
+            "Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [{"x": x - 9 * k, "y": y + 6 * k}]}
+        )
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    settle(page)
+    assert changed(before, scene(page)) == {"pose": {"east_m", "north_m"}}
+    assert_shows_the_plan(page)
+
+
+# Numbers typed, views, units
+
+
+def test_numbers_typed_are_asked_for(page):
+    for field, value in {
+        "airspeed": "22",
+        "limit": "40",
+        "course": "-30",
+        "circle-radius": "130",
+        "wind-speed": "5",
+    }.items():
+        page.locator(f"#{field}").fill(value)
+    page.get_by_role("radio", name="ccw").check()
+    settle(page)
+    asked = scene(page)
+    assert asked["aircraft"] == {"airspeed_m_s": 22, "max_bank_deg": 40}
+    assert (asked["pose"]["heading_deg"], asked["orbit"]["radius_m"], asked["orbit"]["turn"]) == (-30, 130, "ccw")
+    assert asked["wind"] == {"speed_m_s": 5, "from_deg": 270}
+    assert assert_shows_the_plan(page).turn == "ccw"
+
+
+def test_a_limit_of_another_kind_keeps_the_turn_radius(page):
+    radius = values(scene(page))[2].turn_radius_m
+    for kind in ("min_turn_radius_m", "max_turn_rate_deg_s", "max_bank_deg"):
+        page.locator("#limit-kind").select_option(kind)
+        settle(page)
+        assert list(scene(page)["aircraft"]) == ["airspeed_m_s", kind]
+        # What is typed in is rounded to a thousandth.
+        assert values(scene(page))[2].turn_radius_m == pytest.approx(radius, rel=5e-3)
+
+
+def test_feet_and_knots_are_shown_and_typed(page):
+    page.locator("#units").select_option("aviation")
+    assert float(page.locator("#airspeed").input_value()) == pytest.approx(18.0 * 3600 / 1852, rel=1e-6)
+    page.locator("#circle-radius").fill("300")
+    settle(page)
+    assert scene(page)["orbit"]["radius_m"] == pytest.approx(300 * 0.3048)
+    assert page.locator("#path").inner_text().endswith("ft")
+    assert_shows_the_plan(page)
+
+
+def test_the_view_pans_and_zooms_and_comes_back(page):
+    before = page.locator("#plan").get_attribute("data-scale")
+    box = page.locator("#plan").bounding_box()
+    page.mouse.move(box["x"] + 420, box["y"] + 300)
+    page.mouse.wheel(0, -300)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 380, box["y"] + 330, steps=3)
+    page.mouse.up()
+    assert float(page.locator("#plan").get_attribute("data-scale")) > 1.5 * float(before)
+    assert_shows_the_plan(page)
+    page.locator("#fit").click()
+    assert page.locator("#plan").get_attribute("data-scale") == before
+
+
+# What goes wrong
+
+
+def test_a_circle_too_tight_gets_the_librarys_sentence_and_keeps_the_last_plan(page):
+    before = page.locator("#plan .best .casing").get_attribute("d")
+    page.locator("#circle-radius").fill("40")
+    told(page)
+    with pytest.raises(loiter.errors.LoiterError) as refused:
+        loiter.plan(*values(scene(page)))
+    assert page.locator("#message").inner_text() == str(refused.value)
+    assert page.locator("main.stale").count() == 1
+    assert page.locator("#plan .best .casing").get_attribute("d") == before
+    page.locator("#circle-radius").fill("90")
+    settle(page)
+    assert page.locator("#message").inner_text() == ""
+    assert page.locator("main.stale").count() == 0
+    assert_shows_the_plan(page)
+    # The browser tells its console of every refusal.
+    assert all("422" in text for text in page.watched.complaints)
+    page.watched.complaints.clear()
+
+
+def test_a_spoilt_link_gets_a_sentence_and_the_first_scene(opened):
+    page = opened("#pose=1,2&orbit=0,0,80&airspeed=18&bank=35")
+    assert page.locator("#message").inner_text() == 'The link\'s pose is "1,2": it needs 3 numbers.'
+    assert_shows_the_plan(page)
+
+
+# The ghost, the map, the certificate
+
+
+def test_the_ghost_flies_the_path_and_the_slider_seeks(page):
+    page.locator("#speed").select_option("20")
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("() => Number(document.getElementById('clock').value) > 300")
+    page.get_by_role("button", name="Pause").click()
+    page.locator("#clock").fill("400")
+    maneuver = loiter.plan(*values(scene(page)))
+    flown = maneuver.sample(0.4 * maneuver.duration_s)
+    transform = page.locator("#plan .ghost").get_attribute("transform")
+    x, y, turned = (float(number) for number in browsing.re.findall(r"-?[\d.]+", transform))
+    (here,), scale = to_metres(page, [[x, y]])
+    off = browsing.CHORDS * maneuver.aircraft.turn_radius_m + browsing.PIXELS / scale
+    assert hypot(here[0] - flown.east_m[1], here[1] - flown.north_m[1]) < off
+    assert turned % 360.0 == pytest.approx(flown.heading_deg[1], abs=0.01)
+
+
+def test_the_time_line_shows_phi_vanish_at_each_switch(page):
+    press(page, "Paper, example 2")
+    maneuver = loiter.plan(*values(scene(page)))
+    phi = browsing.points_of(page.locator("#timeline path.phi").get_attribute("d"))
+    zero = float(page.locator("#timeline .zero").first.get_attribute("d").split()[1].partition("H")[0])
+    switches = [float(line.get_attribute("d")[1:].split()[0]) for line in page.locator("#timeline .switchline").all()]
+    assert len(switches) == len(maneuver.segments) - 1 == 2
+    assert np.interp(switches, *phi.T) == pytest.approx([zero, zero], abs=0.5)
+    # Left above the line, right below: u = sign phi.
+    middles = np.interp(np.convolve([phi[0, 0], *switches, phi[-1, 0]], [0.5, 0.5], "valid"), *phi.T)
+    assert np.sign(zero - middles).tolist() == [1.0, -1.0, 1.0]
+
+
+def test_the_map_is_the_synthesis_of_the_scene(page):
+    press(page, "Paper, example 2")
+    image = """() => { const canvas = document.getElementById("regions");
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height); return [...data]; }"""
+    pixels = np.array(page.evaluate(image)).reshape(280, 280, 4)
+    points = np.random.default_rng(7).uniform(-3.9, 3.9, (400, 2))
+    words = loiter.solve(*points.T).word
+    column, row = np.floor((points * [1, -1] + 4.0) / 8.0 * 280).astype(int).T
+    shades = map(tuple, pixels[row, column].tolist())
+    # A point may share its cell with a boundary.
+    pairs = list(zip(words.tolist(), shades, strict=True))
+    most = {
+        word: max({s for w, s in pairs if w == word}, key=[s for w, s in pairs if w == word].count) for word, _ in pairs
+    }
+    assert sum(most[word] != shade for word, shade in pairs) <= 8
+    assert len(set(most.values())) == len(most)
+    # The hue is that of the first control: green turns left, orange right.
+    assert all((red > green) == (Word(int(word)).letters[0] == "R") for word, (red, green, *_) in most.items())
+    for kind in ("switch", "jump", "tie"):
+        assert page.locator(f"#reduced .curve.{kind}").count() > 0
+    assert "LRL" in page.locator("#reduced .words text").all_text_contents()
+
+
+def test_the_map_follows_radius_and_turn(page):
+    before = page.locator("#reduced .curves").inner_html()
+    page.get_by_role("radio", name="ccw").check()
+    settle(page)
+    page.locator("#circle-radius").fill("150")
+    settle(page)
+    assert page.locator("#reduced .curves").inner_html() != before
+    assert page.locator("#reduced .targets circle").count() == 1
+    assert page.locator("#map-title").inner_text() == "R = 3.18, ccw"
+
+
+# Taking away
+
+
+def located(page):
+    page.locator("#earth summary").click()
+    page.locator("#latitude").fill("47.1")
+    page.locator("#longitude").fill("8.2")
+    settle(page)
+
+
+READ = {
+    "geojson": lambda data: json.loads(data)["type"] == "FeatureCollection",
+    "kml": lambda data: ElementTree.fromstring(data).tag.endswith("kml"),
+    "gpx": lambda data: ElementTree.fromstring(data).tag.endswith("gpx"),
+    "csv": lambda data: np.genfromtxt(StringIO(data.decode()), delimiter=",", names=True)["time_s"][0] == 0.0,
+    "plan": lambda data: json.loads(data)["fileType"] == "Plan",
+    "waypoints": lambda data: data.startswith(b"QGC WPL 110"),
+    "png": lambda data: data.startswith(b"\x89PNG\r\n\x1a\n"),
+    "svg": lambda data: ElementTree.fromstring(data).tag.endswith("svg"),
+}
+
+
+def test_every_format_is_saved_and_opens(page):
+    located(page)
+    for name, reads in READ.items():
+        with page.expect_download() as download:
+            page.locator(f"[data-format={name}]").click()
+        assert download.value.suggested_filename.endswith(f".{name}")
+        assert reads(download.value.path().read_bytes()), name
+
+
+def test_a_map_without_a_place_on_earth_is_refused_in_a_sentence(page):
+    page.locator("[data-format=kml]").click()
+    told(page)
+    assert "origin" in page.locator("#message").inner_text()
+    assert all("422" in text for text in page.watched.complaints)
+    page.watched.complaints.clear()
+
+
+def test_python_and_command_give_the_same_duration(page):
+    press(page, "In wind")
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    expected = loiter.plan_all(*values(scene(page)))[0].duration_s
+    page.get_by_role("button", name="Copy Python").click()
+    names = {"print": lambda *_: None}
+    exec(clipboard(page), names)
+    assert names["m"].duration_s == expected
+    page.get_by_role("button", name="Copy command").click()
+    words = clipboard(page).split()
+    assert words[0] == "loiter"
+    told = run([browsing.SCRIPT, *words[1:], "--json"], capture_output=True, check=True, text=True)
+    assert json.loads(told.stdout)["duration_s"] == expected
+
+
+def clipboard(page):
+    assert told(page).endswith("copied.")
+    text = page.evaluate("navigator.clipboard.readText()")
+    page.evaluate("document.getElementById('message').textContent = ''")
+    return text
+
+
+def test_the_link_reproduces_the_scene(page, opened, address):
+    press(page, "In wind")
+    drag(page, "aircraft", 17, -9)
+    page.locator("#velocity-east").evaluate("input => input.closest('details').open = true")
+    page.locator("#velocity-east").fill("1.5")
+    located(page)
+    page.get_by_role("button", name="Closer").click()
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    page.get_by_role("button", name="Copy link").click()
+    link = clipboard(page)
+    page.wait_for_url(link)
+    again = opened(link.removeprefix(address))
+    assert scene(again) == scene(page)
+    assert again.locator("#latitude").input_value() == "47.1"
+    scales = [float(each.locator("#plan").get_attribute("data-scale")) for each in (again, page)]
+    assert scales[0] == pytest.approx(scales[1], rel=1e-3)
+    assert again.locator("#time").inner_text() == page.locator("#time").inner_text()
+    assert_shows_the_plan(again)
+
+
+# For everyone
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("device", ["desk", "phone"])
+def test_axe_finds_nothing_serious(opened, scheme, device):
+    page = opened(color_scheme=scheme, **(PHONE if device == "phone" else {}))
+    assert page.evaluate("document.documentElement.dataset.theme") == scheme
+    page.evaluate("for (const each of document.querySelectorAll('details')) each.open = true")
+    page.evaluate(AXE.read_text())
+    found = page.evaluate("axe.run().then(results => results.violations)")
+    grave = [violation for violation in found if violation["impact"] in ("serious", "critical")]
+    assert [(violation["id"], [node["html"] for node in violation["nodes"]]) for violation in grave] == []
+
+
+def test_the_switch_turns_dark_and_is_remembered(page):
+    press(page, "Dark theme")
+    assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+    page.reload()
+    settle(page)
+    assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+
+
+def test_a_phone_shows_it_all_without_scrolling_sideways(opened):
+    page = opened(**PHONE)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    for part in ("#plan", "#reduced", "#timeline", "#candidates", "#formats"):
+        box = page.locator(part).bounding_box()
+        assert box["x"] >= 0.0
+        assert box["x"] + box["width"] <= 390.0
+    assert_shows_the_plan(page)
