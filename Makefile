@@ -24,15 +24,27 @@ $(BIN)/python:
 	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/dev.txt
 	@touch $@
 
+# What checks the page: TypeScript and axe. No lock file: the versions are exact.
+.venv/node.stamp: .venv/dev.stamp tests/web/package.json
+	@mkdir -p .venv/node && cp tests/web/package.json .venv/node/
+	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/npm install --prefix .venv/node --no-package-lock --no-audit --no-fund --loglevel=error
+	@touch $@
+
+/usr/bin/chromium:
+	@echo "installing chromium with apt-get, to test the page in a browser"; \
+	if [ "$$(id -u)" = 0 ]; then s=; else s=sudo; fi; \
+	$$s apt-get update -q && $$s apt-get install -qy chromium
+
 .PHONY: demo test bench verify pins
 demo: .venv/base.stamp
 	$(BIN)/loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 --plot demo.png
 
-test: .venv/dev.stamp
+test: .venv/dev.stamp .venv/node.stamp /usr/bin/chromium
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check --no-cache .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-cache
+	$(BIN)/node .venv/node/node_modules/typescript/bin/tsc -p tests/web/tsconfig.json
 	$(BIN)/pytest -n 2
 
 bench: .venv/dev.stamp

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-import loiter
+from loiter.cli import plan as planning
 from loiter.cli.app import main
 
 SCRIPT = Path(sys.executable).with_name("loiter")
@@ -172,6 +172,6 @@ def test_an_interrupt_ends_quietly(capsys, monkeypatch):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(loiter, "plan_all", interrupted)
+    monkeypatch.setattr(planning, "compared", interrupted)
     assert main(plan()) == 130
     assert capsys.readouterr() == ("", "")
