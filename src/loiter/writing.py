@@ -13,7 +13,8 @@ def write_whole(argument: str, path: Path, write: Callable[[BinaryIO], object]) 
 
     Raises `InvalidArgument` for `argument`, the name of the option that gave the path, where it cannot be written.
     """
-    part = path.with_name(f".{os.getpid()}.part")
+    # Drawn, so that threads which write into one folder do not take each other's file for their own.
+    part = path.with_name(f".{os.urandom(8).hex()}.part")
     try:
         try:
             with part.open("xb") as file:

@@ -1,7 +1,9 @@
 """Saving: formats by their endings, whole files or none, what is missing said in a sentence."""
 
+from concurrent.futures import ThreadPoolExecutor
 from math import inf, nan
 from pathlib import Path
+from threading import Barrier
 
 import pytest
 
@@ -9,6 +11,7 @@ from earth import FRAME, SCENES, UAV, entry
 from loiter import Orbit, Pose, plan
 from loiter.errors import InvalidArgument, OutOfRange
 from loiter.io import FORMATS, Autopilot, check_format, save
+from loiter.writing import write_whole
 
 M, _ = SCENES["wind"]
 
@@ -57,6 +60,22 @@ def test_a_circle_that_moves_is_drawn_where_it_is_joined(tmp_path, ending):
     m, frame = entry(velocity_east_m_s=3.0)
     save(m, tmp_path / f"a{ending}", frame=frame)
     assert (tmp_path / f"a{ending}").stat().st_size > 100
+
+
+def test_threads_save_into_one_folder_at_a_time(tmp_path):
+    """Each is held before its file takes its place, until all have written."""
+    together = Barrier(4, timeout=30.0)
+
+    def write(number):
+        def slowly(file):
+            file.write(b"%d" % number)
+            together.wait()
+
+        write_whole("save", tmp_path / f"{number}.csv", slowly)
+
+    with ThreadPoolExecutor(4) as pool:
+        list(pool.map(write, range(4)))
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {f"{i}.csv": str(i) for i in range(4)}
 
 
 @pytest.mark.parametrize("autopilot", Autopilot)
