@@ -184,6 +184,16 @@ def test_a_parameter_that_is_the_autopilots_own_is_null_in_a_plan(tmp_path):
     assert read._replace(params=item.params) == item
 
 
+@pytest.mark.parametrize("text", ["nan", "NaN"])
+def test_a_parameter_that_is_the_autopilots_own_is_nan_among_waypoints(tmp_path, text):
+    """As pymavlink and MAVProxy write what PX4 keeps for the heading of a waypoint."""
+    item = MissionItem(16, 3, (0.0, 0.0, 0.0, nan), 47.0, 8.0, 100.0)
+    (tmp_path / "a.waypoints").write_text(wpl(Mission((item,), (47.0, 8.0, 500.0))).decode().replace("nan", text))
+    (read,) = read_mission(tmp_path / "a.waypoints").items
+    assert isnan(read.params[3])
+    assert read._replace(params=item.params) == item
+
+
 def test_a_jump_finds_its_goal_among_the_items(tmp_path):
     """QGroundControl numbers `doJumpId` with gaps where complex items were."""
     items = [MissionItem(16, 3, (0.0,) * 4, 47.0, 8.0, 100.0), MissionItem(177, 2, (7.0, 2.0, 0.0, 0.0), 0.0, 0.0, 0.0)]

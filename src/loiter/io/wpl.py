@@ -6,6 +6,8 @@ longitude, altitude, autocontinue; tabs between them.
 
 from __future__ import annotations
 
+from math import nan
+
 from loiter.io.items import Command, Frame, Mission, MissionItem
 from loiter.io.limits import MAX_COMMAND, MAX_COUNT, check_place, checked_item, checked_mission
 from loiter.io.reading import Source, shown
@@ -53,6 +55,8 @@ def _item(source: Source, line: int, sequence: int, fields: list[str]) -> Missio
     source.integer(f"{where}: the mark of the current item", fields[1], 1)
     frame = source.integer(f"{where}: the frame", fields[2], 255)
     command = source.integer(f"{where}: the command", fields[3], MAX_COMMAND)
-    a, b, c, d, latitude, longitude, altitude = (source.number(f"{where}: a number", text) for text in fields[4:11])
+    # MAVProxy and pymavlink write nan, the autopilot's own, so; a place has to be one.
+    a, b, c, d = (nan if text.lower() == "nan" else source.number(f"{where}: a number", text) for text in fields[4:8])
+    latitude, longitude, altitude = (source.number(f"{where}: a number", text) for text in fields[8:11])
     autocontinue = source.integer(f"{where}: autocontinue", fields[11], 1)
     return MissionItem(command, frame, (a, b, c, d), latitude, longitude, altitude, bool(autocontinue))
