@@ -39,7 +39,9 @@ def steps(
     chord_error_m = positive("chord_error_m", chord_error_m, "metres")
     wanted = [_wanted(maneuver, segment, spacing_m, chord_error_m, bend_per_m) for segment in maneuver.segments]
     if sum(wanted) > MAX_VERTICES:
-        asked = f"chord_error_m {chord_error_m:g}" + ("" if spacing_m is None else f", spacing_m {spacing_m:g}")
+        asked = f"a chord error of {chord_error_m:g} m" + (
+            "" if spacing_m is None else f" and a spacing of {spacing_m:g} m"
+        )
         raise InvalidArgument("track", f"would have more than {MAX_VERTICES:,} points with {asked}")
     return tuple(max(1, ceil(count)) for count in wanted)
 
@@ -79,6 +81,8 @@ def ring(orbit: Orbit, chord_error_m: float, bend_per_m: float = 0.0) -> tuple[N
     curvature = 1.0 / orbit.radius_m + bend_per_m
     sides = max(LEAST_SIDES, ceil(2.0 * pi * orbit.radius_m * sqrt(curvature / (8.0 * chord_error_m))))
     if sides > MAX_VERTICES:
-        raise InvalidArgument("circle", f"would have more than {MAX_VERTICES:,} points with {chord_error_m:g} m")
+        raise InvalidArgument(
+            "circle", f"would have more than {MAX_VERTICES:,} points with a chord error of {chord_error_m:g} m"
+        )
     angle = 2.0 * pi * (np.arange(sides + 1) % sides) / sides
     return orbit.east_m + orbit.radius_m * np.cos(angle), orbit.north_m + orbit.radius_m * np.sin(angle)
