@@ -172,6 +172,12 @@ def test_another_string_is_no_connection(connection):
         download(connection)
 
 
+@pytest.mark.parametrize("host", ["a..b", ".", "x" * 64, "nul\0"])
+def test_what_python_cannot_encode_is_no_name_of_a_host(host):
+    with pytest.raises(InvalidArgument, match=r"^connection is '.*': '.*' is no name of a host$"):
+        download(f"udpout:{host}:14550")
+
+
 @pytest.mark.parametrize("port", [0, 65536, 99999])
 def test_ports_are_16_bit_numbers(port):
     with pytest.raises(InvalidArgument, match="ports are numbers from 1 to 65535"):

@@ -35,7 +35,7 @@ ALONE_S = 1.5
 BAUD = 57600
 
 _NETWORK = re.compile(r"(udpin|udpout|tcp):([^:\s]+):(\d{1,5})")
-_SERIAL = re.compile(r"(/\S+?|COM\d+)(,\d+)?")
+_SERIAL = re.compile(r"(/\S+?|COM\d+)(,\d{1,7})?")
 
 
 class Vehicle(NamedTuple):
@@ -196,7 +196,7 @@ def _opened(connection: str, timeout_s: float) -> Any:
         device, _, baud = connection.partition(",")
         return mavutil.mavserial(device, int(baud or BAUD))
     kind, host, port = network.groups()
-    address = socket.gethostbyname(host)
+    address = _address(connection, host)
     if kind == "tcp":
         return _tcp(f"{address}:{port}", timeout_s)
     if kind == "udpin":
@@ -204,6 +204,14 @@ def _opened(connection: str, timeout_s: float) -> Any:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             probe.bind((address, int(port)))
     return mavutil.mavudp(f"{address}:{port}", input=kind == "udpin")
+
+
+def _address(connection: str, host: str) -> str:
+    try:
+        return socket.gethostbyname(host)
+    # Python encodes a name before it asks for it; one with an empty label, say, cannot be.
+    except ValueError as error:
+        raise InvalidArgument("connection", f"is {connection!r}: {host!r} is no name of a host") from error
 
 
 def _tcp(address: str, timeout_s: float) -> Any:
