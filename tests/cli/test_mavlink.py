@@ -54,17 +54,29 @@ def test_a_file_is_sent_as_it_is(shown, tmp_path, ending):
         (f"{PLACED} --connect udpin:127.0.0.1:PORT --system 300", 2, "--system is 300: it must be a whole"),
         (f"{PLACED} --connect udpin:127.0.0.1:PORT --timeout 0.3", 3, "no heartbeat of a vehicle in 0.3 s"),
         ("entry.plan --connect udpin:127.0.0.1:PORT", 2, "mission file 'entry.plan': it cannot be read"),
-        (f"entry.plan {PLACED} --connect udpin:127.0.0.1:PORT", 2, "mission and a scene are given"),
-        ("--connect x --pose 1 2 3 --orbit 1 2 80 --airspeed 18 --bank 35", 2, "--pose-lla and --orbit-lla are needed"),
+        (f"entry.plan {PLACED} --connect udpin:127.0.0.1:PORT", 2, "mission FILE is sent as it is: options of a"),
+        ("entry.plan --altitude 300 --connect udpin:127.0.0.1:PORT", 2, "mission FILE is sent as it is: options of a"),
+        ("entry.plan --wind 5 90 --connect udpin:127.0.0.1:PORT", 2, "mission FILE is sent as it is: options of a"),
+        ("--connect udpin:127.0.0.1:PORT", 2, "--pose-lla and --orbit-lla are needed: a vehicle's mission is in deg"),
+        (
+            "--connect udpin:127.0.0.1:PORT --pose 1 2 3 --orbit 1 2 80 --airspeed 18 --bank 35",
+            2,
+            "--pose-lla and --orbit-lla are needed",
+        ),
         (f"{PLACED.replace('900', 'nan')} --connect udpin:127.0.0.1:PORT", 2, "--altitude is nan"),
-        ("--connect x --pose-lla 47 8 0 --orbit-lla 47 8 80 --airspeed 18 --bank 35", 2, "--altitude is needed"),
+        (
+            "--connect udpin:127.0.0.1:PORT --pose-lla 47 8 0 --orbit-lla 47 8 80 --airspeed 18 --bank 35",
+            2,
+            "--altitude is needed",
+        ),
         (PLACED, 2, "--connect needs a value, LINK"),
     ],
 )
 def test_what_cannot_be_sent(ended, tmp_path, monkeypatch, arguments, status, sentence):
     monkeypatch.chdir(tmp_path)
-    got, _, err = ended(f"upload {arguments}".replace("PORT", str(free_port())))
+    got, out, err = ended(f"upload {arguments}".replace("PORT", str(free_port())))
     assert got == status
+    assert (out == "") == (status == 2), "what is refused is refused before anything is planned"
     assert err.startswith(f"loiter: {sentence}"), err
 
 
@@ -106,6 +118,7 @@ def test_sending_says_so(shown):
     ("options", "status", "sentence"),
     [
         ("--orbit 0 0 80 --airspeed 18 --bank 35", 2, "--orbit-lla is needed: a vehicle says where it is in degrees"),
+        ("--airspeed 18 --bank 35", 2, "--orbit-lla is needed: a vehicle says where it is in degrees"),
         (f"{SCENE} --every 0", 2, "--every is 0.0: it must be a positive"),
         (f"{SCENE} --reports 0", 2, "--reports is 0: it must be at least 1"),
         (f"{SCENE} --timeout 0.3", 3, "no heartbeat of a vehicle in 0.3 s"),

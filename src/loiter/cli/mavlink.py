@@ -28,7 +28,8 @@ from loiter.cli.options import (
 )
 from loiter.errors import InvalidArgument
 from loiter.io.items import Mission
-from loiter.mavlink.missions import TIMEOUT_S
+from loiter.mavlink.link import check
+from loiter.mavlink.missions import TIMEOUT_S, check_target
 
 if TYPE_CHECKING:
     from loiter.mavlink import Report
@@ -74,10 +75,14 @@ def upload(
     waypoints: MissionOptions = MissionOptions(),
 ) -> None:
     """Send the fastest entry to a vehicle as a mission, and read it back to see that it is there, item by item."""
+    # Before anything is planned and printed.
+    check(connect)
+    check_target(system, 1, timeout)
+    options = (start, circle, uav, air, waypoints)
     if mission is None:
-        wanted = _planned(start, circle, uav, air, waypoints)
-    elif (start, circle) != (PlacedStartOptions(), PlacedOrbitOptions()):
-        raise InvalidArgument("mission", "and a scene are given: one of them is to be sent")
+        wanted = _planned(*options)
+    elif any(given != type(given)() for given in options):
+        raise InvalidArgument("mission", "FILE is sent as it is: options of a scene are of no use with it")
     else:
         wanted = loiter.io.read_mission(mission)
     with _progress() as tell:
@@ -94,16 +99,18 @@ def _planned(
     start: StartOptions, circle: OrbitOptions, uav: AircraftOptions, air: WindOptions, waypoints: MissionOptions
 ) -> Mission:
     """The scene's fastest entry as a mission; it is printed on the way."""
-    asked = scene_of(start, circle, uav, air)
-    if asked.frame is None:
+    if start.pose_lla is None or not circle.orbit_lla:
         raise InvalidArgument("pose_lla", "and --orbit-lla are needed: a vehicle's mission is in degrees")
     if uav.altitude is None:
         raise InvalidArgument("altitude_m", "is needed: a vehicle's mission has one, metres above mean sea level")
+    asked = scene_of(start, circle, uav, air)
+    assert asked.frame is not None  # both places are in degrees
     best = loiter.plan(asked.start, asked.circle, asked.aircraft, asked.wind)
-    report.write(*([asked.remark] if asked.remark else []), report.headline(best))
-    return loiter.io.mission(
+    planned = loiter.io.mission(
         best, asked.frame, uav.altitude, spacing_m=waypoints.spacing, chord_error_m=waypoints.chord_error
     )
+    report.write(*([asked.remark] if asked.remark else []), report.headline(best))
+    return planned
 
 
 DOING = {"read": "Reading its mission", "send": "Sending", "check": "Reading back"}
@@ -151,10 +158,11 @@ def watch(
     air: WindOptions = WindOptions(),
 ) -> None:
     """Listen to a vehicle and print, live, the fastest entry from where it is."""
+    if not circle.orbit_lla:
+        raise InvalidArgument("orbit_lla", "is needed: a vehicle says where it is in degrees")
     preset = uav.preset()
     orbit, frame = circle.circle(preset)
-    if frame is None:
-        raise InvalidArgument("orbit_lla", "is needed: a vehicle says where it is in degrees")
+    assert frame is not None  # the circle is in degrees
     if reports is not None and reports < 1:
         raise InvalidArgument("reports", f"is {reports}: it must be at least 1")
     wind = None if air.wind is None else air.moving_air
