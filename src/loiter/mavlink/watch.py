@@ -31,9 +31,10 @@ class Report:
 
     `time_s` counts from the start of the watch. Place in WGS84 degrees and metres above mean sea level, heading in
     degrees from true north, the airspeed as the vehicle indicates it; nan for what is not known. `age_s` is how long
-    ago the vehicle said where it is. `plan` is the fastest entry in the direction that the watch has settled on, in
-    the local metres of its frame; None where `problem` says why there is none. `other_costs_s` is how much later the
-    other direction would join, None where it cannot. `commanded` is whether the vehicle was told to hold the circle.
+    ago the vehicle said where it is. `wind` is as given, or as the vehicle tells it, from true north where it is.
+    `plan` is the fastest entry in the direction that the watch has settled on, in the local metres of its frame, its
+    wind too; None where `problem` says why there is none. `other_costs_s` is how much later the other direction would
+    join, None where it cannot. `commanded` is whether the vehicle was told to hold the circle.
     """
 
     time_s: float
@@ -207,11 +208,18 @@ class _Planner:
         orbit = self.orbit.after(report.time_s)
         try:
             pose = self.frame.pose(report.latitude_deg, report.longitude_deg, report.heading_deg)
-            best = plan(pose, orbit, self.aircraft, report.wind, tolerance_m=self.tolerance_m)
+            best = plan(pose, orbit, self.aircraft, self._in_the_plane(report), tolerance_m=self.tolerance_m)
         except LoiterError as error:
             return replace(report, problem=str(error))
         self.orbit = replace(self.orbit, turn=best.turn)
         return replace(report, plan=best, other_costs_s=self._other_costs_s(best))
+
+    def _in_the_plane(self, report: Report) -> Wind:
+        """The wind of a report from the plane's north: the vehicle tells it from true north where it is."""
+        if report.wind_source != WindSource.VEHICLE:
+            return report.wind
+        turned = float(self.frame.convergence_deg(report.latitude_deg, report.longitude_deg))
+        return Wind(report.wind.speed_m_s, report.wind.from_deg + turned)
 
     def _other_costs_s(self, best: Maneuver) -> float | None:
         orbit = replace(best.orbit, turn=best.turn.other)
