@@ -85,11 +85,7 @@ def plan(
         loiter.io.check_format(save)
     best, others = compared(asked.start, asked.circle, asked.aircraft, asked.wind, tolerance_m=tolerance)
     proofs = [loiter.verify.certify(m, tolerance_m=tolerance) for m in (best if all_ else best[:1]) if certify]
-    if plot is not None:
-        losers = [m for m in others if asked.circle.turn in (Turn.EITHER, m.turn)]
-        files.save(plot, best if all_ else best[:1], losers if all_ else [*best[1:], *losers], frame=asked.frame)
-        if proofs:
-            certificates.save_picture(plot, proofs[0])
+    # A file needs more than a picture: what it lacks is said before either is written.
     if save is not None:
         loiter.io.save(
             best[0],
@@ -100,6 +96,11 @@ def plan(
             chord_error_m=waypoints.chord_error,
             autopilot=AUTOPILOTS[autopilot],
         )
+    if plot is not None:
+        losers = [m for m in others if asked.circle.turn in (Turn.EITHER, m.turn)]
+        files.save(plot, best if all_ else best[:1], losers if all_ else [*best[1:], *losers], frame=asked.frame)
+        if proofs:
+            certificates.save_picture(plot, proofs[0])
     if json:
         proof = {"certificate": proofs[0].to_dict()} if proofs else {}
         report.print_json(answer(best, others, asked.frame) | proof)
