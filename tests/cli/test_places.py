@@ -86,6 +86,10 @@ def test_an_indicated_airspeed_is_a_higher_true_one_in_thin_air(planned, shown):
             f"{PLACED} --bank 35 --indicated-airspeed 17 --altitude 12000",
             "--altitude is 12000",
         ),
+        (
+            f"{PLACED} {UAV} --temperature 30",
+            "--temperature goes with an indicated airspeed: --airspeed is the true one",
+        ),
         (f"{PLACED} --bank 35 --indicated-airspeed 17 --temperature -300", "--temperature is -300: nothing is colder"),
         (f"{PLACED} --bank 35 --indicated-airspeed nan", "--indicated-airspeed is nan: it must be a positive"),
     ],
@@ -140,6 +144,7 @@ def test_a_parameter_file_gives_aircraft_radius_and_direction(planned, tmp_path)
     ("options", "sentence"),
     [
         (f"{PLACED} {UAV} --save entry.plan", "--altitude is missing: a .plan"),
+        (f"{PLACED} {UAV} --save entry.plan --plot entry.png", "--altitude is missing: a .plan"),
         (f"{PLACED} {UAV} --save entry.doc", "--save is 'entry.doc'"),
         (f"--pose 1 2 3 --orbit 0 0 120 {UAV} --save entry.kml", "--orbit-lla is missing: a .kml"),
         (f"{PLACED} {UAV} --altitude 900 --save entry.plan --spacing 0", "--spacing is 0.0"),

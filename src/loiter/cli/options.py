@@ -184,6 +184,8 @@ class AircraftOptions:
         if self.airspeed is not None:
             if self.indicated_airspeed is not None:
                 raise InvalidArgument("airspeed_m_s", "and --indicated-airspeed are given: one is enough")
+            if self.temperature is not None:
+                raise InvalidArgument("temperature_c", "goes with an indicated airspeed: --airspeed is the true one")
             return None
         if self.indicated_airspeed is None and preset is not None:
             return preset.indicated_airspeed_m_s
@@ -218,7 +220,9 @@ class WindOptions:
     wind: Annotated[
         tuple[float, float] | None,
         Parameter(
-            group=air, metavar="SPEED FROM", help="Metres per second, and the compass direction the wind comes from."
+            group=air,
+            metavar="SPEED FROM",
+            help="Metres per second, and the compass direction the wind comes from; from true north at the circle, where places are in degrees.",
         ),
     ] = None
 
