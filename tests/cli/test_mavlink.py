@@ -1,5 +1,7 @@
 """`loiter upload` and `loiter watch`: what they print, and how they end."""
 
+import re
+
 import pytest
 
 import loiter
@@ -103,15 +105,19 @@ def test_watching_prints_a_line_for_each_report(shown):
     with flying(Flight()) as vehicle:
         lines = shown(f"watch --connect {vehicle.connection} {SCENE} --every 0.2 --reports 4").splitlines()
     assert len(lines) == 4
-    assert all("joins clockwise in" in line and "counter-clockwise" in line for line in lines[1:]), lines
+    assert all(
+        "joins clockwise in" in line and re.search(r"; counter-clockwise \d+\.\d s later", line) for line in lines[1:]
+    ), lines
     assert vehicle.commands == []
 
 
 def test_sending_says_so(shown):
     with flying(Flight()) as vehicle:
-        text = shown(f"watch --connect {vehicle.connection} {SCENE} --turn ccw --every 0.2 --reports 3 --send")
+        text = shown(
+            f"watch --connect {vehicle.connection} {SCENE} --turn ccw --every 0.2 --reports 3 --send --altitude 700"
+        )
     assert text.count("The vehicle is to hold the circle counter-clockwise.") == 1
-    assert [command.param4 for command in vehicle.commands] == [1.0]
+    assert [(command.param4, command.z) for command in vehicle.commands] == [(1.0, 700.0)]
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """`loiter plan` with places in degrees, altitudes and indicated airspeeds."""
 
+import csv
 import json
 from itertools import pairwise
 from math import cos, radians, sin
@@ -41,6 +42,17 @@ def test_the_table_tells_true_headings_and_places_in_degrees(shown):
     first = next(line for line in text.splitlines() if "turn left" in line)
     assert first.endswith("090.0")
     assert "at 47.109365 N 8.228103 E" in text
+
+
+def test_headings_and_tracks_of_the_table_are_true_far_north(shown, tmp_path):
+    """Those of the CSV, which its tests compare with geodesics; from the plane's north the first would be 094.0."""
+    scene = f"--pose-lla 80 179.9 90 --orbit-lla 80.01 -179.9 120 {UAV} --wind 8 250 --save {tmp_path / 'a.csv'}"
+    table = [line.split() for line in shown(f"plan {scene}").splitlines() if line.endswith("m/s")]
+    rows = list(csv.DictReader((tmp_path / "a.csv").open()))
+    track = {f"{float(row['time_s']):.1f}": (float(row["heading_deg"]), float(row["track_deg"])) for row in rows}
+    assert table[0][-4] == "090.0"
+    for line in table:
+        assert (float(line[-4]), float(line[-3])) == pytest.approx(track[line[0]], abs=0.0501)
 
 
 def test_across_the_antimeridian(planned):

@@ -9,6 +9,7 @@ from lxml import etree
 
 from earth import SCENES, apart_m, at_time, on_earth, switches
 from loiter.io import save
+from loiter.plot.picture import COLOURS
 
 
 def written(tmp_path, name, altitude=None):
@@ -86,3 +87,12 @@ def test_gdal_reads_the_maneuver(tmp_path, name):
     start = m.segments[-1].start
     assert apart_m((peel_off.y, peel_off.x), on_earth(frame, start.east_m, start.north_m)[:2]) < 1e-3
     assert len(shapes) == 2 * len(m.segments) + 2
+
+
+def test_pieces_have_the_colours_of_the_picture(tmp_path):
+    """KML's are aabbggrr, the picture's #RRGGBB."""
+    _, _, path = written(tmp_path, "cw")
+    styles = {style.id: style.styles[0].color for style in placemarks(path)[0].styles}
+    for letter, colour in COLOURS.items():
+        red, green, blue = colour[1:3], colour[3:5], colour[5:7]
+        assert styles[letter] == f"ff{blue}{green}{red}".lower()

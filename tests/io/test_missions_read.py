@@ -129,6 +129,7 @@ def test_a_plan_has_what_qgroundcontrol_asks_for(tmp_path):
     flown = plan["mission"]
     assert (flown["version"], flown["firmwareType"], flown["vehicleType"]) == (2, 12, 1)
     assert (flown["cruiseSpeed"], flown["hoverSpeed"]) == (18.0, 18.0)
+    assert flown["globalPlanAltitudeMode"] == 2
     assert [len(flown["plannedHomePosition"]), flown["plannedHomePosition"][2]] == [3, 600.0]
     for number, item in enumerate(flown["items"], start=1):
         assert item["type"] == "SimpleItem"

@@ -54,6 +54,19 @@ def test_a_mission_arrives_as_it_was_sent(kind, turn):
     assert done[-1] == ("check", len(home) + 5, len(home) + 5)
 
 
+def test_an_item_that_comes_twice_is_read_once():
+    class Doubles(Vehicle):
+        def on_mission_request_int(self, message):
+            super().on_mission_request_int(message)
+            super().on_mission_request_int(message)
+
+    with flying(Doubles(kept(NEW))) as vehicle:
+        back = download(vehicle.connection, system=1)
+    assert [(i.command, i.params, i.altitude_m) for i in back.items] == [
+        (i.command, i.params, i.altitude_m) for i in NEW.items
+    ]
+
+
 def test_the_home_of_ardupilot_is_item_0_and_comes_back_as_the_home():
     with flying(Plane()) as vehicle:
         upload(NEW, vehicle.connection, system=1)

@@ -9,8 +9,8 @@ from loiter.io.chart import Chart
 from loiter.io.geojson import circle_properties, mark_properties, segment_properties
 from loiter.io.markup import DEGREES, child, document, root
 
-# Line colours, aabbggrr: the colour-blind safe blue, grey and vermilion of Okabe and Ito, and black for the circle.
-STYLES = {"L": "ffb27200", "S": "ff808080", "R": "ff005ed5", "circle": "ff000000"}
+# Line colours, aabbggrr: those of the pictures, the green, blue and vermilion of Okabe and Ito, black for the circle.
+STYLES = {"L": "ff739e00", "S": "ffb27200", "R": "ff005ed5", "circle": "ff000000"}
 
 # The view stands back by so many radii of the circle or lengths of the way.
 BACK = 3.0
