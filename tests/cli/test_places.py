@@ -48,7 +48,7 @@ def test_headings_and_tracks_of_the_table_are_true_far_north(shown, tmp_path):
     """Those of the CSV, which its tests compare with geodesics; from the plane's north the first would be 094.0."""
     scene = f"--pose-lla 80 179.9 90 --orbit-lla 80.01 -179.9 120 {UAV} --wind 8 250 --save {tmp_path / 'a.csv'}"
     table = [line.split() for line in shown(f"plan {scene}").splitlines() if line.endswith("m/s")]
-    rows = list(csv.DictReader((tmp_path / "a.csv").open()))
+    rows = list(csv.DictReader((tmp_path / "a.csv").read_text().splitlines()))
     track = {f"{float(row['time_s']):.1f}": (float(row["heading_deg"]), float(row["track_deg"])) for row in rows}
     assert table[0][-4] == "090.0"
     for line in table:
