@@ -2,6 +2,7 @@
 
 import os
 import pty
+import re
 import socket
 import subprocess
 import sys
@@ -162,17 +163,21 @@ def test_what_is_not_there_cannot_be_opened(connection):
         "udpout::14550",
         "udp:1.2.3.4:5",
         "tcpin:0.0.0.0:5760",
+        "udpout:nul\0:14550",
+        "/dev/nul\0",
+        "/dev/ttyUSB0,99999999",
+        "/dev/ttyUSB0,fast",
         "flight.tlog",
         None,
         14550,
     ],
 )
 def test_another_string_is_no_connection(connection):
-    with pytest.raises(InvalidArgument, match=f"^connection is {connection!r}{WRONG}"):
+    with pytest.raises(InvalidArgument, match=f"^{re.escape(f'connection is {connection!r}{WRONG}')}"):
         download(connection)
 
 
-@pytest.mark.parametrize("host", ["a..b", ".", "x" * 64, "nul\0"])
+@pytest.mark.parametrize("host", ["a..b", ".", "x" * 64])
 def test_what_python_cannot_encode_is_no_name_of_a_host(host):
     with pytest.raises(InvalidArgument, match=r"^connection is '.*': '.*' is no name of a host$"):
         download(f"udpout:{host}:14550")

@@ -34,8 +34,8 @@ ALONE_S = 1.5
 # Bits per second of a serial line where none are given: what radios and USB ports of autopilots are set to.
 BAUD = 57600
 
-_NETWORK = re.compile(r"(udpin|udpout|tcp):([^:\s]+):(\d{1,5})")
-_SERIAL = re.compile(r"(/\S+?|COM\d+)(,\d{1,7})?")
+_NETWORK = re.compile(r"(udpin|udpout|tcp):([^:\s\0]+):(\d{1,5})")
+_SERIAL = re.compile(r"(/[^\s\0,]+|COM\d+)(,\d{1,7})?")
 
 
 class Vehicle(NamedTuple):
@@ -210,7 +210,7 @@ def _address(connection: str, host: str) -> str:
     try:
         return socket.gethostbyname(host)
     # Python encodes a name before it asks for it; one with an empty label, say, cannot be.
-    except ValueError as error:
+    except UnicodeError as error:
         raise InvalidArgument("connection", f"is {connection!r}: {host!r} is no name of a host") from error
 
 
