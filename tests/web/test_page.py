@@ -394,6 +394,18 @@ def test_a_spoilt_link_gets_a_sentence_and_the_first_scene(opened):
     assert_shows_the_plan(page)
 
 
+def test_a_link_whose_view_has_no_width_is_told_so(opened):
+    page = opened("#pose=90,60,100&orbit=0,0,80&airspeed=18&bank=35&view=0,0,0")
+    assert page.locator("#message").inner_text() == "The link's view is 0 m wide: it must be wider than that."
+    assert_shows_the_plan(page)
+
+
+def test_a_wind_of_no_speed_is_none(opened):
+    page = opened("#pose=90,60,100&orbit=0,0,80&airspeed=18&bank=35&wind=0,270")
+    assert scene(page)["wind"] is None
+    assert not page.locator("#map .note").is_visible()
+
+
 # The ghost, the map, the certificate
 
 
