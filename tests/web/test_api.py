@@ -135,6 +135,16 @@ def test_the_other_direction_costs_what_its_plan_takes_longer(post, scene):
     assert told["other_turn_later_s"] == pytest.approx(later, abs=1e-9)
 
 
+@every_scene
+def test_the_fastest_each_way_is_the_plan_without_the_other_candidates(post, scene):
+    told, whole = post("/api/fastest", scene), post("/api/plan", scene)
+    assert {told["turn"], *(other["turn"] for other in told["alternatives"])} == {"cw", "ccw"}
+    assert len(told["alternatives"]) == 1
+    for name in ("duration_s", "other_turn_later_s"):
+        assert told[name] == pytest.approx(whole[name], abs=1e-9)
+    assert (told["command"], told["python"], told["reduced"]) == (whole["command"], whole["python"], whole["reduced"])
+
+
 @pytest.mark.parametrize(
     ("scene", "sentence"),
     [

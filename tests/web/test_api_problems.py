@@ -281,6 +281,12 @@ def test_a_method_that_is_not_understood_is_refused(client, method, path, allowe
     assert said.json()["detail"] == f"{method} is not understood at {path}"
 
 
+@pytest.mark.parametrize("range_", ["bytes=9-3", "bytes=0-3", "bytes=99999999-"])
+def test_a_range_is_answered_whole(client, range_):
+    whole, said = client.get("/static/main.js"), client.get("/static/main.js", headers={"range": range_})
+    assert (said.status_code, said.content) == (200, whole.content)
+
+
 # Headers
 
 

@@ -236,6 +236,28 @@ def test_many_moves_make_few_requests_and_the_last_one_is_answered(page):
     assert min(waits) > 0.0
 
 
+def test_in_wind_a_drag_asks_for_the_best_each_way_and_for_all_when_it_rests(page):
+    press(page, "In wind")
+    asked = len(page.watched.requests)
+    x, y = middle(page, "aircraft")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 30, y + 40, steps=3)
+    page.wait_for_function(
+        "() => { const { asked, drawn } = document.getElementById('plan').dataset; return asked === drawn; }"
+    )
+    assert_shows_the_plan(page)
+    assert page.locator("#candidates .duration").first.inner_text() == page.locator("#time").inner_text()
+    page.mouse.up()
+    settle(page)
+    plans = [url.rpartition("/")[2] for url in page.watched.requests[asked:] if url.endswith(("/plan", "/fastest"))]
+    assert plans.count("plan") == 1
+    assert plans[-1] == "plan"
+    assert plans.count("fastest") >= 1
+    assert page.locator("#candidates li").count() == len(loiter.candidates(*values(scene(page))))
+    assert_shows_the_plan(page)
+
+
 def test_a_finger_drags_on_a_phone(opened):
     page = opened(**PHONE)
     before = scene(page)
@@ -294,6 +316,23 @@ def test_feet_and_knots_are_shown_and_typed(page):
     assert_shows_the_plan(page)
 
 
+def test_an_altitude_is_in_the_units_shown(page):
+    located(page)
+    page.locator("#units").select_option("aviation")
+    assert page.locator("#altitude").input_value() == "328.084"
+    page.locator("#altitude").fill("1000")
+    with page.expect_download() as download:
+        page.locator("[data-format=plan]").click()
+    home = json.loads(download.value.path().read_bytes())["mission"]["plannedHomePosition"]
+    assert home[2] == pytest.approx(304.8)
+
+
+def test_in_wind_the_path_is_told_to_be_through_the_air(page):
+    assert page.locator("#path small").count() == 0
+    press(page, "In wind")
+    assert page.locator("#path small").inner_text() == "in the air"
+
+
 def test_the_view_pans_and_zooms_and_comes_back(page):
     before = page.locator("#plan").get_attribute("data-scale")
     box = page.locator("#plan").bounding_box()
@@ -309,6 +348,25 @@ def test_the_view_pans_and_zooms_and_comes_back(page):
 
 
 # What goes wrong
+
+
+def test_what_was_said_is_gone_when_the_scene_changes(page):
+    page.locator("#circle-radius").fill("")
+    assert told(page) == "Circle, radius needs a number."
+    page.locator("#circle-radius").fill("90")
+    settle(page)
+    assert page.locator("#message").inner_text() == ""
+
+
+@pytest.mark.parametrize("airspeed", ["0", "-18"])
+def test_an_aircraft_that_does_not_fly_is_refused_and_nothing_breaks(page, airspeed):
+    page.locator("#airspeed").fill(airspeed)
+    assert "airspeed" in told(page)
+    assert all("422" in text for text in page.watched.complaints)
+    page.watched.complaints.clear()
+    page.locator("#airspeed").fill("20")
+    settle(page)
+    assert_shows_the_plan(page)
 
 
 def test_a_circle_too_tight_gets_the_librarys_sentence_and_keeps_the_last_plan(page):
@@ -334,6 +392,18 @@ def test_a_spoilt_link_gets_a_sentence_and_the_first_scene(opened):
     page = opened("#pose=1,2&orbit=0,0,80&airspeed=18&bank=35")
     assert page.locator("#message").inner_text() == 'The link\'s pose is "1,2": it needs 3 numbers.'
     assert_shows_the_plan(page)
+
+
+def test_a_link_whose_view_has_no_width_is_told_so(opened):
+    page = opened("#pose=90,60,100&orbit=0,0,80&airspeed=18&bank=35&view=0,0,0")
+    assert page.locator("#message").inner_text() == "The link's view is 0 m wide: it must be wider than that."
+    assert_shows_the_plan(page)
+
+
+def test_a_wind_of_no_speed_is_none(opened):
+    page = opened("#pose=90,60,100&orbit=0,0,80&airspeed=18&bank=35&wind=0,270")
+    assert scene(page)["wind"] is None
+    assert not page.locator("#map .note").is_visible()
 
 
 # The ghost, the map, the certificate

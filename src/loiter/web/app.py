@@ -11,7 +11,7 @@ from fastapi.responses import FileResponse, Response
 from fastapi.staticfiles import StaticFiles
 from pydantic import ValidationError
 from starlette.middleware.cors import CORSMiddleware
-from starlette.types import ASGIApp
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from loiter.version import __version__
 from loiter.web import exports, models, openapi, plans, problems
@@ -44,7 +44,17 @@ def create_app(cors: str | None = None) -> ASGIApp:
     app: ASGIApp = Limits(api)
     if cors is not None:
         app = CORSMiddleware(app, [cors], allow_methods=["GET", "POST"], allow_headers=["content-type"])
-    return Headers(app)
+    return Headers(_whole(app))
+
+
+def _whole(app: ASGIApp) -> ASGIApp:
+    """Answers are given whole: of ranges the framework would refuse a bad one in plain text."""
+
+    async def asked(scope: Scope, receive: Receive, send: Send) -> None:
+        headers = [(name, value) for name, value in scope["headers"] if name != b"range"]
+        await app({**scope, "headers": headers}, receive, send)
+
+    return asked
 
 
 async def only_json(request: Request) -> None:
@@ -62,6 +72,11 @@ def _plans(api: FastAPI, workers: Workers) -> None:
     async def plan(scene: models.Scene) -> Any:
         """The fastest entry, and every other with what it costs: what `loiter plan --json` prints, with tracks."""
         return await workers.run(plans.plan, scene.asked())
+
+    @api.post("/api/fastest", response_model=models.Plan, response_model_exclude_unset=True, dependencies=JSON)
+    async def fastest(scene: models.Scene) -> Any:
+        """The fastest entry, of the others only the best the other way round; in wind in half the time."""
+        return await workers.run(plans.fastest, scene.asked())
 
     @api.post("/api/candidates", response_model=models.Candidates, response_model_exclude_unset=True, dependencies=JSON)
     async def candidates(scene: models.Scene) -> Any:

@@ -277,7 +277,7 @@ class ReducedState(Answer):
 
 
 class Plan(Maneuver):
-    """The first optimal maneuver, and all others."""
+    """The first optimal maneuver, and others."""
 
     alternatives: list[LaterManeuver]
     optimal: int = Field(description="How many maneuvers are optimal: this and the first of the alternatives.")

@@ -7,7 +7,7 @@ from typing import Any
 
 from loiter.io.document import answer, described
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.solve import candidates, compared, plan_all
+from loiter.planning.solve import candidates, compared, each_way, plan_all
 from loiter.verify.certificate import Instant, certify
 from loiter.web.models import Asked
 from loiter.web.texts import command, instruction, python
@@ -19,7 +19,15 @@ STEPS = 100
 
 def plan(asked: Asked) -> dict[str, Any]:
     """`models.Plan`: what `loiter plan --json` prints, and the rest."""
-    best, others = compared(*asked[:4], tolerance_m=asked.tolerance_m)
+    return _told(asked, *compared(*asked[:4], tolerance_m=asked.tolerance_m))
+
+
+def fastest(asked: Asked) -> dict[str, Any]:
+    """`models.Plan`, of the alternatives only the best the other way round: what a drag in wind has time for."""
+    return _told(asked, *each_way(*asked[:4], tolerance_m=asked.tolerance_m))
+
+
+def _told(asked: Asked, best: Sequence[Maneuver], others: Sequence[Maneuver]) -> dict[str, Any]:
     first = best[0]
     document: dict[str, Any] = answer(best, others, asked.frame)
     for told, maneuver in zip([document, *document["alternatives"]], [*best, *others], strict=True):

@@ -5,6 +5,7 @@
  * @typedef {import("./types.js").Answer} Answer
  * @typedef {import("./types.js").Maneuver} Maneuver
  * @typedef {import("./types.js").Proof} Proof
+ * @typedef {import("./types.js").Scene} Scene
  * @typedef {import("./plan.js").Shown} Shown
  */
 import { byId, html, wordOf } from "./svg.js";
@@ -37,7 +38,10 @@ export function answerView(hover) {
     const { best } = sorted(answer);
     instruction.textContent = answer.instruction;
     facts.time.textContent = `${fixed(answer.duration_s, Math.max(2, decimals))} s`;
-    facts.path.textContent = length(answer.length_m, units, decimalsFor(scene.orbit.radius_m, units));
+    facts.path.replaceChildren(
+      length(answer.length_m, units, decimalsFor(scene.orbit.radius_m, units)),
+      ...(answer.wind.speed_m_s > 0 ? [html("small", {}, ["in the air"])] : []),
+    );
     facts.word.replaceChildren(wordOf(answer.word), html("small", {}, [TURNS[answer.turn]]));
     facts.other.textContent = otherWay(answer);
     facts.optimal.replaceChildren(
@@ -47,11 +51,11 @@ export function answerView(hover) {
       ]),
     );
     facts.bank.textContent = banks(answer);
+    drawList(answer, scene);
   }
 
-  /** @param {Shown} shown */
-  function drawList({ answer, scene }) {
-    if (!answer) return;
+  /** @param {Answer} answer @param {Scene} scene */
+  function drawList(answer, scene) {
     const { best, others } = sorted(answer);
     const rows = [
       ...best.map((maneuver) => row(maneuver, "optimal", "best")),
@@ -101,7 +105,7 @@ export function answerView(hover) {
     verdict.className = proof.certificate.valid ? "valid" : "invalid";
     verdict.textContent = judged(proof);
   }
-  return { draw, drawList, highlight, prove };
+  return { draw, highlight, prove };
 }
 
 /** @param {Answer} answer */

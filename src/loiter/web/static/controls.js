@@ -17,7 +17,7 @@
 import { limitFor } from "./compass.js";
 import { LIMITS, limitOf } from "./scene.js";
 import { byId } from "./svg.js";
-import { tidy, unit } from "./units.js";
+import { shortened, tidy, unit } from "./units.js";
 
 /** @param {keyof Scene["pose"]} name @returns {Field["set"]} */
 const inPose = (name) => (scene, value) => ({ ...scene, pose: { ...scene.pose, [name]: value } });
@@ -132,13 +132,6 @@ export function controls(shown, change, complain) {
   }
   return { draw };
 }
-
-/**
- * Seven digits: a field is not for reading more.
- *
- * @param {number} value
- */
-const shortened = (value) => Number(value.toPrecision(7));
 
 /** @param {HTMLInputElement} input */
 const labelOf = (input) =>

@@ -196,8 +196,8 @@ export function pivotOf(view) {
   return [view.width - Math.max(56, r + 22), r + (r === DIALS.large ? 30 : 14)];
 }
 
-/** Pixels on the dial for a metre per second. @param {Stage} stage */
-const perSpeed = ({ view, scene }) => (2 * dialOf(view)) / scene.aircraft.airspeed_m_s;
+/** Pixels on the dial for a metre per second, also while no airspeed is typed yet. @param {Stage} stage */
+const perSpeed = ({ view, scene }) => (2 * dialOf(view)) / Math.max(scene.aircraft.airspeed_m_s, 1e-9);
 
 /**
  * A scene with another wind: how the air moves, metres per second.

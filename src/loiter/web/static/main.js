@@ -15,18 +15,22 @@ import { controls } from "./controls.js";
 import { SPEEDS, clock, speedFor } from "./flight.js";
 import { planView } from "./plan.js";
 import { reachFor, reducedView } from "./reduced.js";
-import { PRESETS, fromLink, toLink } from "./scene.js";
+import { PRESETS, drifts, fromLink, toLink } from "./scene.js";
 import { byId, html } from "./svg.js";
 import { takeAway } from "./take.js";
 import { themes } from "./theme.js";
 import { timeLine } from "./timeline.js";
 import { at } from "./track.js";
 
-const REST_MS = 140; // what waits until a drag pauses: certificate, map, link, lists
+const REST_MS = 140; // what waits until a drag pauses: certificate, map, link, texts; in wind the losers too
 const CELLS = 280; // of the map, a side: 1.5 pixels each, and the curves cover the steps
 
-/** @type {{scene: Scene, units: Units, answer: Answer | null, asked: number, drawn: number}} */
-const state = { scene: PRESETS[0].scene, units: "metric", answer: null, asked: 0, drawn: 0 };
+/**
+ * `whole` tells whether the answer has every candidate, or the best of each direction alone.
+ *
+ * @type {{scene: Scene, units: Units, answer: Answer | null, whole: boolean, asked: number, drawn: number}}
+ */
+const state = { scene: PRESETS[0].scene, units: "metric", answer: null, whole: true, asked: 0, drawn: 0 };
 const shown = () => state;
 const message = byId("message", HTMLElement);
 const spoken = byId("spoken", HTMLElement);
@@ -60,22 +64,29 @@ function say(sentence, bad = false) {
  */
 function change(scene, event) {
   state.scene = scene;
-  state.asked += 1;
+  if (!failed) say("");
+  // All candidates in drifting air take the service longer than a frame: they wait until the drag rests.
+  demand(!drifts(scene));
   if (event instanceof PointerEvent) moves.push({ asked: state.asked, at: event.timeStamp });
-  plan.dataset.asked = String(state.asked);
   view.drawScene();
   panel.draw(shown());
-  ask({ scene, number: state.asked });
   rest();
 }
 
+/** @param {boolean} whole */
+function demand(whole) {
+  state.asked += 1;
+  plan.dataset.asked = String(state.asked);
+  ask({ scene: state.scene, number: state.asked, whole });
+}
+
 const ask = latest(
-  async (/** @type {{scene: Scene, number: number}} */ { scene }) =>
-    /** @type {Answer} */ (await (await post("/api/plan", scene)).json()),
-  (answer, { number }) => {
+  async (/** @type {{scene: Scene, number: number, whole: boolean}} */ { scene, whole }) =>
+    /** @type {Answer} */ (await (await post(whole ? "/api/plan" : "/api/fastest", scene)).json()),
+  (answer, { number, whole }) => {
     if (failed) say("");
     fail(false);
-    [state.answer, state.drawn] = [answer, number];
+    [state.answer, state.drawn, state.whole] = [answer, number, whole];
     answered();
   },
   (error, { number }) => {
@@ -143,8 +154,11 @@ function rest() {
     if (state.drawn < state.asked) return rest();
     relink();
     if (failed || !state.answer) return rested();
+    if (!state.whole) {
+      demand(true);
+      return rest();
+    }
     spoken.textContent = state.answer.instruction;
-    words.drawList(shown());
     taking.draw();
     askMap(state.answer);
     askProof({ scene: state.scene, number: state.asked });
@@ -202,11 +216,7 @@ function rested() {
 /** @param {Answer} answer */
 function askMap({ reduced: here }) {
   const { turn } = state.scene.orbit;
-  const windy =
-    state.scene.wind !== null ||
-    state.scene.orbit.velocity_east_m_s !== 0 ||
-    state.scene.orbit.velocity_north_m_s !== 0;
-  byId("map", HTMLElement).classList.toggle("windy", windy);
+  byId("map", HTMLElement).classList.toggle("drifts", drifts(state.scene));
   // Circles of the turn radius come out a rounding off; the map is that of the kernel, from 1 up.
   const radius = Math.max(1, Number(here.radius.toFixed(3)));
   byId("map-title", HTMLElement).textContent =
@@ -328,6 +338,7 @@ function wire() {
     view.draw();
     panel.draw(shown());
     words.draw(shown());
+    taking.draw();
     rest();
   });
   wireOrigin();

@@ -80,6 +80,8 @@ export function reducedView(shown, move) {
     },
   });
 
+  show(state, false); // until there is one
+
   /** @param {Synthesis} next */
   function map(next) {
     synthesis = next;
@@ -104,6 +106,7 @@ export function reducedView(shown, move) {
     const { answer } = shown();
     if (!answer) return;
     const { x, y } = answer.reduced;
+    show(state, true);
     place(state, dot(), tidy(x, 1e-6), `x ${fixed(x, 2)}, y ${fixed(y, 2)} turn radii`);
     path.replaceChildren(...sorted(answer).best.flatMap((maneuver) => drawWay(view, maneuver)));
   }

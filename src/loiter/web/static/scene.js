@@ -64,6 +64,15 @@ export function limitOf(given) {
 }
 
 /**
+ * Whether the air or the circle moves: then plans take a search, and the state does not reduce to a plane.
+ *
+ * @param {Scene} given
+ */
+export function drifts({ wind, orbit }) {
+  return wind !== null || orbit.velocity_east_m_s !== 0 || orbit.velocity_north_m_s !== 0;
+}
+
+/**
  * A scene, the units it is shown in and the view, if it is the user's own, as the fragment of a link, in the names of
  * the command line's options.
  *
@@ -114,15 +123,21 @@ export function fromLink(hash) {
       origin: given.has("origin") ? originOf(numbers(given, "origin", 2)) : null,
     },
     units: given.get("units") === "aviation" ? "aviation" : "metric",
-    view: given.has("view") ? numbers(given, "view", 3) : null,
+    view: given.has("view") ? viewOf(numbers(given, "view", 3)) : null,
   };
 }
 
 /** @param {number[]} values */
-const windOf = ([speed_m_s, from_deg]) => ({ speed_m_s, from_deg });
+const windOf = ([speed_m_s, from_deg]) => (speed_m_s === 0 ? null : { speed_m_s, from_deg });
 
 /** @param {number[]} values */
 const originOf = ([latitude_deg, longitude_deg]) => ({ latitude_deg, longitude_deg });
+
+/** @param {number[]} values */
+function viewOf([east, north, wide]) {
+  if (wide <= 0) throw new Error(`The link's view is ${wide} m wide: it must be wider than that.`);
+  return [east, north, wide];
+}
 
 /**
  * @param {URLSearchParams} given

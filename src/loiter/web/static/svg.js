@@ -86,7 +86,7 @@ export function show(element, shown) {
  * @param {string} word
  */
 export function wordOf(word) {
-  if (!word) return html("span", { class: "word" }, ["on the circle"]);
+  if (!word) return html("span", { class: "word" }, ["hold"]);
   return html(
     "span",
     { class: "word" },

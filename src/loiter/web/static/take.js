@@ -6,6 +6,7 @@
  */
 import { post } from "./api.js";
 import { byId, html } from "./svg.js";
+import { shortened, unit } from "./units.js";
 
 /** The formats of the service, with what they are for. */
 const FORMATS = /** @type {[string, string, string][]} */ ([
@@ -27,6 +28,11 @@ const FORMATS = /** @type {[string, string, string][]} */ ([
 export function takeAway(shown, link, say) {
   const list = byId("formats", HTMLElement);
   const altitude = byId("altitude", HTMLInputElement);
+  let altitude_m = 100;
+  altitude.addEventListener(
+    "input",
+    () => (altitude_m = altitude.valueAsNumber * unit("length", shown().units).size),
+  );
   for (const [format, name, use] of FORMATS) {
     const button = html(
       "button",
@@ -39,8 +45,7 @@ export function takeAway(shown, link, say) {
 
   /** @param {string} format */
   async function fetchFile(format) {
-    const height = altitude.valueAsNumber;
-    const body = { ...shown().scene, ...(Number.isFinite(height) ? { altitude_m: height } : {}) };
+    const body = { ...shown().scene, ...(Number.isFinite(altitude_m) ? { altitude_m } : {}) };
     const response = await post(`/api/export/${format}`, body);
     const name =
       /filename="?([^";]+)"?/.exec(response.headers.get("Content-Disposition") ?? "")?.[1] ?? `entry.${format}`;
@@ -67,7 +72,11 @@ export function takeAway(shown, link, say) {
   const code = { python: byId("python", HTMLElement), command: byId("command", HTMLElement) };
   return {
     draw() {
-      const { answer } = shown();
+      const { answer, units } = shown();
+      const { name, size } = unit("length", units);
+      byId("altitude-unit", HTMLElement).textContent = name;
+      if (document.activeElement !== altitude)
+        altitude.value = Number.isFinite(altitude_m) ? String(shortened(altitude_m / size)) : "";
       code.python.textContent = answer?.python ?? "";
       code.command.textContent = answer?.command ?? "";
     },

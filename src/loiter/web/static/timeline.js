@@ -61,7 +61,7 @@ export function timeLine(seek) {
       ),
     );
     ticks.replaceChildren(
-      ...axis(end(), across, width),
+      ...(segments.length > 0 ? axis(end(), across, width) : []),
       ...segments
         .slice(1)
         .map(({ start_s }) => svg("path", { d: `M${across(start_s)} ${STRIP.top}V${AXIS - 12}`, class: "switchline" })),

@@ -48,6 +48,7 @@
  * @property {"cw" | "ccw"} turn
  * @property {Pose} join
  * @property {{centre_east_m: number, centre_north_m: number}} join_over_ground
+ * @property {Wind} wind
  * @property {{least_bank_deg: number, largest_bank_deg: number}} hold
  * @property {Segment[]} segments
  * @property {{airspeed_m_s: number, turn_radius_m: number}} aircraft

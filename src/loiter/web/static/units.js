@@ -69,6 +69,13 @@ export function length(metres, units, decimals) {
 }
 
 /**
+ * A number for a field: six digits, as it is not for reading more and has no room.
+ *
+ * @param {number} value
+ */
+export const shortened = (value) => Number(value.toPrecision(6));
+
+/**
  * A difference of times: three digits, as the command line tells it.
  *
  * @param {number} seconds
