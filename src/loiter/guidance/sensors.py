@@ -1,0 +1,92 @@
+"""Sensors: noise on each quantity of a state, and a delay before it is told."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
+
+from loiter.errors import not_negative
+from loiter.guidance.protocol import State
+from loiter.planning.compass import wrapped
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
+
+BLOCK = 1024
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """Standard deviations of white noise, one draw a measurement, and how old a measurement is when it is told.
+
+    The velocity's is that of each component over the ground. Raises `InvalidArgument` for what is negative or not
+    finite.
+    """
+
+    position_m: float = 1.0
+    heading_deg: float = 1.0
+    bank_deg: float = 0.5
+    velocity_m_s: float = 0.3
+    airspeed_m_s: float = 0.3
+    delay_s: float = 0.1
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            object.__setattr__(self, field.name, not_negative(field.name, getattr(self, field.name), "its unit"))
+
+
+EXACT = Noise(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class Sensors:
+    """Measures states one after the other and tells each `noise.delay_s` later.
+
+    Before the first state was measured the aircraft flew straight, as its velocity was.
+    """
+
+    def __init__(self, first: State, noise: Noise, random: Generator) -> None:
+        self._noise, self._random = noise, random
+        self._draws: list[list[float]] = []
+        self._first = first
+        self._waiting = deque([self._noisy(first)])
+        self._told = self._noisy(_earlier(first, noise.delay_s)) if noise.delay_s > 0.0 else self._waiting.popleft()
+
+    @property
+    def told(self) -> State:
+        """The last measurement that was told."""
+        return self._told
+
+    def measure(self, state: State) -> None:
+        """Measure a state, and tell what is due by then."""
+        self._waiting.append(self._noisy(state))
+        due_s = state.time_s - self._noise.delay_s
+        if due_s < self._first.time_s:
+            self._told = self._noisy(_earlier(self._first, self._first.time_s - due_s))
+        # A measurement due now by all but rounding is due.
+        while self._waiting and self._waiting[0].time_s <= due_s + 1e-9:
+            self._told = self._waiting.popleft()
+
+    def _noisy(self, state: State) -> State:
+        if not self._draws:
+            self._draws = self._random.standard_normal((BLOCK, 7)).tolist()
+        n, (a, b, c, d, e, f, g) = self._noise, self._draws.pop()
+        return State(
+            state.time_s,
+            state.east_m + n.position_m * a,
+            state.north_m + n.position_m * b,
+            wrapped(state.heading_deg + n.heading_deg * c),
+            state.bank_deg + n.bank_deg * d,
+            state.velocity_east_m_s + n.velocity_m_s * e,
+            state.velocity_north_m_s + n.velocity_m_s * f,
+            state.airspeed_m_s + n.airspeed_m_s * g,
+        )
+
+
+def _earlier(state: State, time_s: float) -> State:
+    """The state of an aircraft that flew straight until now, `time_s` seconds ago."""
+    return state._replace(
+        time_s=state.time_s - time_s,
+        east_m=state.east_m - state.velocity_east_m_s * time_s,
+        north_m=state.north_m - state.velocity_north_m_s * time_s,
+    )

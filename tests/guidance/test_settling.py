@@ -1,0 +1,87 @@
+"""The measure: flights drawn by hand, settled or not."""
+
+from math import cos, degrees, pi, sin
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from loiter import Orbit, Turn
+from loiter.errors import InvalidArgument
+from loiter.guidance.protocol import State
+from loiter.guidance.settling import Band, Settling
+
+STEP = 0.01
+
+
+def state(t, azimuth, distance=100.0, course_off=0.0, sense=1, moving=(0.0, 0.0)):
+    """At a compass azimuth from the centre, `course_off` radians outside the tangent clockwise (sense 1) or the other
+    way, at 20 m/s."""
+    course = azimuth + sense * (pi / 2 - course_off)
+    east, north = 20.0 * sin(course) + moving[0], 20.0 * cos(course) + moving[1]
+    place = distance * sin(azimuth) + moving[0] * t, distance * cos(azimuth) + moving[1] * t
+    return State(t, *place, degrees(course), 0.0, east, north, 20.0)
+
+
+def settled_after(states, turn="either", band=Band(), velocity=(0.0, 0.0)):  # noqa: B008
+    """The settling, once it has settled or the states are over."""
+    settling = Settling(Orbit(0.0, 0.0, 100.0, turn, *velocity), band)
+    for each in states:
+        settling.watch(each)
+        if settling.settled:
+            break
+    return settling
+
+
+def turns(n, begin_s=0.0, **how):
+    """n turns round the circle, a thousand states each, from an azimuth of 1."""
+    sense = how.get("sense", 1)
+    return [state(begin_s + STEP * i, 1.0 + sense * 2.0 * pi * i / 1000, **how) for i in range(round(1000 * n) + 1)]
+
+
+@given(st.floats(-4.9, 4.9), st.floats(-4.9, 4.9), st.sampled_from([1, -1]))
+def test_a_full_turn_in_the_band_settles(off_m, off_deg, sense):
+    settling = settled_after(turns(1.01, distance=100.0 + off_m, course_off=off_deg * pi / 180, sense=sense))
+    assert settling.settled
+    assert settling.entered_s == settling.joined_s == 0.0
+
+
+@pytest.mark.parametrize("how", [{"distance": 105.2}, {"distance": 94.8}, {"course_off": 0.09}, {"course_off": -0.09}])
+def test_outside_the_band_nothing_settles(how):
+    assert not settled_after(turns(3, **how)).settled
+    assert settled_after(turns(3, **how), band=Band(0.1, 10.0)).settled
+
+
+def test_less_than_a_turn_is_not_enough():
+    assert not settled_after(turns(0.99)).settled
+
+
+def test_the_direction_is_that_asked_for():
+    assert settled_after(turns(1.1), turn="cw").settled
+    assert not settled_after(turns(1.1), turn="ccw").settled
+    assert not settled_after(turns(1.1, sense=-1), turn=Turn.CW).settled
+
+
+def test_who_leaves_begins_anew():
+    half = turns(0.5)
+    out = [state(half[-1].time_s + STEP * i, 1.0 + pi, 107.0) for i in range(1, 50)]
+    again = turns(1.1, out[-1].time_s + STEP)
+    settling = settled_after(half + out + again)
+    assert settling.settled
+    assert settling.entered_s == pytest.approx(again[0].time_s)
+    # 107 m is within twice the band: it had joined, and stayed about there.
+    assert settling.joined_s == 0.0
+    far = [each._replace(east_m=each.east_m * 1.1, north_m=each.north_m * 1.1) for each in out]
+    assert settled_after(half + far + again).joined_s == settling.entered_s
+
+
+def test_a_circle_that_moves_takes_its_band_along():
+    velocity = (3.0, -2.0)
+    assert settled_after(turns(1.1, moving=velocity), velocity=velocity).settled
+    assert not settled_after(turns(1.1, moving=velocity)).settled
+
+
+@pytest.mark.parametrize("band", [(0.0, 5.0), (0.05, -1.0), (float("nan"), 5.0)])
+def test_a_band_has_a_width(band):
+    with pytest.raises(InvalidArgument, match=r"^(radial|course_deg) is "):
+        Band(*band)
