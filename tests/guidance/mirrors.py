@@ -1,0 +1,51 @@
+"""The rivals, states to put them in, and what a mirror in the north axis makes of a scene."""
+
+from hypothesis import strategies as st
+
+from guidance.circling import state_of
+from loiter import Aircraft, Orbit
+from loiter.guidance.l1 import L1
+from loiter.guidance.protocol import Command, Phase, State
+from loiter.guidance.tangent import Tangent
+from loiter.guidance.vector_field import VectorField
+from loiter.planning.compass import heading_vector
+
+RIVALS = {"L1": L1, "vector field": VectorField, "tangent": Tangent}
+
+OTHER_PHASE = {Phase.LEFT: Phase.RIGHT, Phase.RIGHT: Phase.LEFT}
+
+
+def states(uav: Aircraft) -> st.SearchStrategy[State]:
+    """States in still air and in wind, up to a kilometre off."""
+    metres, knots = st.floats(-1000.0, 1000.0), st.floats(-8.0, 8.0)
+    headings = st.floats(0.0, 360.0)
+    return st.builds(
+        lambda east, north, heading, wind: state_of(3.0, east, north, *heading_vector(heading), uav, wind),
+        metres,
+        metres,
+        headings,
+        st.tuples(knots, knots),
+    )
+
+
+def mirrored_state(state: State) -> State:
+    return state._replace(
+        east_m=-state.east_m,
+        heading_deg=-state.heading_deg,
+        bank_deg=-state.bank_deg,
+        velocity_east_m_s=-state.velocity_east_m_s,
+    )
+
+
+def mirrored_orbit(orbit: Orbit) -> Orbit:
+    return Orbit(-orbit.east_m, orbit.north_m, orbit.radius_m, orbit.turn.other)
+
+
+def mirrored_command(command: Command) -> Command:
+    return command._replace(
+        turn_rate_deg_s=-command.turn_rate_deg_s,
+        bank_deg=-command.bank_deg,
+        phase=OTHER_PHASE.get(command.phase, command.phase),
+        turn=command.turn.other,
+        next_phase=OTHER_PHASE.get(command.next_phase, command.next_phase),
+    )

@@ -1,0 +1,98 @@
+"""What all rivals keep: mirror images, settling, lost data, refusals."""
+
+from math import isfinite, nan
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from guidance.circling import flown, settled_s, state_of
+from guidance.mirrors import RIVALS, mirrored_command, mirrored_orbit, mirrored_state, states
+from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
+from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
+from loiter.guidance.l1 import L1
+from loiter.guidance.protocol import Phase, State
+from loiter.guidance.tangent import Tangent
+from loiter.guidance.vector_field import VectorField
+from loiter.planning.compass import heading_vector
+from strategies import poses
+
+UAV = Aircraft(20.0, max_bank_deg=45.0)
+
+
+def at(east, north, heading_deg):
+    return state_of(0.0, east, north, *heading_vector(heading_deg), UAV)
+
+
+@pytest.mark.parametrize("name", RIVALS)
+@given(states(UAV), st.sampled_from([Turn.CW, Turn.CCW]))
+def test_a_mirrored_state_gets_the_mirrored_command(name, state, turn):
+    orbit = Orbit(120.0, -50.0, 130.0, turn)
+    command = RIVALS[name](orbit, UAV).step(state, 0.1)
+    mirrored = RIVALS[name](mirrored_orbit(orbit), UAV).step(mirrored_state(state), 0.1)
+    assert mirrored == pytest.approx(mirrored_command(command), abs=1e-6, nan_ok=True)
+
+
+@pytest.mark.parametrize("name", RIVALS)
+@pytest.mark.parametrize("wind", [Wind(0.0, 0.0), Wind(6.0, from_deg=250.0)], ids=["still air", "wind"])
+@settings(max_examples=12, deadline=None)
+@given(poses.filter(lambda pose: max(abs(pose.east_m), abs(pose.north_m)) < 900.0), st.sampled_from(list(Turn)))
+def test_it_settles(name, wind, pose, turn):
+    orbit = Orbit(0.0, 0.0, 150.0, turn)
+    law = RIVALS[name](orbit, UAV, wind)
+    settled = settled_s(law, pose, UAV, wind.velocity_m_s)
+    assert isfinite(settled)
+    # None is faster than the fastest, but for the bounds that count as settled: 5 degrees of the circle and 7.5 m.
+    assert settled >= plan(pose, Orbit(0.0, 0.0, 150.0, law.turn), UAV, wind).duration_s - 8.0
+
+
+@pytest.mark.parametrize("name", RIVALS)
+def test_about_a_ship(name):
+    # The centre goes east at 5 m/s: told of it, the law settles about it.
+    orbit = Orbit(0.0, 0.0, 150.0, "cw", velocity_east_m_s=5.0)
+    assert isfinite(settled_s(RIVALS[name](orbit, UAV), Pose(-500.0, 100.0, 200.0), UAV))
+
+
+@pytest.mark.parametrize("name", RIVALS)
+@pytest.mark.parametrize("field", State._fields)
+def test_without_data_the_last_bank_is_kept(name, field):
+    law = RIVALS[name](Orbit(0.0, 0.0, 100.0), UAV)
+    good = at(-300.0, 40.0, 20.0)
+    blind = law.step(good._replace(**{field: nan}), 0.1)
+    assert (blind.bank_deg, blind.phase) == (0.0, Phase.NO_DATA)
+    command = law.step(good, 0.1)
+    later = flown(good, command.bank_deg, UAV)
+    blind = law.step(later._replace(**{field: nan}), 0.1)
+    assert (blind.bank_deg, blind.phase) == (command.bank_deg, Phase.NO_DATA)
+    assert law.step(later, 0.1).phase != Phase.NO_DATA
+
+
+@pytest.mark.parametrize("name", RIVALS)
+def test_a_circle_that_cannot_be_held_is_refused(name):
+    with pytest.raises(RadiusTooSmall, match="tighter than the aircraft can turn"):
+        RIVALS[name](Orbit(0.0, 0.0, 40.0), UAV)
+    with pytest.raises(WindTooStrong):
+        RIVALS[name](Orbit(0.0, 0.0, 400.0), UAV, Wind(21.0, 0.0))
+
+
+def test_either_way_is_the_way_of_the_fastest_entry():
+    pose = Pose(-400.0, 120.0, 90.0)
+    for name in ("L1", "vector field"):
+        law = RIVALS[name](Orbit(0.0, 0.0, 100.0), UAV)
+        turn = law.step(at(-400.0, 120.0, 90.0), 0.1).turn
+        assert turn == plan(pose, law.orbit, UAV).turn
+
+
+@pytest.mark.parametrize(
+    ("law", "gains"),
+    [
+        (L1, {"period_s": 0.0}),
+        (L1, {"damping": nan}),
+        (Tangent, {"reserve": -0.1}),
+        (Tangent, {"lead_s": nan}),
+        (VectorField, {"gains": (1.0, 0.0, 1.0)}),
+    ],
+)
+def test_gains_are_checked(law, gains):
+    with pytest.raises(InvalidArgument, match=r"it must be"):
+        law(Orbit(0.0, 0.0, 100.0), UAV, **gains)
