@@ -65,6 +65,9 @@ app.command(
 )
 app.command("loiter.cli.mavlink:watch", help="Listen to a vehicle and print, live, the fastest entry from where it is.")
 app.command(
+    "loiter.cli.fly:fly", help="Fly the fastest entry in closed loop, beside the laws that autopilots use today."
+)
+app.command(
     "loiter.cli.synthesis:synthesis",
     help="Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions.",
 )

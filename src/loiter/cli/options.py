@@ -264,18 +264,24 @@ class Scene(NamedTuple):
 
 def scene_of(start: StartOptions, orbit: OrbitOptions, aircraft: AircraftOptions, wind: WindOptions) -> Scene:
     """The scene that the options describe; raises `InvalidArgument` where they contradict or fall short."""
+    preset = aircraft.preset()
+    pose, circle, frame = placed(start, orbit, preset)
+    return Scene(pose, circle, aircraft.aircraft(preset), wind.moving_air, frame, aircraft.remark(preset))
+
+
+def placed(
+    start: StartOptions, orbit: OrbitOptions, preset: Preset | None = None
+) -> tuple[Pose, Orbit, LocalFrame | None]:
+    """The start and the circle, and the plane of metres where they are in degrees."""
     if (start.pose is None) == (start.pose_lla is None):
         raise InvalidArgument("pose", "or --pose-lla is needed, and not both")
-    preset = aircraft.preset()
     circle, frame = orbit.circle(preset)
     if (start.pose_lla is None) != (frame is None):
         raise InvalidArgument("pose_lla", "and --orbit-lla go together: places in degrees, or both in metres")
     if frame is not None and start.pose_lla is not None:
-        pose = frame.pose(*start.pose_lla)
-    else:
-        assert start.pose is not None
-        pose = Pose(*start.pose)
-    return Scene(pose, circle, aircraft.aircraft(preset), wind.moving_air, frame, aircraft.remark(preset))
+        return frame.pose(*start.pose_lla), circle, frame
+    assert start.pose is not None  # one of them is given
+    return Pose(*start.pose), circle, None
 
 
 def _with_radius(argument: str, numbers: Sequence[float], radius_m: float | None) -> tuple[float, float, float]:

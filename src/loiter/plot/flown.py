@@ -1,0 +1,65 @@
+"""Flights in closed loop: the tracks over the circle, and bank and time to join against time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from loiter.guidance.flight import Flight
+from loiter.planning.maneuver import Maneuver
+
+# Okabe and Ito's palette.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+FAINT = "#b0b0b0"
+
+
+def draw(ideal: Maneuver, flights: Mapping[str, Flight]) -> Figure:
+    """Tracks of laws from one start beside the fastest entry; below, bank and the reported time to join.
+
+    A dot on a track is where the aircraft was when the turn began that settled it. A circle that moves is drawn where
+    it is when the fastest entry joins it.
+    """
+    figure = Figure(figsize=(8.0, 8.6), layout="constrained")
+    layout: Any = [["tracks"], ["bank"], ["join"]]
+    axes = figure.subplot_mosaic(layout, height_ratios=[6, 2, 2])
+    _draw_tracks(axes["tracks"], ideal, flights)
+    for (name, flight), colour in zip(flights.items(), COLOURS, strict=False):
+        track = flight.track
+        time_s = track.time_s - track.time_s[0]
+        axes["bank"].plot(time_s, track.bank_deg, color=colour, linewidth=1.2, gid=f"bank {name}")
+        axes["join"].plot(time_s, track.time_to_join_s, color=colour, linewidth=1.2, gid=f"join {name}")
+    axes["bank"].set_ylabel("bank (deg)")
+    axes["join"].set_ylabel("time to join (s)")
+    axes["join"].set_xlabel("time (s)")
+    axes["join"].sharex(axes["bank"])
+    for panel in axes.values():
+        panel.grid(color="#e6e6e6", linewidth=0.8)
+        panel.set_axisbelow(True)
+    return figure
+
+
+def _draw_tracks(axes: Axes, ideal: Maneuver, flights: Mapping[str, Flight]) -> None:
+    circle = ideal.orbit_at_join
+    centre = (circle.east_m, circle.north_m)
+    axes.add_patch(Circle(centre, circle.radius_m, fill=False, color="black", linewidth=1.4, gid="circle"))
+    sampled = ideal.sample(max(ideal.duration_s, 1e-3) / 400.0)
+    axes.plot(sampled.east_m, sampled.north_m, color=FAINT, linewidth=5.0, label="fastest entry", gid="ideal")
+    for (name, flight), colour in zip(flights.items(), COLOURS, strict=False):
+        east, north = flight.track.east_m, flight.track.north_m
+        axes.plot(east, north, color=colour, linewidth=1.3, label=_label(name, flight), gid=f"track {name}")
+        if flight.settled:
+            i = np.searchsorted(flight.track.time_s - flight.track.time_s[0], flight.settled_s)
+            axes.plot([east[i]], [north[i]], color=colour, marker="o", linestyle="none", gid=f"settled {name}")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_xlabel("east (m)")
+    axes.set_ylabel("north (m)")
+    axes.legend(loc="best", fontsize="small", framealpha=0.9)
+
+
+def _label(name: str, flight: Flight) -> str:
+    return f"{name}: settled in {flight.settled_s:.1f} s" if flight.settled else f"{name}: not settled"

@@ -1,0 +1,85 @@
+"""`loiter fly`: what it prints and writes, and how it refuses."""
+
+import csv
+import re
+
+import pytest
+
+from loiter.cli.app import main
+
+UAV = "--airspeed 18 --bank 35"
+SCENE = f"--pose -300 120 90 --orbit 0 0 80 {UAV}"
+
+
+def rows(text):
+    """The rows of the table of laws, by law."""
+    split = [re.split(r"\s{2,}", line.strip()) for line in text.splitlines()]
+    head = next(i for i, cells in enumerate(split) if cells[0] == "law")
+    return {cells[0]: dict(zip(split[head], cells, strict=False)) for cells in split[head + 1 :]}
+
+
+def test_the_vehicle_of_the_theory_flies_the_plan(shown, planned):
+    ideal_s = planned(SCENE)["duration_s"]
+    text = shown(f"fly --sim kinematic {SCENE}")
+    phases = re.findall(r"([\d.]+) s  (turn left|turn right|fly straight|hold),", text)
+    starts = [segment["start_s"] for segment in planned(SCENE)["segments"]]
+    assert [float(time) for time, _ in phases] == pytest.approx([*starts, ideal_s], abs=0.051)
+    assert [phase for _, phase in phases] == ["turn right", "fly straight", "turn left", "hold"]
+    assert float(rows(text)["optimal"]["of the fastest"]) <= 1.0
+
+
+def test_the_same_seed_flies_the_same(shown):
+    once = shown(f"fly {SCENE} --seed 4")
+    assert shown(f"fly {SCENE} --seed 4") == once
+    assert shown(f"fly {SCENE} --seed 5") != once
+
+
+def test_laws_are_compared_and_written(shown, tmp_path):
+    text = shown(f"fly {SCENE} --compare --save {tmp_path / 'f.csv'} --plot {tmp_path / 'f.png'}")
+    table = rows(text)
+    assert set(table) == {"optimal", "l1", "vector-field", "tangent"}
+    with (tmp_path / "f.csv").open() as file:
+        steps = list(csv.DictReader(file))
+    assert {step["law"] for step in steps} == set(table)
+    first = next(step for step in steps if step["law"] == "l1")
+    assert (float(first["east_m"]), float(first["north_m"]), float(first["heading_deg"])) == (-300.0, 120.0, 90.0)
+    assert (tmp_path / "f.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_many_starts_become_a_row_for_each_law(shown, tmp_path):
+    text = shown(f"fly --runs 4 --compare --workers 1 {UAV} --save {tmp_path / 'runs.csv'}")
+    assert {row["settled"] for row in rows(text).values()} == {"4 of 4"}
+    with (tmp_path / "runs.csv").open() as file:
+        assert len(list(csv.DictReader(file))) == 16
+
+
+def test_six_degrees_of_freedom(shown):
+    text = shown("fly --sim jsbsim --airframe aerosonde --gust 0 --pose -400 150 90 --orbit 0 0 200")
+    assert float(rows(text)["optimal"]["of the fastest"]) < 1.5
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (UAV, "--pose or --pose-lla is needed"),
+        (f"--runs 0 {UAV}", "--runs is 0: it must be at least 1"),
+        (f"--runs 3 {SCENE}", "--runs asks for random starts and circles"),
+        (f"--runs 3 {UAV} --plot f.png", "--plot draws one flight"),
+        (f"{SCENE} --plot f.doc", "--plot is 'f.doc'"),
+        (f"{SCENE} --save f.txt", "--save is 'f.txt': the file name must end in .csv"),
+        (f"{SCENE} --save no/f.csv", "--save is 'no/f.csv': it cannot be written"),
+        (f"{SCENE} --gust -1", "--gust is -1"),
+        (f"{SCENE} --gust nan", "--gust is nan"),
+        (f"{SCENE} --sim jsbsim", "--airframe has an airspeed and a bank limit of its own"),
+        (f"{SCENE} --wind 30 0", "a wind of 30 m/s leaves"),
+        (f"--runs 3 --workers 0 {UAV}", "--workers is 0"),
+        (f"--pose 0 0 0 --orbit 0 0 30 {UAV}", "orbit radius 30 m is tighter"),
+    ],
+)
+def test_what_cannot_be_flown(capsys, tmp_path, monkeypatch, options, sentence):
+    monkeypatch.chdir(tmp_path)
+    assert main(["fly", *options.split()]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert err.startswith(f"loiter: {sentence}"), err
+    assert list(tmp_path.iterdir()) == []

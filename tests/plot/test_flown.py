@@ -1,0 +1,50 @@
+"""The picture of flights: what is drawn is what was flown."""
+
+import numpy as np
+import pytest
+
+from loiter import Aircraft, Orbit, Pose, plan
+from loiter.guidance import settings
+from loiter.guidance.campaign import Trial
+from loiter.guidance.flight import fly
+from loiter.plot.flown import draw
+
+TRIAL = Trial(plan(Pose(-300.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0)), 1)
+
+
+@pytest.fixture(scope="module")
+def flights():
+    setting = settings.theory()
+    return {
+        name: fly(setting.laws[name](TRIAL), setting.simulator(TRIAL), TRIAL.ideal.orbit) for name in ("optimal", "l1")
+    }
+
+
+def line(axes, gid):
+    [found] = [artist for artist in axes.get_lines() if artist.get_gid() == gid]
+    return found.get_xdata(), found.get_ydata()
+
+
+def test_tracks_bank_and_time_to_join_are_those_of_the_flights(flights):
+    tracks, bank, join = draw(TRIAL.ideal, flights).axes
+    for name, flight in flights.items():
+        assert np.array_equal(line(tracks, f"track {name}"), [flight.track.east_m, flight.track.north_m])
+        time_s = flight.track.time_s - flight.track.time_s[0]
+        assert np.array_equal(line(bank, f"bank {name}"), [time_s, flight.track.bank_deg])
+        assert np.array_equal(line(join, f"join {name}"), [time_s, flight.track.time_to_join_s], equal_nan=True)
+        [east], [north] = line(tracks, f"settled {name}")
+        assert np.hypot(east, north) == pytest.approx(80.0, rel=0.05)
+
+
+def test_the_fastest_entry_lies_beneath(flights):
+    east, north = line(draw(TRIAL.ideal, flights).axes[0], "ideal")
+    assert (east[0], north[0]) == (-300.0, 120.0)
+    assert (east[-1], north[-1]) == pytest.approx((TRIAL.ideal.join.east_m, TRIAL.ideal.join.north_m))
+
+
+def test_who_has_not_settled_is_said_so():
+    setting = settings.theory()
+    short = fly(setting.laws["l1"](TRIAL), setting.simulator(TRIAL), TRIAL.ideal.orbit, limit_s=1.0)
+    axes = draw(TRIAL.ideal, {"l1": short}).axes[0]
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["fastest entry", "l1: not settled"]
+    assert not [artist for artist in axes.get_lines() if artist.get_gid() == "settled l1"]
