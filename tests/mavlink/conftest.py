@@ -1,5 +1,7 @@
 """Everything waits a tenth of what it does for real vehicles, but where a test asks for real time."""
 
+import signal
+
 import pytest
 
 from mavlink.vehicle import WAITS
@@ -10,6 +12,14 @@ def quick(request, monkeypatch):
     if "real_time" not in request.fixturenames:
         for (module, name), seconds in WAITS.items():
             monkeypatch.setattr(module, name, seconds / 10.0)
+
+
+@pytest.fixture
+def interruptible():
+    """Ctrl-C counts, also where a shell in the background has it ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture

