@@ -39,7 +39,8 @@ def test_a_campaign_does_not_depend_on_who_flies_it_and_finds_the_law_sooner():
     alone = campaign(laws, point_mass, STARTS[:2], workers=1, limit_s=200.0, progress=lambda *n: seen.append(n))
     assert seen == [(1, 2), (2, 2)]
     for name in laws:
-        assert shared[name][:2] == alone[name]
+        # As text, since nan, of who has not settled, is not equal to itself.
+        assert repr(shared[name][:2]) == repr(alone[name])
     own, rival = shared["optimal"], shared["l1"]
     one = summary(own, rival)
     assert (one.flights, one.settled, one.round_again) == (12, 12, 0)

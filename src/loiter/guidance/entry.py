@@ -19,9 +19,9 @@ from loiter.planning.held import SIDES, air_past, check_held
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind
 from loiter.planning.scaling import TURNS
 
-# The figures below were tuned in gusts, 200 starts each: docs/guidance.md.
+# The figures below were tuned in gusts, 200 to 500 starts each: docs/guidance.md.
 # How much wider than the aircraft can turn the plan turns, as a share; what is left corrects.
-RESERVE = 0.03
+RESERVE = 0.015
 
 # How long measurements are averaged, and how old one may be when it is told, seconds.
 SMOOTHING_S, DELAY_S = 0.5, 0.1
@@ -32,7 +32,7 @@ TURN_LAG = 0.2
 
 # Course errors are corrected so many times as quickly as the aircraft banks and its sensors are averaged, and errors of
 # place a fraction as quickly: a course steep enough to be quicker would leave the circle's tangent by degrees.
-GAIN, PLACE_GAIN = 5.0, 0.25
+GAIN, PLACE_GAIN = 4.0, 0.25
 
 # In turn radii over airspeed: how much sooner another plan must be to be taken, and how much later may be what is the
 # same plan from here. The noise of a sensor moves T by less, but at a jump, where the plan that is kept is the soonest.

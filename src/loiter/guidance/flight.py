@@ -146,7 +146,7 @@ def _measured(
     """A flight with its measures."""
     import numpy as np
 
-    start_s, steps_s = track.time_s[0], np.diff(track.time_s)
+    start_s, steps_s = float(track.time_s[0]), np.diff(track.time_s)
     # What never was lasts to the end.
     settled, joined = np.searchsorted(track.time_s, np.nan_to_num([settled_s, joined_s], nan=track.time_s[-1]))
     turned_deg = np.abs((np.diff(track.heading_deg) + 180.0) % 360.0 - 180.0)
