@@ -9,7 +9,7 @@ from guidance.flights import UAV
 from loiter import Orbit, Pose, Wind, plan
 from loiter.errors import InvalidArgument
 from loiter.guidance.campaign import LAWS, Trial, campaign, kinematic, optimal, point_mass, trials
-from loiter.guidance.summary import summary, table
+from loiter.guidance.summary import summary
 
 STARTS = trials(12, 5, UAV)
 
@@ -47,8 +47,6 @@ def test_a_campaign_does_not_depend_on_who_flies_it_and_finds_the_law_sooner():
     assert one.median_ratio < 1.15
     assert one.sooner >= 0.9
     assert one.worst_join_error_s < 0.3
-    assert "| optimal | 12/12 | 0 |" in table(shared)
-    assert f"| {one.sooner:.1%} |" in table(shared)
 
 
 def test_the_theory_flies_the_optimum():
