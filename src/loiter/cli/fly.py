@@ -170,7 +170,7 @@ def _time_line(flight: Flight) -> Iterator[str]:
     before, start_s = None, flight.track.time_s[0]
     for time_s, phase, bank in zip(flight.track.time_s, flight.phases, flight.track.bank_deg, strict=False):
         if phase != before:
-            yield f"{time_s - start_s:6.1f} s  {phase}, bank {bank:.0f} deg"
+            yield f"{time_s - start_s:6.1f} s  {phase}, bank {round(bank)} deg"
         before = phase
     yield (
         f"{flight.settled_s:6.1f} s  settled: the full turn within the band begins"
