@@ -74,7 +74,7 @@ BAD_SHAPES = [
     (plan(speed="18"), ["--speed"]),
     ([*plan(), "--quiet"], ["--quiet"]),
     ([*plan(), "extra"], ["extra"]),
-    (["fly"], ["fly", "plan", "verify"]),
+    (["hover"], ["hover", "plan", "verify"]),
     (["plna"], ["plna", "plan"]),
     (["--nope"], ["--nope"]),
 ]
