@@ -33,7 +33,7 @@ def connected(address: str) -> Iterator[Any]:
         raise InvalidArgument("scheduler", f"is {address!r}: it must be an address such as tcp://host:8786")
     from distributed import Client
 
-    with _quiet("distributed", "distributed.client", "tornado"):
+    with _quiet("distributed", "distributed.client", "tornado", "asyncio"):
         try:
             client: Any = Client(address, timeout=CONNECT_S, set_as_default=False)
         except (OSError, ValueError) as error:
