@@ -9,6 +9,7 @@ from abc import ABC, abstractmethod
 from math import degrees, hypot, isfinite, nan, radians, sin, tan
 from typing import NamedTuple
 
+from loiter.guidance.limits import clipped
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.turning import bank_at_rate, rate_at_bank
 from loiter.planning.compass import heading_vector
@@ -74,11 +75,6 @@ def phase_of(right_m_s2: float, seen: Around, side: int, radius_m: float) -> Pha
     if abs(right_m_s2) <= STANDARD_GRAVITY_M_S2 * tan(radians(LEVEL_DEG)):
         return Phase.STRAIGHT
     return Phase.RIGHT if right_m_s2 > 0.0 else Phase.LEFT
-
-
-def clipped(value: float, limit: float) -> float:
-    """`value`, but no further from 0 than `limit`."""
-    return min(max(value, -limit), limit)
 
 
 class Follower(ABC):

@@ -8,6 +8,8 @@ from __future__ import annotations
 from math import atan2, hypot
 from typing import NamedTuple
 
+from loiter.guidance.limits import clipped
+
 # The steepest course onto a path, radians: a vehicle far off turns towards the path, not round.
 STEEPEST = 0.6
 
@@ -66,7 +68,7 @@ def course_rate(beside: Offset, course_gain: float, place_gain: float, speed: fl
     towards -`place_gain` e/speed at the rate `course_gain`: e'' + course_gain (e' + place_gain e) = 0, without
     overshoot for a course gain of four times the other and more.
     """
-    towards = min(max(-place_gain * beside.left / speed, -STEEPEST), STEEPEST)
+    towards = clipped(-place_gain * beside.left / speed, STEEPEST)
     return beside.turning - course_gain * (beside.course - towards)
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from math import cos, radians, sin, tan
 from typing import NamedTuple
 
+from loiter.guidance.limits import clipped
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 
 # The climb or descent that brings the altitude back, metres per second, and the load factors it may take.
@@ -83,7 +84,7 @@ class InnerLoops:
 
     def _roll(self, flight: Flight, bank: float, dt: float) -> float:
         gains = self._gains
-        rate = _clipped(gains.bank * (bank - flight.bank), radians(gains.roll_rate_deg_s))
+        rate = clipped(gains.bank * (bank - flight.bank), radians(gains.roll_rate_deg_s))
         # A turn with the nose up is a roll against it, seen from the body.
         turn = STANDARD_GRAVITY_M_S2 * tan(flight.bank) / flight.airspeed
         missing = rate - turn * sin(flight.pitch) - flight.roll_rate
@@ -91,11 +92,11 @@ class InnerLoops:
         if abs(wanted) < 1.0:
             # Against a stop an integral waits: so here, and below.
             self._aileron += gains.aileron_integral * missing * dt
-        return _clipped(wanted, 1.0)
+        return clipped(wanted, 1.0)
 
     def _load(self, flight: Flight) -> float:
         """The load factor that holds the altitude in this bank, as far as there is speed for it."""
-        climb = _clipped(self._gains.climb * (self._altitude - flight.altitude), LARGEST_CLIMB_M_S)
+        climb = clipped(self._gains.climb * (self._altitude - flight.altitude), LARGEST_CLIMB_M_S)
         climb = min(climb, max(flight.airspeed - SLOW * self._airspeed, -2.0 * LARGEST_CLIMB_M_S))
         upward = self._gains.climb_rate * (climb - flight.climb_rate)
         load = (1.0 + upward / STANDARD_GRAVITY_M_S2) / cos(flight.bank)
@@ -109,13 +110,13 @@ class InnerLoops:
         wanted = self._elevator - gains.elevator_load * (load - 1.0) - gains.elevator * missing
         if abs(wanted) < 1.0:
             self._elevator -= gains.elevator_integral * missing * dt
-        return _clipped(wanted, 1.0)
+        return clipped(wanted, 1.0)
 
     def _yaw(self, flight: Flight, dt: float) -> float:
         gains = self._gains
         turn = STANDARD_GRAVITY_M_S2 / flight.airspeed * sin(flight.bank) * cos(flight.pitch)
         self._rudder -= gains.rudder_slip * flight.slip * dt
-        return _clipped(
+        return clipped(
             self._rudder + gains.rudder_yaw * (flight.yaw_rate - turn) - gains.rudder_slip * flight.slip, 1.0
         )
 
@@ -127,7 +128,3 @@ class InnerLoops:
         if 0.0 < wanted < 1.0:
             self._throttle += gains.throttle_integral * missing * dt
         return min(max(wanted, 0.0), 1.0)
-
-
-def _clipped(value: float, limit: float) -> float:
-    return min(max(value, -limit), limit)

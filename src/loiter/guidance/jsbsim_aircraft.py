@@ -17,6 +17,7 @@ from typing import Any
 from loiter.errors import LoiterError, MissingPackage, not_negative
 from loiter.guidance.airframes import Airframe
 from loiter.guidance.inner_loops import Flight, InnerLoops, Surfaces
+from loiter.guidance.limits import clipped
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.rolling import Roll
 from loiter.guidance.sensors import Noise, Sensors
@@ -117,7 +118,7 @@ class JsbsimAircraft:
         if dt / steps != self._step_s:
             self._step_s = dt / steps
             self._fdm.set_dt(self._step_s)
-        bank_deg = min(max(command.bank_deg, -self._limit_deg), self._limit_deg)
+        bank_deg = clipped(command.bank_deg, self._limit_deg)
         for _ in range(steps):
             flight = Flight(*[value() * unit for value, unit in self._measured])
             for setter, share in zip(self._set, self._loops.step(flight, bank_deg, self._step_s), strict=True):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import atan2, degrees, radians
 
+from loiter.guidance.limits import clipped
 from loiter.guidance.protocol import Command, State
 from loiter.guidance.turning import bank_at_rate, turned
 from loiter.planning.compass import heading_vector, wrapped
@@ -35,7 +36,7 @@ class Kinematic:
 
     def advance(self, command: Command, dt: float) -> None:
         """Fly `dt` seconds at the commanded rate of turn, clipped to the limit."""
-        self._rate = min(max(-radians(command.turn_rate_deg_s), -self._limit), self._limit)
+        self._rate = clipped(-radians(command.turn_rate_deg_s), self._limit)
         x, y, c, s = turned(self._place, self._airspeed_m_s, self._rate, dt)
         self._place = x + self._wind[0] * dt, y + self._wind[1] * dt, c, s
         self._time_s += dt

@@ -12,7 +12,8 @@ from __future__ import annotations
 from math import atan2, cos, pi, radians, sin
 
 from loiter.errors import positive
-from loiter.guidance.following import Around, Demand, Follower, clipped, phase_of
+from loiter.guidance.following import Around, Demand, Follower, phase_of
+from loiter.guidance.limits import clipped
 from loiter.guidance.protocol import State
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import Aircraft, Orbit, Wind

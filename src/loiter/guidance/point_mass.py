@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import atan2, degrees
 
 from loiter.guidance.gusts import Gusts, scale_length_m
+from loiter.guidance.limits import clipped
 from loiter.guidance.protocol import Command, State
 from loiter.guidance.rolling import Roll
 from loiter.guidance.sensors import Noise, Sensors
@@ -61,7 +62,7 @@ class PointMass:
 
     def advance(self, command: Command, dt: float) -> None:
         """Fly `dt` seconds under a commanded bank."""
-        bank_deg = min(max(command.bank_deg, -self._limit_deg), self._limit_deg)
+        bank_deg = clipped(command.bank_deg, self._limit_deg)
         halfway_deg = self._roll.after(self._bank_deg, bank_deg, 0.5 * dt)
         self._bank_deg = self._roll.after(halfway_deg, bank_deg, 0.5 * dt)
         # The rate of turn half way stands for all of the step: what that leaves is of third order.

@@ -38,6 +38,10 @@ class Phase(StrEnum):
     NO_DATA = "no data"
 
 
+# The phase of each control: +1 turns left.
+PHASES = {1: Phase.LEFT, 0: Phase.STRAIGHT, -1: Phase.RIGHT}
+
+
 class Command(NamedTuple):
     """What a law asks for: the rate of turn through the air and the bank of the coordinated turn that has it.
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import exp, inf, log
 
 from loiter.errors import InvalidArgument, as_float, not_negative
+from loiter.guidance.limits import clipped
 
 # A change of bank is made so many times as quickly as by commanding what is wanted, where the limits leave room.
 HASTE = 2.0
@@ -39,7 +40,7 @@ class Roll:
         """
         if self.time_s == 0.0:
             return target_deg
-        return min(max(bank_deg + HASTE * (target_deg - bank_deg), -limit_deg), limit_deg)
+        return clipped(bank_deg + HASTE * (target_deg - bank_deg), limit_deg)
 
     def lead_s(self, bank_deg: float, target_deg: float, limit_deg: float) -> float:
         """How much later than at once a change of bank by `demand_deg` takes effect, seconds: its area over its size.

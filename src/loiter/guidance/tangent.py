@@ -17,7 +17,8 @@ from typing import NamedTuple
 from loiter.errors import not_negative
 from loiter.guidance.following import Around, Demand, around
 from loiter.guidance.l1 import DAMPING, L1, SHORTEST_PERIOD_S, circle_demand
-from loiter.guidance.protocol import Phase, State
+from loiter.guidance.protocol import PHASES, Phase, State
+from loiter.guidance.route import controls_of
 from loiter.kernel import drift
 from loiter.kernel.hold import phase_of, tightest_held
 from loiter.kernel.intercept import Way
@@ -34,8 +35,6 @@ LOST = 0.5
 
 # A piece shorter than this, metres, is none.
 SHORT_M = 1e-3
-
-PHASES = {1: Phase.LEFT, 0: Phase.STRAIGHT, -1: Phase.RIGHT}
 
 
 class Piece(NamedTuple):
@@ -116,8 +115,7 @@ class Tangent(L1):
         _, word, *durations = self._way(state, self.turn)[:5]
         x, y, (c, s) = 0.0, 0.0, heading_vector(state.heading_deg)
         self._pieces = []
-        for i, t in enumerate(durations):
-            u = (word >> 2 * i & 3) - 2
+        for u, t in zip(controls_of(word), durations, strict=False):
             if t * r > SHORT_M:
                 self._pieces.append(Piece(u, t * r, x * r, y * r, c, s))
             x, y, c, s = fly(x, y, c, s, u, t)

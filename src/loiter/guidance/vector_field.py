@@ -17,7 +17,8 @@ from math import atan, atan2, cos, pi, radians, remainder, sqrt
 from typing import NamedTuple
 
 from loiter.errors import positive
-from loiter.guidance.following import AT_CENTRE_M, Around, Demand, Follower, clipped, phase_of
+from loiter.guidance.following import AT_CENTRE_M, Around, Demand, Follower, phase_of
+from loiter.guidance.limits import clipped
 from loiter.guidance.protocol import State
 from loiter.planning.model import Aircraft, Orbit, Wind
 

@@ -12,10 +12,10 @@ from matplotlib.patches import Circle
 
 from loiter.guidance.flight import Flight
 from loiter.planning.maneuver import Maneuver
+from loiter.plot.picture import FAINT
 
 # Okabe and Ito's palette.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
-FAINT = "#b0b0b0"
 
 
 def draw(ideal: Maneuver, flights: Mapping[str, Flight]) -> Figure:
