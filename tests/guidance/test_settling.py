@@ -75,6 +75,39 @@ def test_who_leaves_begins_anew():
     assert settled_after(half + far + again).joined_s == settling.entered_s
 
 
+def test_what_throws_it_off_after_a_full_turn_does_not_undo_the_joining():
+    first = turns(0.3)
+    about = turns(1.0, first[-1].time_s + STEP, distance=107.0)
+    out = turns(0.2, about[-1].time_s + STEP, distance=125.0)
+    again = turns(1.1, out[-1].time_s + STEP)
+    settling = settled_after(first + about + out + again)
+    assert settling.settled
+    assert settling.joined_s == 0.0
+    assert settling.entered_s == pytest.approx(again[0].time_s)
+
+
+def loop(begin_s, azimuth):
+    """From the circle a turn to the left of 30 m, and back onto it: 200 states."""
+    states = []
+    for i in range(1, 200):
+        left, h = azimuth - 2.0 * pi * i / 200, azimuth + pi / 2 - 2.0 * pi * i / 200
+        place = 130.0 * sin(azimuth) - 30.0 * sin(left), 130.0 * cos(azimuth) - 30.0 * cos(left)
+        states.append(State(begin_s + STEP * i, *place, degrees(h), 0.0, 20.0 * sin(h), 20.0 * cos(h), 20.0))
+    return states
+
+
+def test_turns_off_the_circle_are_counted_and_those_on_it_are_not():
+    half = turns(0.5)
+    assert settled_after(half).turned_deg == 0.0
+    round_again = loop(half[-1].time_s, 1.0 + pi)
+    late = settled_after(half + round_again + turns(1.1, round_again[-1].time_s + STEP))
+    # The wide band is left at 10 degrees of tangent, which turns the other way 30 m/100 m as quickly.
+    assert late.turned_deg == pytest.approx(360.0 - 2.0 * 10.0 / 1.3, abs=1.9)
+    blown = [state(half[-1].time_s + STEP * i, 1.0 + pi + 0.006 * i, 125.0) for i in range(1, 101)]
+    off = settled_after(half + blown + turns(1.1, blown[-1].time_s + STEP))
+    assert off.turned_deg == pytest.approx(degrees(0.6))
+
+
 def test_a_circle_that_moves_takes_its_band_along():
     velocity = (3.0, -2.0)
     assert settled_after(turns(1.1, moving=velocity), velocity=velocity).settled

@@ -40,6 +40,10 @@ class Trial:
         return Orbit(o.east_m, o.north_m, o.radius_m, self.ideal.turn, o.velocity_east_m_s, o.velocity_north_m_s)
 
 
+# Who turns so much more off the circle than the fastest entry went round again: a whole turn that leaves the circle and
+# comes back to it, less what of it is within twice the band, up to 20 degrees at either end, and some more.
+ROUND_DEG = 270.0
+
 # What makes a law, or a simulator, for a trial: a function of a module, or a `partial` of one, so that other processes
 # can have it.
 MakeLaw = Callable[[Trial], Law]
@@ -50,9 +54,9 @@ class Outcome(NamedTuple):
     """What became of one flight of a campaign; times in seconds, nan for what never was.
 
     `ideal_s` is the duration of the fastest entry. `settled_s`, `joined_s`, `overshoot_m`, `bank_rate_deg_s` and
-    `distance_m` are those of `Flight`. `round_again` tells that the heading had turned by more than a whole turn beyond
-    the ideal entry's arcs when the aircraft joined; `join_error_s` is how much the reported time to join was off a fall
-    of 1 s a second, root mean square over steps of 0.1 s up to the hold.
+    `distance_m` are those of `Flight`. `round_again` tells that the heading had turned, off the circle and before the
+    aircraft joined, by `ROUND_DEG` more than in the ideal entry's arcs; `join_error_s` is how much the reported time to
+    join was off a fall of 1 s a second, root mean square over steps of 0.1 s up to the hold.
     """
 
     trial: int
@@ -164,7 +168,7 @@ def outcome(
         flight.overshoot_m,
         flight.bank_rate_deg_s,
         flight.distance_m,
-        flight.settled and flight.turned_deg > arcs_deg + 360.0,
+        flight.settled and flight.turned_deg > arcs_deg + ROUND_DEG,
         flight.join_error_s,
     )
 

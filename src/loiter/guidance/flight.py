@@ -51,10 +51,10 @@ class Flight:
     """A flight and what it came to.
 
     Times are counted from the start, nan for what never was. `settled_s` is when the full turn within `band` began that
-    settled it, `joined_s` when it had first entered `band` and from then on stayed within twice that, `turned_deg` how
-    much the heading had turned until then, either way. `overshoot_m` is the largest distance from the circle thereafter
-    (without a stay, at the end), `bank_rate_deg_s` the root mean square over all the flight, `distance_m` what was
-    flown over the ground until it settled.
+    settled it, `joined_s` when it first entered `band` to stay within twice that for a full turn, `turned_deg` how much
+    the heading had turned until then, either way, outside twice that band. `overshoot_m` is the largest distance from
+    the circle thereafter (without a stay, at the end), `bank_rate_deg_s` the root mean square over all the flight,
+    `distance_m` what was flown over the ground until it settled.
     """
 
     orbit: Orbit
@@ -125,8 +125,7 @@ def fly(
         state = simulator.true_state()
         settling.watch(state)
     rows.append((*state, *rows[-1][len(state) :]))
-    times = (settling.entered_s, settling.joined_s) if settling.settled else (nan, nan)
-    return _measured(orbit, band, Track(*_columns(rows)), tuple(phases), *times)
+    return _measured(settling, orbit, band, Track(*_columns(rows)), tuple(phases))
 
 
 def _cut(command: Command, step_s: float) -> float:
@@ -140,16 +139,14 @@ def _columns(rows: list[tuple[float, ...]]) -> NDArray[float64]:
     return np.array(rows).T
 
 
-def _measured(
-    orbit: Orbit, band: Band, track: Track, phases: tuple[Phase, ...], settled_s: float, joined_s: float
-) -> Flight:
+def _measured(settling: Settling, orbit: Orbit, band: Band, track: Track, phases: tuple[Phase, ...]) -> Flight:
     """A flight with its measures."""
     import numpy as np
 
     start_s, steps_s = float(track.time_s[0]), np.diff(track.time_s)
+    settled_s, joined_s = (settling.entered_s, settling.joined_s) if settling.settled else (nan, nan)
     # What never was lasts to the end.
     settled, joined = np.searchsorted(track.time_s, np.nan_to_num([settled_s, joined_s], nan=track.time_s[-1]))
-    turned_deg = np.abs((np.diff(track.heading_deg) + 180.0) % 360.0 - 180.0)
     flown_m = np.hypot(track.velocity_east_m_s, track.velocity_north_m_s)[:-1] * steps_s
     return Flight(
         orbit,
@@ -158,7 +155,7 @@ def _measured(
         phases,
         settled_s - start_s,
         joined_s - start_s,
-        float(turned_deg[:joined].sum()),
+        settling.turned_deg,
         float(_off_m(orbit, track)[joined:].max()),
         float(np.sqrt(np.sum(np.diff(track.bank_deg) ** 2 / steps_s) / steps_s.sum())),
         float(flown_m[:settled].sum()),

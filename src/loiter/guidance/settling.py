@@ -28,7 +28,7 @@ class Band:
         positive("course_deg", self.course_deg, "degrees")
 
 
-# An aircraft that has joined stays in a band so many times as wide: a gust may push it about there until it settles.
+# An aircraft that has joined stays in a band so many times as wide for a full turn: a gust may push it about there.
 STAY = 2.0
 
 
@@ -37,14 +37,17 @@ class Settling:
 
     Place and course are those over the ground, or beside a circle that moves, and as they are, not as measured. The
     direction must be that of the orbit, for either the same all the way. The orbit is where it is at the time 0.
-    `entered_s` is when the stay in the band began that lasts, and once `settled` the time to settle; `joined_s` when
-    the band was first entered without leaving one `STAY` times as wide since. Both are nan outside.
+    `entered_s` is when the stay in the band began that lasts, and once `settled` the time to settle; nan outside.
+    `joined_s` is when the band was first entered without leaving one `STAY` times as wide for a full turn: a gust that
+    throws the aircraft off the circle later does not undo it. nan before that, and where that band is left sooner.
+    `turned_deg` is how much the heading turned until then, either way, outside that band: off the circle.
     """
 
     def __init__(self, orbit: Orbit, band: Band) -> None:
         self._orbit, self._ways = orbit, WAYS[orbit.turn]
         self._band, self._wide = (_limits(band, factor) for factor in (1.0, STAY))
-        self._bearing = self._swept = 0.0
+        self._bearing = self._swept = self._about = self.turned_deg = 0.0
+        self._heading_deg: float | None = None
         self._way = 0
         self.entered_s = self.joined_s = nan
 
@@ -63,15 +66,25 @@ class Settling:
         d = hypot(x, y)
         off, along = abs(d / o.radius_m - 1.0), (vx * y - vy * x) / (d * hypot(vx, vy) or 1.0)
         way, bearing = self._within(self._band, off, along), atan2(x, y)
+        gone = remainder(bearing - self._bearing, 2.0 * pi)
+        if abs(self._about) < 2.0 * pi:
+            self._watch_joining(state, way, gone, about=self._within(self._wide, off, along) != 0)
         if way != self._way or way == 0:
             self._way, self._swept, self.entered_s = way, 0.0, t if way else nan
         else:
-            self._swept += remainder(bearing - self._bearing, 2.0 * pi)
-        self._bearing = bearing
-        if self._within(self._wide, off, along) == 0:
-            self.joined_s = nan
-        elif way != 0 and self.joined_s != self.joined_s:
-            self.joined_s = t
+            self._swept += gone
+        self._bearing, self._heading_deg = bearing, state.heading_deg
+
+    def _watch_joining(self, state: State, way: int, gone: float, *, about: bool) -> None:
+        """Begin, go on with or break off the stay about the circle."""
+        if not about:
+            self._about, self.joined_s = 0.0, nan
+            if self._heading_deg is not None:
+                self.turned_deg += abs(remainder(state.heading_deg - self._heading_deg, 360.0))
+        elif self.joined_s == self.joined_s:
+            self._about += gone
+        elif way != 0:
+            self.joined_s = state.time_s
 
     def _within(self, limits: tuple[float, float], off: float, along: float) -> int:
         """The way round in which the aircraft is in a band; 0 outside."""
