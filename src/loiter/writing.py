@@ -1,7 +1,8 @@
 """Files that appear whole or not at all."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
@@ -13,13 +14,26 @@ def write_whole(argument: str, path: Path, write: Callable[[BinaryIO], object]) 
 
     Raises `InvalidArgument` for `argument`, the name of the option that gave the path, where it cannot be written.
     """
+    with _beside(argument, path) as part:
+        with part.open("xb") as file:
+            write(file)
+        part.replace(path)
+
+
+def check_writable(argument: str, path: Path) -> None:
+    """Raise as `write_whole` where nothing can be written beside `path`; for asking before what takes long."""
+    with _beside(argument, path) as part:
+        part.open("xb").close()
+
+
+@contextmanager
+def _beside(argument: str, path: Path) -> Iterator[Path]:
+    """A name for a file beside `path`, that is gone afterwards."""
     # Drawn, so that threads which write into one folder do not take each other's file for their own.
     part = path.with_name(f".{os.urandom(8).hex()}.part")
     try:
         try:
-            with part.open("xb") as file:
-                write(file)
-            part.replace(path)
+            yield part
         finally:
             part.unlink(missing_ok=True)
     except OSError as error:

@@ -68,6 +68,11 @@ def test_six_degrees_of_freedom(shown):
         (f"{SCENE} --plot f.doc", "--plot is 'f.doc'"),
         (f"{SCENE} --save f.txt", "--save is 'f.txt': the file name must end in .csv"),
         (f"{SCENE} --save no/f.csv", "--save is 'no/f.csv': it cannot be written"),
+        (f"{SCENE} --plot no/f.png", "--plot is 'no/f.png': it cannot be written"),
+        # Asked before anything flies: a table on the screen would be the first thing written.
+        (f"--runs 2 {UAV} --save no/f.csv", "--save is 'no/f.csv': it cannot be written"),
+        (f"{SCENE} --seed -1", "--seed is -1: it must be at least 0"),
+        (f"--runs 2 {UAV} --seed -1", "--seed is -1: it must be at least 0"),
         (f"{SCENE} --gust -1", "--gust is -1"),
         (f"{SCENE} --gust nan", "--gust is nan"),
         (f"{SCENE} --sim jsbsim", "--airframe has an airspeed and a bank limit of its own"),

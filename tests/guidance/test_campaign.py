@@ -66,3 +66,9 @@ def test_who_does_not_settle_is_later_than_all():
 def test_a_campaign_has_a_run():
     with pytest.raises(InvalidArgument, match=r"^runs is 0: it must be at least 1$"):
         trials(0, 1, UAV)
+
+
+def test_a_seed_is_not_negative():
+    for seeded in (lambda: trials(1, -1, UAV), lambda: Trial(STARTS[0].ideal, -1)):
+        with pytest.raises(InvalidArgument, match=r"^seed is -1: it must be at least 0$"):
+            seeded()

@@ -11,7 +11,7 @@ from earth import FRAME, SCENES, UAV, entry
 from loiter import Orbit, Pose, plan
 from loiter.errors import InvalidArgument, OutOfRange
 from loiter.io import FORMATS, Autopilot, check_format, save
-from loiter.writing import write_whole
+from loiter.writing import check_writable, write_whole
 
 M, _ = SCENES["wind"]
 
@@ -150,3 +150,13 @@ def test_a_folder_that_is_not_there_is_refused(tmp_path, ending):
 def test_an_autopilot_is_one_that_is_known(tmp_path):
     sentence = r"^autopilot is 'px4': it must be Autopilot.ARDUPILOT or Autopilot.PX4$"
     refused(tmp_path, "a.plan", sentence, frame=FRAME, altitude_m=600.0, autopilot="px4")
+
+
+def test_asking_whether_a_file_can_be_written_changes_nothing(tmp_path):
+    kept = tmp_path / "kept.csv"
+    kept.write_text("older")
+    check_writable("save", kept)
+    check_writable("save", tmp_path / "new.csv")
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("kept.csv", "older")]
+    with pytest.raises(InvalidArgument, match=r"^save is .*: it cannot be written, No such file or directory$"):
+        check_writable("save", tmp_path / "no" / "new.csv")

@@ -22,7 +22,7 @@ from loiter.cli.options import AircraftOptions, OrbitOptions, StartOptions, Wind
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
 from loiter.plot import files
-from loiter.writing import write_whole
+from loiter.writing import check_writable, write_whole
 
 if TYPE_CHECKING:
     from loiter.guidance.campaign import Outcome, Trial
@@ -137,8 +137,11 @@ def _check_files(plot: Path | None, save: Path | None, runs: int | None) -> None
         files.check_format(plot)
         if runs is not None:
             raise InvalidArgument("plot", "draws one flight, not the many of --runs")
-    if save is not None and save.suffix.lower() != ".csv":
-        raise InvalidArgument("save", f"is {str(save)!r}: the file name must end in .csv")
+        check_writable("plot", plot)
+    if save is not None:
+        if save.suffix.lower() != ".csv":
+            raise InvalidArgument("save", f"is {str(save)!r}: the file name must end in .csv")
+        check_writable("save", save)
 
 
 def _fly_once(trial: Trial, setting: Setting, names: Sequence[str], plot: Path | None, save: Path | None) -> None:
@@ -214,9 +217,9 @@ def _fly_many(
     laws = {name: setting.laws[name] for name in names}
     with _progress() as tell:
         outcomes = campaign(laws, setting.simulator, starts, band=setting.band, workers=workers, progress=tell)
+    report.write(_campaign_table(outcomes))
     if save is not None:
         _save(save, _rows(starts, outcomes))
-    report.write(_campaign_table(outcomes))
 
 
 def _campaign_table(outcomes: Mapping[str, Sequence[Outcome]]) -> Table:

@@ -28,10 +28,16 @@ from loiter.planning.solve import plan
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """One start: the fastest entry from it in the steady wind, and the seed of its noise."""
+    """One start: the fastest entry from it in the steady wind, and the seed of its noise.
+
+    Raises `InvalidArgument` for a seed below 0.
+    """
 
     ideal: Maneuver
     seed: int
+
+    def __post_init__(self) -> None:
+        _at_least(0, "seed", self.seed)
 
     @property
     def orbit(self) -> Orbit:
@@ -43,6 +49,12 @@ class Trial:
 # Who turns so much more off the circle than the fastest entry went round again: a whole turn that leaves the circle and
 # comes back to it, less what of it is within twice the band, up to 20 degrees at either end, and some more.
 ROUND_DEG = 270.0
+
+
+def _at_least(least: int, name: str, value: int) -> None:
+    if value < least:
+        raise InvalidArgument(name, f"is {value}: it must be at least {least}")
+
 
 # What makes a law, or a simulator, for a trial: a function of a module, or a `partial` of one, so that other processes
 # can have it.
@@ -88,10 +100,10 @@ def trials(
 
     The circle is about the origin, of a radius between `radii` times the turn radius, held either way; the start is
     anywhere within `reach` radii of the circle from its centre, on any heading. Raises `InvalidArgument` for fewer than
-    one run, and as `plan`.
+    one run and a seed below 0, and as `plan`.
     """
-    if runs < 1:
-        raise InvalidArgument("runs", f"is {runs}: it must be at least 1")
+    _at_least(1, "runs", runs)
+    _at_least(0, "seed", seed)
     return [_trial(seed, i, aircraft, wind, radii, reach) for i in range(runs)]
 
 
@@ -190,8 +202,8 @@ def campaign(
     cores if absent; 1 stays in this one. `progress` is called with the number of starts that are done and of all.
     Raises `InvalidArgument` for fewer than one worker.
     """
-    if workers is not None and workers < 1:
-        raise InvalidArgument("workers", f"is {workers}: it must be at least 1")
+    if workers is not None:
+        _at_least(1, "workers", workers)
     fly_all = partial(_outcomes, tuple(laws.values()), simulator, band, step_s, limit_s)
     done: list[tuple[Outcome, ...]] = []
     for row in _shared(fly_all, list(enumerate(starts)), workers):
