@@ -1,6 +1,6 @@
 """The observer: exact where measurements are, quieter where they are not."""
 
-from math import cos, hypot, radians
+from math import cos, hypot, radians, sin
 
 import numpy as np
 import pytest
@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from guidance.flights import UAV
 from loiter import Pose, Wind
 from loiter.guidance.kinematic import Kinematic
-from loiter.guidance.observer import Observer, usable
+from loiter.guidance.observer import Observer, Recent, usable
 from loiter.guidance.point_mass import PointMass
 from loiter.guidance.protocol import Command, Phase, State
+from loiter.guidance.rolling import Roll
 from loiter.guidance.sensors import Noise
 from loiter.planning.model import Turn
 
@@ -57,6 +58,44 @@ def test_noise_is_averaged_without_lag_in_a_turn():
     # to it is of the same size. No mean error is left, where an average that lags 0.5 s would be 9 m behind.
     assert settled.std(axis=0).max() < 0.3
     assert np.abs(settled.mean(axis=0)).max() < 0.1
+
+
+steps = st.lists(st.tuples(st.floats(0.0025, 0.3), st.floats(-35.0, 35.0)), min_size=1, max_size=40)
+
+
+@given(steps, st.floats(0.0, 0.5))
+def test_the_recent_bank_is_that_of_the_delay(taken, delay):
+    """Against the whole history, level before it, looked up: the mean over the delay, and where it began."""
+    recent = Recent(delay)
+    for dt, bank in taken:
+        recent.keep(bank, dt)
+    ends = np.cumsum([10.0, *(dt for dt, _ in taken)])
+    banks, begin = np.array([0.0, *(bank for _, bank in taken)]), ends[-1] - delay
+    overlap = np.clip(ends - np.maximum(np.concatenate([[0.0], ends[:-1]]), begin), 0.0, None)
+    assert recent.now_deg == taken[-1][1]
+    if delay > 1e-3:
+        assert recent.mean_deg == pytest.approx(overlap @ banks / delay, abs=1e-8)
+    near = {banks[np.searchsorted(ends, begin + nudge)] for nudge in (-1e-9, 1e-9) if begin + nudge <= ends[-1]}
+    assert recent.then_deg in near
+
+
+def test_late_measurements_are_brought_to_the_present():
+    """Through a reversal of the bank in wind, a tenth of a second late, without noise."""
+    late = Noise(0.0, 0.0, 0.0, 0.0, 0.0, 0.1)
+    mass = PointMass(Pose(0.0, 0.0, 0.0), UAV, Wind(5.0, 90.0), seed=2, gust=0.0, noise=late)
+    observer, recent, roll, bank = Observer(0.5), Recent(0.1), Roll(), 0.0
+    for i in range(200):
+        true = mass.true_state()
+        seen = observer.see(mass.measured_state(), recent.then_deg).brought(recent)
+        assert seen.time_s == pytest.approx(true.time_s)
+        x, y, c, s = seen.place
+        assert hypot(x - true.east_m, y - true.north_m) < 0.05
+        assert hypot(c - sin(radians(true.heading_deg)), s - cos(radians(true.heading_deg))) < radians(0.5)
+        assert seen.bank_deg == pytest.approx(true.bank_deg, abs=1.0)
+        command = 35.0 if i % 100 < 50 else -35.0
+        bank = roll.after(bank, command, 0.02)
+        recent.keep(bank, 0.02)
+        mass.advance(turning(0.0, command), 0.02)
 
 
 @pytest.mark.parametrize("field", State._fields)

@@ -53,8 +53,9 @@ def test_the_lead_is_the_area_of_what_is_missing(roll, bank, target):
 def test_the_lead_by_hand():
     # To the limit of bank no command is beyond it: 70 deg/s asked for, 60 given until 30 deg are missing; then the lag.
     assert Roll().lead_s(0.0, 35.0, 35.0) == pytest.approx((35.0**2 - 30.0**2) / 120.0 / 35.0 + 0.5 * 30.0 / 35.0)
-    # Within it, twice as quick: from 10 to 0 deg with a lag of a quarter of a second.
-    assert Roll().lead_s(10.0, 0.0, 35.0) == pytest.approx(0.25)
+    # Within it, four times as quick: from 5 to 0 deg with a lag of an eighth of a second; from 10, 60 deg/s until 7.5.
+    assert Roll().lead_s(5.0, 0.0, 35.0) == pytest.approx(0.125)
+    assert Roll().lead_s(10.0, 0.0, 35.0) == pytest.approx(((10.0**2 - 7.5**2) / 120.0 + 0.125 * 7.5) / 10.0)
     assert AT_ONCE.lead_s(-35.0, 35.0, 35.0) == 0.0
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from math import exp, hypot, isfinite
 from typing import NamedTuple
 
@@ -10,10 +11,42 @@ from loiter.guidance.turning import Place, rate_at_bank, turned
 from loiter.planning.compass import heading_vector
 
 # The velocity of the air is averaged over a time so many times as short: a gust is to be met before it has drifted far.
-AIR = 2.0
+AIR = 8.0
 
 # Metres, degrees, metres per second: what is beyond, or slower, is no measurement.
 FARTHEST, SLOWEST = 1e9, 0.1
+
+
+class Recent:
+    """The bank of the last `delay_s` seconds by the model of the roll: what measurements that old cannot tell yet.
+
+    `then_deg` is the bank when they were taken, `now_deg` the present one.
+    """
+
+    def __init__(self, delay_s: float) -> None:
+        self.delay_s = delay_s
+        self.then_deg = self.now_deg = 0.0
+        # Pieces of time and their bank, and the sum of their products.
+        self._pieces = deque([(delay_s, 0.0)])
+        self._sum = 0.0
+
+    @property
+    def mean_deg(self) -> float:
+        """The mean bank of that time."""
+        return self._sum / self.delay_s if self.delay_s > 0.0 else self.now_deg
+
+    def keep(self, bank_deg: float, dt: float) -> None:
+        """Take in a step of `dt` seconds that ends in a bank, and forget as much."""
+        self.now_deg = bank_deg
+        self._pieces.append((dt, bank_deg))
+        self._sum += dt * bank_deg
+        while dt > 0.0:
+            time_s, self.then_deg = self._pieces.popleft()
+            gone_s = min(time_s, dt)
+            self._sum -= gone_s * self.then_deg
+            dt -= gone_s
+            if gone_s < time_s:
+                self._pieces.appendleft((time_s - gone_s, self.then_deg))
 
 
 class Seen(NamedTuple):
@@ -32,6 +65,13 @@ class Seen(NamedTuple):
         x, y, c, s = turned(self.place, self.airspeed_m_s, self.rate, time_s)
         place = x + self.air_east_m_s * time_s, y + self.air_north_m_s * time_s, c, s
         return self._replace(time_s=self.time_s + time_s, place=place)
+
+    def brought(self, recent: Recent) -> Seen:
+        """The present: this state flown on through the banks that it is too old to tell."""
+        off_deg, V = self.bank_deg - recent.then_deg, self.airspeed_m_s
+        flown = self._replace(rate=-rate_at_bank(recent.mean_deg + off_deg, V)).ahead(recent.delay_s)
+        bank_deg = recent.now_deg + off_deg
+        return flown._replace(rate=-rate_at_bank(bank_deg, V), bank_deg=bank_deg)
 
 
 def usable(state: State) -> bool:
@@ -54,7 +94,7 @@ class Observer:
         """Begin anew with the next measurement."""
         self._seen = None
 
-    def see(self, state: State, bank_deg: float | None = None) -> Seen:
+    def see(self, state: State, bank_deg: float) -> Seen:
         """The estimate at the time of a usable measurement, later than the last one.
 
         `bank_deg` is where the bank should be by then, as far as the command and the roll response tell.
@@ -66,8 +106,7 @@ class Observer:
         last, gone_s = self._seen, state.time_s - self._seen.time_s
         share = 1.0 - exp(-gone_s / self._smoothing_s)
         V = last.airspeed_m_s + share * (state.airspeed_m_s - last.airspeed_m_s)
-        expected = last.bank_deg if bank_deg is None else bank_deg
-        bank_deg = expected + share * (state.bank_deg - expected)
+        bank_deg += share * (state.bank_deg - bank_deg)
         rate = -rate_at_bank(bank_deg, V)
         x, y, c, s = last._replace(airspeed_m_s=V, rate=rate).ahead(gone_s).place
         mx, my, mc, ms = fresh.place

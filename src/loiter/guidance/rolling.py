@@ -9,7 +9,7 @@ from loiter.errors import InvalidArgument, as_float, not_negative
 from loiter.guidance.limits import clipped
 
 # A change of bank is made so many times as quickly as by commanding what is wanted, where the limits leave room.
-HASTE = 2.0
+HASTE = 4.0
 
 
 @dataclass(frozen=True, slots=True)

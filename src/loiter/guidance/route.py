@@ -40,9 +40,9 @@ class Route:
     `side` is the way the circle is held, `left` how much is left of the piece under way, in turn radii.
     """
 
-    def __init__(self, view: View, flown: Flown, R: float, wind: tuple[float, float]) -> None:
+    def __init__(self, view: View, flown: Flown, R: float, wind: tuple[float, float], scale: float) -> None:
         self.side, word, *times = flown
-        self._wind, self._start = wind, view.clock
+        self._wind, self._scale, self._start = wind, scale, view.clock
         self._circle = circle(self.side, R)
         x, y, vx, vy = self._in_air(view)
         self._pieces = pieces(x, y, *unit(vx, vy), word, times)
@@ -62,6 +62,11 @@ class Route:
     def rest(self) -> float:
         """The time that is left to the circle."""
         return self.left + sum(piece.t for piece in self._pieces[1:])
+
+    @property
+    def scale(self) -> float:
+        """How many turn radii a unit of what is `beside` is worth."""
+        return self._scale if self._pieces else 1.0
 
     def follow(self, view: View) -> float:
         """How much of the piece under way is left at a view, in turn radii; it is kept as `left`."""
@@ -89,8 +94,9 @@ class Route:
     def _in_air(self, view: View) -> tuple[float, float, float, float]:
         """Place and velocity in the air of the plan: where still air would have the vehicle."""
         (wx, wy), since = self._wind, view.clock - self._start
-        velocity = forward(view.vx - wx, view.vy - wy, view.hx, view.hy)
-        return view.x - wx * since, view.y - wy * since, *velocity
+        vx, vy = forward(view.vx - wx, view.vy - wy, view.hx, view.hy)
+        q = self._scale
+        return (view.x - wx * since) / q, (view.y - wy * since) / q, vx / q, vy / q
 
 
 def unit(x: float, y: float) -> tuple[float, float]:
