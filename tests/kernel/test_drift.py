@@ -6,11 +6,11 @@ from math import atan2, cos, hypot, inf, isnan, nan, pi, sin, sqrt
 
 import numba
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from loiter.kernel.codes import Side, Status, Word
-from loiter.kernel.drift import fastest, first_way, optima, ranked, slope
+from loiter.kernel.drift import fastest, first_way, optima, ranked, slope, tied
 from loiter.kernel.hold import held, hold_rate, hold_time, phase_of, tightest_held
 from loiter.kernel.motion import reduce
 from loiter.kernel.rebinding import rebound
@@ -143,6 +143,16 @@ def test_turning_everything_changes_nothing(scene, side, angle):
 def test_either_is_the_better_of_the_two(scene):
     both = [least_time(scene, side) for side in (Side.CW, Side.CCW)]
     assert least_time(scene, Side.EITHER) == pytest.approx(min(both), abs=moved(scene, min(both)))
+
+
+@given(st.floats(1.01, 4.0), st.floats(0.2, 30.0), angles, st.floats(-9.0, -3.0), angles)
+@example(1.5, 20.386242, 2.284454, -6.0, pi / 2)
+def test_of_two_valleys_almost_as_deep_the_deeper_is_found(R, beyond, angle, magnitude, azimuth):
+    """From whose way leads straight to the centre the two directions differ by what a light wind makes of them."""
+    wind = 10.0**magnitude
+    scene = -R - beyond, 0.0, cos(angle), sin(angle), R, wind * cos(azimuth), wind * sin(azimuth)
+    least = min(least_time(scene, side) for side in (Side.CW, Side.CCW))
+    assert tied(least_time(scene, Side.EITHER), least, R)
 
 
 @given(scenes(), sides, st.floats(0.0, 1.0))

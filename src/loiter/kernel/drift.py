@@ -128,10 +128,9 @@ def searched(side: int, scene: Scene, best: Found) -> Found:
     for i in range(JOINS):
         time, best = probed(cells[i][0], width, side, scene, best)
         cells[i] = (cells[i][0], time)
+    best = deepened(best, known, width, scene)
     for _ in range(HALVINGS):
-        if best[2][0] < known:
-            best = settled(best, width, scene)
-            known = best[2][0]
+        known = best[2][0]
         width *= 0.5
         halves = cells[:0]
         for end, time in cells:
@@ -140,7 +139,13 @@ def searched(side: int, scene: Scene, best: Found) -> Found:
                 halves.append((end - width, earlier))
                 halves.append((end, time))
         cells = halves
+        best = deepened(best, known, width, scene)
     return lowest(cells, width, side, scene, best)
+
+
+def deepened(best: Found, known: float, width: float, scene: Scene) -> Found:
+    """The bottom of the valley of `best`, where that is sooner than what was known."""
+    return settled(best, width, scene) if best[2][0] < known else best
 
 
 def lowest(cells: list[tuple[float, float]], width: float, side: int, scene: Scene, best: Found) -> Found:
