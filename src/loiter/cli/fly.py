@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 Sim = Literal["kinematic", "point", "jsbsim"]
 Law = Literal["optimal", "l1", "vector-field", "tangent"]
 
+# What flies where the options leave it open.
+AIRFRAME, GUST = "aerosonde", 0.05
+
 simulation = Group("Simulation", sort_key=0)
 
 
@@ -49,17 +52,20 @@ def fly(
         bool, Parameter(group=simulation, help="Fly all laws from the same start, in the same air.")
     ] = False,
     airframe: Annotated[
-        Literal["aerosonde", "j3cub"],
-        Parameter(group=simulation, help="What jsbsim flies, with an airspeed and a bank limit of its own."),
-    ] = "aerosonde",
+        Literal["aerosonde", "j3cub"] | None,
+        Parameter(
+            group=simulation,
+            help="What jsbsim flies, with an airspeed and a bank limit of its own; the Aerosonde if absent.",
+        ),
+    ] = None,
     gust: Annotated[
-        float,
+        float | None,
         Parameter(
             group=simulation,
             metavar="SHARE",
-            help="Dryden gusts: their standard deviation over the airspeed. From 0.1 on, settled means within 10 % of the radius and 10 degrees, else 5 and 5.",
+            help="Dryden gusts: their standard deviation over the airspeed, 0.05 if absent. From 0.1 on, settled means within 10 % of the radius and 10 degrees, else 5 and 5.",
         ),
-    ] = 0.05,
+    ] = None,
     runs: Annotated[
         int | None,
         Parameter(
@@ -94,6 +100,7 @@ def fly(
     """Fly the fastest entry in closed loop, beside the laws that autopilots use today."""
     from loiter.guidance import campaign
 
+    _check_use(sim, airframe, gust, runs, workers)
     _check_files(plot, save, runs)
     names: list[str] = list(campaign.LAWS) if compare else [law]
     if runs is None:
@@ -107,20 +114,21 @@ def fly(
     _fly_many(starts, _setting(sim, airframe, gust), names, workers, save)
 
 
-def _setting(sim: Sim, airframe: str, gust: float) -> Setting:
+def _setting(sim: Sim, airframe: str | None, gust: float | None) -> Setting:
     """How the simulator is flown."""
     from loiter.guidance import settings
 
+    gust = GUST if gust is None else gust
     if sim == "kinematic":
         return settings.theory()
     if sim == "point":
         return settings.rolling(gust)
     from loiter.guidance.airframes import AIRFRAMES
 
-    return settings.flying(AIRFRAMES[airframe], gust)
+    return settings.flying(AIRFRAMES[airframe or AIRFRAME], gust)
 
 
-def _aircraft(sim: Sim, airframe: str, uav: AircraftOptions) -> Aircraft:
+def _aircraft(sim: Sim, airframe: str | None, uav: AircraftOptions) -> Aircraft:
     """The aircraft of the options, or that of the airframe, which has an airspeed and a limit of its own."""
     if sim != "jsbsim":
         return uav.aircraft(uav.preset())
@@ -128,7 +136,17 @@ def _aircraft(sim: Sim, airframe: str, uav: AircraftOptions) -> Aircraft:
         raise InvalidArgument("airframe", "has an airspeed and a bank limit of its own: options for them are of no use")
     from loiter.guidance.airframes import AIRFRAMES
 
-    return AIRFRAMES[airframe].aircraft
+    return AIRFRAMES[airframe or AIRFRAME].aircraft
+
+
+def _check_use(sim: Sim, airframe: str | None, gust: float | None, runs: int | None, workers: int | None) -> None:
+    """Refuse an option that would change nothing."""
+    if sim == "kinematic" and gust is not None:
+        raise InvalidArgument("gust", "is of no use with --sim kinematic: the vehicle of the theory flies in calm air")
+    if sim != "jsbsim" and airframe is not None:
+        raise InvalidArgument("airframe", f"is of no use with --sim {sim}: jsbsim flies airframes")
+    if runs is None and workers is not None:
+        raise InvalidArgument("workers", "share the flights of --runs: there is one flight")
 
 
 def _check_files(plot: Path | None, save: Path | None, runs: int | None) -> None:
