@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 
 from guidance.flights import UAV
 from loiter import Pose, Wind
+from loiter.guidance.gusts import Gusts
 from loiter.guidance.kinematic import Kinematic
-from loiter.guidance.observer import Observer, Recent, usable
+from loiter.guidance.observer import Air, Observer, Recent, usable
 from loiter.guidance.point_mass import PointMass
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.rolling import Roll
@@ -58,6 +59,45 @@ def test_noise_is_averaged_without_lag_in_a_turn():
     # to it is of the same size. No mean error is left, where an average that lags 0.5 s would be 9 m behind.
     assert settled.std(axis=0).max() < 0.3
     assert np.abs(settled.mean(axis=0)).max() < 0.1
+
+
+def aired(gust_m_s, seed):
+    """A minute of gusts as sensors tell them, and what the average of each was."""
+    random = np.random.default_rng(seed)
+    gusts, air = Gusts(gust_m_s, 14.6, random), Air(0.5)
+    air.begin(*gusts.velocity_m_s)
+    told = []
+    for noise in random.normal(0.0, 0.3, (3000, 2)):
+        gusts.after(0.02)
+        told.append(air.see(*(np.array(gusts.velocity_m_s) + noise), 0.02))
+    return air, np.array(told)
+
+
+@pytest.mark.parametrize(("gust_m_s", "averaged_s"), [(0.0, 0.25), (0.45, 0.25), (0.9, 0.25), (3.6, 0.0625)])
+def test_air_is_averaged_over_less_where_it_is_rough(gust_m_s, averaged_s):
+    """How much of a step shows a sixteenth of a second later; gusts of 18 m/s up to 5 %, and of 20 %."""
+    for seed in range(5):
+        air, told = aired(gust_m_s, seed)
+        before = told[-1]
+        after = air.see(before[0] + 1.0, before[1], 0.0625)
+        assert after[0] - before[0] == pytest.approx(1.0 - np.exp(-0.0625 / averaged_s), rel=0.25)
+        assert after[1] == pytest.approx(before[1])
+
+
+def test_noise_alone_makes_no_rough_air():
+    _, told = aired(0.0, seed=7)
+    # White noise of 0.3 m/s over 1/4 s, in steps of 0.02 s: 0.3 sqrt(0.02/(2 0.25)) = 0.06; over 1/16 s twice that.
+    assert told[1500:].std(axis=0) == pytest.approx([0.06, 0.06], rel=0.15)
+
+
+@given(st.lists(st.tuples(st.floats(-30.0, 30.0), st.floats(-30.0, 30.0), st.floats(0.0, 5.0)), min_size=1))
+def test_an_average_is_between_what_is_averaged(told):
+    air = Air(0.5)
+    air.begin(*told[0][:2])
+    for i, measured in enumerate(told):
+        for axis, value in enumerate(air.see(*measured)):
+            so_far = [other[axis] for other in told[: i + 1]]
+            assert min(so_far) - 1e-9 <= value <= max(so_far) + 1e-9
 
 
 steps = st.lists(st.tuples(st.floats(0.0025, 0.3), st.floats(-35.0, 35.0)), min_size=1, max_size=40)

@@ -6,12 +6,17 @@ from collections import deque
 from math import exp, hypot, isfinite
 from typing import NamedTuple
 
+from loiter.guidance.limits import clipped
 from loiter.guidance.protocol import State
 from loiter.guidance.turning import Place, rate_at_bank, turned
 from loiter.planning.compass import heading_vector
 
-# The velocity of the air is averaged over a time so many times as short: a gust is to be met before it has drifted far.
-AIR = 8.0
+# The velocity of the air is averaged over a time so many times as short in calm and in rough air: there a gust is to be
+# met before it has drifted far, here noise would only roll the aircraft to and fro.
+CALM, ROUGH = 2.0, 8.0
+
+# Air is rough whose velocity is so far, metres per second, from its average over some seconds, over some more of them.
+ROUGH_M_S, SLOW_S, KEPT_S = 1.2, 2.0, 10.0
 
 # Metres, degrees, metres per second: what is beyond, or slower, is no measurement.
 FARTHEST, SLOWEST = 1e9, 0.1
@@ -79,15 +84,46 @@ def usable(state: State) -> bool:
     return isfinite(state.time_s) and all(abs(value) < FARTHEST for value in state[1:]) and state.airspeed_m_s > SLOWEST
 
 
-class Observer:
-    """Smooths measurements by dead reckoning: each step flies on from the last estimate and corrects it a little.
+class Air:
+    """The velocity of the air, averaged over a time that is the shorter the rougher the air is.
 
-    So place and heading are averages over some `smoothing_s` seconds that do not lag behind a turn; the velocity of the
-    air, measured velocity less airspeed along the heading, is smoothed likewise. 0 smooths nothing.
+    How rough it is, is told by the mean square of what lies between that average and one over `SLOW_S`: both hide the
+    noise of sensors. Air that has not shown what it is counts as rough.
     """
 
     def __init__(self, smoothing_s: float) -> None:
         self._smoothing_s = smoothing_s
+        self._square = ROUGH_M_S * ROUGH_M_S
+        self._east = self._north = self._slow_east = self._slow_north = 0.0
+
+    def begin(self, east_m_s: float, north_m_s: float) -> None:
+        """Begin anew with a velocity."""
+        self._east, self._north = self._slow_east, self._slow_north = east_m_s, north_m_s
+
+    def see(self, east_m_s: float, north_m_s: float, gone_s: float) -> tuple[float, float]:
+        """The average, east and north, with a velocity that was measured `gone_s` seconds after the last."""
+        shorter = clipped(ROUGH * self._square / (ROUGH_M_S * ROUGH_M_S), ROUGH)
+        quick = 1.0 - exp(-max(shorter, CALM) * gone_s / self._smoothing_s)
+        self._east += quick * (east_m_s - self._east)
+        self._north += quick * (north_m_s - self._north)
+        slow = 1.0 - exp(-gone_s / SLOW_S)
+        self._slow_east += slow * (east_m_s - self._slow_east)
+        self._slow_north += slow * (north_m_s - self._slow_north)
+        off_east, off_north = self._east - self._slow_east, self._north - self._slow_north
+        kept = 1.0 - exp(-gone_s / KEPT_S)
+        self._square += kept * (off_east * off_east + off_north * off_north - self._square)
+        return self._east, self._north
+
+
+class Observer:
+    """Smooths measurements by dead reckoning: each step flies on from the last estimate and corrects it a little.
+
+    So place and heading are averages over some `smoothing_s` seconds that do not lag behind a turn; the velocity of the
+    air, measured velocity less airspeed along the heading, is averaged over less (`Air`). 0 smooths nothing.
+    """
+
+    def __init__(self, smoothing_s: float) -> None:
+        self._smoothing_s, self._air = smoothing_s, Air(smoothing_s)
         self._seen: Seen | None = None
 
     def forget(self) -> None:
@@ -102,6 +138,7 @@ class Observer:
         fresh = _measured(state)
         if self._seen is None or self._smoothing_s == 0.0:
             self._seen = fresh
+            self._air.begin(fresh.air_east_m_s, fresh.air_north_m_s)
             return fresh
         last, gone_s = self._seen, state.time_s - self._seen.time_s
         share = 1.0 - exp(-gone_s / self._smoothing_s)
@@ -113,16 +150,9 @@ class Observer:
         c, s = c + share * (mc - c), s + share * (ms - s)
         size = hypot(c, s)
         c, s = c / size, s / size
-        quick = 1.0 - exp(-AIR * gone_s / self._smoothing_s)
-        self._seen = Seen(
-            state.time_s,
-            (x + share * (mx - x), y + share * (my - y), c, s),
-            V,
-            rate,
-            bank_deg,
-            last.air_east_m_s + quick * (state.velocity_east_m_s - V * c - last.air_east_m_s),
-            last.air_north_m_s + quick * (state.velocity_north_m_s - V * s - last.air_north_m_s),
-        )
+        place = x + share * (mx - x), y + share * (my - y), c, s
+        air = self._air.see(state.velocity_east_m_s - V * c, state.velocity_north_m_s - V * s, gone_s)
+        self._seen = Seen(state.time_s, place, V, rate, bank_deg, *air)
         return self._seen
 
 
