@@ -6,16 +6,15 @@ from collections import deque
 from math import exp, hypot, isfinite
 from typing import NamedTuple
 
-from loiter.guidance.limits import clipped
 from loiter.guidance.protocol import State
 from loiter.guidance.turning import Place, rate_at_bank, turned
 from loiter.planning.compass import heading_vector
 
-# The velocity of the air is averaged over a time so many times as short in calm and in rough air: there a gust is to be
-# met before it has drifted far, here noise would only roll the aircraft to and fro.
-CALM, ROUGH = 2.0, 8.0
+# The velocity of the air is averaged over a time so many times as short, in calm and in rough air: a gust is to be met
+# before it has drifted far, and where there is none, noise would only roll the aircraft to and fro.
+IN_CALM, IN_ROUGH = 2.0, 8.0
 
-# Air is rough whose velocity is so far, metres per second, from its average over some seconds, over some more of them.
+# Air is rough whose average over that time and over `SLOW_S` seconds are so far apart, root mean square over `KEPT_S`.
 ROUGH_M_S, SLOW_S, KEPT_S = 1.2, 2.0, 10.0
 
 # Metres, degrees, metres per second: what is beyond, or slower, is no measurement.
@@ -102,8 +101,8 @@ class Air:
 
     def see(self, east_m_s: float, north_m_s: float, gone_s: float) -> tuple[float, float]:
         """The average, east and north, with a velocity that was measured `gone_s` seconds after the last."""
-        shorter = clipped(ROUGH * self._square / (ROUGH_M_S * ROUGH_M_S), ROUGH)
-        quick = 1.0 - exp(-max(shorter, CALM) * gone_s / self._smoothing_s)
+        shorter = min(max(IN_ROUGH * self._square / (ROUGH_M_S * ROUGH_M_S), IN_CALM), IN_ROUGH)
+        quick = 1.0 - exp(-shorter * gone_s / self._smoothing_s)
         self._east += quick * (east_m_s - self._east)
         self._north += quick * (north_m_s - self._north)
         slow = 1.0 - exp(-gone_s / SLOW_S)
