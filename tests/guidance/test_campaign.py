@@ -7,7 +7,7 @@ import pytest
 
 from guidance.flights import UAV
 from loiter import Orbit, Pose, Wind, plan
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, WindTooStrong
 from loiter.guidance.campaign import LAWS, Trial, campaign, kinematic, optimal, point_mass, trials
 from loiter.guidance.summary import summary
 
@@ -22,6 +22,15 @@ def test_starts_are_where_they_should_be_and_do_not_depend_on_how_many_there_are
         radius = trial.ideal.orbit.radius_m
         assert 1.5 * r <= radius <= 2.0 * r
         assert trial.ideal.orbit.distance_m(trial.ideal.start) <= 3.0 * radius
+
+
+def test_in_wind_there_are_only_circles_that_can_be_held():
+    """The same starts, wider: by (1 + w/V)^2, by which an aircraft turns wider downwind (docs/wind.md, section 2)."""
+    windy = trials(12, 5, UAV, Wind(9.0, 250.0))
+    assert [t.ideal.orbit.radius_m for t in windy] == pytest.approx([2.25 * t.ideal.orbit.radius_m for t in STARTS])
+    assert [t.ideal.start.heading_deg for t in windy] == [t.ideal.start.heading_deg for t in STARTS]
+    with pytest.raises(WindTooStrong):
+        trials(1, 5, UAV, Wind(18.0, 250.0))
 
 
 def test_rivals_are_told_the_direction_of_the_fastest_entry():

@@ -72,7 +72,7 @@ def fly(
             group=simulation,
             metavar="N",
             converter=whole,
-            help="Fly from N random starts within 6 radii of circles of 1.2 to 4 turn radii, instead of from --pose.",
+            help="Fly from N random starts within 6 radii of circles of 1.2 to 4 times the tightest that can be held, instead of from --pose.",
         ),
     ] = None,
     seed: Annotated[

@@ -21,8 +21,10 @@ from loiter.guidance.sensors import Noise
 from loiter.guidance.settling import Band
 from loiter.guidance.tangent import Tangent
 from loiter.guidance.vector_field import VectorField, advised_gains
+from loiter.kernel.hold import tightest_held
+from loiter.planning.held import air_past
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Aircraft, Orbit, Pose, Wind
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind
 from loiter.planning.solve import plan
 
 
@@ -98,9 +100,9 @@ def trials(
 ) -> list[Trial]:
     """Random starts, the same for the same seed: the first of many are those of few.
 
-    The circle is about the origin, of a radius between `radii` times the turn radius, held either way; the start is
-    anywhere within `reach` radii of the circle from its centre, on any heading. Raises `InvalidArgument` for fewer than
-    one run and a seed below 0, and as `plan`.
+    The circle is about the origin, of a radius between `radii` times the tightest that can be held in the wind, that is
+    in still air the turn radius, held either way; the start is anywhere within `reach` radii of the circle from its
+    centre, on any heading. Raises `InvalidArgument` for fewer than one run and a seed below 0, and as `plan`.
     """
     _at_least(1, "runs", runs)
     _at_least(0, "seed", seed)
@@ -111,7 +113,8 @@ def _trial(seed: int, i: int, aircraft: Aircraft, wind: Wind | None, radii: tupl
     import numpy as np
 
     random = np.random.default_rng((seed, i))
-    radius_m = aircraft.turn_radius_m * random.uniform(*radii)
+    tightest = tightest_held(*air_past(Orbit(0.0, 0.0, 1.0), aircraft, CALM if wind is None else wind))
+    radius_m = aircraft.turn_radius_m * tightest * random.uniform(*radii)
     distance_m, azimuth = reach * radius_m * sqrt(random.random()), 2.0 * pi * random.random()
     pose = Pose(distance_m * cos(azimuth), distance_m * sin(azimuth), 360.0 * random.random())
     return Trial(plan(pose, Orbit(0.0, 0.0, radius_m), aircraft, wind), int(random.integers(2**63)))
