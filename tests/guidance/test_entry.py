@@ -208,6 +208,18 @@ def test_it_settles_in_wind_told_of_it_or_not(known):
     assert late_s < (3.0 if known else 15.0)
 
 
+@pytest.mark.parametrize("wind", [None, Wind(5.0, 200.0), Wind(5.0, 20.0)])
+@pytest.mark.parametrize("start", [Pose(-350.0, 100.0, 300.0), Pose(400.0, 300.0, 80.0), Pose(-200.0, 500.0, 10.0)])
+def test_in_wind_it_is_as_near_the_optimum_as_in_still_air(start, wind):
+    """A turn before the last is flown at the limit; what is late is the roll, to the limit, level and to the other."""
+    ideal = plan(start, ORBIT, UAV, wind)
+    mass = PointMass(start, UAV, wind, seed=6, gust=0.0, noise=EXACT)
+    flight = fly(LoiterEntry(ORBIT, UAV, wind, delay_s=0.0), mass, ORBIT, limit_s=150.0)
+    first = flight.phases.index(Phase.STRAIGHT)
+    assert np.abs(flight.track.commanded_bank_deg[:first]) == pytest.approx(35.0)
+    assert flight.settled_s < ideal.duration_s + 1.6
+
+
 def test_it_settles_about_a_circle_that_moves():
     orbit, wind = Orbit(0.0, 0.0, 140.0, "either", 2.0, -1.5), Wind(3.0, 100.0)
     start = Pose(-350.0, 100.0, 300.0)

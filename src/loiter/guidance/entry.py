@@ -46,8 +46,9 @@ SOONER, LATER = 0.25, 0.25
 # How often another plan is looked for, seconds; in wind, where it takes milliseconds, only where the last one slipped.
 STILL_S, WINDY_S = 0.1, 1.0
 
-# How far off its path or its time, in turn radii, a plan in wind has slipped.
-SLIPPED = 0.1
+# How far off its path or its time, in turn radii, a plan in wind has slipped; and how long the bend may be, back to the
+# path, with which another begins that is the same way.
+SLIPPED, BEND = 0.1, 0.1
 
 # How far off its path, in turn radii and radians, a vehicle is lost: the plan is made anew, whatever it costs.
 LOST, ASTRAY = 0.5, 1.0
@@ -206,7 +207,7 @@ class LoiterEntry:
         self._sought_s = self._told_s
         scale = self._scale(view)
         found = self._fastest(view, scale)
-        if found is None or not (route is None or _worth(found, route)):
+        if found is None or not (route is None or _worth(found, route, 0.0 if self._still else BEND)):
             return False
         self._route = Route(view, found, self._R, self._wind, scale)
         self._joins = self._promised = view.clock + duration(found)
@@ -244,11 +245,11 @@ class LoiterEntry:
         )
 
     def _wanted_deg(self, route: Route, view: View, dt: float) -> float:
-        """The bank that follows the route; on a turn before its last piece, in still air, all the bank there is.
+        """The bank that follows the route; on a turn before its last piece all the bank there is.
 
-        Such a turn is planned anew many times before it is over: nothing is gained by flying it as wide as planned.
+        Such a turn is planned anew before it is over: nothing is gained by flying it as wide as planned.
         """
-        if self._still and len(route.controls) > 1 and route.controls[0] != 0:
+        if len(route.controls) > 1 and route.controls[0] != 0:
             return -route.controls[0] * self._limit_deg
         vx, vy = route.velocity(view)
         quickness = self._unit_s / (self._slowness_s + self._gain * dt)
@@ -261,7 +262,12 @@ class LoiterEntry:
         self._recent.keep(self._roll.after(self._recent.now_deg, bank_deg, dt), dt)
 
 
-def _worth(found: Flown, route: Route) -> bool:
-    """Whether a way is worth leaving a route for: the same one from here, or one that is sooner by a margin."""
-    same = found[0] == route.side and controls_of(found[1]) == route.controls
+def _worth(found: Flown, route: Route, bend: float) -> bool:
+    """Whether a way is worth leaving a route for: the same one from here, or one that is sooner by a margin.
+
+    It is the same whatever it begins with that is no longer than `bend`.
+    """
+    controls = controls_of(found[1])
+    first = max(len(controls) - len(route.controls), 0)
+    same = found[0] == route.side and controls[first:] == route.controls and sum(found[2 : 2 + first]) <= bend
     return duration(found) < route.rest + (LATER if same else -SOONER)
