@@ -31,6 +31,9 @@ class Band:
 # An aircraft that has joined stays in a band so many times as wide for a full turn: a gust may push it about there.
 STAY = 2.0
 
+# Turns are counted by so many degrees and more: less is what gusts turn an aircraft to and fro, all the way.
+COUNTED_DEG = 10.0
+
 
 class Settling:
     """Watches an aircraft, state by state, until it has settled: flown a full turn round the circle within the band.
@@ -40,14 +43,16 @@ class Settling:
     `entered_s` is when the stay in the band began that lasts, and once `settled` the time to settle; nan outside.
     `joined_s` is when the band was first entered without leaving one `STAY` times as wide for a full turn: a gust that
     throws the aircraft off the circle later does not undo it. nan before that, and where that band is left sooner.
-    `turned_deg` is how much the heading turned until then, either way, outside that band: off the circle.
+    `turned_deg` is how much the heading turned until then, either way, outside that band: off the circle, and to
+    `COUNTED_DEG`.
     """
 
     def __init__(self, orbit: Orbit, band: Band) -> None:
         self._orbit, self._ways = orbit, WAYS[orbit.turn]
         self._band, self._wide = (_limits(band, factor) for factor in (1.0, STAY))
         self._bearing = self._swept = self._about = self.turned_deg = 0.0
-        self._heading_deg: float | None = None
+        # The heading up to which turns are counted.
+        self._counted_deg: float | None = None
         self._way = 0
         self.entered_s = self.joined_s = nan
 
@@ -73,18 +78,26 @@ class Settling:
             self._way, self._swept, self.entered_s = way, 0.0, t if way else nan
         else:
             self._swept += gone
-        self._bearing, self._heading_deg = bearing, state.heading_deg
+        self._bearing = bearing
 
     def _watch_joining(self, state: State, way: int, gone: float, *, about: bool) -> None:
         """Begin, go on with or break off the stay about the circle."""
+        if about or self._counted_deg is None:
+            self._counted_deg = state.heading_deg
         if not about:
+            self._count_turn(self._counted_deg, state.heading_deg)
             self._about, self.joined_s = 0.0, nan
-            if self._heading_deg is not None:
-                self.turned_deg += abs(remainder(state.heading_deg - self._heading_deg, 360.0))
         elif self.joined_s == self.joined_s:
             self._about += gone
         elif way != 0:
             self.joined_s = state.time_s
+
+    def _count_turn(self, from_deg: float, to_deg: float) -> None:
+        """Count a turn between two headings, if it is one."""
+        turned_deg = abs(remainder(to_deg - from_deg, 360.0))
+        if turned_deg >= COUNTED_DEG:
+            self._counted_deg = to_deg
+            self.turned_deg += turned_deg
 
     def _within(self, limits: tuple[float, float], off: float, along: float) -> int:
         """The way round in which the aircraft is in a band; 0 outside."""
