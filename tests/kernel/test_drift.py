@@ -155,6 +155,31 @@ def test_of_two_valleys_almost_as_deep_the_deeper_is_found(R, beyond, angle, mag
     assert tied(least_time(scene, Side.EITHER), least, R)
 
 
+@settings(max_examples=12)
+@given(scenes(), st.floats(-12.0, -4.0))
+def test_next_to_a_tie_the_sooner_direction_is_found(scene, magnitude):
+    """The heading where clockwise and counter-clockwise tie, by bisection, and a little to either side of it."""
+
+    def heading(angle):
+        x, y, _, _, *rest = scene
+        return x, y, cos(angle), sin(angle), *rest
+
+    def lead(angle):
+        return least_time(heading(angle), Side.CW) - least_time(heading(angle), Side.CCW)
+
+    leads = [(i * pi / 4, lead(i * pi / 4)) for i in range(9)]
+    changes = [(a, b) for (a, before), (b, after) in pairwise(leads) if before * after < 0.0]
+    assume(changes)
+    low, high = changes[0]
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if lead(low) * lead(middle) > 0.0 else (low, middle)
+    for angle in (low, low - 10.0**magnitude, low + 10.0**magnitude):
+        there = heading(angle)
+        least = min(least_time(there, side) for side in (Side.CW, Side.CCW))
+        assert tied(least_time(there, Side.EITHER), least, scene[4])
+
+
 @given(scenes(), sides, st.floats(0.0, 1.0))
 def test_along_the_optimum_the_time_left_falls_at_unit_rate(scene, side, share):
     maneuver = solved(scene, side)
