@@ -102,33 +102,33 @@ def fly(
 
     _check_use(sim, airframe, gust, runs, workers)
     _check_files(plot, save, runs)
+    flown, share = airframe or AIRFRAME, GUST if gust is None else gust
     names: list[str] = list(campaign.LAWS) if compare else [law]
     if runs is None:
         pose, orbit, _ = placed(start, circle, uav.preset())
-        trial = campaign.Trial(loiter.plan(pose, orbit, _aircraft(sim, airframe, uav), air.moving_air), seed)
-        _fly_once(trial, _setting(sim, airframe, gust), names, plot, save)
+        trial = campaign.Trial(loiter.plan(pose, orbit, _aircraft(sim, flown, uav), air.moving_air), seed)
+        _fly_once(trial, _setting(sim, flown, share), names, plot, save)
         return
     if (start, circle) != (StartOptions(), OrbitOptions()):
         raise InvalidArgument("runs", "asks for random starts and circles: --pose and --orbit are of no use")
-    starts = campaign.trials(runs, seed, _aircraft(sim, airframe, uav), air.moving_air)
-    _fly_many(starts, _setting(sim, airframe, gust), names, workers, save)
+    starts = campaign.trials(runs, seed, _aircraft(sim, flown, uav), air.moving_air)
+    _fly_many(starts, _setting(sim, flown, share), names, workers, save)
 
 
-def _setting(sim: Sim, airframe: str | None, gust: float | None) -> Setting:
+def _setting(sim: Sim, airframe: str, gust: float) -> Setting:
     """How the simulator is flown."""
     from loiter.guidance import settings
 
-    gust = GUST if gust is None else gust
     if sim == "kinematic":
         return settings.theory()
     if sim == "point":
         return settings.rolling(gust)
     from loiter.guidance.airframes import AIRFRAMES
 
-    return settings.flying(AIRFRAMES[airframe or AIRFRAME], gust)
+    return settings.flying(AIRFRAMES[airframe], gust)
 
 
-def _aircraft(sim: Sim, airframe: str | None, uav: AircraftOptions) -> Aircraft:
+def _aircraft(sim: Sim, airframe: str, uav: AircraftOptions) -> Aircraft:
     """The aircraft of the options, or that of the airframe, which has an airspeed and a limit of its own."""
     if sim != "jsbsim":
         return uav.aircraft(uav.preset())
@@ -136,7 +136,7 @@ def _aircraft(sim: Sim, airframe: str | None, uav: AircraftOptions) -> Aircraft:
         raise InvalidArgument("airframe", "has an airspeed and a bank limit of its own: options for them are of no use")
     from loiter.guidance.airframes import AIRFRAMES
 
-    return AIRFRAMES[airframe or AIRFRAME].aircraft
+    return AIRFRAMES[airframe].aircraft
 
 
 def _check_use(sim: Sim, airframe: str | None, gust: float | None, runs: int | None, workers: int | None) -> None:

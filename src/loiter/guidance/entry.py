@@ -197,7 +197,7 @@ class LoiterEntry:
         beside = route.beside(view)
         lost = abs(beside.left) > LOST or abs(beside.course) > ASTRAY
         slipped = max(abs(beside.left), abs(self._joins - self._promised)) > SLIPPED
-        wanted = lost or not (route.holds or not (self._still or slipped))
+        wanted = lost or (not route.holds and (self._still or slipped))
         return wanted and self._seek(view, None if lost else route)
 
     def _seek(self, view: View, route: Route | None = None) -> bool:
@@ -214,7 +214,10 @@ class LoiterEntry:
         return True
 
     def _scale(self, view: View) -> float:
-        """How much wider turns are for a gust along the way: as wide as the speed is large, as the rate is the same."""
+        """How much wider turns are for a gust along the way: as wide as the speed is large, as the rate is the same.
+
+        But no wider than the circle, which then is as tight as turns are.
+        """
         if not self._still:
             return 1.0
         return min(hypot(*forward(view.vx, view.vy, view.hx, view.hy)), self._R)
