@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from errno import EISDIR
 from pathlib import Path
 from typing import BinaryIO
 
@@ -21,9 +22,11 @@ def write_whole(argument: str, path: Path, write: Callable[[BinaryIO], object]) 
 
 
 def check_writable(argument: str, path: Path) -> None:
-    """Raise as `write_whole` where nothing can be written beside `path`; for asking before what takes long."""
+    """Raise as `write_whole` where `path` cannot be written; for asking before what takes long."""
     with _beside(argument, path) as part:
         part.open("xb").close()
+        if path.is_dir():
+            raise IsADirectoryError(EISDIR, os.strerror(EISDIR))
 
 
 @contextmanager

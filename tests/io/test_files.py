@@ -160,3 +160,6 @@ def test_asking_whether_a_file_can_be_written_changes_nothing(tmp_path):
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("kept.csv", "older")]
     with pytest.raises(InvalidArgument, match=r"^save is .*: it cannot be written, No such file or directory$"):
         check_writable("save", tmp_path / "no" / "new.csv")
+    with pytest.raises(InvalidArgument, match=r"^save is .*: it cannot be written, Is a directory$"):
+        check_writable("save", tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["kept.csv"]
