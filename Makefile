@@ -1,7 +1,7 @@
 # make demo   plan a real entry: the table on the screen, the picture in demo.png
 # make test   format, lint, types, import contract, tests, examples in the docs
 # make bench  what answers cost, beside other methods: table and plot in benchmarks/results; ROWS=0 spares the tables
-# make verify all witnesses, the search over 100,000 random scenes in still air and 1,000 in wind
+# make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
 # make pins   write the requirement files anew from pyproject.toml
 PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin
@@ -9,10 +9,10 @@ ROWS ?= 1e8
 
 # On Debian the standard library's venv is a package of its own.
 $(BIN)/python:
-	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
-	  echo "installing python3-venv with apt-get"; \
-	  if [ "$$(id -u)" = 0 ]; then s=; else s=sudo; fi; \
-	  $$s apt-get update -q && $$s apt-get install -qy python3-venv; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { \
+	  echo "Python 3.11 or newer is needed, and $(PYTHON) is $$($(PYTHON) --version 2>/dev/null || echo missing):" \
+	    "make PYTHON=FILE takes another" >&2; exit 2; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || requirements/apt-install python3-venv
 	$(PYTHON) -m venv .venv
 
 .venv/base.stamp: $(BIN)/python requirements/base.txt pyproject.toml
@@ -30,10 +30,9 @@ $(BIN)/python:
 	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/npm install --prefix .venv/node --no-package-lock --no-audit --no-fund --loglevel=error
 	@touch $@
 
+# To test the page in a browser.
 /usr/bin/chromium:
-	@echo "installing chromium with apt-get, to test the page in a browser"; \
-	if [ "$$(id -u)" = 0 ]; then s=; else s=sudo; fi; \
-	$$s apt-get update -q && $$s apt-get install -qy chromium
+	@requirements/apt-install chromium
 
 .PHONY: demo test bench verify pins
 demo: .venv/base.stamp

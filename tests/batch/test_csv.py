@@ -53,6 +53,25 @@ def test_what_is_no_number_spoils_its_own_row_alone(solved):
     assert all(row[name] == "" for row in rows[::2] for name in ADDED if name != "status")
 
 
+@pytest.mark.parametrize("begin", ["", "\ufeff", "\n", "\r\n"])
+@pytest.mark.parametrize("header", ["east_m,north_m,heading_deg", '"east_m",north_m,"heading_deg"'])
+@pytest.mark.parametrize("end", ["", "\n", "\r\n", "\r", "\n\n"])
+@pytest.mark.parametrize("packed", [False, True])
+def test_a_header_alone_is_a_table_of_no_rows(solved, begin, header, end, packed):
+    content = (begin + header + end).encode()
+    rows, summary = solved(gzip.compress(content), ".csv.gz") if packed else solved(content)
+    assert (rows, summary.rows) == ([], 0)
+
+
+@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("last", ["90,60,100", '90,60,"100"', '"90,60,100', "90,60"])
+def test_the_last_line_counts_with_an_end_or_without(solved, line_end, last):
+    text = line_end.join(["east_m,north_m,heading_deg", "90,60,100", last])
+    rows, _ = solved(text)
+    assert rows == solved(text + line_end)[0]
+    assert statuses(rows) == ["ok", "ok" if last.endswith(("100", '"100"')) and last.count('"') != 1 else "malformed"]
+
+
 def test_a_line_with_the_wrong_number_of_fields_keeps_its_place(solved):
     lines = ["0,90,60,100", "1,90,60", "2,90,60,100", "3,90,60,100,5", "4", "5,90,60,100", "6,90,60,100,"]
     rows, summary = solved(HEADER + "\n".join(lines))
@@ -155,7 +174,7 @@ def test_mended_text_is_the_same_in_pieces_of_any_size(monkeypatch, chunk):
     monkeypatch.setattr(lines, "CHUNK_BYTES", chunk)
     assert b"".join(lines.mended(io.BytesIO(text), 4)) == expected
     assert lines.Mended(io.BytesIO(text), 4).read() == expected
-    assert expected == text.replace(b'0,"1,2,3', b",,,,").replace(b'"q"",1,2,3', b",,,,")
+    assert expected == text.replace(b'0,"1,2,3', b",,,,").replace(b'"q"",1,2,3', b",,,,") + b"\n"
 
 
 def test_bytes_that_are_not_utf_8_spoil_their_own_line_alone(solved):

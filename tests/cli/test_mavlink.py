@@ -5,10 +5,12 @@ import re
 import pytest
 
 import loiter
+from loiter import Pose, Turn
 from loiter.cli.app import main
-from mavlink.test_watch import Flight
+from mavlink.test_watch import FRAME, ORBIT, Circles, Flight, Parked, Widens
 from mavlink.vehicle import OLD, Plane, Vehicle, flying, free_port
 
+ALONG_PATH = "Waypoints all along the path: autopilots cut its turns, and joined 2 to 4 s later than without --path."
 PLACED = "--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35 --altitude 900"
 
 
@@ -34,6 +36,73 @@ def test_a_scene_is_planned_and_sent(shown, vehicle, held):
     assert "LSR, counter-clockwise: joins in" in text
     assert "items sent and read back, each as sent." in text
     assert "It took the place of one of" in text
+
+
+def test_a_scene_is_sent_with_altitudes_above_home(shown):
+    scene = PLACED.replace("900", "120 --altitude-reference home --home-altitude 450")
+    with flying(Vehicle()) as vehicle:
+        shown(f"upload --connect {vehicle.connection} {scene}")
+    # MAV_FRAME_GLOBAL_RELATIVE_ALT.
+    assert {(kept[1], kept[5]) for kept in vehicle.mission} == {(3, 120.0)}
+
+
+@pytest.mark.parametrize(("vehicle", "commands"), [(Vehicle([]), [17]), (Plane([]), [16, 16, 17])])
+def test_the_mission_is_the_one_that_the_autopilot_flies_best(shown, vehicle, commands):
+    """On ArduPlane a waypoint at the point of joining, after the home; on PX4 the loiter alone."""
+    with flying(vehicle):
+        text = shown(f"upload --connect {vehicle.connection} {PLACED} --turn ccw")
+    assert [kept[0] for kept in vehicle.mission] == commands
+    assert "Waypoints all along the path" not in text
+
+
+@pytest.mark.parametrize("options", ["--path", "--spacing 50", "--path --chord-error 0.1"])
+def test_waypoints_all_along_the_path_are_sent_where_they_are_asked_for_and_what_they_cost_is_told(shown, options):
+    with flying(Vehicle([])) as vehicle:
+        text = shown(f"upload --connect {vehicle.connection} {PLACED} --turn ccw {options}")
+    assert len(vehicle.mission) > 5
+    assert ALONG_PATH in text.splitlines()
+
+
+def test_what_the_autopilot_makes_of_the_mission_is_told(shown):
+    class Requires(Vehicle):
+        parameters = {"MIS_TKO_LAND_REQ": (2, 6)}  # noqa: RUF012
+
+    with flying(Requires([])) as vehicle:
+        text = shown(f"upload --connect {vehicle.connection} {PLACED}")
+    assert text.splitlines()[-1].startswith(
+        "PX4 will not fly this mission: MIS_TKO_LAND_REQ is 2, which requires a lan"
+    )
+
+    class Widens(Plane):
+        parameters = Plane.parameters | {"NAVL1_LIM_BANK": (0.0, 9)}
+
+    with flying(Widens([])) as vehicle:
+        text = shown(f"upload --connect {vehicle.connection} {PLACED}")
+    assert text.splitlines()[-1].startswith("ArduPlane will hold 130.9 m in place of 120, since it multiplies the radi")
+    with flying(Widens([])) as vehicle:
+        text = shown(f"upload --connect {vehicle.connection} {PLACED} --turn cw --true-radius")
+    assert vehicle.mission[-1][2][2] == 110.0
+    said = "The radius is sent as 110 m, which ArduPlane flies as 120.0 m at 900 m."
+    assert text.splitlines()[-1] == said
+
+
+@pytest.mark.parametrize("vehicle", [Vehicle([]), Plane([Plane.home, *OLD[1:]])])
+def test_a_vehicle_in_flight_is_told_to_fly_the_mission(shown, vehicle):
+    with flying(vehicle):
+        text = shown(f"upload --connect {vehicle.connection} {PLACED} --start")
+    assert text.splitlines()[-1] == "It flies the mission."
+    assert vehicle.mode == vehicle.mission_mode
+
+
+def test_a_vehicle_on_the_ground_is_not_started(ended):
+    class Landed(Vehicle):
+        landed_state = 1
+
+    with flying(Landed()) as vehicle:
+        status, _, err = ended(f"upload --connect {vehicle.connection} {PLACED} --start")
+    assert status == 3
+    assert err == "loiter: system 1 (PX4) is not in the air, and is not told to fly; it has the mission\n"
+    assert vehicle.mode != vehicle.mission_mode
 
 
 @pytest.mark.parametrize("ending", ["plan", "waypoints"])
@@ -72,6 +141,8 @@ def test_a_file_is_sent_as_it_is(shown, tmp_path, ending):
             "--altitude is needed",
         ),
         (PLACED, 2, "--connect needs a value, LINK"),
+        (f"{PLACED} --chord-error 0.1 --connect udpin:127.0.0.1:PORT", 2, "--chord-error goes with --path: without it"),
+        ("entry.plan --path --connect udpin:127.0.0.1:PORT", 2, "mission FILE is sent as it is: options of a"),
     ],
 )
 def test_what_cannot_be_sent(ended, tmp_path, monkeypatch, arguments, status, sentence):
@@ -111,6 +182,46 @@ def test_watching_prints_a_line_for_each_report(shown):
     assert vehicle.commands == []
 
 
+def test_what_is_to_be_done_is_told_piece_by_piece(shown):
+    flight = Flight(Pose(-250.0, -170.0, 290.0))
+    flight.haste = 1.0
+    with flying(flight) as vehicle:
+        lines = shown(f"watch --connect {vehicle.connection} {SCENE} --turn cw --every 0.3 --reports 3").splitlines()
+    todo = r"right now, straight in \d\.\d s, peel off left in \d+\.\d s"
+    assert re.search(rf"^ +0\.\d s: joins clockwise in \d+\.\d s; {todo}; counter-clockwise ", lines[-1])
+
+
+def test_an_aircraft_on_the_circle_is_told_how_far_off_it_is(shown):
+    scene = f"--orbit-lla {degrees_of_the_circle()} 80 --airspeed 18 --bank 35"
+    with flying(Circles(12.0)) as vehicle:
+        lines = shown(f"watch --connect {vehicle.connection} {scene} --every 0.5 --reports 10").splitlines()
+    assert lines[-1].endswith(" s: on the circle, clockwise, 12 m outside")
+    with flying(Circles(-7.0, Turn.CCW)) as vehicle:
+        lines = shown(f"watch --connect {vehicle.connection} {scene} --every 0.5 --reports 10").splitlines()
+    assert lines[-1].endswith(" s: on the circle, counter-clockwise, 7 m inside")
+    with flying(Circles(0.0)) as vehicle:
+        lines = shown(f"watch --connect {vehicle.connection} {scene} --every 0.5 --reports 3").splitlines()
+    assert lines[-1].endswith(" s: on the circle, clockwise")
+
+
+def degrees_of_the_circle():
+    lat, lon = FRAME.to_geodetic(ORBIT.east_m, ORBIT.north_m)
+    return f"{float(lat):.9f} {float(lon):.9f}"
+
+
+def test_a_vehicle_that_is_parked_is_told_not_to_fly(shown):
+    with flying(Parked()) as vehicle:
+        lines = shown(f"watch --connect {vehicle.connection} {SCENE} --every 0.3 --reports 3").splitlines()
+    assert lines[-1].endswith(" s: not flying: it says that it is on the ground")
+
+
+def test_notices_stand_before_the_line(shown):
+    with flying(Widens()) as vehicle:
+        lines = shown(f"watch --connect {vehicle.connection} {SCENE} --every 0.3 --reports 5").splitlines()
+    assert [line.startswith("ArduPlane will hold 84.9 m in place of 80,") for line in lines].count(True) == 1
+    assert len(lines) == 6
+
+
 def test_sending_says_so(shown):
     with flying(Flight()) as vehicle:
         text = shown(
@@ -128,6 +239,11 @@ def test_sending_says_so(shown):
         (f"{SCENE} --every 0", 2, "--every is 0.0: it must be a positive"),
         (f"{SCENE} --reports 0", 2, "--reports is 0: it must be at least 1"),
         (f"{SCENE} --timeout 0.3", 3, "no heartbeat of a vehicle in 0.3 s"),
+        (
+            f"{SCENE} --true-radius",
+            2,
+            "--true-radius is that of the circle that send has the vehicle hold: it goes with",
+        ),
         (f"{SCENE} --orbit-velocity 1 0 --send", 2, "--send tells a vehicle to hold a circle that rests"),
     ],
 )

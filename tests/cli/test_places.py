@@ -136,6 +136,48 @@ def test_a_mission_follows_the_options(shown, tmp_path):
     assert plan["mission"]["firmwareType"] == 12
 
 
+@pytest.mark.parametrize("ending", ["plan", "waypoints"])
+@pytest.mark.parametrize(("reference", "frame"), [("home", 3), ("ground", 10)])
+def test_a_mission_above_home_or_ground(shown, tmp_path, ending, reference, frame):
+    path = tmp_path / f"entry.{ending}"
+    shown(f"plan {PLACED} {UAV} --altitude 120 --altitude-reference {reference} --home-altitude 450 --save {path}")
+    flown = loiter.io.read_mission(path)
+    assert {(item.frame, item.altitude_m) for item in flown.items} == {(frame, 120.0)}
+    assert flown.home[2] == 450.0
+
+
+def test_an_indicated_airspeed_is_one_at_the_altitude_above_the_sea(planned):
+    scene = f"{PLACED} --bank 35 --indicated-airspeed 18"
+    above_home = planned(f"{scene} --altitude 120 --altitude-reference home --home-altitude 1800")
+    assert above_home["aircraft"] == planned(f"{scene} --altitude 1920")["aircraft"]
+    assert above_home["aircraft"] != planned(f"{scene} --altitude 120")["aircraft"]
+
+
+@pytest.mark.parametrize("ending", ["plan", "waypoints", "txt", "kml", "csv"])
+def test_what_a_path_costs_is_told_where_it_is_a_mission(shown, tmp_path, ending):
+    path = tmp_path / f"entry.{ending}"
+    told = "Waypoints all along the path: autopilots cut its turns, and joined 2 to 4 s later than without --path."
+    for options, tells in (("", False), ("--path", True), ("--spacing 50", True), ("--path --chord-error 0.1", True)):
+        text = shown(f"plan {PLACED} {UAV} --altitude 900 --save {path} {options}")
+        assert (told in text.splitlines()) == (tells and ending in ("plan", "waypoints", "txt"))
+    if ending == "plan":
+        assert len(json.loads(path.read_text())["mission"]["items"]) > 5
+        shown(f"plan {PLACED} {UAV} --altitude 900 --save {path}")
+        assert [item["command"] for item in json.loads(path.read_text())["mission"]["items"]] == [16, 17]
+        shown(f"plan {PLACED} {UAV} --altitude 900 --autopilot px4 --save {path}")
+        assert [item["command"] for item in json.loads(path.read_text())["mission"]["items"]] == [17]
+
+
+def test_a_chord_error_is_that_of_a_map_or_of_a_path(capsys, tmp_path):
+    assert main(["plan", *f"{PLACED} {UAV} --altitude 900 --save {tmp_path}/e.kml --chord-error 0.1".split()]) == 0
+    capsys.readouterr()
+    assert main(["plan", *f"{PLACED} {UAV} --altitude 900 --save {tmp_path}/e.plan --chord-error 0.1".split()]) == 2
+    assert capsys.readouterr().err == (
+        "loiter: --chord-error goes with --path: without it a mission has no turns to cut\n"
+    )
+    assert [file.name for file in tmp_path.iterdir()] == ["e.kml"]
+
+
 ARDUPLANE = "AIRSPEED_CRUISE,18.0\nROLL_LIMIT_DEG,35\nWP_LOITER_RAD,-120\n"
 
 
@@ -166,6 +208,22 @@ def test_a_parameter_file_gives_aircraft_radius_and_direction(planned, tmp_path)
         (
             f"{PLACED} {UAV} --altitude 900 --save nowhere/entry.plan",
             "--save is 'nowhere/entry.plan': it cannot be written",
+        ),
+        (
+            f"{PLACED} {UAV} --altitude 120 --altitude-reference home --save entry.plan",
+            "--home-altitude is missing: a mission in metres above home needs home's own",
+        ),
+        (
+            f"{PLACED} {UAV} --altitude 120 --altitude-reference ground --home-altitude 4 --save entry.kml",
+            "--altitude-reference is ground: how high that is above mean sea level is not known",
+        ),
+        (
+            f"{PLACED} --bank 35 --indicated-airspeed 18 --altitude 120 --altitude-reference ground",
+            "--altitude-reference is ground: how high that is above mean sea level is not known",
+        ),
+        (
+            f"{PLACED} {UAV} --altitude-reference home --home-altitude 450 --save entry.csv",
+            "--altitude is needed: --altitude-reference and --home-altitude go with it",
         ),
         (f"{PLACED} --params none.param", "--params file 'none.param': it cannot be read"),
     ],

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from loiter import Orbit, Pose, plan
 from loiter.errors import InvalidArgument, OutOfRange
 from loiter.geo import LocalFrame
+from loiter.geo.frame import degrees_of
 from loiter.planning.model import Aircraft
 
 WITNESS = Geodesic.WGS84
@@ -105,6 +106,31 @@ def test_beyond_the_plane():
     assert np.isnan(east).tolist() == np.isnan(north).tolist() == [False, True, True, True]
     latitude, _ = frame.to_geodetic([1e5, 100_001.0, np.nan, np.inf], 0.0)
     assert np.isnan(latitude).tolist() == [False, True, True, True]
+
+
+@pytest.mark.parametrize("pole", [90.0, -90.0])
+def test_nothing_lies_beyond_the_poles(pole):
+    """Not as near as a place beyond can be, and not where it would come down on the other side."""
+    frame, latitudes = LocalFrame(pole, 0.0), pole * np.array([1.0, math.nextafter(1.0, 2.0), 91.0 / 90.0, 1.5, 2.0])
+    east, north = frame.to_local(latitudes, 0.0)
+    assert np.isnan(east).tolist() == np.isnan(north).tolist() == [False, True, True, True, True]
+    assert np.isnan(frame.convergence_deg(latitudes, 0.0)).tolist() == [False, True, True, True, True]
+
+
+@pytest.mark.parametrize(
+    ("latitude", "longitude", "written"),
+    [
+        (47.11, 8.23, "47.110000 N 8.230000 E"),
+        (-1e-6, -1e-6, "0.000001 S 0.000001 W"),
+        (1e-6, 1e-6, "0.000001 N 0.000001 E"),
+        (0.0, 0.0, "0.000000 N 0.000000 E"),
+        (-0.2, 0.2, "0.200000 S 0.200000 E"),
+        (0.2, -0.2, "0.200000 N 0.200000 W"),
+        (-90.0, -180.0, "90.000000 S 180.000000 W"),
+    ],
+)
+def test_a_place_as_people_write_it(latitude, longitude, written):
+    assert degrees_of(latitude, longitude) == written
 
 
 def test_how_good_the_plane_is_where_it_ends():

@@ -183,6 +183,104 @@ def test_without_data_it_is_safe_and_it_recovers_in_one_step(bad, begins_s):
     assert hypot(end.east_m, end.north_m) == pytest.approx(120.0, abs=12.0)
 
 
+SHIP, AIR = Orbit(0.0, 0.0, 140.0, "either", 2.0, -1.5), Wind(4.0, 200.0)
+SCENES = {"still air": (ORBIT, None), "wind": (ORBIT, AIR), "a ship in wind": (SHIP, AIR)}
+
+
+def with_stamps(stamp, orbit=ORBIT, wind=None, until_s=60.0):
+    """The commands of a law whose measurements bear other stamps: number i, at a time, bears `stamp(i, time_s)`."""
+    law, mass, commands = LoiterEntry(orbit, UAV, wind), PointMass(START, UAV, wind, seed=2), []
+    while mass.true_state().time_s < until_s:
+        state = mass.measured_state()
+        commands.append(law.step(state._replace(time_s=stamp(len(commands), state.time_s)), 0.02))
+        mass.advance(commands[-1], 0.02)
+    return commands, mass.true_state()
+
+
+def blind(commands):
+    return [i for i, command in enumerate(commands) if command.phase == Phase.NO_DATA]
+
+
+def check_on_the_circle(commands, end, orbit, time_s):
+    assert commands[-1].phase == Phase.HOLD
+    assert commands[-1].time_to_join_s == 0.0
+    gone = orbit.after(time_s)
+    assert hypot(end.east_m - gone.east_m, end.north_m - gone.north_m) == pytest.approx(orbit.radius_m, abs=12.0)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("wrong_s", [1.7e9, 1e5, -3.0])
+@pytest.mark.parametrize("i", [5, 300, 2000])
+def test_one_wrong_time_stamp_costs_one_step(scene, wrong_s, i):
+    orbit, wind = SCENES[scene]
+    commands, end = with_stamps(lambda k, time_s: wrong_s if k == i else time_s, orbit, wind)
+    assert blind(commands) == [i]
+    assert commands[i].bank_deg == commands[i - 1].bank_deg
+    check_on_the_circle(commands, end, orbit, end.time_s)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_stamp_a_minute_ahead_costs_a_second(scene):
+    """It may be true, where the law was not called for a minute; the second that follows tells."""
+    orbit, wind = SCENES[scene]
+    commands, end = with_stamps(lambda k, time_s: time_s + (60.0 if k == 300 else 0.0), orbit, wind)
+    assert blind(commands) == list(range(301, 301 + len(blind(commands))))
+    assert 49 <= len(blind(commands)) <= 52
+    check_on_the_circle(commands, end, orbit, end.time_s)
+
+
+@pytest.mark.parametrize("wind", [None, AIR])
+@pytest.mark.parametrize("jump_s", [-1e6, -4.0, 1e6])
+@pytest.mark.parametrize("begins", [300, 2000])
+def test_a_clock_that_starts_anew_is_taken_after_a_second(wind, jump_s, begins):
+    """In the entry or on the circle; the plan is kept, as are the times that it promises."""
+    commands, end = with_stamps(lambda k, time_s: time_s + (jump_s if k >= begins else 0.0), ORBIT, wind)
+    assert blind(commands) == list(range(begins, begins + len(blind(commands))))
+    assert 49 <= len(blind(commands)) <= 52
+    before, after = commands[begins - 1], commands[begins + len(blind(commands))]
+    assert (after.phase, after.turn) == (before.phase, before.turn)
+    gone_s = 0.02 * (len(blind(commands)) + 1)
+    assert after.time_to_join_s == pytest.approx(max(before.time_to_join_s - gone_s, 0.0), abs=0.5)
+    check_on_the_circle(commands, end, ORBIT, end.time_s)
+
+
+def test_a_circle_that_moves_is_where_it_is_by_the_new_clock():
+    commands, end = with_stamps(lambda k, time_s: time_s - (20.0 if k >= 1500 else 0.0), SHIP, until_s=100.0)
+    check_on_the_circle(commands, end, SHIP, end.time_s - 20.0)
+
+
+def test_the_first_stamp_may_be_the_wrong_one():
+    commands, end = with_stamps(lambda k, time_s: 1.7e9 if k == 0 else time_s, SHIP, AIR)
+    assert blind(commands) == list(range(1, 1 + len(blind(commands))))
+    assert len(blind(commands)) <= 57  # the second, and the tenth by which measurements are late
+    check_on_the_circle(commands, end, SHIP, end.time_s)
+
+
+@pytest.mark.parametrize("dt", [nan, inf, 0.0, -0.02, "0.02", None, True])
+def test_a_step_must_be_a_time(dt):
+    """It is refused at once, and the law goes on as if it had not been asked."""
+    law, twin, mass = LoiterEntry(ORBIT, UAV), LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=2)
+    for i in range(40):
+        if i == 10:
+            with pytest.raises(InvalidArgument, match=r"^dt is .*: it must be a positive, finite number of seconds"):
+                law.step(mass.measured_state(), dt)
+            with pytest.raises(InvalidArgument, match=r"^dt is"):
+                law.step(mass.measured_state()._replace(east_m=nan), dt)
+        command = law.step(mass.measured_state(), 0.02)
+        assert command == twin.step(mass.measured_state(), 0.02)
+        mass.advance(command, 0.02)
+
+
+@pytest.mark.parametrize("dt", [1e-300, 1e6, 1e308])
+def test_a_step_of_any_length_leaves_the_law_able(dt):
+    law, mass = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=2)
+    for i in range(40):
+        command = law.step(mass.measured_state(), dt if i == 10 else 0.02)
+        assert command.phase != Phase.NO_DATA
+        assert abs(command.bank_deg) <= 35.0
+        mass.advance(command, 0.02)
+
+
 @given(st.tuples(*[st.floats(allow_nan=True, allow_infinity=True)] * 8), st.floats(0.0025, 0.1))
 def test_whatever_is_measured_the_command_is_bounded(values, dt):
     law = LoiterEntry(ORBIT, UAV)

@@ -1,6 +1,7 @@
 """What all rivals keep: mirror images, settling, lost data, refusals."""
 
-from math import isfinite, nan
+from itertools import count
+from math import inf, isfinite, nan
 
 import pytest
 from hypothesis import given, settings
@@ -65,6 +66,42 @@ def test_without_data_the_last_bank_is_kept(name, field):
     blind = law.step(later._replace(**{field: nan}), 0.1)
     assert (blind.bank_deg, blind.phase) == (command.bank_deg, Phase.NO_DATA)
     assert law.step(later, 0.1).phase != Phase.NO_DATA
+
+
+@pytest.mark.parametrize("name", RIVALS)
+@pytest.mark.parametrize("field", State._fields)
+@pytest.mark.parametrize("value", [1e300, -1e300])
+def test_absurd_data_are_none(name, field, value):
+    """Beside a circle that moves, held either way: the first state decides on the way, and must not be such."""
+    orbit, good = Orbit(0.0, 0.0, 100.0, velocity_east_m_s=3.0), at(-300.0, 40.0, 20.0)
+    law, twin = RIVALS[name](orbit, UAV), RIVALS[name](orbit, UAV)
+    assert law.step(good._replace(**{field: value}), 0.1)[1:3] == (0.0, Phase.NO_DATA)
+    command = law.step(good, 0.1)
+    assert command == pytest.approx(twin.step(good, 0.1), nan_ok=True)
+    assert law.step(good._replace(**{field: value}), 0.1).bank_deg == command.bank_deg
+
+
+@pytest.mark.parametrize("name", RIVALS)
+@pytest.mark.parametrize("wrong_s", [1.7e9, -1.7e9])
+@pytest.mark.parametrize("wind", [Wind(0.0, 0.0), Wind(6.0, from_deg=250.0)], ids=["still air", "wind"])
+def test_one_wrong_time_stamp_costs_little(name, wrong_s, wind, monkeypatch):
+    """About a ship, which by that clock is elsewhere: for a step the law flies there, and no longer."""
+    orbit, start = Orbit(0.0, 0.0, 150.0, "cw", velocity_east_m_s=5.0), Pose(-500.0, 100.0, 200.0)
+    usual_s = settled_s(RIVALS[name](orbit, UAV, wind), start, UAV, wind.velocity_m_s)
+    law, steps = RIVALS[name](orbit, UAV, wind), count()
+    step = law.step
+    monkeypatch.setattr(law, "step", lambda s, dt: step(s._replace(time_s=wrong_s) if next(steps) == 30 else s, dt))
+    assert settled_s(law, start, UAV, wind.velocity_m_s) < usual_s + 5.0
+
+
+@pytest.mark.parametrize("name", RIVALS)
+@pytest.mark.parametrize("dt", [nan, inf, 0.0, -0.1])
+def test_a_step_must_be_a_time(name, dt):
+    law, twin = RIVALS[name](Orbit(0.0, 0.0, 100.0), UAV), RIVALS[name](Orbit(0.0, 0.0, 100.0), UAV)
+    good = at(-300.0, 40.0, 20.0)
+    with pytest.raises(InvalidArgument, match=r"^dt is"):
+        law.step(good, dt)
+    assert law.step(good, 0.1) == pytest.approx(twin.step(good, 0.1), nan_ok=True)
 
 
 @pytest.mark.parametrize("name", RIVALS)

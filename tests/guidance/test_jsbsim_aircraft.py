@@ -3,7 +3,7 @@
 import subprocess
 import sys
 from functools import partial
-from math import atan2, cos, degrees, hypot, nan, pi, radians, sin, sqrt, tan
+from math import atan2, cos, degrees, hypot, inf, nan, pi, radians, sin, sqrt, tan
 
 import numpy as np
 import pytest
@@ -126,6 +126,15 @@ def test_any_step_will_do():
         *_, (state, _) = states(simulator, 25.0, 5.0, step_s)
         ends.append(state)
     assert ends[0] == pytest.approx(ends[1], abs=0.15)
+
+
+@pytest.mark.parametrize("dt", [nan, inf, -0.05])
+def test_a_step_is_a_time(dt):
+    simulator = JsbsimAircraft(START, J3CUB)
+    before = simulator.true_state()
+    with pytest.raises(InvalidArgument, match=r"^dt is"):
+        simulator.advance(banked(20.0), dt)
+    assert simulator.true_state() == before
 
 
 @both

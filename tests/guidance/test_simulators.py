@@ -1,5 +1,6 @@
 """Both simulators, beside plans and beside a differential equation solved by small steps."""
 
+from functools import partial
 from math import cos, hypot, pi, radians, sin, tan
 
 import numpy as np
@@ -8,6 +9,7 @@ from hypothesis import given, settings
 
 from guidance.flights import UAV
 from loiter import Pose, Wind, plan
+from loiter.errors import InvalidArgument
 from loiter.guidance.kinematic import Kinematic
 from loiter.guidance.point_mass import PointMass
 from loiter.guidance.protocol import Command, Phase
@@ -47,6 +49,16 @@ def test_the_kinematic_vehicle_turns_no_tighter_than_it_can():
     vehicle.advance(command(rate_deg_s=1000.0), 1.0)
     assert vehicle.true_state().bank_deg == pytest.approx(35.0)
     assert vehicle.measured_state() == vehicle.true_state()
+
+
+@pytest.mark.parametrize("dt", [float("nan"), float("inf"), -0.1])
+@pytest.mark.parametrize("make", [Kinematic, partial(PointMass, seed=1)])
+def test_a_step_is_a_time(make, dt):
+    vehicle = make(START, UAV)
+    before = vehicle.true_state()
+    with pytest.raises(InvalidArgument, match=r"^dt is"):
+        vehicle.advance(command(20.0), dt)
+    assert vehicle.true_state() == before
 
 
 def runge_kutta(bank_command, time_s, roll, wind, steps=20_000):

@@ -19,9 +19,9 @@ UAV = Aircraft(V, max_bank_deg=45.0)
 R = UAV.turn_radius_m
 
 
-def first_command(pose, orbit):
+def first_command(pose, orbit, reserve=0.0):
     state = state_of(0.0, pose.east_m, pose.north_m, *heading_vector(pose.heading_deg), UAV)
-    return Tangent(orbit, UAV, reserve=0.0).step(state, 0.1)
+    return Tangent(orbit, UAV, reserve=reserve).step(state, 0.1)
 
 
 def test_half_a_turn_by_hand():
@@ -30,6 +30,17 @@ def test_half_a_turn_by_hand():
     assert (command.phase, command.next_phase) == (Phase.LEFT, Phase.HOLD)
     assert command.time_to_join_s == command.next_in_s == pytest.approx(pi * R / V)
     assert command.bank_deg == pytest.approx(-45.0)
+
+
+def test_the_reserve_makes_arcs_wider_but_no_wider_than_the_circle():
+    # Half a turn as above, of a radius larger by a quarter; and all the circle allows where a quarter is too much.
+    wide = 1.25 * R
+    command = first_command(Pose(-3.0 * R - 2.0 * wide, 0.0, 180.0), Orbit(0.0, 0.0, 3.0 * R, "cw"), reserve=0.25)
+    assert command.time_to_join_s == pytest.approx(pi * wide / V)
+    assert command.bank_deg == pytest.approx(-UAV.bank_deg(wide))
+    small = 1.1 * R
+    command = first_command(Pose(-3.0 * small, 0.0, 180.0), Orbit(0.0, 0.0, small, "cw"), reserve=0.25)
+    assert command.time_to_join_s == pytest.approx(pi * small / V)
 
 
 def test_two_arcs_and_a_line_by_hand():

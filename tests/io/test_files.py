@@ -10,7 +10,8 @@ import pytest
 from earth import FRAME, SCENES, UAV, entry
 from loiter import Orbit, Pose, plan
 from loiter.errors import InvalidArgument, OutOfRange
-from loiter.io import FORMATS, Autopilot, check_format, save
+from loiter.io import FORMATS, Autopilot, check_format, mission, read_mission, save
+from loiter.io.files import MISSIONS
 from loiter.writing import check_writable, write_whole
 
 M, _ = SCENES["wind"]
@@ -49,10 +50,28 @@ def test_the_same_maneuver_makes_the_same_bytes(tmp_path, ending):
 def test_a_smaller_error_and_a_spacing_make_more_points(tmp_path, ending):
     sizes = []
     for options in ({}, {"chord_error_m": 0.1}, {"spacing_m": 2.0}):
-        save(M, tmp_path / f"a{ending}", frame=FRAME, altitude_m=600.0, **options)
+        save(M, tmp_path / f"a{ending}", frame=FRAME, altitude_m=600.0, along_path=True, **options)
         sizes.append((tmp_path / f"a{ending}").stat().st_size)
     assert sizes == sorted(sizes)
     assert sizes[0] < sizes[1] < sizes[2]
+
+
+@pytest.mark.parametrize("ending", MISSIONS)
+def test_a_mission_has_waypoints_along_the_path_where_that_or_a_spacing_is_asked_for(tmp_path, ending):
+    counts = []
+    for options in ({}, {"chord_error_m": 0.1}, {"along_path": True}, {"spacing_m": 50.0}):
+        save(M, tmp_path / f"a{ending}", frame=FRAME, altitude_m=600.0, **options)
+        counts.append(len(read_mission(tmp_path / f"a{ending}").items))
+        assert counts[-1] == len(mission(M, FRAME, 600.0, **options).items)
+    assert counts[:2] == [2, 2]
+    assert min(counts[2:]) > 5
+
+
+@pytest.mark.parametrize("ending", MISSIONS)
+def test_a_mission_is_for_an_autopilot(tmp_path, ending):
+    for autopilot, count in ((Autopilot.ARDUPILOT, 2), (Autopilot.PX4, 1)):
+        save(M, tmp_path / f"a{ending}", frame=FRAME, altitude_m=600.0, autopilot=autopilot)
+        assert len(read_mission(tmp_path / f"a{ending}").items) == count
 
 
 @pytest.mark.parametrize("ending", [".geojson", ".kml", ".gpx", ".csv"])

@@ -12,7 +12,7 @@ from earth import FRAME, SCENES, UAV, apart_m, at_time, entry, off_lines, on_ear
 from loiter import Orbit, Pose, Turn, plan
 from loiter.errors import InvalidArgument, OutOfRange
 from loiter.geo import LocalFrame
-from loiter.io import Command, Frame, mission
+from loiter.io import Autopilot, Command, Frame, mission
 from loiter.io.mission import BEND_PER_M, MAX_ITEMS
 from loiter.io.signs import circle
 from loiter.io.track import steps, vertices
@@ -23,22 +23,93 @@ settings.load_profile("missions")
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_waypoints_lie_on_the_track_and_the_loiter_on_the_centre(name):
+def test_waypoints_along_the_path_lie_on_the_track_and_the_loiter_on_the_centre(name):
     m, frame = SCENES[name]
-    flown = mission(m, frame, 600.0)
+    flown = mission(m, frame, 600.0, along_path=True)
     *waypoints, loiter = flown.items
-    times = vertices(m, steps(m, None, 1.0, BEND_PER_M)).time_s
+    # The start is none of them: an aircraft in flight has left it.
+    times = vertices(m, steps(m, None, 1.0, BEND_PER_M)).time_s[1:]
     assert len(times) == len(waypoints)
     for item, time in zip(waypoints, times, strict=True):
         assert (item.command, item.frame, item.params) == (Command.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0,) * 4)
         assert (item.altitude_m, item.autocontinue) == (600.0, True)
         place = on_earth(frame, *at_time(m, time)[:2])[:2]
         assert apart_m((item.latitude_deg, item.longitude_deg), place) < 1e-6
+    check_loiter(loiter, m, frame)
+
+
+def check_loiter(loiter, m, frame):
     assert (loiter.command, loiter.frame, loiter.altitude_m) == (Command.NAV_LOITER_UNLIM, Frame.ABOVE_SEA, 600.0)
     assert circle(loiter.command, loiter.params) == (m.orbit.radius_m, m.turn)
     centre = on_earth(frame, m.orbit.east_m, m.orbit.north_m)[:2]
     assert apart_m((loiter.latitude_deg, loiter.longitude_deg), centre) < 1e-6
-    assert flown.home == (waypoints[0].latitude_deg, waypoints[0].longitude_deg, 600.0)
+
+
+# Whether the entry has a straight piece of two seconds, in each scene.
+STRAIGHT = {
+    "cw": True,
+    "ccw": True,
+    "wind": True,
+    "wind ccw": True,
+    "on the circle": False,
+    "tiny": True,
+    "huge": True,
+    "north": True,
+    "south": True,
+    "antimeridian": True,
+    "antimeridian from the east": True,
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_mission_is_a_loiter_and_at_most_the_point_of_joining(name):
+    m, frame = SCENES[name]
+    *waypoints, loiter = mission(m, frame, 600.0).items
+    check_loiter(loiter, m, frame)
+    assert len(waypoints) == STRAIGHT[name]
+    for item in waypoints:
+        assert (item.command, item.frame, item.altitude_m) == (Command.NAV_WAYPOINT, Frame.ABOVE_SEA, 600.0)
+        join = on_earth(frame, m.join.east_m, m.join.north_m)[:2]
+        assert apart_m((item.latitude_deg, item.longitude_deg), join) < 1e-6
+
+
+def straight(m):
+    return [segment for segment in m.segments if segment.letter == "S"]
+
+
+@given(placed(0.3))
+def test_the_loiter_takes_over_three_and_a_half_seconds_before_the_point_of_joining(scene):
+    m, frame = scene
+    *waypoints, _ = mission(m, frame, 100.0).items
+    assert len(waypoints) == any(segment.duration_s >= 2.0 for segment in straight(m))
+    for item in waypoints:
+        _, acceptance, *others = item.params
+        _, ground_speed = m.over_ground(straight(m)[0].start)
+        assert acceptance == min(255.0, round(3.5 * ground_speed))
+        assert [item.params[0], *others] == [0.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_mission_for_px4_is_the_loiter_alone(name):
+    m, frame = SCENES[name]
+    (loiter,) = mission(m, frame, 600.0, autopilot=Autopilot.PX4).items
+    check_loiter(loiter, m, frame)
+    assert mission(m, frame, 600.0, autopilot=12, along_path=True) == mission(m, frame, 600.0, along_path=True)
+
+
+def test_an_entry_that_only_turns_is_the_loiter_alone():
+    m = plan(Pose(90.0, 60.0, 100.0), Orbit(0.0, 0.0, 80.0), UAV)
+    assert m.word == "RL"
+    assert [item.command for item in mission(m, FRAME, 100.0).items] == [17]
+
+
+@pytest.mark.parametrize("options", [{}, {"along_path": True}, {"spacing_m": 20.0}])
+def test_the_home_is_below_the_start_at_no_known_altitude(options):
+    """It was at the altitude of the flight, 600 m too high where a ground station counts altitudes from it."""
+    for m, frame in (entry("cw"), SCENES["on the circle"]):
+        latitude, longitude, altitude = mission(m, frame, 600.0, **options).home
+        assert apart_m((latitude, longitude), on_earth(frame, m.start.east_m, m.start.north_m)[:2]) < 1e-6
+        assert altitude == 0.0
 
 
 @pytest.mark.parametrize(("turn", "sign"), [(Turn.CW, 1.0), (Turn.CCW, -1.0)])
@@ -48,10 +119,10 @@ def test_the_sign_of_the_radius_is_the_way_round(turn, sign):
 
 
 @given(placed(0.3), st.floats(0.5, 20.0))
-def test_every_switch_is_a_waypoint(scene, error):
+def test_every_switch_is_a_waypoint_of_the_path(scene, error):
     m, frame = scene
-    items = mission(m, frame, 100.0, chord_error_m=error).items
-    for time in switches(m):
+    items = mission(m, frame, 100.0, chord_error_m=error, along_path=True).items
+    for time in switches(m)[1:]:
         place = on_earth(frame, *at_time(m, time)[:2])[:2]
         assert min(apart_m((item.latitude_deg, item.longitude_deg), place) for item in items[:-1]) < 1e-5
 
@@ -62,8 +133,8 @@ def test_far_from_the_origin_waypoints_are_where_geodesics_stay_on_the_track():
     m = plan(Pose(-70e3, -60e3, 45.0), Orbit(60e3, -75e3, 500.0), UAV)
     frame = LocalFrame(60.0, 8.0)
     for error in (0.05, 1.0):
-        items = mission(m, frame, 100.0, chord_error_m=error).items[:-1]
-        times = vertices(m, steps(m, None, error, BEND_PER_M)).time_s
+        items = mission(m, frame, 100.0, chord_error_m=error, along_path=True).items[:-1]
+        times = vertices(m, steps(m, None, error, BEND_PER_M)).time_s[1:]
         for i, (a, b) in enumerate(pairwise(items)):
             here = LocalFrame(a.latitude_deg, a.longitude_deg)
             dense = np.linspace(times[i], times[i + 1], 9)
@@ -83,12 +154,20 @@ def test_a_spacing_brings_more_waypoints():
     assert len(items) > m.length_m / 10.0
 
 
-def test_a_start_on_the_circle_is_a_waypoint_and_a_loiter():
+@pytest.mark.parametrize("along_path", [False, True])
+def test_a_start_on_the_circle_is_a_loiter(along_path):
     m, frame = SCENES["on the circle"]
-    assert [item.command for item in mission(m, frame, 100.0).items] == [16, 17]
+    assert [item.command for item in mission(m, frame, 100.0, along_path=along_path).items] == [17]
 
 
 # Refusals
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, nan, inf, "1", None])
+@pytest.mark.parametrize("along_path", [False, True])
+def test_an_error_is_positive_whether_it_counts_or_not(along_path, value):
+    with pytest.raises(InvalidArgument, match=r"^chord_error_m is .*: it must be a positive, finite number of metres$"):
+        mission(*entry("cw"), 100.0, chord_error_m=value, along_path=along_path)
 
 
 def test_a_circle_that_moves_is_no_loiter():
@@ -114,7 +193,7 @@ def test_more_items_than_autopilots_hold_are_refused():
     ):
         mission(m, frame, 100.0, spacing_m=0.1)
     with pytest.raises(InvalidArgument, match=r"; allow a larger chord error than 1e-06 m$"):
-        mission(m, frame, 100.0, chord_error_m=1e-6)
+        mission(m, frame, 100.0, chord_error_m=1e-6, along_path=True)
 
 
 def test_a_mission_beyond_the_reach_of_the_frame_is_refused():

@@ -14,7 +14,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from earth import SCENES, entry
 from loiter.errors import InvalidArgument
-from loiter.io import Autopilot, Command, Frame, Mission, MissionItem, mission, read_mission, save
+from loiter.io import AltitudeDatum, Autopilot, Command, Frame, Mission, MissionItem, mission, read_mission, save
 from loiter.io.qgcplan import qgcplan
 from loiter.io.reading import MAX_BYTES, Source
 from loiter.io.wpl import wpl
@@ -66,12 +66,27 @@ def test_mavsdk_reads_the_plan(peer, tmp_path, name):
     """For ArduPilot it puts the planned home before the items."""
     autopilot, plugin = peer
     m, frame = SCENES[name]
-    save(m, tmp_path / "entry.plan", frame=frame, altitude_m=600.0, autopilot=autopilot)
+    save(m, tmp_path / "entry.plan", frame=frame, altitude_m=600.0, autopilot=autopilot, along_path=True)
     data = plugin.import_qgroundcontrol_mission(str(tmp_path / "entry.plan"))
-    expected = mission(m, frame, 600.0)
-    check_sent(data.mission_items, expected.items, homes=int(autopilot == Autopilot.ARDUPILOT))
-    check_place(data.mission_items[0], *expected.home[:2])
+    expected = mission(m, frame, 600.0, along_path=True)
+    homes = int(autopilot == Autopilot.ARDUPILOT)
+    check_sent(data.mission_items, expected.items, homes)
+    if homes:
+        check_place(data.mission_items[0], *expected.home[:2])
+        assert data.mission_items[0].z == 0.0
     assert (data.geofence_items, data.rally_items) == ([], [])
+
+
+@pytest.mark.parametrize("ending", [".plan", ".waypoints"])
+def test_mavsdk_reads_altitudes_above_home(peer, tmp_path, ending):
+    autopilot, plugin = peer
+    m, frame = SCENES["cw"]
+    datum = AltitudeDatum("home", home_altitude_m=450.0)
+    path = tmp_path / f"entry{ending}"
+    save(m, path, frame=frame, altitude_m=120.0, datum=datum, autopilot=autopilot)
+    read = plugin.import_qgroundcontrol_mission if ending == ".plan" else plugin.import_mission_planner_mission
+    sent = read(str(path)).mission_items[-len(mission(m, frame, 120.0, autopilot=autopilot).items) :]
+    assert {(item.frame, item.z) for item in sent} == {(3, 120.0)}
 
 
 @pytest.mark.parametrize("ending", [".waypoints", ".TXT"])
@@ -101,7 +116,7 @@ def test_pymavlink_reads_the_waypoints(tmp_path, name):
         assert (read.seq, read.frame, read.command, *params, read.z, read.autocontinue) == as_sent(item, sequence)
         assert (read.x, read.y) == pytest.approx((item.latitude_deg, item.longitude_deg), abs=1e-9)
     home = loader.wp(0)
-    assert (home.current, home.x, home.y, home.z) == pytest.approx((1, *expected.home), abs=1e-9)
+    assert (home.current, home.x, home.y, home.z) == pytest.approx((1, *expected.home[:2], 600.0), abs=1e-9)
 
 
 @pytest.mark.parametrize(("turn", "radius"), [("cw", 120.0), ("ccw", -120.0)])
@@ -130,7 +145,7 @@ def test_a_plan_has_what_qgroundcontrol_asks_for(tmp_path):
     assert (flown["version"], flown["firmwareType"], flown["vehicleType"]) == (2, 12, 1)
     assert (flown["cruiseSpeed"], flown["hoverSpeed"]) == (18.0, 18.0)
     assert flown["globalPlanAltitudeMode"] == 2
-    assert [len(flown["plannedHomePosition"]), flown["plannedHomePosition"][2]] == [3, 600.0]
+    assert [len(flown["plannedHomePosition"]), flown["plannedHomePosition"][2]] == [3, 0.0]
     for number, item in enumerate(flown["items"], start=1):
         assert item["type"] == "SimpleItem"
         assert (item["frame"], item["doJumpId"], item["autoContinue"]) == (0, number, True)

@@ -68,6 +68,21 @@ def test_the_values_of_other_parameters_do_not_matter(tmp_path):
     assert read(tmp_path, others + ARDUPLANE) == read(tmp_path, ARDUPLANE)
 
 
+def test_what_a_px4_sends_beside_its_parameters_does_no_harm(tmp_path):
+    """QGroundControl and pymavlink save _HASH_CHECK, the hash of all parameters, as one of them; QGroundControl the
+    parameters of a camera and of a gimbal too, whose names are whatever MAVLink allows."""
+    hashed = PX4.replace("1\t1\tFW_AIRSPD_MAX", "1\t1\t_HASH_CHECK\t1294859293\t5\n1\t1\tFW_AIRSPD_MAX")
+    assert read(tmp_path, hashed) == read(tmp_path, PX4)
+    others = "1\t100\tcam-mode.0\t1\t6\n1\t154\t3AXIS_tilt\t-0.5\t9\n"
+    assert read(tmp_path, hashed + others) == read(tmp_path, PX4)
+    parameters = mavparm.MAVParmDict()
+    for name, value in [("FW_R_LIM", 50.0), ("_HASH_CHECK", 1294859293.0), ("NAV_LOITER_RAD", 80.0)]:
+        parameters[name] = value
+    parameters.save(str(tmp_path / "saved.parm"))
+    assert "_HASH_CHECK" in (tmp_path / "saved.parm").read_text()
+    assert read_parameters(tmp_path / "saved.parm") == Preset(Autopilot.PX4, None, 50.0, 80.0, Turn.CW)
+
+
 def test_what_is_not_in_the_file_is_none(tmp_path):
     assert read(tmp_path, "WP_LOITER_RAD,60") == Preset(Autopilot.ARDUPILOT, None, None, 60.0, Turn.CW)
     assert read(tmp_path, "FW_R_LIM 50") == Preset(Autopilot.PX4, max_bank_deg=50.0)
@@ -144,6 +159,8 @@ def test_pymavlink_reads_the_same_values(tmp_path, text):
         ("ROLL_LIMIT_DEG 45 50\n", "line 1 is 'ROLL_LIMIT_DEG 45 50': it is no parameter with a value"),
         ("ROLL_LIMIT_DEG\n", "line 1 is 'ROLL_LIMIT_DEG': it is no parameter with a value"),
         ("roll_limit_deg,45\n", "line 1 is 'roll_limit_deg,45': it is no parameter with a value"),
+        ("1\t1\tTWO WORDS\t45\t9\n", r"line 1 is '1\\t1\\tTWO WORDS\\t45\\t9': it is no parameter with a value"),
+        ("__HASH_CHECK,45\n", "line 1 is '__HASH_CHECK,45': it is no parameter with a value"),
         ("@include plane.parm\n", "line 1 is '@include plane.parm': it is no parameter with a value"),
         (
             "1\t1\tFW_R_LIM\t50\t9\n1\t1\tFW_AIRSPD_TRIM\t15\n",

@@ -8,9 +8,10 @@ from hypothesis import assume, given, settings
 
 from golden.paper import EXAMPLES
 from loiter.kernel.adjoint import adjoint, at_switch, followed, switching_function, turned
-from loiter.kernel.codes import Side, Word
+from loiter.kernel.codes import Side
 from loiter.kernel.rebinding import rebound
 from loiter.kernel.synthesis import mirrored, optimum
+from loiter.kernel.words import Word
 from strategies import controls, coordinates, one_way, radii, sides
 
 CONTROLS = {"L": 1.0, "S": 0.0, "R": -1.0}

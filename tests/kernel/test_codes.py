@@ -1,26 +1,8 @@
-"""Words, sides and statuses."""
+"""Statuses."""
 
 import pytest
 
-from loiter.kernel.codes import Status, Word
-from loiter.kernel.synthesis import mirrored
-
-SWAP = str.maketrans("LR", "RL")
-
-
-@pytest.mark.parametrize("word", Word)
-def test_a_code_spells_its_letters_in_base_four(word):
-    digits = []
-    code = int(word)
-    while code:
-        digits.append("?RSL"[code & 3])
-        code >>= 2
-    assert "".join(digits) == word.letters
-
-
-@pytest.mark.parametrize("word", Word)
-def test_mirroring_swaps_left_and_right(word):
-    assert Word(mirrored(word)).letters == word.letters.translate(SWAP)
+from loiter.kernel.codes import Status
 
 
 @pytest.mark.parametrize("status", Status)

@@ -7,11 +7,11 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from loiter.kernel.angles import angle
-from loiter.kernel.codes import Word
 from loiter.kernel.exact import beyond
 from loiter.kernel.extremals import duration, durations, extremals, fastest, lrl, near_circle, onto_axis, rl
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import rounding
+from loiter.kernel.words import Word
 from strategies import coordinates, radii
 
 U = {"L": 1, "S": 0, "R": -1}

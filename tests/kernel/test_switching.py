@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter.kernel.codes import Side, Word
+from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow
 from loiter.kernel.switching import (
     beyond_first_circle,
@@ -16,6 +16,7 @@ from loiter.kernel.switching import (
     switching_abscissa,
 )
 from loiter.kernel.synthesis import optimum, rounding
+from loiter.kernel.words import Word
 from strategies import coordinates, radii
 
 

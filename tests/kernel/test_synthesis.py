@@ -7,12 +7,11 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from golden.paper import EXAMPLES
-from loiter.kernel.codes import Side, Status, Word
+from loiter.kernel.codes import Side, Status
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import (
     duration,
     first_control,
-    mirrored,
     miss,
     optima,
     optimum,
@@ -20,6 +19,7 @@ from loiter.kernel.synthesis import (
     rounding,
     status_of,
 )
+from loiter.kernel.words import Word, mirrored
 from strategies import blur, controls, coordinates, one_way, radii, sides
 
 SQRT3 = sqrt(3.0)

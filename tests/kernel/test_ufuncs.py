@@ -41,7 +41,9 @@ X, Y, R, SIDES, TOLERANCE = np.array(ROWS).T.copy()
 SIDES = SIDES.astype(np.int8)
 
 
-@pytest.mark.parametrize("tolerance", [np.zeros(1), TOLERANCE], ids=["exact", "tolerant"])
+@pytest.mark.parametrize(
+    "tolerance", [np.zeros(1), np.full(1, 0.25), TOLERANCE], ids=["exact", "one tolerance", "tolerances"]
+)
 def test_the_loops_give_what_the_scalar_functions_give(tolerance):
     """T within 1e-13, words, sides and controls the same but for ties; T of `min_time` may count pieces not flown."""
     tolerances = np.broadcast_to(tolerance, X.shape)

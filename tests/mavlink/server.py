@@ -1,17 +1,20 @@
 """mavsdk plays a vehicle: `python server.py PORT` prints every mission that arrives there, a line of JSON each.
 
-It rests in the air at 47.002 N, 8 E, 600 m above the sea, heads for 123 degrees, and says so ten times a second.
+It says ten times a second that it is at 47.002 N, 8 E, 600 m above the sea, and flies for 123 degrees at 18 m/s.
 """
 
 import json
 import sys
 import time
 from contextlib import suppress
+from math import cos, radians, sin
 
 from mavsdk.mavsdk import Configuration, Mavsdk
 from mavsdk.plugins.mission_raw_server import MissionRawServer
 from mavsdk.plugins.telemetry_server import Heading, Position, TelemetryServer, TelemetryServerError, VelocityNed
 
+HEADING_DEG, SPEED_M_S = 123.0, 18.0
+VELOCITY = VelocityNed(SPEED_M_S * cos(radians(HEADING_DEG)), SPEED_M_S * sin(radians(HEADING_DEG)), 0.0)
 FIELDS = ["command", "frame", "param1", "param2", "param3", "param4", "x", "y", "z", "autocontinue"]
 
 
@@ -31,7 +34,7 @@ def serve(port):
         time.sleep(0.1)
         # There may be nobody yet to tell.
         with suppress(TelemetryServerError):
-            telemetry.publish_position(Position(47.002, 8.0, 600.0, 100.0), VelocityNed(0.0, 0.0, 0.0), Heading(123.0))
+            telemetry.publish_position(Position(47.002, 8.0, 600.0, 100.0), VELOCITY, Heading(HEADING_DEG))
 
 
 if __name__ == "__main__":

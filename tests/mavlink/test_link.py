@@ -14,7 +14,7 @@ import pytest
 
 from loiter.errors import InvalidArgument, LinkFailed, MissingPackage
 from loiter.mavlink import download, link, upload
-from mavlink.vehicle import OLD, Vehicle, flying, free_port, kept, lossy, mavlink, mission
+from mavlink.vehicle import OLD, Faithful, Vehicle, flying, free_port, kept, lossy, mavlink, mission
 
 NEW = mission("ccw")
 WRONG = r": it must be udpin:HOST:PORT, udpout:HOST:PORT, tcp:HOST:PORT or a serial device such as /dev/ttyUSB0,57600"
@@ -131,6 +131,36 @@ def test_a_line_that_is_hung_up_fails_and_prints_nothing(packets, capfd):
         upload(NEW, connection, system=1, timeout_s=0.5)
     assert vehicle.mission == OLD
     assert capfd.readouterr() == ("", "")
+
+
+def test_a_px4_that_answers_its_first_partner_only_is_reached_again():
+    """Each connection spoke from a port of its own, so that the second heard nothing until PX4 restarted."""
+    with flying(Faithful()) as vehicle:
+        upload(NEW, vehicle.connection, system=1, timeout_s=1.0)
+        assert len(download(vehicle.connection, system=1, timeout_s=1.0).items) == len(NEW.items)
+        assert vehicle.partner_port[1] == link.local_port(vehicle.port)
+
+
+@pytest.mark.parametrize(("port", "local"), [(14550, 24550), (18570, 28570), (14580, 24580), (50001, 20001)])
+def test_the_port_that_udpout_speaks_from_is_none_that_systems_give_away(port, local):
+    """Linux gives ports from 32768 on to whoever asks for any."""
+    assert link.local_port(port) == local
+
+
+def test_where_another_program_has_that_port_another_is_taken():
+    with flying(Vehicle()) as vehicle, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+        taken.bind(("", link.local_port(vehicle.port)))
+        assert len(download(vehicle.connection, system=1).items) == len(OLD)
+        assert vehicle.peer[1] != link.local_port(vehicle.port)
+
+
+def test_where_nothing_answers_px4s_habit_is_told():
+    hint = "; PX4 answers only the port that spoke to it first since it started"
+    port = free_port()
+    with pytest.raises(LinkFailed, match=rf"no vehicle at all{hint}$"):
+        download(f"udpout:127.0.0.1:{port}", timeout_s=0.3)
+    with pytest.raises(LinkFailed, match=r"no vehicle at all$"):
+        download(f"udpin:127.0.0.1:{port}", timeout_s=0.3)
 
 
 def test_nobody_answers_on_tcp(capfd):

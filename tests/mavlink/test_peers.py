@@ -4,6 +4,8 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
+from itertools import islice
+from math import cos, radians, sin
 from pathlib import Path
 
 import pytest
@@ -45,10 +47,13 @@ def test_mavsdk_has_every_item_when_one_packet_of_five_is_lost(peer, real_time):
 def test_mavsdk_is_watched(peer, real_time):
     scene = Orbit(0.0, 0.0, 80.0), LocalFrame(47.0, 8.0), Aircraft(18.0, max_bank_deg=35.0)
     with closing(watch(peer.connection, *scene, system=1, period_s=0.5)) as reports:
-        report = next(each for each in reports if each.plan)
+        report = next(each for each in islice(reports, 20) if each.plan)
     assert (report.latitude_deg, report.longitude_deg, report.altitude_m) == (47.002, 8.0, 600.0)
     assert report.heading_deg == pytest.approx(123.0, abs=0.01)
-    assert report.plan.start.north_m == pytest.approx(222.34, abs=0.01)
+    # 222.34 m north of the circle's centre when it said so, and for as long on its way since.
+    flown = 18.0 * report.age_s
+    assert report.plan.start.north_m == pytest.approx(222.34 + flown * cos(radians(123.0)), abs=0.01)
+    assert report.plan.start.east_m == pytest.approx(flown * sin(radians(123.0)), abs=0.01)
 
 
 def test_missions_arrive_when_one_packet_of_five_is_lost():

@@ -101,6 +101,64 @@ def test_what_ardupilot_cuts_is_expected_and_another_direction_is_not(command, r
     assert any("for parameter" in sentence for sentence in compared(sent, other, PLANE)[0])
 
 
+# What ArduPilot gives back of a NAV_LOITER_TURNS, by the comments of AP_Mission::mavlink_int_to_mission_cmd (pull
+# request 20735): the radius in a byte, as it is up to 255 m, above that a tenth of it; 0 < N < 1 turns times 256.
+RADII = {
+    1.0: 1.0,
+    80.7: 80.0,
+    254.9: 254.0,
+    255.0: 255.0,
+    255.5: 250.0,
+    256.0: 250.0,
+    259.9: 250.0,
+    260.0: 260.0,
+    300.0: 300.0,
+    301.0: 300.0,
+    379.9: 370.0,
+    380.0: 380.0,
+    382.0: 380.0,
+    383.0: 380.0,
+    1234.0: 1230.0,
+    2550.0: 2550.0,
+    2559.0: 2550.0,
+    2560.0: 2550.0,
+    5000.0: 2550.0,
+}
+TURNS = {0.0: 0.0, 0.25: 0.25, 0.3: 76.0 / 256.0, 1.0: 1.0, 1.5: 1.0, 255.0: 255.0, 300.0: 255.0}
+
+
+def stored_turns(turns, radius, turn=Turn.CW):
+    """A NAV_LOITER_TURNS on its way to ArduPilot, home before it."""
+    params = with_circle(18, (turns, 0.0, 0.0, 1.0), radius, turn)
+    return encoded(Mission((MissionItem(18, 0, params, 47.0, 8.0, 500.0),), HOME), PLANE)
+
+
+@pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
+@pytest.mark.parametrize("radius", RADII)
+def test_ardupilot_packs_the_radius_of_turns_into_a_byte(radius, turn):
+    home, sent = stored_turns(3.0, radius, turn)
+    kept = copysign(RADII[radius], sent.params[2])
+    assert compared([home, sent], [home, sent._replace(params=(3.0, 0.0, kept, 1.0))], PLANE) == (
+        [],
+        [] if RADII[radius] == radius else [f"item 1 has {kept:.9g} for parameter 3, not {sent.params[2]:.9g}"],
+    )
+    # What is a metre, or a step of ten, beside that is a fault.
+    for off in (-10.0, -1.0, 1.0, 10.0):
+        if kept + off != sent.params[2]:
+            wrong, _ = compared([home, sent], [home, sent._replace(params=(3.0, 0.0, kept + off, 1.0))], PLANE)
+            assert [sentence.partition(" for ")[0] for sentence in wrong] == [f"item 1 has {kept + off:.9g}"]
+
+
+@pytest.mark.parametrize("turns", TURNS)
+def test_ardupilot_packs_the_number_of_turns_into_a_byte(turns):
+    home, sent = stored_turns(turns, 80.0)
+    kept = sent._replace(params=(TURNS[turns], *sent.params[1:]))
+    wrong, cut = compared([home, sent], [home, kept], PLANE)
+    assert wrong == []
+    assert len(cut) == (single(turns) != TURNS[turns])
+    assert compared([home, sent], [home, kept._replace(params=(TURNS[turns] + 1.0, *sent.params[1:]))], PLANE)[0]
+
+
 @pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
 def test_px4_answers_with_twin_frames_and_what_it_uses(turn):
     params = with_circle(17, (0.0, 0.0, 0.0, -90.0), 80.5, turn)

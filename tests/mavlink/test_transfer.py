@@ -61,3 +61,39 @@ def test_a_line_that_dies_is_given_up_in_time(last):
     assert isinstance(done, LinkFailed)
     assert seconds < 2.0 * TIMEOUT_S + 4.0 * 1.5 + 0.5
     assert vehicle.mission in (OLD, kept(NEW))
+
+
+class Tires(Vehicle):
+    """Gives up halfway, and gives no item until it is asked for the whole mission again, as mavsdk's vehicle."""
+
+    tired = False
+
+    def __init__(self, times):
+        super().__init__(kept(NEW))
+        self.times = times
+
+    def on_mission_request_list(self, message):
+        self.tired = False
+        super().on_mission_request_list(message)
+
+    def on_mission_request_int(self, message):
+        if message.seq == 2 and self.times and not self.tired:
+            self.times, self.tired = self.times - 1, True
+        if not self.tired:
+            super().on_mission_request_int(message)
+
+
+@pytest.mark.parametrize("times", [1, 2, 4])
+def test_a_vehicle_that_gives_up_giving_its_mission_is_asked_anew(times):
+    """Some way into reading a mission back it was asked for the same item until the time was up."""
+    vehicle = Tires(times)
+    done, seconds = simulated(vehicle, mission("cw"))
+    assert not isinstance(done, LinkFailed), done
+    assert vehicle.mission == kept(mission("cw"))
+    assert 4.0 * times <= seconds < 4.0 * times + 5.0
+
+
+def test_a_vehicle_that_never_gives_an_item_says_which():
+    done, seconds = simulated(Tires(10**9), mission("cw"))
+    assert str(done) == "system 1 (PX4) did not answer in 15 s when asked to give item 3"
+    assert seconds < 4.0 * 4.0 + TIMEOUT_S + 1.0

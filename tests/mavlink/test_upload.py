@@ -12,7 +12,7 @@ from loiter.errors import InvalidArgument, LinkFailed
 from loiter.io.items import Command, Frame, Mission, MissionItem
 from loiter.mavlink import download, transfer, upload
 from loiter.mavlink.missions import TIMEOUT_S
-from mavlink.vehicle import CANCELLED, OLD, Plane, Vehicle, flying, item, kept, mavlink, mission, simulated
+from mavlink.vehicle import ACCEPTED, CANCELLED, OLD, Plane, Vehicle, flying, item, kept, mavlink, mission, simulated
 
 NEW = mission("ccw")
 TURNS = ["cw", "ccw"]
@@ -508,12 +508,42 @@ def test_a_mission_that_cannot_be_sent_is_refused_before_anything_is(new, senten
     assert set(vehicle.heard) <= {"HEARTBEAT"}
 
 
-def test_ardupilot_needs_a_home():
-    nowhere = NEW._replace(home=(float("nan"), float("nan"), float("nan")))
-    with flying(Plane()) as vehicle, pytest.raises(InvalidArgument, match=r"has no place on Earth in the home"):
-        upload(nowhere, vehicle.connection, system=1)
+class Homely(Plane):
+    """ArduPlane that keeps the home which it is sent, as the message that brings it."""
+
+    def on_mission_item_int(self, message):
+        if message.seq == 0:
+            self.sent_home = message.x, message.y, message.z
+        super().on_mission_item_int(message)
+
+
+NOWHERE = (float("nan"), float("nan"), float("nan"))
+
+
+@pytest.mark.parametrize("home", [NEW.home, NOWHERE])
+def test_ardupilot_gets_its_own_home_again(home):
+    """The mission's was sent before: the place of the start, at the altitude of the flight."""
+    with flying(Homely([Plane.home, *OLD[1:]])) as vehicle:
+        upload(NEW._replace(home=home), vehicle.connection, system=1)
+    assert vehicle.sent_home == Plane.home[3:6]
+    assert vehicle.mission == [Plane.home, *kept(NEW)]
+
+
+@pytest.mark.parametrize("old", [[], [item(x=0, y=0, z=0.0), *OLD[1:]]])
+def test_ardupilot_without_a_home_gets_that_of_the_mission(old):
+    """Its home is 0 N 0 E as long as it has none."""
+    with flying(Homely(old)) as vehicle:
+        upload(NEW, vehicle.connection, system=1)
+    assert vehicle.sent_home == (470000000, 80000000, 400.0)
+    with flying(Plane(old)) as vehicle, pytest.raises(InvalidArgument, match=r"has no place on Earth in the home"):
+        upload(NEW._replace(home=NOWHERE), vehicle.connection, system=1)
+    assert vehicle.mission == old
+    assert vehicle.heard["MISSION_COUNT"] == 0
+
+
+def test_others_need_no_home():
     with flying(Vehicle()) as vehicle:
-        upload(nowhere, vehicle.connection, system=1)
+        upload(NEW._replace(home=NOWHERE), vehicle.connection, system=1)
     assert vehicle.mission == kept(NEW)
 
 
@@ -535,3 +565,264 @@ def test_a_parameter_may_be_the_autopilots_own():
 def test_real_time_outs_follow_the_protocol(real_time):
     """https://mavlink.io/en/services/mission.html: 1500 ms, and 250 ms for items."""
     assert (transfer.REPEAT_S, transfer.ITEM_REPEAT_S) == (1.5, 0.25)
+
+
+# What the autopilot makes of it
+
+
+def circling(command=17, params=(0.0, 0.0, -80.0, 0.0), frame=Frame.ABOVE_SEA, altitude_m=684.0):
+    """A mission of one item."""
+    return Mission((MissionItem(command, frame, params, 47.001, 8.002, altitude_m),), NEW.home)
+
+
+class Widens(Plane):
+    """ArduPlane with the parameters that it comes with: loiters are wider by EAS2TAS squared."""
+
+    parameters = Plane.parameters | {"NAVL1_LIM_BANK": (0.0, 9)}
+
+
+# Measured in ArduPlane's simulator at 684 m: 80 m became 85.9, 150 became 160.2.
+EAS2TAS_SQUARED = 1.0684
+WIDENED = (
+    "ArduPlane will hold 85.5 m in place of 80, since it multiplies the radius by EAS2TAS squared, 1.068 at 684 m, "
+    "with NAVL1_LIM_BANK at 0: set that to the bank limit of the aircraft, or ask for --true-radius."
+)
+
+
+@pytest.mark.parametrize(
+    ("command", "params"),
+    [(17, (0.0, 0.0, -80.0, 0.0)), (18, (3.0, 0.0, 80.0, 1.0)), (31, (0.0, -80.0, 0.0, 0.0))],
+)
+def test_that_ardupilot_widens_loiters_is_told_in_one_sentence(command, params):
+    with flying(Widens()) as vehicle:
+        summary = upload(circling(command, params), vehicle.connection, system=1)
+    assert summary.remarks == (WIDENED,)
+
+
+@pytest.mark.parametrize(
+    ("vehicle", "new"),
+    [
+        (Plane, circling()),
+        (Vehicle, circling()),
+        (Widens, circling(altitude_m=20.0)),
+        (Widens, circling(params=(0.0, 0.0, 0.0, 0.0))),
+        (Widens, circling(19, (9.0, 0.0, 80.0, 0.0))),
+        (Widens, circling(frame=Frame.ABOVE_TERRAIN)),
+        (Widens, circling(16, (0.0,) * 4)),
+    ],
+    ids=["limited", "PX4", "low", "its own radius", "no radius kept", "no altitude", "no circle"],
+)
+def test_what_is_flown_as_it_is_and_what_is_not_known_needs_no_sentence(vehicle, new):
+    with flying(vehicle()) as flown:
+        assert upload(new, flown.connection, system=1).remarks == ()
+
+
+def test_altitudes_above_home_count_from_the_vehicles_own():
+    """400 m up: EAS2TAS squared is 1.068 at 284 m above it."""
+    with flying(Widens([Plane.home, *OLD[1:]])) as vehicle:
+        summary = upload(circling(frame=Frame.ABOVE_HOME, altitude_m=284.0), vehicle.connection, system=1)
+    assert summary.remarks == (WIDENED,)
+
+
+@pytest.mark.parametrize(("radius", "sent"), [(-80.0, -75.0), (150.0, 140.0), (80.7, 76.0), (7.0, 7.0)])
+def test_the_true_radius_is_sent_as_the_one_with_which_it_is_flown(radius, sent):
+    """80 m over 1.068 is 74.9; ArduPlane keeps whole metres."""
+    new = circling(params=(0.0, 0.0, radius, 0.0))
+    with flying(Widens()) as vehicle:
+        summary = upload(new, vehicle.connection, system=1, true_radius=True)
+    assert vehicle.mission[-1][2][2] == sent
+    assert summary.cut == ()
+    flown = abs(sent) * EAS2TAS_SQUARED
+    told = f"The radius is sent as {abs(sent):g} m, which ArduPlane flies as {flown:.1f} m at 684 m."
+    assert summary.remarks == ((told,) if sent != radius else ())
+
+
+def test_the_true_radius_is_that_of_the_mission_where_nothing_is_widened():
+    for kind in (Vehicle, Plane):
+        with flying(kind()) as vehicle:
+            upload(circling(), vehicle.connection, system=1, true_radius=True)
+        assert vehicle.mission[-1][2][2] == -80.0
+
+
+def test_the_true_radius_needs_to_be_known():
+    class Mute(Plane):
+        parameters = {}  # noqa: RUF012
+
+    with flying(Mute()) as vehicle, pytest.raises(LinkFailed, match=r"does not tell its NAVL1_LIM_BANK: which radius"):
+        upload(circling(), vehicle.connection, system=1, true_radius=True)
+    assert vehicle.mission == OLD
+    new = circling(frame=Frame.ABOVE_TERRAIN)
+    with (
+        flying(Widens()) as vehicle,
+        pytest.raises(InvalidArgument, match=r"^true_radius needs altitudes above the sea"),
+    ):
+        upload(new, vehicle.connection, system=1, true_radius=True)
+    assert vehicle.mission == OLD
+
+
+class Requires(Vehicle):
+    """PX4 with a requirement: it takes missions that it does not fly, and says so when it is to, as a real one did."""
+
+    refusal = 1
+
+    def __init__(self, requirement=2, mission=OLD):
+        super().__init__(mission)
+        self.parameters = {"MIS_TKO_LAND_REQ": (requirement, 6)}
+        self.looked_at = list(mission)
+
+    def on_mode(self, message):
+        """It accepts, and refuses after that, unless the mission is a new one that it finds complete."""
+        wanted = int(message.param2) << 16 | int(message.param3) << 24
+        assert wanted == self.mission_mode
+        self.acknowledge_command(message, ACCEPTED)
+        if self.looked_at == self.mission or self.parameters["MIS_TKO_LAND_REQ"][0]:
+            self.send(mavlink.MAVLink_statustext_message(2, b"No valid mission available, loitering\t"))
+            self.acknowledge_command(message, self.refusal)
+        else:
+            self.mode = wanted
+
+    def on_mission_clear_all(self, message):
+        self.looked_at = []
+        super().on_mission_clear_all(message)
+
+
+LACKS = (
+    "PX4 will not fly this mission: MIS_TKO_LAND_REQ is {}, which requires {} in it; set that to 0 and send the "
+    "mission again."
+)
+BOTH = "a takeoff and a landing"
+ALIKE = "both a takeoff and a landing, or neither"
+
+
+@pytest.mark.parametrize(
+    ("requirement", "commands", "missing"),
+    [
+        (0, [16, 17], ""),
+        (1, [16, 17], "a takeoff"),
+        (1, [22, 17], ""),
+        (2, [16, 17], "a landing"),
+        (2, [16, 21], ""),
+        (2, [16, 85], ""),
+        (3, [16, 17], BOTH),
+        (3, [84, 17], BOTH),
+        (3, [22, 21], ""),
+        (4, [16, 17], ""),
+        (4, [22, 17], ALIKE),
+        (4, [16, 21], ALIKE),
+        (4, [22, 21], ""),
+        (5, [22, 17], "a landing"),
+        (5, [16, 21], ""),
+    ],
+)
+def test_that_px4_requires_more_of_a_mission_is_told_in_one_sentence(requirement, commands, missing):
+    """FeasibilityChecker::checkTakeoffLandAvailable; the value is an integer, whose bytes come in a float."""
+    items = tuple(MissionItem(c, Frame.ABOVE_SEA, (0.0,) * 4, 47.0, 8.0, 500.0) for c in commands)
+    with flying(Requires(requirement)) as vehicle:
+        summary = upload(Mission(items, NEW.home), vehicle.connection, system=1)
+    assert summary.remarks == ((LACKS.format(requirement, missing),) if missing else ())
+    assert not summary.started
+
+
+@pytest.mark.parametrize("kind", [lambda: Requires(0), lambda: Plane([Plane.home, *OLD[1:]])], ids=["PX4", "ArduPlane"])
+def test_a_vehicle_in_flight_is_started_from_the_first_item(kind):
+    with flying(kind()) as vehicle:
+        summary = upload(NEW, vehicle.connection, system=1, start=True)
+    assert summary.started
+    assert vehicle.mode == vehicle.mission_mode
+    assert vehicle.current == (0 if vehicle.autopilot == 12 else 1)
+    # The mode, and nothing that arms (400), takes off (22) or starts a mission with arming (300).
+    assert [command.command for command in vehicle.commands] == [176]
+
+
+def test_px4_looks_again_at_the_mission_that_it_has():
+    """After MIS_TKO_LAND_REQ was set to 0 a real one went on refusing the mission, sent again as it was."""
+    with flying(Requires(0, kept(NEW))) as vehicle:
+        assert upload(NEW, vehicle.connection, system=1, start=True).started
+    assert vehicle.mission == kept(NEW)
+
+
+def test_px4_keeps_the_mission_that_it_flies():
+    """A mission that is cleared in flight would leave it without one for a moment."""
+    vehicle = Requires(0, kept(NEW))
+    vehicle.mode = vehicle.mission_mode
+    with flying(vehicle):
+        upload(NEW, vehicle.connection, system=1)
+    assert vehicle.heard["MISSION_CLEAR_ALL"] == 0
+
+
+def test_a_refusal_to_fly_is_told_with_what_the_vehicle_says():
+    refused = (
+        r"^system 1 \(PX4\) refused to fly the mission: not now \(MAV_RESULT_TEMPORARILY_REJECTED\); it says: No valid "
+        r"mission available, loitering; it has the mission; PX4 will not fly this mission: MIS_TKO_LAND_REQ is 2, which"
+    )
+    with flying(Requires()) as vehicle, pytest.raises(LinkFailed, match=refused):
+        upload(NEW, vehicle.connection, system=1, start=True)
+    assert vehicle.mission == kept(NEW)
+
+
+def test_a_long_text_comes_in_pieces():
+    class Talks(Requires):
+        def beat(self):
+            for text, number, piece in ((b"Mission rejected: ", 7, 0), (b"no landing.", 7, 1)):
+                self.send(mavlink.MAVLink_statustext_message(3, text, number, piece))
+            self.send(mavlink.MAVLink_statustext_message(6, b"Ready to fly"))
+            super().beat()
+
+    with (
+        flying(Talks()) as vehicle,
+        pytest.raises(LinkFailed, match=r"it says: .*Mission rejected: no landing") as told,
+    ):
+        upload(NEW, vehicle.connection, system=1, start=True)
+    assert "Ready to fly" not in str(told.value)
+
+
+class Stubborn(Plane):
+    """Accepts to fly its mission, and does not."""
+
+    def on_mode(self, message):
+        self.acknowledge_command(message, ACCEPTED)
+
+
+class Refuses(Plane):
+    def on_mode(self, message):
+        self.acknowledge_command(message, 4)
+
+
+class Landed(Plane):
+    landed_state = 1
+
+
+class Secretive(Plane):
+    def tell(self, number):
+        pass
+
+
+class Other(Vehicle):
+    autopilot = 0
+
+
+@pytest.mark.parametrize(
+    ("kind", "sentence"),
+    [
+        (Stubborn, r"^system 1 \(ArduPilot\) accepted to fly the mission, and is in another mode; it has the mission$"),
+        (Refuses, r"refused to fly the mission: it tried and failed \(MAV_RESULT_FAILED\); it has the mission$"),
+        (Landed, r"^system 1 \(ArduPilot\) is not in the air, and is not told to fly; it has the mission$"),
+        (Secretive, r"^system 1 \(ArduPilot\) does not say whether it flies, and is not told to; it has the mission$"),
+        (Other, r"^system 1 \(generic\) is told to fly missions in no way that is known here; it has the mission$"),
+    ],
+)
+def test_a_vehicle_that_is_not_started_has_the_mission_and_says_why(kind, sentence):
+    with flying(kind()) as vehicle, pytest.raises(LinkFailed, match=sentence):
+        upload(NEW, vehicle.connection, system=1, start=True)
+    assert vehicle.mission[-len(NEW.items) :] == kept(NEW)
+    assert vehicle.mode != vehicle.mission_mode
+    assert all(command.command == 176 for command in vehicle.commands)
+
+
+def test_a_mission_may_be_made_for_the_autopilot_that_is_found():
+    asked = []
+    for kind in (Vehicle, Plane):
+        with flying(kind()) as vehicle:
+            upload(lambda autopilot: asked.append(autopilot) or NEW, vehicle.connection, system=1)
+        assert vehicle.mission[-len(NEW.items) :] == kept(NEW)
+    assert asked == [12, 3]

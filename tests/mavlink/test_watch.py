@@ -1,10 +1,13 @@
 """Flights that say where they are, watched: the plan from there, the direction kept, a command only where asked for."""
 
+import socket
+import threading
 import time
-from contextlib import closing
+from contextlib import closing, contextmanager, suppress
+from dataclasses import replace
 from importlib import import_module
 from itertools import dropwhile, islice, pairwise
-from math import isnan, nan, radians
+from math import cos, isnan, nan, radians, sin
 
 import numpy as np
 import pytest
@@ -19,7 +22,8 @@ from loiter.io.signs import circle
 from loiter.mavlink import WindSource, watch
 from loiter.mavlink.telemetry import Telemetry
 from loiter.planning.flight import over_ground
-from mavlink.vehicle import ACCEPTED, Vehicle, flying, free_port, mavlink
+from mavlink.test_link import Stream, received
+from mavlink.vehicle import ACCEPTED, Plane, Vehicle, flying, free_port, mavlink
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 ORBIT = Orbit(30.0, -20.0, 80.0)
@@ -34,9 +38,13 @@ WIND = Wind(5.0, from_deg=250.0)
 
 
 class Flight(Vehicle):
-    """Flies a maneuver, `haste` times as fast as time passes, then on round the circle's tangent; streams at 100 Hz."""
+    """Flies a maneuver, `haste` times as fast as time passes, and stays where it ends; streams at 100 Hz.
 
-    autopilot, haste = 3, 4.0
+    `moving` is whether it tells its velocity and how fast it turns, as autopilots do.
+    """
+
+    autopilot, haste, every_s, moving = 3, 4.0, 0.01, True
+    parameters = Plane.parameters
     attitude = position = True
     result = ACCEPTED
 
@@ -50,7 +58,7 @@ class Flight(Vehicle):
         super().idle(now)
         self.begun = self.begun or now
         if now >= self.next_position:
-            self.next_position = now + 0.01
+            self.next_position = now + self.every_s
             self.stream(self.haste * (now - self.begun))
 
     def stream(self, time_s):
@@ -58,14 +66,26 @@ class Flight(Vehicle):
         east, north, heading = (float(self.track[i][sample]) for i in (1, 2, 3))
         lat, lon = (float(value) for value in FRAME.to_geodetic(east, north))
         heading -= float(FRAME.convergence_deg(lat, lon))
-        _, speed = over_ground(heading, UAV, self.maneuver.wind)
+        track, speed = over_ground(heading, UAV, self.maneuver.wind)
         if self.attitude:
-            self.send(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, radians(heading), 0.0, 0.0, 0.0))
+            yaw, rates = radians(heading), self.rates(sample)
+            self.send(mavlink.MAVLink_attitude_message(0, radians(30.0), 0.0, yaw, 0.0, *rates))
         if self.position:
             hdg = round(heading % 360.0 * 100.0) % 36000
             place = round(lat * 1e7), round(lon * 1e7), 612_500, 100_000
-            self.send(mavlink.MAVLink_global_position_int_message(0, *place, 0, 0, 0, hdg))
+            self.send(mavlink.MAVLink_global_position_int_message(0, *place, *self.velocity(track, speed), 0, hdg))
         self.send(mavlink.MAVLink_vfr_hud_message(17.5, speed, 0, 50, 612.5, 0.0))
+
+    def rates(self, sample):
+        """How fast it turns about the axes of its body, pitch and yaw, banked by 30 degrees."""
+        here = self.moving and sample < self.track.time_s.size - 1
+        rate = -self.haste * 18.0 * float(self.track.curvature_per_m[sample]) if here else 0.0
+        return rate * sin(radians(30.0)), rate * cos(radians(30.0))
+
+    def velocity(self, track_deg, speed):
+        """North and east, centimetres per second, as time passes for those who watch; 0 where that is too much."""
+        speed *= self.haste if self.moving and self.haste < 10.0 else 0.0
+        return round(100.0 * speed * cos(radians(track_deg))), round(100.0 * speed * sin(radians(track_deg)))
 
 
 def watched(vehicle, reports, patient=True, **options):
@@ -117,15 +137,17 @@ def test_the_end_is_the_hold():
     assert not last.commanded
 
 
-def test_only_heartbeats_go_out_and_on_udpout_only():
+def test_no_command_goes_out_and_heartbeats_on_udpout_only():
+    asked = {"COMMAND_LONG", "PARAM_REQUEST_READ"}
     out = Flight()
     watched(out, 5)
-    assert set(out.heard) == {"HEARTBEAT"}
+    assert {"HEARTBEAT"} <= set(out.heard) <= {"HEARTBEAT", *asked}
     flight, port = Flight(), free_port()
     flight.peer = "127.0.0.1", port
     with flying(flight), closing(watch(f"udpin:127.0.0.1:{port}", ORBIT, FRAME, UAV, system=1, period_s=0.1)) as each:
         assert all(report.plan for report in islice(each, 5))
-    assert not flight.heard
+    assert set(flight.heard) <= asked
+    assert out.commands == flight.commands == []
 
 
 class Felt(Flight):
@@ -158,15 +180,15 @@ def test_the_wind_is_the_one_given_or_the_one_reported(autopilot):
 
 
 @pytest.mark.parametrize(("start", "turn"), [(START, Turn.CW), (MIRRORED, Turn.CCW)])
-@pytest.mark.parametrize(("autopilot", "command"), [(3, 192), (0, 192), (12, 34)])
-def test_the_vehicle_is_told_to_hold_the_circle_where_that_is_asked_for(start, turn, autopilot, command):
-    """DO_REPOSITION (192) in general; PX4 takes a direction from DO_ORBIT (34) only."""
+@pytest.mark.parametrize(("autopilot", "command", "frame"), [(3, 192, 0), (0, 192, 0), (12, 34, 5)])
+def test_the_vehicle_is_told_to_hold_the_circle_where_that_is_asked_for(start, turn, autopilot, command, frame):
+    """DO_REPOSITION (192) in general; PX4 takes a direction from DO_ORBIT (34) only, in MAV_FRAME_GLOBAL_INT (5)."""
     flight = Flight(start)
     flight.autopilot = autopilot
     reports = watched(flight, 3, send=True)
     (told,) = flight.commands
     assert all(report.commanded for report in reports)
-    assert (told.command, told.frame, told.target_system, told.target_component) == (command, 0, 1, 1)
+    assert (told.command, told.frame, told.target_system, told.target_component) == (command, frame, 1, 1)
     params = told.param1, told.param2, told.param3, told.param4
     assert circle(told.command, params) == (80.0, turn)
     if command == 192:
@@ -179,6 +201,367 @@ def test_the_altitude_may_be_asked_for():
     flight = Flight()
     watched(flight, 1, send=True, altitude_m=700.0)
     assert flight.commands[0].z == 700.0
+
+
+# Whether it flies
+
+
+class Parked(Flight):
+    """Stands at the start, as ArduPlane and PX4 stand: speeds next to nothing, and on the ground where that is told."""
+
+    landed_state = 1
+
+    def stream(self, time_s):
+        lat, lon = (float(value) for value in FRAME.to_geodetic(START.east_m, START.north_m))
+        place = round(lat * 1e7), round(lon * 1e7), 100_000, 0
+        self.send(mavlink.MAVLink_global_position_int_message(0, *place, 3, -2, 0, 9000))
+        self.send(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, radians(90.0), 0.0, 0.0, 0.0))
+        self.send(mavlink.MAVLink_vfr_hud_message(0.4, 0.1, 90, 0, 100.0, 0.0))
+        if self.landed_state:
+            self.send(mavlink.MAVLink_extended_sys_state_message(0, self.landed_state))
+
+
+@pytest.mark.parametrize(
+    ("state", "why"),
+    [
+        (0, "airspeed 0.4 m/s and ground speed 0.1 m/s, where it flies at 18 m/s"),
+        (1, "it says that it is on the ground"),
+        (2, "airspeed 0.4 m/s and ground speed 0.1 m/s, where it flies at 18 m/s"),
+    ],
+)
+def test_a_vehicle_that_is_parked_is_not_flying(state, why):
+    """It was told "joins in 12.0 s"."""
+    parked = Parked()
+    parked.landed_state = state
+    reports = watched(parked, 3, send=True)
+    assert [report.problem for report in reports] == [f"not flying: {why}"] * 3
+    assert all(report.plan is None and not report.commanded for report in reports)
+    assert parked.commands == []
+
+
+def test_a_vehicle_that_flies_into_a_wind_of_its_airspeed_flies():
+    class Hovers(Parked):
+        landed_state = 0
+
+        def stream(self, time_s):
+            super().stream(time_s)
+            self.send(mavlink.MAVLink_vfr_hud_message(17.0, 0.2, 90, 50, 612.5, 0.0))
+
+    assert watched(Hovers(), 2)[-1].plan
+
+
+def test_a_vehicle_that_says_it_is_on_the_ground_is_believed_at_any_speed():
+    class Rolls(Flight):
+        def stream(self, time_s):
+            super().stream(time_s)
+            self.send(mavlink.MAVLink_extended_sys_state_message(0, 1))
+
+    assert watched(Rolls(), 2)[-1].problem == "not flying: it says that it is on the ground"
+
+
+# On the circle, and on the way to it
+
+
+class Circles(Flight):
+    """Holds the circle so many metres outside, as autopilots do, one way round or the other; 18 m/s."""
+
+    haste = 1.0
+
+    def __init__(self, outside_m=12.0, turn=Turn.CW):
+        super().__init__()
+        self.radius_m, self.side = ORBIT.radius_m + outside_m, 1.0 if turn == Turn.CW else -1.0
+
+    def stream(self, time_s):
+        azimuth = self.side * 18.0 * time_s / self.radius_m
+        heading = azimuth + self.side * radians(90.0)
+        places = ORBIT.east_m + self.radius_m * sin(azimuth), ORBIT.north_m + self.radius_m * cos(azimuth)
+        lat, lon = (float(value) for value in FRAME.to_geodetic(*places))
+        yaw = heading - radians(float(FRAME.convergence_deg(lat, lon)))
+        velocity = round(1800.0 * cos(yaw)), round(1800.0 * sin(yaw))
+        place = round(lat * 1e7), round(lon * 1e7), 612_500, 100_000
+        self.send(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, yaw, 0.0, 0.0, self.side * 18.0 / self.radius_m))
+        self.send(mavlink.MAVLink_global_position_int_message(0, *place, *velocity, 0, 65535))
+        self.send(mavlink.MAVLink_vfr_hud_message(17.5, 18.0, 0, 50, 612.5, 0.0))
+
+
+@pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
+@pytest.mark.parametrize(("asked", "outside"), [(Turn.EITHER, 12.0), (None, 12.0), (None, -9.0), (None, 2.0)])
+def test_an_aircraft_that_circles_beside_the_circle_holds_it(turn, asked, outside):
+    """12 m outside it was told "joins clockwise in 3.5 s" for ever."""
+    orbit = replace(ORBIT, turn=asked or turn)
+    reports = watched(Circles(outside, turn), 38, orbit=orbit)
+    last = reports[-1]
+    assert last.holding
+    assert (last.turn, last.time_to_join_s) == (turn, 0.0)
+    assert last.outside_m == pytest.approx(outside, abs=0.3)
+    assert (last.control, last.next_control, last.next_in_s) == ("R" if turn == Turn.CW else "L", last.control, 0.0)
+    changes = [after for before, after in pairwise(reports) if before.holding != after.holding]
+    assert len(changes) <= 1, "once it holds the circle it does"
+
+
+def test_an_aircraft_that_holds_the_circle_the_wrong_way_round_is_told_to_turn():
+    reports = watched(Circles(4.0, Turn.CCW), 38, orbit=replace(ORBIT, turn=Turn.CW))
+    assert not any(report.holding for report in reports)
+    assert {report.turn for report in reports} == {Turn.CW}
+
+
+class RunsIn(Flight):
+    """Flies straight at the place where its entry peels off, with noise on heading and place as vehicles have it."""
+
+    haste = 1.0
+
+    def __init__(self, noise=1.0):
+        super().__init__(Pose(-400.0, 60.0, 98.0))
+        self.noise, self.random = noise, np.random.default_rng(5)
+        self.origin = self.maneuver.segments[1].start
+
+    def stream(self, time_s):
+        course = radians(self.origin.heading_deg)
+        off_m, off_deg, off_rate = self.noise * self.random.normal(0.0, [[0.5, 0.5], [0.7, 0.7], [0.02, 0.02]])
+        east = self.origin.east_m + 18.0 * time_s * sin(course) + off_m[0]
+        north = self.origin.north_m + 18.0 * time_s * cos(course) + off_m[1]
+        lat, lon = (float(value) for value in FRAME.to_geodetic(east, north))
+        yaw = course + radians(off_deg[0] - float(FRAME.convergence_deg(lat, lon)))
+        velocity = round(1800.0 * cos(course)), round(1800.0 * sin(course))
+        place = round(lat * 1e7), round(lon * 1e7), 612_500, 100_000
+        self.send(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, yaw, 0.0, 0.0, off_rate[0]))
+        self.send(mavlink.MAVLink_global_position_int_message(0, *place, *velocity, 0, 65535))
+        self.send(mavlink.MAVLink_vfr_hud_message(17.5, 18.0, 0, 50, 612.5, 0.0))
+
+
+def test_a_straight_run_in_is_straight_and_the_peel_off_shows():
+    """Each line said "left now, straight in 0.2 s", and when to peel off was nowhere."""
+    flight = RunsIn()
+    reports = watched(flight, 20, period_s=0.2, orbit=replace(ORBIT, turn=flight.maneuver.turn))
+    assert flight.maneuver.word[1] == "S"
+    for report in reports:
+        first, second, hold = report.actions
+        assert (first.letter, first.in_s, second.letter) == ("S", 0.0, flight.maneuver.word[2])
+        assert (report.control, report.next_control) == ("S", flight.maneuver.word[2])
+        assert hold.in_s == report.plan.duration_s
+    left = [report.next_in_s + report.time_s for report in reports]
+    assert max(left) - min(left) < 1.5, "the peel-off comes nearer as time passes"
+
+
+# How often it is told
+
+
+class Seldom(Circles):
+    """Streams once a second until it is asked for more, by the command or by the older request."""
+
+    every_s, knows = 1.0, True
+
+    def on_command_long(self, message):
+        if message.command == 511 and not self.knows:
+            return self.acknowledge_command(message, 3)
+        if message.command == 511 and int(message.param1) == 33:
+            self.every_s = message.param2 / 1e6
+        return super().on_command_long(message)
+
+    def on_request_data_stream(self, message):
+        super().on_request_data_stream(message)
+        if message.req_stream_id == 6:
+            self.every_s = 1.0 / message.req_message_rate
+
+
+def test_between_two_positions_the_aircraft_flies_on():
+    """Also round a circle: by the rate of its turn."""
+
+    class Once(Seldom):
+        knows = False
+
+        def on_request_data_stream(self, message):
+            pass
+
+    vehicle = Once(60.0)
+    reports = watched(vehicle, 12, period_s=0.25, timeout_s=4.0, orbit=replace(ORBIT, turn=Turn.CW))
+    assert sum(report.age_s > 0.4 for report in reports) >= 4
+    where = [(report.plan.start.east_m - ORBIT.east_m, report.plan.start.north_m - ORBIT.north_m) for report in reports]
+    assert [np.hypot(*each) for each in where] == pytest.approx([vehicle.radius_m] * 12, abs=0.3)
+    steps = [np.hypot(a - c, b - d) for (a, b), (c, d) in pairwise(where)]
+    times = [after.time_s - before.time_s for before, after in pairwise(reports)]
+    flown = [2.0 * vehicle.radius_m * sin(9.0 * time / vehicle.radius_m) for time in times]
+    assert steps == pytest.approx(flown, abs=1.5)
+
+
+def test_between_two_positions_the_time_to_join_passes():
+    """Once a second a position came, and the same time stood four times in each."""
+
+    class Once(RunsIn):
+        every_s = 1.0
+
+        def __init__(self):
+            super().__init__(noise=0.0)
+
+    flight = Once()
+    reports = watched(flight, 12, period_s=0.25, timeout_s=4.0, orbit=replace(ORBIT, turn=flight.maneuver.turn))
+    assert sum(report.age_s > 0.4 for report in reports) >= 4
+    joined = [report.time_s + report.time_to_join_s for report in reports]
+    assert max(joined) - min(joined) < 0.3
+
+
+@pytest.mark.parametrize("knows", [True, False])
+def test_what_comes_too_seldom_is_asked_for(knows, monkeypatch):
+    module = import_module("loiter.mavlink.streams")
+    monkeypatch.setattr(module, "REPEAT_S", 0.5)
+    vehicle = Seldom()
+    vehicle.knows = knows
+    reports = watched(vehicle, 10, period_s=0.6, timeout_s=4.0)
+    assert vehicle.every_s == pytest.approx(0.3 if knows else 1.0 / 3.0)
+    assert max(report.age_s for report in reports[-2:]) < 0.6
+    if knows:
+        assert vehicle.intervals[33] == vehicle.intervals[30] == pytest.approx(0.3)
+        # Whether it flies is asked for as well; what it does not have it is not asked for without end.
+        assert vehicle.intervals[245] == 1.0
+        assert vehicle.heard["COMMAND_LONG"] <= 4 * module.TRIES
+    else:
+        assert (vehicle.streams[6], vehicle.streams[10]) == (3, 3)
+
+
+def test_what_comes_often_enough_is_left_as_it_is():
+    vehicle = Circles()
+    watched(vehicle, 3, period_s=1.0, timeout_s=3.0)
+    assert set(vehicle.intervals) <= {245}
+    assert vehicle.streams == {}
+
+
+# A line that is lost
+
+
+class Server:
+    """A TCP port with a vehicle behind it that hangs up, is away for a while, and listens again."""
+
+    def __init__(self, vehicle, up_s, away_s):
+        self.vehicle, self.up_s, self.away_s = vehicle, up_s, away_s
+        self.server = socket.create_server(("127.0.0.1", 0))
+        self.port = self.server.getsockname()[1]
+        self.calls, self.running = 0, True
+        self.thread = threading.Thread(target=self.run)
+        self.thread.start()
+
+    def run(self):
+        while self.running:
+            self.server.settimeout(0.05)
+            with suppress(TimeoutError):
+                caller, _ = self.server.accept()
+                self.calls += 1
+                self.talk(caller)
+                if self.running:
+                    self.restart()
+
+    def talk(self, caller):
+        with caller:
+            caller.settimeout(0.02)
+            stream = Stream(self.vehicle, lambda: received(caller, stream), caller.sendall)
+            stream.start()
+            # The vehicle does not speak to whom it has not heard.
+            stream.near.send(b"hello")
+            end = time.monotonic() + self.up_s
+            while self.running and time.monotonic() < end:
+                time.sleep(0.02)
+            stream.close()
+
+    def restart(self):
+        """Nobody answers for a while, then the port is there again, and the vehicle's clock begins anew."""
+        self.server.close()
+        time.sleep(self.away_s)
+        self.vehicle.booted = time.monotonic()
+        self.server = socket.create_server(("127.0.0.1", self.port))
+
+    def stop(self):
+        self.running = False
+        self.thread.join()
+        self.server.close()
+
+
+class Reboots(Circles):
+    """Tells how long it has been running: some minutes at first."""
+
+    def __init__(self):
+        super().__init__()
+        self.booted = time.monotonic() - 200.0
+
+    def send(self, message):
+        if hasattr(message, "time_boot_ms"):
+            message.time_boot_ms = round(1e3 * (time.monotonic() - self.booted)) + 1
+        super().send(message)
+
+
+@contextmanager
+def serving(vehicle, up_s, away_s):
+    with flying(vehicle):
+        server = Server(vehicle, up_s, away_s)
+        try:
+            yield server
+        finally:
+            server.stop()
+
+
+def test_a_vehicle_that_restarts_is_connected_to_again():
+    vehicle = Reboots()
+    with serving(vehicle, 1.5, 0.5) as server:
+        reports = watch(f"tcp:127.0.0.1:{server.port}", ORBIT, FRAME, UAV, system=1, period_s=0.1, timeout_s=3.0)
+        with closing(reports) as each:
+            taken = list(islice(each, 32))
+        assert server.calls == 2
+    lost = [report for report in taken if "the line to the vehicle is gone" in report.problem]
+    refused = [report for report in taken if "cannot be opened: connection refused" in report.problem]
+    assert lost
+    assert refused
+    assert all(report.problem.endswith("; opening it again") for report in [*lost, *refused])
+    notices = [notice for report in taken for notice in report.notices]
+    assert notices == ["The line to the vehicle stands again.", "The vehicle has restarted."]
+    assert taken[-1].plan
+    assert taken[-1].turn == next(report.turn for report in taken if report.plan)
+
+
+def test_a_vehicle_that_does_not_come_back_ends_the_watch():
+    vehicle = Reboots()
+    gone = r"^system 1 \(ArduPilot\) has been silent for 0.6 s: .*connection refused; opening it again$"
+    with serving(vehicle, 0.7, 30.0) as server:
+        server.restart = lambda: (server.server.close(), setattr(server, "running", False))
+        reports = watch(f"tcp:127.0.0.1:{server.port}", ORBIT, FRAME, UAV, system=1, period_s=0.1, timeout_s=0.6)
+        with closing(reports), pytest.raises(LinkFailed, match=gone):
+            list(islice(reports, 60))
+
+
+def test_a_vehicle_that_restarts_on_udp_is_noticed_by_its_clock():
+    vehicle = Reboots()
+    with flying(vehicle), closing(watch(vehicle.connection, ORBIT, FRAME, UAV, system=1, period_s=0.1)) as each:
+        before = list(islice(each, 5))
+        vehicle.booted = time.monotonic()
+        after = list(islice(each, 8))
+    assert [notice for report in before for notice in report.notices] == []
+    assert [notice for report in after for notice in report.notices] == ["The vehicle has restarted."]
+    assert after[-1].plan
+
+
+# The radius that is flown
+
+
+class Widens(Circles):
+    parameters = Plane.parameters | {"NAVL1_LIM_BANK": (0.0, 9)}
+
+
+def notices(reports):
+    return [notice for report in reports for notice in report.notices]
+
+
+def test_that_ardupilot_widens_circles_is_told_once():
+    told = notices(watched(Widens(), 12))
+    assert [notice.partition(",")[0] for notice in told] == ["ArduPlane will hold 84.9 m in place of 80"]
+    assert notices(watched(Circles(), 12)) == []
+
+
+@pytest.mark.parametrize(("true_radius", "sent"), [(False, 80.0), (True, 75.0)])
+def test_the_true_radius_is_commanded_where_it_is_asked_for(true_radius, sent):
+    vehicle = Widens()
+    told = notices(watched(vehicle, 5, send=True, true_radius=true_radius))
+    assert [command.param3 for command in vehicle.commands] == [sent]
+    said = "The radius is sent as 75 m" if true_radius else "ArduPlane will hold 84.9 m in place of 80"
+    assert [notice.partition(",")[0] for notice in told] == [said]
+    with pytest.raises(InvalidArgument, match=r"^true_radius .*: it goes with send"):
+        watch("udpout:127.0.0.1:14550", ORBIT, FRAME, UAV, true_radius=True)
 
 
 class Answers(Flight):
@@ -283,8 +666,10 @@ def test_a_vehicle_that_falls_silent_ends_the_watch():
 
 
 def test_what_cannot_be_planned_is_said_and_the_watch_goes_on():
-    far = watched(Flight(), 2, frame=LocalFrame(49.0, 8.0))
-    assert all("more than 100 km from the origin 49 8" in report.problem for report in far)
+    # Its wind, from true north there, is no wind of a plane that does not reach so far.
+    for flight in (Flight(), Felt(3)):
+        far = watched(flight, 4, frame=LocalFrame(49.0, 8.0))
+        assert all("more than 100 km from the origin 49 8" in report.problem for report in far)
     storm = watched(Flight(), 2, wind=Wind(17.0, 0.0))
     assert all(report.plan is None and "wind" in report.problem for report in storm)
 

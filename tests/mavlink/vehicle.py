@@ -4,8 +4,10 @@
 misbehave. `flying` lets one live on a loopback port, in a thread; `Port` is one without sockets and without time.
 """
 
+import math
 import random
 import socket
+import struct
 import threading
 import time
 from collections import Counter
@@ -17,8 +19,8 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 from loiter.errors import LinkFailed
 from loiter.io.items import Command, Frame, Mission, MissionItem
 from loiter.io.signs import with_circle
-from loiter.mavlink import command, link, transfer
-from loiter.mavlink.missions import replace
+from loiter.mavlink import command, link, parameters, start, transfer
+from loiter.mavlink.missions import replace_mission
 
 ACCEPTED, ERROR, INVALID_SEQUENCE, DENIED, CANCELLED = 0, 1, 13, 14, 15
 
@@ -35,6 +37,8 @@ WAITS = {
         link: ["BEAT_S", "ALONE_S"],
         transfer: ["REPEAT_S", "ITEM_REPEAT_S", "SILENCE_S", "DOUBLED_S", "BUSY_S"],
         command: ["REPEAT_S"],
+        parameters: ["REPEAT_S"],
+        start: ["REPEAT_S", "WORDS_S", "STAYS_S"],
     }.items()
     for name in names
 }
@@ -74,11 +78,17 @@ class Vehicle:
     """An autopilot that holds a mission and changes it only when it has a new one whole."""
 
     system, component, autopilot, version = 1, 1, 12, 2
+    # What it tells of itself: whether it flies (MAV_LANDED_STATE), and its mode; the mode in which it flies missions.
+    landed_state, mode, mission_mode = 2, 3 << 16, 4 << 16 | 4 << 24
+    # Parameters by name, of the type MAV_PARAM_TYPE; others it does not have, and does not answer.
+    parameters = {"MIS_TKO_LAND_REQ": (0, 6)}  # noqa: RUF012 (shared, and never changed)
     beat_s, repeat_s, give_up_s = 0.05, 0.025, 0.5  # a tenth of PX4's, as the library's time-outs in most tests
     sends_int_requests = True
 
     def __init__(self, mission=OLD):
         self.mission = list(mission)
+        self.current = 2
+        self.intervals, self.streams = {}, {}
         self.heard = Counter()
         self.commands = []
         self.mav = mavlink.MAVLink(_Wire(self), self.system, self.component)
@@ -134,7 +144,8 @@ class Vehicle:
             self.incoming = None
 
     def beat(self):
-        self.send(mavlink.MAVLink_heartbeat_message(1, self.autopilot, 0, 0, 4, 3))
+        flags = 1 | 128 * (self.landed_state == 2)
+        self.send(mavlink.MAVLink_heartbeat_message(1, self.autopilot, flags, self.mode, 4, 3))
 
     def send(self, message):
         self.mav.send(message, force_mavlink1=self.version == 1)
@@ -200,15 +211,71 @@ class Vehicle:
             head = *self.partner, message.seq, frame, command, 0, autocontinue
             self.send(mavlink.MAVLink_mission_item_int_message(*head, *params, x, y, z, 0))
 
+    def on_mission_set_current(self, message):
+        self.current = message.seq
+        self.send(mavlink.MAVLink_mission_current_message(self.current))
+
+    # A parameter.
+
+    def on_param_request_read(self, message):
+        if message.param_id not in self.parameters:
+            return
+        value, kind = self.parameters[message.param_id]
+        # PX4 puts the bytes of an integer in the place of the float, ArduPilot a float of the same value.
+        if self.autopilot == 12 and kind != 9:
+            (value,) = struct.unpack("<f", struct.pack("<i", value))
+        self.send(mavlink.MAVLink_param_value_message(message.param_id.encode(), value, kind, 900, 7))
+
     # A command.
 
     def on_command_int(self, message):
+        """PX4 knows one frame, MAV_FRAME_GLOBAL_INT."""
         self.commands.append(message)
-        self.send(mavlink.MAVLink_command_ack_message(message.command, ACCEPTED, 0, 0, *self.who(message)))
+        known = self.autopilot != 12 or message.frame == 5
+        self.acknowledge_command(message, ACCEPTED if known else 9)
+
+    def on_command_long(self, message):
+        """As for COMMAND_INT; asking for messages and for how often they come is no command to the aircraft."""
+        if message.command == 511:
+            self.intervals[int(message.param1)] = message.param2 / 1e6
+        elif message.command == 512:
+            self.tell(int(message.param1))
+        else:
+            self.commands.append(message)
+            return self.on_mode(message)
+        return self.acknowledge_command(message, ACCEPTED)
+
+    def on_mode(self, message):
+        """DO_SET_MODE: into the mode in which it flies its mission, or another."""
+        assert message.command == 176
+        assert int(message.param1) & 1
+        self.mode = int(message.param2) << 16 | int(message.param3) << 24
+        self.acknowledge_command(message, ACCEPTED)
+
+    def on_request_data_stream(self, message):
+        self.streams[message.req_stream_id] = message.req_message_rate
+
+    def acknowledge_command(self, message, result):
+        self.send(mavlink.MAVLink_command_ack_message(message.command, result, 0, 0, *self.who(message)))
+
+    def tell(self, number):
+        """A message that it was asked for: EXTENDED_SYS_STATE is the one that it knows."""
+        if number == 245:
+            self.send(mavlink.MAVLink_extended_sys_state_message(0, self.landed_state))
 
     @staticmethod
     def who(message):
         return message.get_srcSystem(), message.get_srcComponent()
+
+
+class Faithful(Vehicle):
+    """PX4's UDP port: answers whoever spoke to it first, and nobody else until it restarts (mavlink_receiver.cpp)."""
+
+    partner_port = None
+
+    def transmit(self, packet):
+        self.partner_port = self.partner_port or self.peer
+        self.socket.sendto(packet, self.partner_port)
 
 
 class Plane(Vehicle):
@@ -216,6 +283,8 @@ class Plane(Vehicle):
 
     autopilot, repeat_s, give_up_s = 3, 0.1, 0.8
     sends_int_requests = False
+    mode, mission_mode = 15, 10
+    parameters = {"NAVL1_LIM_BANK": (45.0, 9), "AIRSPEED_CRUISE": (18.0, 9)}  # noqa: RUF012
     home = item(x=450000000, y=70000000, z=400.0)
 
     def on_mission_request_list(self, message):
@@ -243,13 +312,24 @@ class Plane(Vehicle):
         return None
 
     def stored(self, m):
-        """As AP_Mission keeps a waypoint and an unlimited loiter: whole metres, centimetres."""
+        """As AP_Mission keeps a waypoint and loiters of up to 255 m: whole metres, centimetres."""
         frame = {5: 0, 6: 3}.get(m.frame, m.frame)
-        params = (0.0, 0.0, float(int(m.param3)), 0.0) if m.command == 17 else (0.0, float(int(m.param2)), 0.0, 0.0)
+        turns, second, radius = (float(int(value)) for value in (m.param1, m.param2, m.param3))
+        params = {
+            17: (0.0, 0.0, radius, 0.0),
+            18: (turns, 0.0, radius, m.param4),
+            19: (turns, 0.0, math.copysign(1.0, radius), m.param4),
+            31: (0.0, second, 0.0, m.param4),
+        }.get(m.command, (0.0, second, 0.0, 0.0))
         return item(m.command, frame, params, m.x, m.y, int(m.z * 100.0) / 100.0)
 
     def on_mission_ack(self, message):
         pass
+
+    def on_mode(self, message):
+        assert (message.command, int(message.param1) & 1) == (176, 1)
+        self.mode = int(message.param2)
+        self.acknowledge_command(message, ACCEPTED)
 
 
 class Lossy:
@@ -396,7 +476,7 @@ def simulated(vehicle, new, fate=lambda: 1, timeout_s=15.0):
         begun = port.now
         target = link.Vehicle(vehicle.system, vehicle.component, vehicle.autopilot, vehicle.version == 1)
         try:
-            done = replace(link.Link(port, target), new, timeout_s, lambda *step: None)
+            done = replace_mission(link.Link(port, target), new, timeout_s, lambda *step: None)
         except LinkFailed as failure:
             done = failure
         return done, port.now - begun

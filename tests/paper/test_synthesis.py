@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import loiter
-from loiter.kernel.codes import Word
 from loiter.kernel.rebinding import rebound
 from loiter.kernel.switching import (
     beyond_first_circle,
@@ -18,6 +17,7 @@ from loiter.kernel.switching import (
     switching_abscissa,
 )
 from loiter.kernel.synthesis import mirrored, rounding
+from loiter.kernel.words import Word
 
 MILLION = 1_000_000
 REACH = 4.0

@@ -9,8 +9,10 @@ import loiter
 from golden.paper import EXAMPLES
 from loiter import Aircraft, Orbit, Pose, plan
 from loiter.errors import InvalidArgument
-from loiter.kernel.codes import Side, Status, Word
+from loiter.kernel.codes import Side, Status
 from loiter.kernel.synthesis import duration, first_control, miss, optimum
+from loiter.kernel.words import Word
+from loiter.planning.arrays import Solution
 
 RANDOM = np.random.default_rng(7)
 X, Y = RANDOM.uniform(-12.0, 12.0, (2, 3000))
@@ -143,10 +145,80 @@ def test_threads_share_the_work(workers):
     assert np.array_equal(out, loiter.min_time(X, Y))
 
 
+# Where the result lies in the memory of an argument: reversed, one further, one back, every third, the same.
+OVERLAPS = {
+    "reversed": (slice(None, None, -1), slice(None)),
+    "further": (slice(None, -1), slice(1, None)),
+    "back": (slice(1, None), slice(None, -1)),
+    "every third": (slice(0, 1000), slice(0, 3000, 3)),
+    "same": (slice(None), slice(None)),
+}
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3])
+@pytest.mark.parametrize("overlap", OVERLAPS)
+@pytest.mark.parametrize("name", ["min_time", "control"])
+def test_a_result_may_overlap_an_argument(name, overlap, workers):
+    function, (source, target) = getattr(loiter, name), OVERLAPS[overlap]
+    memory, y = X.copy(), Y[source]
+    expected = function(X[source], y)
+    function(memory[source], y, out=memory[target], workers=workers)
+    assert np.array_equal(memory[target], expected)
+    # A number read from where the results go.
+    memory = X.copy()
+    function(memory[-1:].reshape(()), Y, out=memory, workers=workers)
+    assert np.array_equal(memory, function(X[-1], Y))
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3])
+@pytest.mark.parametrize("overlap", OVERLAPS)
+@pytest.mark.parametrize("field", Solution._fields)
+def test_a_solution_may_overlap_its_arguments(field, overlap, workers):
+    source, target = OVERLAPS[overlap]
+    codes = np.array([SIDES[turn] for turn in TURNS], dtype=np.int8)
+    expected = loiter.solve(X[source], Y[source], 1.5, codes[source])
+    x, sides, blank = X.copy(), codes.copy(), loiter.solve(np.zeros(len(X[source])), 1.0)
+    if field == "durations":
+        # The first argument is the last column of the durations, there or elsewhere.
+        memory = np.tile(x[:, np.newaxis], 3)
+        x, out = memory[:, 2], blank._replace(durations=memory[target])
+    else:
+        out = blank._replace(**{field: (x if getattr(blank, field).dtype == float else sides)[target]})
+    found = loiter.solve(x[source], Y[source], 1.5, sides[source], out=out, workers=workers)
+    assert all(np.array_equal(a, b) for a, b in zip(found, expected, strict=True))
+
+
+def test_a_result_that_cannot_be_shared_among_threads_is_filled_all_the_same():
+    filled = np.empty(3000)
+    assert loiter.min_time(X, Y, out=(filled,), workers=2) is filled
+    assert np.array_equal(filled, loiter.min_time(X, Y))
+    with pytest.raises(TypeError, match="must be of ArrayType"):
+        loiter.min_time(X, Y, out=[0.0] * 3000, workers=2)
+
+
+def test_lazy_results_fill_nothing():
+    x = pytest.importorskip("dask.array").from_array(X, chunks=700)
+    out = np.zeros(3000), np.zeros(3000)
+    with pytest.raises(InvalidArgument, match="out is given, and an argument is a lazy array"):
+        loiter.solve(x, Y, out=loiter.solve(X, Y))
+    with pytest.raises(InvalidArgument, match="out is given, and an argument is a lazy array"):
+        loiter.reduce(x, Y, 90.0, Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=1.0), out=out)
+    with pytest.raises(InvalidArgument, match="workers"):
+        loiter.min_time(x, Y, workers=0)
+
+
 @pytest.mark.parametrize("workers", [0, -2, 1.5, "2", None])
 def test_an_impossible_number_of_workers_is_refused(workers):
     with pytest.raises(InvalidArgument, match="workers"):
         loiter.min_time([0.0, 1.0], 0.0, workers=workers)
+
+
+@pytest.mark.parametrize("workers", [0, "2"])
+@pytest.mark.parametrize("function", [loiter.min_time, loiter.control, loiter.solve])
+def test_an_impossible_number_of_workers_is_refused_for_arrays_of_other_libraries_too(function, workers):
+    array = pytest.importorskip("dask.array")
+    with pytest.raises(InvalidArgument, match="workers"):
+        function(array.zeros(3), 0.0, workers=workers)
 
 
 def test_turns_may_be_codes():
@@ -181,6 +253,17 @@ def test_columns_of_pandas_stay_columns():
     assert np.array_equal(loiter.solve(frame.x, frame.y).time, loiter.solve(X, Y).time)
     x, _ = loiter.reduce(frame.x, frame.y, 90.0, Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=1.0))
     assert x.index.equals(frame.index)
+
+
+@pytest.mark.parametrize("function", [loiter.min_time, loiter.control])
+def test_columns_stay_columns_whatever_the_number_of_workers(function):
+    """Threads are for NumPy's arrays alone, also where some arguments are numbers."""
+    pandas, array = pytest.importorskip("pandas"), pytest.importorskip("dask.array")
+    column = function(pandas.Series(X), Y, 1.5, workers=2)
+    assert isinstance(column, pandas.Series)
+    assert np.array_equal(column, function(X, Y, 1.5))
+    lazy = function(array.from_array(X, chunks=700), Y, 1.5, workers=2)
+    assert lazy.chunks == ((700, 700, 700, 700, 200),)
 
 
 def test_arrays_of_xarray_keep_their_names():

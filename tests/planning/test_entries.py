@@ -7,8 +7,9 @@ import pytest
 
 from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.errors import LoiterError
-from loiter.kernel import drift
-from loiter.kernel.codes import Side, Status, Word
+from loiter.kernel import wind_search
+from loiter.kernel.codes import Side, Status
+from loiter.kernel.words import Word
 from loiter.planning.entries import BLOCK, UNKNOWN, States, entries
 from loiter.planning.model import TURN_LIMITS
 from loiter.planning.scaling import SIDES
@@ -133,7 +134,7 @@ def test_where_no_air_passes_the_circle_the_bytes_are_those_of_still_air():
 
 def test_a_row_in_wind_that_no_maneuver_is_found_for_says_so(monkeypatch):
     lost = float(Status.NOT_CONVERGED), 0.0, 0.0, *[nan] * 5
-    monkeypatch.setattr(drift, "fastest", lambda *scene: lost)
+    monkeypatch.setattr(wind_search, "fastest", lambda *scene: lost)
     found = entries(drawn(2)._replace(wind_speed_m_s=np.array([0.0, 3.0])))
     assert found.status.tolist() == [Status.OK, Status.NOT_CONVERGED]
     assert np.isnan(found.join_heading_deg).tolist() == [False, True]

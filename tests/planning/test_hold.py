@@ -112,6 +112,13 @@ def test_a_step_is_not_too_small(step):
         hold(ORBIT, UAV, WIND, turn="cw").sample(step)
 
 
+def test_the_finest_step_is_allowed(monkeypatch):
+    monkeypatch.setattr("loiter.planning.hold.FINEST_DEG", 45.0)
+    assert hold(ORBIT, UAV, WIND, turn="cw").sample(45.0).azimuth_deg.shape == (8,)
+    with pytest.raises(InvalidArgument, match=r"^step_deg is 44\.9: it must be at least 45 degrees$"):
+        hold(ORBIT, UAV, WIND, turn="cw").sample(44.9)
+
+
 def test_a_circle_that_cannot_be_held_is_refused():
     with pytest.raises(RadiusTooSmall, match=r"it needs 98\.45 m, or 48\.96 deg"):
         hold(replace(ORBIT, radius_m=60.0), UAV, Wind(8.0, 0.0), turn="cw")

@@ -7,9 +7,9 @@ import pytest
 
 import loiter
 from loiter.errors import InvalidArgument
-from loiter.kernel.codes import Word
 from loiter.kernel.switching import beyond_first_circle, beyond_last_circle, switching_abscissa
 from loiter.kernel.synthesis import rounding
+from loiter.kernel.words import Word
 from loiter.planning.partition import Partition, boundaries, partition, worth
 
 # Boundaries are known to 1e-6 grid steps of at most 0.1.

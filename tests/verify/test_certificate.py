@@ -4,12 +4,15 @@ import json
 from dataclasses import replace
 from math import cos, hypot, isfinite, pi, sin, sqrt
 
+import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import loiter
 from golden.paper import EXAMPLES
+from kernel.worst import drawn
+from kernel.worst import states as worst_states
 from loiter import Aircraft, Orbit, Pose, Turn, candidates, plan, plan_all
 from loiter.errors import InvalidArgument
 from loiter.verify import Certificate, certify
@@ -339,3 +342,35 @@ def test_a_lone_arc_begun_beside_its_circle_within_the_tolerance_is_certified():
     assert m.word == "R"
     assert certify(m, tolerance_m=2.0).valid
     assert not certify(m).valid
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "R", "turn"),
+    [
+        (-2.585723342869779e-10, 0.9999999702117938, 3.0, "ccw"),
+        (-0.0002107650504010905, 1.2395558994017257e-11, 2.000000022210947, "ccw"),
+        (2.7076775057953914e-15, -6.385215330843237e-10, 1.9999999993614845, "either"),
+        (1.9274610397462332e-16, 1.8854538789337695e-10, 1.9999999998114553, "either"),
+    ],
+)
+def test_no_false_alarm_where_steps_of_quotients_would_cross_a_boundary(x, y, R, turn):
+    """T moves there with the square root of a distance that is smaller than the steps."""
+    certificate = certify(plan(*unit_scene(x, y, R, turn)))
+    assert certificate.valid, shown(certificate)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_no_false_alarm_next_to_any_boundary(seed):
+    """Starts at distances from 1e-17 to 1 from the corners and curves that `kernel.worst` draws from."""
+    drawn_states = worst_states(drawn(np.random.default_rng(seed), 300))
+    for x, y, R, turn in zip(*vars(drawn_states).values(), strict=True):
+        certificate = certify(plan(*unit_scene(float(x), float(y), min(float(R), 50.0), str(turn))))
+        assert certificate.valid, shown(certificate)
+
+
+def test_the_gradient_is_checked_at_nearly_all_random_states():
+    """What is skipped next to boundaries must stay rare elsewhere, or the check would mean nothing."""
+    random = np.random.default_rng(5)
+    scenes_of = [unit_scene(*random.uniform(-8.0, 8.0, 2), random.uniform(1.0, 4.0)) for _ in range(200)]
+    skipped = [s for s in scenes_of if certify(plan(*s)).residual("gradient").value is None]
+    assert len(skipped) <= 2

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 import loiter
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, hold, plan, plan_all
 from loiter.errors import InvalidArgument
-from loiter.kernel import drift
+from loiter.kernel import wind_search
 from loiter.planning.scaling import drifting, maneuver
 from loiter.verify import certify
 from loiter.verify.met import scenes
@@ -63,8 +63,8 @@ def joined_at(phase, side):
     """The first way to another point of the circle: flown right, but not the fastest."""
     pose, orbit, uav, wind = SCENE
     scene = drifting(pose, orbit, uav, wind, 0.0)
-    inner = drift.scene_of(*scene[:5], scene.wx, scene.wy)
-    way = drift.first_way(phase, side, inner, inf)
+    inner = wind_search.scene_of(*scene[:5], scene.wx, scene.wy)
+    way = wind_search.first_path(phase, side, inner, inf)
     return maneuver(pose, orbit, uav, wind, (side, *way[1:5]), 0.0)
 
 

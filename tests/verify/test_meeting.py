@@ -7,7 +7,7 @@ import pytest
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.codes import Side
-from loiter.kernel.drift import fastest
+from loiter.kernel.wind_search import fastest
 from loiter.verify import met as module
 from loiter.verify.collocation import collocate
 from loiter.verify.meeting import Drifting, earliest

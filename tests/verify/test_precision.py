@@ -50,3 +50,9 @@ def test_without_mpmath_a_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setattr(module, "find_spec", lambda name: None)
     with pytest.raises(MissingPackage, match="pip install mpmath"):
         precision(1, 0)
+
+
+def test_next_to_the_jump_the_kernel_has_the_digits_of_the_state_as_given():
+    """60 digits give 2.662764758932; the neighbouring doubles of y already differ in the third decimal."""
+    state = rounded("jump", 5.09e-14, -1.0000000000000264, 1.0, Side.CCW)
+    assert state.error <= 1e-14

@@ -32,6 +32,18 @@ ARGUMENTS = [
 CHORDS, PIXELS = 0.002, 0.0071
 
 
+AXE = Path(sys.prefix) / "node" / "node_modules" / "axe-core" / "axe.min.js"
+DESK = {"width": 1440, "height": 900}
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
+HANDLES = {
+    "aircraft": ("pose", {"east_m", "north_m"}),
+    "heading": ("pose", {"heading_deg"}),
+    "centre": ("orbit", {"east_m", "north_m"}),
+    "radius": ("orbit", {"radius_m"}),
+    "state": ("pose", {"east_m", "north_m"}),
+}
+
+
 @contextmanager
 def served():
     """The address of a `loiter serve` of its own."""
@@ -142,3 +154,45 @@ def assert_shows_the_plan(page):
     decimals = 2 if asked[1].radius_m >= 10.0 else 3
     assert page.locator("#time").inner_text() == f"{best[0].duration_s:.{decimals}f} s"
     return best[0]
+
+
+def middle(page, handle):
+    box = page.locator(f"#{handle} .touch").bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def changed(before, after):
+    """The names of the numbers that differ, by part of the scene."""
+    return {
+        part: {name for name in after[part] if after[part][name] != before[part][name]}
+        for part in ("pose", "orbit", "aircraft")
+        if after[part] != before[part]
+    }
+
+
+def located(page):
+    """Say where (0, 0) lies on Earth."""
+    page.locator("#earth").evaluate("details => (details.open = true)")
+    page.locator("#latitude").fill("47.1")
+    page.locator("#longitude").fill("8.2")
+    settle(page)
+
+
+def fly_at(page, altitude, reference, home=None):
+    """Say how high missions are flown."""
+    page.locator("#earth").evaluate("details => (details.open = true)")
+    page.locator("#altitude").fill(altitude)
+    page.locator("#altitude-reference").select_option(reference)
+    if home is not None:
+        page.locator("#home-altitude").fill(home)
+
+
+def grave(page):
+    """What axe finds that is serious or critical."""
+    page.evaluate(AXE.read_text())
+    found = page.evaluate("axe.run().then(results => results.violations)")
+    return [
+        (violation["id"], [node["html"] for node in violation["nodes"]])
+        for violation in found
+        if violation["impact"] in ("serious", "critical")
+    ]

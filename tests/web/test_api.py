@@ -257,7 +257,7 @@ def test_a_certificate_is_that_of_the_first_optimal_maneuver(post, scene):
 def test_a_map_is_the_librarys_partition(client, radius, turn):
     told = client.get("/api/synthesis", params={"radius": radius, "turn": turn, "cells": 41}).json()
     regions = partition(radius, turn, cells=41)
-    words = np.array([loiter.kernel.codes.Word[word] if word else 0 for word in told["words"]])
+    words = np.array([loiter.kernel.words.Word[word] if word else 0 for word in told["words"]])
     assert (words[np.array(told["region"])] == regions.word).all()
     assert (told["x"], told["y"]) == (regions.x.tolist(), regions.y.tolist())
     for curve in boundaries(regions):
@@ -321,6 +321,18 @@ def test_a_mission_can_be_read_back(client, tmp_path):
     file = tmp_path / "entry.plan"
     file.write_bytes(said.content)
     assert loiter.io.read_mission(file).items[-1].altitude_m == 600.0
+
+
+@pytest.mark.parametrize("format_", ["plan", "waypoints"])
+@pytest.mark.parametrize(("reference", "frame"), [("msl", 0), ("home", 3), ("ground", 10)])
+def test_a_mission_is_measured_from_what_is_asked_for(client, tmp_path, format_, reference, frame):
+    options = {"origin": ORIGIN, "altitude_m": 120, "altitude_reference": reference, "home_altitude_m": 450}
+    said = client.post(f"/api/export/{format_}", json=STILL | options)
+    file = tmp_path / f"entry.{format_}"
+    file.write_bytes(said.content)
+    flown = loiter.io.read_mission(file)
+    assert {(item.frame, item.altitude_m) for item in flown.items} == {(frame, 120.0)}
+    assert flown.home[2] == 450.0
 
 
 # The rest

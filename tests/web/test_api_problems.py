@@ -233,6 +233,10 @@ def test_a_link_is_checked_as_a_body_is(refused, scene, status, said):
         ({"spacing_m": 0}, "spacing_m is 0.0: it must be a positive"),
         ({"altitude_m": 1e300}, "altitude_m"),
         ({"autopilot": "none"}, "autopilot is wrong: it should be 'ardupilot' or 'px4'"),
+        ({"altitude_reference": "sea"}, "altitude_reference is wrong: it should be 'msl', 'home' or 'ground'"),
+        ({"altitude_m": 9, "altitude_reference": "home"}, "home_altitude_m is missing: it takes altitudes above home"),
+        ({"altitude_m": 9, "altitude_reference": "ground"}, "altitude_reference is ground: how high that is"),
+        ({"home_altitude_m": 1e300}, "home_altitude_m is 1e+300: it must be from -83000 to 83000 metres"),
     ],
 )
 def test_a_file_that_cannot_be_written_is_refused(refused, options, said):
@@ -243,6 +247,13 @@ def test_a_file_that_cannot_be_written_is_refused(refused, options, said):
 def test_a_mission_needs_an_altitude(refused):
     problem = refused(422, "POST", "/api/export/plan", json=STILL | {"origin": ORIGIN})
     assert problem["errors"][0]["pointer"] == "#/altitude_m"
+
+
+@pytest.mark.parametrize("reference", ["home", "ground"])
+def test_a_mission_above_home_or_ground_needs_the_altitude_of_home(refused, reference):
+    options = {"origin": ORIGIN, "altitude_m": 120, "altitude_reference": reference}
+    problem = refused(422, "POST", "/api/export/plan", json=STILL | options)
+    assert problem["errors"][0]["pointer"] == "#/home_altitude_m"
 
 
 def test_an_unknown_format_is_refused(refused):

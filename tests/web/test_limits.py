@@ -109,17 +109,55 @@ def test_nesting_is_allowed_up_to_a_depth(client):
         assert said.status_code == status
 
 
-@pytest.mark.parametrize("size", [40_000, 200_000])
-@pytest.mark.parametrize("where", ["a header", "the address"])
-def test_a_head_that_is_too_large_is_refused(port, size, where):
-    padding = b"y" * size
-    address, header = (padding, b"") if where == "the address" else (b"", b"X: " + padding + b"\r\n")
+def head(size, where):
+    """A request whose head has a size, in bytes."""
+    around = b"GET /healthz? HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
+    if where == "the address":
+        return around.replace(b"?", b"?" + b"y" * (size - len(around)))
+    if where == "a header":
+        return around.replace(b"Host", b"X: " + b"y" * (size - len(around) - 5) + b"\r\nHost")
+    count, rest = divmod(size - len(around), len(b"X: y\r\n"))
+    return around.replace(b"Host", b"X: y\r\n" * count + b"Host").replace(b"?", b"?" + b"y" * rest)
+
+
+@pytest.mark.parametrize("pieces", [1, 2, 7], ids="{} pieces".format)
+@pytest.mark.parametrize("where", ["a header", "many headers", "the address"])
+@pytest.mark.parametrize(("size", "status"), [(32_768, 200), (32_769, 431), (40_000, 431), (60_000, 431), (10**6, 431)])
+def test_a_head_that_is_too_large_is_refused_however_it_comes(port, size, status, where, pieces):
+    sent = head(size, where)
+    assert len(sent) == size
     with connected(port) as wire:
-        wire.sendall(b"GET /healthz?" + address + b" HTTP/1.1\r\nHost: x\r\n" + header + b"Connection: close\r\n\r\n")
+        for i in range(pieces):
+            wire.sendall(sent[i * size // pieces : (i + 1) * size // pieces])
+            time.sleep(0.02)
         said = heard(wire)
-    # It depends on whether all of it comes at once.
-    assert "too large" in problem(said, said[0])["detail"]
-    assert said[0] in (400, 431)
+    assert said[0] == status
+    if status == 431:
+        assert "the head of the request is too large: more than 32,768 bytes" in problem(said, 431)["detail"]
+
+
+def test_a_piece_of_a_body_that_is_too_large_to_be_one_is_no_head(port):
+    with connected(port) as wire:
+        wire.sendall(HEAD + b"Transfer-Encoding: chunked\r\n\r\n5;" + b"x" * 50_000)
+        assert problem(heard(wire), 400)["detail"] == "what came is not a request of HTTP/1.1"
+
+
+def test_the_second_of_two_heads_may_be_the_one_that_is_too_large(port):
+    with connected(port) as wire:
+        wire.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n" + head(200_000, "a header"))
+        status, _, rest = heard(wire)
+    assert (status, rest.startswith(b'{"status":"ok"')) == (200, True)
+    assert b"HTTP/1.1 431 " in rest
+
+
+@pytest.mark.parametrize("path", ["plan", "fastest", "candidates", "certificate", "export/csv"])
+@pytest.mark.parametrize("kind", ["", "Content-Type:\r\n", "Content-Type: text/plain\r\n"])
+@pytest.mark.parametrize("body", [encoded(STILL), b"{", b""])
+def test_a_body_that_does_not_say_what_it_is_is_refused(port, path, kind, body):
+    length = f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n"
+    with connected(port) as wire:
+        wire.sendall(f"POST /api/{path} HTTP/1.1\r\nHost: x\r\n{kind}{length}".encode() + body)
+        assert problem(heard(wire), 415)["detail"] == "the body must be of the type application/json"
 
 
 # Slow senders, slow readers

@@ -9,11 +9,13 @@ from pathlib import Path
 
 import httpx
 import pytest
+import uvicorn
 
 from loiter.cli.app import main
 from loiter.errors import MissingPackage
 from loiter.web import serve
-from loiter.web.server import _listening
+from loiter.web.app import create_app
+from loiter.web.server import Server, _listening
 from web.serving import connected, serving
 from web.test_api import STILL
 
@@ -36,6 +38,54 @@ def test_an_answer_under_way_is_finished_first():
             said.read()
         assert said.json()["radius"] == 1.0
         assert process.wait(20) == 0
+
+
+# Prints who handles SIGTERM when the first map is begun: Python's own handler would interrupt an import.
+FIRST_MAP = """
+import signal
+from loiter.web import server
+server.synthesis = lambda *_: print(signal.getsignal(signal.SIGTERM) is signal.default_int_handler, flush=True)
+server.serve("127.0.0.1", 0, None, lambda line: None)
+"""
+
+
+def test_the_first_map_is_begun_when_signals_are_handled():
+    with subprocess.Popen([sys.executable, "-c", FIRST_MAP], stdout=subprocess.PIPE) as process:
+        try:
+            assert process.stdout.readline() == b"False\n"
+        finally:
+            process.terminate()
+        assert process.wait(20) == 0
+
+
+class Late:
+    """A connection that is accepted when the others have been told that the server ends."""
+
+    def __init__(self, connections):
+        self.connections, self.transport, self.told = connections, self, 0
+
+    def is_closing(self):
+        return False
+
+    def shutdown(self):
+        self.told += 1
+        if self.told > 1:
+            self.connections.discard(self)
+
+
+def test_a_connection_that_comes_while_it_ends_does_not_keep_it(caplog):
+    async def scenario():
+        config = uvicorn.Config(create_app(), lifespan="off", log_config=None, timeout_graceful_shutdown=5)
+        config.load()
+        server = Server(config)
+        server.lifespan, server.servers = config.lifespan_class(config), []
+        late = Late(server.server_state.connections)
+        server.server_state.connections.add(late)
+        await asyncio.wait_for(server.shutdown(), 4.0)
+        return late.told
+
+    assert asyncio.run(scenario()) == 2
+    assert not caplog.records
 
 
 @pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="a file of Linux")

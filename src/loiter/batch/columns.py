@@ -10,7 +10,8 @@ from typing import NamedTuple
 import pyarrow as pa
 
 from loiter.errors import InvalidArgument, not_negative
-from loiter.kernel.codes import Status, Word
+from loiter.kernel.codes import Status
+from loiter.kernel.words import Word
 from loiter.planning.model import TURN_LIMITS, Aircraft, Orbit, Turn, Wind
 
 POSE = ("east_m", "north_m", "heading_deg")

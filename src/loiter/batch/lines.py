@@ -29,20 +29,30 @@ class Mended(io.RawIOBase):
         return True
 
     def readinto(self, buffer: Any) -> int:
-        """Fill a part of `buffer`; 0 at the end."""
+        """Fill `buffer`, a part of it only at the end: pyarrow takes a block of blank lines alone for an empty file."""
+        count = 0
+        while count < len(buffer) and self._more():
+            taken = min(len(buffer) - count, len(self._left))
+            buffer[count : count + taken] = self._left[:taken]
+            self._left = self._left[taken:]
+            count += taken
+        return count
+
+    def _more(self) -> bool:
+        """Whether there are bytes left, which then are at hand."""
         while not self._left:
             chunk = next(self._chunks, None)
             if chunk is None:
-                return 0
+                return False
             self._left = memoryview(chunk)
-        count = min(len(buffer), len(self._left))
-        buffer[:count] = self._left[:count]
-        self._left = self._left[count:]
-        return count
+        return True
 
 
 def mended(stream: Any, fields: int) -> Iterator[bytes]:
-    """The bytes of `stream`, whole lines at a time; a line with a stray quote becomes one of `fields` + 1 fields."""
+    """The bytes of `stream`, whole lines at a time; a line with a stray quote becomes one of `fields` + 1 fields.
+
+    A last line without an end gets one: pyarrow takes a header that no line end follows for an empty file.
+    """
     rest, end = b"", b""
     while chunk := stream.read(CHUNK_BYTES):
         rest += chunk
@@ -53,7 +63,8 @@ def mended(stream: Any, fields: int) -> Iterator[bytes]:
             rest = waiting + rest[whole:]
             yield kept
     if rest:
-        yield _mended(rest, end or b"\n", fields, last=True)[0]
+        end = end or (b"\r" if rest.endswith(b"\r") else b"\n")
+        yield _mended(rest, end, fields, last=True)[0] + (b"" if rest.endswith(end) else end)
 
 
 def _line_end(text: bytes) -> bytes:

@@ -9,6 +9,7 @@ from typing import Literal
 from cyclopts import App, CycloptsError, Parameter
 
 import loiter
+from loiter.cli.examples import epilogue
 from loiter.cli.sentences import sentence
 from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR
 from loiter.errors import LinkFailed, LoiterError
@@ -22,35 +23,21 @@ app = App(
     help_format="plaintext",
     help="""The fastest way onto a holding circle for a fixed-wing aircraft.
 
-An aircraft of constant speed turns left or right, no tighter than its turn radius. It is to join a circle tangentially, in the least time, and to stay on it, clockwise or counter-clockwise, whichever is sooner. The answer is exact: the least of the extremals of Pontryagin's maximum principle that can win, in closed form. In wind, and onto a circle that moves, it is found by branch and bound over the point of joining.
+An aircraft of constant speed turns left or right, no tighter than its turn radius. It is to join a circle tangentially, in the least time, and to stay on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum for a circle of the minimum turn radius, cross-checked by independent methods for wider ones. In wind, and onto a circle that moves, it is found by branch and bound over the point of joining.
 
 Positions are metres east and north of any local origin, or WGS84 degrees; headings are degrees clockwise from north.""",
-    help_epilogue="""Examples
-  loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35
-  loiter plan --pose -400 120 90 --orbit 0 0 80 --turn cw \\
-      --airspeed 18 --turn-radius 50 --plot entry.png
-  loiter plan --pose -400 120 90 --orbit 0 0 120 --wind 8 250 \\
-      --airspeed 18 --bank 35
-  loiter plan --pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 \\
-      --airspeed 18 --bank 35 --altitude 900 --save entry.plan
-  eval "$(loiter completion bash)"
-
-Exit status
-  0  done
-  1  a check failed (loiter verify, loiter plan --certify)
-  2  the request cannot be met: one sentence on standard error says why,
-     and no file is left half written
-  3  a vehicle is not there, is silent or refuses: it keeps the mission it had
-  130  interrupted; what a batch job has finished is kept""",
+    help_epilogue=epilogue("plan", "completion"),
 )  # fmt: skip
 
 # Each is loaded when it is asked for.
 app.command(
     "loiter.cli.plan:plan",
+    help_epilogue=epilogue("plan"),
     help="Plan the fastest entry onto a holding circle: what to fly, for how long, where to peel off.",
 )
 app.command(
     "loiter.cli.batch:batch",
+    help_epilogue=epilogue("batch"),
     help="""Plan the fastest entry of every row of a table: Parquet or CSV, any size.
 
 IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s; wind_speed_m_s and wind_from_deg; and orbit_velocity_east_m_s and orbit_velocity_north_m_s. What no column gives, an option must, but for the turn, the wind and the circle's velocity.
@@ -61,32 +48,44 @@ OUT appears whole or not at all. What is finished is kept in OUT.parts until the
 )
 app.command(
     "loiter.cli.mavlink:upload",
+    help_epilogue=epilogue("upload"),
     help="Send the fastest entry to a vehicle as a mission, and read it back to see that it is there, item by item.",
 )
-app.command("loiter.cli.mavlink:watch", help="Listen to a vehicle and print, live, the fastest entry from where it is.")
 app.command(
-    "loiter.cli.fly:fly", help="Fly the fastest entry in closed loop, beside the laws that autopilots use today."
+    "loiter.cli.mavlink:watch",
+    help_epilogue=epilogue("watch"),
+    help="Listen to a vehicle and print, live, the fastest entry from where it is.",
+)
+app.command(
+    "loiter.cli.fly:fly",
+    help_epilogue=epilogue("fly"),
+    help="Fly the fastest entry in closed loop, beside the laws that autopilots use today.",
 )
 app.command(
     "loiter.cli.synthesis:synthesis",
+    help_epilogue=epilogue("synthesis"),
     help="Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions.",
 )
 app.command(
-    "loiter.cli.figures:figures", help="Draw the seven figures of the paper from the code, with captions of their own."
+    "loiter.cli.figures:figures",
+    help_epilogue=epilogue("figures"),
+    help="Draw the seven figures of the paper from the code, with captions of their own.",
 )
 
 
 app.command(
     "loiter.cli.verify:verify",
-    help="Compare plans with independent witnesses: search, 50 digits, collocation, reachability.",
+    help_epilogue=epilogue("verify"),
+    help="Compare plans with independent methods: search, 50 digits, collocation, reachability, and a search in wind.",
 )
 app.command(
     "loiter.cli.serve:serve",
+    help_epilogue=epilogue("serve"),
     help="Serve the page, where one drags the aircraft and sees the plan, and plans to programs, over HTTP.",
 )
 
 
-@app.command
+@app.command(help_epilogue=epilogue("completion"))
 def completion(shell: Literal["bash", "zsh", "fish"], /) -> None:
     """Print a completion script: `eval "$(loiter completion bash)"`.
 

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Group, Parameter
 from rich.console import Console
@@ -17,7 +17,7 @@ from rich.text import Text
 import loiter
 from loiter.cli.numbers import whole
 from loiter.kernel.codes import Status
-from loiter.planning.model import Orbit, Turn, Wind
+from loiter.planning.model import Orbit, Turn, TurnName, Wind
 
 if TYPE_CHECKING:
     from loiter.batch import Progress, Summary
@@ -36,7 +36,7 @@ def batch(
         Parameter(group=shared, metavar="EAST NORTH RADIUS", help="The circle: its centre and its radius, metres."),
     ] = None,
     turn: Annotated[
-        Literal["either", "cw", "ccw"] | None,
+        TurnName | None,
         Parameter(group=shared, help="Direction in which the circle is held; either if absent."),
     ] = None,
     airspeed: Annotated[

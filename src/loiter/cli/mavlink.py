@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -57,6 +58,13 @@ Timeout = Annotated[
     float,
     Parameter(group=connection, metavar="SECONDS", help="How long nothing may come forward before it is given up."),
 ]
+TrueRadius = Annotated[
+    bool,
+    Parameter(
+        group=connection,
+        help="ArduPlane widens loiters with the altitude, where its NAVL1_LIM_BANK is 0: send the radius with which it flies the one asked for.",
+    ),
+]
 
 
 def upload(
@@ -68,7 +76,15 @@ def upload(
     connect: Connect,
     system: System = None,
     timeout: Timeout = TIMEOUT_S,
-    start: PlacedStartOptions = PlacedStartOptions(),
+    true_radius: TrueRadius = False,
+    start: Annotated[
+        bool,
+        Parameter(
+            group=connection,
+            help="Tell the vehicle to fly the mission, if it is in the air; nothing is armed and nothing takes off.",
+        ),
+    ] = False,
+    pose: PlacedStartOptions = PlacedStartOptions(),
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
@@ -78,7 +94,8 @@ def upload(
     # Before anything is planned and printed.
     check(connect)
     check_target(system, 1, timeout)
-    options = (start, circle, uav, air, waypoints)
+    options = (pose, circle, uav, air, waypoints)
+    wanted: Mission | Callable[[int], Mission]
     if mission is None:
         wanted = _planned(*options)
     elif any(given != type(given)() for given in options):
@@ -86,31 +103,52 @@ def upload(
     else:
         wanted = loiter.io.read_mission(mission)
     with _progress() as tell:
-        done = loiter.mavlink.upload(wanted, connect, system=system, timeout_s=timeout, on_progress=tell)
+        done = loiter.mavlink.upload(
+            wanted,
+            connect,
+            system=system,
+            timeout_s=timeout,
+            on_progress=tell,
+            true_radius=true_radius,
+            start=start,
+        )
     kept = ", each as sent" if not done.cut else ""
     lines = [
         f"Vehicle {done.system} ({done.autopilot}) has the mission: {done.items} items sent and read back{kept}.",
         f"It took the place of one of {done.replaced} items." if done.replaced else "It had none before.",
     ]
-    report.write(*lines, *done.cut)
+    lines += ["It flies the mission."] if done.started else []
+    report.write(*lines, *done.cut, *done.remarks)
 
 
 def _planned(
-    start: StartOptions, circle: OrbitOptions, uav: AircraftOptions, air: WindOptions, waypoints: MissionOptions
-) -> Mission:
-    """The scene's fastest entry as a mission; it is printed on the way."""
-    if start.pose_lla is None or not circle.orbit_lla:
+    pose: StartOptions, circle: OrbitOptions, uav: AircraftOptions, air: WindOptions, waypoints: MissionOptions
+) -> Callable[[int], Mission]:
+    """What makes the scene's fastest entry a mission for an autopilot; the entry is printed on the way."""
+    if pose.pose_lla is None or not circle.orbit_lla:
         raise InvalidArgument("pose_lla", "and --orbit-lla are needed: a vehicle's mission is in degrees")
     if uav.altitude is None:
-        raise InvalidArgument("altitude_m", "is needed: a vehicle's mission has one, metres above mean sea level")
-    asked = scene_of(start, circle, uav, air)
+        raise InvalidArgument("altitude_m", f"is needed: a vehicle's mission has one, {waypoints.datum.unit}")
+    along_path = waypoints.along_path
+    asked = scene_of(pose, circle, uav, air, waypoints.datum)
     assert asked.frame is not None  # both places are in degrees
     best = loiter.plan(asked.start, asked.circle, asked.aircraft, asked.wind)
-    planned = loiter.io.mission(
-        best, asked.frame, uav.altitude, spacing_m=waypoints.spacing, chord_error_m=waypoints.chord_error
+    made = partial(
+        loiter.io.mission,
+        best,
+        asked.frame,
+        uav.altitude,
+        spacing_m=waypoints.spacing,
+        chord_error_m=waypoints.chord_error_m,
+        datum=waypoints.datum,
+        along_path=along_path,
     )
-    report.write(*([asked.remark] if asked.remark else []), report.headline(best))
-    return planned
+    # What cannot be a mission is refused before anything is printed.
+    made()
+    report.write(
+        *([asked.remark] if asked.remark else []), report.headline(best), *([report.ALONG_PATH] if along_path else [])
+    )
+    return lambda autopilot: made(autopilot=autopilot)
 
 
 DOING = {"read": "Reading its mission", "send": "Sending", "check": "Reading back"}
@@ -153,6 +191,7 @@ def watch(
             help="Tell the vehicle to hold the circle, in the direction that is sooner, as soon as there is a plan; it then flies there by its own law. Without it nothing is commanded.",
         ),
     ] = False,
+    true_radius: TrueRadius = False,
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
@@ -177,6 +216,7 @@ def watch(
         timeout_s=timeout,
         send=send,
         altitude_m=uav.altitude if send else None,
+        true_radius=true_radius,
     )
     if remark := uav.remark(preset):
         report.write(remark)
@@ -185,34 +225,46 @@ def watch(
         if seen.commanded and not commanded and seen.turn is not None:
             report.write(f"The vehicle is to hold the circle {seen.turn.described}.")
         commanded = seen.commanded
-        report.write(line(seen))
+        report.write(*seen.notices, line(seen))
         sys.stdout.flush()
 
+
+# Less wind than this is shown as 0.0, and so is a difference between the directions that is less.
+LEAST_WIND_M_S, SAME_TIME_S = 0.05, 0.05
 
 ACTIONS = {"L": "left", "R": "right", "S": "straight"}
 
 
 def line(seen: Report) -> str:
-    """A report in a line: "12 s: joins clockwise in 19.8 s; right now, straight in 3.2 s; ..."."""
+    """A report in a line: "12 s: joins clockwise in 19.8 s; right now, straight in 3.2 s, peel off left in 14.1 s; ..."."""
     clock = f"{seen.time_s:6.1f} s"
     if seen.plan is None:
         return f"{clock}: {seen.problem}"
-    turn = seen.plan.turn
-    if not seen.plan.segments:
-        return f"{clock}: on the circle, {turn.described}"
-    after = (
-        f"{ACTIONS[seen.next_control]} in {seen.next_in_s:.1f} s"
-        if len(seen.plan.segments) > 1
-        else f"on the circle in {seen.next_in_s:.1f} s"
-    )
-    parts = [
-        f"joins {turn.described} in {seen.time_to_join_s:.1f} s",
-        f"{ACTIONS[seen.control]} now, {after}",
-        _other(seen),
-    ]
-    if seen.wind_source != "still air":
+    if seen.holding:
+        return f"{clock}: on the circle, {seen.plan.turn.described}{_off(seen.outside_m)}"
+    parts = [f"joins {seen.plan.turn.described} in {seen.time_to_join_s:.1f} s", *_todo(seen), _other(seen)]
+    if seen.wind_source != "still air" and seen.wind.speed_m_s >= LEAST_WIND_M_S:
         parts.append(f"wind {seen.wind.speed_m_s:.1f} m/s from {seen.wind.from_deg % 360.0:03.0f}, {seen.wind_source}")
     return f"{clock}: {'; '.join(parts)}"
+
+
+def _off(outside_m: float) -> str:
+    """How far off the circle an aircraft holds it, where that is a metre and more."""
+    side = "outside" if outside_m > 0.0 else "inside"
+    return f", {abs(outside_m):.0f} m {side}" if abs(outside_m) >= 1.0 else ""
+
+
+def _todo(seen: Report) -> list[str]:
+    """What is to be done before the hold: one part of a line, none where all of it is too short to fly."""
+    assert seen.plan is not None  # asked for with a plan
+    *pieces, _ = seen.actions
+    peeling = len(seen.plan.segments) > 1
+    said = [
+        f"{'peel off ' * (peeling and piece is pieces[-1])}{ACTIONS[piece.letter]} "
+        + (f"in {piece.in_s:.1f} s" if piece.in_s else "now")
+        for piece in pieces
+    ]
+    return [", ".join(said)] if said else []
 
 
 def _other(seen: Report) -> str:
@@ -221,4 +273,6 @@ def _other(seen: Report) -> str:
     other, later = seen.plan.turn.other.described, seen.other_costs_s
     if later is None:
         return f"{other} cannot be held"
-    return f"{other} {abs(later):.1f} s {'later' if later >= 0.0 else 'sooner'}"
+    if abs(later) < SAME_TIME_S:
+        return f"{other} takes the same time"
+    return f"{other} {abs(later):.1f} s {'later' if later > 0.0 else 'sooner'}"

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from cyclopts import Group, Parameter
 
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
+from loiter.io.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind
 
 if TYPE_CHECKING:
     from loiter.io.parameters import Preset
@@ -21,6 +22,9 @@ aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sor
 air = Group("Wind, and circles that move", sort_key=3)
 output = Group("Output", sort_key=5)
 missions = Group("Missions", sort_key=6)
+
+# Where no chord error is given, metres: as the library has it.
+CHORD_ERROR_M = 1.0
 
 
 @Parameter(name="*")
@@ -76,7 +80,7 @@ class OrbitOptions:
         ),
     ] = ()
     turn: Annotated[
-        Literal["either", "cw", "ccw"] | None,
+        TurnName | None,
         Parameter(
             group=scene,
             help="Direction in which the circle is held, seen from above: that of --params if absent, without it either.",
@@ -152,7 +156,7 @@ class AircraftOptions:
         Parameter(
             group=aircraft,
             metavar="METRES",
-            help="Above mean sea level: in thin air an indicated airspeed is a higher true one. Missions and maps hold it too.",
+            help="Above mean sea level, or what --altitude-reference says: in thin air an indicated airspeed is a higher true one. Missions and maps hold it too.",
         ),
     ] = None
     temperature: Annotated[
@@ -167,6 +171,19 @@ class AircraftOptions:
         from loiter.io.parameters import read_parameters
 
         return read_parameters(self.params)
+
+    def above_sea(self, preset: Preset | None, datum: AltitudeDatum) -> AircraftOptions:
+        """The same with its altitude above mean sea level, where an airspeed is indicated in the air there.
+
+        Raises `InvalidArgument` where that altitude is not known.
+        """
+        if self.altitude is None:
+            if datum != MEAN_SEA_LEVEL:
+                raise InvalidArgument("altitude_m", "is needed: --altitude-reference and --home-altitude go with it")
+            return self
+        if self.indicated(preset) is None:
+            return self
+        return replace(self, altitude=datum.above_sea_m(self.altitude))
 
     def aircraft(self, preset: Preset | None) -> Aircraft:
         """The aircraft; an option stands above the parameter file."""
@@ -235,20 +252,64 @@ class WindOptions:
 @Parameter(name="*")
 @dataclass(frozen=True)
 class MissionOptions:
-    """How a mission follows the track."""
+    """How a mission leads onto the circle, and how finely a file follows the track."""
 
+    path: Annotated[
+        bool,
+        Parameter(
+            group=missions,
+            help="Waypoints all along the path, in place of the one at most that autopilots fly best: they cut its turns and join later.",
+        ),
+    ] = False
     spacing: Annotated[
         float | None,
         Parameter(
-            group=missions, metavar="METRES", help="Waypoints at most so far apart; as far as they may if absent."
+            group=missions,
+            metavar="METRES",
+            help="Points of the track at most so far apart, as far as they may if absent; a mission then has --path.",
         ),
     ] = None
     chord_error: Annotated[
-        float,
+        float | None,
         Parameter(
-            group=missions, metavar="METRES", help="By how much straight lines between waypoints may cut a turn."
+            group=missions,
+            metavar="METRES",
+            help="By how much straight lines between points of the track may cut a turn; 1 if absent.",
         ),
-    ] = 1.0
+    ] = None
+    altitude_reference: Annotated[
+        Literal["msl", "home", "ground"],
+        Parameter(
+            group=missions,
+            help="What --altitude is measured from: mean sea level, the home position, or the ground below (ArduPilot only).",
+        ),
+    ] = "msl"
+    home_altitude: Annotated[
+        float | None,
+        Parameter(
+            group=missions,
+            metavar="METRES",
+            help="Of the home position, above mean sea level: needed for altitudes above home or ground.",
+        ),
+    ] = None
+
+    @property
+    def datum(self) -> AltitudeDatum:
+        """What --altitude is measured from."""
+        return AltitudeDatum(AltitudeReference(self.altitude_reference), self.home_altitude)
+
+    @property
+    def along_path(self) -> bool:
+        """Whether a mission has waypoints all along the path; an error without them is an `InvalidArgument`."""
+        positive("chord_error_m", self.chord_error_m, "metres")
+        if self.chord_error is not None and not self.path and self.spacing is None:
+            raise InvalidArgument("chord_error_m", "goes with --path: without it a mission has no turns to cut")
+        return self.path or self.spacing is not None
+
+    @property
+    def chord_error_m(self) -> float:
+        """The largest chord error, metres."""
+        return CHORD_ERROR_M if self.chord_error is None else self.chord_error
 
 
 class Scene(NamedTuple):
@@ -262,9 +323,16 @@ class Scene(NamedTuple):
     remark: str
 
 
-def scene_of(start: StartOptions, orbit: OrbitOptions, aircraft: AircraftOptions, wind: WindOptions) -> Scene:
+def scene_of(
+    start: StartOptions,
+    orbit: OrbitOptions,
+    aircraft: AircraftOptions,
+    wind: WindOptions,
+    datum: AltitudeDatum = MEAN_SEA_LEVEL,
+) -> Scene:
     """The scene that the options describe; raises `InvalidArgument` where they contradict or fall short."""
     preset = aircraft.preset()
+    aircraft = aircraft.above_sea(preset, datum)
     pose, circle, frame = placed(start, orbit, preset)
     return Scene(pose, circle, aircraft.aircraft(preset), wind.moving_air, frame, aircraft.remark(preset))
 

@@ -22,6 +22,7 @@ from loiter.cli.options import (
 )
 from loiter.cli.status import CHECK_FAILED
 from loiter.io.document import answer
+from loiter.io.files import is_mission
 from loiter.io.items import Autopilot
 from loiter.planning.model import Turn
 from loiter.planning.solve import compared
@@ -61,7 +62,7 @@ def plan(
         bool,
         Parameter(
             group=output,
-            help="Prove each maneuver shown by the maximum principle, equation by equation; JSON, and the picture that --plot then draws to FILE-certificate, hold the proof of the first.",
+            help="Check each maneuver shown by the maximum principle, condition by condition, and against the other extremals; JSON, and the picture that --plot then draws to FILE-certificate, hold the certificate of the first.",
         ),
     ] = False,
     save: Annotated[
@@ -74,17 +75,18 @@ def plan(
     ] = None,
     waypoints: MissionOptions = MissionOptions(),
     autopilot: Annotated[
-        Literal["ardupilot", "px4"], Parameter(group=missions, help="Whose habits a .plan follows.")
+        Literal["ardupilot", "px4"], Parameter(group=missions, help="Whom a mission is for.")
     ] = "ardupilot",
 ) -> int:
     """Plan the fastest entry onto a holding circle: what to fly, for how long, where to peel off."""
-    asked = scene_of(start, circle, uav, air)
+    asked = scene_of(start, circle, uav, air, waypoints.datum)
     if plot is not None:
         files.check_format(plot)
     if save is not None:
         loiter.io.check_format(save)
+    along_path = save is not None and is_mission(save) and waypoints.along_path
     best, others = compared(asked.start, asked.circle, asked.aircraft, asked.wind, tolerance_m=tolerance)
-    proofs = [loiter.verify.certify(m, tolerance_m=tolerance) for m in (best if all_ else best[:1]) if certify]
+    certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in (best if all_ else best[:1]) if certify]
     # A file needs more than a picture: what it lacks is said before either is written.
     if save is not None:
         loiter.io.save(
@@ -92,19 +94,22 @@ def plan(
             save,
             frame=asked.frame,
             altitude_m=uav.altitude,
+            datum=waypoints.datum,
             spacing_m=waypoints.spacing,
-            chord_error_m=waypoints.chord_error,
+            chord_error_m=waypoints.chord_error_m,
             autopilot=AUTOPILOTS[autopilot],
+            along_path=along_path,
         )
     if plot is not None:
         losers = [m for m in others if asked.circle.turn in (Turn.EITHER, m.turn)]
         files.save(plot, best if all_ else best[:1], losers if all_ else [*best[1:], *losers], frame=asked.frame)
-        if proofs:
-            certificates.save_picture(plot, proofs[0])
+        if certified:
+            certificates.save_picture(plot, certified[0])
     if json:
-        proof = {"certificate": proofs[0].to_dict()} if proofs else {}
-        report.print_json(answer(best, others, asked.frame) | proof)
+        certificate = {"certificate": certified[0].to_dict()} if certified else {}
+        report.print_json(answer(best, others, asked.frame) | certificate)
     else:
         report.print_tables(best, others, everything=all_, frame=asked.frame, remark=asked.remark)
-        certificates.print_text(proofs)
-    return 0 if all(proof.valid for proof in proofs) else CHECK_FAILED
+        certificates.print_text(certified)
+        report.write(*([report.ALONG_PATH] if along_path else []))
+    return 0 if all(certificate.valid for certificate in certified) else CHECK_FAILED

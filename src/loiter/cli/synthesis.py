@@ -9,6 +9,7 @@ from rich.table import Table
 from loiter.cli import report
 from loiter.cli.numbers import whole
 from loiter.errors import InvalidArgument
+from loiter.planning.model import TurnName
 from loiter.planning.partition import Boundary, Partition, boundaries, partition
 from loiter.plot import files
 from loiter.writing import write_whole
@@ -25,9 +26,7 @@ MEANINGS = {
 def synthesis(
     *,
     radius: Annotated[float, Parameter(metavar="TURN_RADII", help="The circle's, at least 1.")] = 1.0,
-    turn: Annotated[
-        Literal["either", "cw", "ccw"], Parameter(help="Direction in which the circle is held, seen from above.")
-    ] = "either",
+    turn: Annotated[TurnName, Parameter(help="Direction in which the circle is held, seen from above.")] = "either",
     reach: Annotated[
         float | None,
         Parameter(metavar="TURN_RADII", help="How far the map reaches from the centre; radius + 3 if absent."),

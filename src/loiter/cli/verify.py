@@ -1,4 +1,4 @@
-"""`loiter verify`: the answers beside independent witnesses, four in still air and one in wind."""
+"""`loiter verify`: the answers beside those of independent methods, four in still air and one in wind."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Annotated, Any, Literal, NamedTuple
@@ -17,15 +17,15 @@ CELLS = (40, 80)
 
 Witness = Literal["search", "digits", "collocation", "reachability", "wind"]
 
-# Heard where none is named: a scene in wind takes the search half a second, so that witness comes when it is asked for.
-HEARD: tuple[Witness, ...] = ("search", "digits", "collocation", "reachability")
+# What runs where none is named: a scene in wind takes the search half a second, so that one runs when it is named.
+USUAL: tuple[Witness, ...] = ("search", "digits", "collocation", "reachability")
 
 # Random scenes where no number is given.
 STATES, WINDY_STATES = 2000, 20
 
 
 class Findings(NamedTuple):
-    """What one witness found: a table for people, and whether it agrees throughout."""
+    """What one method found: a table for people, and whether it agrees throughout."""
 
     table: Table
     note: str
@@ -46,18 +46,18 @@ def verify(
     cases: Annotated[int, Parameter(metavar="N", converter=whole, help="Random cases of the collocation.")] = 50,
     seed: Annotated[int, Parameter(metavar="N", converter=whole, help="The same seed draws the same scenes.")] = 0,
     witness: Annotated[
-        list[Witness] | None, Parameter(metavar="NAME", help="Ask this witness alone; may be repeated.")
+        list[Witness] | None, Parameter(metavar="NAME", help="Compare with this method alone; may be repeated.")
     ] = None,
 ) -> int:
-    """Compare plans with independent witnesses; exit status 1 where one of them disagrees.
+    """Compare plans with independent methods; exit status 1 where one of them disagrees.
 
     search: OMPL's Dubins distance, minimised over the point of joining. digits: the kernel's own functions in 50 digits
     (mpmath). collocation: time-optimal control as a nonlinear program (CasADi, IPOPT), the paper's examples and random
     cases. reachability: the Hamilton-Jacobi equation on a grid of the reduced plane (hj-reachability). wind: a search
-    over points of joining and times in wind; it takes its time, and is heard when it is named.
+    over points of joining and times in wind; it takes long, and runs only when it is named.
     """
-    asked = witness or HEARD
-    # Every witness is asked whether it can come before the first begins.
+    asked = witness or USUAL
+    # Each method shows whether its packages are there before the first begins.
     hearings = [(name, _HEARINGS[name](_states(name, states), cases, seed)) for name in asked]
     findings = [hearing() for _, hearing in hearings]
     for (name, _), found in zip(hearings, findings, strict=True):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import degrees, hypot, inf, nan
 
 from loiter.errors import not_negative, positive
+from loiter.guidance.clock import Clock
 from loiter.guidance.holding import air_rate, course_rate, forward
 from loiter.guidance.limits import clipped
 from loiter.guidance.observer import Observer, Recent, Seen, usable
@@ -12,10 +13,10 @@ from loiter.guidance.protocol import PHASES, Command, Phase, State
 from loiter.guidance.rolling import AT_ONCE, Roll
 from loiter.guidance.route import Route, View, controls_of, unit
 from loiter.guidance.turning import bank_at_rate, rate_at_bank
-from loiter.kernel import drift, motion
+from loiter.kernel import motion, wind_search
 from loiter.kernel.codes import Side, Status
 from loiter.kernel.hold import tightest_held
-from loiter.kernel.synthesis import Flown, duration, held_radius, optimum, solvable
+from loiter.kernel.synthesis import Entry, duration, held_radius, optimum, solvable
 from loiter.planning.held import SIDES, air_past, check_held
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind
 from loiter.planning.scaling import TURNS
@@ -72,7 +73,9 @@ class LoiterEntry:
     that noise makes it neither dither nor go round again. docs/guidance.md tells how it works and how well.
 
     Where a measurement is not finite, or no later than the last one, the phase is `NO_DATA`: the last command is kept
-    for a second; then the wings are levelled, or, on the circle, its bank is kept. One good measurement ends that.
+    for a second; then the wings are levelled, or, on the circle, its bank is kept. One good measurement ends that. A
+    clock that jumps back, or more than an hour ahead, is taken for the new one when its stamps have advanced by a
+    second; a circle that moves is then where it is by the new clock.
 
     Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held, `InvalidArgument` for numbers below 0.
     """
@@ -109,8 +112,7 @@ class LoiterEntry:
         self._route: Route | None = None
         # When the circle will be joined, by the clock of a view, and what the plan in force promised.
         self._joins = self._promised = inf
-        self._told_s, self._sought_s = -inf, -inf
-        self._blind_s = 0.0
+        self._clock, self._sought_s = Clock(), -inf
         self._last = Command(0.0, 0.0, Phase.NO_DATA, nan, orbit.turn, Phase.NO_DATA, nan)
 
     @classmethod
@@ -119,8 +121,12 @@ class LoiterEntry:
         return cls(orbit, aircraft, wind, roll=AT_ONCE, delay_s=0.0, reserve=0.0, smoothing_s=0.0)
 
     def step(self, state: State, dt: float) -> Command:
-        """The command for the next `dt` seconds, from what was measured."""
-        if not usable(state) or state.time_s <= self._told_s:
+        """The command for the next `dt` seconds, from what was measured.
+
+        Raises `InvalidArgument` where `dt` is not positive and finite; the law then is as it was.
+        """
+        dt = positive("dt", dt, "seconds")
+        if not usable(state) or not self._clock.believes(state.time_s):
             return self._without_data(dt)
         seen = self._seen(state)
         if self._route is None:
@@ -135,16 +141,23 @@ class LoiterEntry:
 
     def _seen(self, state: State) -> Seen:
         """What a measurement makes of the state of the aircraft."""
-        if state.time_s - self._told_s > BLIND_S:
+        if self._clock.jump_s != 0.0:
+            self._shift(self._clock.jump_s)
+        if self._clock.jump_s != 0.0 or self._clock.gap_s > BLIND_S:
             self._observer.forget()
-        self._told_s, self._blind_s = state.time_s, 0.0
         return self._observer.see(state, self._recent.then_deg).brought(self._recent)
+
+    def _shift(self, jump_s: float) -> None:
+        """Tell by a clock that has jumped what was told by the one before."""
+        jump = jump_s / self._unit_s
+        self._joins, self._promised, self._sought_s = self._joins + jump, self._promised + jump, self._sought_s + jump_s
+        if self._route is not None:
+            self._route.shift(jump)
 
     def _without_data(self, dt: float) -> Command:
         """What is safe while nothing is known."""
-        self._blind_s += dt
         bank_deg = self._last.bank_deg
-        if self._blind_s > BLIND_S:
+        if self._clock.since_s > BLIND_S:
             bank_deg = self._route.side * self._hold_deg if self._route is not None and self._route.holds else 0.0
         self._bank_to(bank_deg, dt)
         rate_deg_s = degrees(rate_at_bank(bank_deg, self._V))
@@ -202,9 +215,9 @@ class LoiterEntry:
 
     def _seek(self, view: View, route: Route | None = None) -> bool:
         """Take the fastest way from a view, in place of a route only if it is worth it; whether it was taken."""
-        if self._told_s - self._sought_s < (STILL_S if self._still else WINDY_S) - OVER_S:
+        if self._clock.time_s - self._sought_s < (STILL_S if self._still else WINDY_S) - OVER_S:
             return False
-        self._sought_s = self._told_s
+        self._sought_s = self._clock.time_s
         scale = self._scale(view)
         found = self._fastest(view, scale)
         if found is None or not (route is None or _worth(found, route, 0.0 if self._still else BEND)):
@@ -222,15 +235,15 @@ class LoiterEntry:
             return 1.0
         return min(hypot(*forward(view.vx, view.vy, view.hx, view.hy)), self._R)
 
-    def _fastest(self, view: View, scale: float) -> Flown | None:
+    def _fastest(self, view: View, scale: float) -> Entry | None:
         """The kernel's answer for a view, if it has one; the course through the air of the plan is its heading."""
         (wx, wy), R = self._wind, self._R
         c, s = unit(*forward(view.vx - wx, view.vy - wy, view.hx, view.hy))
         if self._still:
             scene = *motion.reduce(view.x / scale, view.y / scale, c, s), held_radius(R / scale)
             return optimum(*scene, self._side, self._tolerance) if solvable(*scene, self._tolerance) else None
-        found = drift.fastest(view.x, view.y, c, s, R, self._side, wx, wy)
-        return drift.flight(found) if found[0] == Status.OK else None
+        found = wind_search.fastest(view.x, view.y, c, s, R, self._side, wx, wy)
+        return wind_search.entry_of(found) if found.status == Status.OK else None
 
     def _followed(self, route: Route, view: View, early_s: float, dt: float) -> Command:
         """The command that follows the route, and what there is to tell of it."""
@@ -241,7 +254,7 @@ class LoiterEntry:
             degrees(rate_at_bank(bank_deg, self._V)),
             bank_deg,
             PHASES[route.controls[0]] if route.controls else Phase.HOLD,
-            max(self._joins * self._unit_s - self._told_s - self._recent.delay_s, 0.0),
+            max(self._joins * self._unit_s - self._clock.time_s - self._recent.delay_s, 0.0),
             TURNS[Side(route.side)],
             PHASES[route.controls[1]] if len(route.controls) > 1 else Phase.HOLD,
             route.left * self._unit_s - early_s if route.controls else inf,
@@ -261,16 +274,21 @@ class LoiterEntry:
         return bank_at_rate(-air_rate(course, vx, vy, view.hx, view.hy) / self._unit_s, self._V)
 
     def _bank_to(self, bank_deg: float, dt: float) -> None:
-        """Reckon what a command does to the bank."""
+        """Reckon what a command does to the bank in a step, and let its time pass."""
+        self._clock.let(dt)
         self._recent.keep(self._roll.after(self._recent.now_deg, bank_deg, dt), dt)
 
 
-def _worth(found: Flown, route: Route, bend: float) -> bool:
+def _worth(found: Entry, route: Route, bend: float) -> bool:
     """Whether a way is worth leaving a route for: the same one from here, or one that is sooner by a margin.
 
     It is the same whatever it begins with that is no longer than `bend`.
     """
-    controls = controls_of(found[1])
+    controls = controls_of(found.word)
     first = max(len(controls) - len(route.controls), 0)
-    same = found[0] == route.side and controls[first:] == route.controls and sum(found[2 : 2 + first]) <= bend
+    same = (
+        found.side == route.side
+        and controls[first:] == route.controls
+        and sum((found.t1, found.t2, found.t3)[:first]) <= bend
+    )
     return duration(found) < route.rest + (LATER if same else -SOONER)

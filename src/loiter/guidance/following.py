@@ -6,10 +6,12 @@ They stand for what users fly today, each written from its publication: `l1`, `v
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from math import degrees, hypot, isfinite, nan, radians, sin, tan
+from math import degrees, hypot, nan, radians, sin, tan
 from typing import NamedTuple
 
+from loiter.errors import positive
 from loiter.guidance.limits import clipped
+from loiter.guidance.observer import plausible
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.turning import bank_at_rate, rate_at_bank
 from loiter.planning.compass import heading_vector
@@ -81,8 +83,9 @@ class Follower(ABC):
     """A law that steers round a circle by a demand of lateral acceleration, within the bank limit of the aircraft.
 
     `orbit` is where it is at `State.time_s` = 0, `wind` the wind that the law is told of. A circle held either way is
-    held in the direction of the fastest entry from the first state that is measured. While anything measured is not
-    finite the last bank is kept, as autopilots do on stale data, or wings level where there was none: phase `NO_DATA`.
+    held in the direction of the fastest entry from the first state that is measured. While a measured number is not
+    finite, or absurd (`observer.plausible`), the last bank is kept, as autopilots do on stale data, or the wings are
+    level where there was none: phase `NO_DATA`.
     Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held.
     """
 
@@ -94,8 +97,9 @@ class Follower(ABC):
         self._bank_deg = 0.0
 
     def step(self, state: State, dt: float) -> Command:
-        """The command for the next `dt` seconds, from what was measured."""
-        if not all(map(isfinite, state)):
+        """The command for the next `dt` seconds, from what was measured; `InvalidArgument` for a `dt` that is none."""
+        positive("dt", dt, "seconds")
+        if not plausible(state):
             return self._command(Demand(0.0, Phase.NO_DATA))
         if self.turn == Turn.EITHER:
             self.turn = self._chosen(state)

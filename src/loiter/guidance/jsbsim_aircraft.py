@@ -113,7 +113,8 @@ class JsbsimAircraft:
         return self.true_state() if self._sensors is None else self._sensors.told
 
     def advance(self, command: Command, dt: float) -> None:
-        """Fly `dt` seconds under a commanded bank, in equal steps of `STEP_S` at most."""
+        """Fly `dt` seconds under a commanded bank, in equal steps of `STEP_S` at most; `InvalidArgument` below 0."""
+        not_negative("dt", dt, "seconds")
         steps = max(ceil(dt / STEP_S - 1e-9), 1)
         if dt / steps != self._step_s:
             self._step_s = dt / steps

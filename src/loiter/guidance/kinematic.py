@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import atan2, degrees, radians
 
+from loiter.errors import not_negative
 from loiter.guidance.limits import clipped
 from loiter.guidance.protocol import Command, State
 from loiter.guidance.turning import bank_at_rate, turned
@@ -35,7 +36,8 @@ class Kinematic:
         return self.true_state()
 
     def advance(self, command: Command, dt: float) -> None:
-        """Fly `dt` seconds at the commanded rate of turn, clipped to the limit."""
+        """Fly `dt` seconds at the commanded rate of turn, clipped to the limit; `InvalidArgument` for dt below 0."""
+        not_negative("dt", dt, "seconds")
         self._rate = clipped(-radians(command.turn_rate_deg_s), self._limit)
         x, y, c, s = turned(self._place, self._airspeed_m_s, self._rate, dt)
         self._place = x + self._wind[0] * dt, y + self._wind[1] * dt, c, s

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from math import exp, hypot, isfinite
+from math import exp, hypot
 from typing import NamedTuple
 
 from loiter.guidance.protocol import State
@@ -19,6 +19,9 @@ ROUGH_M_S, SLOW_S, KEPT_S = 1.2, 2.0, 10.0
 
 # Metres, degrees, metres per second: what is beyond, or slower, is no measurement.
 FARTHEST, SLOWEST = 1e9, 0.1
+
+# Seconds: no clock reads more, 32,000 years, and a double still tells a tenth of a millisecond there.
+LATEST_S = 1e12
 
 
 class Recent:
@@ -42,6 +45,14 @@ class Recent:
     def keep(self, bank_deg: float, dt: float) -> None:
         """Take in a step of `dt` seconds that ends in a bank, and forget as much."""
         self.now_deg = bank_deg
+        if dt > self.delay_s:
+            # Nothing older is left, and what is older of the step itself is not summed: it may be long.
+            self.then_deg, self._pieces, self._sum = (
+                bank_deg,
+                deque([(self.delay_s, bank_deg)]),
+                self.delay_s * bank_deg,
+            )
+            return
         self._pieces.append((dt, bank_deg))
         self._sum += dt * bank_deg
         while dt > 0.0:
@@ -78,9 +89,14 @@ class Seen(NamedTuple):
         return flown._replace(rate=-rate_at_bank(bank_deg, V), bank_deg=bank_deg)
 
 
+def plausible(state: State) -> bool:
+    """Whether every number of a measurement is one that a sensor may give: within `LATEST_S` and `FARTHEST`."""
+    return abs(state.time_s) < LATEST_S and all(abs(value) < FARTHEST for value in state[1:])
+
+
 def usable(state: State) -> bool:
-    """Whether a measurement is one of flight: finite, within `FARTHEST`, and fast enough to be in the air."""
-    return isfinite(state.time_s) and all(abs(value) < FARTHEST for value in state[1:]) and state.airspeed_m_s > SLOWEST
+    """Whether a measurement is one of flight: plausible, and fast enough to be in the air."""
+    return plausible(state) and state.airspeed_m_s > SLOWEST
 
 
 class Air:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import atan2, degrees
 
+from loiter.errors import not_negative
 from loiter.guidance.gusts import Gusts, scale_length_m
 from loiter.guidance.limits import clipped
 from loiter.guidance.protocol import Command, State
@@ -61,7 +62,8 @@ class PointMass:
         return self._sensors.told
 
     def advance(self, command: Command, dt: float) -> None:
-        """Fly `dt` seconds under a commanded bank."""
+        """Fly `dt` seconds under a commanded bank; `InvalidArgument` for dt below 0."""
+        not_negative("dt", dt, "seconds")
         bank_deg = clipped(command.bank_deg, self._limit_deg)
         halfway_deg = self._roll.after(self._bank_deg, bank_deg, 0.5 * dt)
         self._bank_deg = self._roll.after(halfway_deg, bank_deg, 0.5 * dt)

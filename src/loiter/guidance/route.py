@@ -7,7 +7,8 @@ from typing import NamedTuple
 from loiter.guidance.holding import Arc, Line, Offset, circle, forward, offset
 from loiter.kernel.angles import TWO_PI, angle, turned_by
 from loiter.kernel.motion import fly
-from loiter.kernel.synthesis import Flown
+from loiter.kernel.synthesis import Entry
+from loiter.kernel.words import ABSENT, controls
 
 Controls = tuple[int, ...]
 
@@ -40,7 +41,7 @@ class Route:
     `side` is the way the circle is held, `left` how much is left of the piece under way, in turn radii.
     """
 
-    def __init__(self, view: View, flown: Flown, R: float, wind: tuple[float, float], scale: float) -> None:
+    def __init__(self, view: View, flown: Entry, R: float, wind: tuple[float, float], scale: float) -> None:
         self.side, word, *times = flown
         self._wind, self._scale, self._start = wind, scale, view.clock
         self._circle = circle(self.side, R)
@@ -80,6 +81,10 @@ class Route:
         del self._pieces[0]
         self.left = self._pieces[0].t if self._pieces else 0.0
 
+    def shift(self, jump: float) -> None:
+        """Tell the way by a clock that has jumped."""
+        self._start += jump
+
     def beside(self, view: View) -> Offset:
         """Where a view is beside the piece under way, or the circle."""
         if self._pieces:
@@ -117,7 +122,7 @@ def pieces(x: float, y: float, c: float, s: float, word: int, times: list[float]
 
 def controls_of(word: int) -> Controls:
     """The controls of a word (`codes.Word`) as flown."""
-    return tuple((word >> shift & 3) - 2 for shift in (0, 2, 4) if word >> shift)
+    return tuple(u for u in controls(word) if u != ABSENT)
 
 
 def _left(piece: Piece, x: float, y: float, about: float) -> float:

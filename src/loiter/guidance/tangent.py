@@ -19,10 +19,10 @@ from loiter.guidance.following import Around, Demand, around
 from loiter.guidance.l1 import DAMPING, L1, SHORTEST_PERIOD_S, circle_demand
 from loiter.guidance.protocol import PHASES, Phase, State
 from loiter.guidance.route import controls_of
-from loiter.kernel import drift
+from loiter.kernel import wind_search
 from loiter.kernel.hold import phase_of, tightest_held
-from loiter.kernel.intercept import Way
 from loiter.kernel.motion import fly
+from loiter.kernel.moving_target import Path
 from loiter.planning.compass import heading_vector
 from loiter.planning.held import SIDES, air_past
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
@@ -89,7 +89,7 @@ class Tangent(L1):
         self._start: State | None = None
 
     def _chosen(self, state: State) -> Turn:
-        return min((Turn.CW, Turn.CCW), key=lambda turn: self._way(state, turn)[0])
+        return min((Turn.CW, Turn.CCW), key=lambda turn: self._path(state, turn).time)
 
     def _demand(self, state: State) -> Demand:
         if self._start is None:
@@ -112,7 +112,8 @@ class Tangent(L1):
     def _plan(self, state: State) -> None:
         """A new path from here, from now on the one to follow."""
         r, self._start = self._radius_m, state
-        _, word, *durations = self._way(state, self.turn)[:5]
+        path = self._path(state, self.turn)
+        word, durations = path.word, (path.t1, path.t2, path.t3)
         x, y, (c, s) = 0.0, 0.0, heading_vector(state.heading_deg)
         self._pieces = []
         for u, t in zip(controls_of(word), durations, strict=False):
@@ -120,12 +121,12 @@ class Tangent(L1):
                 self._pieces.append(Piece(u, t * r, x * r, y * r, c, s))
             x, y, c, s = fly(x, y, c, s, u, t)
 
-    def _way(self, state: State, turn: Turn) -> Way:
+    def _path(self, state: State, turn: Turn) -> Path:
         """Dubins' path to the nearest point of the circle, in turn radii as planned."""
         r, seen, side = self._radius_m, self._around(state), SIDES[turn] + 0
         place = seen.distance_m / r * seen.out_east, seen.distance_m / r * seen.out_north
-        scene = drift.scene_of(*place, *heading_vector(state.heading_deg), self.orbit.radius_m / r, *self._past)
-        return drift.first_way(phase_of(seen.out_east, seen.out_north, side, *self._past), side, scene, inf)
+        scene = wind_search.scene_of(*place, *heading_vector(state.heading_deg), self.orbit.radius_m / r, *self._past)
+        return wind_search.first_path(phase_of(seen.out_east, seen.out_north, side, *self._past), side, scene, inf)
 
     def _progress(self, piece: Piece, state: State) -> Progress:
         """Where the aircraft is along a piece, as the air sees both."""

@@ -8,12 +8,13 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
 from loiter.geo.frame import LocalFrame
+from loiter.io.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
 from loiter.io.chart import Chart, chart
 from loiter.io.geojson import geojson
 from loiter.io.gpx import gpx
 from loiter.io.items import Autopilot, Mission
 from loiter.io.kml import kml
-from loiter.io.mission import checked_altitude, mission
+from loiter.io.mission import mission
 from loiter.io.qgcplan import qgcplan, read_qgcplan
 from loiter.io.reading import Source
 from loiter.io.table import table
@@ -34,9 +35,11 @@ class Request(NamedTuple):
     maneuver: Maneuver
     frame: LocalFrame | None
     altitude_m: float | None
+    datum: AltitudeDatum
     spacing_m: float | None
     chord_error_m: float
     autopilot: Autopilot
+    along_path: bool
 
 
 def check_format(path: Path) -> None:
@@ -45,23 +48,31 @@ def check_format(path: Path) -> None:
         raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in {', '.join(FORMATS)}")
 
 
+def is_mission(path: Path) -> bool:
+    """Whether the ending of `path` names a format of missions."""
+    return path.suffix.lower() in MISSIONS
+
+
 def save(
     maneuver: Maneuver,
     path: str | Path,
     *,
     frame: LocalFrame | None = None,
     altitude_m: float | None = None,
+    datum: AltitudeDatum = MEAN_SEA_LEVEL,
     spacing_m: float | None = None,
     chord_error_m: float = 1.0,
     autopilot: Autopilot = Autopilot.ARDUPILOT,
+    along_path: bool = False,
 ) -> None:
     """Write a maneuver to `path`, in the format of its ending.
 
     .geojson, .kml and .gpx are maps; .csv is the track with tangents and curvatures; .plan (QGroundControl) and
     .waypoints or .txt (`QGC WPL 110`) are missions, `io.mission.mission`. All is over the ground. `frame` says where on
-    Earth the maneuver is: without it only .csv can be written. `altitude_m`, above mean sea level, is needed for
-    missions. Points are at most `spacing_m` metres apart, where it is given, and nowhere is the track further than
-    `chord_error_m` metres from the line between two. `autopilot` is whom a .plan is for.
+    Earth the maneuver is: without it only .csv can be written. Missions need `altitude_m`, which is above mean sea
+    level unless `datum` says otherwise; in maps and tables altitudes are above mean sea level. Points are at most
+    `spacing_m` metres apart, where it is given, and nowhere is the track further than `chord_error_m` metres from the
+    line between two. `autopilot` is that for which a mission is written.
 
     The file appears whole or not at all; an older one stays until then. Raises `InvalidArgument` for another ending,
     for what is missing, for numbers that cannot be meant and a file that cannot be written, and as `mission`.
@@ -69,11 +80,12 @@ def save(
     path = Path(path)
     check_format(path)
     if altitude_m is not None:
-        altitude_m = checked_altitude(altitude_m)
+        altitude_m = datum.checked(altitude_m)
     if autopilot not in tuple(Autopilot):
         known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
         raise InvalidArgument("autopilot", f"is {autopilot!r}: it must be {known}")
-    content = _content(path.suffix.lower(), Request(maneuver, frame, altitude_m, spacing_m, chord_error_m, autopilot))
+    request = Request(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path)
+    content = _content(path.suffix.lower(), request)
     write_whole("save", path, lambda file: file.write(content))
 
 
@@ -92,14 +104,39 @@ def read_mission(path: str | Path) -> Mission:
 
 
 def _content(ending: str, request: Request) -> bytes:
-    maneuver, frame, altitude_m, spacing_m, chord_error_m, autopilot = request
+    maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, _, _ = request
+    above_sea_m = None if altitude_m is None or ending in MISSIONS else datum.above_sea_m(altitude_m)
     if ending in TABLES:
-        return table(vertices(maneuver, steps(maneuver, spacing_m, chord_error_m)), frame, altitude_m)
+        return table(vertices(maneuver, steps(maneuver, spacing_m, chord_error_m)), frame, above_sea_m)
     if frame is None:
         raise InvalidArgument("frame", f"is missing: a {ending} file needs places on Earth; .csv does not")
     if ending in MAPS:
-        return MAPS[ending](chart(maneuver, frame, altitude_m, spacing_m, chord_error_m))
+        return MAPS[ending](chart(maneuver, frame, above_sea_m, spacing_m, chord_error_m))
+    return _mission_file(ending, frame, request)
+
+
+def _with_home_aloft(plan: Mission, altitude_m: float) -> Mission:
+    """The mission with its home at the altitude of the flight: some programs fly the line of the home as a waypoint."""
+    latitude_deg, longitude_deg, _ = plan.home
+    return plan._replace(home=(latitude_deg, longitude_deg, altitude_m))
+
+
+def _mission_file(ending: str, frame: LocalFrame, request: Request) -> bytes:
+    maneuver, _, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path = request
     if altitude_m is None:
-        raise InvalidArgument("altitude_m", f"is missing: a {ending} file needs metres above mean sea level")
-    plan = mission(maneuver, frame, altitude_m, spacing_m=spacing_m, chord_error_m=chord_error_m)
-    return qgcplan(plan, autopilot, maneuver.aircraft.airspeed_m_s) if ending == ".plan" else wpl(plan)
+        raise InvalidArgument("altitude_m", f"is missing: a {ending} file needs {datum.unit}")
+    plan = mission(
+        maneuver,
+        frame,
+        altitude_m,
+        spacing_m=spacing_m,
+        chord_error_m=chord_error_m,
+        datum=datum,
+        along_path=along_path,
+        autopilot=autopilot,
+    )
+    if ending != ".plan":
+        return wpl(plan if datum.home_altitude_m is not None else _with_home_aloft(plan, altitude_m))
+    if autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
+        raise InvalidArgument("altitude_reference", "is ground: PX4 flies no missions with altitudes above the ground")
+    return qgcplan(plan, autopilot, maneuver.aircraft.airspeed_m_s)

@@ -19,7 +19,11 @@ from loiter.planning.model import Turn
 
 QUANTITIES = ("indicated_airspeed_m_s", "max_bank_deg", "loiter")
 
-NAME = re.compile(r"[A-Z][A-Z0-9_]{0,15}", re.ASCII)
+# The names of autopilots' parameters, and of what PX4 sends with them: _HASH_CHECK, the hash of them all.
+NAME = re.compile(r"_?[A-Z][A-Z0-9_]{0,15}", re.ASCII)
+
+# What MAVLink allows. QGroundControl writes the parameters of every component: of a camera, a gimbal.
+MAVLINK_NAME = re.compile(r"[A-Za-z0-9_.-]{1,16}", re.ASCII)
 
 
 class Known(NamedTuple):
@@ -117,20 +121,20 @@ def _entries(source: Source, text: str) -> list[Entry]:
 def _named(source: Source, number: int, line: str, fields: Callable[[str], tuple[str, str] | None]) -> tuple[str, str]:
     """Name and value of a line."""
     found = fields(line)
-    if found is None or not NAME.fullmatch(found[0]):
+    if found is None:
         raise source.fault(f"line {number} is {shown(line)}: it is no parameter with a value")
     return found
 
 
 def _name_and_value(line: str) -> tuple[str, str] | None:
     fields = line.replace(",", " ").split()
-    return (fields[0], fields[1]) if len(fields) == 2 else None
+    return (fields[0], fields[1]) if len(fields) == 2 and NAME.fullmatch(fields[0]) else None
 
 
 def _five_columns(line: str) -> tuple[str, str] | None:
     fields = line.split("\t")
     numbered = len(fields) == 5 and all(f.isascii() and f.isdigit() for f in (fields[0], fields[1], fields[4]))
-    return (fields[2], fields[3]) if numbered else None
+    return (fields[2], fields[3]) if numbered and MAVLINK_NAME.fullmatch(fields[2]) else None
 
 
 def _said(source: Source, entries: list[Entry], quantity: str) -> float | None:

@@ -20,7 +20,7 @@ DO_JUMP = 177  # MAV_CMD_DO_JUMP
 
 LONGEST_INTEGER = 20
 
-# QGroundControl's AltitudeMode of each frame.
+# QGroundControl's AltitudeMode of each frame; 0 is that of a plan whose items differ.
 ALTITUDE_MODES = {Frame.ABOVE_SEA: 2, Frame.ABOVE_HOME: 1, Frame.ABOVE_TERRAIN: 4}
 
 
@@ -38,7 +38,7 @@ def qgcplan(mission: Mission, autopilot: Autopilot, airspeed_m_s: float) -> byte
             "vehicleType": FIXED_WING,
             "cruiseSpeed": airspeed_m_s,
             "hoverSpeed": airspeed_m_s,
-            "globalPlanAltitudeMode": ALTITUDE_MODES[Frame.ABOVE_SEA],
+            "globalPlanAltitudeMode": _common_mode(mission),
             "plannedHomePosition": list(mission.home),
             "items": [_written(number, item) for number, item in enumerate(mission.items, start=1)],
         },
@@ -62,6 +62,12 @@ def read_qgcplan(source: Source, text: str) -> Mission:
     ]
     items = _jumps(source, read)
     return checked_mission(source, Mission(items, (home[0], home[1], home[2])))
+
+
+def _common_mode(mission: Mission) -> int:
+    """The AltitudeMode of all items that have a place."""
+    frames = {item.frame for item in mission.items if item.frame != Frame.NOWHERE}
+    return ALTITUDE_MODES[Frame(frames.pop())] if len(frames) == 1 else 0
 
 
 def _written(number: int, item: MissionItem) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from loiter.kernel.angles import angle
 from loiter.kernel.extremals import onto_axis
 from loiter.kernel.motion import flow, fly
 from loiter.kernel.synthesis import rounding
+from loiter.kernel.words import ABSENT, controls
 
 Adjoint = tuple[float, float, float]
 
@@ -65,8 +66,8 @@ def of_arc(x: float, y: float, R: float, side: int, u: int, t: float) -> Adjoint
 
 def of_switch(R: float, side: int, word: int, t1: float, t2: float, t3: float) -> Adjoint:
     """Lambda and psi at the start of a word of arcs, from the last switch between L and R."""
-    first, second, third = (word & 3) - 2, (word >> 2 & 3) - 2, (word >> 4) - 2
-    if word < 16:
+    first, second, third = controls(word)
+    if third == ABSENT:
         x, y = flow(0.0, side * R, second, -t2)
         lam, psi1, psi2 = at_switch(x, y, second, R)
     else:
@@ -83,10 +84,10 @@ def adjoint(x: float, y: float, R: float, side: int, word: int, t1: float, t2: f
     nan for the empty word, which has nothing to decide. A word that is no extremal gets a psi too: that which it would
     need at its last switch; it then breaks one of (13)-(16).
     """
-    first, second = (word & 3) - 2, (word >> 2 & 3) - 2
-    if word == 0:
+    first, second, _ = controls(word)
+    if first == ABSENT:
         return nan, nan, nan
-    if word < 4:
+    if second == ABSENT:
         return of_arc(x, y, R, side, first, t1)
     if first == 0:
         return 1.0, 1.0, 0.0
@@ -100,10 +101,10 @@ def followed(
     x: float, y: float, psi1: float, psi2: float, word: int, t1: float, t2: float, t3: float, t: float
 ) -> tuple[float, float, float, float]:
     """State and adjoint x, y, psi1, psi2 after a time t of a word flown from (x, y) with psi, or at its end."""
-    for duration in (t1, t2, t3):
-        if word:
-            u, step = (word & 3) - 2, min(duration, t)
+    for u, duration in zip(controls(word), (t1, t2, t3)):
+        if u != ABSENT:
+            step = min(duration, t)
             x, y = flow(x, y, u, step)
             psi1, psi2 = turned(psi1, psi2, u, step)
-            word, t = word >> 2, t - step
+            t -= step
     return x, y, psi1, psi2

@@ -28,7 +28,8 @@ def angle(rotated: Rotation) -> float:
     One arctangent: its error stays near one rounding of the angle itself, where a difference of two arctangents loses
     the digits of a small rotation.
     """
-    turned = atan2(rotated[0], rotated[1])
+    cross, dot = rotated
+    turned = atan2(cross, dot)
     # + 0.0 turns -0.0 into 0.0, so that no duration carries a sign.
     return turned + TWO_PI if turned < 0.0 else turned + 0.0
 
@@ -37,6 +38,12 @@ def turned_by(u: int, ax: float, ay: float, bx: float, by: float) -> Rotation:
     """Rotation of the arc of control u = +1 or -1 that takes the heading (ax, ay) to (bx, by)."""
     cross, dot = rotation(ax, ay, bx, by)
     return u * cross, dot
+
+
+def up_to_half_a_turn(rotated: Rotation) -> bool:
+    """Whether a rotation takes an angle in [0, pi]."""
+    cross, _ = rotated
+    return cross >= 0.0
 
 
 def snapped(rotated: Rotation, radius2: float, slack: float) -> Rotation:

@@ -1,33 +1,6 @@
-"""Integer codes that the kernel returns in place of strings and exceptions; their messages live here."""
+"""Sides and statuses: integer codes that the kernel takes and returns in place of strings and exceptions."""
 
 from enum import IntEnum
-
-
-class Word(IntEnum):
-    """Controls of a maneuver in the order flown, in Dubins' letters: L (u = +1), S (u = 0), R (u = -1).
-
-    A code is a number in base 4 whose lowest digit is the first letter's `u + 2` (R = 1, S = 2, L = 3), so the first
-    control and the mirror image are arithmetic, not look-ups. `EMPTY` is the word of a start already on the circle.
-    """
-
-    EMPTY = 0
-    R = 1
-    L = 3
-    SR = 2 + 4 * 1
-    SL = 2 + 4 * 3
-    RL = 1 + 4 * 3
-    LR = 3 + 4 * 1
-    RSR = 1 + 4 * 2 + 16 * 1
-    RSL = 1 + 4 * 2 + 16 * 3
-    LSR = 3 + 4 * 2 + 16 * 1
-    LSL = 3 + 4 * 2 + 16 * 3
-    RLR = 1 + 4 * 3 + 16 * 1
-    LRL = 3 + 4 * 1 + 16 * 3
-
-    @property
-    def letters(self) -> str:
-        """The word as a string: "RSL"; "" for `EMPTY`."""
-        return "" if self is Word.EMPTY else self.name
 
 
 class Side(IntEnum):

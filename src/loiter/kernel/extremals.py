@@ -12,25 +12,36 @@ circle keeps its digits; those that tell on which side of a circle it lies come 
 """
 
 from math import inf, sqrt
+from typing import NamedTuple
 
-from loiter.kernel.angles import NONE, Rotation, angle, rotation, snapped, total
-from loiter.kernel.codes import Word
+from loiter.kernel.angles import NONE, Rotation, angle, rotation, snapped, total, up_to_half_a_turn
 from loiter.kernel.exact import beyond
+from loiter.kernel.words import Word
 
-# Word, first arc, length of the straight piece, second arc where there is no straight piece, third piece.
-Extremal = tuple[Word, Rotation, float, Rotation, Rotation]
+
+class Extremal(NamedTuple):
+    """A word with its pieces in flying order: first arc, straight length, middle arc where there is none, last arc."""
+
+    word: int
+    first: Rotation
+    straight: float
+    middle: Rotation
+    last: Rotation
 
 
 def duration(extremal: Extremal) -> float:
     """T, the whole time of an extremal; `inf` where it does not reach the target."""
-    _, first, straight, middle, last = extremal
-    return straight + total(first, middle, last)
+    return extremal.straight + total(extremal.first, extremal.middle, extremal.last)
+
+
+def reaches(extremal: Extremal) -> bool:
+    """Whether an extremal ends at the target."""
+    return extremal.straight < inf
 
 
 def durations(extremal: Extremal) -> tuple[float, float, float]:
     """The durations of its pieces in flying order, 0 past the last."""
-    _, first, straight, middle, last = extremal
-    return angle(first), straight + angle(middle), angle(last)
+    return angle(extremal.first), extremal.straight + angle(extremal.middle), angle(extremal.last)
 
 
 def onto_axis(x: float, y: float, end: float, slack: float) -> tuple[Rotation, float]:
@@ -51,38 +62,49 @@ def onto_axis(x: float, y: float, end: float, slack: float) -> tuple[Rotation, f
     return snapped(products, c2 + 1.0, slack), c if c2 >= 0.0 else -1.0
 
 
-def external_join(word: Word, x: float, y: float, R: float, slack: float) -> Extremal:
-    """LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1))."""
+def external_join(word: Word, x: float, y: float, R: float, slack: float, joins: bool) -> Extremal:
+    """LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
+
+    `joins` says that c >= X, from `exact.beyond` as where words are chosen; rounding may make c - X negative then.
+    """
     first, c = onto_axis(x, y, -1.0, slack)
     X = sqrt(R * (R + 2.0))
-    return word, first, c - X if c >= X else inf, NONE, (X, 1.0)
+    return Extremal(word, first, max(c - X, 0.0) if joins else inf, NONE, (X, 1.0))
 
 
-def internal_join(word: Word, x: float, y: float, R: float, slack: float) -> Extremal:
-    """LSR, R >= 2: onto the axis at (c, 0), straight to (X, 0), X = sqrt(R (R - 2)), right for pi - acos(1/(R - 1))."""
+def internal_join(word: Word, x: float, y: float, R: float, slack: float, joins: bool) -> Extremal:
+    """LSR, R >= 2: onto the axis at (c, 0), straight to (X, 0), X = sqrt(R (R - 2)), right for pi - acos(1/(R - 1)).
+
+    `joins` says that c <= X, as in `external_join`.
+    """
     first, c = onto_axis(x, y, 1.0, slack)
     X = sqrt(max(R * (R - 2.0), 0.0))
-    return word, first, X - c if R >= 2.0 and 0.0 <= c <= X else inf, NONE, (X, -1.0)
+    return Extremal(word, first, max(X - c, 0.0) if R >= 2.0 and c >= 0.0 and joins else inf, NONE, (X, -1.0))
 
 
-def lsl(x: float, y: float, R: float, slack: float) -> Extremal:
-    """Left, straight along the line through the centre, left."""
-    return external_join(Word.LSL, x, y, R, slack)
+def lsl(x: float, y: float, R: float, slack: float, outer: float) -> Extremal:
+    """Left, straight along the line through the centre, left: rp >= R + 1."""
+    return external_join(Word.LSL, x, y, R, slack, outer >= 0.0)
 
 
-def rsl(x: float, y: float, R: float, slack: float) -> Extremal:
-    """Right, straight, left: the first arc is the mirror image of that of LSL."""
-    return external_join(Word.RSL, x, -y, R, slack)
+def rsl(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
+    """Right, straight, left, rm >= R + 1: the first arc is the mirror image of that of LSL."""
+    return external_join(Word.RSL, x, -y, R, slack, inner >= 4.0 * R)
 
 
 def lsr(x: float, y: float, R: float, slack: float) -> Extremal:
-    """Left, straight, right, from inside a circle of R >= 2."""
-    return internal_join(Word.LSR, x, y, R, slack)
+    """Left, straight, right, from inside a circle of R >= 2: rp <= R - 1."""
+    return internal_join(Word.LSR, x, y, R, slack, beyond(x, y, -R, 2.0) <= 0.0)
 
 
-def rsr(x: float, y: float, R: float, slack: float) -> Extremal:
-    """Right, straight, right: the first arc is the mirror image of that of LSR."""
-    return internal_join(Word.RSR, x, -y, R, slack)
+def rsr(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
+    """Right, straight, right, rm <= R - 1: the first arc is the mirror image of that of LSR."""
+    return internal_join(Word.RSR, x, -y, R, slack, inner <= 0.0)
+
+
+def squared_distance(x: float, y: float, centre: float) -> float:
+    """The squared distance from (0, centre), to full digits however small; taken from `beyond` it would lose them."""
+    return x * x + (y - centre) * (y - centre)
 
 
 def near_circle(beyond2: float, radius: float, slack: float) -> bool:
@@ -96,8 +118,8 @@ def l(x: float, y: float, R: float, slack: float, outer: float) -> Extremal:
 
     `outer` is rp^2 - (R + 1)^2, `exact.beyond(x, y, R, 2)`.
     """
-    reaches = near_circle(outer, R + 1.0, slack)
-    return Word.L, snapped((-x, y + 1.0), (R + 1.0) * (R + 1.0), slack), 0.0 if reaches else inf, NONE, NONE
+    beside = near_circle(outer, R + 1.0, slack)
+    return Extremal(Word.L, snapped((-x, y + 1.0), (R + 1.0) * (R + 1.0), slack), 0.0 if beside else inf, NONE, NONE)
 
 
 def r(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
@@ -105,8 +127,8 @@ def r(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
 
     `inner` is rm^2 - (R - 1)^2, `exact.beyond(x, y, R, -2)`.
     """
-    reaches = R > 1.0 and near_circle(inner, R - 1.0, slack)
-    return Word.R, snapped((x, y - 1.0), (R - 1.0) * (R - 1.0), slack), 0.0 if reaches else inf, NONE, NONE
+    beside = R > 1.0 and near_circle(inner, R - 1.0, slack)
+    return Extremal(Word.R, snapped((x, y - 1.0), (R - 1.0) * (R - 1.0), slack), 0.0 if beside else inf, NONE, NONE)
 
 
 def rl(x: float, y: float, R: float, slack: float, inner: float, branch: float) -> Extremal:
@@ -117,9 +139,9 @@ def rl(x: float, y: float, R: float, slack: float, inner: float, branch: float) 
     """
     p = 8.0 * (R + 1.0) - inner
     x1 = branch * 0.25 * sqrt(max(p * inner, 0.0))
-    first = snapped(rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner), inner + (R - 1.0) * (R - 1.0), slack)
+    first = snapped(rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner), squared_distance(x, y, 1.0), slack)
     last = snapped((-x1, R + 1.0 - 0.25 * inner), (R + 1.0) * (R + 1.0), slack)
-    return Word.RL, first, 0.0 if inner >= 0.0 and p >= 0.0 else inf, last, NONE
+    return Extremal(Word.RL, first, 0.0 if inner >= 0.0 and p >= 0.0 else inf, last, NONE)
 
 
 def lr(x: float, y: float, R: float, slack: float, outer: float, fold: float, branch: float) -> Extremal:
@@ -129,9 +151,9 @@ def lr(x: float, y: float, R: float, slack: float, outer: float, fold: float, br
     rp^2 - (R - 3)^2, `exact.beyond(x, y, 2 - R, 2)`.
     """
     x1 = branch * 0.25 * sqrt(max(-outer * fold, 0.0))
-    first = snapped(rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0), outer + (R + 1.0) * (R + 1.0), slack)
+    first = snapped(rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0), squared_distance(x, y, -1.0), slack)
     last = snapped((x1, R - 1.0 + 0.25 * outer), (R - 1.0) * (R - 1.0), slack)
-    return Word.LR, first, 0.0 if R > 1.0 and outer <= 0.0 and fold >= 0.0 else inf, last, NONE
+    return Extremal(Word.LR, first, 0.0 if R > 1.0 and outer <= 0.0 and fold >= 0.0 else inf, last, NONE)
 
 
 def lrl(x: float, y: float, R: float, slack: float, outer: float, fold: float) -> Extremal:
@@ -145,9 +167,9 @@ def lrl(x: float, y: float, R: float, slack: float, outer: float, fold: float) -
     k, K, d = x * x + y * (y + 2.0), R * (R + 2.0), -0.25 * outer
     h = K + 0.5 * outer
     D = h * h - 3.0 * d * d
-    reaches = R <= 3.0 and fold <= 0.0 and D >= 0.0 and h < 6.0
+    exists = R <= 3.0 and fold <= 0.0 and D >= 0.0 and h < 6.0
     root = sqrt(max(D, 0.0))
-    above, below = h + root, 6.0 - h + root if reaches else 1.0
+    above, below = h + root, 6.0 - h + root if exists else 1.0
     share = 1.0 / (above * below)
     w = -fold * (8.0 * (R + 3.0) - outer) * 0.0625 * above * share
     a = 6.0 * below * share
@@ -156,11 +178,11 @@ def lrl(x: float, y: float, R: float, slack: float, outer: float, fold: float) -
     q = 1.0 + sqrt(max(1.0 + a * k, 0.0))
     ya, yb = k, k + d * q
     xa, xb = m * ya, -m * yb
-    first = snapped(rotation(xa, ya + q, x, y + 1.0), outer + (R + 1.0) * (R + 1.0), slack)
+    first = snapped(rotation(xa, ya + q, x, y + 1.0), squared_distance(x, y, -1.0), slack)
     # ya - 1 and yb - 1 from what they are small by: at R = 1 both vanish on the last arc.
     middle = rotation(xa, -0.5 * (w + d) * q, xb, -0.5 * (w - d) * q)
     last = -xb, yb + q
-    return Word.LRL, first, 0.0 if reaches else inf, middle, last
+    return Extremal(Word.LRL, first, 0.0 if exists else inf, middle, last)
 
 
 def extremals(x: float, y: float, R: float, slack: float) -> tuple[Extremal, ...]:
@@ -172,10 +194,10 @@ def extremals(x: float, y: float, R: float, slack: float) -> tuple[Extremal, ...
     return (
         l(x, y, R, slack, outer),
         r(x, y, R, slack, inner),
-        lsl(x, y, R, slack),
-        rsl(x, y, R, slack),
+        lsl(x, y, R, slack, outer),
+        rsl(x, y, R, slack, inner),
         lsr(x, y, R, slack),
-        rsr(x, y, R, slack),
+        rsr(x, y, R, slack, inner),
         rl(x, y, R, slack, inner, -1.0),
         rl(x, y, R, slack, inner, 1.0),
         lr(x, y, R, slack, outer, fold, -1.0),
@@ -186,34 +208,42 @@ def extremals(x: float, y: float, R: float, slack: float) -> tuple[Extremal, ...
 
 def chosen(condition: bool, a: Extremal, b: Extremal) -> Extremal:
     """Extremal a where the condition holds, else b: number by number, so that it compiles to selects, not branches."""
-    word = a[0] if condition else b[0]
-    first = a[1][0] if condition else b[1][0], a[1][1] if condition else b[1][1]
-    straight = a[2] if condition else b[2]
-    middle = a[3][0] if condition else b[3][0], a[3][1] if condition else b[3][1]
-    last = a[4][0] if condition else b[4][0], a[4][1] if condition else b[4][1]
-    return word, first, straight, middle, last
+    straight = a.straight if condition else b.straight
+    word = a.word if condition else b.word
+    first, middle, last = (
+        chosen_rotation(condition, a.first, b.first),
+        chosen_rotation(condition, a.middle, b.middle),
+        chosen_rotation(condition, a.last, b.last),
+    )
+    return Extremal(word, first, straight, middle, last)
+
+
+def chosen_rotation(condition: bool, a: Rotation, b: Rotation) -> Rotation:
+    """Rotation a where the condition holds, else b."""
+    (across_a, along_a), (across_b, along_b) = a, b
+    return across_a if condition else across_b, along_a if condition else along_b
 
 
 def left_first(x: float, y: float, R: float, slack: float, outer: float, fold: float) -> Extremal:
-    """The extremal that can win among those that begin with L, told by rp (docs/theory.md, section 4); see `detour`."""
-    alone = l(x, y, R, slack, outer)
+    """The extremal that can win among those of several pieces that begin with L (docs/theory.md, section 4).
+
+    It is determined by rp; see `detour` for the crossing that is not among them.
+    """
     best = lrl(x, y, R, slack, outer, fold)
     if R > 1.0:
-        inside = chosen(outer >= -4.0 * R, lr(x, y, R, slack, outer, fold, 1.0), lsr(x, y, R, slack))
+        inside = lsr(x, y, R, slack)
+        inside = chosen(reaches(inside), inside, lr(x, y, R, slack, outer, fold, 1.0))
         best = chosen(fold <= 0.0 and R <= 3.0, best, inside)
     if y < 0.0:
-        best = chosen(outer >= 0.0, lsl(x, y, R, slack), best)
-    return chosen(alone[2] == 0.0, alone, best)
+        best = chosen(outer >= 0.0, lsl(x, y, R, slack, outer), best)
+    return best
 
 
 def right_first(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
-    """The extremal that can win among those that begin with R, told by rm (docs/theory.md, section 4); see `detour`."""
-    best = chosen(inner > 4.0 * R, rsl(x, y, R, slack), rl(x, y, R, slack, inner, -1.0))
+    """The extremal that can win among those of several pieces that begin with R, determined by rm; see `left_first`."""
+    best = chosen(inner > 4.0 * R, rsl(x, y, R, slack, inner), rl(x, y, R, slack, inner, -1.0))
     if y < 0.0:
-        best = chosen(inner < 0.0, rsr(x, y, R, slack), best)
-    if R > 1.0:
-        alone = r(x, y, R, slack, inner)
-        best = chosen(alone[2] == 0.0, alone, best)
+        best = chosen(inner < 0.0, rsr(x, y, R, slack, inner), best)
     return best
 
 
@@ -225,21 +255,33 @@ def detour(x: float, y: float, R: float, slack: float, outer: float, inner: floa
 def fastest(x: float, y: float, R: float, slack: float, exact: bool) -> tuple[float, Extremal]:
     """The least T and its extremal: of three words at most, one for each first turn and the detour.
 
-    `exact` says that there is no tolerance. Then R = 1, y >= 0 takes no comparison, by the paper's section 6: the word
-    that begins with L wins where it is there and that arc is no longer than half a turn, up to the switching curve.
+    `exact` says that there is no tolerance. Then a start on a last circle is there up to rounding, and the single arc
+    takes the place of the words of which it is the limit; but not of LRL where it would cross the axis from y > 0,
+    which no optimal first arc does. Beside a circle by a tolerance, the single arcs compete with the other words,
+    so that a tolerance never makes T larger.
+
+    Without a tolerance R = 1, y >= 0 takes no comparison, by the paper's section 6: the word that begins with L wins
+    where it exists and its first arc is no longer than half a turn, up to the switching curve.
     """
     outer, inner, fold = beyond(x, y, R, 2.0), beyond(x, y, R, -2.0), beyond(x, y, 2.0 - R, 2.0)
-    right = right_first(x, y, R, slack, inner)
-    left = left_first(x, y, R, slack, outer, fold)
+    right, only_right = right_first(x, y, R, slack, inner), r(x, y, R, slack, inner)
+    left, only_left = left_first(x, y, R, slack, outer, fold), l(x, y, R, slack, outer)
+    if exact:
+        left = chosen(reaches(only_left) and (up_to_half_a_turn(only_left.first) or y <= 0.0), only_left, left)
+        right = chosen(reaches(only_right), only_right, right)
     if exact and R == 1.0 and not y < 0.0:
-        best = chosen(left[2] == 0.0 and left[1][0] >= 0.0, left, right)
+        best = chosen(reaches(left) and up_to_half_a_turn(left.first), left, right)
         return duration(best), best
-    least, time = duration(right), duration(left)
-    best = chosen(time < least, left, right)
-    least = time if time < least else least
+    least, best = shorter(duration(right), right, left)
     if y < 0.0:
-        other = detour(x, y, R, slack, outer, inner, fold)
-        time = duration(other)
-        best = chosen(time < least, other, best)
-        least = time if time < least else least
+        least, best = shorter(least, best, detour(x, y, R, slack, outer, inner, fold))
+    if not exact:
+        least, best = shorter(least, best, only_left)
+        least, best = shorter(least, best, only_right)
     return least, best
+
+
+def shorter(least: float, best: Extremal, other: Extremal) -> tuple[float, Extremal]:
+    """The least time so far and its extremal, or those of another extremal that takes less."""
+    time = duration(other)
+    return (time if time < least else least), chosen(time < least, other, best)

@@ -14,10 +14,11 @@ from llvmlite import ir
 from numba import extending
 from numba.core import cgutils, types
 
-from loiter.kernel import branchless, drift, motion
+from loiter.kernel import branchless, motion, wind_search
 from loiter.kernel.codes import Side, Status
 from loiter.kernel.rebinding import rebound
 from loiter.kernel.synthesis import (
+    Entry,
     asked_side,
     first_control,
     held_radius,
@@ -142,11 +143,16 @@ def _constant(operand, step, value):
 
 
 @_inlined
+def _exact(args, steps):
+    """Whether no state has a tolerance."""
+    return _constant(args[4], steps[4], 0.0)
+
+
+@_inlined
 def _passes(args, steps):
     """2 where a tolerance may make the far side of *either* the sooner one, else 1."""
-    exact = _constant(args[4], steps[4], 0.0)
     sided = _constant(args[3], steps[3], CW) or _constant(args[3], steps[3], CCW)
-    return 1 if exact or sided else 2
+    return 1 if _exact(args, steps) or sided else 2
 
 
 @_inlined
@@ -182,6 +188,14 @@ def _times(x, y, R, asked, tolerance, time, count):
 
 
 @_inlined
+def _exact_times(x, y, R, asked, time, count):
+    """`_times` without a tolerance: the compiler leaves out the words that compete only beside a circle."""
+    for i in range(count):
+        T = _least_time(x[i], y[i], _held_radius(R[i]), int(asked[i]), 0.0)
+        time[i] = T if _solvable(x[i], y[i], R[i], 0.0) else nan
+
+
+@_inlined
 def _least(time, other, far, count):
     """The times of the first pass, or those of the second that are sooner."""
     for i in range(count):
@@ -192,8 +206,8 @@ def min_time(args, dimensions, steps, data):
     """T, or nan where the status is not OK."""
     x, y, R, side, tolerance = _buffer(), _buffer(), _buffer(), _buffer(), _buffer()
     asked, time, other = _buffer(), _buffer(), _buffer()
-    passes = _passes(args, steps)
-    tight = passes == 1 and _constant(args[2], steps[2], 1.0) and _constant(args[3], steps[3], EITHER)
+    exact, passes = _exact(args, steps), _passes(args, steps)
+    tight = exact and _constant(args[2], steps[2], 1.0) and _constant(args[3], steps[3], EITHER)
     for start in range(0, dimensions[0], BLOCK):
         count = min(BLOCK, dimensions[0] - start)
         if tight:
@@ -204,7 +218,10 @@ def min_time(args, dimensions, steps, data):
             _inputs(args, steps, start, count, x, y, R, side, tolerance)
             for far in range(passes):
                 _asked(y, side, tolerance, asked, far, count)
-                _times(x, y, R, asked, tolerance, other, count)
+                if exact:
+                    _exact_times(x, y, R, asked, other, count)
+                else:
+                    _times(x, y, R, asked, tolerance, other, count)
                 _least(time, other, far, count)
         _store(time, args[5], steps[5], start, count)
     _clear_flags(FLAGS)
@@ -217,11 +234,18 @@ def _optima(x, y, R, asked, tolerance, word, t1, t2, t3, count):
 
 
 @_inlined
+def _exact_optima(x, y, R, asked, word, t1, t2, t3, count):
+    """`_optima` without a tolerance; see `_exact_times`."""
+    for i in range(count):
+        _, word[i], t1[i], t2[i], t3[i] = _one_sided(x[i], y[i], _held_radius(R[i]), int(asked[i]), 0.0)
+
+
+@_inlined
 def _sooner_ones(x, y, R, held, word, t1, t2, t3, asked, word_, t1_, t2_, t3_, far, count):
     """The maneuvers of the first pass, or those of the second that are sooner."""
     for i in range(count):
-        maneuver = int(held[i]), int(word[i]), t1[i], t2[i], t3[i]
-        other = int(asked[i]), int(word_[i]), t1_[i], t2_[i], t3_[i]
+        maneuver = Entry(int(held[i]), int(word[i]), t1[i], t2[i], t3[i])
+        other = Entry(int(asked[i]), int(word_[i]), t1_[i], t2_[i], t3_[i])
         better = not far or _sooner(other, maneuver, _rounding(x[i], y[i], R[i]))
         held[i], word[i] = asked[i] if better else held[i], word_[i] if better else word[i]
         t1[i], t2[i], t3[i] = t1_[i] if better else t1[i], t2_[i] if better else t2[i], t3_[i] if better else t3[i]
@@ -235,14 +259,17 @@ def _solved(args, steps, start, count, x, y, R, tolerance, held, word, t1, t2, t
     _inputs(args, steps, start, count, x, y, R, side, tolerance)
     for far in range(_passes(args, steps)):
         _asked(y, side, tolerance, asked, far, count)
-        _optima(x, y, R, asked, tolerance, word_, t1_, t2_, t3_, count)
+        if _exact(args, steps):
+            _exact_optima(x, y, R, asked, word_, t1_, t2_, t3_, count)
+        else:
+            _optima(x, y, R, asked, tolerance, word_, t1_, t2_, t3_, count)
         _sooner_ones(x, y, R, held, word, t1, t2, t3, asked, word_, t1_, t2_, t3_, far, count)
 
 
 @_inlined
 def _controls(x, y, R, tolerance, held, word, u, count):
     for i in range(count):
-        first = _first_control(_held_radius(R[i]), (int(held[i]), int(word[i]), 0.0, 0.0, 0.0))
+        first = _first_control(_held_radius(R[i]), Entry(int(held[i]), int(word[i]), 0.0, 0.0, 0.0))
         u[i] = first if _solvable(x[i], y[i], R[i], tolerance[i]) else nan
 
 
@@ -261,7 +288,7 @@ def control(args, dimensions, steps, data):
 @_inlined
 def _misses(x, y, R, held, word, t1, t2, t3, missed, count):
     for i in range(count):
-        missed[i] = _miss(x[i], y[i], _held_radius(R[i]), (int(held[i]), int(word[i]), t1[i], t2[i], t3[i]))
+        missed[i] = _miss(x[i], y[i], _held_radius(R[i]), Entry(int(held[i]), int(word[i]), t1[i], t2[i], t3[i]))
 
 
 @_inlined
@@ -329,13 +356,13 @@ def build() -> Any:
 
 
 def in_wind() -> Any:
-    """`drift.fastest` over the rows of arrays: eight numbers each in, and out what it gives.
+    """`wind_search.fastest` over the rows of arrays: eight numbers each in, and out what it gives.
 
     It keeps lists, whose memory Numba's own runtime manages, so that it cannot stand in an object file: every process
     compiles it anew, which takes some ten seconds.
     """
     compiled = _njit(nogil=True, error_model="numpy")
-    fastest = rebound(drift.fastest, finish=compiled)
+    fastest = rebound(wind_search.fastest, finish=compiled)
 
     def each(states, answers):
         for i in range(len(states)):

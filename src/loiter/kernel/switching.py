@@ -2,8 +2,8 @@
 
 from math import sqrt
 
-from loiter.kernel.codes import Word
 from loiter.kernel.exact import beyond
+from loiter.kernel.words import Word
 
 # Laws of the predicates, each a test: they depend on x^2 or |y| as the mirror law asks; zero counts as the boundary
 # itself, which belongs to the region with the smaller T.

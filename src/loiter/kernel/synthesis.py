@@ -2,13 +2,23 @@
 
 from itertools import pairwise
 from math import cbrt, hypot, inf, isfinite
+from typing import NamedTuple
 
 from loiter.kernel.codes import Side, Status
 from loiter.kernel.extremals import Extremal, durations, extremals, fastest
 from loiter.kernel.motion import flow
+from loiter.kernel.words import ABSENT, controls, encode, mirrored, rest
 
-# A maneuver: the side that it holds, its word, the durations of its pieces (0 past the last).
-Flown = tuple[int, int, float, float, float]
+
+class Entry(NamedTuple):
+    """A maneuver: the side that it holds, its word as flown, the durations of its pieces (0 past the last)."""
+
+    side: int
+    word: int
+    t1: float
+    t2: float
+    t3: float
+
 
 # Rounding of a length of order one: the reduction (2) costs 2 roundings a coordinate, a difference of squares 6, the
 # angle and the flight of each of three pieces some 10; 64 units of 2**-52 is the next power of two above their sum.
@@ -47,27 +57,19 @@ def status_of(x: float, y: float, R: float, tolerance: float) -> Status:
     return Status.BAD_TOLERANCE
 
 
-def mirrored(word: int) -> int:
-    """The word with L and R exchanged: each base-4 digit d becomes 4 - d."""
-    if word < 4:
-        return (4 - word) & 3
-    if word < 16:
-        return 20 - word
-    return 84 - word
-
-
-def flown(word: int, t1: float, t2: float, t3: float, dust: float) -> tuple[int, float, float, float]:
-    """The word as flown: a straight piece up to `dust` long and arcs of no angle left out, like arcs joined."""
-    if word >= 16 and t2 <= dust:
-        first, last = word & 3, word >> 4
+def flown(word: int, t1: float, t2: float, t3: float, short: float, no_angle: float) -> tuple[int, float, float, float]:
+    """The word as flown: without a straight piece up to `short` and arcs up to `no_angle`; like arcs are joined."""
+    first, _, last = controls(word)
+    if last != ABSENT and t2 <= short:
         if first == last:
-            word, t1, t2, t3 = first, t1 + t3, 0.0, 0.0
+            word, t1, t2, t3 = encode(first), t1 + t3, 0.0, 0.0
         else:
-            word, t2, t3 = first + 4 * last, t3, 0.0
-    if 4 <= word < 16 and t2 <= ROUNDING:
-        word, t2 = word & 3, 0.0
-    if t1 <= ROUNDING:
-        word, t1, t2, t3 = word >> 2, t2, t3, 0.0
+            word, t2, t3 = encode(first, last), t3, 0.0
+    first, second, third = controls(word)
+    if second != ABSENT and third == ABSENT and t2 <= no_angle:
+        word, t2 = encode(first), 0.0
+    if t1 <= no_angle:
+        word, t1, t2, t3 = rest(word), t2, t3, 0.0
     return word, t1, t2, t3
 
 
@@ -76,11 +78,15 @@ def slack_of(x: float, y: float, R: float, tolerance: float) -> float:
     return max(tolerance, rounding(x, y, R)) / 3.0
 
 
-def as_flown(extremal: Extremal, dust: float, side: int) -> Flown:
-    """An extremal of the clockwise circle as the maneuver flown onto the circle of the given side."""
+def as_flown(extremal: Extremal, dust: float, side: int) -> Entry:
+    """An extremal of the clockwise circle as the maneuver flown onto the circle of the given side.
+
+    Each piece left out moves the end by a third of `dust` at most, as a rotation snapped to none does: the radius of an
+    arc is no more than 1 + |x| + |y| + R. So three pieces together miss the target by no more than `dust`.
+    """
     t1, t2, t3 = durations(extremal)
-    word, t1, t2, t3 = flown(extremal[0] + 0, t1, t2, t3, dust)
-    return side, mirrored(word) if side < 0 else word, t1, t2, t3
+    word, t1, t2, t3 = flown(extremal.word + 0, t1, t2, t3, dust / 3.0, ROUNDING / 3.0)
+    return Entry(side, mirrored(word) if side < 0 else word, t1, t2, t3)
 
 
 def near_side(y: float) -> int:
@@ -88,7 +94,7 @@ def near_side(y: float) -> int:
     return -1 if y < 0.0 else 1
 
 
-def optimum(x: float, y: float, R: float, side: int, tolerance: float) -> Flown:
+def optimum(x: float, y: float, R: float, side: int, tolerance: float) -> Entry:
     """The fastest maneuver onto the circle from the reduced state (x, y); call it where `status_of` is OK.
 
     For *either* the near side is as fast as the far one, but for what a tolerance lets pass; only then both are asked.
@@ -105,12 +111,12 @@ def asked_side(y: float, side: int) -> int:
     return side + 0 if side != Side.EITHER else near_side(y)
 
 
-def sooner(maneuver: Flown, other: Flown, dust: float) -> bool:
+def sooner(maneuver: Entry, other: Entry, dust: float) -> bool:
     """Whether a maneuver is faster than another by more than rounding."""
     return duration(maneuver) < duration(other) - dust
 
 
-def one_sided(x: float, y: float, R: float, side: int, tolerance: float) -> Flown:
+def one_sided(x: float, y: float, R: float, side: int, tolerance: float) -> Entry:
     """The fastest maneuver onto the circle held on one side."""
     _, best = fastest(x, side * y, R, slack_of(x, y, R, tolerance), tolerance == 0.0)
     return as_flown(best, rounding(x, y, R), side)
@@ -122,12 +128,12 @@ def least_time(x: float, y: float, R: float, side: int, tolerance: float) -> flo
     return time
 
 
-def duration(maneuver: Flown) -> float:
+def duration(maneuver: Entry) -> float:
     """T, the whole time of a maneuver."""
-    return maneuver[2] + maneuver[3] + maneuver[4]
+    return maneuver.t1 + maneuver.t2 + maneuver.t3
 
 
-def ranked(x: float, y: float, R: float, side: int, tolerance: float) -> list[Flown]:
+def ranked(x: float, y: float, R: float, side: int, tolerance: float) -> list[Entry]:
     """Every extremal that reaches the circle, each once, fastest first; for *either*, those of both sides.
 
     Left out is what only a tolerance lets end sooner than the optimum: it ends beside the target, not on it.
@@ -135,7 +141,7 @@ def ranked(x: float, y: float, R: float, side: int, tolerance: float) -> list[Fl
     dust = rounding(x, y, R)
     least = duration(optimum(x, y, R, side, tolerance)) - dust
     sides = (near_side(y), -near_side(y)) if side == Side.EITHER else (side,)
-    maneuvers: list[Flown] = []
+    maneuvers: list[Entry] = []
     for s in sides:
         for extremal in extremals(x, s * y, R, slack_of(x, y, R, tolerance)):
             maneuver = as_flown(extremal, dust, s)
@@ -145,12 +151,13 @@ def ranked(x: float, y: float, R: float, side: int, tolerance: float) -> list[Fl
     return sorted(maneuvers, key=duration)
 
 
-def same(a: Flown, b: Flown, dust: float) -> bool:
+def same(a: Entry, b: Entry, dust: float) -> bool:
     """Whether two maneuvers are one, met as limits of two words."""
-    return a[:2] == b[:2] and max(abs(t - s) for t, s in zip(a[2:], b[2:], strict=True)) <= dust
+    apart = max(abs(a.t1 - b.t1), abs(a.t2 - b.t2), abs(a.t3 - b.t3))
+    return a.side == b.side and a.word == b.word and apart <= dust
 
 
-def optima(x: float, y: float, R: float, side: int, tolerance: float) -> list[Flown]:
+def optima(x: float, y: float, R: float, side: int, tolerance: float) -> list[Entry]:
     """Every optimal maneuver: those of `ranked` that tie with the first up to rounding, and differ by more than that.
 
     Where a straight piece of length s vanishes the words with and without it differ in T by s^3/24 only (an arc at a
@@ -159,44 +166,44 @@ def optima(x: float, y: float, R: float, side: int, tolerance: float) -> list[Fl
     maneuvers = ranked(x, y, R, side, tolerance)
     dust = rounding(x, y, R)
     one = 2.0 * cbrt(24.0 * dust)
-    chosen: list[Flown] = []
+    chosen: list[Entry] = []
     for maneuver in maneuvers:
         ties = duration(maneuver) <= duration(maneuvers[0]) + dust
-        if ties and all(maneuver[0] != other[0] or apart(maneuver, other) > one for other in chosen):
+        if ties and all(maneuver.side != other.side or apart(maneuver, other) > one for other in chosen):
             chosen.append(maneuver)
     return chosen
 
 
-def apart(a: Flown, b: Flown) -> float:
+def apart(a: Entry, b: Entry) -> float:
     """How long two maneuvers fly different controls."""
     instants = sorted({0.0, *switches(a), *switches(b)})
-    return sum(end - begin for begin, end in pairwise(instants) if letter(a, begin) != letter(b, begin))
+    return sum(end - begin for begin, end in pairwise(instants) if control_at(a, begin) != control_at(b, begin))
 
 
-def switches(maneuver: Flown) -> tuple[float, float, float]:
+def switches(maneuver: Entry) -> tuple[float, float, float]:
     """When the pieces of a maneuver end."""
     _, _, t1, t2, t3 = maneuver
     return t1, t1 + t2, t1 + t2 + t3
 
 
-def letter(maneuver: Flown, t: float) -> int:
-    """The letter flown from the instant t on, as a digit of the word; 0 past the end."""
-    for i, end in enumerate(switches(maneuver)):
+def control_at(maneuver: Entry, t: float) -> int:
+    """The control flown from the instant t on; `ABSENT` past the end."""
+    for u, end in zip(controls(maneuver.word), switches(maneuver)):
         if t < end:
-            return (maneuver[1] >> 2 * i) & 3
-    return 0
+            return u
+    return ABSENT
 
 
-def first_control(R: float, maneuver: Flown) -> float:
+def first_control(R: float, maneuver: Entry) -> float:
     """Feedback law: the first control of a maneuver; at the target the rate -1/R or 1/R that holds the circle."""
-    return (maneuver[1] & 3) - 2.0 if maneuver[1] else -maneuver[0] / R
+    first, _, _ = controls(maneuver.word)
+    return float(first) if first != ABSENT else -maneuver.side / R
 
 
-def miss(x: float, y: float, R: float, maneuver: Flown) -> float:
+def miss(x: float, y: float, R: float, maneuver: Entry) -> float:
     """Distance from the target, in the reduced plane, at which a maneuver from (x, y) ends when flown exactly."""
     side, word, t1, t2, t3 = maneuver
-    for t in (t1, t2, t3):
-        if word:
-            x, y = flow(x, y, (word & 3) - 2, t)
-            word >>= 2
+    for u, t in zip(controls(word), (t1, t2, t3)):
+        if u != ABSENT:
+            x, y = flow(x, y, u, t)
     return hypot(x, y - side * R)

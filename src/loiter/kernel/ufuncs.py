@@ -2,8 +2,8 @@
 
 `min_time(x, y, R, side, tolerance)` and `control(...)` give one array, `reduce(x, y, c, s)` two. `solve(x, y, R, side,
 tolerance, three)` gives time, word, durations (..., 3), status, side held and miss; `three`, any array of length 3,
-only tells their number. Words, statuses and sides are the int8 codes of `kernel/codes.py`. They broadcast, take `out=`,
-release the interpreter's lock, and ask for no memory beyond the results.
+only tells their number. Words, statuses and sides are the int8 codes of `words` and `codes`. They broadcast, take
+`out=`, release the interpreter's lock, and ask for no memory beyond the results.
 """
 
 import ctypes

@@ -1,4 +1,4 @@
-"""A vehicle told to hold a circle."""
+"""Commands to a vehicle: sent until they are acknowledged; the one to hold a circle."""
 
 from __future__ import annotations
 
@@ -16,6 +16,10 @@ from loiter.planning.model import Turn
 # Seconds until a command is sent again.
 REPEAT_S = 1.5
 
+# The MAV_FRAME of places above the sea, and its twin MAV_FRAME_GLOBAL_INT, without which PX4 refuses a COMMAND_INT
+# (mavlink_receiver.cpp).
+GLOBAL, GLOBAL_INT = int(Frame.ABOVE_SEA), 5
+
 # What a command asks for beside the circle. DO_REPOSITION: the present speed, and a change of mode (bit 0 of
 # MAV_DO_REPOSITION_FLAGS). DO_ORBIT: the present speed, the nose where it has to point, no end.
 _BESIDE = {Command.DO_REPOSITION: (-1.0, 1.0, 0.0, 0.0), Command.DO_ORBIT: (0.0, nan, nan, 0.0)}
@@ -26,13 +30,7 @@ def hold_circle(link: Link, place: tuple[float, float, float], radius_m: float, 
 
     Raises `LinkFailed` where it refuses or does not answer in `timeout_s` seconds.
     """
-    wanted = told(link.vehicle, place, radius_m, turn)
-    deadline = monotonic() + timeout_s
-    while (now := monotonic()) < deadline:
-        link.send(wanted)
-        if _done(link, wanted.command, min(deadline, now + REPEAT_S), deadline):
-            return
-    raise LinkFailed(f"{link.vehicle.named} did not answer the command to hold the circle in {timeout_s:g} s")
+    obeyed(link, told(link.vehicle, place, radius_m, turn), "hold the circle", timeout_s)
 
 
 def told(vehicle: Vehicle, place: tuple[float, float, float], radius_m: float, turn: Turn) -> Any:
@@ -41,23 +39,43 @@ def told(vehicle: Vehicle, place: tuple[float, float, float], radius_m: float, t
     DO_REPOSITION, but for PX4: its navigator_main.cpp takes from that command neither radius nor direction, both from
     DO_ORBIT.
     """
-    command = Command.DO_ORBIT if vehicle.autopilot == Autopilot.PX4 else Command.DO_REPOSITION
+    px4 = vehicle.autopilot == Autopilot.PX4
+    command, frame = (Command.DO_ORBIT, GLOBAL_INT) if px4 else (Command.DO_REPOSITION, GLOBAL)
     params = with_circle(command, _BESIDE[command], radius_m, turn)
-    head = vehicle.system, vehicle.component, int(Frame.ABOVE_SEA), int(command), 0, 0
+    head = vehicle.system, vehicle.component, frame, int(command), 0, 0
     latitude_deg, longitude_deg, altitude_m = place
     return packets().MAVLink_command_int_message(
         *head, *params, round(latitude_deg * 1e7), round(longitude_deg * 1e7), altitude_m
     )
 
 
-def _done(link: Link, command: int, again: float, deadline: float) -> bool:
+def obeyed(link: Link, wanted: Any, what: str, timeout_s: float) -> None:
+    """Send a command until it is acknowledged; `what` is what for, in words.
+
+    Raises `LinkFailed` where the vehicle refuses or does not answer in `timeout_s` seconds.
+    """
+    deadline = monotonic() + timeout_s
+    while (now := monotonic()) < deadline:
+        link.send(wanted)
+        if _done(link, wanted.command, what, min(deadline, now + REPEAT_S), deadline):
+            return
+    raise LinkFailed(f"{link.vehicle.named} did not answer the command to {what} in {timeout_s:g} s")
+
+
+def long_command(link: Link, command: int, *params: float) -> Any:
+    """A COMMAND_LONG; what is left out of its seven parameters is 0."""
+    seven = (*params, *[0.0] * (7 - len(params)))
+    return packets().MAVLink_command_long_message(link.vehicle.system, link.vehicle.component, command, 0, *seven)
+
+
+def _done(link: Link, command: int, what: str, again: float, deadline: float) -> bool:
     """Whether the vehicle accepts; False where it is silent. Once it says that it is at it there is time to the end."""
     while (message := link.receive({"COMMAND_ACK"}, again)) is not None:
         if message.command == command and message.result == IN_PROGRESS:
             again = deadline
         elif message.command == command and message.result != ACCEPTED:
             reason = command_result(message.result)
-            raise LinkFailed(f"{link.vehicle.named} refused to hold the circle: {reason}")
+            raise LinkFailed(f"{link.vehicle.named} refused to {what}: {reason}")
         elif message.command == command:
             return True
     return False

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import socket
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from math import inf
 from time import monotonic
 from typing import Any, NamedTuple
@@ -31,11 +31,19 @@ BEAT_S = 1.0
 # Seconds to listen for a second vehicle before the first is taken for the only one: time for its heartbeat.
 ALONE_S = 1.5
 
+# The port from which `udpout` sends is this and the last four digits of the one that it sends to. It has to stay the
+# same: PX4 answers the first port that spoke to its own, until it restarts (mavlink_receiver.cpp).
+LOCAL_PORTS, LAST_DIGITS = 20000, 10000
+
 # Bits per second of a serial line where none are given: what radios and USB ports of autopilots are set to.
 BAUD = 57600
 
 _NETWORK = re.compile(r"(udpin|udpout|tcp):([^:\s\0]+):(\d{1,5})")
 _SERIAL = re.compile(r"(/[^\s\0,]+|COM\d+)(,\d{1,7})?")
+
+
+class LineLost(LinkFailed):
+    """The line to a vehicle is gone: hung up, unplugged. It may be opened again."""
 
 
 class Vehicle(NamedTuple):
@@ -72,17 +80,26 @@ class Link:
         self._beats = beats
         self._next_beat = monotonic()
 
+    def close(self) -> None:
+        """Close the port."""
+        self._port.close()
+
+    def reopen(self, connection: str, timeout_s: float) -> None:
+        """Open the connection anew, after the line was lost; raises `LinkFailed` where that cannot be done."""
+        self.close()
+        self._port = opened(connection, timeout_s)
+
     @property
     def us(self) -> tuple[int, int]:
         """Our system and component."""
         return self._port.mav.srcSystem, self._port.mav.srcComponent
 
     def send(self, message: Any) -> None:
-        """A message out; raises `LinkFailed` where the line is gone."""
+        """A message out; raises `LineLost` where the line is gone."""
         _send(self._port, message, self.vehicle.old)
 
     def receive(self, types: set[str], deadline: float) -> Any | None:
-        """The next message of one of the types, or None at the deadline; raises `LinkFailed` where the line is gone."""
+        """The next message of one of the types, or None at the deadline; raises `LineLost` where the line is gone."""
         while (now := monotonic()) < deadline:
             if self._beats and now >= self._next_beat:
                 self.send(heartbeat())
@@ -94,6 +111,12 @@ class Link:
                     return message
         return None
 
+    def catch_up(self, deadline: float) -> None:
+        """Hear what has come and waits to be heard, until a time at the latest; raises `LineLost` as `receive`."""
+        while monotonic() < deadline and (message := _receive(self._port, 0.0)) is not None:
+            if self._from_vehicle(message):
+                self.hear(message, monotonic())
+
     def _from_vehicle(self, message: Any) -> bool:
         return _sender(message) == (self.vehicle.system, self.vehicle.component)
 
@@ -104,10 +127,24 @@ class Link:
 
 
 @contextmanager
-def connected(connection: str, system: int | None, component: int, timeout_s: float) -> Iterator[Link]:
-    """A link to the vehicle that answers on a connection; raises `LinkFailed` where none does."""
-    with closing(opened(connection, timeout_s)) as port:
-        yield Link(port, found(port, connection, system, component, timeout_s))
+def connected(
+    connection: str,
+    system: int | None,
+    component: int,
+    timeout_s: float,
+    *,
+    beats: bool = True,
+    hear: Callable[[Any, float], None] = lambda message, now: None,
+) -> Iterator[Link]:
+    """A link to the vehicle that answers on a connection; raises `LinkFailed` where none does. Options as of `Link`."""
+    port = opened(connection, timeout_s)
+    try:
+        vehicle = found(port, connection, system, component, timeout_s, beats=beats)
+    except BaseException:
+        port.close()
+        raise
+    with closing(Link(port, vehicle, beats=beats, hear=hear)) as link:
+        yield link
 
 
 def opened(connection: str, timeout_s: float) -> Any:
@@ -203,7 +240,17 @@ def _opened(connection: str, timeout_s: float) -> Any:
         # pymavlink would share the port with whoever listens there already, so that one of the two hears nothing.
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             probe.bind((address, int(port)))
-    return mavutil.mavudp(f"{address}:{port}", input=kind == "udpin")
+    udp = mavutil.mavudp(f"{address}:{port}", input=kind == "udpin")
+    if kind == "udpout" and local_port(int(port)) != int(port):
+        # Where another program has the port the system gives one: only PX4 cares which.
+        with suppress(OSError):
+            udp.port.bind(("", local_port(int(port))))
+    return udp
+
+
+def local_port(port: int) -> int:
+    """The port from which `udpout` sends to a port, where it is free and another one."""
+    return LOCAL_PORTS + port % LAST_DIGITS
 
 
 def _address(connection: str, host: str) -> str:
@@ -244,21 +291,23 @@ def _not_found(connection: str, system: int | None, vehicles: dict[int, Vehicle]
     if system is None and vehicles:
         return f"there are several vehicles on {connection}, {heard}: say which by its system number"
     asked = "a vehicle" if system is None else f"system {system}"
-    return f"no heartbeat of {asked} in {timeout_s:g} s on {connection}: heard {heard or 'no vehicle at all'}"
+    said = f"no heartbeat of {asked} in {timeout_s:g} s on {connection}: heard {heard or 'no vehicle at all'}"
+    silent = connection.startswith("udpout") and not heard
+    return f"{said}; PX4 answers only the port that spoke to it first since it started" if silent else said
 
 
 def _send(port: Any, message: Any, old: bool) -> None:
     try:
         port.mav.send(message, force_mavlink1=old)
     except OSError as error:
-        raise LinkFailed(f"the line to the vehicle is gone: {_reason(error)}") from error
+        raise LineLost(f"the line to the vehicle is gone: {_reason(error)}") from error
 
 
 def _receive(port: Any, timeout_s: float) -> Any | None:
     try:
-        return port.recv_match(blocking=True, timeout=timeout_s)
+        return port.recv_match(blocking=timeout_s > 0.0, timeout=timeout_s)
     except OSError as error:
-        raise LinkFailed(f"the line to the vehicle is gone: {_reason(error)}") from error
+        raise LineLost(f"the line to the vehicle is gone: {_reason(error)}") from error
 
 
 def _sender(message: Any) -> tuple[int, int]:

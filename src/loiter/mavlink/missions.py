@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import nan
+from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed, positive
-from loiter.io.items import Mission
-from loiter.mavlink import transfer
-from loiter.mavlink.link import Link, connected
-from loiter.mavlink.stored import StoredItem, compared, decoded, encoded, keeps_home, same
+from loiter.io.items import Autopilot, Mission
+from loiter.mavlink import required, transfer
+from loiter.mavlink.link import Link, Vehicle, connected
+from loiter.mavlink.parameters import Parameters
+from loiter.mavlink.radii import Scaling, fitted, parameters_of, scaling_of
+from loiter.mavlink.start import flies_mission, start_mission
+from loiter.mavlink.stored import StoredItem, compared, decoded, encoded, keeps_home, own_home, same
+from loiter.mavlink.texts import Texts
 from loiter.mavlink.words import autopilot_name
 
 # Seconds without progress after which a transfer is given up: ten times a message that calls for an answer. On a line
@@ -25,7 +31,9 @@ class Summary:
     """What an upload did.
 
     `items` and `replaced` count the items of the new and of the old mission, home not among them. `cut` says, a
-    sentence each, what the autopilot keeps in its own way: ArduPilot a radius in whole metres, for instance.
+    sentence each, what the autopilot keeps in its own way: ArduPilot a radius in whole metres, for instance. `remarks`
+    says, likewise, what the autopilot will make of the mission: fly another radius, or not fly it at all. `started`
+    is whether it flies the mission, where that was asked for.
     """
 
     system: int
@@ -34,32 +42,74 @@ class Summary:
     items: int
     replaced: int
     cut: tuple[str, ...]
+    remarks: tuple[str, ...] = ()
+    started: bool = False
+
+
+class Habits(NamedTuple):
+    """How a vehicle flies missions: how it widens loiters, and whether to make up for that; what it requires of them.
+
+    `requirement` is the value of `required.REQUIREMENT`, 0 for nothing.
+    """
+
+    scaling: Scaling | None = None
+    true_radius: bool = False
+    requirement: float = 0.0
+
+
+NO_HABITS = Habits()
 
 
 def upload(
-    mission: Mission,
+    mission: Mission | Callable[[int], Mission],
     connection: str,
     *,
     system: int | None = None,
     component: int = 1,
     timeout_s: float = TIMEOUT_S,
     on_progress: Progress | None = None,
+    true_radius: bool = False,
+    start: bool = False,
 ) -> Summary:
     """Send a mission to a vehicle, and read it back to see that it is there.
 
+    `mission` may be what makes one for an autopilot, a MAV_AUTOPILOT: which it is is known once the vehicle is found.
     `connection` is `udpin:HOST:PORT`, `udpout:HOST:PORT`, `tcp:HOST:PORT` or a serial device, `/dev/ttyUSB0,57600`;
     `system` the vehicle's system number where several are on the line. `timeout_s` (seconds) passes without progress
-    before anything is given up. ArduPilot gets the mission's home as item 0, others the items alone.
+    before anything is given up. ArduPilot keeps its home as item 0: it gets its own again, the mission's where it has
+    none; others get the items alone.
+
+    ArduPlane widens loiters with the altitude, unless its parameters say otherwise; PX4 does not fly a mission without
+    a landing, unless its parameters say otherwise. Both are looked up and told in `Summary.remarks`. With `true_radius`
+    ArduPlane is sent the radius with which it flies the one of the mission. With `start` a vehicle in flight is told to
+    fly the mission from its first item on; none is armed, none takes off.
 
     The mission that the vehicle has is read first. Where anything goes wrong after that, Ctrl-C included, the transfer
     is cancelled, and the old mission sent back unless it is still there. Raises `LinkFailed` where the vehicle is not
     found, is silent, refuses, or keeps something else than it was sent, and says what became of the old mission, as
-    `KeyboardInterrupt` does; `InvalidArgument` for arguments and missions that cannot be sent; `MissingPackage` without
-    pymavlink.
+    `KeyboardInterrupt` does; where it has the new one and does not start it; `InvalidArgument` for arguments and
+    missions that cannot be sent; `MissingPackage` without pymavlink.
     """
     check_target(system, component, timeout_s)
-    with connected(connection, system, component, timeout_s) as link:
-        return replace(link, mission, timeout_s, on_progress or (lambda doing, done, total: None))
+    texts = Texts()
+    with connected(connection, system, component, timeout_s, hear=lambda message, now: texts.hear(message)) as link:
+        wanted = mission(link.vehicle.autopilot) if callable(mission) else mission
+        check_mission(wanted, link.vehicle)
+        scaling = scaling_of(link, parameters_of(link.vehicle), true_radius=true_radius)
+        habits = Habits(scaling, true_radius, _requirement(link))
+        summary = replace_mission(link, wanted, timeout_s, on_progress or (lambda doing, done, total: None), habits)
+        if not start:
+            return summary
+        try:
+            start_mission(link, texts, timeout_s)
+        except LinkFailed as failure:
+            if not habits.requirement:
+                raise
+            # What keeps PX4 from flying it is a parameter, which it does not always say.
+            raise LinkFailed(
+                "; ".join([str(failure), *(remark.rstrip(".") for remark in summary.remarks)])
+            ) from failure
+        return replace(summary, started=True)
 
 
 def download(
@@ -80,12 +130,18 @@ def download(
         return decoded(transfer.receive(link, timeout_s, progress), link.vehicle)
 
 
-def replace(link: Link, mission: Mission, timeout_s: float, on_progress: Progress) -> Summary:
-    """What `upload` does once there is a link."""
+def replace_mission(
+    link: Link, mission: Mission, timeout_s: float, on_progress: Progress, habits: Habits = NO_HABITS
+) -> Summary:
+    """What `upload` does once there is a link, up to the start."""
     vehicle = link.vehicle
-    items = encoded(mission, vehicle)
+    check_mission(mission, vehicle)
     old = transfer.receive(link, timeout_s, _progress("read", on_progress))
+    items, remarks = _adapted(mission, vehicle, own_home(old, vehicle), habits)
     try:
+        if vehicle.autopilot == Autopilot.PX4 and same(old, items, vehicle) and not flies_mission(link):
+            # It would not look again at the mission that it has, whatever has been set since it found it wanting.
+            transfer.clear(link, timeout_s)
         wrong, cut = _sent(link, items, timeout_s, on_progress)
         if wrong:
             more = f", and {len(wrong) - 1} more" if len(wrong) > 1 else ""
@@ -99,7 +155,33 @@ def replace(link: Link, mission: Mission, timeout_s: float, on_progress: Progres
         raise
     home = int(keeps_home(vehicle))
     counts = len(items) - home, max(0, len(old) - home)
-    return Summary(vehicle.system, vehicle.component, autopilot_name(vehicle.autopilot), *counts, tuple(cut))
+    who = vehicle.system, vehicle.component, autopilot_name(vehicle.autopilot)
+    return Summary(*who, *counts, tuple(cut), tuple(remarks))
+
+
+def check_mission(mission: Mission, vehicle: Vehicle) -> None:
+    """Raise `InvalidArgument` for a mission whose items cannot be sent, before the vehicle is asked for anything."""
+    encoded(mission._replace(home=(0.0, 0.0, 0.0)), vehicle)
+
+
+def _adapted(
+    mission: Mission, vehicle: Vehicle, home: StoredItem | None, habits: Habits
+) -> tuple[list[StoredItem], list[str]]:
+    """The items to send to a vehicle, which may have a home of its own, and what it will make of them."""
+    items = encoded(mission, vehicle, home)
+    if habits.scaling is not None:
+        altitude_m = nan if home is None else home.z
+        return fitted(items, habits.scaling, vehicle, altitude_m, true_radius=habits.true_radius)
+    missing = required.remark(items, habits.requirement)
+    return items, [missing] if missing else []
+
+
+def _requirement(link: Link) -> float:
+    """What the vehicle requires of a mission; 0 where it requires nothing, or does not say."""
+    if link.vehicle.autopilot != Autopilot.PX4:
+        return 0.0
+    known = Parameters([required.REQUIREMENT], link.vehicle.autopilot).wait(link, bool)
+    return known.get(required.REQUIREMENT, 0.0)
 
 
 def _sent(

@@ -45,18 +45,36 @@ class StoredItem(NamedTuple):
     z: float
 
 
-def encoded(mission: Mission, vehicle: Vehicle) -> list[StoredItem]:
-    """What is sent to a vehicle for a mission; ArduPilot's item 0 is the home.
+def encoded(mission: Mission, vehicle: Vehicle, own_home: StoredItem | None = None) -> list[StoredItem]:
+    """What is sent to a vehicle for a mission; ArduPilot's item 0 is the home: its own where known, or the mission's.
 
     Raises `InvalidArgument` for a mission without items and for numbers that MAVLink cannot carry.
     """
     if not mission.items:
         raise InvalidArgument("mission", "has no items")
-    home = MissionItem(Command.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
-    items = (home, *mission.items) if keeps_home(vehicle) else mission.items
-    if len(items) > MOST_ITEMS:
-        raise InvalidArgument("mission", f"has {len(items)} items: MAVLink counts no further than {MOST_ITEMS}")
-    return [_encoded(item, seq, called(seq, vehicle)) for seq, item in enumerate(items)]
+    first = int(keeps_home(vehicle))
+    if first + len(mission.items) > MOST_ITEMS:
+        count = first + len(mission.items)
+        raise InvalidArgument("mission", f"has {count} items: MAVLink counts no further than {MOST_ITEMS}")
+    items = [_encoded(item, seq, called(seq, vehicle)) for seq, item in enumerate(mission.items, start=first)]
+    return [own_home or _home(mission, vehicle), *items] if first else items
+
+
+def own_home(items: Sequence[StoredItem], vehicle: Vehicle) -> StoredItem | None:
+    """The home among the items that a vehicle holds; None where there is none, or it is not set: 0 N 0 E."""
+    if not keeps_home(vehicle) or not items or items[0].x == items[0].y == 0:
+        return None
+    return items[0]._replace(current=1)
+
+
+def above_sea_m(item: StoredItem, home_altitude_m: float) -> float:
+    """The altitude of an item above the sea, metres; nan where it is above something whose altitude is not known."""
+    match _TWINS.get(item.frame):
+        case Frame.ABOVE_SEA:
+            return item.z
+        case Frame.ABOVE_HOME:
+            return item.z + home_altitude_m
+    return nan
 
 
 def decoded(items: Sequence[StoredItem], vehicle: Vehicle) -> Mission:
@@ -119,6 +137,11 @@ def same(some: Sequence[StoredItem], others: Sequence[StoredItem], vehicle: Vehi
     return not wrong
 
 
+def _home(mission: Mission, vehicle: Vehicle) -> StoredItem:
+    item = MissionItem(Command.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
+    return _encoded(item, 0, called(0, vehicle))
+
+
 def _encoded(item: MissionItem, seq: int, name: str) -> StoredItem:
     if any(map(isinf, (*item.params, item.altitude_m))):
         raise InvalidArgument("mission", f"has an infinite number in {name}: {item}")
@@ -175,9 +198,10 @@ def _ardupilot(command: int, params: Params) -> Params:
         case Command.NAV_LOITER_UNLIM:
             return 0.0, 0.0, _whole(c), 0.0
         case Command.NAV_LOITER_TURNS:
-            # A byte for the radius, in tens of metres above 255.
+            # A byte for the radius, in tens of metres above 255; one for the turns, in 256ths of a turn below 1.
             radius = abs(c) if abs(c) <= 255.0 else 10.0 * min(_whole(abs(c) * 0.1), 255.0)
-            return min(_whole(a), 255.0), 0.0, copysign(_whole(radius), c), float(d > 0.0)
+            turns = _whole(256.0 * a) / 256.0 if 0.0 < a < 1.0 else min(_whole(a), 255.0)
+            return turns, 0.0, copysign(_whole(radius), c), float(d > 0.0)
         case Command.NAV_LOITER_TIME:
             return _whole(a), 0.0, -1.0 if c < 0.0 else 1.0, float(d > 0.0)
         case Command.NAV_LOITER_TO_ALT:

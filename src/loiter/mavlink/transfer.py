@@ -38,20 +38,36 @@ BUSY = {ERROR, DENIED}
 Progress = Callable[[int, int], None]
 
 
+class _Unanswered(LinkFailed):
+    """A vehicle does not answer, and does not refuse."""
+
+
 def receive(link: Link, timeout_s: float, progress: Progress = lambda done, total: None) -> list[StoredItem]:
     """The items that a vehicle holds. Raises `LinkFailed` where it is silent for `timeout_s`, or refuses to the end."""
-    to, mavlink = _to(link), packets()
+    wanted = packets().MAVLink_mission_request_list_message(*_to(link), 0)
     with _cancelling(link):
-        wanted = mavlink.MAVLink_mission_request_list_message(*to, 0)
+        for _ in range(1, ATTEMPTS):
+            total = _answer(link, wanted, "give its mission", "MISSION_COUNT", REPEAT_S, timeout_s).count
+            try:
+                return _items(link, total, min(SILENCE_S, timeout_s), progress)
+            except _Unanswered:
+                # It has given up halfway, as mavsdk's vehicle does when five requests are lost: it is asked anew.
+                continue
         total = _answer(link, wanted, "give its mission", "MISSION_COUNT", REPEAT_S, timeout_s).count
-        items: list[StoredItem] = []
-        for seq in range(total):
-            progress(seq, total)
-            wanted = mavlink.MAVLink_mission_request_int_message(*to, seq, 0)
-            asked = f"give {called(seq, link.vehicle)}"
-            items.append(unpacked(_answer(link, wanted, asked, "MISSION_ITEM_INT", ITEM_REPEAT_S, timeout_s, seq)))
-        progress(total, total)
-        link.send(mavlink.MAVLink_mission_ack_message(*to, ACCEPTED, 0))
+        return _items(link, total, timeout_s, progress)
+
+
+def _items(link: Link, total: int, timeout_s: float, progress: Progress) -> list[StoredItem]:
+    """The items of a vehicle, asked for one after the other; raises `_Unanswered` where one does not come."""
+    to, mavlink = _to(link), packets()
+    items: list[StoredItem] = []
+    for seq in range(total):
+        progress(seq, total)
+        wanted = mavlink.MAVLink_mission_request_int_message(*to, seq, 0)
+        asked = f"give {called(seq, link.vehicle)}"
+        items.append(unpacked(_answer(link, wanted, asked, "MISSION_ITEM_INT", ITEM_REPEAT_S, timeout_s, seq)))
+    progress(total, total)
+    link.send(mavlink.MAVLink_mission_ack_message(*to, ACCEPTED, 0))
     return items
 
 
@@ -216,7 +232,7 @@ def _answer(
                 return message
     if refusal:
         raise LinkFailed(f"{link.vehicle.named} refused to {asked}: {refusal}")
-    raise LinkFailed(f"{link.vehicle.named} did not answer in {timeout_s:g} s when asked to {asked}")
+    raise _Unanswered(f"{link.vehicle.named} did not answer in {timeout_s:g} s when asked to {asked}")
 
 
 def _to(link: Link) -> tuple[int, int]:

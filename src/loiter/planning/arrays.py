@@ -7,12 +7,13 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from itertools import pairwise
+from types import NoneType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from loiter.errors import InvalidArgument
-from loiter.kernel import drift, motion
+from loiter.kernel import motion, wind_search
 from loiter.kernel.codes import Side
 from loiter.kernel.rebinding import Function, rebound
 from loiter.planning.compass import heading_vector
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 class Solution(NamedTuple):
     """Optimal maneuvers of an array of states, shape (...) as broadcast; durations are (..., 3), in flying order.
 
-    `word` holds `loiter.kernel.codes.Word`, `status` `Status`, `side` `Side` codes (int8); where the status is not
+    `word` holds `loiter.kernel.words.Word`, `status` `Status`, `side` `Side` codes (int8); where the status is not
     `OK` the floats are nan. `miss` is the distance from the target at which the durations end when flown exactly.
     """
 
@@ -52,9 +53,10 @@ def min_time(
 
     `x`, `y` are the coordinates (2) of docs/theory.md and `radius` the circle's, all in turn radii; `turn` is "cw",
     "ccw" or "either", or a `Side` code; `tolerance` is that of `plan`, in turn radii. It behaves as a ufunc: arguments
-    broadcast, float64 comes back, `out` is an array to fill; Dask arrays, pandas columns and xarray's arrays come back
-    as what they are. A state that cannot be solved (nan, infinite, radius < 1) gives nan; `solve` says why. `workers`
-    threads share NumPy arrays, -1 for one a core. Raises `InvalidArgument` for an unknown turn or number of workers.
+    broadcast, float64 comes back, `out` is an array to fill, which may overlap an argument; Dask arrays, pandas columns
+    and xarray's arrays come back as what they are. A state that cannot be solved (nan, infinite, radius < 1) gives nan;
+    `solve` says why. `workers` threads share NumPy arrays, -1 for one a core. Raises `InvalidArgument` for an unknown
+    turn or number of workers.
     The first call on a machine compiles the kernel, some ten seconds; the code is kept in the user's cache folder.
 
     >>> round(float(loiter.min_time(4.0, 4.0)), 4)
@@ -99,19 +101,22 @@ def solve(
     """Optimal maneuvers from reduced states (x, y): time, word, durations, status. Arguments and errors as `min_time`.
 
     NumPy and Dask arrays come back as what they are, other columns as NumPy arrays; `out` is a `Solution` to fill.
+    Raises `InvalidArgument` too for an `out` with Dask arrays.
 
     >>> loiter.solve(4.0, 4.0).durations.round(4)
     array([2.6994, 3.1669, 1.0472])
     """
     arguments: tuple[Any, ...] = (x, y, radius, _sides(turn), tolerance)
     arguments = tuple(a if _lazy(a) else np.asarray(a) for a in arguments)
+    count = _threads(workers)
     if any(map(_lazy, arguments)):
+        _not_lazy(out)
         return Solution(*_ufunc("solve")(*arguments, np.empty(3)))
     if out is None:
         shape = np.broadcast_shapes(*(a.shape for a in arguments))
         shapes = {name: (*shape, 3) if name == "durations" else shape for name in Solution._fields}
         out = Solution(*(np.empty(shapes[name], _DTYPES.get(name, np.float64)) for name in Solution._fields))
-    _shared(lambda *blocks, out: _ufunc("solve")(*blocks, np.empty(3), out=out), arguments, tuple(out), workers)
+    _shared(lambda *blocks, out: _ufunc("solve")(*blocks, np.empty(3), out=out), arguments, tuple(out), count)
     return out
 
 
@@ -192,13 +197,13 @@ COMPILED_FROM = 1500
 
 
 def rows_in_wind(compiled: bool) -> Function:
-    """`drift.fastest` for the rows of an array, its eight arguments each, into one of as many columns."""
+    """`wind_search.fastest` for the rows of an array, its eight arguments each, into one of as many columns."""
     return _compiled_in_wind() if compiled else _plain_in_wind
 
 
 def _plain_in_wind(states: NDArray[np.float64], answers: NDArray[np.float64]) -> None:
     for i, (x, y, c, s, R, side, wx, wy) in enumerate(states.tolist()):
-        answers[i] = drift.fastest(x, y, c, s, R, int(side), wx, wy)
+        answers[i] = wind_search.fastest(x, y, c, s, R, int(side), wx, wy)
 
 
 @cache
@@ -231,6 +236,8 @@ def reduce(
     north: Any = np.subtract(north_m, orbit.north_m, dtype=np.float64) / r
     c, s = heading_vectors()(np.multiply(heading_deg, 1.0, dtype=np.float64))
     lazy = any(map(_lazy, (east, north, c)))
+    if lazy:
+        _not_lazy(out)
     if lazy or (out is None and max(np.size(east), np.size(north), np.size(c)) < KERNEL_FROM):
         # The formula is arithmetic alone, and Dask does not apply a ufunc of two results.
         return motion.reduce(east, north, c, s)
@@ -281,11 +288,20 @@ def _lazy(argument: object) -> bool:
     return hasattr(argument, "__array_function__") and not isinstance(argument, (np.ndarray, np.generic))
 
 
+def _not_lazy(out: object) -> None:
+    """Refuse an `out` where the results are lazy: nothing would ever fill it."""
+    if out is not None:
+        raise InvalidArgument(
+            "out", "is given, and an argument is a lazy array: the result is lazy too and fills nothing"
+        )
+
+
 def _one(name: str, arguments: tuple[Any, ...], out: Any, workers: int) -> Any:
     """A ufunc of one result, by threads where that is asked for and all arguments are NumPy's."""
-    ufunc = _ufunc(name)
+    ufunc, count = _ufunc(name), _threads(workers)
     arrays = [a if hasattr(a, "__array_ufunc__") else np.asarray(a, dtype=np.float64) for a in arguments]
-    if workers == 1 or not all(isinstance(a, (np.ndarray, np.generic)) for a in arrays):
+    shareable = all(isinstance(a, (np.ndarray, np.generic)) for a in arrays)
+    if count == 1 or not shareable or not isinstance(out, (np.ndarray, NoneType)):
         return ufunc(*arrays) if out is None else ufunc(*arrays, out=out)
     if out is None:
         out = np.empty(np.broadcast_shapes(*(a.shape for a in arrays)))
@@ -294,7 +310,10 @@ def _one(name: str, arguments: tuple[Any, ...], out: Any, workers: int) -> Any:
 
 
 def _shared(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[Any, ...], workers: int) -> None:
-    """Do the work on slices of the longest axis by threads; the ufuncs hold no lock and share no memory."""
+    """Do the work on slices of the longest axis by threads; the ufuncs hold no lock and share no memory.
+
+    An argument that overlaps a result is copied first, as NumPy's ufuncs do.
+    """
     count = _threads(workers)
     shape = out[0].shape
     axis = int(np.argmax(shape)) if shape else 0
@@ -302,7 +321,7 @@ def _shared(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[Any
         work(*arrays, out=out)
         return
     # What is one number stays one: the loops are faster for it.
-    views = [np.broadcast_to(a, shape) if np.ndim(a) else a for a in arrays]
+    views = [np.broadcast_to(a, shape) if np.ndim(a) else a for a in (_unshared(a, out) for a in arrays)]
     # Several slices a thread, so that one which is held up leaves work to the others.
     edges = np.linspace(0, shape[axis], min(4 * count, shape[axis]) + 1).astype(int)
     slices = [(*[slice(None)] * axis, slice(start, end)) for start, end in pairwise(edges)]
@@ -312,6 +331,19 @@ def _shared(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[Any
         ]
     for task in tasks:
         task.result()
+
+
+def _unshared(argument: Any, out: tuple[Any, ...]) -> Any:
+    """An argument, or its copy where one thread could overwrite what another has still to read.
+
+    The same elements in the same places are safe: each is read and written by one thread.
+    """
+    overlaps = any(np.may_share_memory(argument, o) and not _same_places(argument, o) for o in out)
+    return argument.copy() if overlaps else argument
+
+
+def _same_places(a: Any, b: Any) -> bool:
+    return bool(a.shape == b.shape and a.strides == b.strides and a.ctypes.data == b.ctypes.data)
 
 
 def _threads(workers: int) -> int:

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from loiter.kernel import motion
-from loiter.kernel.codes import Status, Word
+from loiter.kernel.codes import Status
 from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.synthesis import REACH, ROUNDING
+from loiter.kernel.words import Word
 from loiter.planning import arrays
 from loiter.planning.compass import wrapped
 from loiter.planning.held import relative

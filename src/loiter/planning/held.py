@@ -3,7 +3,7 @@
 from math import hypot
 
 from loiter.errors import RadiusTooSmall, WindTooStrong
-from loiter.kernel import drift
+from loiter.kernel import wind_search
 from loiter.kernel.codes import Side, Status
 from loiter.kernel.hold import tightest_held
 from loiter.kernel.synthesis import ROUNDING
@@ -28,7 +28,7 @@ def relative(air: tuple[float, float], circle: tuple[float, float], airspeed: fl
 def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:
     """Raise where the aircraft cannot hold the circle all round: `WindTooStrong` or `RadiusTooSmall`."""
     (wx, wy), R = air_past(orbit, aircraft, wind), orbit.radius_m / aircraft.turn_radius_m
-    status = drift.status_of(0.0, 0.0, 1.0, 0.0, R, wx, wy)
+    status = wind_search.status_of(0.0, 0.0, 1.0, 0.0, R, wx, wy)
     if status == Status.WIND_TOO_STRONG:
         V, speed = aircraft.airspeed_m_s, hypot(wx, wy) * aircraft.airspeed_m_s
         raise WindTooStrong(

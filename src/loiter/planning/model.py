@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import atan2, degrees, hypot, inf, radians, tan
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from loiter.errors import InvalidArgument, as_float, not_negative, number, positive
 from loiter.planning.compass import heading_vector
@@ -35,6 +35,10 @@ def wind_velocity(speed_m_s: float, from_deg: float) -> tuple[float, float]:
     east, north = heading_vector(from_deg)
     # From 0.0, so that no component is -0.0.
     return 0.0 - speed_m_s * east, 0.0 - speed_m_s * north
+
+
+# The values of a `Turn`, which may be given in its place.
+TurnName = Literal["either", "cw", "ccw"]
 
 
 class Turn(StrEnum):
@@ -132,6 +136,18 @@ class Orbit:
     turn: Turn = Turn.EITHER
     velocity_east_m_s: float = 0.0
     velocity_north_m_s: float = 0.0
+
+    if TYPE_CHECKING:
+        # The field is a `Turn`, and what may be given for it is more: a type checker is told so, in the fields' order.
+        def __init__(
+            self,
+            east_m: float,
+            north_m: float,
+            radius_m: float,
+            turn: Turn | TurnName = ...,
+            velocity_east_m_s: float = ...,
+            velocity_north_m_s: float = ...,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         east_m, north_m = number("orbit east_m", self.east_m, "metres"), number("orbit north_m", self.north_m, "metres")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from loiter.errors import InvalidArgument, as_float, positive
-from loiter.kernel.codes import Word
+from loiter.kernel.words import Word
 from loiter.planning.arrays import Solution, solve
 from loiter.planning.model import Turn
 

@@ -6,9 +6,10 @@ from math import inf
 from typing import NamedTuple
 
 from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, not_negative
-from loiter.kernel import drift, motion
-from loiter.kernel.codes import Side, Status, Word
-from loiter.kernel.synthesis import REACH, ROUNDING, Flown, held_radius, status_of
+from loiter.kernel import motion, wind_search
+from loiter.kernel.codes import Side, Status
+from loiter.kernel.synthesis import REACH, ROUNDING, Entry, held_radius, status_of
+from loiter.kernel.words import Word
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import flown_from
 from loiter.planning.held import SIDES as SIDES
@@ -52,7 +53,7 @@ def normalised(pose: Pose, orbit: Orbit, aircraft: Aircraft, tolerance_m: float)
     # Coordinates far from their origin carry the rounding of their own size into a small difference.
     size = abs(pose.east_m) + abs(orbit.east_m) + abs(pose.north_m) + abs(orbit.north_m)
     tolerance = max(not_negative("tolerance_m", tolerance_m, "metres"), ROUNDING * size) / r
-    scene = Scene(x, y, held_radius(orbit.radius_m / r), SIDES[orbit.turn], tolerance)
+    scene = Scene(x, y, held_radius(radius_in_turns(orbit, aircraft)), SIDES[orbit.turn], tolerance)
     status = status_of(scene.x, scene.y, scene.R, scene.tolerance)
     if status == Status.RADIUS_TOO_SMALL:
         raise RadiusTooSmall(too_tight(orbit, aircraft))
@@ -65,11 +66,21 @@ def drifting(pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind, tolerance
     """The kernel's arguments for a scene in wind; raises for a circle that cannot be held and a scene too large."""
     not_negative("tolerance_m", tolerance_m, "metres")
     check_held(orbit, aircraft, wind)
-    R, (wx, wy) = orbit.radius_m / aircraft.turn_radius_m, air_past(orbit, aircraft, wind)
+    R, (wx, wy) = radius_in_turns(orbit, aircraft), air_past(orbit, aircraft, wind)
     scene = Drifting(*_place(pose, orbit, aircraft), *heading_vector(pose.heading_deg), R, SIDES[orbit.turn], wx, wy)
-    if drift.status_of(*scene[:5], wx, wy) != Status.OK or not _numbers(aircraft):
+    if wind_search.status_of(*scene[:5], wx, wy) != Status.OK or not _numbers(aircraft):
         raise _too_large(pose, orbit, aircraft)
     return scene
+
+
+def radius_in_turns(orbit: Orbit, aircraft: Aircraft) -> float:
+    """R, the radius of the circle in turn radii of the aircraft."""
+    return orbit.radius_m / aircraft.turn_radius_m
+
+
+def time_unit_s(aircraft: Aircraft) -> float:
+    """The kernel's unit of time, seconds: that in which the aircraft flies its turn radius."""
+    return aircraft.turn_radius_m / aircraft.airspeed_m_s
 
 
 def _place(pose: Pose, orbit: Orbit, aircraft: Aircraft) -> tuple[float, float]:
@@ -80,7 +91,7 @@ def _place(pose: Pose, orbit: Orbit, aircraft: Aircraft) -> tuple[float, float]:
 
 def _numbers(aircraft: Aircraft) -> bool:
     """Whether durations of up to REACH turns are numbers too."""
-    return 0.0 < REACH * aircraft.turn_radius_m / aircraft.airspeed_m_s < inf
+    return 0.0 < REACH * time_unit_s(aircraft) < inf
 
 
 def _too_large(pose: Pose, orbit: Orbit, aircraft: Aircraft) -> LoiterError:
@@ -91,7 +102,7 @@ def _too_large(pose: Pose, orbit: Orbit, aircraft: Aircraft) -> LoiterError:
     )
 
 
-def maneuver(pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind, flown: Flown, missed: float) -> Maneuver:
+def maneuver(pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind, flown: Entry, missed: float) -> Maneuver:
     """The kernel's answer in SI; `missed` is by how much it misses, in turn radii."""
     side, word, *durations = flown
     segments: list[Segment] = []

@@ -1,16 +1,18 @@
 """Plans: the optimum, every optimum, every extremal."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any, NamedTuple
 
 from loiter.errors import NotConverged
-from loiter.kernel import drift
+from loiter.kernel import wind_search
 from loiter.kernel.codes import Status
-from loiter.kernel.synthesis import Flown, miss, optima, optimum, ranked
+from loiter.kernel.synthesis import Entry, duration, miss, optima, optimum, ranked
+from loiter.kernel.wind_search import WindEntry
 from loiter.planning.held import air_past
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
-from loiter.planning.scaling import Scene, drifting, maneuver, normalised
+from loiter.planning.scaling import Scene, drifting, maneuver, normalised, radius_in_turns
 
 
 def plan(
@@ -18,11 +20,11 @@ def plan(
 ) -> Maneuver:
     """The fastest way from `pose` onto `orbit`, to be joined tangentially and held in the direction `orbit.turn`.
 
-    In still air (`wind` None, or as fast as the circle moves) the answer is the least of the extremals of the maximum
-    principle that can win, in closed form (docs/theory.md, section 3). In wind, and onto a circle that moves, it is
-    joined tangentially as the circle sees it, over the ground if it stands still, and found by branch and bound over
-    the point of joining (docs/wind.md). Where several maneuvers are optimal it is one of them; `plan_all` gives them
-    all.
+    In still air (`wind` None, or as fast as the circle moves) the answer is the fastest of the extremals of the maximum
+    principle that docs/theory.md, section 3, lists, in closed form: proved to be the optimum for a circle of the
+    minimum turn radius, cross-checked for wider ones. In wind, and onto a circle that moves, it is joined tangentially
+    as the circle sees it, over the ground if it stands still, and found by branch and bound over the point of joining
+    (docs/wind.md). Where several maneuvers are optimal it is one of them; `plan_all` gives them all.
 
     In still air the least time jumps where the start passes the last arc (docs/theory.md, section 6): just beyond, the
     aircraft must go round. A start that lies beyond by rounding counts as on the arc; `tolerance_m` (metres) widens
@@ -42,9 +44,8 @@ def plan(
     >>> m.word, m.turn.value, round(m.duration_s, 2)
     ('RSL', 'cw', 13.55)
     """
-    return _solved(pose, orbit, aircraft, wind, tolerance_m, lambda *s: [optimum(*s)], lambda *s: [drift.fastest(*s)])[
-        0
-    ]
+    best, *_ = _solved(pose, orbit, aircraft, wind, tolerance_m, _optimum_alone, _fastest_alone)
+    return best.maneuver
 
 
 def plan_all(
@@ -55,7 +56,8 @@ def plan_all(
     On a circle of the turn radius held either way in still air they are 1, 2 or 4 (paper, section 6); elsewhere there
     may be 3. In wind two tie seldom but where a mirror shows the same scene.
     """
-    return _solved(pose, orbit, aircraft, wind, tolerance_m, optima, drift.optima)
+    found = _solved(pose, orbit, aircraft, wind, tolerance_m, optima, wind_search.optima)
+    return tuple(one.maneuver for one in found)
 
 
 def candidates(
@@ -66,7 +68,8 @@ def candidates(
     In wind: the maneuvers to points of the circle that are met sooner than the points beside them, as far as 128 points
     all round tell them apart.
     """
-    return _solved(pose, orbit, aircraft, wind, tolerance_m, ranked, drift.ranked)
+    found = _solved(pose, orbit, aircraft, wind, tolerance_m, ranked, wind_search.ranked)
+    return tuple(one.maneuver for one in found)
 
 
 def compared(
@@ -77,12 +80,13 @@ def compared(
     In wind it takes half the time of `plan_all` and `candidates` one after the other.
     """
     wind, either = CALM if wind is None else wind, replace(orbit, turn=Turn.EITHER)
-    known = candidates(pose, either, aircraft, wind, tolerance_m=tolerance_m)
+    known = _solved(pose, either, aircraft, wind, tolerance_m, ranked, wind_search.ranked)
     if air_past(orbit, aircraft, wind) == (0.0, 0.0):
         best = plan_all(pose, orbit, aircraft, wind, tolerance_m=tolerance_m)
     else:
-        best = _tied(tuple(replace(m, orbit=orbit) for m in known if orbit.turn in (Turn.EITHER, m.turn)))
-    return best, tuple(m for m in known if not any(m.turn == b.turn and m.segments == b.segments for b in best))
+        best = _tied(known, orbit, aircraft)
+    others = (candidate.maneuver for candidate in known)
+    return best, tuple(m for m in others if not any(m.turn == b.turn and m.segments == b.segments for b in best))
 
 
 def each_way(
@@ -92,19 +96,41 @@ def each_way(
 
     In wind it takes half the time of `compared`. As `plan` else.
     """
-    ways = [replace(orbit, turn=turn) for turn in (Turn.CW, Turn.CCW)]
-    found = [replace(plan(pose, way, aircraft, wind, tolerance_m=tolerance_m), orbit=orbit) for way in ways]
-    known = sorted(found, key=lambda m: m.duration_s)
-    best = _tied(tuple(m for m in known if orbit.turn in (Turn.EITHER, m.turn)))
-    return best, tuple(m for m in known if m not in best)
+    found: list[Solved] = []
+    for turn in (Turn.CW, Turn.CCW):
+        one_way = replace(orbit, turn=turn)
+        found += _solved(pose, one_way, aircraft, wind, tolerance_m, _optimum_alone, _fastest_alone)
+    known = sorted((_asked_as(candidate, orbit) for candidate in found), key=lambda candidate: candidate.time)
+    best = _tied(known, orbit, aircraft)
+    return best, tuple(candidate.maneuver for candidate in known if candidate.maneuver not in best)
 
 
-def _tied(maneuvers: tuple[Maneuver, ...]) -> tuple[Maneuver, ...]:
-    """Those that tie with the first, of maneuvers fastest first: `drift.optima` in SI."""
-    first = maneuvers[0]
-    r, v = first.aircraft.turn_radius_m, first.aircraft.airspeed_m_s
-    T, R = [m.duration_s * v / r for m in maneuvers], first.orbit.radius_m / r
-    return tuple(m for m, t in zip(maneuvers, T, strict=True) if drift.tied(t, T[0], R))
+class Solved(NamedTuple):
+    """A maneuver, and its time in the kernel's units, which decides ties."""
+
+    maneuver: Maneuver
+    time: float
+
+
+def _asked_as(candidate: Solved, orbit: Orbit) -> Solved:
+    """A candidate with the circle as it was asked for: one direction, or either."""
+    return candidate._replace(maneuver=replace(candidate.maneuver, orbit=orbit))
+
+
+def _tied(known: Sequence[Solved], orbit: Orbit, aircraft: Aircraft) -> tuple[Maneuver, ...]:
+    """The maneuvers in the direction asked for that tie with the fastest; `known` has the fastest first."""
+    asked = [_asked_as(one, orbit) for one in known if orbit.turn in (Turn.EITHER, one.maneuver.turn)]
+    R = radius_in_turns(orbit, aircraft)
+    least = min(candidate.time for candidate in asked)
+    return tuple(candidate.maneuver for candidate in asked if wind_search.tied(candidate.time, least, R))
+
+
+def _optimum_alone(*scene: Any) -> list[Entry]:
+    return [optimum(*scene)]
+
+
+def _fastest_alone(*scene: Any) -> list[WindEntry]:
+    return [wind_search.fastest(*scene)]
 
 
 def _solved(
@@ -113,24 +139,30 @@ def _solved(
     aircraft: Aircraft,
     wind: Wind | None,
     tolerance_m: float,
-    in_still_air: Callable[..., list[Flown]],
-    in_wind: Callable[..., list[drift.Joined]],
-) -> tuple[Maneuver, ...]:
-    """What the one or the other function of the kernel finds, in SI."""
+    in_still_air: Callable[..., list[Entry]],
+    in_wind: Callable[..., list[WindEntry]],
+) -> tuple[Solved, ...]:
+    """The answers of the function for still air or of that for wind, in SI."""
     wind = CALM if wind is None else wind
     if air_past(orbit, aircraft, wind) == (0.0, 0.0):
         scene = normalised(pose, orbit, aircraft, tolerance_m)
         return tuple(
-            maneuver(pose, orbit, aircraft, wind, flown, _missed(scene, flown)) for flown in in_still_air(*scene)
+            Solved(maneuver(pose, orbit, aircraft, wind, entry, _missed(scene, entry)), duration(entry))
+            for entry in in_still_air(*scene)
         )
     found = in_wind(*drifting(pose, orbit, aircraft, wind, tolerance_m))
-    if not found or found[0][0] != Status.OK:
+    if not found or found[0].status != Status.OK:
         raise NotConverged(
             f"{Status.NOT_CONVERGED.message}: pose {pose.east_m:g} {pose.north_m:g} {pose.heading_deg:g}, wind "
             f"{wind.speed_m_s:g} m/s from {wind.from_deg:g}; a pose moved by a millimetre may do"
         )
-    return tuple(maneuver(pose, orbit, aircraft, wind, drift.flight(joined), joined[7]) for joined in found)
+    return tuple(
+        Solved(
+            maneuver(pose, orbit, aircraft, wind, wind_search.entry_of(entry), entry.miss), wind_search.time_of(entry)
+        )
+        for entry in found
+    )
 
 
-def _missed(scene: Scene, flown: Flown) -> float:
+def _missed(scene: Scene, flown: Entry) -> float:
     return miss(scene.x, scene.y, scene.R, flown)

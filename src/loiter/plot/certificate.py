@@ -1,4 +1,4 @@
-"""The proof of a maneuver over time: its control, the switching function and the adjoint."""
+"""The certificate of a maneuver over time: its control, the switching function and the adjoint."""
 
 from __future__ import annotations
 

@@ -16,11 +16,12 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from loiter.kernel.adjoint import adjoint, turned
-from loiter.kernel.codes import Side, Word
+from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow
 from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.switching import last_arc_abscissa, switching_abscissa
-from loiter.kernel.synthesis import Flown, duration, optima, ranked
+from loiter.kernel.synthesis import Entry, duration, optima, ranked
+from loiter.kernel.words import Word
 from loiter.planning.arrays import control
 from loiter.planning.model import CONTROLS
 from loiter.plot.picture import CHORD_RAD, COLOURS, MARKS
@@ -63,10 +64,10 @@ class PaperFigure(NamedTuple):
     draw: Callable[[], Figure]
 
 
-def trajectory(x: float, y: float, maneuver: Flown) -> list[Piece]:
+def trajectory(x: float, y: float, maneuver: Entry) -> list[Piece]:
     """The pieces of a maneuver flown exactly from the reduced state (x, y)."""
     pieces = []
-    for letter, t in zip(Word(maneuver[1]).letters, maneuver[2:], strict=False):
+    for letter, t in zip(Word(maneuver.word).letters, (maneuver.t1, maneuver.t2, maneuver.t3), strict=False):
         u = CONTROLS[letter]
         pieces.append(piece(x, y, u, t))
         x, y = flow(x, y, u, t)
@@ -84,9 +85,9 @@ def _flow_arrays() -> Function:
     return rebound(flow, {"sin": np.sin, "cos": np.cos})
 
 
-def admissible() -> Flown:
+def admissible() -> Entry:
     """The control (29) of example 2: right, then left, onto the clockwise circle."""
-    return next(m for m in ranked(*EXAMPLE_2, 1.0, Side.CW, 0.0) if m[1] == Word.RL)
+    return next(m for m in ranked(*EXAMPLE_2, 1.0, Side.CW, 0.0) if m.word == Word.RL)
 
 
 def figure_1() -> Figure:
@@ -112,7 +113,7 @@ def figure_2() -> Figure:
     return figure
 
 
-def _draw_adjoint(axes: Axes, x: float, y: float, maneuver: Flown) -> None:
+def _draw_adjoint(axes: Axes, x: float, y: float, maneuver: Entry) -> None:
     side, word, first, middle, last = maneuver
     lam, psi1, psi2 = adjoint(x, y, 1.0, side, word, first, middle, last)
     u = CONTROLS[Word(word).letters[1]]
@@ -196,7 +197,7 @@ def figure_7() -> Figure:
     return _example_2(best, "Optimal")
 
 
-def _example_2(maneuver: Flown, what: str) -> Figure:
+def _example_2(maneuver: Entry, what: str) -> Figure:
     figure, axes = _single(5.6)
     y = 0.5 - 0.5 * np.cos(np.linspace(0.0, pi, 181))
     curve = [switching_abscissa(v, 1.0) for v in y.tolist()]
@@ -229,7 +230,7 @@ def _frame(axes: Axes, x: str = "x", y: str = "y") -> None:
     axes.set_ylabel(y, rotation=0)
 
 
-def _draw_flights(axes: Axes, start: tuple[float, float], maneuvers: Sequence[Flown]) -> None:
+def _draw_flights(axes: Axes, start: tuple[float, float], maneuvers: Sequence[Entry]) -> None:
     """Trajectories that begin at one start: start, switches and ends marked."""
     for maneuver in maneuvers:
         pieces = trajectory(*start, maneuver)

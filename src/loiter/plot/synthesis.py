@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from loiter.kernel.codes import Word
+from loiter.kernel.words import Word
 from loiter.planning.model import Turn
 from loiter.planning.partition import Boundary, Partition, lines, worth
 

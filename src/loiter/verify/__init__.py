@@ -1,4 +1,4 @@
-"""Witnesses that do not believe the kernel, and certificates that spare anyone believing it."""
+"""Independent verification methods, which share no code with the kernel, and certificates of single maneuvers."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -7,8 +7,10 @@ from math import hypot, inf, sqrt
 from typing import NamedTuple
 
 from loiter.kernel.adjoint import switching_function
-from loiter.kernel.codes import Side, Word
-from loiter.kernel.synthesis import Flown, duration, optimum, rounding
+from loiter.kernel.codes import Side
+from loiter.kernel.exact import beyond
+from loiter.kernel.synthesis import Entry, duration, optimum, rounding
+from loiter.kernel.words import Word
 from loiter.planning.scaling import Scene
 from loiter.verify.proof import Flight, Residual
 
@@ -16,7 +18,7 @@ from loiter.verify.proof import Flight, Residual
 # straight, to where rounding, 64 units of 2^-52 over the step, is all that `RESOLVED` leaves.
 QUOTIENT_STEPS = tuple(2.0**-k for k in range(4, 34))
 
-# A quotient of T that does not settle to this share of |grad T| proves nothing.
+# A quotient of T that does not settle to this share of |grad T| says nothing.
 RESOLVED = 1e-3
 
 
@@ -58,27 +60,54 @@ def _direction(flight: Flight) -> float:
     end, size, angle, _ = flight.accuracy
     if not flight.opposed:
         return angle
-    x, y = flight.opposed[-1][2:4]
+    last = flight.opposed[-1]
+    x, y = last.x, last.y
     radii = hypot(x, y + 1.0) * hypot(x, y - 1.0)
     moved = min(end * radii / max(2.0 * abs(x), size), sqrt(end * radii))
     return angle + moved / max(hypot(x, y), size)
 
 
 def _steps(flight: Flight) -> list[float]:
-    """Steps that are small beside the distance from the centre of the state that psi is parallel to.
+    """Steps that are small beside two distances over which quotients would average what is not alike.
 
-    Over a distance like that the direction of psi turns by a radian, which wider quotients would average.
+    One is that of the start from the curves where words change, beside which T may move with the square root of a
+    distance. The other is the distance from the centre of the state that psi is parallel to: over it the direction of
+    psi turns by a radian.
     """
     parallel = flight.opposed[-1] if flight.opposed else flight.pieces[0] if len(flight.pieces) == 1 else None
-    widest = inf if parallel is None else 0.25 * hypot(parallel.x, parallel.y)
+    turning = inf if parallel is None else hypot(parallel.x, parallel.y)
+    widest = 0.25 * min(turning, _clearance(flight.scene))
     return [h for h in QUOTIENT_STEPS if h <= widest]
+
+
+def _clearance(scene: Scene) -> float:
+    """The distance of a state from the nearest curve beside it that bounds the regions of docs/theory.md, section 4.
+
+    They are circles about (0, -1) for words that begin with L, about (0, 1) for those that begin with R, and the axis;
+    for both directions of holding, since *either* may compare them. A curve on which the state lies, up to rounding, is
+    not counted: quotients of every step show whether T has a corner there.
+    """
+    x, y, R = scene.x, scene.y, scene.R
+    distances = [abs(y)]
+    for ordinate in (y, -y):
+        rp, rm = hypot(x, ordinate + 1.0), hypot(x, ordinate - 1.0)
+        squares = (
+            (beyond(x, ordinate, R, 2.0), rp + R + 1.0),
+            (beyond(x, ordinate, -R, 2.0), rp + abs(R - 1.0)),
+            (beyond(x, ordinate, 2.0 - R, 2.0), rp + abs(R - 3.0)),
+            (beyond(x, ordinate, R, -2.0), rm + abs(R - 1.0)),
+            (beyond(x, ordinate, -R, -2.0), rm + R + 1.0),
+        )
+        distances += [abs(square) / total for square, total in squares if total > 0.0]
+    return min((distance for distance in distances if distance > rounding(x, y, R)), default=inf)
 
 
 def _gradient(scene: Scene, steps: list[float]) -> Gradient | str:
     """The gradient of the kernel's T by central differences at the step of the least bound; why not, where none does.
 
-    Quotients D(h) and D(h/2) of a smooth T differ by three times the truncation of the second, and rounding of T adds
-    2 rounding/h. Quotients to the left and to the right differ by h T'' or, at a corner, by all of it.
+    Quotients D(h) and D(h/2) of a smooth T differ by three times the truncation of the second. The kernel's T is that
+    of a state off by its rounding, and rounded itself, which adds 2 rounding (1 + |grad T|)/h. Quotients to the left
+    and to the right differ by h T'' or, at a corner, by all of it.
     """
     best: Gradient | None = None
     coarse: tuple[float, float] | None = None
@@ -88,7 +117,7 @@ def _gradient(scene: Scene, steps: list[float]) -> Gradient | str:
             break
         gx, gy, apart = _quotients(scene, h)
         if coarse is not None:
-            bound = hypot(gx - coarse[0], gy - coarse[1]) + apart + rounded
+            bound = hypot(gx - coarse[0], gy - coarse[1]) + apart + rounded * (1.0 + hypot(gx, gy))
             best = min(best or Gradient(gx, gy, bound), Gradient(gx, gy, bound), key=lambda gradient: gradient.bound)
         coarse = gx, gy
     if best is not None and best.bound <= RESOLVED * hypot(best.x, best.y):
@@ -99,7 +128,7 @@ def _gradient(scene: Scene, steps: list[float]) -> Gradient | str:
     return f"T has a corner or a jump here, or bends too sharply: {', '.join(words)}"
 
 
-def _around(scene: Scene, h: float) -> list[Flown]:
+def _around(scene: Scene, h: float) -> list[Entry]:
     """The fastest from the state and from its neighbours east, west, north and south."""
     x, y, R, side, tolerance = scene
     places = ((0.0, 0.0), (h, 0.0), (-h, 0.0), (0.0, h), (0.0, -h))

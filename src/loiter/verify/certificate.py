@@ -1,10 +1,10 @@
-"""A maneuver with its proof: the maximum principle (11)-(18) equation by equation, and the extremals it was among.
+"""A certificate: the maximum principle (11)-(18) checked equation by equation, and the extremals compared with.
 
-What this proves: that the maneuver is an extremal, with lambda and psi to check it by, and that none of the candidates
+What it shows: that the maneuver is an extremal, with lambda and psi to check it by, and that none of the candidates
 is faster; the Hamilton-Jacobi-Bellman equation looks at its neighbours. A fastest maneuver exists (Filippov, paper
 section 1) and is an extremal. That the candidates hold every extremal that can win is proved in the paper for R = 1;
 for R > 1 the words left out, RLR above all, have never been seen to win (docs/theory.md, section 3; `loiter verify`).
-Distances, curvatures and start times of segments are not looked at: letters, durations and the join are.
+Distances, curvatures and start times of segments are not checked: letters, durations and the join are.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ from math import isfinite
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.kernel.codes import Word
+from loiter.kernel.words import Word
 from loiter.planning.held import air_past
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
+from loiter.planning.scaling import time_unit_s
 from loiter.planning.solve import candidates
 from loiter.verify import drifting
 from loiter.verify.conditions import residuals
@@ -40,7 +41,7 @@ class Switch:
 
 
 class Instant(NamedTuple):
-    """The proof at one instant: seconds from the start, control u, switching function phi, adjoint psi."""
+    """The certificate at one instant: seconds from the start, control u, switching function phi, adjoint psi."""
 
     time_s: float
     u: int
@@ -51,7 +52,7 @@ class Instant(NamedTuple):
 
 @dataclass(frozen=True)
 class Certificate:
-    """The proof that a maneuver is optimal, or what speaks against it. `certify` makes it.
+    """The conditions of the maximum principle for a maneuver, and the extremals it was compared with; see `certify`.
 
     `lam` is the multiplier lambda and `psi` the adjoint at the start, None for a start on the circle, which has nothing
     to decide; `choice` says whether psi is unique. `others` are the candidates it was compared with, soonest first.
@@ -103,8 +104,8 @@ class Certificate:
         raise InvalidArgument("residual", f"is {name!r}: this certificate has {known}")
 
     def history(self, steps: int = 100) -> Iterator[list[Instant]]:
-        """The proof over time, piece by piece, each at `steps` + 1 instants from its start to its end."""
-        unit_s = self.maneuver.aircraft.turn_radius_m / self.maneuver.aircraft.airspeed_m_s
+        """The certificate over time, piece by piece, each at `steps` + 1 instants from its start to its end."""
+        unit_s = time_unit_s(self.maneuver.aircraft)
         began = 0.0
         for piece in self.pieces:
             yield [
@@ -152,7 +153,7 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
     if air_past(maneuver.orbit, maneuver.aircraft, maneuver.wind) != (0.0, 0.0):
         return _in_wind(maneuver, tolerance_m, others)
     flight = flight_of(maneuver, tolerance_m, others)
-    unit_s = maneuver.aircraft.turn_radius_m / maneuver.aircraft.airspeed_m_s
+    unit_s = time_unit_s(maneuver.aircraft)
     certain = bool(flight.pieces)
     psi = (flight.pieces[0].psi1, flight.pieces[0].psi2) if certain else None
     return Certificate(
@@ -171,16 +172,17 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
 def _in_wind(maneuver: Maneuver, tolerance_m: float, others: tuple[Candidate, ...]) -> Certificate:
     """The certificate in wind, whose adjoint is docs/wind.md's: psi is (p.e, p.Je), phi is f."""
     flight = drifting.flight_of(maneuver, tolerance_m)
-    legs, unit_s = flight.legs, maneuver.aircraft.turn_radius_m / maneuver.aircraft.airspeed_m_s
+    legs, unit_s = flight.legs, time_unit_s(maneuver.aircraft)
+    start = legs[0].at(0.0) if legs else None
     ends = [sum(leg.t for leg in legs[:i]) * unit_s for i in range(1, len(legs))]
     switches = (
-        Switch(time, maneuver.word[i : i + 2], *leg.at(0.0)[:4])
-        for i, (time, leg) in enumerate(zip(ends, legs[1:], strict=True))
+        Switch(time, maneuver.word[i : i + 2], there.x, there.y, there.psi1, there.psi2)
+        for i, (time, there) in enumerate(zip(ends, (leg.at(0.0) for leg in legs[1:]), strict=True))
     )
     return Certificate(
         maneuver,
         flight.lam if legs else None,
-        legs[0].at(0.0)[2:4] if legs else None,
+        None if start is None else (start.psi1, start.psi2),
         _choice_in_wind(len(legs)),
         tuple(switches),
         tuple(drifting.residuals(flight, maneuver, others)),

@@ -12,7 +12,7 @@ from loiter.kernel.extremals import onto_axis
 from loiter.kernel.synthesis import ROUNDING
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
-from loiter.planning.scaling import normalised
+from loiter.planning.scaling import normalised, time_unit_s
 from loiter.verify.bellman import bellman
 from loiter.verify.proof import Candidate, Flight, Piece, Residual
 
@@ -85,7 +85,7 @@ def _maximum_principle(flight: Flight) -> Iterator[Residual]:
             hamiltonian = max(hamiltonian, abs(abs(phi) + psi1 - lam))
             above = max(above, psi1 - lam)
     last = flight.pieces[-1].u * flight.side * flight.scene.R
-    transversality = abs(flight.end[2] * (1.0 + last) - lam)
+    transversality = abs(flight.end.psi1 * (1.0 + last) - lam)
     # The last switch is found from the target and off by rounding alone; a single arc may begin beside its circle.
     off = angle if len(flight.pieces) == 1 else size
     yield Residual("multiplier", "lambda >= 0", max(0.0, -lam), angle)
@@ -99,7 +99,7 @@ def _switching(flight: Flight) -> Iterator[Residual]:
     """What follows for the pieces: (19), equal arcs, the line through the centre."""
     lam, (end, _, angle, _), opposed = flight.lam, flight.accuracy, flight.opposed
     if opposed:
-        off = max(hypot(piece.at(0.0)[4], piece.psi1 - lam) for piece in opposed)
+        off = max(hypot(piece.at(0.0).phi, piece.psi1 - lam) for piece in opposed)
         yield Residual("switch", "phi = 0, psi1 = lambda at each switch", off, angle)
     if len(opposed) == 2:
         a, b = opposed
@@ -145,14 +145,14 @@ def _crossings(piece: Piece) -> Iterator[float]:
     crossings = (onto_axis(piece.x, piece.u * piece.y, end, 0.0) for end in (-1.0, 1.0))
     ends = sorted(angle(rotated) for rotated, c in crossings if c >= 0.0)
     bounds = [0.0, *(s for s in ends if s < piece.t), piece.t]
-    heights = [abs(piece.at(0.5 * (a + b))[1]) for a, b in pairwise(bounds)]
+    heights = [abs(piece.at(0.5 * (a + b)).y) for a, b in pairwise(bounds)]
     for s, (before, after) in zip(bounds[1:], pairwise(heights), strict=False):
-        yield abs(piece.at(s)[3]) * min(before, after)
+        yield abs(piece.at(s).psi2) * min(before, after)
 
 
 def _fastest(flight: Flight, maneuver: Maneuver, others: tuple[Candidate, ...]) -> Residual:
     """No candidate is faster: what makes an extremal an optimum."""
-    unit_s = maneuver.aircraft.turn_radius_m / maneuver.aircraft.airspeed_m_s
+    unit_s = time_unit_s(maneuver.aircraft)
     sooner = max((-other.later_s / unit_s for other in others), default=0.0)
     note = f"{others[0].word} {others[0].turn.value} is faster" if sooner > flight.accuracy.tie else ""
     return Residual("fastest", "T is the least of all candidates", max(0.0, sooner), flight.accuracy.tie, note)

@@ -19,25 +19,25 @@ from itertools import pairwise
 from math import atan2, cos, hypot, pi, radians, sin, sqrt
 from typing import NamedTuple
 
-from loiter.kernel import drift
-from loiter.kernel.codes import Word
+from loiter.kernel import wind_search
 from loiter.kernel.synthesis import ROUNDING, rounding
+from loiter.kernel.words import Word
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
-from loiter.planning.scaling import SIDES, Drifting, drifting
-from loiter.verify.proof import SAMPLES, Candidate, Residual, durations_of, side_of, word_of
+from loiter.planning.scaling import SIDES, Drifting, drifting, time_unit_s
+from loiter.verify.proof import SAMPLES, Candidate, PieceState, Residual, durations_of, side_of, word_of
 
-# A piece as short as this is what rounding may leave of none (`drift.SHORT`): p is then looked for without it too.
-SHORT = drift.SHORT
+# A piece as short as this is what rounding may leave of none: p is then looked for without it too.
+SHORT = wind_search.SHORT
 
-# Directions of p tried for a single arc, which many p may prove optimal.
+# Directions of p tried for a single arc, for which many p may meet the conditions.
 DIRECTIONS = 720
 
 # Steps of central differences along a flight, and of T: coarse to fine, until rounding of T takes over.
 STEP = 2.0**-15
 QUOTIENT_STEPS = (2.0**-6, 2.0**-9, 2.0**-12, 2.0**-15)
 
-# A gradient of T that does not settle to this share of itself proves nothing.
+# A gradient of T that does not settle to this share of itself says nothing.
 RESOLVED = 1e-3
 
 
@@ -58,12 +58,12 @@ class Leg(NamedTuple):
         through_air = self.e * s if self.u == 0 else self.e * (turned - 1.0) / (1j * self.u)
         return self.q + through_air + self.w * s, self.e * turned
 
-    def at(self, s: float) -> tuple[float, float, float, float, float]:
+    def at(self, s: float) -> PieceState:
         """As `proof.Piece`: the reduced position, p.e and p.Je, the switching function, whose slope is -p.Je."""
         q, e = self.flown(s)
         reduced = q * e.conjugate()
         phi = self.phi - inner(self.p, 1j * (q - self.q - self.w * s))
-        return reduced.real, reduced.imag, inner(self.p, e), inner(self.p, 1j * e), phi
+        return PieceState(reduced.real, reduced.imag, inner(self.p, e), inner(self.p, 1j * e), phi)
 
     @property
     def instants(self) -> list[float]:
@@ -83,7 +83,7 @@ class Costate(NamedTuple):
 
 
 class Flight(NamedTuple):
-    """A maneuver in the kernel's terms, with its proof."""
+    """A maneuver in the kernel's terms, with its adjoint."""
 
     scene: Drifting
     side: int
@@ -117,7 +117,7 @@ class Flight(NamedTuple):
     @property
     def tie(self) -> float:
         """Durations are equal that differ by less."""
-        return drift.TIED * (1.0 + self.scene.R + sum(leg.t for leg in self.legs)) + 2.0 * self.size
+        return wind_search.TIED * (1.0 + self.scene.R + sum(leg.t for leg in self.legs)) + 2.0 * self.size
 
     @property
     def flown(self) -> tuple[complex, complex]:
@@ -153,7 +153,7 @@ def legs_of(scene: Drifting, controls: list[int], times: list[float], costate: C
     legs = []
     for u, t in zip(controls, times, strict=True):
         legs.append(Leg(u, t, q, e, phi, costate.p, w))
-        phi = legs[-1].at(t)[4]
+        phi = legs[-1].at(t).phi
         q, e = legs[-1].flown(t)
     return legs
 
@@ -228,7 +228,7 @@ def residuals(flight: Flight, maneuver: Maneuver, others: tuple[Candidate, ...])
         yield from _motions(flight)
         yield from _maximum_principle(flight)
         yield from _bellman(flight)
-    unit_s = maneuver.aircraft.turn_radius_m / maneuver.aircraft.airspeed_m_s
+    unit_s = time_unit_s(maneuver.aircraft)
     sooner = max((-other.later_s / unit_s for other in others), default=0.0)
     note = f"{others[0].word} {others[0].turn.value} is faster" if sooner > flight.tie else ""
     yield Residual("fastest", "T is the least of all candidates", max(0.0, sooner), flight.tie, note)
@@ -268,7 +268,7 @@ def _motions(flight: Flight) -> Iterator[Residual]:
             (q0, e0), (_, e), (q1, e1) = leg.flown(s - STEP), leg.flown(s), leg.flown(s + STEP)
             place = max(place, abs((q1 - q0) / (2.0 * STEP) - e - leg.w))
             turn = max(turn, abs((e1 - e0) / (2.0 * STEP) - 1j * leg.u * e))
-            slope = max(slope, abs((leg.at(s + STEP)[4] - leg.at(s - STEP)[4]) / (2.0 * STEP) + leg.at(s)[3]))
+            slope = max(slope, abs((leg.at(s + STEP).phi - leg.at(s - STEP).phi) / (2.0 * STEP) + leg.at(s).psi2))
     # The third derivatives are of the size of 1.
     bound = STEP * STEP / 6.0 + flight.size / STEP
     yield Residual("motion", "q' = e + w", place, bound)
@@ -304,25 +304,39 @@ def _bellman(flight: Flight) -> Iterator[Residual]:
     yield Residual("bellman", bellman, abs(1.0 + motion - abs(turned)), 4.0 * off)
 
 
-def _gradient(scene: Drifting) -> tuple[tuple[float, float, float], float] | None:
+class Gradient(NamedTuple):
+    """The gradient of T by position and heading."""
+
+    east: float
+    north: float
+    heading: float
+
+
+class GradientEstimate(NamedTuple):
+    """A gradient of T by difference quotients, and its accuracy."""
+
+    gradient: Gradient
+    bound: float
+
+
+def _gradient(scene: Drifting) -> GradientEstimate | None:
     """The gradient of the kernel's T by position and heading, and its accuracy; None where quotients do not settle.
 
     As `bellman`: quotients at two steps differ by their truncation, those to either side by h T'' or by a corner.
     """
-    best: tuple[tuple[float, float, float], float] | None = None
-    coarse: tuple[float, float, float] | None = None
+    best: GradientEstimate | None = None
+    coarse: Gradient | None = None
     T = _least_time(scene)
     for h in QUOTIENT_STEPS:
         sides = [(_least_time(_moved(scene, axis, h)), _least_time(_moved(scene, axis, -h))) for axis in range(3)]
-        fine = sides[0][0] - sides[0][1], sides[1][0] - sides[1][1], sides[2][0] - sides[2][1]
-        fine = fine[0] / (2.0 * h), fine[1] / (2.0 * h), fine[2] / (2.0 * h)
+        fine = Gradient(*((after - before) / (2.0 * h) for after, before in sides))
         bend = hypot(*(after - 2.0 * T + before for after, before in sides)) / h
         if coarse is not None:
-            rounded = 2.0 * drift.TIED * (1.0 + scene.R + T) / h
+            rounded = 2.0 * wind_search.TIED * (1.0 + scene.R + T) / h
             off = hypot(*(a - b for a, b in zip(fine, coarse, strict=True))) + bend + rounded
-            best = (fine, off) if best is None or off < best[1] else best
+            best = GradientEstimate(fine, off) if best is None or off < best.bound else best
         coarse = fine
-    return best if best is not None and best[1] <= RESOLVED * hypot(*best[0]) else None
+    return best if best is not None and best.bound <= RESOLVED * hypot(*best.gradient) else None
 
 
 def _moved(scene: Drifting, axis: int, h: float) -> Drifting:
@@ -334,4 +348,4 @@ def _moved(scene: Drifting, axis: int, h: float) -> Drifting:
 
 
 def _least_time(scene: Drifting) -> float:
-    return drift.time_of(drift.fastest(*scene))
+    return wind_search.time_of(wind_search.fastest(*scene))

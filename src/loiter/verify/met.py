@@ -9,8 +9,8 @@ from random import Random
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.codes import Side
-from loiter.kernel.drift import fastest
 from loiter.kernel.hold import tightest_held
+from loiter.kernel.wind_search import fastest
 from loiter.verify.meeting import Drifting, Met, earliest
 from loiter.verify.oracle import Planar
 

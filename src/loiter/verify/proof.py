@@ -26,12 +26,12 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, as_float
 from loiter.kernel.adjoint import adjoint, switching_function, turned
-from loiter.kernel.codes import Word
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import REACH, rounding
+from loiter.kernel.words import Word, controls, encode, rest
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
-from loiter.planning.scaling import SIDES, Scene, normalised
+from loiter.planning.scaling import SIDES, Scene, normalised, time_unit_s
 
 # Between two of them psi1 and phi are monotone once their extremes are added, so few will do.
 SAMPLES = 9
@@ -90,6 +90,16 @@ class Accuracy(NamedTuple):
         return 2.0 * self.rounding
 
 
+class PieceState(NamedTuple):
+    """State, adjoint and switching function at an instant of a maneuver."""
+
+    x: float
+    y: float
+    psi1: float
+    psi2: float
+    phi: float
+
+
 class Piece(NamedTuple):
     """A piece as flown: control, duration, and state and adjoint at its start."""
 
@@ -100,11 +110,11 @@ class Piece(NamedTuple):
     psi1: float
     psi2: float
 
-    def at(self, s: float) -> tuple[float, float, float, float, float]:
-        """x, y, psi1, psi2, phi after a time s of this piece."""
+    def at(self, s: float) -> PieceState:
+        """State, adjoint and phi after a time s of this piece."""
         x, y = flow(self.x, self.y, self.u, s)
         psi1, psi2 = turned(self.psi1, self.psi2, self.u, s)
-        return x, y, psi1, psi2, switching_function(x, y, psi1, psi2)
+        return PieceState(x, y, psi1, psi2, switching_function(x, y, psi1, psi2))
 
     @property
     def instants(self) -> list[float]:
@@ -120,7 +130,7 @@ class Piece(NamedTuple):
 
 
 class Flight(NamedTuple):
-    """A maneuver in the kernel's terms, with its proof."""
+    """A maneuver in the kernel's terms, with its adjoint."""
 
     scene: Scene
     side: int
@@ -130,8 +140,8 @@ class Flight(NamedTuple):
     accuracy: Accuracy
 
     @property
-    def end(self) -> tuple[float, float, float, float, float]:
-        """x, y, psi1, psi2, phi at the end."""
+    def end(self) -> PieceState:
+        """State, adjoint and phi at the end."""
         return self.pieces[-1].at(self.pieces[-1].t)
 
     @property
@@ -150,7 +160,7 @@ def flight_of(maneuver: Maneuver, tolerance_m: float, others: tuple[Candidate, .
     if len(pieces) == 2 and pieces[0].u * pieces[1].u < 0:
         word, lam, pieces = _one_arc(x, y, R, side, word, durations, size) or (word, lam, pieces)
     accuracy = _accuracy(scene, size, pieces)
-    tie_s = accuracy.tie * maneuver.aircraft.turn_radius_m / maneuver.aircraft.airspeed_m_s
+    tie_s = accuracy.tie * time_unit_s(maneuver.aircraft)
     if len(pieces) == 1 or any(abs(other.later_s) <= tie_s for other in others):
         accuracy = accuracy._replace(choice=sqrt(size))
     return Flight(scene, side, word, lam, pieces, accuracy)
@@ -165,13 +175,13 @@ def _one_arc(
     than a rounding: 2/lambda times |phi|, which changes by its duration at most. Where the circles touch at the target,
     the last piece is so short that the first arc, flown on, ends there too.
     """
-    (first, last), u = durations, (word & 3) - 2
-    lam, late = _pieces(*flow(x, y, u, first), R, side, word >> 2, [last])
-    if (abs(late[0].at(0.0)[4]) + first) * first <= lam * size:
-        return word >> 2, lam, late
+    (first, last), (u, _, _) = durations, controls(word)
+    lam, late = _pieces(*flow(x, y, u, first), R, side, rest(word), [last])
+    if (abs(late[0].at(0.0).phi) + first) * first <= lam * size:
+        return rest(word), lam, late
     end_x, end_y = flow(x, y, u, first + last)
     if hypot(end_x, end_y - side * R) <= size:
-        return word & 3, *_pieces(x, y, R, side, word & 3, [first + last])
+        return encode(u), *_pieces(x, y, R, side, encode(u), [first + last])
     return None
 
 

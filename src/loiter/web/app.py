@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from starlette.middleware.cors import CORSMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from loiter.planning.model import TurnName
 from loiter.version import __version__
 from loiter.web import exports, models, openapi, plans, problems
 from loiter.web.headers import Headers
@@ -85,7 +86,7 @@ def _plans(api: FastAPI, workers: Workers) -> None:
 
     @api.post("/api/certificate", response_model=models.Proof, dependencies=JSON)
     async def certificate(scene: models.Scene) -> Any:
-        """The proof of the first optimal maneuver by the maximum principle."""
+        """The certificate of the first optimal maneuver: the maximum principle, condition by condition."""
         return await workers.run(plans.proof, scene.asked())
 
 
@@ -93,7 +94,7 @@ def _maps(api: FastAPI, workers: Workers) -> None:
     @api.get("/api/synthesis", response_model=models.Synthesis)
     async def map_(
         radius: Annotated[float, Query(description="The circle's, turn radii.", json_schema_extra={"minimum": 1})] = 1,
-        turn: models.TurnName = "either",
+        turn: TurnName = "either",
         reach: Annotated[
             float | None,
             Query(description="How far the map reaches, turn radii; radius + 3 if absent."),

@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.io import Autopilot, save
+from loiter.io import AltitudeDatum, AltitudeReference, Autopilot, save
 from loiter.io.track import steps
 from loiter.planning.model import Turn
 from loiter.planning.solve import compared
@@ -62,6 +62,7 @@ def written(export: Export) -> bytes:
             path,
             frame=asked.frame,
             altitude_m=options.altitude_m,
+            datum=AltitudeDatum(AltitudeReference(options.altitude_reference), options.home_altitude_m),
             spacing_m=options.spacing_m,
             chord_error_m=options.chord_error_m,
             autopilot=AUTOPILOTS[options.autopilot],

@@ -18,6 +18,7 @@ MOST_DEPTH = 32
 
 # The head of a request: its address, which may hold a scene, and its headers.
 MOST_HEAD = 32 * 1024
+HEAD_TOO_LARGE = f"the head of the request is too large: more than {MOST_HEAD:,} bytes"
 
 # Seconds for a body to arrive, and for its answer to be made.
 BODY_S = 10.0
@@ -74,10 +75,8 @@ class Limits:
 
 async def _read(scope: Scope, receive: Receive) -> bytes:
     """The body; raises for a head or a body that is too large, or says so."""
-    head = [scope["path"].encode(), scope["query_string"], *(part for header in scope["headers"] for part in header)]
-    if sum(map(len, head)) > MOST_HEAD:
-        detail = f"the head of the request is too large: more than {MOST_HEAD:,} bytes"
-        raise HTTPException(HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE, detail)
+    if _head_bytes(scope) > MOST_HEAD:
+        raise HTTPException(HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE, HEAD_TOO_LARGE)
     said = next((value for name, value in scope["headers"] if name == b"content-length"), b"0")
     body = bytearray()
     more = True
@@ -92,6 +91,12 @@ async def _read(scope: Scope, receive: Receive) -> bytes:
     if len(body) > MOST_BYTES:
         raise HTTPException(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"the body is larger than {MOST_BYTES:,} bytes")
     return bytes(body)
+
+
+def _head_bytes(scope: Scope) -> int:
+    """The size of a head as it came, to a few bytes: `connections.Connection` counts those that come in pieces so."""
+    line = b"%s %s?%s HTTP/1.1\r\n\r\n" % (scope["method"].encode(), scope["raw_path"], scope["query_string"])
+    return len(line) + sum(len(b"%s: %s\r\n" % header) for header in scope["headers"])
 
 
 def _replayed(body: bytes, receive: Receive) -> Receive:

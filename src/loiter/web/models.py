@@ -13,8 +13,7 @@ from pydantic.json_schema import SkipJsonSchema
 
 from loiter.geo import LocalFrame
 from loiter.planning import model
-
-TurnName = Literal["either", "cw", "ccw"]
+from loiter.planning.model import TurnName
 
 # A JSON number, never a string or a truth value.
 Number = Annotated[float, Strict()]
@@ -144,7 +143,14 @@ class Scene(Request):
 class ExportOptions(Scene):
     """What is to be planned, and how it is to be written; numbers as for `loiter plan --save`."""
 
-    altitude_m: Number | None = Field(None, description="Above mean sea level; missions need it.")
+    altitude_m: Number | None = Field(None, description="Above what altitude_reference says; missions need it.")
+    altitude_reference: Literal["msl", "home", "ground"] = Field(
+        "msl",
+        description="What altitude_m is measured from: mean sea level, home, or the ground (ArduPilot's missions).",
+    )
+    home_altitude_m: Number | None = Field(
+        None, description="Of home, above mean sea level; missions above home or ground need it."
+    )
     spacing_m: Positive | None = Field(None, description="Points are at most so many metres apart.")
     chord_error_m: Annotated[Number, Field(json_schema_extra={"minimum": LEAST_CHORD_ERROR_M})] = Field(
         1.0, description="The track is nowhere further from the lines between points, metres."
@@ -328,7 +334,11 @@ class Candidate(Answer):
 
 
 class Certificate(Answer):
-    """The proof of a maneuver, or what speaks against it; lambda and psi are null where nothing is to be flown."""
+    """The conditions of the maximum principle for a maneuver, checked.
+
+    They are necessary. That they are also sufficient is proved for circles of the turn radius in still air alone (the
+    paper). `lambda` and `psi` are null where nothing is to be flown.
+    """
 
     valid: bool
     word: str
@@ -345,7 +355,7 @@ class Certificate(Answer):
 
 
 class Series(Answer):
-    """The proof over time: control, switching function, adjoint; pieces one after the other, both ends of each."""
+    """Control, switching function and adjoint over time; pieces one after the other, both ends of each."""
 
     time_s: list[float]
     u: list[int]

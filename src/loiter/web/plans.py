@@ -7,6 +7,7 @@ from typing import Any
 
 from loiter.io.document import answer, described
 from loiter.planning.maneuver import Maneuver
+from loiter.planning.scaling import radius_in_turns
 from loiter.planning.solve import candidates, compared, each_way, plan_all
 from loiter.verify.certificate import Instant, certify
 from loiter.web.models import Asked
@@ -41,7 +42,7 @@ def _told(asked: Asked, best: Sequence[Maneuver], others: Sequence[Maneuver]) ->
         "reduced": {
             "x": document["track"]["x"][0],
             "y": document["track"]["y"][0],
-            "radius": asked.orbit.radius_m / asked.aircraft.turn_radius_m,
+            "radius": radius_in_turns(asked.orbit, asked.aircraft),
         },
     }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 import socket
@@ -24,6 +25,9 @@ BACKLOG = 2048
 
 # Seconds that answers under way have when the server is told to end.
 FAREWELL_S = 3
+
+# Seconds between two looks at what has been accepted while the server ends.
+CLOSING_S = 0.02
 
 
 def serve(host: str, port: int, cors: str | None, announce: Callable[[str], object]) -> None:
@@ -48,9 +52,33 @@ def serve(host: str, port: int, cors: str | None, announce: Callable[[str], obje
         )
         for line in _addresses(listener):
             announce(line)
-        # The map that the page shows first. It needs the compiled kernel, which takes ten seconds, once on a machine.
+        Server(config).run(sockets=[listener])
+
+
+class Server(uvicorn.Server):
+    """uvicorn's server, which ends whenever it is told to."""
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Start, and draw the map that the page shows first.
+
+        It needs the compiled kernel, which takes ten seconds, once on a machine. It begins when uvicorn handles
+        signals: one that interrupts an import before would leave another thread's import waiting for ever.
+        """
+        await super().startup(sockets)
         Thread(target=synthesis, args=(1.0, "either", None, FIRST_CELLS)).start()
-        uvicorn.Server(config).run(sockets=[listener])
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """End, and close connections too that are accepted meanwhile: uvicorn would wait for them in vain."""
+        closing = asyncio.create_task(self._close_connections())
+        await super().shutdown(sockets)
+        closing.cancel()
+
+    async def _close_connections(self) -> None:
+        while True:
+            await asyncio.sleep(CLOSING_S)
+            for connection in list(self.server_state.connections):
+                if not connection.transport.is_closing():
+                    connection.shutdown()
 
 
 @contextmanager

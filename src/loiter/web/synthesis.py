@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from loiter.kernel.codes import Word
+from loiter.kernel.words import Word
 from loiter.planning.partition import boundaries, lines, partition
 
 # The page draws no more; a map of 400 cells is some 0.5 MB.

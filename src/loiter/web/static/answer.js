@@ -98,14 +98,28 @@ export function answerView(hover) {
     buttons.forEach((button, i) => button.classList.toggle("lit", i === index));
   }
 
-  /** @param {Proof | null} proof  null while it is under way */
-  function prove(proof) {
+  /**
+   * @param {Proof | null} proof  null while it is under way
+   * @param {boolean} [proved]  whether the paper proves the optimum of the scene
+   */
+  function prove(proof, proved = false) {
+    // The last verdict stays, faint, until the next.
+    if (!proof && verdict.className === "unchecked") verdict.textContent = "…";
     verdict.classList.toggle("waiting", proof === null);
     if (!proof) return;
     verdict.className = proof.certificate.valid ? "valid" : "invalid";
-    verdict.textContent = judged(proof);
+    verdict.textContent = judged(proof, proved);
   }
-  return { draw, highlight, prove };
+  /**
+   * What the conditions are not checked for.
+   *
+   * @param {string} sentence
+   */
+  function unproved(sentence) {
+    verdict.className = "unchecked";
+    verdict.textContent = sentence;
+  }
+  return { draw, highlight, prove, unproved };
 }
 
 /** @param {Answer} answer */
@@ -121,12 +135,19 @@ function banks({ hold }) {
   return least === most ? `${most}°` : `${least} to ${most}°`;
 }
 
-/** @param {Proof} proof */
-function judged({ certificate }) {
+/**
+ * The verdict in words. The conditions are necessary; that nothing is faster the paper proves for circles of the turn
+ * radius in still air alone.
+ *
+ * @param {Proof} proof
+ * @param {boolean} proved  whether the paper covers the scene
+ */
+function judged({ certificate }, proved) {
   const { valid, residuals, runner_up, margin_s } = certificate;
   if (!valid) return "Some condition of the maximum principle fails; loiter plan --certify tells which.";
   const margin =
     runner_up !== null && margin_s !== null ? ` Runner-up ${runner_up}, ${difference(margin_s)} later.` : "";
   const held = residuals.filter(({ verdict }) => verdict === "holds").length;
-  return `All ${held} conditions hold.${margin}`;
+  const worth = proved ? "The paper proves that nothing is faster." : "They are necessary, not a proof of the optimum.";
+  return `All ${held} conditions hold. ${worth}${margin}`;
 }

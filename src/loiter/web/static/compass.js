@@ -49,6 +49,17 @@ export function placeOf(x, y, { pose, orbit }, turnRadius_m) {
 }
 
 /**
+ * The turn radius of an aircraft's limit, metres.
+ *
+ * @param {Scene["aircraft"]} aircraft
+ */
+export function turnRadiusOf({ airspeed_m_s, max_bank_deg, min_turn_radius_m, max_turn_rate_deg_s }) {
+  if (min_turn_radius_m !== undefined) return min_turn_radius_m;
+  if (max_turn_rate_deg_s !== undefined) return airspeed_m_s / (max_turn_rate_deg_s * DEGREE);
+  return airspeed_m_s ** 2 / (STANDARD_GRAVITY_M_S2 * Math.tan((max_bank_deg ?? 0) * DEGREE));
+}
+
+/**
  * The limit of another kind that gives the same turn radius: tan(bank) = V^2 / (g r), rate = V / r.
  *
  * @param {Limit} kind

@@ -9,23 +9,24 @@
  * @typedef {import("./units.js").Quantity} Quantity
  * @typedef {import("./plan.js").Shown} Shown
  *
- * @typedef {object} Field
+ * @typedef {object} Part  a number of a scene
  * @property {Quantity} quantity
  * @property {(scene: Scene) => number | undefined} get
  * @property {(scene: Scene, value: number) => Scene} set
  */
-import { limitFor } from "./compass.js";
+import { limitFor, turnRadiusOf } from "./compass.js";
+import { numberField } from "./fields.js";
 import { LIMITS, limitOf } from "./scene.js";
 import { byId } from "./svg.js";
-import { shortened, tidy, unit } from "./units.js";
+import { tidy } from "./units.js";
 
-/** @param {keyof Scene["pose"]} name @returns {Field["set"]} */
+/** @param {keyof Scene["pose"]} name @returns {Part["set"]} */
 const inPose = (name) => (scene, value) => ({ ...scene, pose: { ...scene.pose, [name]: value } });
-/** @param {keyof Scene["orbit"]} name @returns {Field["set"]} */
+/** @param {keyof Scene["orbit"]} name @returns {Part["set"]} */
 const inOrbit = (name) => (scene, value) => ({ ...scene, orbit: { ...scene.orbit, [name]: value } });
 
-/** @type {Record<string, Field>} */
-const FIELDS = {
+/** @type {Record<string, Part>} */
+const PARTS = {
   east: { quantity: "length", get: ({ pose }) => pose.east_m, set: inPose("east_m") },
   north: { quantity: "length", get: ({ pose }) => pose.north_m, set: inPose("north_m") },
   course: { quantity: "degrees", get: ({ pose }) => pose.heading_deg, set: inPose("heading_deg") },
@@ -65,74 +66,76 @@ const FIELDS = {
 /** @type {Record<Limit, Quantity>} */
 const QUANTITIES = { max_bank_deg: "degrees", min_turn_radius_m: "length", max_turn_rate_deg_s: "rate" };
 
-/** @type {Field} */
-const LIMIT_FIELD = {
+/** @type {Part} */
+const LIMIT_PART = {
   quantity: "degrees",
   get: (scene) => scene.aircraft[limitOf(scene)],
   set: (scene, value) => ({ ...scene, aircraft: { ...scene.aircraft, [limitOf(scene)]: value } }),
 };
 
 /**
+ * The part of a scene that a field shows.
+ *
+ * @param {string} id
+ * @param {Scene} scene
+ * @returns {Part}
+ */
+const partOf = (id, scene) => (id === "limit" ? { ...LIMIT_PART, quantity: QUANTITIES[limitOf(scene)] } : PARTS[id]);
+
+/**
  * @param {() => Shown} shown
  * @param {(scene: Scene, event: Event) => void} change
- * @param {(sentence: string) => void} complain
  */
-export function controls(shown, change, complain) {
-  const inputs = Object.fromEntries([...Object.keys(FIELDS), "limit"].map((id) => [id, byId(id, HTMLInputElement)]));
+export function controls(shown, change) {
+  const inputs = Object.fromEntries([...Object.keys(PARTS), "limit"].map((id) => [id, byId(id, HTMLInputElement)]));
   const kind = byId("limit-kind", HTMLSelectElement);
   const turns = Array.from(document.querySelectorAll("input[name=turn]")).filter(
     (each) => each instanceof HTMLInputElement,
   );
+  const fields = Object.fromEntries(
+    Object.entries(inputs).map(([id, input]) => [id, numberField(input, sourceOf(id, shown, change))]),
+  );
 
-  /** @param {string} id @param {Scene} scene @returns {{field: Field, quantity: Quantity}} */
-  const fieldOf = (id, scene) =>
-    id === "limit"
-      ? { field: LIMIT_FIELD, quantity: QUANTITIES[limitOf(scene)] }
-      : { field: FIELDS[id], quantity: FIELDS[id].quantity };
-
-  for (const [id, input] of Object.entries(inputs))
-    input.addEventListener("input", (event) => {
-      const { scene, units } = shown();
-      const { field, quantity } = fieldOf(id, scene);
-      const value = input.valueAsNumber;
-      input.setAttribute("aria-invalid", String(!Number.isFinite(value)));
-      if (!Number.isFinite(value)) return complain(`${labelOf(input)} needs a number.`);
-      change(field.set(scene, value * unit(quantity, units).size), event);
-    });
-  for (const input of Object.values(inputs)) input.addEventListener("blur", () => draw(shown()));
   for (const input of turns)
     input.addEventListener("change", (event) => {
       const { scene } = shown();
       change({ ...scene, orbit: { ...scene.orbit, turn: /** @type {Turn} */ (input.value) } }, event);
     });
   kind.addEventListener("change", (event) => {
-    const { scene, answer } = shown();
+    const { scene } = shown();
     const name = LIMITS.find((limit) => limit === kind.value) ?? "max_bank_deg";
     const { airspeed_m_s } = scene.aircraft;
-    const value = limitFor(name, airspeed_m_s, answer?.aircraft.turn_radius_m ?? scene.orbit.radius_m);
+    const value = limitFor(name, airspeed_m_s, turnRadiusOf(scene.aircraft));
     change({ ...scene, aircraft: { airspeed_m_s, [name]: tidy(value, value / 1000) } }, event);
   });
 
-  /** @param {Shown} now */
-  function draw({ scene, units }) {
-    for (const [id, input] of Object.entries(inputs)) {
-      const { field, quantity } = fieldOf(id, scene);
-      const { name, size } = unit(quantity, units);
-      const suffix = input.nextElementSibling;
-      if (suffix) suffix.textContent = name;
-      // What is being typed stays as it is typed.
-      if (document.activeElement === input) continue;
-      input.removeAttribute("aria-invalid");
-      const value = field.get(scene);
-      input.value = value === undefined ? "" : String(shortened(value / size));
-    }
-    inputs["wind-from"].disabled = scene.wind === null;
+  function draw() {
+    const { scene } = shown();
     kind.value = limitOf(scene);
+    inputs.limit.setAttribute("aria-label", kind.selectedOptions[0].text);
+    inputs["wind-from"].disabled = scene.wind === null;
+    for (const field of Object.values(fields)) field.draw();
     for (const input of turns) input.checked = input.value === scene.orbit.turn;
   }
-  return { draw };
+  return { draw, fields };
 }
 
-/** @param {HTMLInputElement} input */
-const labelOf = (input) =>
-  input.getAttribute("aria-label") ?? input.labels?.[0]?.querySelector("span")?.textContent ?? "The field";
+/**
+ * The number of a scene that a field shows and sets.
+ *
+ * @param {string} id
+ * @param {() => Shown} shown
+ * @param {(scene: Scene, event: Event) => void} change
+ * @returns {import("./fields.js").Source}
+ */
+function sourceOf(id, shown, change) {
+  return {
+    quantity: () => partOf(id, shown().scene).quantity,
+    units: () => shown().units,
+    get: () => partOf(id, shown().scene).get(shown().scene),
+    set(value, event) {
+      const { scene } = shown();
+      if (value !== undefined) change(partOf(id, scene).set(scene, value), event);
+    },
+  };
+}

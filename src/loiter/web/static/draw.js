@@ -11,7 +11,7 @@
  * @typedef {import("./view.js").Point} Point
  */
 import { vector } from "./compass.js";
-import { gridOf } from "./grips.js";
+import { gridOf } from "./handles.js";
 import { polyline, set, svg } from "./svg.js";
 import { at, pieces, sorted } from "./track.js";
 import { decimalsFor, difference, fixed } from "./units.js";

@@ -3,21 +3,28 @@
  * The page: one state, changed in one place. A scene goes to the service; its answer is drawn.
  *
  * @typedef {import("./types.js").Scene} Scene
+ * @typedef {import("./types.js").Altitude} Altitude
  * @typedef {import("./types.js").Answer} Answer
  * @typedef {import("./types.js").Proof} Proof
  * @typedef {import("./types.js").Synthesis} Synthesis
  * @typedef {import("./types.js").Units} Units
  */
+import { altitudeFields } from "./altitude.js";
 import { answerView } from "./answer.js";
-import { get, latest, post } from "./api.js";
-import { placeOf } from "./compass.js";
+import { Problem, Unreachable, get, latest, post } from "./api.js";
+import { placeOf, turnRadiusOf } from "./compass.js";
 import { controls } from "./controls.js";
+import { failureView } from "./failure.js";
+import { nameOf } from "./fields.js";
 import { SPEEDS, clock, speedFor } from "./flight.js";
+import { blamed, inWords } from "./names.js";
+import { originFields } from "./origin.js";
 import { planView } from "./plan.js";
 import { reachFor, reducedView } from "./reduced.js";
-import { PRESETS, drifts, fromLink, toLink } from "./scene.js";
+import { retrying } from "./retry.js";
+import { PRESETS, drifts, fromLink, inThePaper, toLink } from "./scene.js";
 import { byId, html } from "./svg.js";
-import { takeAway } from "./take.js";
+import { exportPanel } from "./export_panel.js";
 import { themes } from "./theme.js";
 import { timeLine } from "./timeline.js";
 import { at } from "./track.js";
@@ -28,14 +35,18 @@ const CELLS = 280; // of the map, a side: 1.5 pixels each, and the curves cover 
 /**
  * `whole` tells whether the answer has every candidate, or the best of each direction alone.
  *
- * @type {{scene: Scene, units: Units, answer: Answer | null, whole: boolean, asked: number, drawn: number}}
+ * @type {{scene: Scene, units: Units, altitude: Altitude, answer: Answer | null, whole: boolean, asked: number,
+ *   drawn: number}}
  */
-const state = { scene: PRESETS[0].scene, units: "metric", answer: null, whole: true, asked: 0, drawn: 0 };
-const shown = () => state;
+const state = { scene: PRESETS[0].scene, units: "metric", altitude: {}, answer: null, whole: true, asked: 0, drawn: 0 };
+const shown = () => ({ ...state, current: !failure && state.drawn === state.asked });
 const message = byId("message", HTMLElement);
 const spoken = byId("spoken", HTMLElement);
 const plan = byId("plan", SVGSVGElement);
-let failed = false;
+/** @type {import("./scene.js").Linked} */
+const FIRST = { scene: PRESETS[0].scene, units: "metric", altitude: {} };
+/** @type {import("./failure.js").Failure | null} */
+let failure = null; // why the scene has no plan
 let fitNext = true;
 /** @type {number[] | null} */
 let spanNext = null; // the view of the link that was opened
@@ -57,6 +68,57 @@ function say(sentence, bad = false) {
 }
 
 /**
+ * The fields that are marked: for a scene that was refused, and for a file.
+ *
+ * @typedef {"scene" | "file"} Matter
+ * @type {Record<Matter, string[]>}
+ */
+const marked = { scene: [], file: [] };
+
+/**
+ * Mark the fields that a refusal is about, and give its sentence in the page's own names.
+ *
+ * @param {Error} error
+ * @param {Matter} matter
+ */
+function refuse(error, matter) {
+  const sentence = inWords(error.message, (id) => nameOf(byId(id, HTMLElement)));
+  const ids = error instanceof Problem ? blamed(error) : [];
+  mark(Object.fromEntries(ids.map((id) => [id, sentence])), matter);
+  return sentence;
+}
+
+/**
+ * Mark fields, each with a sentence, and no others any more.
+ *
+ * @param {Record<string, string>} sentences  by the ids of the fields
+ * @param {Matter} matter
+ */
+function mark(sentences, matter) {
+  for (const id of marked[matter]) fields[id].refuse(null);
+  marked[matter] = Object.keys(sentences).filter((id) => fields[id]);
+  for (const id of marked[matter]) {
+    fields[id].refuse(sentences[id]);
+    byId(id, HTMLElement).closest("details")?.setAttribute("open", "");
+  }
+}
+
+/** @param {string} id of a field */
+const typo = (id) => fields[id]?.typo() ?? "";
+
+/**
+ * Ask for what a file needs: mark the fields, and go to the first.
+ *
+ * @param {Record<string, string>} sentences
+ */
+function ask(sentences) {
+  mark(sentences, "file");
+  const [[first, sentence]] = Object.entries(sentences);
+  byId(first, HTMLElement).focus();
+  say(sentence, true);
+}
+
+/**
  * The one way a scene changes.
  *
  * @param {Scene} scene
@@ -64,12 +126,12 @@ function say(sentence, bad = false) {
  */
 function change(scene, event) {
   state.scene = scene;
-  if (!failed) say("");
+  say("");
   // All candidates in drifting air take the service longer than a frame: they wait until the drag rests.
   demand(!drifts(scene));
   if (event instanceof PointerEvent) moves.push({ asked: state.asked, at: event.timeStamp });
   view.drawScene();
-  panel.draw(shown());
+  panel.draw();
   rest();
 }
 
@@ -77,35 +139,57 @@ function change(scene, event) {
 function demand(whole) {
   state.asked += 1;
   plan.dataset.asked = String(state.asked);
-  ask({ scene: state.scene, number: state.asked, whole });
+  askPlan({ scene: state.scene, number: state.asked, whole });
 }
 
-const ask = latest(
+const askPlan = latest(
   async (/** @type {{scene: Scene, number: number, whole: boolean}} */ { scene, whole }) =>
-    /** @type {Answer} */ (await (await post(whole ? "/api/plan" : "/api/fastest", scene)).json()),
+    /** @type {Answer} */ (await post(whole ? "/api/plan" : "/api/fastest", scene)),
   (answer, { number, whole }) => {
-    if (failed) say("");
-    fail(false);
+    retries.rest();
+    fail(null);
+    mark({}, "scene");
     [state.answer, state.drawn, state.whole] = [answer, number, whole];
     answered();
   },
   (error, { number }) => {
-    fail(true);
     state.drawn = number;
+    fail(failureOf(error));
     settle(number);
-    say(error.message, true);
+    // The plan that comes later has to be seen whole too.
+    if (fitNext && failure?.name === "refused") arrive(null);
+    else if (fitNext) view.fit();
     plan.dataset.drawn = String(number);
   },
 );
 
 /**
+ * @param {Error} error
+ * @returns {import("./failure.js").Failure}
+ */
+function failureOf(error) {
+  const sentence = refuse(error, "scene");
+  if (!(error instanceof Unreachable))
+    return { name: "refused", headline: "No plan for this scene", sentence, attempt: null };
+  const attempt = retries.plan(error.wait_s);
+  return { name: "unreachable", headline: error.headline, sentence, attempt };
+}
+
+/**
  * The last good plan stays, faint, while a scene has none.
  *
- * @param {boolean} on
+ * @param {import("./failure.js").Failure | null} why
  */
-function fail(on) {
-  failed = on;
-  byId("main", HTMLElement).classList.toggle("stale", on);
+function fail(why) {
+  if (!why && !failure) return;
+  if (!failure) say("");
+  failure = why;
+  failing.draw(why);
+  plan.dataset.failure = why?.name ?? "";
+  if (!why) return;
+  playing(false);
+  exporting.draw();
+  words.unproved("–");
 }
 
 function answered() {
@@ -142,7 +226,7 @@ function settle(number) {
   const now = performance.now();
   while (moves.length > 0 && moves[0].asked <= number) {
     const move = moves.shift();
-    if (move && !failed) performance.measure("move to path", { start: move.at, end: now });
+    if (move && !failure) performance.measure("move to path", { start: move.at, end: now });
   }
 }
 
@@ -153,19 +237,19 @@ function rest() {
   resting = window.setTimeout(async () => {
     if (state.drawn < state.asked) return rest();
     relink();
-    if (failed || !state.answer) return rested();
+    if (failure || !state.answer) return rested();
     if (!state.whole) {
       demand(true);
       return rest();
     }
     spoken.textContent = state.answer.instruction;
-    taking.draw();
+    exporting.draw();
     askMap(state.answer);
     askProof({ scene: state.scene, number: state.asked });
   }, REST_MS);
 }
 
-const link = () => toLink(state.scene, state.units, view.span());
+const link = () => toLink(state, view.span());
 const relink = () => history.replaceState(null, "", link());
 let looking = 0;
 /** The address follows the view once it rests. */
@@ -176,16 +260,20 @@ function moved() {
 
 const askProof = latest(
   async (/** @type {{scene: Scene, number: number}} */ { scene }) =>
-    /** @type {Proof} */ (await (await post("/api/certificate", scene)).json()),
+    /** @type {Proof} */ (await post("/api/certificate", scene)),
   (proof, { number }) => {
     proved = number;
-    if (number === state.asked) [line, words].forEach((each) => each.prove(proof));
+    lacks.proof = false;
+    if (number === state.asked) {
+      line.prove(proof);
+      words.prove(proof, state.answer !== null && inThePaper(state.scene, state.answer.reduced.radius));
+    }
     fly(ghost.time());
     rested();
   },
   (error, { number }) => {
     proved = number;
-    say(error.message, true);
+    if (number === state.asked) words.unproved(`Not checked: ${missed("proof", error)}`);
     rested();
   },
 );
@@ -194,23 +282,54 @@ let proved = 0;
 let mapped = ""; // the map that is asked for
 let mapShown = "";
 const askMapAt = latest(
-  async (/** @type {string} */ query) => /** @type {Synthesis} */ (await (await get(`/api/synthesis?${query}`)).json()),
+  async (/** @type {string} */ query) => /** @type {Synthesis} */ (await get(`/api/synthesis?${query}`)),
   (synthesis, query) => {
     mapShown = query;
+    lacks.map = false;
     reduced.map(synthesis);
+    missing("");
     rested();
   },
   (error) => {
     mapped = mapShown;
-    say(error.message, true);
+    missing(`Not the map of this scene: ${missed("map", error)}`);
     rested();
   },
 );
 
+/** Say why the map is not that of the scene. @param {string} sentence */
+function missing(sentence) {
+  byId("map-fault", HTMLElement).textContent = sentence;
+  byId("map", HTMLElement).classList.toggle("missing", sentence !== "");
+}
+
+/** What of the last scene the service has not answered. */
+const lacks = { proof: false, map: false };
+
+/**
+ * Why something is missing of a plan that is there; a service that does not answer is asked again for all of it.
+ *
+ * @param {"proof" | "map"} part
+ * @param {Error} error
+ */
+function missed(part, error) {
+  lacks[part] = error instanceof Unreachable;
+  if (!(error instanceof Unreachable)) return error.message;
+  const attempt = retries.plan(error.wait_s);
+  return `${error.headline}.${attempt ? ` Asking again in ${attempt.wait_s} s.` : ""}`;
+}
+
+const retries = retrying(() => {
+  demand(!drifts(state.scene));
+  rest();
+});
+
 /** Tell those who watch that nothing is under way any more. */
 function rested() {
-  const quiet = failed || (proved === state.asked && mapped === mapShown);
-  if (quiet && state.drawn === state.asked) plan.dataset.rested = String(state.asked);
+  const quiet = failure || (proved === state.asked && mapped === mapShown);
+  if (!quiet || state.drawn !== state.asked) return;
+  plan.dataset.rested = String(state.asked);
+  if (!failure && !lacks.proof && !lacks.map) retries.stop();
 }
 
 /** @param {Answer} answer */
@@ -253,14 +372,27 @@ const slider = byId("clock", HTMLInputElement);
 const ghost = clock(() => state.answer?.duration_s ?? 0, fly);
 const view = planView(shown, change, hover, moved);
 const reduced = reducedView(shown, (x, y, event) => {
-  if (!state.answer) return;
-  const place = placeOf(x, y, state.scene, state.answer.aircraft.turn_radius_m);
+  if (failure) return;
+  const place = placeOf(x, y, state.scene, turnRadiusOf(state.scene.aircraft));
   change({ ...state.scene, pose: { ...state.scene.pose, ...place } }, event);
 });
-const line = timeLine((time) => ghost.seek(time));
+const line = timeLine((time) => !failure && ghost.seek(time));
 const words = answerView(hover);
-const panel = controls(shown, typed, (sentence) => say(sentence, true));
-const taking = takeAway(shown, () => location.origin + location.pathname + link(), say);
+const failing = failureView(() => retries.now(), say);
+const panel = controls(shown, typed);
+const origin = originFields(shown, change);
+const heights = altitudeFields(shown, (altitude) => {
+  state.altitude = altitude;
+  moved();
+});
+const exporting = exportPanel(shown, () => location.origin + location.pathname + link(), {
+  say,
+  refuse: (error) => say(error instanceof Unreachable ? `Not saved: ${error.headline}. ${error.message}` : refuse(error, "file"), true),
+  ask,
+  typo,
+});
+/** @type {Record<string, import("./fields.js").Field>} */
+const fields = { ...panel.fields, ...origin.fields, ...heights.fields };
 
 /** @param {Scene} scene @param {Event} event */
 function typed(scene, event) {
@@ -282,17 +414,22 @@ function begin(scene) {
 
 /** The scene of the link, or the first preset where the link is none or spoilt. */
 function open() {
-  if (location.hash.length < 2) return begin(PRESETS[0].scene);
   try {
-    const { scene, units, view: span } = fromLink(location.hash);
-    [state.units, unitsChoice.value] = [units, units];
-    begin(scene);
-    showOrigin(scene);
-    spanNext = span;
+    const linked = location.hash.length < 2 ? { ...FIRST, view: null } : fromLink(location.hash);
+    show(linked);
+    spanNext = linked.view;
   } catch (error) {
-    begin(PRESETS[0].scene);
+    show(FIRST);
     say(/** @type {Error} */ (error).message, true);
   }
+}
+
+/** @param {import("./scene.js").Linked} linked */
+function show({ scene, units, altitude }) {
+  [state.units, unitsChoice.value, state.altitude] = [units, units, altitude];
+  begin(scene);
+  origin.open();
+  heights.draw();
 }
 
 const unitsChoice = byId("units", HTMLSelectElement);
@@ -336,30 +473,20 @@ function wire() {
   unitsChoice.addEventListener("change", () => {
     state.units = unitsChoice.value === "aviation" ? "aviation" : "metric";
     view.draw();
-    panel.draw(shown());
+    panel.draw();
+    heights.draw();
     words.draw(shown());
-    taking.draw();
+    exporting.draw();
     rest();
   });
-  wireOrigin();
   addEventListener("hashchange", open);
+  // The network is back, or the user: then there is no reason to wait.
+  addEventListener("online", impatient);
+  addEventListener("visibilitychange", impatient);
 }
 
-const [latitude, longitude] = ["latitude", "longitude"].map((id) => byId(id, HTMLInputElement));
-
-/** @param {Scene} scene */
-function showOrigin({ origin }) {
-  latitude.value = String(origin?.latitude_deg ?? "");
-  longitude.value = String(origin?.longitude_deg ?? "");
-}
-
-function wireOrigin() {
-  for (const input of [latitude, longitude])
-    input.addEventListener("input", () => {
-      const [latitude_deg, longitude_deg] = [latitude.valueAsNumber, longitude.valueAsNumber];
-      const whole = Number.isFinite(latitude_deg) && Number.isFinite(longitude_deg);
-      change({ ...state.scene, origin: whole ? { latitude_deg, longitude_deg } : null });
-    });
+function impatient() {
+  if (failure?.name === "unreachable" && document.visibilityState === "visible") retries.now();
 }
 
 /** Drawings are as large as their boxes. */

@@ -10,20 +10,22 @@
  * @typedef {import("./view.js").View} View
  * @typedef {import("./view.js").Point} Point
  * @typedef {import("./track.js").Instant} Instant
- * @typedef {import("./grips.js").Stage} Stage
+ * @typedef {import("./handles.js").Stage} Stage
  *
  * @typedef {object} Shown  what a drawing needs
  * @property {Scene} scene
  * @property {Units} units
  * @property {Answer | null} answer
+ * @property {import("./types.js").Altitude} altitude
+ * @property {boolean} current  whether the answer is that to the scene
  *
  * @typedef {(scene: Scene, event: Event) => void} Change
  */
 import { vector } from "./compass.js";
 import { callout, drawBest, drawCircle, drawGrid, drawMarks, drawOther } from "./draw.js";
-import { AEROPLANE, AIRCRAFT, CENTRE, HEADING, LEVER, WIND, dialOf, pivotOf, radiusGrip } from "./grips.js";
+import { AEROPLANE, AIRCRAFT, CENTRE, HEADING, LEVER, WIND, dialOf, pivotOf, radiusHandle } from "./handles.js";
 import { gestures } from "./gestures.js";
-import { makeHandle, place } from "./handle.js";
+import { makeHandle, place } from "./draggable.js";
 import { byId, polyline, set, show, svg } from "./svg.js";
 import { sorted } from "./track.js";
 import { tidy } from "./units.js";
@@ -151,13 +153,23 @@ export function planView(shown, change, hover, moved) {
     return { left: left * share, right: right * share, top: top * share, bottom: bottom * share };
   };
 
-  gestures(root, () => view, look, fit);
+  function bookmark() {
+    const [was, mine] = [view, own];
+    return () => {
+      [view, own] = [was, mine];
+      draw();
+      moved();
+    };
+  }
+
+  gestures(root, () => view, look, fit, bookmark);
   /** @param {number} width @param {number} height */
   function resize(width, height) {
     const first = view.width === 800 && view.height === 600;
     view = { ...view, width, height };
     set(root, { width, height, viewBox: `0 0 ${width} ${height}` });
     if (first) fit();
+    else if (own) draw();
     else keep();
   }
 
@@ -221,21 +233,21 @@ function freest({ orbit }, points) {
  * @param {Change} change
  */
 function makeHandles(root, layer, stage, change) {
-  const { grip: radius, turn } = radiusGrip();
+  const { handle: radius, turn } = radiusHandle();
   const lever = svg("path", { class: "lever" });
   const dial = windDial();
   // Later ones lie on top: the aircraft is always within reach.
-  const groups = [CENTRE, radius, WIND, HEADING, AIRCRAFT].map((grip) => ({
-    grip,
-    group: svg("g", { id: grip.id }, grip.parts),
+  const groups = [CENTRE, radius, WIND, HEADING, AIRCRAFT].map((handle) => ({
+    handle,
+    group: svg("g", { id: handle.id }, handle.parts),
   }));
   layer.append(dial.group, lever, ...groups.map(({ group }) => group));
-  for (const { grip, group } of groups) listen(group, root, grip, stage, change);
+  for (const { handle, group } of groups) listen(group, root, handle, stage, change);
 
   function draw() {
     const now = stage();
-    for (const { grip, group } of groups)
-      place(group, grip.at(now), grip.value(now.scene), grip.text(now.scene, now.units));
+    for (const { handle, group } of groups)
+      place(group, handle.at(now), handle.value(now.scene), handle.text(now.scene, now.units));
     turnTo("#aircraft .aeroplane", now.scene.pose.heading_deg);
     turnTo("#wind .tip", now.scene.wind ? now.scene.wind.from_deg + 180 : 0);
     lever.setAttribute("d", leverOf(now));
@@ -249,18 +261,18 @@ function makeHandles(root, layer, stage, change) {
 /**
  * @param {SVGGElement} group
  * @param {SVGSVGElement} root
- * @param {import("./grips.js").Grip} grip
+ * @param {import("./handles.js").Handle} handle
  * @param {() => Stage} stage
  * @param {Change} change
  */
-function listen(group, root, grip, stage, change) {
-  makeHandle(group, root, grip.label, {
+function listen(group, root, handle, stage, change) {
+  makeHandle(group, root, handle.label, {
     where: () => {
-      grip.taken?.(stage());
-      return grip.at(stage());
+      handle.taken?.(stage());
+      return handle.at(stage());
     },
-    to: (point, event) => change(grip.to(stage(), point), event),
-    by: (right, up, event) => change(grip.by(stage(), right, up), event),
+    to: (point, event) => change(handle.to(stage(), point), event),
+    by: (right, up, event) => change(handle.by(stage(), right, up), event),
   });
 }
 

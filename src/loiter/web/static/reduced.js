@@ -9,7 +9,7 @@
  * @typedef {import("./view.js").View} View
  * @typedef {import("./view.js").Point} Point
  */
-import { makeHandle, place } from "./handle.js";
+import { makeHandle, place } from "./draggable.js";
 import { byId, polyline, set, show, svg } from "./svg.js";
 import { pieces, sorted } from "./track.js";
 import { fixed, nice, tidy } from "./units.js";
@@ -54,7 +54,7 @@ export function reducedView(shown, move) {
     svg("g", { class: `layer ${name}` }),
   );
   const ghost = svg("circle", { r: 5, class: "ghostdot" });
-  const state = svg("g", { id: "state" }, [
+  const state = svg("g", { id: "state", "data-needs-plan": "" }, [
     svg("circle", { r: 18, class: "touch" }),
     svg("circle", { r: 12, class: "focus" }),
     svg("circle", { r: 7, class: "statedot" }),

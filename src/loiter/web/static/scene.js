@@ -3,7 +3,9 @@
  * Scenes: what is asked. A scene is the service's own request, never changed in place.
  *
  * @typedef {import("./types.js").Scene} Scene
+ * @typedef {import("./types.js").Altitude} Altitude
  * @typedef {import("./types.js").Limit} Limit
+ * @typedef {import("./types.js").Reference} Reference
  * @typedef {import("./types.js").Turn} Turn
  * @typedef {import("./types.js").Units} Units
  */
@@ -50,6 +52,9 @@ export const PRESETS = [
 /** @type {Record<Limit, string>} */
 const LIMIT_KEYS = { max_bank_deg: "bank", min_turn_radius_m: "turn-radius", max_turn_rate_deg_s: "turn-rate" };
 
+/** @type {Reference[]} */
+export const REFERENCES = ["msl", "home", "ground"];
+
 /** @type {Limit[]} */
 export const LIMITS = ["max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s"];
 
@@ -72,17 +77,36 @@ export function drifts({ wind, orbit }) {
   return wind !== null || orbit.velocity_east_m_s !== 0 || orbit.velocity_north_m_s !== 0;
 }
 
+// A circle of the turn radius comes out a rounding off 1.
+const ROUNDING = 1e-9;
+
 /**
- * A scene, the units it is shown in and the view, if it is the user's own, as the fragment of a link, in the names of
- * the command line's options.
+ * Whether the paper proves the optimum of a scene: still air, a circle at rest, of the turn radius.
  *
  * @param {Scene} given
- * @param {Units} units
+ * @param {number} radius  of the circle, turn radii
+ */
+export function inThePaper(given, radius) {
+  return !drifts(given) && given.tolerance_m === 0 && Math.abs(radius - 1) < ROUNDING;
+}
+
+/**
+ * What a link holds beside the view.
+ *
+ * @typedef {{scene: Scene, units: Units, altitude: Altitude}} Linked
+ */
+
+/**
+ * A scene, the units it is shown in, the altitude of missions, as far as it is given, and the view, if it is the user's
+ * own, as the fragment of a link, in the names of the command line's options.
+ *
+ * @param {Linked} linked
  * @param {number[] | null} view  middle east and north, width: metres
  * @returns {string}
  */
-export function toLink({ pose, orbit, aircraft, wind, tolerance_m, origin }, units, view) {
-  const limit = limitOf({ pose, orbit, aircraft, wind, tolerance_m, origin });
+export function toLink({ scene: given, units, altitude }, view) {
+  const { pose, orbit, aircraft, wind, tolerance_m, origin } = given;
+  const limit = limitOf(given);
   const parts = [
     `pose=${pose.east_m},${pose.north_m},${pose.heading_deg}`,
     `orbit=${orbit.east_m},${orbit.north_m},${orbit.radius_m}`,
@@ -95,6 +119,10 @@ export function toLink({ pose, orbit, aircraft, wind, tolerance_m, origin }, uni
     parts.push(`orbit-velocity=${orbit.velocity_east_m_s},${orbit.velocity_north_m_s}`);
   if (tolerance_m !== 0) parts.push(`tolerance=${tolerance_m}`);
   if (origin) parts.push(`origin=${origin.latitude_deg},${origin.longitude_deg}`);
+  const { altitude_m, altitude_reference, home_altitude_m } = altitude;
+  if (altitude_m !== undefined) parts.push(`altitude=${altitude_m}`);
+  if (altitude_reference) parts.push(`altitude-reference=${altitude_reference}`);
+  if (home_altitude_m !== undefined) parts.push(`home-altitude=${home_altitude_m}`);
   if (view) parts.push(`view=${view}`);
   if (units !== "metric") parts.push(`units=${units}`);
   return `#${parts.join("&")}`;
@@ -104,7 +132,7 @@ export function toLink({ pose, orbit, aircraft, wind, tolerance_m, origin }, uni
  * What `toLink` wrote. Throws an Error with a sentence where the fragment is no scene.
  *
  * @param {string} hash
- * @returns {{scene: Scene, units: Units, view: number[] | null}}
+ * @returns {Linked & {view: number[] | null}}
  */
 export function fromLink(hash) {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
@@ -123,8 +151,26 @@ export function fromLink(hash) {
       origin: given.has("origin") ? originOf(numbers(given, "origin", 2)) : null,
     },
     units: given.get("units") === "aviation" ? "aviation" : "metric",
+    altitude: altitudeOf(given),
     view: given.has("view") ? viewOf(numbers(given, "view", 3)) : null,
   };
+}
+
+/**
+ * Links of earlier versions have no altitude.
+ *
+ * @param {URLSearchParams} given
+ * @returns {Altitude}
+ */
+function altitudeOf(given) {
+  const [altitude_m, home_altitude_m] = ["altitude", "home-altitude"].map((name) =>
+    given.has(name) ? numbers(given, name, 1)[0] : undefined,
+  );
+  const text = given.get("altitude-reference");
+  const altitude_reference = REFERENCES.find((reference) => reference === text);
+  if (text !== null && !altitude_reference)
+    throw new Error(`The link's altitude-reference is ${text}: it must be msl, home or ground.`);
+  return { altitude_m, altitude_reference, home_altitude_m };
 }
 
 /** @param {number[]} values */

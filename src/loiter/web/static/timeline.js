@@ -7,7 +7,7 @@
  * @typedef {import("./types.js").Answer} Answer
  * @typedef {import("./types.js").Proof} Proof
  */
-import { pointOf } from "./handle.js";
+import { pointOf } from "./draggable.js";
 import { byId, polyline, set, show, svg } from "./svg.js";
 import { reading } from "./track.js";
 import { fixed, nice } from "./units.js";

@@ -25,6 +25,12 @@
  * @property {number} tolerance_m
  * @property {Origin | null} origin
  *
+ * @typedef {"msl" | "home" | "ground"} Reference  what an altitude is measured from
+ * @typedef {object} Altitude  how high missions are flown, as far as the user has said; metres
+ * @property {number} [altitude_m]
+ * @property {Reference} [altitude_reference]
+ * @property {number} [home_altitude_m]  of home, above mean sea level
+ *
  * @typedef {object} Track  samples of a maneuver; x and y are the reduced state in turn radii
  * @property {number[]} time_s
  * @property {number[]} east_m

@@ -37,6 +37,36 @@ export function unit(quantity, units) {
 }
 
 /**
+ * The units that may be typed after a number, and the size of each; in lower case.
+ *
+ * @type {Record<Quantity, Map<string, number>>}
+ */
+const TYPED = {
+  length: new Map([
+    ["m", 1],
+    ["km", 1000],
+    ["ft", FOOT_M],
+  ]),
+  speed: new Map([
+    ["m/s", 1],
+    ["km/h", 1 / 3.6],
+    ["kn", KNOT_M_S],
+    ["kt", KNOT_M_S],
+  ]),
+  degrees: new Map([
+    ["°", 1],
+    ["deg", 1],
+  ]),
+  rate: new Map([
+    ["°/s", 1],
+    ["deg/s", 1],
+  ]),
+};
+
+/** @param {Quantity} quantity */
+export const understood = (quantity) => TYPED[quantity];
+
+/**
  * A number with a true minus sign and no more decimals than asked for.
  *
  * @param {number} value

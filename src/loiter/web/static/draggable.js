@@ -58,14 +58,17 @@ export function makeHandle(group, drawing, label, moves) {
  * @param {Moves} moves
  */
 function drags(group, drawing, { where, to }) {
-  /** @type {{pointer: number, grip: Point} | null} */
+  /** @type {{pointer: number, offset: Point} | null} */
   let held = null;
+  // Else the browser takes a vertical move for scrolling and cancels the drag: Chromium asks the drawing, not the group
+  // in it, for its touch-action.
+  group.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
   group.addEventListener("pointerdown", (event) => {
     if (event.button !== 0 || held) return;
     const [x, y] = pointOf(drawing, event);
     const [left, top] = where();
     // A handle is dragged by the point where it was taken, so that it does not jump under the pointer.
-    held = { pointer: event.pointerId, grip: [x - left, y - top] };
+    held = { pointer: event.pointerId, offset: [x - left, y - top] };
     group.setPointerCapture(event.pointerId);
     group.classList.add("held");
     group.focus({ preventScroll: true });
@@ -75,7 +78,7 @@ function drags(group, drawing, { where, to }) {
   group.addEventListener("pointermove", (event) => {
     if (held?.pointer !== event.pointerId) return;
     const [x, y] = pointOf(drawing, event);
-    to([x - held.grip[0], y - held.grip[1]], event);
+    to([x - held.offset[0], y - held.offset[1]], event);
     event.stopPropagation();
   });
   for (const end of /** @type {const} */ (["pointerup", "pointercancel", "lostpointercapture"]))

@@ -13,7 +13,7 @@
  * @property {Scene} scene
  * @property {Units} units
  *
- * @typedef {object} Grip
+ * @typedef {object} Handle
  * @property {string} id
  * @property {string} label
  * @property {SVGElement[]} parts  what it looks like
@@ -109,9 +109,9 @@ const parts = (r, focus, shape) => [
   shape,
 ];
 
-const ring = () => svg("circle", { r: 6.5, class: "grip" });
+const ring = () => svg("circle", { r: 6.5, class: "knob" });
 
-/** @type {Grip} */
+/** @type {Handle} */
 export const AIRCRAFT = {
   id: "aircraft",
   label: "Aircraft",
@@ -126,7 +126,7 @@ export const AIRCRAFT = {
   text: (scene, units) => told(scene.pose, scene, units),
 };
 
-/** @type {Grip} */
+/** @type {Handle} */
 export const HEADING = {
   id: "heading",
   label: "Heading of the aircraft",
@@ -138,7 +138,7 @@ export const HEADING = {
   text: ({ pose }) => `${fixed(pose.heading_deg, 0)} degrees`,
 };
 
-/** @type {Grip} */
+/** @type {Handle} */
 export const CENTRE = {
   id: "centre",
   label: "Centre of the circle",
@@ -156,13 +156,13 @@ export const CENTRE = {
 /**
  * The handle of the radius, which may sit anywhere on the circle.
  *
- * @returns {{grip: Grip, turn: (bearing_deg: number) => void}}
+ * @returns {{handle: Handle, turn: (bearing_deg: number) => void}}
  */
-export function radiusGrip() {
+export function radiusHandle() {
   let bearing_deg = 150;
   let slack = 0; // by how many pixels it sits off a tiny circle, since it was taken
-  /** @type {Grip} */
-  const grip = {
+  /** @type {Handle} */
+  const handle = {
     id: "radius",
     label: "Radius of the circle",
     parts: parts(20, 12, ring()),
@@ -184,7 +184,7 @@ export function radiusGrip() {
     value: ({ orbit }) => orbit.radius_m,
     text: ({ orbit }, units) => length(orbit.radius_m, units, decimalsFor(orbit.radius_m, units)),
   };
-  return { grip, turn: (deg) => (bearing_deg = deg) };
+  return { handle, turn: (deg) => (bearing_deg = deg) };
 }
 
 /** The wind dial's radius, pixels. @param {View} view */
@@ -212,7 +212,7 @@ function blown(scene, east, north) {
   return { ...scene, wind: speed_m_s > 0 ? { speed_m_s, from_deg: tidy(heading(-east, -north), 1) % 360 } : null };
 }
 
-/** @type {Grip} */
+/** @type {Handle} */
 export const WIND = {
   id: "wind",
   label: "Wind",

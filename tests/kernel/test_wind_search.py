@@ -1,7 +1,7 @@
 """The fastest way onto a circle in wind: the laws it obeys, the hold, degenerate starts, and still air as its limit."""
 
 from functools import cache
-from itertools import pairwise
+from itertools import combinations, pairwise
 from math import atan2, cos, hypot, inf, isnan, nan, pi, sin, sqrt
 
 import numba
@@ -9,12 +9,13 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from loiter.kernel.codes import Side, Status, Word
-from loiter.kernel.drift import fastest, first_way, optima, ranked, slope, tied
+from loiter.kernel.codes import Side, Status
 from loiter.kernel.hold import held, hold_rate, hold_time, phase_of, tightest_held
 from loiter.kernel.motion import reduce
 from loiter.kernel.rebinding import rebound
 from loiter.kernel.synthesis import duration, optimum, rounding
+from loiter.kernel.wind_search import WindScene, fastest, first_path, join_slope, optima, ranked, tied
+from loiter.kernel.words import Word
 from strategies import blur, coordinates, one_way, radii, sides
 
 # A plain solve takes milliseconds, tens of them in a shallow valley on a busy machine.
@@ -214,9 +215,9 @@ def test_a_whole_turn_first_never_helps(scene, side, u):
 def test_whoever_joins_can_follow_the_circle(scene, side, phase, width):
     """T(s') <= T(s) + (s' - s): what branch and bound rests on, for the first ways as they are computed."""
     x, y, _, _, R, wx, wy = scene
-    inner = (*scene, rounding(x, y, R) / 3.0)
+    inner = WindScene(*scene, rounding(x, y, R) / 3.0)
     ahead = phase + width * (2.0 * pi - phase)
-    earlier, later = (first_way(p, side, inner, inf)[0] for p in (phase, ahead))
+    earlier, later = (first_path(p, side, inner, inf)[0] for p in (phase, ahead))
     parts = [phase + (ahead - phase) * i / 50 for i in range(51)]
     hold = sum(hold_time(b, b - a, side, R, wx, wy) for a, b in pairwise(parts))
     assert earlier < inf
@@ -226,9 +227,9 @@ def test_whoever_joins_can_follow_the_circle(scene, side, phase, width):
 @given(scenes(), one_way, st.floats(0.0, 2.0 * pi))
 def test_the_slope_is_the_derivative_of_the_time(scene, side, phase):
     x, y, _, _, R, wx, wy = scene
-    inner, h = (*scene, rounding(x, y, R) / 3.0), 1e-5
-    ways = [first_way(phase + d, side, inner, inf) for d in (-h, 0.0, h)]
-    there = slope(ways[1], phase, side, inner)
+    inner, h = WindScene(*scene, rounding(x, y, R) / 3.0), 1e-5
+    ways = [first_path(phase + d, side, inner, inf) for d in (-h, 0.0, h)]
+    there = join_slope(ways[1], phase, side, inner)
     speed = held(phase, side, R, wx, wy)[4]
     measured = (ways[2][0] - ways[0][0]) / (2.0 * h * R / speed)
     assert there <= 1.0 + 1e-9
@@ -366,13 +367,42 @@ def test_what_is_ranked_begins_with_the_fastest_and_ends_on_the_circle(scene, si
 @given(scenes(), one_way)
 def test_no_point_beside_a_ranked_one_is_met_sooner(scene, side):
     x, y, c, s, R, wx, wy = scene
-    inner = (*scene, rounding(x, y, R) / 3.0)
+    inner = WindScene(*scene, rounding(x, y, R) / 3.0)
     for _, held_side, _, t1, t2, t3, azimuth, _ in ranked(x, y, c, s, R, side, wx, wy):
         phase, time = phase_of(cos(azimuth), sin(azimuth), held_side, wx, wy), t1 + t2 + t3
-        beside = [first_way(phase + d, held_side, inner, inf)[0] for d in (-1e-4, 1e-4)]
+        beside = [first_path(phase + d, held_side, inner, inf)[0] for d in (-1e-4, 1e-4)]
         assert min(beside) >= time - moved(scene, time)
 
 
 def test_a_side_without_an_answer_leaves_none(monkeypatch):
-    monkeypatch.setattr("loiter.kernel.drift.missed", lambda *_: nan)
+    monkeypatch.setattr("loiter.kernel.wind_search.end_miss", lambda *_: nan)
     assert ranked(3.0, 1.0, 1.0, 0.0, 2.0, Side.EITHER, 0.1, 0.0) == []
+
+
+VALLEYS_SEEN = 64
+
+
+def valleys_seen(scene, side):
+    """Phases of points of joining, of `VALLEYS_SEEN` all round, that are met sooner than both next to them."""
+    x, y, _, _, R, _, _ = scene
+    inner, step = WindScene(*scene, rounding(x, y, R) / 3.0), 2.0 * pi / VALLEYS_SEEN
+    times = [first_path(step * i, side, inner, inf).time for i in range(VALLEYS_SEEN)]
+    margin = moved(scene, max(times))
+    return [
+        step * i for i, time in enumerate(times) if time + margin < min(times[i - 1], times[(i + 1) % VALLEYS_SEEN])
+    ]
+
+
+@given(scenes(), sides)
+@example((3.0, 1.0, 0.6, 0.8, 2.0, 0.2, -0.1), Side.EITHER)
+def test_each_valley_is_ranked_once(scene, side):
+    """Two points of joining of one side are two maneuvers; the fastest, which is found twice, is one."""
+    *_, wx, wy = scene
+    found = ranked(*scene[:5], side, wx, wy)
+    phases = [(m[1], phase_of(cos(m[6]), sin(m[6]), m[1], wx, wy)) for m in found]
+    for one in sorted({m[1] for m in found}):
+        joins = [phase for held_side, phase in phases if held_side == one]
+        for valley in valleys_seen(scene, one):
+            assert min(abs((phase - valley + pi) % (2.0 * pi) - pi) for phase in joins) < 2.0 * pi / VALLEYS_SEEN
+    for a, b in combinations(found, 2):
+        assert a[1:3] != b[1:3] or a[3:6] != pytest.approx(b[3:6], abs=1e-9)

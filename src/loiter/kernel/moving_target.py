@@ -10,18 +10,44 @@ roots of convex decreasing functions, those of LRL and RLR lie where a function 
 """
 
 from math import acos, atan2, ceil, cos, hypot, inf, pi, sin, sqrt
+from typing import NamedTuple
 
 from loiter.kernel.angles import TWO_PI, angle, snapped, turned_by
+from loiter.kernel.words import encode
 
-# What all words share: the headings at the start and at the pose as unit vectors (c0, s0) and (c, s), the wind
-# (wx, wy), and the slack of `angles.snapped`.
-Ends = tuple[float, float, float, float, float, float, float]
 
-# A way to the pose: time, word, three durations, and its adjoint (docs/wind.md, section 3), lambda and the unit
-# vector p.
-Way = tuple[float, int, float, float, float, float, float, float]
+class Ends(NamedTuple):
+    """What all words share: the headings (c0, s0) at the start and (c, s) at the pose, the wind, the arc tolerance.
 
-NO_WAY = (inf, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0)
+    `slack` is the arc length that a rotation may lack to a full turn and count as none (`angles.snapped`).
+    """
+
+    c0: float
+    s0: float
+    c: float
+    s: float
+    wx: float
+    wy: float
+    slack: float
+
+
+class Path(NamedTuple):
+    """A path to the pose: its time, word and three durations, and its adjoint, lambda and the unit vector p.
+
+    The adjoint is that of docs/wind.md, section 3.
+    """
+
+    time: float
+    word: int
+    t1: float
+    t2: float
+    t3: float
+    lam: float
+    p1: float
+    p2: float
+
+
+NO_PATH = Path(inf, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0)
 
 # Newton's method approaches every root here from the side where it converges monotonically. It squares its error, or
 # near a double root halves it: 60 halvings leave nothing of a double.
@@ -43,7 +69,7 @@ def interception(dx: float, dy: float, wx: float, wy: float) -> float:
     return square / (root + along) if square > 0.0 else 0.0
 
 
-def nearer(dx: float, dy: float, wx: float, wy: float, limit: float) -> tuple[float, float]:
+def time_within(dx: float, dy: float, wx: float, wy: float, limit: float) -> tuple[float, float]:
     """The times from 0 on between which |d - w t| < limit; both `inf` where there are none."""
     along, square, gap = wx * dx + wy * dy, wx * wx + wy * wy, dx * dx + dy * dy - limit * limit
     discriminant = along * along - square * gap
@@ -62,7 +88,7 @@ def arc(u: int, ax: float, ay: float, bx: float, by: float, radius: float, slack
     return angle(snapped(turned_by(u, ax, ay, bx, by), radius * radius, slack))
 
 
-def alike(u: int, dx: float, dy: float, ends: Ends) -> Way:
+def lsl_rsr(u: int, dx: float, dy: float, ends: Ends) -> Path:
     """LSL (u = +1) or RSR: t1 + t3 is the rotation from start to pose, or a turn more, and the rest an interception."""
     c0, s0, c, s, wx, wy, slack = ends
     rotation = arc(u, c0, s0, c, s, 1.0, slack)
@@ -76,8 +102,8 @@ def alike(u: int, dx: float, dy: float, ends: Ends) -> Way:
             length = hypot(ex, ey)
             # Where the two circles are one, any direction will do.
             p1, p2 = (ex / length, ey / length) if length > 0.0 else (1.0, 0.0)
-            return first + straight + last, 42 + 17 * u, first, straight, last, 1.0, p1, p2
-    return NO_WAY
+            return Path(first + straight + last, encode(u, 0, u), first, straight, last, 1.0, p1, p2)
+    return NO_PATH
 
 
 def tangent(u: int, dx: float, dy: float) -> tuple[float, float, float]:
@@ -87,19 +113,19 @@ def tangent(u: int, dx: float, dy: float) -> tuple[float, float, float]:
     return straight, (straight * dx - 2.0 * u * dy) / square, (straight * dy + 2.0 * u * dx) / square
 
 
-def opposite(u: int, dx: float, dy: float, ends: Ends, until: float) -> Way:
+def lsr_rsl(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
     """LSR (u = +1) or RSL, the first of a time up to `until`; the centres must be two radii apart, or more."""
     # Circles that overlap by rounding touch: two arcs, without a straight piece.
-    enter, leave = nearer(dx, dy, ends[4], ends[5], 2.0 - ends[6])
-    way = NO_WAY
+    enter, leave = time_within(dx, dy, ends.wx, ends.wy, 2.0 - ends.slack)
+    path = NO_PATH
     if enter > 0.0:
-        way = first_opposite(u, dx, dy, ends, 0.0, min(enter, until))
-    if way[0] == inf and leave < until:
-        way = first_opposite(u, dx, dy, ends, leave, until)
-    return way
+        path = first_lsr_rsl(u, dx, dy, ends, 0.0, min(enter, until))
+    if path.time == inf and leave < until:
+        path = first_lsr_rsl(u, dx, dy, ends, leave, until)
+    return path
 
 
-def first_opposite(u: int, dx: float, dy: float, ends: Ends, begin: float, end: float) -> Way:
+def first_lsr_rsl(u: int, dx: float, dy: float, ends: Ends, begin: float, end: float) -> Path:
     """The first root between two times throughout which the centres are two radii apart, or more.
 
     With its arcs continued beyond whole turns, length - T falls, with the slope -(1 + w . p), and is convex. So for
@@ -110,18 +136,18 @@ def first_opposite(u: int, dx: float, dy: float, ends: Ends, begin: float, end: 
     arcs = angle(turned_by(u, c0, s0, e1, e2)) + angle(turned_by(u, c, s, e1, e2))
     fewest = max(ceil((begin - arcs - straight) / TWO_PI), -WHOLE_TURNS)
     for turns in range(fewest, WHOLE_TURNS + 1):
-        time = risen(u, dx, dy, wx, wy, arcs + TWO_PI * turns, begin, end)
+        time = first_root(u, dx, dy, wx, wy, arcs + TWO_PI * turns, begin, end)
         if time > end:
             break
         straight, p1, p2 = tangent(u, dx - wx * time, dy - wy * time)
         first = arc(u, c0, s0, p1, p2, 1.0 + straight, slack)
         last = arc(u, c, s, p1, p2, 1.0, slack)
         if abs(first + straight + last - time) < pi:
-            return first + straight + last, 42 - 15 * u, first, straight, last, 1.0, p1, p2
-    return NO_WAY
+            return Path(first + straight + last, encode(u, 0, -u), first, straight, last, 1.0, p1, p2)
+    return NO_PATH
 
 
-def risen(u: int, dx: float, dy: float, wx: float, wy: float, arcs: float, begin: float, end: float) -> float:
+def first_root(u: int, dx: float, dy: float, wx: float, wy: float, arcs: float, begin: float, end: float) -> float:
     """The time >= `begin` at which LSR or RSL takes T when its arcs take `arcs` at `begin`; beyond `end`, any time."""
     _, e1, e2 = tangent(u, dx - wx * begin, dy - wy * begin)
     time = begin
@@ -135,24 +161,24 @@ def risen(u: int, dx: float, dy: float, wx: float, wy: float, arcs: float, begin
     return time
 
 
-def alternating(u: int, dx: float, dy: float, ends: Ends, until: float) -> Way:
+def lrl_rlr(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
     """LRL (u = +1) or RLR, the first of a time up to `until`: T = 2 t2 + rotation from start to pose + whole turns.
 
-    Only a way with p . w + lambda >= 0 can be the first; for each number of turns that leaves one.
+    Only a path with p . w + lambda >= 0 can be the first; for each number of turns that leaves one.
     """
     c0, s0, c, s, wx, wy, slack = ends
-    enter, leave = nearer(dx, dy, wx, wy, 4.0)
-    best = NO_WAY
+    enter, leave = time_within(dx, dy, wx, wy, 4.0)
+    best = NO_PATH
     if enter <= until:
         rotation = arc(u, c0, s0, c, s, 1.0, slack)
         for turns in (-1.0, 0.0, 1.0):
             outside = rotation + TWO_PI * turns
             middle = middle_arc(dx - wx * outside, dy - wy * outside, wx, wy)
             time = outside + 2.0 * middle
-            if inf > time and enter - slack <= time <= min(leave + slack, until, best[0]):
-                way = alternation(u, middle, dx - wx * time, dy - wy * time, ends)
-                if abs(way[0] - time) < pi:
-                    best = way
+            if inf > time and enter - slack <= time <= min(leave + slack, until, best.time):
+                path = three_arcs(u, middle, dx - wx * time, dy - wy * time, ends)
+                if abs(path.time - time) < pi:
+                    best = path
     return best
 
 
@@ -179,7 +205,7 @@ def middle_arc(dx: float, dy: float, wx: float, wy: float) -> float:
     return m
 
 
-def alternation(u: int, middle: float, dx: float, dy: float, ends: Ends) -> Way:
+def three_arcs(u: int, middle: float, dx: float, dy: float, ends: Ends) -> Path:
     """LRL or RLR with a given middle arc between circles whose centres are d = -4 sin(m/2) p apart."""
     c0, s0, c, s, _, _, slack = ends
     length = hypot(dx, dy)
@@ -190,4 +216,4 @@ def alternation(u: int, middle: float, dx: float, dy: float, ends: Ends) -> Way:
     bx, by = lam * p1 - u * across * p2, lam * p2 + u * across * p1
     first = arc(u, c0, s0, ax, ay, 4.0, slack)
     last = arc(u, bx, by, c, s, 1.0, slack)
-    return first + middle + last, 42 + 13 * u, first, middle, last, lam, p1, p2
+    return Path(first + middle + last, encode(u, -u, u), first, middle, last, lam, p1, p2)

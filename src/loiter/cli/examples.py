@@ -1,0 +1,62 @@
+"""What help ends with: examples of a command, and what exit statuses mean."""
+
+# By command; a line that goes on is indented.
+EXAMPLES = {
+    "plan": r"""
+  loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35
+  loiter plan --pose -400 120 90 --orbit 0 0 80 --turn cw \
+      --airspeed 18 --turn-radius 50 --plot entry.png
+  loiter plan --pose -400 120 90 --orbit 0 0 120 --wind 8 250 \
+      --airspeed 18 --bank 35 --certify
+  loiter plan --pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 \
+      --airspeed 18 --bank 35 --altitude 900 --save entry.plan""",
+    "batch": r"""
+  loiter batch states.parquet entries.parquet --orbit 0 0 80 \
+      --airspeed 18 --bank 35
+  loiter batch states.csv entries.csv --airspeed 18 --turn-radius 50 \
+      --wind 8 250 --workers 4""",
+    "upload": r"""
+  loiter upload --connect udpout:127.0.0.1:14550 --pose-lla 47.1 8.2 90 \
+      --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35 --altitude 900
+  loiter upload entry.plan --connect /dev/ttyUSB0,57600""",
+    "watch": r"""
+  loiter watch --connect udpin:127.0.0.1:14550 \
+      --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35
+  loiter watch --connect udpin:127.0.0.1:14550 --reports 10 \
+      --orbit-lla 47.11 8.23 --params uav.param""",
+    "fly": r"""
+  loiter fly --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 \
+      --compare --plot flight.png
+  loiter fly --pose -400 120 90 --orbit 0 0 200 --sim jsbsim
+  loiter fly --runs 100 --compare --airspeed 18 --bank 35 --save runs.csv""",
+    "synthesis": r"""
+  loiter synthesis --radius 1.5 --turn cw --plot map.png
+  loiter synthesis --radius 2 --show worth --save map.npz""",
+    "figures": r"""
+  loiter figures --out figures --format svg""",
+    "verify": r"""
+  loiter verify --states 1000
+  loiter verify --witness wind --states 20""",
+    "serve": r"""
+  loiter serve
+  loiter serve --port 8080 --cors http://localhost:8000""",
+    "completion": r"""
+  eval "$(loiter completion bash)"
+  loiter completion fish > ~/.config/fish/completions/loiter.fish""",
+}
+
+STATUSES = """
+
+Exit status
+  0  done
+  1  a check failed (loiter verify, loiter plan --certify)
+  2  the request cannot be met: one sentence on standard error says why,
+     and no file is left half written
+  3  a vehicle is not there, is silent or refuses: the sentence says what
+     mission it has
+  130  interrupted; what a batch job has finished is kept"""
+
+
+def epilogue(*commands: str) -> str:
+    """What help ends with: the examples of the commands, and the exit statuses."""
+    return f"Examples{''.join(EXAMPLES[command] for command in commands)}{STATUSES}"

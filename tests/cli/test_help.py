@@ -1,0 +1,54 @@
+"""What help ends with: examples of the command that was asked about, which the program understands."""
+
+import shlex
+
+import pytest
+
+from cli.test_completion import COMMANDS
+from loiter.cli.app import app, main
+from loiter.cli.examples import EXAMPLES
+
+
+@pytest.fixture
+def examples(capsys, monkeypatch):
+    """The example commands that the help of a command shows."""
+    monkeypatch.setenv("COLUMNS", "100")
+
+    def shown(*command):
+        assert main([*command, "--help"]) == 0
+        _, _, end = capsys.readouterr().out.partition("\nExamples\n")
+        text, _, statuses = end.partition("\n\nExit status\n")
+        assert statuses.split()[:2] == ["0", "done"]
+        return [" ".join(example.split()) for example in text.replace("\\\n", " ").splitlines()]
+
+    return shown
+
+
+def understood(example):
+    """The command that an example runs, with its arguments bound."""
+    program, *words = shlex.split(example.removeprefix('eval "$(').removesuffix(')"').partition(" > ")[0])
+    assert program == "loiter"
+    command, _, _ = app.parse_args(words, exit_on_error=False, print_error=False)
+    return command.__name__
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_each_command_has_examples_of_its_own(examples, command):
+    shown = examples(command)
+    assert shown
+    assert [understood(example) for example in shown] == [command] * len(shown)
+
+
+def test_every_command_is_among_them():
+    assert sorted(EXAMPLES) == sorted(COMMANDS)
+
+
+def test_the_program_shows_how_to_begin(examples):
+    assert {understood(example) for example in examples()} == {"plan", "completion"}
+
+
+@pytest.mark.parametrize("example", range(2))
+def test_the_first_examples_can_be_run(examples, example, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(shlex.split(examples("plan")[example])[1:]) == 0
+    assert "joins in" in capsys.readouterr().out

@@ -1,0 +1,56 @@
+"""States on the last circle, or on the one next to it: one arc is all there is to fly."""
+
+from math import cos, inf, pi, sin
+
+import pytest
+
+from loiter.kernel.codes import Side
+from loiter.kernel.exact import beyond
+from loiter.kernel.extremals import duration, extremals, fastest, l, left_first, r, right_first
+from loiter.kernel.motion import flow
+from loiter.kernel.synthesis import optimum, rounding
+from loiter.kernel.words import Word
+
+
+@pytest.mark.parametrize("arc", [0.01, 0.5, 2.0, 6.0])
+@pytest.mark.parametrize(("word", "u"), [(Word.L, 1), (Word.R, -1)])
+@pytest.mark.parametrize("R", [1.2, 2.0, 3.0, 7.0])
+def test_a_state_one_arc_before_the_target_has_that_arc_among_its_extremals(R, word, u, arc):
+    x, y = flow(0.0, R, u, -arc)
+    slack = rounding(x, y, R) / 3.0
+    one = {extremal[0]: duration(extremal) for extremal in extremals(x, y, R, slack)}
+    assert one[word] == pytest.approx(arc, abs=1e-14)
+    assert fastest(x, y, R, slack, True)[0] <= one[word] + slack
+    # A little beside the circle the arc does not reach the target.
+    beside = {extremal[0]: duration(extremal) for extremal in extremals(x, y + 1e-6, R, slack)}
+    assert beside[word] == inf
+
+
+@pytest.mark.parametrize(("word", "u"), [(Word.L, 1), (Word.R, -1)])
+@pytest.mark.parametrize("R", [1.2, 2.0, 3.0, 7.0])
+def test_a_short_arc_is_flown_alone(R, word, u):
+    x, y = flow(0.0, R, u, -0.3)
+    _, found, *durations = optimum(x, y, R, Side.CW, 0.0)
+    assert found == word
+    assert durations == pytest.approx([0.3, 0.0, 0.0], abs=1e-14)
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-3, 0.1])
+def test_with_a_tolerance_the_sooner_of_the_two_first_turns_wins_on_the_tightest_circle_too(tolerance):
+    """A tolerance lets the last arc begin beside its circle, so the rule of the paper's section 6 does not hold."""
+    differ = 0
+    for i in range(400):
+        angle, radius = pi * (i % 20) / 20.0, 2.0 + tolerance * (i // 20 - 9.5) / 10.0
+        x, y = radius * cos(angle), radius * sin(angle) - 1.0
+        if y >= 0.0:
+            outer, inner = beyond(x, y, 1.0, 2.0), beyond(x, y, 1.0, -2.0)
+            competing = (
+                left_first(x, y, 1.0, tolerance, outer, outer),
+                right_first(x, y, 1.0, tolerance, inner),
+                l(x, y, 1.0, tolerance, outer),
+                r(x, y, 1.0, tolerance, inner),
+            )
+            least, by_rule = (fastest(x, y, 1.0, tolerance, exact)[0] for exact in (False, True))
+            assert least == min(map(duration, competing))
+            differ += least < by_rule
+    assert differ > 0

@@ -1,0 +1,66 @@
+"""What autopilots keep of each command, parameter by parameter, and the frames in which PX4 answers."""
+
+import pytest
+
+from loiter.io.items import Autopilot, Command, Frame, Mission, MissionItem
+from loiter.mavlink.link import Vehicle
+from loiter.mavlink.stored import compared, decoded, encoded
+
+PX4, PLANE = Vehicle(1, 1, Autopilot.PX4), Vehicle(1, 1, Autopilot.ARDUPILOT)
+HOME = (47.0, 8.0, 400.0)
+
+# Vehicle, command, parameters sent, parameters kept: AP_Mission's bytes and bits, and what PX4 has a use for.
+KEPT = [
+    (PLANE, Command.NAV_WAYPOINT, (7.5, 30.5, 41.75, 90.0), (0.0, 30.0, 41.0, 0.0)),
+    (PLANE, Command.NAV_WAYPOINT, (7.5, 300.5, 256.0, 90.0), (0.0, 255.0, 255.0, 0.0)),
+    (PLANE, Command.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, 90.0), (0.0, 0.0, -80.0, 0.0)),
+    (PLANE, Command.NAV_LOITER_TURNS, (2.5, 3.5, -80.5, 0.5), (2.0, 0.0, -80.0, 1.0)),
+    (PLANE, Command.NAV_LOITER_TURNS, (300.5, 3.5, 1234.0, -0.5), (255.0, 0.0, 1230.0, 0.0)),
+    (PLANE, Command.NAV_LOITER_TIME, (60.5, 3.5, -80.5, 0.5), (60.0, 0.0, -1.0, 1.0)),
+    (PLANE, Command.NAV_LOITER_TIME, (60.5, 3.5, 0.0, -0.5), (60.0, 0.0, 1.0, 0.0)),
+    (PLANE, Command.NAV_LOITER_TO_ALT, (0.5, -80.5, 3.5, 0.5), (0.0, -80.0, 0.0, 1.0)),
+    (PX4, Command.NAV_WAYPOINT, (7.5, 30.5, 41.75, -90.0), (7.5, 30.5, 0.0, 270.0)),
+    (PX4, Command.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, -90.0), (0.0, 0.0, -80.5, 270.0)),
+    (PX4, Command.NAV_LOITER_TIME, (60.5, 0.5, -80.5, 0.5), (60.5, 1.0, -80.5, 1.0)),
+    (PX4, Command.NAV_LOITER_TIME, (60.5, -0.5, 80.5, -0.5), (60.5, 0.0, 80.5, 0.0)),
+    (PX4, Command.NAV_LOITER_TO_ALT, (0.5, 80.5, 3.5, 0.5), (1.0, 80.5, 0.0, 1.0)),
+    (PX4, Command.NAV_LOITER_TO_ALT, (-0.5, 80.5, 3.5, -0.5), (0.0, 80.5, 0.0, 0.0)),
+]
+
+
+def sent_to(vehicle, command, params, frame=Frame.ABOVE_HOME):
+    return encoded(Mission((MissionItem(command, frame, params, 47.0, 8.0, 50.0),), HOME), vehicle)
+
+
+@pytest.mark.parametrize(("vehicle", "command", "params", "kept"), KEPT)
+def test_what_is_kept_is_expected_and_any_other_parameter_is_not(vehicle, command, params, kept):
+    sent = sent_to(vehicle, command, params)
+    back = [*sent[:-1], sent[-1]._replace(params=kept)]
+    cut = [
+        f"item 1 has {now:.9g} for parameter {i}, not {was:.9g}"
+        for i, (was, now) in enumerate(zip(params, kept, strict=True), 1)
+        if was != now
+    ]
+    assert compared(sent, back, vehicle) == ([], cut)
+    for i in range(4):
+        for off in (-0.25, 0.25):
+            other = (*kept[:i], kept[i] + off, *kept[i + 1 :])
+            (wrong,), _ = compared(sent, [*sent[:-1], sent[-1]._replace(params=other)], vehicle)
+            assert wrong == f"item 1 has {other[i]:.9g} for parameter {i + 1}, not {params[i]:.9g}"
+
+
+# MAV_FRAME: GLOBAL, GLOBAL_RELATIVE_ALT, GLOBAL_TERRAIN_ALT, and each with INT.
+@pytest.mark.parametrize(("frame", "twin"), [(0, 5), (3, 6), (10, 11)])
+def test_px4_answers_in_the_frame_whose_name_ends_in_int(frame, twin):
+    sent = sent_to(PX4, Command.NAV_WAYPOINT, (0.0, 0.0, 0.0, 0.0), Frame(frame))
+    back = [sent[0]._replace(frame=twin)]
+    assert compared(sent, back, PX4) == ([], [])
+    (item,) = decoded(back, PX4).items
+    assert (item.frame, item.latitude_deg, item.longitude_deg) == (frame, 47.0, 8.0)
+
+
+def test_items_without_a_place_keep_their_parameters_in_px4():
+    sent = sent_to(PX4, Command.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, -90.0), Frame.NOWHERE)
+    kept = [sent[0]._replace(params=(0.0, 0.0, -80.5, 270.0))]
+    assert len(compared(sent, kept, PX4)[0]) == 3
+    assert compared(sent, sent, PX4) == ([], [])

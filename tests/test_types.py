@@ -1,0 +1,76 @@
+"""What a type checker says to those who use the package: strings name a turn, and what comes back is a `Turn`."""
+
+import os
+import re
+import subprocess
+import sys
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+import loiter
+from loiter import Aircraft, Orbit, Pose, Wind
+
+SOURCES, ROOT = Path(loiter.__file__).parents[1], Path(__file__).parents[1]
+DOCUMENTS = [ROOT / "README.md", ROOT / "docs/guidance.md", ROOT / "docs/wind.md"]
+
+
+@pytest.fixture(scope="module")
+def checked(tmp_path_factory):
+    """Runs `mypy --strict` over lines; gives what it says, a line each, and its exit status."""
+    folder = tmp_path_factory.mktemp("types")
+
+    def run(*lines):
+        (folder / "used.py").write_text("\n".join(lines) + "\n")
+        done = subprocess.run(
+            # What the package imports is not its user's affair: mypy looks at it, and says nothing of it.
+            [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--follow-imports=silent", "used.py"],
+            capture_output=True,
+            text=True,
+            cwd=folder,
+            env=os.environ | {"MYPYPATH": str(SOURCES)},
+            timeout=300,
+        )
+        return done.stdout.splitlines(), done.returncode
+
+    return run
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
+def test_the_examples_of_the_documents_pass(checked, path):
+    blocks = re.findall(r"```python\n(.*?)```", path.read_text(encoding="utf-8"), re.DOTALL)
+    lines = [line[4:] for block in blocks for line in block.splitlines() if line.startswith((">>> ", "... "))]
+    assert any("Orbit(" in line for line in lines)
+    assert checked(*lines) == (["Success: no issues found in 1 source file"], 0)
+
+
+def test_a_turn_may_be_named_wherever_one_is_asked_for(checked):
+    assert checked(
+        "import loiter",
+        "from loiter import Aircraft, Orbit, Pose, Turn, hold, plan",
+        'orbits = [Orbit(0.0, 0.0, 80.0, "cw"), Orbit(0.0, 0.0, 80.0, turn="ccw"), Orbit(0, 0, 80, turn="either")]',
+        "orbits += [Orbit(0.0, 0.0, 80.0), Orbit(0.0, 0.0, 80.0, Turn.CW), Orbit(0.0, 0.0, 80.0, 'cw', 2.0, -1.0)]",
+        "turns: list[Turn] = [orbit.turn for orbit in orbits]",
+        "uav = Aircraft(airspeed_m_s=18.0, max_bank_deg=35.0)",
+        "other: Turn = plan(Pose(0.0, 0.0, 0.0), orbits[0], uav).turn.other",
+        'way: str = hold(orbits[0], uav, turn="ccw").turn',
+        'times = loiter.min_time([0.0], [1.0], turn="cw"), loiter.solve(0.0, 1.0, 1.0, ["cw", "ccw"]).time',
+    ) == (["Success: no issues found in 1 source file"], 0)
+
+
+def test_another_word_is_an_error(checked):
+    said, status = checked("from loiter import Orbit", 'orbit = Orbit(0.0, 0.0, 80.0, turn="left")')
+    assert status == 1
+    assert 'Argument "turn" to "Orbit" has incompatible type' in said[0]
+
+
+@pytest.mark.parametrize("kind", [Aircraft, Orbit, Pose, Wind])
+def test_the_arguments_are_the_fields(checked, kind):
+    """A type checker knows each argument by its name, in its order, and takes none for needed that is not."""
+    given = [f"{field.name}=1.0" for field in fields(kind) if field.name != "turn"]
+    needed = ["1.0" for field in fields(kind) if repr(field.default).startswith("<dataclasses._MISSING")]
+    named = [f"turn={kind.__name__}(1.0, 1.0, 1.0).turn"] if kind is Orbit else []
+    expected = (["Success: no issues found in 1 source file"], 0)
+    lines = f"{kind.__name__}({', '.join(given + named)})", f"{kind.__name__}({', '.join(needed)})"
+    assert checked(f"from loiter import {kind.__name__}", *lines) == expected

@@ -1,0 +1,200 @@
+"""Numbers typed on the page: decimals, units, what is not understood, what the service refuses."""
+
+import re
+
+import pytest
+from playwright.sync_api import expect
+
+from web.browsing import assert_shows_the_plan, middle, scene, settle
+
+KNOT = 1852 / 3600
+UNDERSTOOD = [
+    ("airspeed", "aircraft", "airspeed_m_s", "21,5", 21.5),
+    ("airspeed", "aircraft", "airspeed_m_s", "72 km/h", 20.0),
+    ("airspeed", "aircraft", "airspeed_m_s", "40kn", 40 * KNOT),
+    ("airspeed", "aircraft", "airspeed_m_s", " 40 KT ", 40 * KNOT),
+    ("airspeed", "aircraft", "airspeed_m_s", "2,05e1 m/s", 20.5),
+    ("limit", "aircraft", "max_bank_deg", "37,5°", 37.5),
+    ("limit", "aircraft", "max_bank_deg", "40 deg", 40.0),
+    ("circle-radius", "orbit", "radius_m", "80,25m", 80.25),
+    ("circle-radius", "orbit", "radius_m", "0,125 km", 125.0),
+    ("circle-radius", "orbit", "radius_m", "300 ft", 91.44),
+    ("east", "pose", "east_m", "−400", -400.0),
+    ("east", "pose", "east_m", "-.4km", -400.0),
+    ("course", "pose", "heading_deg", "12,5", 12.5),
+]
+REFUSED = [
+    ("airspeed", "", "Airspeed needs a number."),
+    ("airspeed", "fast", 'Airspeed is "fast": it must be a number.'),
+    ("airspeed", "20 m", 'Airspeed is "20 m": the units understood here are m/s, km/h, kn and kt.'),
+    ("limit", "0.5 rad", 'Bank limit is "0.5 rad": the units understood here are ° and deg.'),
+    (
+        "circle-radius",
+        "80 furlongs",
+        'Radius of the circle is "80 furlongs": the units understood here are m, km and ft.',
+    ),
+    ("circle-radius", "1,200", 'Radius of the circle is "1,200": write 1.2 or 1200.'),
+    (
+        "circle-radius",
+        "1,200.5",
+        'Radius of the circle is "1,200.5": write the number in one piece, 1200.5 or 1200,5.',
+    ),
+    (
+        "circle-radius",
+        "1 200",
+        'Radius of the circle is "1 200": write the number in one piece, 1200.5 or 1200,5.',
+    ),
+    ("circle-radius", "80 constructor", 'Radius of the circle is "80 constructor": the units understood here are'),
+    ("east", "1e999", 'East of the aircraft is "1e999": that is too large.'),
+    ("east", "0x10", 'East of the aircraft is "0x10": the units understood here are m, km and ft.'),
+]
+
+
+def fault(page, field):
+    return page.locator(f"#{field}-fault")
+
+
+@pytest.mark.parametrize(("field", "part", "name", "text", "value"), UNDERSTOOD)
+def test_decimals_and_units_are_understood(page, field, part, name, text, value):
+    page.locator(f"#{field}").fill(text)
+    settle(page)
+    assert scene(page)[part][name] == pytest.approx(value, rel=1e-12)
+    assert page.locator(f"#{field}").get_attribute("aria-invalid") == "false"
+    assert_shows_the_plan(page)
+    # When the field is left it shows the number in the unit of the page.
+    page.locator(f"#{field}").blur()
+    assert float(page.locator(f"#{field}").input_value()) == pytest.approx(value, rel=1e-5)
+
+
+def test_keys_that_are_typed_one_by_one_make_the_same_number(page):
+    page.locator("#course").fill("")
+    page.locator("#course").press_sequentially("12,5")
+    settle(page)
+    assert scene(page)["pose"]["heading_deg"] == 12.5
+
+
+@pytest.mark.parametrize(("field", "text", "sentence"), REFUSED)
+def test_what_is_not_understood_is_marked_and_changes_nothing(page, field, text, sentence):
+    before, drawn = scene(page), page.locator("#plan .best .casing").get_attribute("d")
+    locator = page.locator(f"#{field}")
+    locator.fill(text)
+    expect(fault(page, field)).to_contain_text(sentence)
+    assert locator.get_attribute("aria-invalid") == "true"
+    assert f"{field}-fault" in locator.get_attribute("aria-describedby").split()
+    bad = page.evaluate("getComputedStyle(document.documentElement).getPropertyValue('--bad').trim()")
+    red = tuple(int(bad[i : i + 2], 16) for i in (1, 3, 5))
+    border = locator.evaluate("field => getComputedStyle(field.closest('.box')).borderColor")
+    assert border == "rgb({}, {}, {})".format(*red)
+    # The text stays when the field is left, still marked.
+    locator.blur()
+    assert locator.input_value() == text
+    assert locator.get_attribute("aria-invalid") == "true"
+    settle(page)
+    assert scene(page) == before
+    assert page.locator("#plan .best .casing").get_attribute("d") == drawn
+    locator.fill({"airspeed": "20", "limit": "40"}.get(field, "95"))
+    settle(page)
+    assert scene(page) != before
+    assert fault(page, field).inner_text() == ""
+    assert locator.get_attribute("aria-invalid") == "false"
+
+
+def test_a_sentence_waits_until_the_typing_pauses(page):
+    page.locator("#circle-radius").fill("")
+    expect(fault(page, "circle-radius")).to_have_text("Radius of the circle needs a number.")
+    page.locator("#circle-radius").fill("90")
+    page.locator("#circle-radius").press("End")
+    page.locator("#circle-radius").press_sequentially(" k")
+    assert fault(page, "circle-radius").inner_text() == ""
+    page.locator("#circle-radius").press_sequentially("m")
+    page.wait_for_timeout(700)
+    assert fault(page, "circle-radius").inner_text() == ""
+
+
+def test_a_drag_takes_the_place_of_what_was_not_understood(page):
+    page.locator("#east").fill("far")
+    page.locator("#east").blur()
+    x, y = middle(page, "aircraft")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 30, y, steps=3)
+    page.mouse.up()
+    settle(page)
+    assert page.locator("#east").get_attribute("aria-invalid") == "false"
+    assert float(page.locator("#east").input_value()) == pytest.approx(scene(page)["pose"]["east_m"], rel=1e-5)
+
+
+def test_a_unit_that_is_typed_stands_above_that_of_the_page(page):
+    page.locator("#units").select_option("aviation")
+    page.locator("#circle-radius").fill("90 m")
+    settle(page)
+    assert scene(page)["orbit"]["radius_m"] == 90.0
+    page.locator("#circle-radius").blur()
+    assert float(page.locator("#circle-radius").input_value()) == pytest.approx(90.0 / 0.3048, rel=1e-5)
+
+
+def test_arrow_keys_step_a_field(page):
+    page.locator("#circle-radius").press("ArrowUp")
+    settle(page)
+    assert scene(page)["orbit"]["radius_m"] == 81.0
+    page.locator("#circle-radius").press("ArrowDown")
+    page.locator("#circle-radius").press("ArrowDown")
+    settle(page)
+    assert scene(page)["orbit"]["radius_m"] == 79.0
+
+
+def test_a_place_on_earth_takes_decimals_and_degrees(page):
+    page.locator("#earth summary").click()
+    page.locator("#latitude").fill("47,1")
+    page.locator("#longitude").fill("8,2°")
+    settle(page)
+    assert scene(page)["origin"] == {"latitude_deg": 47.1, "longitude_deg": 8.2}
+    page.locator("#longitude").fill("8 E")
+    expect(fault(page, "longitude")).to_have_text(
+        'Longitude of (0, 0) is "8 E": the units understood here are ° and deg.'
+    )
+    settle(page)
+    assert scene(page)["origin"] == {"latitude_deg": 47.1, "longitude_deg": 8.2}
+    page.locator("#longitude").fill("")
+    settle(page)
+    assert scene(page)["origin"] is None
+
+
+def refused(page):
+    """Forget what the browser tells its console of refusals."""
+    assert all("422" in text for text in page.watched.complaints)
+    page.watched.complaints.clear()
+
+
+@pytest.mark.parametrize(
+    ("field", "text", "sentence"),
+    [
+        ("airspeed", "0", "Airspeed is 0.0: it must be a positive, finite number of metres per second"),
+        ("limit", "95", "Bank limit is 95.0: "),
+        ("circle-radius", "-80", "Radius of the circle is -80.0: it must be a positive, finite number of metres"),
+        ("circle-radius", "40", "Orbit radius 40 m is tighter than the aircraft can turn"),
+    ],
+)
+def test_a_refusal_of_the_service_names_the_field_in_words_and_marks_it(page, field, text, sentence):
+    page.locator(f"#{field}").fill(text)
+    settle(page)
+    expect(fault(page, field)).to_contain_text(sentence)
+    assert page.locator(f"#{field}").get_attribute("aria-invalid") == "true"
+    assert page.locator("[aria-invalid=true]").count() == 1
+    body = page.locator("body").inner_text()
+    assert re.findall(r"\w+\.\w+_\w+|\w+_m\b|\w+_deg\b", body) == []
+    page.locator(f"#{field}").fill("85")
+    if field == "airspeed":
+        page.locator("#circle-radius").fill("1500")
+    settle(page)
+    assert page.locator("[aria-invalid=true]").count() == 0
+    assert fault(page, field).inner_text() == ""
+    refused(page)
+
+
+def test_a_wind_too_strong_marks_the_wind(page):
+    page.locator("#wind-speed").fill("18")
+    settle(page)
+    expect(fault(page, "wind-speed")).to_contain_text("its airspeed must be above 18 m/s")
+    assert page.locator("#wind-speed").get_attribute("aria-invalid") == "true"
+    refused(page)

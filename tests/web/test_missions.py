@@ -1,0 +1,185 @@
+"""Missions saved on the page: at the altitude that the user has given, measured from what the user has chosen."""
+
+import pytest
+from playwright.sync_api import expect
+
+from loiter.io import read_mission
+from web.browsing import fly_at, located, scene, settle
+
+FORMATS = ["plan", "waypoints"]
+OLD_LINK = "#pose=90,60,100&orbit=0,0,80&turn=either&airspeed=18&bank=35&origin=47.1,8.2"
+
+
+def pressed(page, format_):
+    """The mission that a button saves, and what the page says then."""
+    with page.expect_download() as download:
+        page.locator(f"[data-format={format_}]").click()
+    expect(page.locator("#message")).to_contain_text("saved")
+    return download.value.path(), page.locator("#message").inner_text()
+
+
+def saved(page, format_, tmp_path):
+    path, said = pressed(page, format_)
+    file = tmp_path / f"entry.{format_}"
+    file.write_bytes(path.read_bytes())
+    return read_mission(file), said
+
+
+def asked_for(page, format_):
+    """The fields that a button asks for, none of which it writes a file without."""
+    asked = len(page.watched.requests)
+    page.locator(f"[data-format={format_}]").click()
+    page.wait_for_timeout(300)
+    assert [url for url in page.watched.requests[asked:] if "export" in url] == []
+    assert page.locator("#earth").evaluate("details => details.open")
+    marked = page.locator("#earth [aria-invalid=true]").all()
+    for field in marked:
+        assert page.locator(f"#{field.get_attribute('id')}-fault").inner_text() != ""
+        assert field.is_visible()
+    names = [field.get_attribute("id") for field in marked]
+    assert page.evaluate("document.activeElement.id") == names[0]
+    return names
+
+
+@pytest.mark.parametrize("format_", FORMATS)
+def test_a_mission_is_not_written_at_an_altitude_that_nobody_gave(page, format_):
+    assert asked_for(page, format_) == ["latitude", "longitude", "altitude", "altitude-reference"]
+    located(page)
+    assert asked_for(page, format_) == ["altitude", "altitude-reference"]
+    page.locator("#altitude").fill("120")
+    assert asked_for(page, format_) == ["altitude-reference"]
+    page.locator("#altitude-reference").select_option("home")
+    assert asked_for(page, format_) == ["home-altitude"]
+    page.locator("#altitude").fill("")
+    page.locator("#altitude-reference").select_option("msl")
+    assert asked_for(page, format_) == ["altitude"]
+
+
+@pytest.mark.parametrize("format_", FORMATS)
+@pytest.mark.parametrize(
+    ("reference", "home", "frame", "home_m", "told"),
+    [
+        ("msl", None, 0, 0.0, "620 m above mean sea level"),
+        ("home", "450", 3, 450.0, "620 m above home, home at 450 m"),
+        ("ground", "450", 10, 450.0, "620 m above the ground, home at 450 m"),
+    ],
+)
+def test_a_mission_has_the_altitude_and_the_reference(page, tmp_path, format_, reference, home, frame, home_m, told):
+    located(page)
+    fly_at(page, "620", reference, home)
+    flown, said = saved(page, format_, tmp_path)
+    assert {(item.frame, item.altitude_m) for item in flown.items} == {(frame, 620.0)}
+    # A line of waypoints has the altitude of the flight where home's own is not known: some programs fly it.
+    assert flown.home[2] == (620.0 if format_ == "waypoints" and home is None else home_m)
+    assert said == f"entry.{format_} saved: {told}."
+
+
+def test_what_is_hidden_is_not_written(page, tmp_path):
+    located(page)
+    fly_at(page, "620", "home", "450")
+    page.locator("#altitude-reference").select_option("msl")
+    assert not page.locator("#home-altitude").is_visible()
+    flown, _ = saved(page, "plan", tmp_path)
+    assert flown.home[2] == 0.0
+
+
+def test_an_altitude_is_in_the_units_shown(page, tmp_path):
+    located(page)
+    fly_at(page, "100", "home", "450")
+    page.locator("#units").select_option("aviation")
+    assert page.locator("#altitude").input_value() == "328.084"
+    page.locator("#altitude").fill("1000")
+    flown, said = saved(page, "plan", tmp_path)
+    assert flown.items[0].altitude_m == pytest.approx(304.8)
+    assert flown.home[2] == 450.0
+    assert said == "entry.plan saved: 1000 ft above home, home at 1476.4 ft."
+
+
+def test_an_altitude_that_is_not_understood_is_none(page):
+    located(page)
+    fly_at(page, "620", "msl")
+    page.locator("#altitude").fill("FL 65")
+    assert asked_for(page, "plan") == ["altitude"]
+    assert page.locator("#altitude-fault").inner_text() == 'Altitude is "FL 65": it must be a number.'
+
+
+def test_an_altitude_that_no_mission_may_have_is_marked(page):
+    located(page)
+    fly_at(page, "99 km", "msl")
+    page.locator("[data-format=plan]").click()
+    fault = page.locator("#altitude-fault")
+    expect(fault).to_contain_text("Altitude is 99000: it must be from -83000 to 83000 metres")
+    assert page.locator("#altitude").get_attribute("aria-invalid") == "true"
+    assert all("422" in text for text in page.watched.complaints)
+    page.watched.complaints.clear()
+
+
+@pytest.mark.parametrize("format_", ["geojson", "kml", "gpx"])
+def test_a_map_asks_where_it_is(page, format_):
+    assert asked_for(page, format_) == ["latitude", "longitude"]
+    page.locator("#latitude").fill("47.1")
+    assert asked_for(page, format_) == ["longitude"]
+
+
+def test_a_map_has_an_altitude_where_it_is_known_above_the_sea(page):
+    located(page)
+    _, said = pressed(page, "kml")
+    assert said == "entry.kml saved."
+    fly_at(page, "120", "home", "450")
+    path, said = pressed(page, "kml")
+    assert said == "entry.kml saved."
+    assert b",570.0" in path.read_bytes()
+    page.locator("#altitude-reference").select_option("ground")
+    path, said = pressed(page, "kml")
+    assert said == "entry.kml saved, without the altitude: how high that is above mean sea level is not known."
+    assert b"clampToGround" in path.read_bytes()
+
+
+# Links
+
+
+@pytest.mark.parametrize(("reference", "home"), [("msl", None), ("home", "450"), ("ground", "12.5")])
+def test_a_link_keeps_the_altitude_and_what_it_is_measured_from(page, opened, address, tmp_path, reference, home):
+    located(page)
+    fly_at(page, "120,5", reference, home)
+    more = "" if home is None else f"&home-altitude={home}"
+    page.wait_for_url(f"**/#*&altitude=120.5&altitude-reference={reference}{more}")
+    again = opened(page.url.removeprefix(address))
+    assert scene(again) == scene(page)
+    flown, _ = saved(again, "waypoints", tmp_path)
+    assert flown == saved(page, "waypoints", tmp_path)[0]
+    assert flown.items[0].altitude_m == 120.5
+
+
+def test_an_old_link_opens_without_an_altitude(opened):
+    page = opened(OLD_LINK)
+    assert scene(page)["origin"] == {"latitude_deg": 47.1, "longitude_deg": 8.2}
+    assert asked_for(page, "plan") == ["altitude", "altitude-reference"]
+
+
+def test_a_link_with_an_unknown_reference_gets_a_sentence(opened):
+    page = opened(f"{OLD_LINK}&altitude=120&altitude-reference=sea")
+    expected = "The link's altitude-reference is sea: it must be msl, home or ground."
+    assert page.locator("#message").inner_text() == expected
+
+
+def test_a_link_opened_on_the_page_takes_the_place_of_the_altitude(page):
+    located(page)
+    fly_at(page, "620", "msl")
+    page.evaluate("link => (location.hash = link)", f"{OLD_LINK}&altitude=120&altitude-reference=home")
+    expect(page.locator("#altitude")).to_have_value("120")
+    settle(page)
+    assert page.locator("#altitude-reference").input_value() == "home"
+    page.evaluate("link => (location.hash = link)", OLD_LINK)
+    expect(page.locator("#altitude")).to_have_value("")
+    settle(page)
+    assert page.locator("#altitude-reference").input_value() == ""
+
+
+def test_a_preset_keeps_place_and_altitude(page, tmp_path):
+    located(page)
+    fly_at(page, "620", "msl")
+    page.get_by_role("button", name="Far away").click()
+    settle(page)
+    flown, _ = saved(page, "plan", tmp_path)
+    assert flown.items[0].altitude_m == 620.0
