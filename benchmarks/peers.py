@@ -4,9 +4,9 @@ from math import cos, pi, remainder, sin
 
 import numpy as np
 
-from loiter.verify.collocation import collocate
-from loiter.verify.oracle import Circle, Planar, Search
-from loiter.verify.reachability import reach
+from loiter.verify.checks.collocation import collocate
+from loiter.verify.checks.oracle import Circle, Planar, Search
+from loiter.verify.checks.reachability import reach
 
 HEADINGS = 360
 
@@ -30,7 +30,7 @@ def sweep(x, y, R, sides):
 
 
 def program(x, y, R, sides):
-    """Direct collocation by CasADi and IPOPT (`loiter.verify.collocation`)."""
+    """Direct collocation by CasADi and IPOPT (`loiter.verify.checks.collocation`)."""
     return collocate(Planar(x, y, 0.0), [Circle(R, side == 1) for side in sides]).time
 
 

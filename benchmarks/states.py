@@ -12,9 +12,9 @@ import loiter
 from benchmarks import peers, plain
 from benchmarks.timing import least_times
 from loiter import Aircraft, Orbit, Pose
-from loiter.kernel import ufuncs
+from loiter.compiled import ufuncs
 from loiter.kernel.codes import Side
-from loiter.verify import met
+from loiter.verify.checks import wind_scan_check as met
 
 COUNT = 4_000_000
 ROUNDS = 7

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from loiter.errors import LoiterError
 from loiter.io import Autopilot, Frame, Mission, MissionItem, read_mission, read_parameters
-from loiter.io.qgcplan import qgcplan
-from loiter.io.wpl import wpl
+from loiter.io.missions.qgcplan import qgcplan
+from loiter.io.missions.wpl import wpl
 
 # What to put in the place of something else.
 ODD = [

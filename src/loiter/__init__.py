@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from loiter import mavlink as mavlink
     from loiter import verify as verify
     from loiter import web as web
-    from loiter.planning.arrays import control, min_time, min_time_in_wind, reduce, solve, solve_in_wind
+    from loiter.arrays import control, min_time, min_time_in_wind, reduce, solve, solve_in_wind
 
 __all__ = [
     "Aircraft",
@@ -49,7 +49,7 @@ def __dir__() -> list[str]:
 def __getattr__(name: str) -> Any:
     # The array functions need NumPy, which a single plan does not load.
     if name in {"control", "min_time", "min_time_in_wind", "reduce", "solve", "solve_in_wind"}:
-        from loiter.planning import arrays
+        from loiter import arrays
 
         return getattr(arrays, name)
     if name in {"batch", "geo", "guidance", "io", "mavlink", "verify", "web"}:

@@ -11,17 +11,18 @@ import time
 from importlib import import_module
 from pathlib import Path
 
-from loiter.batch import cluster, ingest, parts, tables
+from loiter.arrays.entries import compile_kernel
+from loiter.batch.jobs import cluster, parts
+from loiter.batch.tables import files, ingest
 from loiter.cli.app import main
-from loiter.planning.entries import compile_kernel
 
 
 def small(part_rows=500, batch_rows=100):
     """Makes parts and batches so small that a job of some thousand rows has many, and waits short; heeds interrupts."""
     # A shell that runs the tests in the background has its children ignore them.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    tables.PART_ROWS = parts.PART_ROWS = part_rows
-    tables.BATCH_ROWS = ingest.BATCH_ROWS = batch_rows
+    files.PART_ROWS = parts.PART_ROWS = part_rows
+    files.BATCH_ROWS = ingest.BATCH_ROWS = batch_rows
     ingest.BLOCK_BYTES = 10_000
     cluster.CONNECT_S = cluster.WORKER_S = 2
 
@@ -83,7 +84,7 @@ if __name__ == "__main__":
     small()
     # What a child would have to load takes longer than its job.
     compile_kernel()
-    for module in ("loiter.batch.job", "loiter.cli.batch"):
+    for module in ("loiter.batch.jobs.job", "loiter.cli.commands.batch"):
         import_module(module)
     if what == "kill":
         kill(["batch", source, out, *options], Path(out), int(seed), int(times))

@@ -2,7 +2,7 @@
 
 import time
 
-from loiter.batch import parts
+from loiter.batch.jobs import parts
 
 _answered = parts.answered
 

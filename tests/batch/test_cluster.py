@@ -13,8 +13,9 @@ import pytest
 
 import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, write
-from loiter.batch import cluster, folder, job, parts, tables
-from loiter.batch.columns import shared
+from loiter.batch.jobs import cluster, folder, job, parts
+from loiter.batch.tables import files
+from loiter.batch.tables.columns import shared
 
 HERE = Path(__file__).parent
 ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])}
@@ -109,7 +110,7 @@ def wait_for_parts(process, at, count):
 
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
-    for module, name, value in [(tables, "PART_ROWS", 500), (parts, "PART_ROWS", 500), (tables, "BATCH_ROWS", 100)]:
+    for module, name, value in [(files, "PART_ROWS", 500), (parts, "PART_ROWS", 500), (files, "BATCH_ROWS", 100)]:
         monkeypatch.setattr(module, name, value)
 
 

@@ -10,7 +10,7 @@ import pytest
 
 import loiter
 from batch.making import ADDED, ORBIT, UAV
-from loiter.batch import ingest, lines, tables
+from loiter.batch.tables import files, ingest, lines
 from loiter.errors import InvalidArgument
 
 GIVEN = {"orbit": ORBIT, "aircraft": UAV}
@@ -84,7 +84,7 @@ def test_a_line_with_the_wrong_number_of_fields_keeps_its_place(solved):
 def test_malformed_lines_keep_their_places_in_large_files(tmp_path, monkeypatch, every):
     monkeypatch.setattr(ingest, "BLOCK_BYTES", 1000)
     monkeypatch.setattr(ingest, "BATCH_ROWS", 64)
-    monkeypatch.setattr(tables, "PART_ROWS", 200)
+    monkeypatch.setattr(files, "PART_ROWS", 200)
     random = np.random.default_rng(every)
     # Lone ones, runs that are longer than a block of text, and some at either end.
     bad = (random.random(2000) < 1.0 / every) | (np.arange(2000) // 300 == 3) | (np.arange(2000) % 1999 == 0)

@@ -12,7 +12,7 @@ import pytest
 import loiter
 from batch.making import ADDED, ORBIT, UAV, poses, read, scenes, write
 from loiter import Aircraft, Orbit, Pose, Turn, plan
-from loiter.batch import tables
+from loiter.batch.tables import files
 from loiter.planning.model import TURN_LIMITS
 
 GIVEN = {"orbit": ORBIT, "aircraft": UAV}
@@ -133,8 +133,8 @@ def test_the_same_rows_give_the_same_bytes(tmp_path):
 
 
 def test_a_table_in_many_parts_keeps_its_order(tmp_path, monkeypatch):
-    monkeypatch.setattr(tables, "PART_ROWS", 250)
-    monkeypatch.setattr(tables, "BATCH_ROWS", 90)
+    monkeypatch.setattr(files, "PART_ROWS", 250)
+    monkeypatch.setattr(files, "BATCH_ROWS", 90)
     table = poses(2000)
     write(table, tmp_path / "in.parquet", 100)
     told = []
@@ -151,13 +151,13 @@ def test_a_table_in_many_parts_keeps_its_order(tmp_path, monkeypatch):
 
 def test_one_huge_row_group_is_a_part_of_its_own(tmp_path, monkeypatch):
     for name, value in {"PART_ROWS": 100, "BATCH_ROWS": 30}.items():
-        monkeypatch.setattr(tables, name, value)
-    monkeypatch.setattr("loiter.batch.parts.PART_ROWS", 100)
+        monkeypatch.setattr(files, name, value)
+    monkeypatch.setattr("loiter.batch.jobs.parts.PART_ROWS", 100)
     table = poses(1000)
     with pq.ParquetWriter(tmp_path / "in.parquet", table.schema) as writer:
         for rows in (table.slice(0, 20), table.slice(20, 900), table.slice(920)):
             writer.write_table(rows)
-    assert [part.rows for part in tables.parts_of(tmp_path / "in.parquet", 100)] == [20, 900, 80]
+    assert [part.rows for part in files.parts_of(tmp_path / "in.parquet", 100)] == [20, 900, 80]
     loiter.batch.run(tmp_path / "in.parquet", tmp_path / "out.parquet", **GIVEN)
     assert [one["id"] for one in read(tmp_path / "out.parquet")] == list(range(1000))
     # Read back and written in row groups of the usual size all the same.

@@ -20,7 +20,11 @@ def loaded_by(code):
 
 @pytest.mark.parametrize(
     "code",
-    ["import loiter\nloiter.batch.run", "from loiter.cli.app import main\nmain(['--help'])", "import loiter.cli.batch"],
+    [
+        "import loiter\nloiter.batch.run",
+        "from loiter.cli.app import main\nmain(['--help'])",
+        "import loiter.cli.commands.batch",
+    ],
 )
 def test_naming_it_loads_nothing_heavy(code):
     assert loaded_by(code) == set()

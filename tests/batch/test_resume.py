@@ -16,8 +16,9 @@ import pytest
 
 import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, write
-from loiter.batch import folder, parts, tables
-from loiter.batch import job as jobs
+from loiter.batch.jobs import folder, parts
+from loiter.batch.jobs import job as jobs
+from loiter.batch.tables import files
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, Unfinished
 
@@ -28,7 +29,7 @@ GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
-    for module, name, value in [(tables, "PART_ROWS", 100), (parts, "PART_ROWS", 100), (tables, "BATCH_ROWS", 40)]:
+    for module, name, value in [(files, "PART_ROWS", 100), (parts, "PART_ROWS", 100), (files, "BATCH_ROWS", 40)]:
         monkeypatch.setattr(module, name, value)
 
 
@@ -51,7 +52,7 @@ def stop_after(monkeypatch, count, error):
         done.append(part)
         solve(job, part, *tick)
 
-    monkeypatch.setattr("loiter.batch.runner.solve_part", solve_part)
+    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
 
 
 def names(path):
@@ -136,7 +137,7 @@ def test_files_that_may_grow_no_further_are_told(tmp_path, source, target, limit
 INTERRUPTED = """
 import sys, time
 from batch.killing import small
-from loiter.batch import parts
+from loiter.batch.jobs import parts
 from loiter.cli.app import main
 answered = parts.answered
 def slowly(*arguments):
@@ -255,7 +256,7 @@ def test_an_input_that_changes_meanwhile_is_told(job, monkeypatch):
         solve(job, part, *tick)
         os.utime("in.parquet", (1, 1))
 
-    monkeypatch.setattr("loiter.batch.runner.solve_part", solve_part)
+    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
     with pytest.raises(InvalidArgument, match="it changed while it was read"):
         loiter.batch.run("in.parquet", "out.parquet", **GIVEN)
     assert not Path("out.parquet").exists()
@@ -274,16 +275,16 @@ def test_a_worker_that_outlives_its_job_writes_nothing(job):
     description = {"of": "another job"}
     Path("out.parquet.parts").mkdir()
     assert folder.resumed(Path("out.parquet.parts"), description) is None
-    columns = loiter.batch.columns.columns(
+    columns = loiter.batch.tables.columns.columns(
         "source",
-        tables.parquet_schema("source", Path("in.parquet")),
-        loiter.batch.columns.shared(ORBIT, None, UAV),
+        files.parquet_schema("source", Path("in.parquet")),
+        loiter.batch.tables.columns.shared(ORBIT, None, UAV),
         0.0,
     )
-    schema = loiter.batch.outputs.part_schema(tables.parquet_schema("source", Path("in.parquet")))
+    schema = loiter.batch.tables.outputs.part_schema(files.parquet_schema("source", Path("in.parquet")))
     for digest, written in [("stale", []), (folder.digest(description), ["part-00000.arrow"])]:
         late = parts.Job(Path("in.parquet"), Path("out.parquet.parts"), columns, schema, digest)
-        parts.solve_part(late, tables.parts_of(Path("in.parquet"), 100)[0])
+        parts.solve_part(late, files.parts_of(Path("in.parquet"), 100)[0])
         assert names("out.parquet.parts") == ["job.json", *written]
 
 

@@ -12,10 +12,10 @@ from pandas.testing import assert_frame_equal
 import loiter
 from batch.making import ADDED, poses, read, scenes, write
 from loiter import Aircraft, Orbit, Pose, Wind, plan
-from loiter.batch import tables
-from loiter.batch.columns import VELOCITY, WIND
+from loiter.arrays.wind import rows_in_wind
+from loiter.batch.tables import files
+from loiter.batch.tables.columns import VELOCITY, WIND
 from loiter.errors import InvalidArgument
-from loiter.planning import arrays
 from loiter.planning.model import CALM
 
 ORBIT, UAV, BREEZE = Orbit(10.0, -20.0, 150.0), Aircraft(18.0, max_bank_deg=35.0), Wind(6.0, 250.0)
@@ -211,8 +211,8 @@ def test_columns_of_wind_must_hold_numbers():
 @pytest.fixture
 def small(monkeypatch):
     """Parts of 20 rows in batches of 8."""
-    monkeypatch.setattr(tables, "PART_ROWS_IN_WIND", 20)
-    monkeypatch.setattr(tables, "BATCH_ROWS_IN_WIND", 8)
+    monkeypatch.setattr(files, "PART_ROWS_IN_WIND", 20)
+    monkeypatch.setattr(files, "BATCH_ROWS_IN_WIND", 8)
 
 
 @pytest.mark.parametrize("row_groups", [None, 7, 50])
@@ -220,7 +220,7 @@ def test_row_groups_are_cut_into_parts(tmp_path, monkeypatch, small, row_groups)
     source = write(windy(70), tmp_path / "in.parquet", row_groups)
     given = {"workers": 2}
     assert loiter.batch.run(source, tmp_path / "out.parquet", **given).parts == (5 if row_groups == 7 else 4)
-    monkeypatch.setattr(tables, "PART_ROWS_IN_WIND", 1000)
+    monkeypatch.setattr(files, "PART_ROWS_IN_WIND", 1000)
     assert loiter.batch.run(source, tmp_path / "whole.parquet", **given).parts == 1
     assert read(tmp_path / "out.parquet") == read(tmp_path / "whole.parquet")
 
@@ -237,13 +237,13 @@ def test_another_wind_starts_the_job_over(tmp_path, monkeypatch, small):
         raise OSError("no space")
 
     with monkeypatch.context() as patch:
-        patch.setattr("loiter.batch.job.append_part", stop)
+        patch.setattr("loiter.batch.jobs.job.append_part", stop)
         with pytest.raises(loiter.errors.Unfinished):
             run(BREEZE)
     assert run(Wind(6.0, 200.0)).resumed_parts == 0
     assert any("starting over" in note for note in notes)
     with monkeypatch.context() as patch:
-        patch.setattr("loiter.batch.job.append_part", stop)
+        patch.setattr("loiter.batch.jobs.job.append_part", stop)
         with pytest.raises(loiter.errors.Unfinished):
             run(BREEZE)
     assert run(BREEZE).resumed_parts > 0
@@ -255,10 +255,10 @@ def test_another_wind_starts_the_job_over(tmp_path, monkeypatch, small):
 def test_large_jobs_are_compiled_at_their_start_and_whole(tmp_path, monkeypatch, small, rows, calls):
     """Not by the number of rows in each batch: the same row gets the same bytes wherever it stands."""
     started, chosen = [], set()
-    monkeypatch.setattr(arrays, "COMPILED_FROM", 61)
-    monkeypatch.setattr("loiter.batch.runner.compile_kernel", lambda in_wind: started.append(in_wind))
-    plainly = arrays.rows_in_wind(compiled=False)
-    monkeypatch.setattr(arrays, "rows_in_wind", lambda compiled: chosen.add(compiled) or plainly)
+    monkeypatch.setattr("loiter.batch.jobs.job.COMPILED_FROM", 61)
+    monkeypatch.setattr("loiter.batch.jobs.runner.compile_kernel", lambda in_wind: started.append(in_wind))
+    plainly = rows_in_wind(compiled=False)
+    monkeypatch.setattr("loiter.arrays.entries.rows_in_wind", lambda compiled: chosen.add(compiled) or plainly)
     given = {"orbit": ORBIT, "aircraft": UAV, "wind": BREEZE}
     loiter.batch.run(write(poses(rows), tmp_path / "in.parquet"), tmp_path / "out.parquet", **given)
     assert (started, chosen) == (calls, set(calls))

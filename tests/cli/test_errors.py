@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from loiter.cli import plan as planning
 from loiter.cli.app import main
+from loiter.cli.commands import plan as planning
 
 SCRIPT = Path(sys.executable).with_name("loiter")
 GOOD = {"--pose": "-400 120 90", "--orbit": "0 0 80", "--airspeed": "18", "--bank": "35"}

@@ -6,8 +6,8 @@ import pytest
 
 import loiter
 from loiter.cli.app import main
-from loiter.verify import compare, met
-from loiter.verify.compare import PLACES
+from loiter.verify.checks import oracle_check, wind_scan_check
+from loiter.verify.checks.oracle_check import PLACES
 
 EIGHT = ["verify", "--witness", "search", "--states", "8", "--seed", "1"]
 
@@ -39,7 +39,7 @@ def test_the_same_seed_prints_the_same_table(capsys):
 
 def test_the_seed_chooses_the_scenes(monkeypatch):
     drawn = []
-    monkeypatch.setattr(compare, "plan", lambda *scene: drawn.append(scene) or loiter.plan(*scene))
+    monkeypatch.setattr(oracle_check, "plan", lambda *scene: drawn.append(scene) or loiter.plan(*scene))
     main(EIGHT)
     first = {pose for pose, *_ in drawn}
     drawn.clear()
@@ -49,7 +49,7 @@ def test_the_seed_chooses_the_scenes(monkeypatch):
 
 
 def test_a_slow_plan_fails_the_check(capsys, monkeypatch):
-    monkeypatch.setattr(compare, "plan", slowest)
+    monkeypatch.setattr(oracle_check, "plan", slowest)
     assert main(EIGHT) == 1
     _, later, _, beyond = rows(capsys.readouterr().out)["all"]
     assert float(later) > 1e-3
@@ -63,7 +63,7 @@ def test_no_states_is_a_bad_request(capsys, states):
 
 
 def test_without_ompl_it_says_what_to_install(capsys, monkeypatch):
-    monkeypatch.setattr(compare, "find_spec", lambda _: None)
+    monkeypatch.setattr(oracle_check, "find_spec", lambda _: None)
     assert main(EIGHT) == 2
     out, err = capsys.readouterr()
     assert out == ""
@@ -89,7 +89,7 @@ def test_digits_are_a_witness_of_their_own(capsys):
 def test_a_witness_that_cannot_come_says_so_before_the_first_begins(capsys, monkeypatch, package, module, witness):
     import importlib
 
-    monkeypatch.setattr(importlib.import_module(f"loiter.verify.{module}"), "find_spec", lambda _: None)
+    monkeypatch.setattr(importlib.import_module(f"loiter.verify.checks.{module}"), "find_spec", lambda _: None)
     assert main(["verify", "--witness", "search", "--witness", witness, "--states", "8"]) == 2
     out, err = capsys.readouterr()
     assert out == ""
@@ -111,8 +111,8 @@ def test_the_wind_is_a_witness_that_comes_when_it_is_named(capsys):
 
 
 def test_a_plan_in_wind_that_is_late_is_told(capsys, monkeypatch):
-    late = met.Difference(next(met.scenes(1, 0)), 1.0, 1e-3, 0.0, 0.0)
-    monkeypatch.setattr(met, "compare", lambda states, seed: iter([late] * states))
+    late = wind_scan_check.Difference(next(wind_scan_check.scenes(1, 0)), 1.0, 1e-3, 0.0, 0.0)
+    monkeypatch.setattr(wind_scan_check, "compare", lambda states, seed: iter([late] * states))
     assert main(["verify", "--witness", "wind"]) == 1
     out = capsys.readouterr().out
     assert out.startswith("wind: DISAGREES")

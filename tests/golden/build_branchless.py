@@ -1,4 +1,4 @@
-"""Coefficients of `kernel/branchless.py`: Chebyshev interpolation in 60 digits, then rounded to doubles.
+"""Coefficients of `compiled/branchless.py`: Chebyshev interpolation in 60 digits, then rounded to doubles.
 
 Run `python tests/golden/build_branchless.py` to print them, with the largest error that each polynomial leaves.
 """

@@ -3,7 +3,7 @@
 from math import atan2, degrees, hypot, nan, pi, radians, tan
 
 from loiter import Aircraft, Orbit, Pose, Turn
-from loiter.guidance.following import Follower
+from loiter.guidance.laws.following import Follower
 from loiter.guidance.protocol import State
 from loiter.kernel.motion import fly
 from loiter.planning.compass import heading_vector

@@ -8,8 +8,8 @@ import pytest
 from guidance.flights import UAV
 from loiter import Orbit, Pose, Wind, plan
 from loiter.errors import InvalidArgument, WindTooStrong
-from loiter.guidance.campaign import LAWS, Trial, campaign, kinematic, optimal, point_mass, trials
-from loiter.guidance.summary import summary
+from loiter.guidance.trials.campaign import LAWS, Trial, campaign, kinematic, optimal, point_mass, trials
+from loiter.guidance.trials.summary import summary
 
 STARTS = trials(12, 5, UAV)
 

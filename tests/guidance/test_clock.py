@@ -4,7 +4,7 @@ from math import inf
 
 import pytest
 
-from loiter.guidance.clock import GAP_S, Clock
+from loiter.guidance.laws.clock import GAP_S, Clock
 
 DT = 0.02
 

@@ -8,9 +8,9 @@ import pytest
 from guidance.flights import UAV
 from loiter import Orbit, Pose
 from loiter.errors import InvalidArgument
-from loiter.guidance.flight import fly
-from loiter.guidance.kinematic import Kinematic
 from loiter.guidance.protocol import Command, Phase
+from loiter.guidance.simulators.kinematic import Kinematic
+from loiter.guidance.trials.flight import fly
 from loiter.planning.model import Turn
 
 ORBIT = Orbit(0.0, 0.0, 90.0)

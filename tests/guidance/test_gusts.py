@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from loiter.errors import InvalidArgument
-from loiter.guidance.gusts import Gusts, scale_length_m
+from loiter.guidance.simulators.gusts import Gusts, scale_length_m
 
 
 def test_scale_lengths_are_those_of_the_specification():

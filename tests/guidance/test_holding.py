@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter.guidance.holding import Arc, Line, air_rate, circle, course_rate, forward, offset
+from loiter.guidance.laws.holding import Arc, Line, air_rate, circle, course_rate, forward, offset
 from loiter.kernel.hold import held, hold_rate, tightest_held
 from loiter.kernel.motion import fly
 from strategies import one_way

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter.guidance.airframes import AIRFRAMES
-from loiter.guidance.inner_loops import Flight, InnerLoops, Surfaces
+from loiter.guidance.simulators.airframes import AIRFRAMES
+from loiter.guidance.simulators.inner_loops import Flight, InnerLoops, Surfaces
 
 both = pytest.mark.parametrize("airframe", AIRFRAMES.values(), ids=list(AIRFRAMES))
 TRIM = Surfaces(0.0, -0.2, 0.0, 0.6)

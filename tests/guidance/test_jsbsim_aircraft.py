@@ -10,11 +10,11 @@ import pytest
 
 from loiter import Pose, Wind
 from loiter.errors import InvalidArgument, MissingPackage
-from loiter.guidance import campaign
-from loiter.guidance.airframes import AEROSONDE, AIRFRAMES, J3CUB
-from loiter.guidance.jsbsim_aircraft import JsbsimAircraft, identified_roll, trimmed
 from loiter.guidance.protocol import Command, Phase
-from loiter.guidance.sensors import Noise
+from loiter.guidance.simulators.airframes import AEROSONDE, AIRFRAMES, J3CUB
+from loiter.guidance.simulators.jsbsim_aircraft import JsbsimAircraft, identified_roll, trimmed
+from loiter.guidance.simulators.sensors import Noise
+from loiter.guidance.trials import campaign
 from loiter.planning.model import STANDARD_GRAVITY_M_S2, Turn
 
 START = Pose(1000.0, -500.0, 40.0)
@@ -193,13 +193,13 @@ def test_jsbsim_says_nothing(capfd):
 
 
 def test_without_jsbsim(monkeypatch):
-    monkeypatch.setattr("loiter.guidance.jsbsim_aircraft.find_spec", lambda name: None)
+    monkeypatch.setattr("loiter.guidance.simulators.jsbsim_aircraft.find_spec", lambda name: None)
     with pytest.raises(MissingPackage, match=r"six degrees of freedom need JSBSim.*pip install \"loiter\[sim\]\""):
         JsbsimAircraft(START, AEROSONDE)
 
 
 def test_jsbsim_is_loaded_when_it_flies():
-    program = "import sys, loiter.guidance.jsbsim_aircraft; sys.exit('jsbsim' in sys.modules)"
+    program = "import sys, loiter.guidance.simulators.jsbsim_aircraft; sys.exit('jsbsim' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
 
 

@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 
 from guidance.flights import UAV
 from loiter import Pose, Wind
-from loiter.guidance.gusts import Gusts
-from loiter.guidance.kinematic import Kinematic
-from loiter.guidance.observer import Air, Observer, Recent, usable
-from loiter.guidance.point_mass import PointMass
+from loiter.guidance.laws.observer import Air, Observer, Recent, usable
 from loiter.guidance.protocol import Command, Phase, State
-from loiter.guidance.rolling import Roll
-from loiter.guidance.sensors import Noise
+from loiter.guidance.simulators.gusts import Gusts
+from loiter.guidance.simulators.kinematic import Kinematic
+from loiter.guidance.simulators.point_mass import PointMass
+from loiter.guidance.simulators.sensors import Noise
+from loiter.guidance.vehicle.rolling import Roll
 from loiter.planning.model import Turn
 
 GOOD = State(1.0, 2.0, 3.0, 40.0, 5.0, 6.0, 17.0, 18.0)

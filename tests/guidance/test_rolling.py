@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from loiter.errors import InvalidArgument
-from loiter.guidance.rolling import AT_ONCE, Roll
+from loiter.guidance.vehicle.rolling import AT_ONCE, Roll
 
 LIMIT_DEG = 35.0
 rolls = st.builds(Roll, st.floats(0.05, 2.0), st.sampled_from([15.0, 60.0, 300.0, inf]))

@@ -7,7 +7,7 @@ import pytest
 
 from loiter.errors import InvalidArgument
 from loiter.guidance.protocol import State
-from loiter.guidance.sensors import EXACT, Noise, Sensors
+from loiter.guidance.simulators.sensors import EXACT, Noise, Sensors
 
 FIRST = State(2.0, 10.0, -5.0, 45.0, 3.0, 12.0, 9.0, 18.0)
 

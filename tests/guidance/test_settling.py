@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from loiter import Orbit, Turn
 from loiter.errors import InvalidArgument
 from loiter.guidance.protocol import State
-from loiter.guidance.settling import COUNTED_DEG, Band, Settling
+from loiter.guidance.trials.settling import COUNTED_DEG, Band, Settling
 
 STEP = 0.01
 

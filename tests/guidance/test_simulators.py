@@ -10,12 +10,12 @@ from hypothesis import given, settings
 from guidance.flights import UAV
 from loiter import Pose, Wind, plan
 from loiter.errors import InvalidArgument
-from loiter.guidance.kinematic import Kinematic
-from loiter.guidance.point_mass import PointMass
 from loiter.guidance.protocol import Command, Phase
-from loiter.guidance.rolling import AT_ONCE, Roll
-from loiter.guidance.sensors import EXACT
-from loiter.guidance.turning import rate_at_bank
+from loiter.guidance.simulators.kinematic import Kinematic
+from loiter.guidance.simulators.point_mass import PointMass
+from loiter.guidance.simulators.sensors import EXACT
+from loiter.guidance.vehicle.rolling import AT_ONCE, Roll
+from loiter.guidance.vehicle.turning import rate_at_bank
 from loiter.planning.model import STANDARD_GRAVITY_M_S2, Turn
 from strategies import windy_scenes
 

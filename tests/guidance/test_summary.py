@@ -2,8 +2,8 @@ from math import inf, isnan, nan
 
 import pytest
 
-from loiter.guidance.campaign import Outcome
-from loiter.guidance.summary import summary
+from loiter.guidance.trials.campaign import Outcome
+from loiter.guidance.trials.summary import summary
 
 
 def outcome(settled_s, ideal_s=10.0, round_again=False):

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter import Aircraft
-from loiter.guidance.turning import bank_at_rate, rate_at_bank, turned
+from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank, turned
 
 speeds, times = st.floats(1.0, 60.0), st.floats(0.0, 20.0)
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from guidance.circling import state_of
 from loiter import Aircraft, Orbit
-from loiter.guidance.following import Around
-from loiter.guidance.vector_field import FieldGains, VectorField, advised_gains, course_rate, field_rate, largest_k
+from loiter.guidance.laws.following import Around
+from loiter.guidance.laws.vector_field import FieldGains, VectorField, advised_gains, course_rate, field_rate, largest_k
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 

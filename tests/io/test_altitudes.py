@@ -22,7 +22,7 @@ from loiter.io import (
     read_mission,
     save,
 )
-from loiter.io.qgcplan import qgcplan
+from loiter.io.missions.qgcplan import qgcplan
 
 M, _ = entry("cw")
 HOME, GROUND = AltitudeDatum("home", home_altitude_m=450.0), AltitudeDatum("ground", home_altitude_m=450.0)

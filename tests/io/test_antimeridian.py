@@ -7,7 +7,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter.io.antimeridian import cut_line, cut_ring
+from loiter.io.maps.antimeridian import cut_line, cut_ring
 
 LATITUDES = st.floats(-80.0, 80.0)
 

@@ -15,8 +15,8 @@ from earth import SCENES, apart_m, at_time, off_lines, on_earth, placed, same_di
 from loiter import Pose, plan
 from loiter.geo import LocalFrame
 from loiter.io import save
-from loiter.io.chart import chart
-from loiter.io.geojson import geojson
+from loiter.io.maps.chart import chart
+from loiter.io.maps.geojson import geojson
 from loiter.planning.flight import sampled_at
 
 settings.register_profile("maps", deadline=None, max_examples=25)

@@ -12,7 +12,7 @@ from earth import SCENES, apart_m, at_time, on_earth, switches
 from loiter import Orbit, Pose, plan
 from loiter.geo import LocalFrame
 from loiter.io import save
-from loiter.io.chart import chart
+from loiter.io.maps.chart import chart
 
 # Children of gpx, wpt, trk, trkseg and trkpt in the order of the schema of GPX 1.1, as far as they are used.
 ORDER = {

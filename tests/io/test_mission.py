@@ -13,9 +13,9 @@ from loiter import Orbit, Pose, Turn, plan
 from loiter.errors import InvalidArgument, OutOfRange
 from loiter.geo import LocalFrame
 from loiter.io import Autopilot, Command, Frame, mission
-from loiter.io.mission import BEND_PER_M, MAX_ITEMS
-from loiter.io.signs import circle
-from loiter.io.track import steps, vertices
+from loiter.io.maps.track import steps, vertices
+from loiter.io.missions.mission import BEND_PER_M, MAX_ITEMS
+from loiter.io.missions.signs import circle
 from loiter.planning.flight import sampled_at
 
 settings.register_profile("missions", deadline=None, max_examples=25)

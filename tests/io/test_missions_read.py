@@ -15,9 +15,9 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 from earth import SCENES, entry
 from loiter.errors import InvalidArgument
 from loiter.io import AltitudeDatum, Autopilot, Command, Frame, Mission, MissionItem, mission, read_mission, save
-from loiter.io.qgcplan import qgcplan
+from loiter.io.missions.qgcplan import qgcplan
+from loiter.io.missions.wpl import wpl
 from loiter.io.reading import MAX_BYTES, Source
-from loiter.io.wpl import wpl
 
 settings.register_profile("files", deadline=None, max_examples=50)
 settings.load_profile("files")

@@ -11,7 +11,7 @@ from pymavlink.dialects.v20 import all as mavlink
 from loiter import Turn
 from loiter.errors import InvalidArgument
 from loiter.io import Autopilot, Command, Frame
-from loiter.io.signs import COMMANDS, RADIUS_PARAMETERS, circle, radius_and_turn, signed_radius_m, with_circle
+from loiter.io.missions.signs import COMMANDS, RADIUS_PARAMETERS, circle, radius_and_turn, signed_radius_m, with_circle
 
 DEFINITIONS = mavlink.enums["MAV_CMD"]
 ONE_WAY = st.sampled_from([Turn.CW, Turn.CCW])

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 
 from earth import SCENES, apart_m, at_time, entry, on_earth, placed, same_direction, switches
 from loiter.io import save
-from loiter.io.table import table
-from loiter.io.track import steps, vertices
+from loiter.io.maps.table import table
+from loiter.io.maps.track import steps, vertices
 
 settings.register_profile("tables", deadline=None, max_examples=25)
 settings.load_profile("tables")

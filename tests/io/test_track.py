@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from earth import SCENES, at_time, off_lines, placed, switches
 from loiter.errors import InvalidArgument
-from loiter.io.track import LEAST_SIDES, ring, steps, vertices
+from loiter.io.maps.track import LEAST_SIDES, ring, steps, vertices
 from loiter.planning.flight import sampled_at
 
 settings.register_profile("tracks", deadline=None, max_examples=40)

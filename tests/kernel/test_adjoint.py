@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, given, settings
 
 from golden.paper import EXAMPLES
+from loiter.compiled.rebinding import rebound
 from loiter.kernel.adjoint import adjoint, at_switch, followed, switching_function, turned
 from loiter.kernel.codes import Side
-from loiter.kernel.rebinding import rebound
 from loiter.kernel.synthesis import mirrored, optimum
 from loiter.kernel.words import Word
 from strategies import controls, coordinates, one_way, radii, sides

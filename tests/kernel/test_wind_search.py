@@ -9,10 +9,10 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
+from loiter.compiled.rebinding import rebound
 from loiter.kernel.codes import Side, Status
 from loiter.kernel.hold import held, hold_rate, hold_time, phase_of, tightest_held
 from loiter.kernel.motion import reduce
-from loiter.kernel.rebinding import rebound
 from loiter.kernel.synthesis import duration, optimum, rounding
 from loiter.kernel.wind_search import WindScene, fastest, first_path, join_slope, optima, ranked, tied
 from loiter.kernel.words import Word

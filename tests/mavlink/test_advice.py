@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
-from loiter.mavlink.advice import Action, Beside, Holding, actions, beside
+from loiter.mavlink.watching.advice import Action, Beside, Holding, actions, beside
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 ORBIT = Orbit(30.0, -20.0, 80.0, Turn.CW)

@@ -2,9 +2,9 @@
 
 import pytest
 
-from loiter.io.items import Autopilot, Command, Frame, Mission, MissionItem
-from loiter.mavlink.link import Vehicle
-from loiter.mavlink.stored import compared, decoded, encoded
+from loiter.io.missions.items import Autopilot, Command, Frame, Mission, MissionItem
+from loiter.mavlink.connection.link import Vehicle
+from loiter.mavlink.missions.stored_items import compared, decoded, encoded
 
 PX4, PLANE = Vehicle(1, 1, Autopilot.PX4), Vehicle(1, 1, Autopilot.ARDUPILOT)
 HOME = (47.0, 8.0, 400.0)

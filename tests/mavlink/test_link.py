@@ -13,7 +13,8 @@ from contextlib import contextmanager, suppress
 import pytest
 
 from loiter.errors import InvalidArgument, LinkFailed, MissingPackage
-from loiter.mavlink import download, link, upload
+from loiter.mavlink import download, upload
+from loiter.mavlink.connection import link
 from mavlink.vehicle import OLD, Faithful, Vehicle, flying, free_port, kept, lossy, mavlink, mission
 
 NEW = mission("ccw")

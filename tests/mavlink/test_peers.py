@@ -14,7 +14,7 @@ from loiter import Aircraft, Orbit, Pose, plan
 from loiter.geo import LocalFrame
 from loiter.io import mission as planned
 from loiter.io import save
-from loiter.io.items import Mission
+from loiter.io.missions.items import Mission
 from loiter.mavlink import download, upload, watch
 from mavlink.losing import lost, lost_to_mavsdk, mavsdk, vehicle_of
 from mavlink.vehicle import Plane, flying, kept, mission

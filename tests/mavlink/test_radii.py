@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter.mavlink.radii import Scaling, eas2tas_squared, scaling
+from loiter.mavlink.missions.flown_radius import Scaling, eas2tas_squared, scaling
 
 GRAVITY = 9.80665
 

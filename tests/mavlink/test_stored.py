@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from loiter import Turn
-from loiter.io.items import Autopilot, Command, Frame, Mission, MissionItem
-from loiter.io.signs import circle, with_circle
-from loiter.mavlink.link import Vehicle
-from loiter.mavlink.stored import compared, decoded, encoded, packet, same, unpacked
+from loiter.io.missions.items import Autopilot, Command, Frame, Mission, MissionItem
+from loiter.io.missions.signs import circle, with_circle
+from loiter.mavlink.connection.link import Vehicle
+from loiter.mavlink.missions.stored_items import compared, decoded, encoded, packet, same, unpacked
 
 PX4, PLANE, OTHER = (Vehicle(1, 1, code) for code in (Autopilot.PX4, Autopilot.ARDUPILOT, 0))
 HOME = (47.0, 8.0, 400.0)

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from loiter.errors import LinkFailed
-from loiter.mavlink.missions import TIMEOUT_S
+from loiter.mavlink.missions.exchange import TIMEOUT_S
 from mavlink.vehicle import OLD, Plane, Vehicle, kept, mission, simulated
 
 NEW = mission("ccw")

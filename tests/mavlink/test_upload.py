@@ -9,9 +9,10 @@ import time
 import pytest
 
 from loiter.errors import InvalidArgument, LinkFailed
-from loiter.io.items import Command, Frame, Mission, MissionItem
-from loiter.mavlink import download, transfer, upload
-from loiter.mavlink.missions import TIMEOUT_S
+from loiter.io.missions.items import Command, Frame, Mission, MissionItem
+from loiter.mavlink import download, upload
+from loiter.mavlink.missions import transfer
+from loiter.mavlink.missions.exchange import TIMEOUT_S
 from mavlink.vehicle import ACCEPTED, CANCELLED, OLD, Plane, Vehicle, flying, item, kept, mavlink, mission, simulated
 
 NEW = mission("ccw")

@@ -18,9 +18,9 @@ from hypothesis import strategies as st
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.geo import LocalFrame
-from loiter.io.signs import circle
+from loiter.io.missions.signs import circle
 from loiter.mavlink import WindSource, watch
-from loiter.mavlink.telemetry import Telemetry
+from loiter.mavlink.watching.telemetry import Telemetry
 from loiter.planning.flight import over_ground
 from mavlink.test_link import Stream, received
 from mavlink.vehicle import ACCEPTED, Plane, Vehicle, flying, free_port, mavlink
@@ -402,7 +402,7 @@ def test_between_two_positions_the_time_to_join_passes():
 
 @pytest.mark.parametrize("knows", [True, False])
 def test_what_comes_too_seldom_is_asked_for(knows, monkeypatch):
-    module = import_module("loiter.mavlink.streams")
+    module = import_module("loiter.mavlink.connection.streams")
     monkeypatch.setattr(module, "REPEAT_S", 0.5)
     vehicle = Seldom()
     vehicle.knows = knows
@@ -636,7 +636,7 @@ def test_the_heading_comes_with_the_position_where_there_is_no_attitude():
 
 
 def test_an_old_position_is_no_position(monkeypatch):
-    monkeypatch.setattr(import_module("loiter.mavlink.watch"), "STALE_S", 0.3)
+    monkeypatch.setattr(import_module("loiter.mavlink.watching.watch"), "STALE_S", 0.3)
 
     class Fades(Flight):
         def stream(self, time_s):
@@ -716,7 +716,7 @@ degrees = st.one_of(st.integers(-(2**31), 2**31 - 1), st.integers(465_000_000, 4
 @pytest.mark.parametrize("origin", [(85.0, 179.9), (-85.0, -10.0), (60.0, 20.0)])
 def test_a_wind_is_turned_from_the_vehicles_north_to_the_planes(origin):
     """As headings are: meridians converge. Geographiclib as the witness."""
-    frame, telemetry, module = LocalFrame(*origin), Telemetry(), import_module("loiter.mavlink.watch")
+    frame, telemetry, module = LocalFrame(*origin), Telemetry(), import_module("loiter.mavlink.watching.watch")
     there = Geodesic.WGS84.Direct(*origin, 70.0, 40e3)
     place = round(there["lat2"] * 1e7), round(there["lon2"] * 1e7)
     telemetry.hear(mavlink.MAVLink_global_position_int_message(0, *place, 0, 0, 0, 0, 0, 9000), 10.0)
@@ -737,7 +737,7 @@ def test_a_wind_is_turned_from_the_vehicles_north_to_the_planes(origin):
 )
 @settings(max_examples=200, deadline=None)
 def test_whatever_a_vehicle_says_is_a_report(lat, lon, hdg, yaw, wind, px4):
-    telemetry, module = Telemetry(), import_module("loiter.mavlink.watch")
+    telemetry, module = Telemetry(), import_module("loiter.mavlink.watching.watch")
     telemetry.hear(mavlink.MAVLink_global_position_int_message(0, lat, lon, 0, 0, 0, 0, 0, hdg), 10.0)
     telemetry.hear(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, yaw, 0.0, 0.0, 0.0), 10.0)
     if px4:

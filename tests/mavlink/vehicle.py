@@ -17,10 +17,11 @@ import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from loiter.errors import LinkFailed
-from loiter.io.items import Command, Frame, Mission, MissionItem
-from loiter.io.signs import with_circle
-from loiter.mavlink import command, link, parameters, start, transfer
-from loiter.mavlink.missions import replace_mission
+from loiter.io.missions.items import Command, Frame, Mission, MissionItem
+from loiter.io.missions.signs import with_circle
+from loiter.mavlink.connection import command, link, parameters
+from loiter.mavlink.missions import start, transfer
+from loiter.mavlink.missions.exchange import replace_mission
 
 ACCEPTED, ERROR, INVALID_SEQUENCE, DENIED, CANCELLED = 0, 1, 13, 14, 15
 

@@ -43,7 +43,7 @@ HEAVY = [
 ]
 WIND = (
     [*tests("kernel", "wind_search"), *tests("planning", "hold wind"), *(f"--deselect={test}" for test in HEAVY)],
-    [*tests("verify", "drifting meeting"), *HEAVY],
+    [*tests("verify", "drifting wind_scan"), *HEAVY],
 )
 
 # The tests of a file: those of the first name here that its path begins with, in stages, fast ones first.
@@ -53,20 +53,22 @@ STAGES = {
     "kernel/hold.py": WIND,
     "kernel/": (
         tests("kernel", "words codes angles motion exact switching extremals synthesis worst"),
-        [*tests("kernel", "adjoint branchless"), *tests("planning", "solve")],
+        [*tests("kernel", "adjoint"), *tests("planning", "solve")],
         [
-            *tests("kernel", "ufuncs objects"),
+            "tests/compiled",
             "tests/paper",
-            *tests("planning", "arrays partition"),
+            *tests("arrays", "still_air partition"),
             *tests("verify", "certificate precision"),
         ],
     ),
+    "compiled/": (["tests/compiled"], tests("arrays", "still_air wind")),
+    "arrays/": (["tests/arrays"], [*tests("batch", "frames wind"), "docs/batch.md"]),
     "planning/": (
         ["tests/planning"],
         [
             *tests("cli", "plan wind"),
             *tests("verify", "certificate drifting"),
-            *tests("guidance", "entry"),
+            *tests("guidance", "loiter_entry"),
             *tests("plot", "picture"),
             "docs/wind.md",
             "README.md",
@@ -77,7 +79,7 @@ STAGES = {
         ["tests/io", *tests("mavlink", "watch"), "docs/maps.md"],
     ),
     "verify/": (
-        tests("verify", "precision drifting certificate meeting compare"),
+        tests("verify", "precision drifting certificate wind_scan oracle_check"),
         [
             *tests("cli", "verify certify"),
             *tests("verify", "reachability collocation"),
@@ -90,8 +92,13 @@ STAGES = {
         [*tests("cli", "batch"), "docs/batch.md", *tests("batch", "memory resume cluster")],
     ),
     "guidance/": (
-        ["tests/guidance", *(f"--ignore={test}" for test in tests("guidance", "entry jsbsim_aircraft"))],
-        [*tests("guidance", "entry jsbsim_aircraft"), *tests("cli", "fly"), "docs/guidance.md", "docs/jsbsim.md"],
+        ["tests/guidance", *(f"--ignore={test}" for test in tests("guidance", "loiter_entry jsbsim_aircraft"))],
+        [
+            *tests("guidance", "loiter_entry jsbsim_aircraft"),
+            *tests("cli", "fly"),
+            "docs/guidance.md",
+            "docs/jsbsim.md",
+        ],
     ),
     "io/": (["tests/io"], [*tests("cli", "places"), "docs/maps.md", "docs/mavlink.md", "tests/mavlink"]),
     "mavlink/": (["tests/mavlink"], [*tests("cli", "mavlink"), "docs/mavlink.md"]),

@@ -11,7 +11,7 @@ import pytest
 TESTS = Path(__file__).parents[1]
 TEXT = (TESTS.parent / "docs" / "paper.md").read_text("utf-8")
 NAMED_TESTS = sorted(set(re.findall(r"`([a-z_/]+\.py::\w+)`", TEXT)))
-PLACES = sorted(set(re.findall(r"`((?:kernel|planning|plot|verify|cli)\.[\w.]+)`", TEXT)))
+PLACES = sorted(set(re.findall(r"`((?:kernel|compiled|planning|arrays|plot|verify|cli)\.[\w.]+)`", TEXT)))
 ROWS = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in TEXT.splitlines() if line.startswith("| ")]
 ROWS = [row for row in ROWS if row[1:2] != ["states"]]
 ERRATA = re.split(r"\n\d+\. \*\*", TEXT.partition("## Errata")[2])[1:]

@@ -7,9 +7,9 @@ import pytest
 
 import loiter
 from golden.paper import EXAMPLES
+from loiter.compiled.rebinding import rebound
 from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow
-from loiter.kernel.rebinding import rebound
 from loiter.kernel.switching import beyond_first_circle, switching_abscissa
 from loiter.kernel.synthesis import optima, optimum, rounding
 from loiter.kernel.words import Word

@@ -9,10 +9,10 @@ import pytest
 
 import loiter
 from golden.paper import ADMISSIBLE, EXAMPLES
+from loiter.compiled.rebinding import rebound
 from loiter.kernel.adjoint import adjoint, followed, switching_function, turned
 from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow, reduce
-from loiter.kernel.rebinding import rebound
 from loiter.kernel.switching import beyond_last_circle, switching_abscissa
 from loiter.kernel.synthesis import duration, miss, optima, optimum, ranked, rounding
 from loiter.kernel.words import Word

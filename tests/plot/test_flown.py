@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from loiter import Aircraft, Orbit, Pose, plan
-from loiter.guidance import settings
-from loiter.guidance.campaign import Trial
-from loiter.guidance.flight import fly
+from loiter.guidance.trials import settings
+from loiter.guidance.trials.campaign import Trial
+from loiter.guidance.trials.flight import fly
 from loiter.plot.flown import draw
 
 TRIAL = Trial(plan(Pose(-300.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0)), 1)

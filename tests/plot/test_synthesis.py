@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from loiter.planning.partition import boundaries, partition
+from loiter.arrays.partition import boundaries, partition
 from loiter.plot.synthesis import draw
 
 

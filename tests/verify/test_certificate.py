@@ -16,7 +16,7 @@ from kernel.worst import states as worst_states
 from loiter import Aircraft, Orbit, Pose, Turn, candidates, plan, plan_all
 from loiter.errors import InvalidArgument
 from loiter.verify import Certificate, certify
-from loiter.verify.compare import scenes as hard_scenes
+from loiter.verify.checks.oracle_check import scenes as hard_scenes
 from strategies import coordinates, radii, scenes, turns
 
 UNIT = Aircraft(1.0, min_turn_radius_m=1.0)

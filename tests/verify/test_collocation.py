@@ -9,10 +9,10 @@ import pytest
 from golden.paper import EXAMPLES
 from loiter import Aircraft, Orbit, Pose, Turn, candidates
 from loiter.errors import InvalidArgument, MissingPackage
-from loiter.verify import collocated as module
-from loiter.verify.collocated import beside, compare, differing, examples, scenes
-from loiter.verify.collocation import collocate, flown, letter, on_even_mesh, program, word
-from loiter.verify.oracle import Circle, Planar
+from loiter.verify.checks import collocation_check as module
+from loiter.verify.checks.collocation import collocate, flown, letter, on_even_mesh, program, word
+from loiter.verify.checks.collocation_check import beside, compare, differing, examples, scenes
+from loiter.verify.checks.oracle import Circle, Planar
 
 # What IPOPT's tolerance of 1e-9 leaves of the error and the gap in the two examples, with room for other builds of it.
 SMALL = 1e-6
@@ -124,13 +124,13 @@ def test_bad_input_is_told_at_once(monkeypatch):
     with pytest.raises(InvalidArgument, match="cases is -1"):
         compare(-1, 0)
     monkeypatch.setitem(sys.modules, "casadi", None)
-    monkeypatch.setattr("loiter.verify.collocation.find_spec", lambda name: None)
+    monkeypatch.setattr("loiter.verify.checks.collocation.find_spec", lambda name: None)
     with pytest.raises(MissingPackage, match="pip install casadi"):
         compare(1, 0)
 
 
 def test_no_flight_at_all_is_an_error(monkeypatch):
     program.cache_clear()
-    monkeypatch.setattr("loiter.verify.collocation.guesses", lambda start, circle: iter(()))
+    monkeypatch.setattr("loiter.verify.checks.collocation.guesses", lambda start, circle: iter(()))
     with pytest.raises(ArithmeticError, match="no flight"):
         collocate(Planar(4.0, 4.0, 0.0), [Circle(1.0, clockwise=True)])

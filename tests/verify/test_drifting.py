@@ -13,7 +13,7 @@ from loiter.errors import InvalidArgument
 from loiter.kernel import wind_search
 from loiter.planning.scaling import drifting, maneuver
 from loiter.verify import certify
-from loiter.verify.met import scenes
+from loiter.verify.checks.wind_scan_check import scenes
 from strategies import windy_scenes
 
 settings.register_profile("certificate in wind", deadline=None, max_examples=12)

@@ -4,8 +4,8 @@ import pytest
 
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.kernel.codes import Side
-from loiter.verify import precision as module
-from loiter.verify.precision import PLACES, WORST, drawn, precision, rounded
+from loiter.verify.checks import precision as module
+from loiter.verify.checks.precision import PLACES, WORST, drawn, precision, rounded
 
 
 def test_doubles_keep_thirteen_digits_next_to_every_boundary():

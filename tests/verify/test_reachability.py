@@ -7,9 +7,9 @@ import pytest
 
 from loiter import Turn, min_time
 from loiter.errors import InvalidArgument, MissingPackage
-from loiter.verify import reached as module
-from loiter.verify.reachability import distances, reach
-from loiter.verify.reached import SCENES, beside, compare
+from loiter.verify.checks import reachability_check as module
+from loiter.verify.checks.reachability import distances, reach
+from loiter.verify.checks.reachability_check import SCENES, beside, compare
 
 # Cells of the coarse grid of the pair that the tests use: 0.1 turn radii between nodes of the finer one at R = 1.
 CELLS = 40
@@ -88,6 +88,6 @@ def test_a_wrong_map_is_caught(monkeypatch, wrong):
 def test_bad_input_is_told_at_once(monkeypatch):
     with pytest.raises(InvalidArgument, match="cells is 5"):
         compare([40, 5])
-    monkeypatch.setattr("loiter.verify.reachability.find_spec", lambda name: None)
+    monkeypatch.setattr("loiter.verify.checks.reachability.find_spec", lambda name: None)
     with pytest.raises(MissingPackage, match="pip install hj-reachability"):
         compare([40])

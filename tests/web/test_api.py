@@ -9,11 +9,11 @@ import pytest
 
 import loiter
 from loiter import Aircraft, Orbit, Pose, Turn, Wind
+from loiter.arrays.partition import boundaries, partition
 from loiter.cli.app import main
 from loiter.geo import LocalFrame
 from loiter.io import Autopilot
 from loiter.io.document import answer, described
-from loiter.planning.partition import boundaries, partition
 from loiter.verify import certify
 
 STILL = {

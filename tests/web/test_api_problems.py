@@ -333,7 +333,7 @@ def test_what_fails_inside_is_told_without_its_reasons(monkeypatch):
     def failing(asked):
         raise RuntimeError("secret")
 
-    monkeypatch.setattr("loiter.web.plans.plan", failing)
+    monkeypatch.setattr("loiter.web.answers.plans.plan", failing)
     said = asking(create_app(), raise_app_exceptions=False)("POST", "/api/plan", json=STILL)
     assert (said.status_code, said.json()["title"]) == (500, "Internal Server Error")
     assert "secret" not in said.text

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from loiter.web import app, connections, exports, limits
+from loiter.web import app, connections, limits
+from loiter.web.answers import exports
 from web.serving import connected, heard, serving
 
 DOCS = (Path(__file__).parents[2] / "docs" / "service.md").read_text("utf-8")

@@ -16,8 +16,8 @@ from loiter.errors import InvalidArgument, MissingPackage
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
 
 if TYPE_CHECKING:
-    from loiter.batch.job import Progress as Progress
-    from loiter.batch.job import Summary as Summary
+    from loiter.batch.jobs.job import Progress as Progress
+    from loiter.batch.jobs.job import Summary as Summary
 
 __all__ = ["Progress", "Summary", "plan", "run"]
 
@@ -54,8 +54,8 @@ def run(
     _need_packages("pyarrow", *(["dask", "distributed"] if scheduler is not None else []))
     if find_spec("fcntl") is None:
         raise MissingPackage("a batch job locks its files, as Linux and macOS can and this system cannot")
-    from loiter.batch import job
-    from loiter.batch.columns import shared
+    from loiter.batch.jobs import job
+    from loiter.batch.tables.columns import shared
 
     count, given = _workers(workers, scheduler), shared(orbit, turn, aircraft, wind, orbit_velocity_m_s)
     asked = job.request(Path(source), Path(target), given, tolerance_m)
@@ -77,15 +77,15 @@ def plan(
     A Dask frame stays lazy. Columns, options and errors as `run`; word, turn and status are categories.
     """
     _need_packages("pyarrow")
-    from loiter.batch.columns import shared
     from loiter.batch.frames import planned
+    from loiter.batch.tables.columns import shared
 
     return planned(frame, shared(orbit, turn, aircraft, wind, orbit_velocity_m_s), tolerance_m)
 
 
 def _workers(workers: int | None, scheduler: str | None) -> int:
     if workers is None:
-        from loiter.planning.arrays import cores
+        from loiter.arrays.threads import cores
 
         return cores()
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
@@ -106,5 +106,5 @@ def _need_packages(*names: str) -> None:
 def __getattr__(name: str) -> Any:
     # What they are defined with needs pyarrow.
     if name in {"Progress", "Summary"}:
-        return getattr(import_module("loiter.batch.job"), name)
+        return getattr(import_module("loiter.batch.jobs.job"), name)
     raise AttributeError(f"module 'loiter.batch' has no attribute {name!r}")

@@ -1,4 +1,4 @@
-"""From the rows of a table to their answers: columns to arrays, through `planning.entries`, and back."""
+"""From the rows of a table to their answers: columns to arrays, through `arrays.entries`, and back."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
 
-from loiter.batch import views
-from loiter.batch.columns import (
+from loiter.arrays.entries import UNKNOWN, States, entries
+from loiter.batch.tables import views
+from loiter.batch.tables.columns import (
     ADDED,
     AIRSPEED,
     ORBIT,
@@ -26,7 +27,6 @@ from loiter.batch.columns import (
     numbers_read,
 )
 from loiter.kernel.codes import Status
-from loiter.planning.entries import UNKNOWN, States, entries
 from loiter.planning.model import Turn
 from loiter.planning.scaling import SIDES
 

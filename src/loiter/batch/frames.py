@@ -7,7 +7,7 @@ from typing import Any
 import pyarrow as pa
 
 from loiter.batch.answers import answers
-from loiter.batch.columns import ADDED, KNOWN, TURN, Shared, columns
+from loiter.batch.tables.columns import ADDED, KNOWN, TURN, Shared, columns
 from loiter.errors import InvalidArgument
 
 

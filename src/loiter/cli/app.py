@@ -31,12 +31,12 @@ Positions are metres east and north of any local origin, or WGS84 degrees; headi
 
 # Each is loaded when it is asked for.
 app.command(
-    "loiter.cli.plan:plan",
+    "loiter.cli.commands.plan:plan",
     help_epilogue=epilogue("plan"),
     help="Plan the fastest entry onto a holding circle: what to fly, for how long, where to peel off.",
 )
 app.command(
-    "loiter.cli.batch:batch",
+    "loiter.cli.commands.batch:batch",
     help_epilogue=epilogue("batch"),
     help="""Plan the fastest entry of every row of a table: Parquet or CSV, any size.
 
@@ -47,39 +47,39 @@ OUT has the columns and the rows of IN, in their order, and then duration_s, wor
 OUT appears whole or not at all. What is finished is kept in OUT.parts until then: a job that was interrupted goes on from there when the same command is given again.""",
 )
 app.command(
-    "loiter.cli.mavlink:upload",
+    "loiter.cli.commands.mavlink:upload",
     help_epilogue=epilogue("upload"),
     help="Send the fastest entry to a vehicle as a mission, and read it back to see that it is there, item by item.",
 )
 app.command(
-    "loiter.cli.mavlink:watch",
+    "loiter.cli.commands.mavlink:watch",
     help_epilogue=epilogue("watch"),
     help="Listen to a vehicle and print, live, the fastest entry from where it is.",
 )
 app.command(
-    "loiter.cli.fly:fly",
+    "loiter.cli.commands.fly:fly",
     help_epilogue=epilogue("fly"),
     help="Fly the fastest entry in closed loop, beside the laws that autopilots use today.",
 )
 app.command(
-    "loiter.cli.synthesis:synthesis",
+    "loiter.cli.commands.synthesis:synthesis",
     help_epilogue=epilogue("synthesis"),
     help="Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions.",
 )
 app.command(
-    "loiter.cli.figures:figures",
+    "loiter.cli.commands.figures:figures",
     help_epilogue=epilogue("figures"),
     help="Draw the seven figures of the paper from the code, with captions of their own.",
 )
 
 
 app.command(
-    "loiter.cli.verify:verify",
+    "loiter.cli.commands.verify:verify",
     help_epilogue=epilogue("verify"),
     help="Compare plans with independent methods: search, 50 digits, collocation, reachability, and a search in wind.",
 )
 app.command(
-    "loiter.cli.serve:serve",
+    "loiter.cli.commands.serve:serve",
     help_epilogue=epilogue("serve"),
     help="Serve the page, where one drags the aircraft and sees the plan, and plans to programs, over HTTP.",
 )

@@ -11,11 +11,11 @@ from cyclopts import Group, Parameter
 
 from loiter.errors import InvalidArgument, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
-from loiter.io.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
+from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind
 
 if TYPE_CHECKING:
-    from loiter.io.parameters import Preset
+    from loiter.io.missions.parameters import Preset
 
 scene = Group("Scene", sort_key=1)
 aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sort_key=2)
@@ -168,7 +168,7 @@ class AircraftOptions:
         """What the parameter file says."""
         if self.params is None:
             return None
-        from loiter.io.parameters import read_parameters
+        from loiter.io.missions.parameters import read_parameters
 
         return read_parameters(self.params)
 

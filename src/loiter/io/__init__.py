@@ -1,10 +1,10 @@
 """A maneuver as files for maps, ground stations and autopilots; parameter files of autopilots read."""
 
-from loiter.io.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
 from loiter.io.files import FORMATS, check_format, read_mission, save
-from loiter.io.items import Autopilot, Command, Frame, Mission, MissionItem
 from loiter.io.mission import mission
-from loiter.io.parameters import Preset, read_parameters
+from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
+from loiter.io.missions.items import Autopilot, Command, Frame, Mission, MissionItem
+from loiter.io.missions.parameters import Preset, read_parameters
 
 __all__ = [
     "FORMATS",

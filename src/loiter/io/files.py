@@ -8,18 +8,18 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
 from loiter.geo.frame import LocalFrame
-from loiter.io.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
-from loiter.io.chart import Chart, chart
-from loiter.io.geojson import geojson
-from loiter.io.gpx import gpx
-from loiter.io.items import Autopilot, Mission
-from loiter.io.kml import kml
-from loiter.io.mission import mission
-from loiter.io.qgcplan import qgcplan, read_qgcplan
+from loiter.io.maps.chart import Chart, chart
+from loiter.io.maps.geojson import geojson
+from loiter.io.maps.gpx import gpx
+from loiter.io.maps.kml import kml
+from loiter.io.maps.table import table
+from loiter.io.maps.track import steps, vertices
+from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
+from loiter.io.missions.items import Autopilot, Mission
+from loiter.io.missions.mission import mission
+from loiter.io.missions.qgcplan import qgcplan, read_qgcplan
+from loiter.io.missions.wpl import MARK, read_wpl, wpl
 from loiter.io.reading import Source
-from loiter.io.table import table
-from loiter.io.track import steps, vertices
-from loiter.io.wpl import MARK, read_wpl, wpl
 from loiter.planning.maneuver import Maneuver
 from loiter.writing import write_whole
 
@@ -68,7 +68,7 @@ def save(
     """Write a maneuver to `path`, in the format of its ending.
 
     .geojson, .kml and .gpx are maps; .csv is the track with tangents and curvatures; .plan (QGroundControl) and
-    .waypoints or .txt (`QGC WPL 110`) are missions, `io.mission.mission`. All is over the ground. `frame` says where on
+    .waypoints or .txt (`QGC WPL 110`) are missions, `io.mission`. All is over the ground. `frame` says where on
     Earth the maneuver is: without it only .csv can be written. Missions need `altitude_m`, which is above mean sea
     level unless `datum` says otherwise; in maps and tables altitudes are above mean sea level. Points are at most
     `spacing_m` metres apart, where it is given, and nowhere is the track further than `chord_error_m` metres from the

@@ -1,6 +1,6 @@
 """Compass headings (degrees clockwise from north) and directions, the one place where the two conventions meet.
 
-Both functions are free of branches, so that `kernel.rebinding.rebound` makes them serve arrays.
+Both functions are free of branches, so that `compiled.rebinding.rebound` makes them serve arrays.
 """
 
 from math import cos, floor, fmod, radians, sin

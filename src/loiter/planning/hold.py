@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from loiter.errors import InvalidArgument, positive
 from loiter.kernel.hold import held, hold_rate, phase_of
 from loiter.planning.compass import heading_vector, wrapped
+from loiter.planning.feasibility import SIDES, air_past, check_held
 from loiter.planning.flight import over_ground
-from loiter.planning.held import SIDES, air_past, check_held
 from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind
 
 if TYPE_CHECKING:

@@ -11,9 +11,9 @@ from loiter.kernel.codes import Side, Status
 from loiter.kernel.synthesis import REACH, ROUNDING, Entry, held_radius, status_of
 from loiter.kernel.words import Word
 from loiter.planning.compass import heading_vector
+from loiter.planning.feasibility import SIDES as SIDES
+from loiter.planning.feasibility import air_past, check_held, too_tight
 from loiter.planning.flight import flown_from
-from loiter.planning.held import SIDES as SIDES
-from loiter.planning.held import air_past, check_held, too_tight
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Aircraft, Orbit, Pose, Segment, Turn, Wind
 

@@ -9,7 +9,7 @@ from loiter.kernel import wind_search
 from loiter.kernel.codes import Status
 from loiter.kernel.synthesis import Entry, duration, miss, optima, optimum, ranked
 from loiter.kernel.wind_search import WindEntry
-from loiter.planning.held import air_past
+from loiter.planning.feasibility import air_past
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.scaling import Scene, drifting, maneuver, normalised, radius_in_turns

@@ -15,14 +15,14 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from loiter.arrays import control
+from loiter.compiled.rebinding import Function, rebound
 from loiter.kernel.adjoint import adjoint, turned
 from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow
-from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.switching import last_arc_abscissa, switching_abscissa
 from loiter.kernel.synthesis import Entry, duration, optima, ranked
 from loiter.kernel.words import Word
-from loiter.planning.arrays import control
 from loiter.planning.model import CONTROLS
 from loiter.plot.picture import CHORD_RAD, COLOURS, MARKS
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from loiter.guidance.flight import Flight
+from loiter.guidance.trials.flight import Flight
 from loiter.planning.maneuver import Maneuver
 from loiter.plot.picture import FAINT
 

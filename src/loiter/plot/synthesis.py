@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from loiter.arrays.partition import Boundary, Partition, lines, worth
 from loiter.kernel.words import Word
 from loiter.planning.model import Turn
-from loiter.planning.partition import Boundary, Partition, lines, worth
 
 # The hue of a region is its first control (as on the plan view), its shade tells words of one control apart.
 SHADES = {

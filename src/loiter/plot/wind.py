@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
-from loiter.planning.arrays import min_time_in_wind
+from loiter.arrays import min_time_in_wind
 from loiter.planning.model import Aircraft, Orbit, Pose, Wind
 from loiter.planning.solve import plan
 from loiter.plot.files import save_figure

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.words import Word
-from loiter.planning.held import air_past
+from loiter.planning.feasibility import air_past
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.scaling import time_unit_s

@@ -15,10 +15,11 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from loiter.planning.model import TurnName
 from loiter.version import __version__
-from loiter.web import exports, models, openapi, plans, problems
+from loiter.web import models, openapi, problems
+from loiter.web.answers import exports, plans
+from loiter.web.answers.synthesis import FIRST_CELLS, MOST_CELLS, synthesis
 from loiter.web.headers import Headers
 from loiter.web.limits import Limits
-from loiter.web.synthesis import FIRST_CELLS, MOST_CELLS, synthesis
 from loiter.web.workers import Workers
 
 STATIC = Path(__file__).with_name("static")

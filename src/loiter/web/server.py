@@ -15,10 +15,10 @@ from urllib.parse import urlsplit
 import uvicorn
 
 from loiter.errors import InvalidArgument
+from loiter.web.answers.synthesis import FIRST_CELLS, synthesis
 from loiter.web.app import create_app
 from loiter.web.connections import Connection
 from loiter.web.limits import MOST_HEAD
-from loiter.web.synthesis import FIRST_CELLS, synthesis
 
 # Connections that may wait to be accepted.
 BACKLOG = 2048

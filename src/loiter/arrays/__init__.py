@@ -1,0 +1,16 @@
+"""Arrays of states and columns of tables: the same answers as `plan`, for millions of rows."""
+
+from loiter.arrays.reduction import reduce
+from loiter.arrays.still_air import Solution, control, min_time, solve
+from loiter.arrays.wind import WindSolution, min_time_in_wind, solve_in_wind
+
+__all__ = [
+    "Solution",
+    "WindSolution",
+    "control",
+    "min_time",
+    "min_time_in_wind",
+    "reduce",
+    "solve",
+    "solve_in_wind",
+]

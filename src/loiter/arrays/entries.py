@@ -1,0 +1,280 @@
+"""Entries for columns of states in SI: one row a state, the same answers as `plan`, codes where there is none."""
+
+from __future__ import annotations
+
+from functools import cache, reduce
+from math import degrees, inf, nan
+from operator import and_
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from loiter.arrays.reduction import heading_vectors
+from loiter.arrays.wind import COMPILED_FROM, rows_in_wind
+from loiter.compiled.rebinding import Function, rebound
+from loiter.kernel import motion
+from loiter.kernel.codes import Status
+from loiter.kernel.synthesis import REACH, ROUNDING
+from loiter.kernel.words import Word
+from loiter.planning.compass import wrapped
+from loiter.planning.feasibility import relative
+from loiter.planning.model import CONTROLS, radius_at_bank, radius_at_rate, wind_velocity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+    Codes = NDArray[np.int8]
+
+# Rows worked on at a time: some ten columns of them stay in the cache of a core (1 MiB), and calls cost little.
+BLOCK = 8192
+
+# A code that is no `Side`, for a turn that nobody knows.
+UNKNOWN = 2
+
+
+class States(NamedTuple):
+    """Rows to solve: float64 arrays of one length n, or, but for the pose, one number where all rows share it.
+
+    `side` holds `loiter.kernel.codes.Side` codes (int8), `UNKNOWN` among them. `limit` names what `turn_limit` is:
+    "max_bank_deg", "min_turn_radius_m" or "max_turn_rate_deg_s". The circle is where it is at the start. What all rows
+    share is taken as checked.
+    """
+
+    east_m: Floats
+    north_m: Floats
+    heading_deg: Floats
+    orbit_east_m: Floats | float
+    orbit_north_m: Floats | float
+    orbit_radius_m: Floats | float
+    side: Codes | int
+    airspeed_m_s: Floats | float
+    turn_limit: Floats | float
+    limit: str
+    tolerance_m: float = 0.0
+    wind_speed_m_s: Floats | float = 0.0
+    wind_from_deg: Floats | float = 0.0
+    orbit_velocity_east_m_s: Floats | float = 0.0
+    orbit_velocity_north_m_s: Floats | float = 0.0
+
+
+class Entries(NamedTuple):
+    """The fastest entries, arrays of length n: nan and codes 0 where `status`, a `Status`, is not `OK`.
+
+    `word` holds `Word`, `side` `Side` codes (int8). The point of joining lies on the circle as it is then, its heading
+    in [0, 360); a piece that is not flown lasts 0 s.
+    """
+
+    duration_s: Floats
+    word: Codes
+    side: Codes
+    join_east_m: Floats
+    join_north_m: Floats
+    join_heading_deg: Floats
+    duration_1_s: Floats
+    duration_2_s: Floats
+    duration_3_s: Floats
+    status: Codes
+
+
+def entries(states: States, *, compiled: bool | None = None) -> Entries:
+    """The fastest entry of each row, as `plan` gives it; the first call loads the kernel, which may take seconds.
+
+    `compiled` says whether rows in wind are solved by compiled code, which differs by rounding; their number if None.
+    """
+    n = len(states.east_m)
+    found: list[Any] = [np.empty(n, dtype=np.int8 if name in _CODES else np.float64) for name in Entries._fields]
+    with np.errstate(all="ignore"):
+        for start in range(0, n, BLOCK):
+            _solve(states, slice(start, start + BLOCK), _in_still_air, found)
+        windy = _windy(states)
+        if windy.size:
+            solve_rows = rows_in_wind(windy.size >= COMPILED_FROM if compiled is None else compiled)
+            _solve(states, windy, lambda rows: _in_wind(rows, solve_rows), found)
+    return Entries(*found)
+
+
+def compile_kernel(*, in_wind: bool = False) -> None:
+    """Load and compile what `entries` needs, so that it does not happen in the midst of the work."""
+    one = np.zeros(1)
+    calm = States(one, one, one, 0.0, 0.0, 1.0, 0, 1.0, 1.0, "min_turn_radius_m")
+    entries(calm)
+    if in_wind:
+        entries(calm._replace(orbit_radius_m=2.0, wind_speed_m_s=0.1), compiled=True)
+
+
+def _solve(states: States, rows: Any, solve: Callable[[States], Entries], found: list[Any]) -> None:
+    """Put the entries of some rows, a slice or their numbers, in their places."""
+    some: list[Any] = [value[rows] if isinstance(value, np.ndarray) else value for value in states]
+    for column, values in zip(found, solve(States(*some)), strict=True):
+        column[rows] = values
+
+
+_CODES = {"word", "side", "status"}
+
+# The control u of each piece by the code of the word; 0 past the last.
+_CONTROLS = np.zeros((3, 64))
+for _word in Word:
+    for _piece, _letter in enumerate(_word.letters):
+        _CONTROLS[_piece, _word] = CONTROLS[_letter]
+
+
+def _in_still_air(s: States) -> Entries:
+    """The entries of rows whose circle the air does not pass; of others, which are then solved anew, anything."""
+    r = _turn_radius(s)
+    refused = _refused(s, r)
+    east, north = s.east_m - s.orbit_east_m, s.north_m - s.orbit_north_m
+    # The formula is arithmetic alone, so it takes arrays as they are.
+    reduced: Any = motion.reduce(east / r, north / r, *heading_vectors()(s.heading_deg))
+    x, y = reduced
+    R = s.orbit_radius_m / r
+    if np.any(refused):
+        x = np.where(refused, nan, x)
+    time, word, durations, status, side, _ = _kernel(x, y, R, s.side, _tolerance(s, r))
+    if status.any():
+        status = _explained(s, status, refused)
+    seconds = r / s.airspeed_m_s
+    time_s, (first_s, second_s, third_s) = time * seconds, durations.T * seconds
+    heading = _joining_heading(s, word, durations)
+    c, v = heading_vectors()(heading)
+    # Clockwise the centre is to the right: the aircraft joins a radius to the left of it, along (-v, c).
+    left = side * s.orbit_radius_m
+    east, north = _centre_after(s, time_s)
+    return Entries(
+        time_s,
+        word,
+        side,
+        east - left * v,
+        north + left * c,
+        heading,
+        first_s,
+        second_s,
+        third_s,
+        status,
+    )
+
+
+def _in_wind(s: States, solve_rows: Function) -> Entries:
+    """The entries of rows whose circle the air passes; `solve_rows` is one of `rows_in_wind`."""
+    r = _turn_radius(s)
+    refused = _refused(s, r)
+    x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
+    scenes = np.empty((len(s.east_m), 8))
+    columns = np.where(refused, nan, x), y, *heading_vectors()(s.heading_deg), s.orbit_radius_m / r, s.side
+    for i, column in enumerate((*columns, *_air_past(s))):
+        scenes[:, i] = column
+    answers = np.empty_like(scenes)
+    solve_rows(scenes, answers)
+    status, side, word = (answers[:, i].astype(np.int8) for i in range(3))
+    durations, azimuth = answers[:, 3:6], answers[:, 6]
+    seconds = r / s.airspeed_m_s
+    time_s, (first_s, second_s, third_s) = durations.sum(axis=1) * seconds, durations.T * seconds
+    east, north = _centre_after(s, time_s)
+    return Entries(
+        time_s,
+        word,
+        side,
+        east + s.orbit_radius_m * np.cos(azimuth),
+        north + s.orbit_radius_m * np.sin(azimuth),
+        _joining_heading(s, word, durations),
+        first_s,
+        second_s,
+        third_s,
+        _explained(s, status, refused),
+    )
+
+
+def _windy(s: States) -> NDArray[np.intp]:
+    """The numbers of the rows whose circle the air passes."""
+    if not any(np.ndim(v) or v for v in (s.wind_speed_m_s, s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)):
+        return np.empty(0, dtype=np.intp)
+    wx, wy = _air_past(s)
+    return np.flatnonzero(np.broadcast_to((wx != 0.0) | (wy != 0.0), s.east_m.shape))
+
+
+def _air_past(s: States) -> Any:
+    """As `held.air_past`."""
+    velocity = rebound(wind_velocity, {"heading_vector": heading_vectors()})
+    air, circle = velocity(s.wind_speed_m_s, s.wind_from_deg), (s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)
+    return rebound(relative, {"hypot": np.hypot})(air, circle, s.airspeed_m_s)
+
+
+def _joining_heading(s: States, word: Any, durations: Any) -> Any:
+    turned = sum(u.take(word) * t for u, t in zip(_CONTROLS, durations.T, strict=True))
+    # A heading is counted clockwise, a control counter-clockwise. A large heading, not reduced, would swallow the turn.
+    return wrapped(np.fmod(s.heading_deg, 360.0) - turned * degrees(1.0))
+
+
+def _centre_after(s: States, time_s: Any) -> tuple[Any, Any]:
+    """Where the circle's centre is when it is joined."""
+    if not any(np.ndim(v) or v for v in (s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)):
+        return s.orbit_east_m, s.orbit_north_m
+    east_m, north_m = s.orbit_velocity_east_m_s * time_s, s.orbit_velocity_north_m_s * time_s
+    return s.orbit_east_m + east_m, s.orbit_north_m + north_m
+
+
+def _kernel(x: Any, y: Any, R: Any, side: Any, tolerance: Any) -> tuple[Any, ...]:
+    """Time, word, durations, status, side, miss. The one place where the kernel is called."""
+    from loiter.compiled import ufuncs
+
+    result: tuple[Any, ...] = ufuncs.solve(x, y, R, side, tolerance, np.empty(3))
+    return result
+
+
+def _turn_radius(s: States) -> Any:
+    return s.turn_limit if s.limit == "min_turn_radius_m" else _radius(s.limit)(s.airspeed_m_s, s.turn_limit)
+
+
+@cache
+def _radius(limit: str) -> Function:
+    formula = {"max_bank_deg": radius_at_bank, "max_turn_rate_deg_s": radius_at_rate}[limit]
+    return rebound(formula, {"tan": np.tan, "radians": np.radians})
+
+
+def _tolerance(s: States, r: Any) -> Any:
+    """The tolerance as a normalised length, not below the rounding of the coordinates: as `scaling.normalised`.
+
+    The kernel itself allows for the rounding of x, y and R. Where the centre is no further from the origin than the
+    circle is large, that of the coordinates is at most twice as much, |e| + |n| <= sqrt(2) (|x| + |y|) r + centre, and
+    is left out: no tolerance at all is what the kernel is fastest with.
+    """
+    centre = np.abs(s.orbit_east_m) + np.abs(s.orbit_north_m)
+    if np.all(centre <= r + s.orbit_radius_m):
+        return s.tolerance_m / r if s.tolerance_m else 0.0
+    noise = ROUNDING * (np.abs(s.east_m) + np.abs(s.north_m) + centre)
+    return np.maximum(s.tolerance_m, noise) / r
+
+
+def _refused(s: States, r: Any) -> Any:
+    """The statuses of rows that the kernel is not to see, 0 elsewhere: an array, or 0 for all."""
+    # Durations of up to REACH turns must be numbers too.
+    refused: Any = np.where(_positive(REACH * r / s.airspeed_m_s), 0, Status.OUT_OF_RANGE)
+    if isinstance(s.side, np.ndarray):
+        refused = np.where(s.side == UNKNOWN, Status.BAD_TURN, refused)
+    circle = s.orbit_east_m, s.orbit_north_m, s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s
+    if any(isinstance(v, np.ndarray) for v in (*circle, s.orbit_radius_m)):
+        held = reduce(and_, map(np.isfinite, circle)) & _positive(s.orbit_radius_m)
+        refused = np.where(held, refused, Status.BAD_ORBIT)
+    if any(isinstance(v, np.ndarray) for v in (s.wind_speed_m_s, s.wind_from_deg)):
+        blows = np.isfinite(s.wind_speed_m_s) & np.isfinite(s.wind_from_deg) & np.greater_equal(s.wind_speed_m_s, 0.0)
+        refused = np.where(blows, refused, Status.BAD_WIND)
+    if any(isinstance(v, np.ndarray) for v in (s.airspeed_m_s, s.turn_limit)):
+        banked = np.less(s.turn_limit, 90.0) if s.limit == "max_bank_deg" else True
+        flies = _positive(s.airspeed_m_s) & _positive(s.turn_limit) & _positive(r) & banked
+        refused = np.where(flies, refused, Status.BAD_AIRCRAFT)
+    return refused
+
+
+def _positive(value: Any) -> Any:
+    return np.greater(value, 0.0) & np.less(value, inf)
+
+
+def _explained(s: States, status: Any, refused: Any) -> Any:
+    """The statuses of the rows from those of the kernel."""
+    # Finite coordinates whose difference is not are too large.
+    finite = np.isfinite(s.east_m) & np.isfinite(s.north_m) & np.isfinite(s.heading_deg)
+    why = np.where(finite, Status.OUT_OF_RANGE, Status.BAD_POSE)
+    status = np.where(status == Status.NOT_FINITE, why, status)
+    return np.where(refused, refused, status)

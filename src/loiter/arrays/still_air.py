@@ -1,0 +1,127 @@
+"""Arrays of states in still air: least times, the feedback law, whole solutions."""
+
+from __future__ import annotations
+
+from types import NoneType
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from loiter.arrays.arguments import is_lazy, refuse_lazy_out, side_codes
+from loiter.arrays.threads import share_work, thread_count
+from loiter.compiled import ufunc
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+
+class Solution(NamedTuple):
+    """Optimal maneuvers of an array of states, shape (...) as broadcast; durations are (..., 3), in flying order.
+
+    `word` holds `loiter.kernel.words.Word`, `status` `Status`, `side` `Side` codes (int8); where the status is not
+    `OK` the floats are nan. `miss` is the distance from the target at which the durations end when flown exactly.
+    """
+
+    time: NDArray[np.float64]
+    word: NDArray[np.int8]
+    durations: NDArray[np.float64]
+    status: NDArray[np.int8]
+    side: NDArray[np.int8]
+    miss: NDArray[np.float64]
+
+
+def min_time(
+    x: ArrayLike,
+    y: ArrayLike,
+    radius: ArrayLike = 1.0,
+    turn: ArrayLike = "either",
+    tolerance: ArrayLike = 0.0,
+    *,
+    out: Any = None,
+    workers: int = 1,
+) -> Any:
+    """Least time T to the circle from reduced states (x, y), in units of turn radius over airspeed.
+
+    `x`, `y` are the coordinates (2) of docs/theory.md and `radius` the circle's, all in turn radii; `turn` is "cw",
+    "ccw" or "either", or a `Side` code; `tolerance` is that of `plan`, in turn radii. It behaves as a ufunc: arguments
+    broadcast, float64 comes back, `out` is an array to fill, which may overlap an argument; Dask arrays, pandas columns
+    and xarray's arrays come back as what they are. A state that cannot be solved (nan, infinite, radius < 1) gives nan;
+    `solve` says why. `workers` threads share NumPy arrays, -1 for one a core. Raises `InvalidArgument` for an unknown
+    turn or number of workers.
+    The first call on a machine compiles the kernel, some ten seconds; the code is kept in the user's cache folder.
+
+    >>> round(float(loiter.min_time(4.0, 4.0)), 4)
+    6.9136
+    >>> loiter.min_time([0.0, 1.0], 1.0, radius=[1.0, 0.5], turn="cw")
+    array([ 0., nan])
+    """
+    return _broadcast("min_time", (x, y, radius, side_codes(turn), tolerance), out, workers)
+
+
+def control(
+    x: ArrayLike,
+    y: ArrayLike,
+    radius: ArrayLike = 1.0,
+    turn: ArrayLike = "either",
+    tolerance: ArrayLike = 0.0,
+    *,
+    out: Any = None,
+    workers: int = 1,
+) -> Any:
+    """The feedback law: first control of the optimum at (x, y), -1 (right), 0 or +1 (left), as float64.
+
+    At the target itself, where nothing is left to decide, the turn rate that holds the circle: -1/radius clockwise,
+    +1/radius counter-clockwise. Arguments, nan and errors as `min_time`.
+
+    >>> loiter.control([4.0, -0.53, -3.0], [4.0, 0.31, 0.0])
+    array([-1.,  1.,  0.])
+    """
+    return _broadcast("control", (x, y, radius, side_codes(turn), tolerance), out, workers)
+
+
+def solve(
+    x: ArrayLike,
+    y: ArrayLike,
+    radius: ArrayLike = 1.0,
+    turn: ArrayLike = "either",
+    tolerance: ArrayLike = 0.0,
+    *,
+    out: Solution | None = None,
+    workers: int = 1,
+) -> Solution:
+    """Optimal maneuvers from reduced states (x, y): time, word, durations, status. Arguments and errors as `min_time`.
+
+    NumPy and Dask arrays come back as what they are, other columns as NumPy arrays; `out` is a `Solution` to fill.
+    Raises `InvalidArgument` too for an `out` with Dask arrays.
+
+    >>> loiter.solve(4.0, 4.0).durations.round(4)
+    array([2.6994, 3.1669, 1.0472])
+    """
+    arguments: tuple[Any, ...] = (x, y, radius, side_codes(turn), tolerance)
+    arguments = tuple(a if is_lazy(a) else np.asarray(a) for a in arguments)
+    count = thread_count(workers)
+    if any(map(is_lazy, arguments)):
+        refuse_lazy_out(out)
+        return Solution(*ufunc("solve")(*arguments, np.empty(3)))
+    if out is None:
+        shape = np.broadcast_shapes(*(a.shape for a in arguments))
+        shapes = {name: (*shape, 3) if name == "durations" else shape for name in Solution._fields}
+        out = Solution(*(np.empty(shapes[name], _DTYPES.get(name, np.float64)) for name in Solution._fields))
+    share_work(lambda *blocks, out: ufunc("solve")(*blocks, np.empty(3), out=out), arguments, tuple(out), count)
+    return out
+
+
+_DTYPES = {"word": np.int8, "status": np.int8, "side": np.int8}
+
+
+def _broadcast(name: str, arguments: tuple[Any, ...], out: Any, workers: int) -> Any:
+    """A ufunc of one result, by threads where that is asked for and all arguments are NumPy's."""
+    function, count = ufunc(name), thread_count(workers)
+    arrays = [a if hasattr(a, "__array_ufunc__") else np.asarray(a, dtype=np.float64) for a in arguments]
+    shareable = all(isinstance(a, (np.ndarray, np.generic)) for a in arrays)
+    if count == 1 or not shareable or not isinstance(out, (np.ndarray, NoneType)):
+        return function(*arrays) if out is None else function(*arrays, out=out)
+    if out is None:
+        out = np.empty(np.broadcast_shapes(*(a.shape for a in arrays)))
+    share_work(lambda *blocks, out: function(*blocks, out=out), tuple(arrays), (out,), workers)
+    return out[()]

@@ -1,0 +1,1 @@
+"""Tables as files: columns, CSV and Parquet in, all formats out."""

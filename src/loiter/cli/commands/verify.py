@@ -1,0 +1,195 @@
+"""`loiter verify`: the answers beside those of independent methods, four in still air and one in wind."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Annotated, Any, Literal, NamedTuple
+
+from cyclopts import Parameter
+from rich.console import Console
+from rich.progress import track
+from rich.table import Table
+
+from loiter.cli import report
+from loiter.cli.numbers import whole
+from loiter.cli.status import CHECK_FAILED
+
+# Grids of the reachability map: the finer one shows that the difference shrinks with the spacing.
+CELLS = (40, 80)
+
+Witness = Literal["search", "digits", "collocation", "reachability", "wind"]
+
+# What runs where none is named: a scene in wind takes the search half a second, so that one runs when it is named.
+USUAL: tuple[Witness, ...] = ("search", "digits", "collocation", "reachability")
+
+# Random scenes where no number is given.
+STATES, WINDY_STATES = 2000, 20
+
+
+class Findings(NamedTuple):
+    """What one method found: a table for people, and whether it agrees throughout."""
+
+    table: Table
+    note: str
+    passed: bool
+
+
+def verify(
+    *,
+    states: Annotated[
+        int | None,
+        Parameter(
+            metavar="N",
+            converter=whole,
+            help=f"Random scenes of the search, and states of the digits ({STATES} if absent); scenes in wind "
+            f"({WINDY_STATES} if absent).",
+        ),
+    ] = None,
+    cases: Annotated[int, Parameter(metavar="N", converter=whole, help="Random cases of the collocation.")] = 50,
+    seed: Annotated[int, Parameter(metavar="N", converter=whole, help="The same seed draws the same scenes.")] = 0,
+    witness: Annotated[
+        list[Witness] | None, Parameter(metavar="NAME", help="Compare with this method alone; may be repeated.")
+    ] = None,
+) -> int:
+    """Compare plans with independent methods; exit status 1 where one of them disagrees.
+
+    search: OMPL's Dubins distance, minimised over the point of joining. digits: the kernel's own functions in 50 digits
+    (mpmath). collocation: time-optimal control as a nonlinear program (CasADi, IPOPT), the paper's examples and random
+    cases. reachability: the Hamilton-Jacobi equation on a grid of the reduced plane (hj-reachability). wind: a search
+    over points of joining and times in wind; it takes long, and runs only when it is named.
+    """
+    asked = witness or USUAL
+    # Each method shows whether its packages are there before the first begins.
+    hearings = [(name, _HEARINGS[name](_states(name, states), cases, seed)) for name in asked]
+    findings = [hearing() for _, hearing in hearings]
+    for (name, _), found in zip(hearings, findings, strict=True):
+        report.write(f"{name}: {'agrees' if found.passed else 'DISAGREES'}", found.table, found.note, "")
+    return 0 if all(found.passed for found in findings) else CHECK_FAILED
+
+
+def _states(witness: Witness, states: int | None) -> int:
+    """The number of scenes asked for, or what is usual."""
+    if states is not None:
+        return states
+    return WINDY_STATES if witness == "wind" else STATES
+
+
+def _tracked(name: str, results: Iterable[Any], total: int) -> Iterator[Any]:
+    # On standard error, so that standard output holds the result alone.
+    return iter(track(results, description=name, total=total, console=Console(stderr=True)))
+
+
+def _search(states: int, cases: int, seed: int) -> Callable[[], Findings]:
+    from loiter.verify.checks.oracle_check import RESOLUTION, Difference, compare
+
+    results = compare(states, seed)
+
+    def hear() -> Findings:
+        found: list[Difference] = list(_tracked("search", results, states))
+        rows = _table("place", "scenes", "plan later by", "search later by", "beyond")
+        for place, here in _by_place([(d.scene.place, d) for d in found]):
+            later, earlier = max(d.later for d in here), max(d.earlier for d in here)
+            beyond = sum(max(d.later, d.earlier) > RESOLUTION for d in here)
+            rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", str(beyond))
+        passed = all(max(d.later, d.earlier) <= RESOLUTION for d in found)
+        note = f"Largest differences, over turn radius plus length; the search resolves {RESOLUTION:.0e}."
+        return Findings(rows, note, passed)
+
+    return hear
+
+
+def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
+    from loiter.verify.checks.precision import WORST, Rounding, precision
+
+    results = precision(states, seed)
+
+    def hear() -> Findings:
+        found: list[Rounding] = list(_tracked("digits", results, states))
+        rows = _table("next to", "states", "largest error", "beyond")
+        for place, here in _by_place([(r.place, r) for r in found]):
+            beyond = sum(not r.passed for r in here)
+            rows.add_row(place, str(len(here)), f"{max(r.error for r in here):.1e}", str(beyond))
+        note = f"Rounding of T, relative, within 1e-12 to 1e-7 of each boundary; {WORST:.0e} is allowed."
+        return Findings(rows, note, all(r.passed for r in found))
+
+    return hear
+
+
+def _collocation(states: int, cases: int, seed: int) -> Callable[[], Findings]:
+    from loiter.verify.checks.collocation_check import Collocated, compare
+
+    results = compare(cases, seed)
+
+    def hear() -> Findings:
+        found: list[Collocated] = list(_tracked("collocation", results, cases + 2))
+        rows = _table("scene", "solves", "plan later by", "program later by", "same structure")
+        for place, here in _by_place([(c.scene.place, c) for c in found]):
+            later, earlier = max(0.0, *(c.later for c in here)), max(0.0, *(-c.later for c in here))
+            same = sum(c.same_structure for c in here)
+            rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", f"{same} of {len(here)}")
+        note = "Largest differences in turn radii over airspeed, each within the program's own error bound."
+        return Findings(rows, note, all(c.passed for c in found))
+
+    return hear
+
+
+def _reachability(states: int, cases: int, seed: int) -> Callable[[], Findings]:
+    from loiter.verify.checks.reachability_check import SCENES, Reached, compare
+
+    results = compare(CELLS)
+
+    def hear() -> Findings:
+        found: list[Reached] = list(_tracked("reachability", results, len(CELLS) * len(SCENES)))
+        rows = _table("map", "spacing", "nodes", "where T is steep", "mean difference", "within bounds")
+        for m in found:
+            bounds = "yes" if m.passed else "NO"
+            name = f"R = {m.radius:g}, {m.turn.value}"
+            rows.add_row(name, f"{m.spacing:.3f}", str(m.nodes), str(m.beside_jumps), f"{m.difference:.3f}", bounds)
+        note = "Mean difference of T from the grid's, whose error falls with the spacing to the power 5/6 at kinks."
+        return Findings(rows, note, all(m.passed for m in found))
+
+    return hear
+
+
+def _wind(states: int, cases: int, seed: int) -> Callable[[], Findings]:
+    from loiter.verify.checks.wind_scan_check import RESOLUTION, WINDIEST, Difference, compare
+
+    results = compare(states, seed)
+
+    def hear() -> Findings:
+        found: list[Difference] = list(_tracked("wind", results, states))
+        rows = _table("place", "scenes", "plan later by", "search later by", "beyond", "ends off by")
+        for place, here in _by_place([(d.scene.place, d) for d in found]):
+            later, earlier = max(d.later for d in here), max(d.earlier for d in here)
+            beyond = sum(max(d.later, d.earlier) > RESOLUTION for d in here)
+            missed = f"{max(d.missed for d in here):.1e}"
+            rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", str(beyond), missed)
+        passed = all(max(d.later, d.earlier) <= RESOLUTION for d in found)
+        note = f"Largest differences of T over 1 + T in wind up to {WINDIEST:g} of the airspeed;"
+        return Findings(rows, f"{note} the search resolves {RESOLUTION:.0e}.", passed)
+
+    return hear
+
+
+_HEARINGS: dict[str, Callable[[int, int, int], Callable[[], Findings]]] = {
+    "search": _search,
+    "digits": _digits,
+    "collocation": _collocation,
+    "reachability": _reachability,
+    "wind": _wind,
+}
+
+
+def _by_place(found: Sequence[tuple[str, Any]]) -> Iterator[tuple[str, list[Any]]]:
+    """The results of each place, and of all where there are several."""
+    places = dict.fromkeys(place for place, _ in found)
+    for place in places:
+        yield place, [result for where, result in found if where == place]
+    if len(places) > 1:
+        yield "all", [result for _, result in found]
+
+
+def _table(first: str, *headings: str) -> Table:
+    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    rows.add_column(first)
+    for heading in headings:
+        rows.add_column(heading, justify="right")
+    return rows

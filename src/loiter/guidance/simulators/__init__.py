@@ -1,0 +1,1 @@
+"""Simulated aircraft, gusts and sensors, to fly guidance laws in."""

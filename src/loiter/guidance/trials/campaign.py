@@ -1,0 +1,236 @@
+"""Monte Carlo: several laws flown from the same random starts in the same noise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from math import cos, degrees, pi, sin, sqrt
+from typing import NamedTuple
+
+from loiter.errors import InvalidArgument
+from loiter.guidance.laws.l1 import L1, advised_period_s
+from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.laws.tangent import Tangent
+from loiter.guidance.laws.vector_field import VectorField, advised_gains
+from loiter.guidance.protocol import Law, Simulator
+from loiter.guidance.simulators.kinematic import Kinematic
+from loiter.guidance.simulators.point_mass import PointMass
+from loiter.guidance.simulators.sensors import Noise
+from loiter.guidance.trials.flight import LIMIT_S, STEP_S, fly
+from loiter.guidance.trials.settling import Band
+from loiter.guidance.vehicle.rolling import Roll
+from loiter.kernel.hold import tightest_held
+from loiter.planning.feasibility import air_past
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind
+from loiter.planning.solve import plan
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """One start: the fastest entry from it in the steady wind, and the seed of its noise.
+
+    Raises `InvalidArgument` for a seed below 0.
+    """
+
+    ideal: Maneuver
+    seed: int
+
+    def __post_init__(self) -> None:
+        _at_least(0, "seed", self.seed)
+
+    @property
+    def orbit(self) -> Orbit:
+        """The circle, in the direction that the fastest entry holds."""
+        o = self.ideal.orbit
+        return Orbit(o.east_m, o.north_m, o.radius_m, self.ideal.turn, o.velocity_east_m_s, o.velocity_north_m_s)
+
+
+# Who turns so much more off the circle than the fastest entry went round again: a whole turn that leaves the circle and
+# comes back to it, less what of it is within twice the band, up to 20 degrees at either end, and some more.
+ROUND_DEG = 270.0
+
+
+def _at_least(least: int, name: str, value: int) -> None:
+    if value < least:
+        raise InvalidArgument(name, f"is {value}: it must be at least {least}")
+
+
+# What makes a law, or a simulator, for a trial: a function of a module, or a `partial` of one, so that other processes
+# can have it.
+MakeLaw = Callable[[Trial], Law]
+MakeSimulator = Callable[[Trial], Simulator]
+
+
+class Outcome(NamedTuple):
+    """What became of one flight of a campaign; times in seconds, nan for what never was.
+
+    `ideal_s` is the duration of the fastest entry. `settled_s`, `joined_s`, `overshoot_m`, `bank_rate_deg_s` and
+    `distance_m` are those of `Flight`. `round_again` tells that the heading had turned, off the circle and before the
+    aircraft joined, by `ROUND_DEG` more than in the ideal entry's arcs; `join_error_s` is how much the reported time to
+    join was off a fall of 1 s a second, root mean square over steps of 0.1 s up to the hold.
+    """
+
+    trial: int
+    ideal_s: float
+    settled_s: float
+    joined_s: float
+    overshoot_m: float
+    bank_rate_deg_s: float
+    distance_m: float
+    round_again: bool
+    join_error_s: float
+
+    @property
+    def settled(self) -> bool:
+        """Whether the aircraft settled."""
+        return self.settled_s == self.settled_s
+
+
+def trials(
+    runs: int,
+    seed: int,
+    aircraft: Aircraft,
+    wind: Wind | None = None,
+    *,
+    radii: tuple[float, float] = (1.2, 4.0),
+    reach: float = 6.0,
+) -> list[Trial]:
+    """Random starts, the same for the same seed: the first of many are those of few.
+
+    The circle is about the origin, of a radius between `radii` times the tightest that can be held in the wind, that is
+    in still air the turn radius, held either way; the start is anywhere within `reach` radii of the circle from its
+    centre, on any heading. Raises `InvalidArgument` for fewer than one run and a seed below 0, and as `plan`.
+    """
+    _at_least(1, "runs", runs)
+    _at_least(0, "seed", seed)
+    return [_trial(seed, i, aircraft, wind, radii, reach) for i in range(runs)]
+
+
+def _trial(seed: int, i: int, aircraft: Aircraft, wind: Wind | None, radii: tuple[float, float], reach: float) -> Trial:
+    import numpy as np
+
+    random = np.random.default_rng((seed, i))
+    tightest = tightest_held(*air_past(Orbit(0.0, 0.0, 1.0), aircraft, CALM if wind is None else wind))
+    radius_m = aircraft.turn_radius_m * tightest * random.uniform(*radii)
+    distance_m, azimuth = reach * radius_m * sqrt(random.random()), 2.0 * pi * random.random()
+    pose = Pose(distance_m * cos(azimuth), distance_m * sin(azimuth), 360.0 * random.random())
+    return Trial(plan(pose, Orbit(0.0, 0.0, radius_m), aircraft, wind), int(random.integers(2**63)))
+
+
+def optimal(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
+    """The fastest entry, which may hold the circle either way."""
+    m = trial.ideal
+    return LoiterEntry(m.orbit, m.aircraft, m.wind, roll=roll)
+
+
+def l1(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
+    """L1 as its autopilot's guide says to tune it, told the direction of the fastest entry."""
+    return L1(trial.orbit, trial.ideal.aircraft, trial.ideal.wind, period_s=advised_period_s(roll.time_s))
+
+
+def vector_field(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
+    """The vector field with the gains that its publication asks for, told the direction of the fastest entry."""
+    gains = advised_gains(trial.orbit, trial.ideal.aircraft, roll.time_s)
+    return VectorField(trial.orbit, trial.ideal.aircraft, trial.ideal.wind, gains=gains)
+
+
+def nearest_tangent(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
+    """Dubins' path to the nearest point of the circle, told the direction of the fastest entry."""
+    return Tangent(trial.orbit, trial.ideal.aircraft, trial.ideal.wind, lead_s=roll.time_s)
+
+
+# Each takes a `Roll` too.
+LAWS: dict[str, Callable[..., Law]] = {
+    "optimal": optimal,
+    "l1": l1,
+    "vector-field": vector_field,
+    "tangent": nearest_tangent,
+}
+
+
+def point_mass(trial: Trial, roll: Roll = Roll(), gust: float = 0.05, noise: Noise = Noise()) -> Simulator:  # noqa: B008
+    """The point mass in the steady wind of the trial, with its noise."""
+    m = trial.ideal
+    return PointMass(m.start, m.aircraft, m.wind, seed=trial.seed, roll=roll, gust=gust, noise=noise)
+
+
+def kinematic(trial: Trial) -> Simulator:
+    """The vehicle of the theory, without noise."""
+    return Kinematic(trial.ideal.start, trial.ideal.aircraft, trial.ideal.wind)
+
+
+def outcome(
+    i: int,
+    trial: Trial,
+    law: MakeLaw,
+    simulator: MakeSimulator,
+    band: Band = Band(),  # noqa: B008 (frozen)
+    step_s: float = STEP_S,
+    limit_s: float = LIMIT_S,
+) -> Outcome:
+    """Fly one trial and keep what it came to."""
+    m = trial.ideal
+    flight = fly(law(trial), simulator(trial), m.orbit, band=band, step_s=step_s, limit_s=limit_s)
+    arcs_deg = degrees(sum(abs(segment.curvature_per_m) * segment.length_m for segment in m.segments))
+    return Outcome(
+        i,
+        m.duration_s,
+        flight.settled_s,
+        flight.joined_s,
+        flight.overshoot_m,
+        flight.bank_rate_deg_s,
+        flight.distance_m,
+        flight.settled and flight.turned_deg > arcs_deg + ROUND_DEG,
+        flight.join_error_s,
+    )
+
+
+def campaign(
+    laws: Mapping[str, MakeLaw],
+    simulator: MakeSimulator,
+    starts: Sequence[Trial],
+    *,
+    band: Band = Band(),  # noqa: B008 (frozen)
+    step_s: float = STEP_S,
+    limit_s: float = LIMIT_S,
+    workers: int | None = None,
+    progress: Callable[[int, int], None] = lambda done, of: None,
+) -> dict[str, list[Outcome]]:
+    """Fly each law from each start; for each law the outcomes in the order of the starts.
+
+    What comes out depends on the starts alone, not on how many processes share them: `workers`, as many as there are
+    cores if absent; 1 stays in this one. `progress` is called with the number of starts that are done and of all.
+    Raises `InvalidArgument` for fewer than one worker.
+    """
+    if workers is not None:
+        _at_least(1, "workers", workers)
+    fly_all = partial(_outcomes, tuple(laws.values()), simulator, band, step_s, limit_s)
+    done: list[tuple[Outcome, ...]] = []
+    for row in _shared(fly_all, list(enumerate(starts)), workers):
+        done.append(row)
+        progress(len(done), len(starts))
+    return {name: list(column) for name, column in zip(laws, zip(*done, strict=True), strict=True)}
+
+
+def _outcomes(
+    laws: tuple[MakeLaw, ...],
+    simulator: MakeSimulator,
+    band: Band,
+    step_s: float,
+    limit_s: float,
+    numbered: tuple[int, Trial],
+) -> tuple[Outcome, ...]:
+    return tuple(outcome(*numbered, law, simulator, band, step_s, limit_s) for law in laws)
+
+
+def _shared(
+    job: Callable[[tuple[int, Trial]], tuple[Outcome, ...]], tasks: list[tuple[int, Trial]], workers: int | None
+) -> Iterator[tuple[Outcome, ...]]:
+    if workers == 1:
+        yield from map(job, tasks)
+        return
+    with ProcessPoolExecutor(workers) as pool:
+        yield from pool.map(job, tasks)

@@ -1,0 +1,1 @@
+"""Maneuvers as files for maps: GeoJSON, KML, GPX and CSV."""

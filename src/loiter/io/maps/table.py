@@ -1,0 +1,57 @@
+"""A maneuver as CSV: its track with what path following takes, the unit tangent and the curvature over the ground.
+
+PX4's guidance (NPFG, `navigatePathTangent`) and ArduPilot's (`update_path`, pull request 26328) follow a path that is
+given by its nearest point, its unit tangent towards north and east, and its curvature, which is positive for a right
+turn, as angles grow clockwise from north. So the curvature here has the other sign than everywhere else in this
+package, and says so in its name.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+
+from loiter.geo.frame import LocalFrame
+from loiter.io.maps.places import degrees, true_headings
+from loiter.planning.compass import heading_vector
+from loiter.planning.model import Samples
+
+
+def table(track: Samples, frame: LocalFrame | None, altitude_m: float | None) -> bytes:
+    """Columns of numbers with as many digits as it takes to read them back to the last bit.
+
+    With a frame there are latitude and longitude, and headings, tracks and tangents are from true north; without, from
+    the plane's.
+    """
+    columns = _columns(track, frame)
+    if altitude_m is not None:
+        columns["altitude_m"] = [altitude_m] * track.time_s.size
+    text = io.StringIO(newline="")
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(columns)
+    rows.writerows(zip(*columns.values(), strict=True))
+    return text.getvalue().encode()
+
+
+def _columns(track: Samples, frame: LocalFrame | None) -> dict[str, list[float]]:
+    heading, course = track.heading_deg.tolist(), track.track_deg.tolist()
+    places: dict[str, list[float]] = {}
+    if frame is not None:
+        latitude, longitude = degrees(frame, track.east_m, track.north_m)
+        places = {"latitude_deg": latitude, "longitude_deg": longitude}
+        heading = true_headings(frame, heading, latitude, longitude)
+        course = true_headings(frame, course, latitude, longitude)
+    tangents = [heading_vector(angle) for angle in course]
+    return {
+        "time_s": track.time_s.tolist(),
+        **places,
+        "north_m": track.north_m.tolist(),
+        "east_m": track.east_m.tolist(),
+        "heading_deg": heading,
+        "track_deg": course,
+        "ground_speed_m_s": track.ground_speed_m_s.tolist(),
+        "tangent_north": [north for _, north in tangents],
+        "tangent_east": [east for east, _ in tangents],
+        # From 0.0, so that no straight piece has -0.0.
+        "curvature_right_per_m": (0.0 - track.ground_curvature_per_m).tolist(),
+    }

@@ -1,0 +1,1 @@
+"""Missions and parameters of autopilots as files: .plan, .waypoints, .param."""

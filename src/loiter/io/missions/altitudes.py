@@ -1,0 +1,100 @@
+"""What the altitudes of files are measured from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from loiter.errors import InvalidArgument, number, positive
+from loiter.io.missions.items import Frame
+from loiter.io.missions.limits import HIGHEST_M
+
+
+class AltitudeReference(StrEnum):
+    """What an altitude is measured from: mean sea level, the home position, the ground below."""
+
+    MSL = "msl"
+    HOME = "home"
+    GROUND = "ground"
+
+
+FRAMES = {
+    AltitudeReference.MSL: Frame.ABOVE_SEA,
+    AltitudeReference.HOME: Frame.ABOVE_HOME,
+    AltitudeReference.GROUND: Frame.ABOVE_TERRAIN,
+}
+UNITS = {
+    AltitudeReference.MSL: "metres above mean sea level",
+    AltitudeReference.HOME: "metres above home",
+    AltitudeReference.GROUND: "metres above the ground",
+}
+
+
+@dataclass(frozen=True)
+class AltitudeDatum:
+    """What altitudes are measured from, and home's own altitude: metres above mean sea level, None if it is not given.
+
+    `reference` may be its name: "msl", "home", "ground". Raises `InvalidArgument` for another name, and for an altitude
+    of home that is not finite or that no mission may have.
+    """
+
+    reference: AltitudeReference = AltitudeReference.MSL
+    home_altitude_m: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.reference not in tuple(AltitudeReference):
+            known = ", ".join(AltitudeReference)
+            raise InvalidArgument("altitude_reference", f"is {self.reference!r}: it must be one of {known}")
+        object.__setattr__(self, "reference", AltitudeReference(self.reference))
+        if self.home_altitude_m is not None:
+            home_m = _in_the_air(
+                "home_altitude_m", number("home_altitude_m", self.home_altitude_m, UNITS[AltitudeReference.MSL])
+            )
+            object.__setattr__(self, "home_altitude_m", home_m)
+
+    @property
+    def frame(self) -> Frame:
+        """The frame of mission items with such altitudes."""
+        return FRAMES[self.reference]
+
+    @property
+    def unit(self) -> str:
+        """What an altitude is a number of: "metres above home"."""
+        return UNITS[self.reference]
+
+    def checked(self, altitude_m: object) -> float:
+        """The altitude as a float; raises `InvalidArgument` for one that is not finite or that no mission may have."""
+        check = positive if self.reference == AltitudeReference.GROUND else number
+        return _in_the_air("altitude_m", check("altitude_m", altitude_m, self.unit))
+
+    def above_sea_m(self, altitude_m: float) -> float:
+        """An altitude in metres above mean sea level; raises `InvalidArgument` where that is not known."""
+        if self.reference == AltitudeReference.MSL:
+            return altitude_m
+        if self.reference == AltitudeReference.HOME and self.home_altitude_m is not None:
+            return self.home_altitude_m + altitude_m
+        if self.reference == AltitudeReference.HOME:
+            raise InvalidArgument("home_altitude_m", "is missing: it takes altitudes above home to mean sea level")
+        raise InvalidArgument("altitude_reference", "is ground: how high that is above mean sea level is not known")
+
+    def planned_home_m(self) -> float:
+        """The altitude of the planned home of a mission: metres above mean sea level, 0 where it does not matter.
+
+        A mission above mean sea level does not depend on it; for others raises `InvalidArgument` where it is unknown.
+        """
+        if self.home_altitude_m is not None:
+            return self.home_altitude_m
+        if self.reference == AltitudeReference.MSL:
+            return 0.0
+        raise InvalidArgument(
+            "home_altitude_m", f"is missing: a mission in {self.unit} needs home's own, {UNITS[AltitudeReference.MSL]}"
+        )
+
+
+MEAN_SEA_LEVEL = AltitudeDatum()
+
+
+def _in_the_air(argument: str, altitude_m: float) -> float:
+    if abs(altitude_m) > HIGHEST_M:
+        raise InvalidArgument(argument, f"is {altitude_m:g}: it must be from {-HIGHEST_M:g} to {HIGHEST_M:g} metres")
+    return altitude_m

@@ -1,0 +1,183 @@
+"""Missions as QGroundControl's .plan files (docs.qgroundcontrol.com, Plan File Format): JSON, version 1.
+
+The numbers in DO_JUMP items, which name their goal by its `doJumpId`, are read as those of items counted from 1, home
+being 0.
+"""
+
+from __future__ import annotations
+
+import json
+from math import isfinite, isnan, nan
+from typing import Any
+
+from loiter.errors import as_float
+from loiter.io.missions.items import Autopilot, Frame, Mission, MissionItem
+from loiter.io.missions.limits import MAX_COMMAND, check_place, checked_item, checked_mission
+from loiter.io.reading import Source, shown
+
+FIXED_WING = 1  # MAV_TYPE_FIXED_WING
+DO_JUMP = 177  # MAV_CMD_DO_JUMP
+
+LONGEST_INTEGER = 20
+
+# QGroundControl's AltitudeMode of each frame; 0 is that of a plan whose items differ.
+ALTITUDE_MODES = {Frame.ABOVE_SEA: 2, Frame.ABOVE_HOME: 1, Frame.ABOVE_TERRAIN: 4}
+
+
+def qgcplan(mission: Mission, autopilot: Autopilot, airspeed_m_s: float) -> bytes:
+    """The file. `airspeed_m_s` is the cruise speed with which QGroundControl reckons how long the mission takes."""
+    document = {
+        "fileType": "Plan",
+        "version": 1,
+        "groundStation": "QGroundControl",
+        "geoFence": {"circles": [], "polygons": [], "version": 2},
+        "rallyPoints": {"points": [], "version": 2},
+        "mission": {
+            "version": 2,
+            "firmwareType": int(autopilot),
+            "vehicleType": FIXED_WING,
+            "cruiseSpeed": airspeed_m_s,
+            "hoverSpeed": airspeed_m_s,
+            "globalPlanAltitudeMode": _common_mode(mission),
+            "plannedHomePosition": list(mission.home),
+            "items": [_written(number, item) for number, item in enumerate(mission.items, start=1)],
+        },
+    }
+    return json.dumps(document, indent=4, allow_nan=False).encode() + b"\n"
+
+
+def read_qgcplan(source: Source, text: str) -> Mission:
+    """The mission in the text of a file. Raises `InvalidArgument`."""
+    document = _parsed(source, text)
+    if document.get("fileType") != "Plan":
+        raise source.fault(f"fileType is {shown(document.get('fileType'))}: it must be 'Plan'")
+    _version(source, "version", document, 1)
+    mission = _kind(source, "mission", document.get("mission"), dict, "an object")
+    _version(source, "the version of mission", mission, 2)
+    home = _numbers(source, "plannedHomePosition", mission.get("plannedHomePosition"), 3)
+    check_place(source, "plannedHomePosition", *home)
+    read = [
+        _item(source, f"item {number}", item)
+        for number, item in enumerate(_kind(source, "items", mission.get("items"), list, "a list"), start=1)
+    ]
+    items = _jumps(source, read)
+    return checked_mission(source, Mission(items, (home[0], home[1], home[2])))
+
+
+def _common_mode(mission: Mission) -> int:
+    """The AltitudeMode of all items that have a place."""
+    frames = {item.frame for item in mission.items if item.frame != Frame.NOWHERE}
+    return ALTITUDE_MODES[Frame(frames.pop())] if len(frames) == 1 else 0
+
+
+def _written(number: int, item: MissionItem) -> dict[str, Any]:
+    place = (item.latitude_deg, item.longitude_deg, item.altitude_m)
+    return {
+        "AMSLAltAboveTerrain": None,
+        "Altitude": item.altitude_m,
+        "AltitudeMode": ALTITUDE_MODES.get(Frame(item.frame), 0),
+        "autoContinue": item.autocontinue,
+        "command": int(item.command),
+        "doJumpId": number,
+        "frame": int(item.frame),
+        "params": [*(None if isnan(value) else value for value in item.params), *place],
+        "type": "SimpleItem",
+    }
+
+
+def _parsed(source: Source, text: str) -> dict[str, Any]:
+    """The JSON of a file: an object, no key twice, no nan and no infinity."""
+
+    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        keys = [key for key, _ in pairs]
+        twice = next((key for key in keys if keys.count(key) > 1), None) if len(set(keys)) < len(keys) else None
+        if twice is not None:
+            raise source.fault(f"the key {shown(twice)} stands twice in one object")
+        return dict(pairs)
+
+    def refused(word: str) -> float:
+        raise source.fault(f"{word} is no number in JSON")
+
+    def whole(digits: str) -> float:
+        # Python refuses to read integers of thousands of digits; as a float one that large is infinite.
+        return int(digits) if len(digits) <= LONGEST_INTEGER else float(digits)
+
+    try:
+        document = json.loads(text, object_pairs_hook=once, parse_constant=refused, parse_int=whole)
+    except json.JSONDecodeError as error:
+        raise source.fault(f"it is not JSON, {error.msg.lower()} in line {error.lineno}") from error
+    except RecursionError as error:
+        raise source.fault("its lists and objects are nested too deep") from error
+    checked: dict[str, Any] = _kind(source, "its JSON", document, dict, "an object")
+    return checked
+
+
+def _kind(source: Source, where: str, value: Any, kind: type, wanted: str) -> Any:
+    if not isinstance(value, kind):
+        raise source.fault(f"{where} is {shown(value)}: it must be {wanted}")
+    return value
+
+
+def _version(source: Source, where: str, document: dict[str, Any], wanted: int) -> None:
+    version = document.get("version")
+    if isinstance(version, bool) or version != wanted:
+        raise source.fault(f"{where} is {shown(version)}: only {wanted} is read")
+
+
+def _numbers(source: Source, where: str, value: Any, count: int) -> list[float]:
+    if not isinstance(value, list) or len(value) != count:
+        raise source.fault(f"{where} is not a list of {count} numbers")
+    return [_number(source, where, number) for number in value]
+
+
+def _number(source: Source, where: str, value: Any) -> float:
+    number = as_float(value)
+    if not isfinite(number):
+        raise source.fault(f"{where} has {shown(value)}: it must be a finite number")
+    return number
+
+
+def _integer(source: Source, where: str, value: Any, largest: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= largest:
+        raise source.fault(f"{where} is {shown(value)}: it must be a whole number from 0 to {largest}")
+    return value
+
+
+def _item(source: Source, where: str, value: Any) -> tuple[int | None, MissionItem]:
+    """An item and its `doJumpId`."""
+    item = _kind(source, where, value, dict, "an object")
+    if item.get("type") != "SimpleItem":
+        what = item.get("complexItemType", item.get("type"))
+        raise source.fault(f"{where} is {shown(what)}: only simple items are read; save the plan as waypoints")
+    command = _integer(source, f"{where}: command", item.get("command"), MAX_COMMAND)
+    frame = _integer(source, f"{where}: frame", item.get("frame"), 255)
+    going_on = _kind(source, f"{where}: autoContinue", item.get("autoContinue"), bool, "true or false")
+    params = item.get("params")
+    if not isinstance(params, list) or len(params) != 7:
+        raise source.fault(f"{where}: params is not a list of 7 numbers")
+    # null is nan, the autopilot's own, but for a place.
+    own = [nan if value is None else _number(source, f"{where}: params", value) for value in params[:4]]
+    latitude, longitude, altitude = (_number(source, f"{where}: params", value) for value in params[4:])
+    jump = item.get("doJumpId")
+    number = None if jump is None else _integer(source, f"{where}: doJumpId", jump, MAX_COMMAND)
+    read = MissionItem(command, frame, (own[0], own[1], own[2], own[3]), latitude, longitude, altitude, going_on)
+    return number, checked_item(source, where, read)
+
+
+def _jumps(source: Source, read: list[tuple[int | None, MissionItem]]) -> tuple[MissionItem, ...]:
+    """The items, the goal of each DO_JUMP told by its place instead of its `doJumpId`."""
+    places: dict[float, int] = {}
+    for place, (number, _) in enumerate(read, start=1):
+        if number is not None and places.setdefault(number, place) != place:
+            raise source.fault(f"item {place}: doJumpId is {number}, as of item {places[number]}")
+    return tuple(
+        item if item.command != DO_JUMP else _jump(source, place, item, places)
+        for place, (_, item) in enumerate(read, start=1)
+    )
+
+
+def _jump(source: Source, place: int, item: MissionItem, places: dict[float, int]) -> MissionItem:
+    goal = places.get(item.params[0])
+    if goal is None:
+        raise source.fault(f"item {place}: it jumps to doJumpId {item.params[0]:g}: no item has it")
+    return item._replace(params=(float(goal), *item.params[1:]))

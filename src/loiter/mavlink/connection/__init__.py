@@ -1,0 +1,1 @@
+"""A MAVLink connection: the link, commands, parameters, message streams."""

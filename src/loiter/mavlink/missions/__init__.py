@@ -1,0 +1,1 @@
+"""Missions sent to a vehicle, read back and started."""

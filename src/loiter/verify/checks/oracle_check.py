@@ -1,0 +1,134 @@
+"""The answer beside the oracle's, over random scenes that seek out the hard places."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.util import find_spec
+from math import cos, degrees, pi, sin
+from random import Random
+
+from loiter.errors import InvalidArgument, MissingPackage
+from loiter.planning.model import Aircraft, Orbit, Pose, Turn
+from loiter.planning.solve import plan
+from loiter.verify.checks.oracle import Circle, Found, Planar, Search, from_compass
+
+# What the search resolves, over turn radius plus length. OMPL's path is read, and its start moved, to some 1e-15 turn
+# radii. Next to the circle the least time moves with the root of such a displacement e, by e / sqrt(d) at a distance d:
+# for the nearest scenes (d = 1e-9) and a few roundings of R = 30 some 1e-10. 1e-9 leaves them room.
+RESOLUTION = 1e-9
+
+# The points of joining tried at first, and at most, where the search has not yet found a path as short.
+JOINS, MOST_JOINS = 90, 90_000
+
+RADII = (1.0, 1.0 + 1e-6, 1.05, 1.3, 2.0 - 1e-6, 2.0, 2.0 + 1e-6, 3.0, 5.0, 10.0, 30.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """One comparison: what is planned."""
+
+    place: str
+    pose: Pose
+    orbit: Orbit
+    aircraft: Aircraft
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """What came of one scene: lengths over (turn radius + length), 0 where the two agree or the other is worse.
+
+    `later`: by how much the plan is longer than a path that the search found. `earlier`: by how much the search's best
+    path stays longer than the plan, which the search has to make up by refining.
+    """
+
+    scene: Scene
+    later: float
+    earlier: float
+
+
+def scenes(states: int, seed: int) -> Iterator[Scene]:
+    """Random scenes, the same for the same seed: each place, radius and turn in its turn."""
+    random = Random(seed)
+    places = tuple(PLACES.items())
+    for i in range(states):
+        place, draw = places[i % len(places)]
+        R = random.choice((*RADII, 30.0 ** random.random()))
+        r = random.choice((1.0, 50.0))
+        turn = random.choice(tuple(Turn))
+        x, y, heading = draw(random, R)
+        east, north = random.choice(((0.0, 0.0), (-120.0, 35.0)))
+        pose = Pose(east + r * x, north + r * y, heading)
+        yield Scene(place, pose, Orbit(east, north, R * r, turn), Aircraft(18.0, min_turn_radius_m=r))
+
+
+def anywhere(random: Random, R: float) -> tuple[float, float, float]:
+    """Around the circle, any heading."""
+    size = random.choice((1.0, R, 3.0 * R + 3.0))
+    return random.uniform(-size, size), random.uniform(-size, size), random.uniform(-720.0, 720.0)
+
+
+def on_axes(random: Random, R: float) -> tuple[float, float, float]:
+    """Due north, east, south or west of the centre, on a cardinal heading: the lines x = 0 and y = 0."""
+    distance, heading = random.uniform(-3.0 * R, 3.0 * R), 90.0 * random.randrange(4)
+    return (distance, 0.0, heading) if random.random() < 0.5 else (0.0, distance, heading)
+
+
+def next_to_target(random: Random, R: float) -> tuple[float, float, float]:
+    """Next to the circle and nearly tangent, the right way or the wrong: from 1e-9 turn radii to a tenth."""
+    azimuth, off = random.uniform(0.0, 2.0 * pi), 10.0 ** random.uniform(-9.0, -1.0)
+    distance = R + random.gauss(0.0, off)
+    heading = random.choice((0.0, 180.0)) - degrees(azimuth + random.gauss(0.0, off))
+    return distance * cos(azimuth), distance * sin(azimuth), heading
+
+
+def far_away(random: Random, R: float) -> tuple[float, float, float]:
+    """Up to 10,000 turn radii from the centre."""
+    azimuth, distance = random.uniform(0.0, 2.0 * pi), R + 10.0 ** random.uniform(1.0, 4.0)
+    return distance * cos(azimuth), distance * sin(azimuth), random.uniform(0.0, 360.0)
+
+
+PLACES = {"anywhere": anywhere, "on the axes": on_axes, "next to the target": next_to_target, "far away": far_away}
+
+
+def compare(states: int, seed: int) -> Iterator[Difference]:
+    """Plan and search `states` random scenes, one by one.
+
+    Raises `InvalidArgument` for fewer than one state, `MissingPackage` where OMPL is not installed; both at once.
+    """
+    if states < 1:
+        raise InvalidArgument("states", f"is {states}: it must be at least 1")
+    if find_spec("ompl") is None:
+        raise MissingPackage("the search needs OMPL, which is not installed: pip install ompl")
+    return map(difference, scenes(states, seed))
+
+
+def difference(scene: Scene) -> Difference:
+    """One scene planned and searched. An earlier plan makes the search try ten times as many points of joining."""
+    r = scene.aircraft.turn_radius_m
+    planned = plan(scene.pose, scene.orbit, scene.aircraft).length_m
+    orbit = scene.orbit
+    start = from_compass(scene.pose.east_m - orbit.east_m, scene.pose.north_m - orbit.north_m, scene.pose.heading_deg)
+    search, joins = Search(r), JOINS
+    circle, found = shortest(search, start, orbit, joins)
+    while found.length - planned > RESOLUTION * (r + planned) and joins < MOST_JOINS:
+        joins *= 10
+        circle, found = shortest(search, start, orbit, joins)
+    earlier = (found.length - planned) / (r + planned)
+    later = 0.0
+    if found.length < planned:
+        # OMPL's path may profit from its tolerance: compare from the start from which it really ends on the circle,
+        # about the origin, where no offset rounds the distance from the circle.
+        exact, _ = search.exact_start(start, circle, found)
+        pose = Pose(exact.east, exact.north, 90.0 - degrees(exact.angle))
+        centred = Orbit(0.0, 0.0, orbit.radius_m, orbit.turn)
+        later = (plan(pose, centred, scene.aircraft).length_m - found.length) / (r + planned)
+    return Difference(scene, max(later, 0.0), max(earlier, 0.0))
+
+
+def shortest(search: Search, start: Planar, orbit: Orbit, joins: int) -> tuple[Circle, Found]:
+    """The search's best path onto the circle, for *either* over both directions."""
+    turns = (Turn.CW, Turn.CCW) if orbit.turn == Turn.EITHER else (orbit.turn,)
+    circles = [Circle(orbit.radius_m, turn == Turn.CW) for turn in turns]
+    found = [(circle, search.shortest(start, circle, joins)) for circle in circles]
+    return min(found, key=lambda pair: pair[1].length)

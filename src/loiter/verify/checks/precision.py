@@ -1,0 +1,146 @@
+"""The kernel in 50 digits: the same functions, rebound to mpmath, give the true rounding error of the doubles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
+from math import cos, pi, sin
+from random import Random
+from typing import Any
+
+from loiter.compiled.rebinding import Function, rebound
+from loiter.errors import InvalidArgument, MissingPackage
+from loiter.kernel.codes import Side
+from loiter.kernel.exact import beyond
+from loiter.kernel.switching import switching_abscissa
+from loiter.kernel.synthesis import duration, optimum, rounding
+
+DIGITS = 50
+
+# The largest relative error of T allowed: the worst conditioned of the boundary states below loses two of the sixteen
+# digits, and this leaves one more to spare.
+WORST = 1e-13
+
+# How near to a boundary states are drawn: 1e-12 to 1e-7 turn radii, on either side.
+NEAR = (-12.0, -7.0)
+
+RADII = (1.0, 1.0 + 1e-6, 1.3, 2.0, 2.0 + 1e-6, 3.0, 10.0, 30.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Rounding:
+    """The rounding of one state: T in doubles against T in 50 digits, relative to T."""
+
+    place: str
+    x: float
+    y: float
+    R: float
+    side: Side
+    error: float
+
+    @property
+    def passed(self) -> bool:
+        """Whether the error stays within WORST."""
+        return self.error <= WORST
+
+
+def precision(states: int, seed: int) -> Iterator[Rounding]:
+    """Measure the rounding error of T at `states` random states, most of them next to a boundary of the synthesis.
+
+    Left out are states within rounding of a last circle: there the tolerance decides, on purpose, which side of a jump
+    they are on (docs/theory.md, section 6).
+
+    Raises `InvalidArgument` for fewer than one state, `MissingPackage` where mpmath is not installed; both at once.
+    """
+    if states < 1:
+        raise InvalidArgument("states", f"is {states}: it must be at least 1")
+    if find_spec("mpmath") is None:
+        raise MissingPackage("50 digits need mpmath, which is not installed: pip install mpmath")
+    return (rounded(*state) for state in drawn(states, seed))
+
+
+def rounded(place: str, x: float, y: float, R: float, side: Side) -> Rounding:
+    """The rounding error of T at one state."""
+    from mpmath import mp, mpf
+
+    with mp.workdps(DIGITS):
+        true = duration(_exact_optimum()(mpf(x), mpf(y), mpf(R), side, mpf(0)))
+        _, _, *pieces = optimum(x, y, R, side, 0.0)
+        error = abs(sum(map(mpf, pieces)) - true)
+        return Rounding(place, x, y, R, side, float(error / true if true > 0 else error))
+
+
+@cache
+def _exact_optimum() -> Function:
+    """`optimum` in mpmath's arithmetic, without the tolerance that rounding asks for."""
+    import mpmath
+
+    with mpmath.mp.workdps(DIGITS):
+        names: dict[str, Any] = {name: getattr(mpmath, name) for name in ("atan2", "sqrt", "hypot", "cos", "sin")}
+        names |= {"TWO_PI": 2 * mpmath.pi, "inf": mpmath.inf, "ROUNDING": mpmath.mpf(0)}
+        names |= {"rounding": lambda x, y, R: mpmath.mpf(0)}
+        return rebound(optimum, names)
+
+
+def drawn(states: int, seed: int) -> Iterator[tuple[str, float, float, float, Side]]:
+    """Random states, each place in its turn, the same for the same seed."""
+    random = Random(seed)
+    places = tuple(PLACES.items())
+    count = 0
+    while count < states:
+        place, draw = places[count % len(places)]
+        R, side = random.choice(RADII), random.choice(tuple(Side))
+        x, y = draw(random, R)
+        if x == x and not _on_a_last_circle(x, y, R):
+            count += 1
+            yield place, x, y, R, side
+
+
+def _on_a_last_circle(x: float, y: float, R: float) -> bool:
+    """Whether a state lies on a last circle of either side, up to rounding."""
+    edges = [abs(beyond(x, sign * y, R, k)) for sign in (1.0, -1.0) for k in (2.0, -2.0)]
+    return bool(min(edges) <= 4.0 * (R + 1.0) * rounding(x, y, R))
+
+
+def _off(random: Random) -> float:
+    return random.choice((-1.0, 1.0)) * float(10.0 ** random.uniform(*NEAR))
+
+
+def _next_to_circle(centre: float, less: float) -> Callable[[Random, float], tuple[float, float]]:
+    def draw(random: Random, R: float) -> tuple[float, float]:
+        azimuth, radius = random.uniform(0.0, 2.0 * pi), R + less + _off(random)
+        return radius * cos(azimuth), centre + radius * sin(azimuth)
+
+    return draw
+
+
+def _anywhere(random: Random, R: float) -> tuple[float, float]:
+    size = random.choice((1.0, R, 3.0 * R, 100.0))
+    return random.uniform(-size, size), random.uniform(-size, size)
+
+
+def _next_to_axis(random: Random, R: float) -> tuple[float, float]:
+    return random.uniform(-3.0 * R, 3.0 * R), _off(random)
+
+
+def _next_to_switching_curve(random: Random, R: float) -> tuple[float, float]:
+    y = 2.0 - R - random.uniform(0.0, 1.0)
+    return switching_abscissa(y, R) + _off(random), y
+
+
+def _next_to_target(random: Random, R: float) -> tuple[float, float]:
+    return _off(random), random.choice((R, -R)) + _off(random)
+
+
+PLACES: dict[str, Callable[[Random, float], tuple[float, float]]] = {
+    "anywhere": _anywhere,
+    "last circle of L": _next_to_circle(-1.0, 1.0),
+    "its mirror image": _next_to_circle(1.0, 1.0),
+    "last circle of R": _next_to_circle(1.0, -1.0),
+    "mirror of that": _next_to_circle(-1.0, -1.0),
+    "axis": _next_to_axis,
+    "switching curve": _next_to_switching_curve,
+    "target": _next_to_target,
+}

@@ -1,0 +1,277 @@
+"""Arrays of states: the same answers as one by one, nan and codes where there is none."""
+
+from math import inf, nan
+
+import numpy as np
+import pytest
+
+import loiter
+from golden.paper import EXAMPLES
+from loiter import Aircraft, Orbit, Pose, plan
+from loiter.arrays import Solution
+from loiter.errors import InvalidArgument
+from loiter.kernel.codes import Side, Status
+from loiter.kernel.synthesis import duration, first_control, miss, optimum
+from loiter.kernel.words import Word
+
+RANDOM = np.random.default_rng(7)
+X, Y = RANDOM.uniform(-12.0, 12.0, (2, 3000))
+R = RANDOM.choice([1.0, 1.0 + 1e-6, 1.5, 2.0, 4.0, 9.0], 3000)
+TURNS = RANDOM.choice(["cw", "ccw", "either"], 3000)
+SIDES = {"cw": Side.CW, "ccw": Side.CCW, "either": Side.EITHER}
+MANEUVERS = [optimum(x, y, q, SIDES[t], 0.0) for x, y, q, t in zip(X, Y, R, TURNS, strict=True)]
+
+
+def test_arrays_give_what_the_scalar_functions_give():
+    solution = loiter.solve(X, Y, R, TURNS)
+    assert solution.time == pytest.approx([duration(m) for m in MANEUVERS], abs=1e-13, rel=0.0)
+    assert solution.durations == pytest.approx(np.array([m[2:] for m in MANEUVERS]), abs=1e-13, rel=0.0)
+    assert solution.word.tolist() == [m[1] for m in MANEUVERS]
+    assert solution.side.tolist() == [m[0] for m in MANEUVERS]
+    assert np.all(solution.status == Status.OK)
+    assert solution.miss == pytest.approx(
+        [miss(x, y, q, m) for x, y, q, m in zip(X, Y, R, MANEUVERS, strict=True)], abs=1e-13
+    )
+    assert loiter.min_time(X, Y, R, TURNS) == pytest.approx(solution.time, abs=1e-13, rel=0.0)
+    expected = [first_control(q, maneuver) for q, maneuver in zip(R, MANEUVERS, strict=True)]
+    assert loiter.control(X, Y, R, TURNS).tolist() == expected
+
+
+@pytest.mark.parametrize("case", EXAMPLES, ids=lambda case: case.name)
+def test_the_papers_examples(case):
+    assert loiter.min_time(case.x, case.y) == pytest.approx(case.time, abs=1e-12, rel=0.0)
+    solution = loiter.solve(case.x, case.y)
+    assert Word(solution.word).letters == case.words[0]
+    assert solution.durations == pytest.approx(case.durations, abs=1e-12, rel=0.0)
+
+
+def test_arguments_broadcast():
+    times = loiter.min_time(np.zeros((4, 1)), np.ones(3), radius=2.0, turn="cw")
+    assert times.shape == (4, 3)
+    assert loiter.solve(np.zeros((4, 1)), np.ones(3)).durations.shape == (4, 3, 3)
+    assert np.ndim(loiter.min_time(0.0, 1.0)) == 0
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "radius", "tolerance", "status"),
+    [
+        (nan, 0.0, 1.0, 0.0, Status.NOT_FINITE),
+        (0.0, inf, 1.0, 0.0, Status.NOT_FINITE),
+        (0.0, 0.0, 0.5, 0.0, Status.RADIUS_TOO_SMALL),
+        (1e17, 0.0, 1.0, 0.0, Status.OUT_OF_RANGE),
+        (0.0, 0.0, 1.0, -1.0, Status.BAD_TOLERANCE),
+    ],
+)
+def test_a_bad_state_gives_nan_and_spoils_no_neighbour(x, y, radius, tolerance, status):
+    solution = loiter.solve([x, 4.0], [y, 4.0], [radius, 1.0], "cw", [tolerance, 0.0])
+    assert solution.status.tolist() == [status, Status.OK]
+    assert np.isnan(solution.time[0])
+    assert np.isnan(solution.durations[0]).all()
+    assert np.isnan(solution.miss[0])
+    assert solution.word[0] == Word.EMPTY
+    assert solution.time[1] == pytest.approx(EXAMPLES[0].time)
+    assert np.isnan(loiter.control([x], [y], radius, "cw", tolerance)).all()
+
+
+@pytest.mark.parametrize("turn", ["left", ["cw", "up"], 3, None])
+def test_an_unknown_turn_is_refused(turn):
+    with pytest.raises(InvalidArgument, match="it must be cw, ccw or either"):
+        loiter.min_time([0.0, 1.0], 0.0, 1.0, turn)
+
+
+def test_an_empty_array_stays_empty():
+    assert loiter.min_time([], []).shape == (0,)
+    assert loiter.solve([], []).durations.shape == (0, 3)
+
+
+def test_reduce_agrees_with_planning_one_by_one():
+    uav, orbit = Aircraft(18.0, max_bank_deg=35.0), Orbit(100.0, -40.0, 80.0)
+    east, north = RANDOM.uniform(-500.0, 500.0, (2, 50))
+    heading = np.concatenate([RANDOM.uniform(-720.0, 720.0, 46), [0.0, 90.0, 180.0, 270.0]])
+    x, y = loiter.reduce(east, north, heading, orbit, uav)
+    seconds = uav.turn_radius_m / uav.airspeed_m_s
+    times = loiter.min_time(x, y, orbit.radius_m / uav.turn_radius_m) * seconds
+    expected = [plan(Pose(*pose), orbit, uav).duration_s for pose in zip(east, north, heading, strict=True)]
+    assert times == pytest.approx(expected, abs=1e-9)
+
+
+def test_reduce_is_the_position_seen_along_the_heading():
+    uav, orbit = Aircraft(1.0, min_turn_radius_m=2.0), Orbit(10.0, 20.0, 4.0)
+    # 6 m north of the centre, flying east: 3 turn radii to the left. Flying north: 3 ahead.
+    assert loiter.reduce(10.0, 26.0, 90.0, orbit, uav) == (0.0, 3.0)
+    assert loiter.reduce(10.0, 26.0, 0.0, orbit, uav) == (3.0, 0.0)
+    assert loiter.reduce(10.0, 26.0, 270.0, orbit, uav) == (0.0, -3.0)
+
+
+def test_a_circle_as_tight_as_the_aircraft_turns_is_solved_in_spite_of_rounding():
+    uav = Aircraft(15.0, max_turn_rate_deg_s=53.0)
+    orbit = Orbit(0.0, 0.0, 15.0 * 180.0 / (np.pi * 53.0))
+    R = orbit.radius_m / uav.turn_radius_m
+    assert R == 1.0 - 2.0**-53 or R <= 1.0
+    pose = (90.0, 60.0, 100.0)
+    seconds = uav.turn_radius_m / uav.airspeed_m_s
+    time = loiter.min_time(*loiter.reduce(*pose, orbit, uav), R) * seconds
+    assert time == pytest.approx(plan(Pose(*pose), orbit, uav).duration_s, rel=1e-12)
+
+
+def test_an_endless_tolerance_is_refused():
+    assert loiter.solve(4.0, 4.0, 1.0, "cw", inf).status == Status.BAD_TOLERANCE
+
+
+def test_results_go_where_they_are_wanted():
+    out = np.empty((2, 3000))
+    assert loiter.min_time(X, Y, [[1.0], [2.5]], out=out) is out
+    assert np.array_equal(out, loiter.min_time(X, Y, [[1.0], [2.5]]))
+    blank = loiter.solve(np.zeros(3000), 1.0)
+    assert loiter.solve(X, Y, R, TURNS, out=blank) is blank
+    assert np.array_equal(blank.durations, loiter.solve(X, Y, R, TURNS).durations)
+    x, y = np.empty(3), np.empty(3)
+    loiter.reduce(np.arange(3), 1, 90, Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=1.0), out=(x, y))
+    assert x.tolist() == [0.0, 1.0, 2.0]
+    assert y.tolist() == [1.0, 1.0, 1.0]
+
+
+@pytest.mark.parametrize("workers", [2, 3, -1])
+def test_threads_share_the_work(workers):
+    grid = X.reshape(30, 100), Y.reshape(30, 100), R.reshape(30, 100), TURNS.reshape(30, 100)
+    assert np.array_equal(loiter.min_time(*grid, workers=workers), loiter.min_time(*grid))
+    assert np.array_equal(loiter.control(*grid, workers=workers), loiter.control(*grid))
+    alone, shared = loiter.solve(*grid), loiter.solve(*grid, workers=workers)
+    assert all(np.array_equal(a, b) for a, b in zip(alone, shared, strict=True))
+    assert loiter.min_time(4.0, 4.0, workers=workers) == loiter.min_time(4.0, 4.0)
+    assert loiter.min_time(X[:1], Y[:1], workers=workers).shape == (1,)
+    out = np.empty(3000)
+    loiter.min_time(X, Y, 1.0, workers=workers, out=out)
+    assert np.array_equal(out, loiter.min_time(X, Y))
+
+
+# Where the result lies in the memory of an argument: reversed, one further, one back, every third, the same.
+OVERLAPS = {
+    "reversed": (slice(None, None, -1), slice(None)),
+    "further": (slice(None, -1), slice(1, None)),
+    "back": (slice(1, None), slice(None, -1)),
+    "every third": (slice(0, 1000), slice(0, 3000, 3)),
+    "same": (slice(None), slice(None)),
+}
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3])
+@pytest.mark.parametrize("overlap", OVERLAPS)
+@pytest.mark.parametrize("name", ["min_time", "control"])
+def test_a_result_may_overlap_an_argument(name, overlap, workers):
+    function, (source, target) = getattr(loiter, name), OVERLAPS[overlap]
+    memory, y = X.copy(), Y[source]
+    expected = function(X[source], y)
+    function(memory[source], y, out=memory[target], workers=workers)
+    assert np.array_equal(memory[target], expected)
+    # A number read from where the results go.
+    memory = X.copy()
+    function(memory[-1:].reshape(()), Y, out=memory, workers=workers)
+    assert np.array_equal(memory, function(X[-1], Y))
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3])
+@pytest.mark.parametrize("overlap", OVERLAPS)
+@pytest.mark.parametrize("field", Solution._fields)
+def test_a_solution_may_overlap_its_arguments(field, overlap, workers):
+    source, target = OVERLAPS[overlap]
+    codes = np.array([SIDES[turn] for turn in TURNS], dtype=np.int8)
+    expected = loiter.solve(X[source], Y[source], 1.5, codes[source])
+    x, sides, blank = X.copy(), codes.copy(), loiter.solve(np.zeros(len(X[source])), 1.0)
+    if field == "durations":
+        # The first argument is the last column of the durations, there or elsewhere.
+        memory = np.tile(x[:, np.newaxis], 3)
+        x, out = memory[:, 2], blank._replace(durations=memory[target])
+    else:
+        out = blank._replace(**{field: (x if getattr(blank, field).dtype == float else sides)[target]})
+    found = loiter.solve(x[source], Y[source], 1.5, sides[source], out=out, workers=workers)
+    assert all(np.array_equal(a, b) for a, b in zip(found, expected, strict=True))
+
+
+def test_a_result_that_cannot_be_shared_among_threads_is_filled_all_the_same():
+    filled = np.empty(3000)
+    assert loiter.min_time(X, Y, out=(filled,), workers=2) is filled
+    assert np.array_equal(filled, loiter.min_time(X, Y))
+    with pytest.raises(TypeError, match="must be of ArrayType"):
+        loiter.min_time(X, Y, out=[0.0] * 3000, workers=2)
+
+
+def test_lazy_results_fill_nothing():
+    x = pytest.importorskip("dask.array").from_array(X, chunks=700)
+    out = np.zeros(3000), np.zeros(3000)
+    with pytest.raises(InvalidArgument, match="out is given, and an argument is a lazy array"):
+        loiter.solve(x, Y, out=loiter.solve(X, Y))
+    with pytest.raises(InvalidArgument, match="out is given, and an argument is a lazy array"):
+        loiter.reduce(x, Y, 90.0, Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=1.0), out=out)
+    with pytest.raises(InvalidArgument, match="workers"):
+        loiter.min_time(x, Y, workers=0)
+
+
+@pytest.mark.parametrize("workers", [0, -2, 1.5, "2", None])
+def test_an_impossible_number_of_workers_is_refused(workers):
+    with pytest.raises(InvalidArgument, match="workers"):
+        loiter.min_time([0.0, 1.0], 0.0, workers=workers)
+
+
+@pytest.mark.parametrize("workers", [0, "2"])
+@pytest.mark.parametrize("function", [loiter.min_time, loiter.control, loiter.solve])
+def test_an_impossible_number_of_workers_is_refused_for_arrays_of_other_libraries_too(function, workers):
+    array = pytest.importorskip("dask.array")
+    with pytest.raises(InvalidArgument, match="workers"):
+        function(array.zeros(3), 0.0, workers=workers)
+
+
+def test_turns_may_be_codes():
+    codes = np.array([SIDES[turn] for turn in TURNS], dtype=np.int8)
+    assert np.array_equal(loiter.min_time(X, Y, R, codes), loiter.min_time(X, Y, R, TURNS))
+    assert loiter.min_time(0.0, 1.0, 1.0, Side.CW) == 0.0
+
+
+# Pickling a ufunc looks through all modules, and mpmath, which other tests load, warns of that.
+@pytest.mark.filterwarnings(r"ignore:the \w+ (private )?module is deprecated:DeprecationWarning:mpmath")
+def test_dask_arrays_stay_lazy_and_chunked():
+    array = pytest.importorskip("dask.array")
+    x, y = array.from_array(X, chunks=700), array.from_array(Y, chunks=700)
+    times, solution = loiter.min_time(x, y, 2.5, "cw"), loiter.solve(x, y, 2.5, "cw")
+    assert times.chunks == x.chunks
+    assert np.array_equal(times.compute(scheduler="threads"), loiter.min_time(X, Y, 2.5, "cw"))
+    assert np.array_equal(loiter.control(x, y).compute(scheduler="processes", num_workers=1), loiter.control(X, Y))
+    expected = loiter.solve(X, Y, 2.5, "cw")
+    for lazy, values in zip(solution, expected, strict=True):
+        assert np.array_equal(lazy.compute(scheduler="threads"), values)
+    orbit, uav = Orbit(10.0, 20.0, 80.0), Aircraft(18.0, max_bank_deg=35.0)
+    for lazy, values in zip(loiter.reduce(x, y, 30.0, orbit, uav), loiter.reduce(X, Y, 30.0, orbit, uav), strict=True):
+        assert lazy.compute() == pytest.approx(values, abs=1e-15)
+
+
+def test_columns_of_pandas_stay_columns():
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"x": X, "y": Y}, index=np.arange(3000) + 7)
+    times = loiter.min_time(frame.x, frame.y, 1.5)
+    assert times.index.equals(frame.index)
+    assert np.array_equal(times, loiter.min_time(X, Y, 1.5))
+    assert np.array_equal(loiter.solve(frame.x, frame.y).time, loiter.solve(X, Y).time)
+    x, _ = loiter.reduce(frame.x, frame.y, 90.0, Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=1.0))
+    assert x.index.equals(frame.index)
+
+
+@pytest.mark.parametrize("function", [loiter.min_time, loiter.control])
+def test_columns_stay_columns_whatever_the_number_of_workers(function):
+    """Threads are for NumPy's arrays alone, also where some arguments are numbers."""
+    pandas, array = pytest.importorskip("pandas"), pytest.importorskip("dask.array")
+    column = function(pandas.Series(X), Y, 1.5, workers=2)
+    assert isinstance(column, pandas.Series)
+    assert np.array_equal(column, function(X, Y, 1.5))
+    lazy = function(array.from_array(X, chunks=700), Y, 1.5, workers=2)
+    assert lazy.chunks == ((700, 700, 700, 700, 200),)
+
+
+def test_arrays_of_xarray_keep_their_names():
+    xarray = pytest.importorskip("xarray")
+    x = xarray.DataArray(X.reshape(30, 100), dims=("run", "step"))
+    y = xarray.DataArray(Y[:100], dims=("step",))
+    times = loiter.min_time(x, y)
+    assert times.dims == ("run", "step")
+    assert np.array_equal(times, loiter.min_time(X.reshape(30, 100), Y[:100]))
+    lazy = xarray.apply_ufunc(loiter.min_time, x.chunk(run=10), y, dask="parallelized", output_dtypes=[float])
+    assert np.array_equal(lazy.compute(), times)
