@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 from loiter.compiled.rebinding import Function, rebound
 from loiter.kernel import motion
 from loiter.kernel.synthesis import ROUNDING
-from loiter.planning.compass import heading_vector, wrapped
-from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment, Wind
+from loiter.planning.compass import heading_after, heading_vector, wrapped
+from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment, Wind, moved
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -108,9 +108,12 @@ def _flown(start: Pose, u: int, length_m: Any, aircraft: Aircraft, wind: Wind, f
     t, time_s = length_m / r, length_m / aircraft.airspeed_m_s
     east, north, _, _ = fly(0.0, 0.0, *heading_vector(start.heading_deg), u, t)
     wind_east, wind_north = wind.velocity_m_s
-    # A heading is counted clockwise, a control counter-clockwise. A large heading, not wrapped, would swallow the turn.
-    heading = wrapped(wrapped(start.heading_deg) - u * t * degrees(1.0))
-    return start.east_m + r * east + wind_east * time_s, start.north_m + r * north + wind_north * time_s, heading
+    heading = heading_after(start.heading_deg, u * t)
+    return (
+        moved(start.east_m + r * east, wind_east, time_s),
+        moved(start.north_m + r * north, wind_north, time_s),
+        heading,
+    )
 
 
 @cache

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple
 from loiter.errors import InvalidArgument, positive
 from loiter.kernel.hold import held, hold_rate, phase_of
 from loiter.planning.compass import heading_vector, wrapped
-from loiter.planning.feasibility import SIDES, air_past, check_held
+from loiter.planning.feasibility import check_held, radius_in_turns, relative_wind
 from loiter.planning.flight import over_ground
 from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind
+from loiter.planning.sides import SIDES
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -75,7 +76,7 @@ class Hold:
     def at(self, azimuth_deg: float) -> HoldPoint:
         """Heading, track, ground speed and bank at an azimuth."""
         east, north = heading_vector(azimuth_deg)
-        phase = phase_of(east, north, SIDES[self.turn], *air_past(self.orbit, self.aircraft, self.wind))
+        phase = phase_of(east, north, SIDES[self.turn], *relative_wind(self.orbit, self.aircraft, self.wind))
         return self._at(phase)._replace(azimuth_deg=wrapped(azimuth_deg))
 
     def sample(self, step_deg: float = 1.0) -> Round:
@@ -91,7 +92,7 @@ class Hold:
 
     def _at(self, phase: float) -> HoldPoint:
         r, side = self.aircraft.turn_radius_m, SIDES[self.turn]
-        scene = self.orbit.radius_m / r, *air_past(self.orbit, self.aircraft, self.wind)
+        scene = radius_in_turns(self.orbit, self.aircraft), *relative_wind(self.orbit, self.aircraft, self.wind)
         x, y, c, s, _ = held(phase, side, *scene)
         heading_deg = wrapped(degrees(atan2(c, s)))
         track_deg, speed = over_ground(heading_deg, self.aircraft, self.wind)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import atan2, degrees, hypot, inf, radians, tan
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
 from loiter.errors import InvalidArgument, as_float, not_negative, number, positive
 from loiter.planning.compass import heading_vector
@@ -13,6 +13,9 @@ from loiter.planning.compass import heading_vector
 if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import NDArray
+
+# A number of seconds, or an array of them.
+AnyTime = TypeVar("AnyTime")
 
 STANDARD_GRAVITY_M_S2 = 9.80665  # exact by definition (3rd CGPM, 1901)
 
@@ -35,6 +38,11 @@ def wind_velocity(speed_m_s: float, from_deg: float) -> tuple[float, float]:
     east, north = heading_vector(from_deg)
     # From 0.0, so that no component is -0.0.
     return 0.0 - speed_m_s * east, 0.0 - speed_m_s * north
+
+
+def moved(place: Any, velocity: Any, time_s: Any) -> Any:
+    """A coordinate `time_s` seconds later at a constant velocity; numbers or arrays."""
+    return place + velocity * time_s
 
 
 # The values of a `Turn`, which may be given in its place.
@@ -167,8 +175,13 @@ class Orbit:
         """The circle `time_s` seconds later: itself unless it moves."""
         if not self.moves:
             return self
-        east_m, north_m = self.velocity_east_m_s * time_s, self.velocity_north_m_s * time_s
-        return replace(self, east_m=self.east_m + east_m, north_m=self.north_m + north_m)
+        east_m, north_m = self.centre_after(time_s)
+        return replace(self, east_m=east_m, north_m=north_m)
+
+    def centre_after(self, time_s: AnyTime) -> tuple[AnyTime, AnyTime]:
+        """East and north of the centre `time_s` seconds later, metres: numbers for a number, arrays for an array."""
+        velocity_east, velocity_north = self.velocity_east_m_s, self.velocity_north_m_s
+        return moved(self.east_m, velocity_east, time_s), moved(self.north_m, velocity_north, time_s)
 
     def distance_m(self, pose: Pose) -> float:
         """Distance of a pose from the centre, metres."""

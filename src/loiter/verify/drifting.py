@@ -24,7 +24,8 @@ from loiter.kernel.synthesis import ROUNDING, rounding
 from loiter.kernel.words import Word
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
-from loiter.planning.scaling import SIDES, Drifting, drifting, time_unit_s
+from loiter.planning.problem import WindProblem, problem_of
+from loiter.planning.sides import SIDES
 from loiter.verify.proof import SAMPLES, Candidate, PieceState, Residual, durations_of, side_of, word_of
 
 # A piece as short as this is what rounding may leave of none: p is then looked for without it too.
@@ -85,7 +86,7 @@ class Costate(NamedTuple):
 class Flight(NamedTuple):
     """A maneuver in the kernel's terms, with its adjoint."""
 
-    scene: Drifting
+    scene: WindProblem
     side: int
     lam: float
     legs: list[Leg]
@@ -134,7 +135,7 @@ def inner(a: complex, b: complex) -> float:
 
 def flight_of(maneuver: Maneuver, tolerance_m: float) -> Flight:
     """The maneuver flown from its start, its letters and its durations alone."""
-    scene = drifting(maneuver.start, maneuver.orbit, maneuver.aircraft, maneuver.wind, tolerance_m)
+    scene = problem_of(maneuver, tolerance_m).in_wind()
     word, times, side = word_of(maneuver), durations_of(maneuver), int(SIDES[side_of(maneuver)])
     size = rounding(scene.x, scene.y, scene.R)
     end = 3.0 * size + 2.0 * ROUNDING * sum(times)
@@ -147,7 +148,7 @@ def flight_of(maneuver: Maneuver, tolerance_m: float) -> Flight:
     return min(flights, key=violated, default=Flight(scene, side, 1.0, [], size, end))
 
 
-def legs_of(scene: Drifting, controls: list[int], times: list[float], costate: Costate) -> list[Leg]:
+def legs_of(scene: WindProblem, controls: list[int], times: list[float], costate: Costate) -> list[Leg]:
     """The pieces flown one after the other."""
     q, e, w, phi = complex(scene.x, scene.y), complex(scene.c, scene.s), complex(scene.wx, scene.wy), costate.phi
     legs = []
@@ -158,7 +159,7 @@ def legs_of(scene: Drifting, controls: list[int], times: list[float], costate: C
     return legs
 
 
-def costates(scene: Drifting, side: int, controls: list[int], times: list[float]) -> Iterator[Costate]:
+def costates(scene: WindProblem, side: int, controls: list[int], times: list[float]) -> Iterator[Costate]:
     """Every p and lambda that the pieces may have."""
     legs = legs_of(scene, controls, times, Costate(1.0 + 0.0j, 1.0, 0.0))
     if not legs:
@@ -228,7 +229,7 @@ def residuals(flight: Flight, maneuver: Maneuver, others: tuple[Candidate, ...])
         yield from _motions(flight)
         yield from _maximum_principle(flight)
         yield from _bellman(flight)
-    unit_s = time_unit_s(maneuver.aircraft)
+    unit_s = problem_of(maneuver).time_unit_s
     sooner = max((-other.later_s / unit_s for other in others), default=0.0)
     note = f"{others[0].word} {others[0].turn.value} is faster" if sooner > flight.tie else ""
     yield Residual("fastest", "T is the least of all candidates", max(0.0, sooner), flight.tie, note)
@@ -319,7 +320,7 @@ class GradientEstimate(NamedTuple):
     bound: float
 
 
-def _gradient(scene: Drifting) -> GradientEstimate | None:
+def _gradient(scene: WindProblem) -> GradientEstimate | None:
     """The gradient of the kernel's T by position and heading, and its accuracy; None where quotients do not settle.
 
     As `bellman`: quotients at two steps differ by their truncation, those to either side by h T'' or by a corner.
@@ -339,7 +340,7 @@ def _gradient(scene: Drifting) -> GradientEstimate | None:
     return best if best is not None and best.bound <= RESOLVED * hypot(*best.gradient) else None
 
 
-def _moved(scene: Drifting, axis: int, h: float) -> Drifting:
+def _moved(scene: WindProblem, axis: int, h: float) -> WindProblem:
     """The scene with its start moved east or north, or its heading turned to the left."""
     if axis == 2:
         e = complex(scene.c, scene.s) * exp(1j * h)
@@ -347,5 +348,5 @@ def _moved(scene: Drifting, axis: int, h: float) -> Drifting:
     return scene._replace(x=scene.x + h * (axis == 0), y=scene.y + h * (axis == 1))
 
 
-def _least_time(scene: Drifting) -> float:
+def _least_time(scene: WindProblem) -> float:
     return wind_search.time_of(wind_search.fastest(*scene))
