@@ -63,7 +63,7 @@ def joined_at(phase, side):
     """The first way to another point of the circle: flown right, but not the fastest."""
     pose, orbit, uav, wind = SCENE
     scene = drifting(pose, orbit, uav, wind, 0.0)
-    inner = wind_search.scene_of(*scene[:5], scene.wx, scene.wy)
+    inner = wind_search.scene_of(scene)
     way = wind_search.first_path(phase, side, inner, inf)
     return maneuver(pose, orbit, uav, wind, (side, *way[1:5]), 0.0)
 

@@ -5,8 +5,9 @@ from math import hypot
 from loiter.errors import RadiusTooSmall, WindTooStrong
 from loiter.kernel import wind_search
 from loiter.kernel.codes import Side, Status
-from loiter.kernel.hold import tightest_held
+from loiter.kernel.hold import tightest_radius
 from loiter.kernel.synthesis import ROUNDING
+from loiter.kernel.wind_search import WindProblem
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
 
 SIDES = {Turn.CW: Side.CW, Turn.CCW: Side.CCW, Turn.EITHER: Side.EITHER}
@@ -28,7 +29,7 @@ def relative(air: tuple[float, float], circle: tuple[float, float], airspeed: fl
 def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:
     """Raise where the aircraft cannot hold the circle all round: `WindTooStrong` or `RadiusTooSmall`."""
     (wx, wy), R = air_past(orbit, aircraft, wind), orbit.radius_m / aircraft.turn_radius_m
-    status = wind_search.status_of(0.0, 0.0, 1.0, 0.0, R, wx, wy)
+    status = wind_search.status_of(WindProblem(0.0, 0.0, 1.0, 0.0, R, Side.EITHER, wx, wy))
     if status == Status.WIND_TOO_STRONG:
         V, speed = aircraft.airspeed_m_s, hypot(wx, wy) * aircraft.airspeed_m_s
         raise WindTooStrong(
@@ -60,7 +61,7 @@ def _air(orbit: Orbit, speed: float) -> str:
 
 
 def _not_held(orbit: Orbit, aircraft: Aircraft, wx: float, wy: float) -> str:
-    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_held(wx, wy)
+    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_radius(wx, wy)
     bank = f"{aircraft.bank_deg(orbit.radius_m / tightest):.4g} deg"
     if aircraft.max_bank_deg is not None:
         limit, need = f"{aircraft.max_bank_deg:.4g} deg of bank", bank

@@ -8,7 +8,8 @@ from typing import NamedTuple
 from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, not_negative
 from loiter.kernel import motion, wind_search
 from loiter.kernel.codes import Side, Status
-from loiter.kernel.synthesis import REACH, ROUNDING, Entry, held_radius, status_of
+from loiter.kernel.synthesis import REACH, ROUNDING, Entry, rounded_radius, status_of
+from loiter.kernel.wind_search import WindProblem
 from loiter.kernel.words import Word
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import SIDES as SIDES
@@ -30,22 +31,6 @@ class Scene(NamedTuple):
     tolerance: float
 
 
-class Drifting(NamedTuple):
-    """The kernel's arguments in wind, relative to the circle, x east and y north.
-
-    The start, its heading as a unit vector, radius, side, the velocity of the air past the circle.
-    """
-
-    x: float
-    y: float
-    c: float
-    s: float
-    R: float
-    side: Side
-    wx: float
-    wy: float
-
-
 def normalised(pose: Pose, orbit: Orbit, aircraft: Aircraft, tolerance_m: float) -> Scene:
     """The kernel's arguments for a scene in still air; raises for a circle too tight or a scene too large."""
     r = aircraft.turn_radius_m
@@ -53,7 +38,7 @@ def normalised(pose: Pose, orbit: Orbit, aircraft: Aircraft, tolerance_m: float)
     # Coordinates far from their origin carry the rounding of their own size into a small difference.
     size = abs(pose.east_m) + abs(orbit.east_m) + abs(pose.north_m) + abs(orbit.north_m)
     tolerance = max(not_negative("tolerance_m", tolerance_m, "metres"), ROUNDING * size) / r
-    scene = Scene(x, y, held_radius(radius_in_turns(orbit, aircraft)), SIDES[orbit.turn], tolerance)
+    scene = Scene(x, y, rounded_radius(radius_in_turns(orbit, aircraft)), SIDES[orbit.turn], tolerance)
     status = status_of(scene.x, scene.y, scene.R, scene.tolerance)
     if status == Status.RADIUS_TOO_SMALL:
         raise RadiusTooSmall(too_tight(orbit, aircraft))
@@ -62,13 +47,13 @@ def normalised(pose: Pose, orbit: Orbit, aircraft: Aircraft, tolerance_m: float)
     return scene
 
 
-def drifting(pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind, tolerance_m: float) -> Drifting:
+def drifting(pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind, tolerance_m: float) -> WindProblem:
     """The kernel's arguments for a scene in wind; raises for a circle that cannot be held and a scene too large."""
     not_negative("tolerance_m", tolerance_m, "metres")
     check_held(orbit, aircraft, wind)
     R, (wx, wy) = radius_in_turns(orbit, aircraft), air_past(orbit, aircraft, wind)
-    scene = Drifting(*_place(pose, orbit, aircraft), *heading_vector(pose.heading_deg), R, SIDES[orbit.turn], wx, wy)
-    if wind_search.status_of(*scene[:5], wx, wy) != Status.OK or not _numbers(aircraft):
+    scene = WindProblem(*_place(pose, orbit, aircraft), *heading_vector(pose.heading_deg), R, SIDES[orbit.turn], wx, wy)
+    if wind_search.status_of(scene) != Status.OK or not _numbers(aircraft):
         raise _too_large(pose, orbit, aircraft)
     return scene
 

@@ -8,7 +8,7 @@ from loiter.errors import NotConverged
 from loiter.kernel import wind_search
 from loiter.kernel.codes import Status
 from loiter.kernel.synthesis import Entry, duration, miss, optima, optimum, ranked
-from loiter.kernel.wind_search import WindEntry
+from loiter.kernel.wind_search import WindEntry, WindProblem
 from loiter.planning.feasibility import air_past
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
@@ -122,15 +122,15 @@ def _tied(known: Sequence[Solved], orbit: Orbit, aircraft: Aircraft) -> tuple[Ma
     asked = [_asked_as(one, orbit) for one in known if orbit.turn in (Turn.EITHER, one.maneuver.turn)]
     R = radius_in_turns(orbit, aircraft)
     least = min(candidate.time for candidate in asked)
-    return tuple(candidate.maneuver for candidate in asked if wind_search.tied(candidate.time, least, R))
+    return tuple(candidate.maneuver for candidate in asked if wind_search.is_tie(candidate.time, least, R))
 
 
 def _optimum_alone(*scene: Any) -> list[Entry]:
     return [optimum(*scene)]
 
 
-def _fastest_alone(*scene: Any) -> list[WindEntry]:
-    return [wind_search.fastest(*scene)]
+def _fastest_alone(problem: WindProblem) -> list[WindEntry]:
+    return [wind_search.fastest(problem)]
 
 
 def _solved(
@@ -150,7 +150,7 @@ def _solved(
             Solved(maneuver(pose, orbit, aircraft, wind, entry, _missed(scene, entry)), duration(entry))
             for entry in in_still_air(*scene)
         )
-    found = in_wind(*drifting(pose, orbit, aircraft, wind, tolerance_m))
+    found = in_wind(drifting(pose, orbit, aircraft, wind, tolerance_m))
     if not found or found[0].status != Status.OK:
         raise NotConverged(
             f"{Status.NOT_CONVERGED.message}: pose {pose.east_m:g} {pose.north_m:g} {pose.heading_deg:g}, wind "

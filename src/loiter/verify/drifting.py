@@ -21,10 +21,11 @@ from typing import NamedTuple
 
 from loiter.kernel import wind_search
 from loiter.kernel.synthesis import ROUNDING, rounding
+from loiter.kernel.wind_search import WindProblem
 from loiter.kernel.words import Word
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
-from loiter.planning.scaling import SIDES, Drifting, drifting, time_unit_s
+from loiter.planning.scaling import SIDES, drifting, time_unit_s
 from loiter.verify.proof import SAMPLES, Candidate, PieceState, Residual, durations_of, side_of, word_of
 
 # A piece as short as this is what rounding may leave of none: p is then looked for without it too.
@@ -85,7 +86,7 @@ class Costate(NamedTuple):
 class Flight(NamedTuple):
     """A maneuver in the kernel's terms, with its adjoint."""
 
-    scene: Drifting
+    scene: WindProblem
     side: int
     lam: float
     legs: list[Leg]
@@ -117,7 +118,7 @@ class Flight(NamedTuple):
     @property
     def tie(self) -> float:
         """Durations are equal that differ by less."""
-        return wind_search.TIED * (1.0 + self.scene.R + sum(leg.t for leg in self.legs)) + 2.0 * self.size
+        return wind_search.TIE_TOLERANCE * (1.0 + self.scene.R + sum(leg.t for leg in self.legs)) + 2.0 * self.size
 
     @property
     def flown(self) -> tuple[complex, complex]:
@@ -147,7 +148,7 @@ def flight_of(maneuver: Maneuver, tolerance_m: float) -> Flight:
     return min(flights, key=violated, default=Flight(scene, side, 1.0, [], size, end))
 
 
-def legs_of(scene: Drifting, controls: list[int], times: list[float], costate: Costate) -> list[Leg]:
+def legs_of(scene: WindProblem, controls: list[int], times: list[float], costate: Costate) -> list[Leg]:
     """The pieces flown one after the other."""
     q, e, w, phi = complex(scene.x, scene.y), complex(scene.c, scene.s), complex(scene.wx, scene.wy), costate.phi
     legs = []
@@ -158,7 +159,7 @@ def legs_of(scene: Drifting, controls: list[int], times: list[float], costate: C
     return legs
 
 
-def costates(scene: Drifting, side: int, controls: list[int], times: list[float]) -> Iterator[Costate]:
+def costates(scene: WindProblem, side: int, controls: list[int], times: list[float]) -> Iterator[Costate]:
     """Every p and lambda that the pieces may have."""
     legs = legs_of(scene, controls, times, Costate(1.0 + 0.0j, 1.0, 0.0))
     if not legs:
@@ -319,7 +320,7 @@ class GradientEstimate(NamedTuple):
     bound: float
 
 
-def _gradient(scene: Drifting) -> GradientEstimate | None:
+def _gradient(scene: WindProblem) -> GradientEstimate | None:
     """The gradient of the kernel's T by position and heading, and its accuracy; None where quotients do not settle.
 
     As `bellman`: quotients at two steps differ by their truncation, those to either side by h T'' or by a corner.
@@ -332,14 +333,14 @@ def _gradient(scene: Drifting) -> GradientEstimate | None:
         fine = Gradient(*((after - before) / (2.0 * h) for after, before in sides))
         bend = hypot(*(after - 2.0 * T + before for after, before in sides)) / h
         if coarse is not None:
-            rounded = 2.0 * wind_search.TIED * (1.0 + scene.R + T) / h
+            rounded = 2.0 * wind_search.TIE_TOLERANCE * (1.0 + scene.R + T) / h
             off = hypot(*(a - b for a, b in zip(fine, coarse, strict=True))) + bend + rounded
             best = GradientEstimate(fine, off) if best is None or off < best.bound else best
         coarse = fine
     return best if best is not None and best.bound <= RESOLVED * hypot(*best.gradient) else None
 
 
-def _moved(scene: Drifting, axis: int, h: float) -> Drifting:
+def _moved(scene: WindProblem, axis: int, h: float) -> WindProblem:
     """The scene with its start moved east or north, or its heading turned to the left."""
     if axis == 2:
         e = complex(scene.c, scene.s) * exp(1j * h)
@@ -347,5 +348,5 @@ def _moved(scene: Drifting, axis: int, h: float) -> Drifting:
     return scene._replace(x=scene.x + h * (axis == 0), y=scene.y + h * (axis == 1))
 
 
-def _least_time(scene: Drifting) -> float:
-    return wind_search.time_of(wind_search.fastest(*scene))
+def _least_time(scene: WindProblem) -> float:
+    return wind_search.time_of(wind_search.fastest(scene))
