@@ -7,7 +7,7 @@ import pytest
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.codes import Side
-from loiter.kernel.wind_search import fastest
+from loiter.kernel.wind_search import WindProblem, fastest
 from loiter.verify.checks import wind_scan_check as module
 from loiter.verify.checks.collocation import collocate
 from loiter.verify.checks.oracle import Circle, Planar
@@ -89,7 +89,7 @@ def test_a_dozen_collocations_in_wind_agree():
     for scene in windy(12):
         east, north, angle = scene.start
         wind = scene.wind_east, scene.wind_north
-        answer = fastest(east, north, cos(angle), sin(angle), scene.radius, scene.side, *wind)
+        answer = fastest(WindProblem(east, north, cos(angle), sin(angle), scene.radius, scene.side, *wind))
         flight = collocate(scene.start, [Circle(scene.radius, circle.clockwise) for circle in scene.circles()], wind)
         later = sum(answer[3:6]) - flight.time
         assert later <= flight.error + 1e-12 < inf

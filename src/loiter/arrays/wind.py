@@ -11,6 +11,7 @@ from loiter.arrays.arguments import side_codes
 from loiter.arrays.threads import share_work, thread_count
 from loiter.compiled.rebinding import Function
 from loiter.kernel import wind_search
+from loiter.kernel.wind_search import WindEntry, WindProblem
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -81,11 +82,10 @@ def solve_in_wind(
     count = thread_count(workers) if len(states) > states.shape[1] else min(1, thread_count(workers))
     solve_rows = rows_in_wind(len(states) >= COMPILED_FROM)
     share_work(lambda rows, out: solve_rows(rows, out[0]), (states,), (answers,), count)
-    shape = columns[0].shape
-    status, side, word = (answers[:, i].astype(np.int8).reshape(shape) for i in range(3))
-    durations = answers[:, 3:6].reshape((*shape, 3))
-    azimuth, miss = (answers[:, i].reshape(shape) for i in (6, 7))
-    return WindSolution(durations.sum(axis=-1), word, durations, status, side, azimuth, miss)
+    found: Any = WindEntry(*(column.reshape(columns[0].shape) for column in answers.T))
+    status, side, word = (codes.astype(np.int8) for codes in (found.status, found.side, found.word))
+    durations = np.stack([found.t1, found.t2, found.t3], axis=-1)
+    return WindSolution(durations.sum(axis=-1), word, durations, status, side, found.azimuth, found.miss)
 
 
 # From here on compiling takes less time than solving by plain Python.
@@ -99,7 +99,7 @@ def rows_in_wind(compiled: bool) -> Function:
 
 def _plain_in_wind(states: NDArray[np.float64], answers: NDArray[np.float64]) -> None:
     for i, (x, y, c, s, R, side, wx, wy) in enumerate(states.tolist()):
-        answers[i] = wind_search.fastest(x, y, c, s, R, int(side), wx, wy)
+        answers[i] = wind_search.fastest(WindProblem(x, y, c, s, R, int(side), wx, wy))
 
 
 @cache

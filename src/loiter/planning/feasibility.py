@@ -5,9 +5,10 @@ from typing import NamedTuple
 
 from loiter.errors import RadiusTooSmall, WindTooStrong
 from loiter.kernel import wind_search
-from loiter.kernel.codes import Status
-from loiter.kernel.hold import tightest_held
+from loiter.kernel.codes import Side, Status
+from loiter.kernel.hold import tightest_radius
 from loiter.kernel.synthesis import ROUNDING
+from loiter.kernel.wind_search import WindProblem
 from loiter.planning.model import Aircraft, Orbit, Wind
 
 
@@ -45,7 +46,7 @@ def radius_in_turns(orbit: Orbit, aircraft: Aircraft) -> float:
 def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:
     """Raise `WindTooStrong` or `RadiusTooSmall` where the aircraft cannot hold the circle at every azimuth."""
     air, R = relative_wind(orbit, aircraft, wind), radius_in_turns(orbit, aircraft)
-    status = wind_search.status_of(0.0, 0.0, 1.0, 0.0, R, *air)
+    status = wind_search.status_of(WindProblem(0.0, 0.0, 1.0, 0.0, R, Side.EITHER, *air))
     if status == Status.WIND_TOO_STRONG:
         V, speed = aircraft.airspeed_m_s, hypot(*air) * aircraft.airspeed_m_s
         raise WindTooStrong(
@@ -78,7 +79,7 @@ def _air(orbit: Orbit, speed: float) -> str:
 
 def _not_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> str:
     """The error message for a circle that is too tight to be held in the wind."""
-    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_held(*air)
+    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_radius(*air)
     bank = f"{aircraft.bank_deg(orbit.radius_m / tightest):.4g} deg"
     if aircraft.max_bank_deg is not None:
         limit, need = f"{aircraft.max_bank_deg:.4g} deg of bank", bank

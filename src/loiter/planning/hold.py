@@ -7,7 +7,7 @@ from math import atan2, degrees, pi
 from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.errors import InvalidArgument, positive
-from loiter.kernel.hold import held, hold_rate, phase_of
+from loiter.kernel.hold import hold_pose, hold_rate, phase_of
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.feasibility import check_held, radius_in_turns, relative_wind
 from loiter.planning.flight import over_ground
@@ -93,7 +93,7 @@ class Hold:
     def _at(self, phase: float) -> HoldPoint:
         r, side = self.aircraft.turn_radius_m, SIDES[self.turn]
         scene = radius_in_turns(self.orbit, self.aircraft), *relative_wind(self.orbit, self.aircraft, self.wind)
-        x, y, c, s, _ = held(phase, side, *scene)
+        x, y, c, s, _ = hold_pose(phase, side, *scene)
         heading_deg = wrapped(degrees(atan2(c, s)))
         track_deg, speed = over_ground(heading_deg, self.aircraft, self.wind)
         bank_deg = self.aircraft.bank_deg(r / hold_rate(phase, side, *scene))

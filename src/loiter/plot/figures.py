@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 
 from loiter.arrays import control
 from loiter.compiled.rebinding import Function, rebound
-from loiter.kernel.adjoint import adjoint, turned
+from loiter.kernel.adjoint import adjoint, turn_adjoint
 from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow
 from loiter.kernel.switching import last_arc_abscissa, switching_abscissa
 from loiter.kernel.synthesis import Entry, duration, optima, ranked
-from loiter.kernel.words import Word
+from loiter.kernel.words import Word, controls
 from loiter.planning.model import CONTROLS
 from loiter.plot.picture import CHORD_RAD, COLOURS, MARKS
 
@@ -114,13 +114,12 @@ def figure_2() -> Figure:
 
 
 def _draw_adjoint(axes: Axes, x: float, y: float, maneuver: Entry) -> None:
-    side, word, first, middle, last = maneuver
-    lam, psi1, psi2 = adjoint(x, y, 1.0, side, word, first, middle, last)
-    u = CONTROLS[Word(word).letters[1]]
-    psi = turned(psi1, psi2, -u, first)
+    lam, psi1, psi2 = adjoint(x, y, 1.0, maneuver)
+    _, u, _ = controls(maneuver.word)
+    psi, middle = turn_adjoint(psi1, psi2, -u, maneuver.t1), maneuver.t2
     times = np.linspace(0.0, middle, 3 + ceil(middle / CHORD_RAD))
-    arc = np.array([turned(*psi, u, t) for t in times.tolist()]).T
-    axes.plot(*np.array([turned(1.0, 0.0, u, t) for t in np.linspace(0.0, 2.0 * pi, 181)]).T, **AID, gid="circle")
+    arc = np.array([turn_adjoint(*psi, u, t) for t in times.tolist()]).T
+    axes.plot(*np.array([turn_adjoint(1.0, 0.0, u, t) for t in np.linspace(0.0, 2.0 * pi, 181)]).T, **AID, gid="circle")
     axes.axvline(lam, linestyle=(0, (4, 3)), **AID, gid="lambda")
     _draw_piece(axes, Piece(u, *arc))
     for name, (x1, x2) in (("first switch", arc[:, 0].tolist()), ("second switch", arc[:, -1].tolist())):

@@ -21,10 +21,11 @@ from typing import NamedTuple
 
 from loiter.kernel import wind_search
 from loiter.kernel.synthesis import ROUNDING, rounding
+from loiter.kernel.wind_search import WindProblem
 from loiter.kernel.words import Word
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
-from loiter.planning.problem import WindProblem, problem_of
+from loiter.planning.problem import problem_of
 from loiter.planning.sides import SIDES
 from loiter.verify.proof import SAMPLES, Candidate, PieceState, Residual, durations_of, side_of, word_of
 
@@ -118,7 +119,7 @@ class Flight(NamedTuple):
     @property
     def tie(self) -> float:
         """Durations are equal that differ by less."""
-        return wind_search.TIED * (1.0 + self.scene.R + sum(leg.t for leg in self.legs)) + 2.0 * self.size
+        return wind_search.TIE_TOLERANCE * (1.0 + self.scene.R + sum(leg.t for leg in self.legs)) + 2.0 * self.size
 
     @property
     def flown(self) -> tuple[complex, complex]:
@@ -333,7 +334,7 @@ def _gradient(scene: WindProblem) -> GradientEstimate | None:
         fine = Gradient(*((after - before) / (2.0 * h) for after, before in sides))
         bend = hypot(*(after - 2.0 * T + before for after, before in sides)) / h
         if coarse is not None:
-            rounded = 2.0 * wind_search.TIED * (1.0 + scene.R + T) / h
+            rounded = 2.0 * wind_search.TIE_TOLERANCE * (1.0 + scene.R + T) / h
             off = hypot(*(a - b for a, b in zip(fine, coarse, strict=True))) + bend + rounded
             best = GradientEstimate(fine, off) if best is None or off < best.bound else best
         coarse = fine
@@ -349,4 +350,4 @@ def _moved(scene: WindProblem, axis: int, h: float) -> WindProblem:
 
 
 def _least_time(scene: WindProblem) -> float:
-    return wind_search.time_of(wind_search.fastest(*scene))
+    return wind_search.time_of(wind_search.fastest(scene))

@@ -25,9 +25,9 @@ from math import atan2, hypot, pi, sqrt
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, as_float
-from loiter.kernel.adjoint import adjoint, switching_function, turned
+from loiter.kernel.adjoint import adjoint, switching_function, turn_adjoint
 from loiter.kernel.motion import flow
-from loiter.kernel.synthesis import REACH, rounding
+from loiter.kernel.synthesis import REACH, Entry, rounding
 from loiter.kernel.words import Word, controls, encode, rest
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
@@ -114,7 +114,7 @@ class Piece(NamedTuple):
     def at(self, s: float) -> PieceState:
         """State, adjoint and phi after a time s of this piece."""
         x, y = flow(self.x, self.y, self.u, s)
-        psi1, psi2 = turned(self.psi1, self.psi2, self.u, s)
+        psi1, psi2 = turn_adjoint(self.psi1, self.psi2, self.u, s)
         return PieceState(x, y, psi1, psi2, switching_function(x, y, psi1, psi2))
 
     @property
@@ -228,7 +228,7 @@ def _pieces(x: float, y: float, R: float, side: int, word: int, durations: list[
     """The multiplier lambda and the pieces of a word flown from (x, y), with psi."""
     pieces = []
     t1, t2, t3 = [*durations, 0.0, 0.0, 0.0][:3]
-    lam, psi1, psi2 = adjoint(x, y, R, side, word, t1, t2, t3)
+    lam, psi1, psi2 = adjoint(x, y, R, Entry(side, word, t1, t2, t3))
     for letter, t in zip(Word(word).letters, durations, strict=True):
         pieces.append(Piece(CONTROLS[letter], t, x, y, psi1, psi2))
         x, y, psi1, psi2, _ = pieces[-1].at(t)
