@@ -12,7 +12,7 @@ from loiter.kernel import wind_search
 from loiter.kernel.codes import Side, Status
 from loiter.kernel.words import Word
 from loiter.planning.model import TURN_LIMITS
-from loiter.planning.scaling import SIDES
+from loiter.planning.sides import SIDES
 
 LIMITS = {"max_bank_deg": (20.0, 50.0), "min_turn_radius_m": (20.0, 60.0), "max_turn_rate_deg_s": (15.0, 40.0)}
 # A local origin beside the circle, and coordinates of a map projection.

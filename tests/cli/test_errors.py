@@ -172,6 +172,6 @@ def test_an_interrupt_ends_quietly(capsys, monkeypatch):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(planning, "compared", interrupted)
+    monkeypatch.setattr(planning, "best_and_others", interrupted)
     assert main(plan()) == 130
     assert capsys.readouterr() == ("", "")

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, candidates, plan_all
-from loiter.planning.solve import compared, each_way
+from loiter.planning.problem import Problem
+from loiter.planning.solve import best_and_others, best_each_way
 from strategies import scenes, windy_scenes
 
 
@@ -22,19 +23,19 @@ def one_by_one(pose, orbit, aircraft, wind, tolerance_m=0.0):
 @given(scenes())
 @settings(deadline=None)
 def test_in_still_air_it_is_both(scene):
-    assert compared(*scene, tolerance_m=0.1) == one_by_one(*scene, None, 0.1)
+    assert best_and_others(Problem(*scene, tolerance_m=0.1)) == one_by_one(*scene, None, 0.1)
 
 
 @given(windy_scenes())
 @settings(max_examples=15, deadline=None)
 def test_in_wind_it_is_both(scene):
-    assert compared(*scene) == one_by_one(*scene)
+    assert best_and_others(Problem(*scene)) == one_by_one(*scene)
 
 
 def test_in_wind_those_that_tie_are_all_optimal():
     # Head on into the wind: the mirror image joins at the same time.
     scene = Pose(0.0, -600.0, 0.0), Orbit(0.0, 0.0, 150.0), Aircraft(18.0, max_bank_deg=35.0), Wind(6.0, 0.0)
-    best, others = compared(*scene)
+    best, others = best_and_others(Problem(*scene))
     assert {m.turn for m in best} == {Turn.CW, Turn.CCW}
     assert (best, others) == one_by_one(*scene)
 
@@ -45,10 +46,12 @@ def durations_by_turn(best, others):
 
 
 def assert_the_least_of_each_direction(scene):
-    best, others = each_way(*scene)
+    best, others = best_each_way(Problem(*scene))
     assert len(best) + len(others) == 2
     # Candidates of one direction that are one maneuver up to rounding stand for one another.
-    assert durations_by_turn(best, others) == pytest.approx(durations_by_turn(*compared(*scene)), rel=1e-11, abs=1e-11)
+    assert durations_by_turn(best, others) == pytest.approx(
+        durations_by_turn(*best_and_others(Problem(*scene))), rel=1e-11, abs=1e-11
+    )
 
 
 @given(scenes())
@@ -65,5 +68,5 @@ def test_in_wind_each_way_is_the_least_of_its_direction(scene):
 
 def test_each_way_both_are_optimal_where_they_tie():
     scene = Pose(0.0, -600.0, 0.0), Orbit(0.0, 0.0, 150.0), Aircraft(18.0, max_bank_deg=35.0), Wind(6.0, 0.0)
-    best, others = each_way(*scene)
+    best, others = best_each_way(Problem(*scene))
     assert ({m.turn for m in best}, others) == ({Turn.CW, Turn.CCW}, ())

@@ -11,7 +11,9 @@ import loiter
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, hold, plan, plan_all
 from loiter.errors import InvalidArgument
 from loiter.kernel import wind_search
-from loiter.planning.scaling import drifting, maneuver
+from loiter.kernel.synthesis import Entry
+from loiter.planning.problem import Problem
+from loiter.planning.scaling import maneuver
 from loiter.verify import certify
 from loiter.verify.checks.wind_scan_check import scenes
 from strategies import windy_scenes
@@ -62,10 +64,11 @@ def test_a_loser_is_an_extremal_that_is_not_the_fastest():
 def joined_at(phase, side):
     """The first way to another point of the circle: flown right, but not the fastest."""
     pose, orbit, uav, wind = SCENE
-    scene = drifting(pose, orbit, uav, wind, 0.0)
+    problem = Problem(pose, orbit, uav, wind)
+    scene = problem.in_wind()
     inner = wind_search.scene_of(scene)
     way = wind_search.first_path(phase, side, inner, inf)
-    return maneuver(pose, orbit, uav, wind, (side, *way[1:5]), 0.0)
+    return maneuver(problem, Entry(side, *way[1:5]), 0.0)
 
 
 @pytest.mark.parametrize("phase", [0.5, 2.0, 4.5])
@@ -117,7 +120,7 @@ def test_on_the_circle_there_is_nothing_to_prove_but_that(azimuth, turn):
 @pytest.mark.parametrize("azimuth", [20.0, 200.0])
 def test_a_single_arc_is_proved(u, azimuth):
     """Flown backwards from the circle: on the last arc already."""
-    scene = drifting(SCENE[0], ORBIT, UAV, WIND, 0.0)
+    scene = Problem(SCENE[0], ORBIT, UAV, WIND).in_wind()
     point = hold(ORBIT, UAV, WIND, turn="cw").at(azimuth)
     angle, w, sign, t = (90.0 - point.heading_deg) * pi / 180.0, complex(scene.wx, scene.wy), {"L": 1, "R": -1}[u], 0.4
     out = (90.0 - azimuth) * pi / 180.0

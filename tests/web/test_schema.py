@@ -49,4 +49,4 @@ def test_requests_forbid_what_they_do_not_know(name):
 
 @pytest.mark.parametrize("example", [EXAMPLE, IN_WIND])
 def test_the_examples_can_be_planned(example):
-    assert Scene.model_validate(example).asked().aircraft.turn_radius_m > 0.0
+    assert Scene.model_validate(example).placed().problem.aircraft.turn_radius_m > 0.0

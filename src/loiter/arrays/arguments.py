@@ -8,8 +8,8 @@ import numpy as np
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.codes import Side
-from loiter.planning.feasibility import SIDES
 from loiter.planning.model import Turn
+from loiter.planning.sides import SIDES
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache, reduce
-from math import degrees, inf, nan
+from math import inf, nan
 from operator import and_
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,9 +16,9 @@ from loiter.kernel import motion
 from loiter.kernel.codes import Status
 from loiter.kernel.synthesis import REACH, ROUNDING
 from loiter.kernel.words import Word
-from loiter.planning.compass import wrapped
-from loiter.planning.feasibility import relative
-from loiter.planning.model import CONTROLS, radius_at_bank, radius_at_rate, wind_velocity
+from loiter.planning.compass import heading_after
+from loiter.planning.feasibility import RelativeWind, relative_velocity
+from loiter.planning.model import CONTROLS, moved, radius_at_bank, radius_at_rate, wind_velocity
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -163,7 +163,7 @@ def _in_wind(s: States, solve_rows: Function) -> Entries:
     x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
     scenes = np.empty((len(s.east_m), 8))
     columns = np.where(refused, nan, x), y, *heading_vectors()(s.heading_deg), s.orbit_radius_m / r, s.side
-    for i, column in enumerate((*columns, *_air_past(s))):
+    for i, column in enumerate((*columns, *_relative_wind(s))):
         scenes[:, i] = column
     answers = np.empty_like(scenes)
     solve_rows(scenes, answers)
@@ -190,29 +190,27 @@ def _windy(s: States) -> NDArray[np.intp]:
     """The numbers of the rows whose circle the air passes."""
     if not any(np.ndim(v) or v for v in (s.wind_speed_m_s, s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)):
         return np.empty(0, dtype=np.intp)
-    wx, wy = _air_past(s)
-    return np.flatnonzero(np.broadcast_to((wx != 0.0) | (wy != 0.0), s.east_m.shape))
+    return np.flatnonzero(np.broadcast_to(np.logical_not(_relative_wind(s).still), s.east_m.shape))
 
 
-def _air_past(s: States) -> Any:
-    """As `held.air_past`."""
+def _relative_wind(s: States) -> RelativeWind:
+    """`feasibility.relative_wind` of each row."""
     velocity = rebound(wind_velocity, {"heading_vector": heading_vectors()})
     air, circle = velocity(s.wind_speed_m_s, s.wind_from_deg), (s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)
-    return rebound(relative, {"hypot": np.hypot})(air, circle, s.airspeed_m_s)
+    return RelativeWind(*rebound(relative_velocity, {"hypot": np.hypot})(air, circle, s.airspeed_m_s))
 
 
 def _joining_heading(s: States, word: Any, durations: Any) -> Any:
     turned = sum(u.take(word) * t for u, t in zip(_CONTROLS, durations.T, strict=True))
-    # A heading is counted clockwise, a control counter-clockwise. A large heading, not reduced, would swallow the turn.
-    return wrapped(np.fmod(s.heading_deg, 360.0) - turned * degrees(1.0))
+    return heading_after(s.heading_deg, turned)
 
 
 def _centre_after(s: States, time_s: Any) -> tuple[Any, Any]:
     """Where the circle's centre is when it is joined."""
     if not any(np.ndim(v) or v for v in (s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)):
         return s.orbit_east_m, s.orbit_north_m
-    east_m, north_m = s.orbit_velocity_east_m_s * time_s, s.orbit_velocity_north_m_s * time_s
-    return s.orbit_east_m + east_m, s.orbit_north_m + north_m
+    east_m = moved(s.orbit_east_m, s.orbit_velocity_east_m_s, time_s)
+    return east_m, moved(s.orbit_north_m, s.orbit_velocity_north_m_s, time_s)
 
 
 def _kernel(x: Any, y: Any, R: Any, side: Any, tolerance: Any) -> tuple[Any, ...]:
@@ -234,7 +232,7 @@ def _radius(limit: str) -> Function:
 
 
 def _tolerance(s: States, r: Any) -> Any:
-    """The tolerance as a normalised length, not below the rounding of the coordinates: as `scaling.normalised`.
+    """The tolerance as a normalised length, not below the rounding of the coordinates: as `Problem.reduced`.
 
     The kernel itself allows for the rounding of x, y and R. Where the centre is no further from the origin than the
     circle is large, that of the coordinates is at most twice as much, |e| + |n| <= sqrt(2) (|x| + |y|) r + centre, and

@@ -28,7 +28,7 @@ from loiter.batch.tables.columns import (
 )
 from loiter.kernel.codes import Status
 from loiter.planning.model import Turn
-from loiter.planning.scaling import SIDES
+from loiter.planning.sides import SIDES
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

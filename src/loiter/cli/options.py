@@ -11,8 +11,10 @@ from cyclopts import Group, Parameter
 
 from loiter.errors import InvalidArgument, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
+from loiter.geo.placed import PlacedProblem
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind
+from loiter.planning.problem import Problem
 
 if TYPE_CHECKING:
     from loiter.io.missions.parameters import Preset
@@ -312,29 +314,28 @@ class MissionOptions:
         return CHORD_ERROR_M if self.chord_error is None else self.chord_error
 
 
-class Scene(NamedTuple):
-    """What is to be planned; `frame` where places were given in degrees; `remark`: what the user should read first."""
+class OptionsRead(NamedTuple):
+    """The problem that the options of a command describe, and a remark that the user should read first, if any."""
 
-    start: Pose
-    circle: Orbit
-    aircraft: Aircraft
-    wind: Wind
-    frame: LocalFrame | None
+    placed: PlacedProblem
     remark: str
 
 
-def scene_of(
+def read_options(
     start: StartOptions,
     orbit: OrbitOptions,
     aircraft: AircraftOptions,
     wind: WindOptions,
+    *,
+    tolerance_m: float = 0.0,
     datum: AltitudeDatum = MEAN_SEA_LEVEL,
-) -> Scene:
-    """The scene that the options describe; raises `InvalidArgument` where they contradict or fall short."""
+) -> OptionsRead:
+    """The problem that the options describe; raises `InvalidArgument` where they contradict each other or fall short."""
     preset = aircraft.preset()
     aircraft = aircraft.above_sea(preset, datum)
     pose, circle, frame = placed(start, orbit, preset)
-    return Scene(pose, circle, aircraft.aircraft(preset), wind.moving_air, frame, aircraft.remark(preset))
+    problem = Problem(pose, circle, aircraft.aircraft(preset), wind.moving_air, tolerance_m)
+    return OptionsRead(PlacedProblem(problem, frame), aircraft.remark(preset))
 
 
 def placed(

@@ -1,9 +1,10 @@
-"""Compass headings (degrees clockwise from north) and directions, the one place where the two conventions meet.
+"""Compass headings (degrees clockwise from north): the one place where they meet mathematical angles.
 
-Both functions are free of branches, so that `compiled.rebinding.rebound` makes them serve arrays.
+The functions have no branches, so that they serve arrays, after `compiled.rebinding.rebound` where they call `math`.
 """
 
-from math import cos, floor, fmod, radians, sin
+from math import cos, degrees, floor, fmod, radians, sin
+from typing import Any
 
 
 def heading_vector(heading_deg: float) -> tuple[float, float]:
@@ -21,6 +22,14 @@ def heading_vector(heading_deg: float) -> tuple[float, float]:
     sq, cq = odd - 2.0 * odd * flip, (1.0 - odd) * (1.0 - 2.0 * flip)
     s, c = sin(rest), cos(rest)
     return sq * c + cq * s, cq * c - sq * s
+
+
+def heading_after(heading_deg: Any, turned: Any) -> Any:
+    """The heading after a turn through `turned` radians, counter-clockwise positive, in [0, 360); numbers or arrays.
+
+    A heading is counted clockwise. One far beyond 360 degrees is wrapped first: it would swallow the turn's digits.
+    """
+    return wrapped(wrapped(heading_deg) - turned * degrees(1.0))
 
 
 def wrapped(heading_deg: float) -> float:

@@ -1,6 +1,7 @@
-"""Whether an aircraft can hold a circle in the air that passes it, and the sentence where it cannot."""
+"""Feasibility: whether an aircraft can hold a circle in the wind, and the error message where it cannot."""
 
 from math import hypot
+from typing import NamedTuple
 
 from loiter.errors import RadiusTooSmall, WindTooStrong
 from loiter.kernel import wind_search
@@ -8,40 +9,56 @@ from loiter.kernel.codes import Side, Status
 from loiter.kernel.hold import tightest_radius
 from loiter.kernel.synthesis import ROUNDING
 from loiter.kernel.wind_search import WindProblem
-from loiter.planning.model import Aircraft, Orbit, Turn, Wind
-
-SIDES = {Turn.CW: Side.CW, Turn.CCW: Side.CCW, Turn.EITHER: Side.EITHER}
+from loiter.planning.model import Aircraft, Orbit, Wind
 
 
-def air_past(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> tuple[float, float]:
-    """The velocity of the air past the circle over the airspeed, east and north; none where rounding alone is left."""
-    return relative(wind.velocity_m_s, (orbit.velocity_east_m_s, orbit.velocity_north_m_s), aircraft.airspeed_m_s)
+class RelativeWind(NamedTuple):
+    """The velocity of the air past the circle over the airspeed, east and north: numbers, or arrays of them."""
+
+    x: float
+    y: float
+
+    @property
+    def still(self) -> bool:
+        """Whether the circle meets still air."""
+        return (self.x == 0.0) & (self.y == 0.0)
 
 
-def relative(air: tuple[float, float], circle: tuple[float, float], airspeed: float) -> tuple[float, float]:
-    """The velocity of the air less that of the circle, over the airspeed; free of branches, so as to serve arrays."""
+def relative_wind(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> RelativeWind:
+    """The velocity of the air past the circle over the airspeed; zero where nothing but rounding is left."""
+    circle = orbit.velocity_east_m_s, orbit.velocity_north_m_s
+    return RelativeWind(*relative_velocity(wind.velocity_m_s, circle, aircraft.airspeed_m_s))
+
+
+def relative_velocity(air: tuple[float, float], circle: tuple[float, float], airspeed: float) -> tuple[float, float]:
+    """The velocity of the air less that of the circle, over the airspeed. Without branches: it serves arrays."""
     wx, wy = air[0] - circle[0], air[1] - circle[1]
     passes = hypot(wx, wy) > ROUNDING * (hypot(*air) + hypot(*circle))
-    # To 0.0, so that no component is -0.0.
+    # Adding 0.0 turns -0.0 into 0.0.
     return wx * passes / airspeed + 0.0, wy * passes / airspeed + 0.0
 
 
+def radius_in_turns(orbit: Orbit, aircraft: Aircraft) -> float:
+    """R, the radius of the circle in turn radii of the aircraft."""
+    return orbit.radius_m / aircraft.turn_radius_m
+
+
 def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:
-    """Raise where the aircraft cannot hold the circle all round: `WindTooStrong` or `RadiusTooSmall`."""
-    (wx, wy), R = air_past(orbit, aircraft, wind), orbit.radius_m / aircraft.turn_radius_m
-    status = wind_search.status_of(WindProblem(0.0, 0.0, 1.0, 0.0, R, Side.EITHER, wx, wy))
+    """Raise `WindTooStrong` or `RadiusTooSmall` where the aircraft cannot hold the circle at every azimuth."""
+    air, R = relative_wind(orbit, aircraft, wind), radius_in_turns(orbit, aircraft)
+    status = wind_search.status_of(WindProblem(0.0, 0.0, 1.0, 0.0, R, Side.EITHER, *air))
     if status == Status.WIND_TOO_STRONG:
-        V, speed = aircraft.airspeed_m_s, hypot(wx, wy) * aircraft.airspeed_m_s
+        V, speed = aircraft.airspeed_m_s, hypot(*air) * aircraft.airspeed_m_s
         raise WindTooStrong(
             f"{_air(orbit, speed)} leaves an aircraft of {V:g} m/s no circle to hold: "
             f"its airspeed must be above {speed:.4g} m/s"
         )
     if status in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
-        raise RadiusTooSmall(too_tight(orbit, aircraft) if wx == wy == 0.0 else _not_held(orbit, aircraft, wx, wy))
+        raise RadiusTooSmall(too_tight(orbit, aircraft) if air.still else _not_held(orbit, aircraft, air))
 
 
 def too_tight(orbit: Orbit, aircraft: Aircraft) -> str:
-    """The sentence for a circle that is tighter than the turn radius."""
+    """The error message for a circle that is tighter than the turn radius."""
     r, V, needed = aircraft.turn_radius_m, aircraft.airspeed_m_s, aircraft.bank_deg(orbit.radius_m)
     if aircraft.max_bank_deg is not None:
         limit, need = f" and {aircraft.max_bank_deg:.4g} deg of bank", f"{needed:.4g} deg"
@@ -60,8 +77,9 @@ def _air(orbit: Orbit, speed: float) -> str:
     return f"air that passes the circle at {speed:.4g} m/s" if orbit.moves else f"a wind of {speed:.4g} m/s"
 
 
-def _not_held(orbit: Orbit, aircraft: Aircraft, wx: float, wy: float) -> str:
-    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_radius(wx, wy)
+def _not_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> str:
+    """The error message for a circle that is too tight to be held in the wind."""
+    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_radius(*air)
     bank = f"{aircraft.bank_deg(orbit.radius_m / tightest):.4g} deg"
     if aircraft.max_bank_deg is not None:
         limit, need = f"{aircraft.max_bank_deg:.4g} deg of bank", bank
@@ -71,6 +89,6 @@ def _not_held(orbit: Orbit, aircraft: Aircraft, wx: float, wy: float) -> str:
     else:
         limit, need = f"a turn radius of {r:.4g} m", f"a turn radius of {orbit.radius_m / tightest:.4g} m"
     return (
-        f"orbit radius {orbit.radius_m:g} m cannot be held in {_air(orbit, hypot(wx, wy) * V)} "
+        f"orbit radius {orbit.radius_m:g} m cannot be held in {_air(orbit, hypot(*air) * V)} "
         f"at {V:g} m/s and {limit}: it needs {tightest * r:.4g} m, or {need}"
     )

@@ -1,6 +1,6 @@
-"""Plans: the optimum, every optimum, every extremal."""
+"""Plans: the optimum, all optima, all extremals."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -9,27 +9,27 @@ from loiter.kernel import wind_search
 from loiter.kernel.codes import Status
 from loiter.kernel.synthesis import Entry, duration, miss, optima, optimum, ranked
 from loiter.kernel.wind_search import WindEntry, WindProblem
-from loiter.planning.feasibility import air_past
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
-from loiter.planning.scaling import Scene, drifting, maneuver, normalised, radius_in_turns
+from loiter.planning.problem import Problem
+from loiter.planning.scaling import maneuver
 
 
 def plan(
     pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, tolerance_m: float = 0.0
 ) -> Maneuver:
-    """The fastest way from `pose` onto `orbit`, to be joined tangentially and held in the direction `orbit.turn`.
+    """The fastest maneuver from `pose` onto `orbit`, which it joins tangentially and in the direction `orbit.turn`.
 
     In still air (`wind` None, or as fast as the circle moves) the answer is the fastest of the extremals of the maximum
     principle that docs/theory.md, section 3, lists, in closed form: proved to be the optimum for a circle of the
-    minimum turn radius, cross-checked for wider ones. In wind, and onto a circle that moves, it is joined tangentially
-    as the circle sees it, over the ground if it stands still, and found by branch and bound over the point of joining
-    (docs/wind.md). Where several maneuvers are optimal it is one of them; `plan_all` gives them all.
+    minimum turn radius, cross-checked for wider ones. In wind, and onto a moving circle, the path is tangential in the
+    frame of the circle, and is found by branch and bound over the point of joining (docs/wind.md). Where several
+    maneuvers are optimal, one of them is returned; `plan_all` returns all.
 
-    In still air the least time jumps where the start passes the last arc (docs/theory.md, section 6): just beyond, the
-    aircraft must go round. A start that lies beyond by rounding counts as on the arc; `tolerance_m` (metres) widens
-    that to the noise of a sensor. The maneuver then misses the tangent point by no more than that, as its `miss_m`
-    says. In wind the time does not jump there, and the tolerance is not used.
+    In still air the least time jumps where the start crosses the last arc (docs/theory.md, section 6): just beyond it
+    the aircraft must fly a full turn more. A start beyond it by rounding counts as on the arc; `tolerance_m` (metres)
+    extends that to the noise of a sensor. The maneuver then misses the tangent point by at most that distance, which is
+    its `miss_m`. In wind the time does not jump there, and the tolerance is not used.
 
     Raises `RadiusTooSmall` where the aircraft cannot hold the circle, `WindTooStrong` where the air passes it as fast
     as the aircraft flies, `OutOfRange` where coordinates are so large that doubles cannot tell one turn from the next,
@@ -44,65 +44,69 @@ def plan(
     >>> m.word, m.turn.value, round(m.duration_s, 2)
     ('RSL', 'cw', 13.55)
     """
-    best, *_ = _solved(pose, orbit, aircraft, wind, tolerance_m, _optimum_alone, _fastest_alone)
-    return best.maneuver
+    return fastest(Problem(pose, orbit, aircraft, CALM if wind is None else wind, tolerance_m))
 
 
 def plan_all(
     pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, tolerance_m: float = 0.0
 ) -> tuple[Maneuver, ...]:
-    """Every optimal maneuver, those that tie up to rounding; the fastest first. As `plan` else.
+    """All optimal maneuvers, which tie up to rounding, the fastest first. Arguments and errors as for `plan`.
 
-    On a circle of the turn radius held either way in still air they are 1, 2 or 4 (paper, section 6); elsewhere there
-    may be 3. In wind two tie seldom but where a mirror shows the same scene.
+    For a circle of the turn radius, held in either direction in still air, there are 1, 2 or 4 (paper, section 6); for
+    other circles there may be 3. In wind ties are rare except in scenes that are their own mirror image.
     """
-    found = _solved(pose, orbit, aircraft, wind, tolerance_m, optima, wind_search.optima)
-    return tuple(one.maneuver for one in found)
+    return all_fastest(Problem(pose, orbit, aircraft, CALM if wind is None else wind, tolerance_m))
 
 
 def candidates(
     pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, tolerance_m: float = 0.0
 ) -> tuple[Maneuver, ...]:
-    """The extremals of docs/theory.md, section 3, fastest first and losers too, for the turn asked for. As `plan`.
+    """All extremals of docs/theory.md, section 3, in the direction `orbit.turn`, the fastest first.
 
-    In wind: the maneuvers to points of the circle that are met sooner than the points beside them, as far as 128 points
-    all round tell them apart.
+    Arguments and errors as for `plan`. In wind: the maneuvers to points of joining that are local minima of the time,
+    as far as 128 points round the circle resolve them.
     """
-    found = _solved(pose, orbit, aircraft, wind, tolerance_m, ranked, wind_search.ranked)
-    return tuple(one.maneuver for one in found)
+    return extremals(Problem(pose, orbit, aircraft, CALM if wind is None else wind, tolerance_m))
 
 
-def compared(
-    pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, tolerance_m: float = 0.0
-) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
-    """What `plan_all` gives, and every other extremal, of the other direction too, fastest first. As `plan`.
+def fastest(problem: Problem) -> Maneuver:
+    """The answer of `plan` to a problem."""
+    best, *_ = solved(problem, _optimum_alone, _fastest_alone)
+    return best.maneuver
 
-    In wind it takes half the time of `plan_all` and `candidates` one after the other.
+
+def all_fastest(problem: Problem) -> tuple[Maneuver, ...]:
+    """The answer of `plan_all` to a problem."""
+    return maneuvers(solved(problem, optima, wind_search.optima))
+
+
+def extremals(problem: Problem) -> tuple[Maneuver, ...]:
+    """The answer of `candidates` to a problem."""
+    return maneuvers(solved(problem, ranked, wind_search.ranked))
+
+
+def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
+    """The maneuvers of `plan_all`, and every other extremal, of the other direction too, fastest first.
+
+    Raises as `plan`. In wind it takes half the time of `plan_all` and `candidates` one after the other.
     """
-    wind, either = CALM if wind is None else wind, replace(orbit, turn=Turn.EITHER)
-    known = _solved(pose, either, aircraft, wind, tolerance_m, ranked, wind_search.ranked)
-    if air_past(orbit, aircraft, wind) == (0.0, 0.0):
-        best = plan_all(pose, orbit, aircraft, wind, tolerance_m=tolerance_m)
-    else:
-        best = _tied(known, orbit, aircraft)
-    others = (candidate.maneuver for candidate in known)
+    known = solved(problem.with_turn(Turn.EITHER), ranked, wind_search.ranked)
+    best = all_fastest(problem) if problem.still else _tied(known, problem)
+    others = maneuvers(known)
     return best, tuple(m for m in others if not any(m.turn == b.turn and m.segments == b.segments for b in best))
 
 
-def each_way(
-    pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, tolerance_m: float = 0.0
-) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
-    """The fastest maneuver of each direction as `compared` tells them: two where they tie, or the best and the other.
+def best_each_way(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
+    """The best maneuver of each direction, as `best_and_others` orders them: two where they tie, or one and the other.
 
-    In wind it takes half the time of `compared`. As `plan` else.
+    Raises as `plan`. In wind it takes half the time of `best_and_others`.
     """
     found: list[Solved] = []
     for turn in (Turn.CW, Turn.CCW):
-        one_way = replace(orbit, turn=turn)
-        found += _solved(pose, one_way, aircraft, wind, tolerance_m, _optimum_alone, _fastest_alone)
-    known = sorted((_asked_as(candidate, orbit) for candidate in found), key=lambda candidate: candidate.time)
-    best = _tied(known, orbit, aircraft)
-    return best, tuple(candidate.maneuver for candidate in known if candidate.maneuver not in best)
+        found += solved(problem.with_turn(turn), _optimum_alone, _fastest_alone)
+    known = sorted((_with_orbit(candidate, problem.orbit) for candidate in found), key=lambda candidate: candidate.time)
+    best = _tied(known, problem)
+    return best, tuple(m for m in maneuvers(known) if m not in best)
 
 
 class Solved(NamedTuple):
@@ -112,57 +116,56 @@ class Solved(NamedTuple):
     time: float
 
 
-def _asked_as(candidate: Solved, orbit: Orbit) -> Solved:
-    """A candidate with the circle as it was asked for: one direction, or either."""
-    return candidate._replace(maneuver=replace(candidate.maneuver, orbit=orbit))
+def maneuvers(found: Iterable[Solved]) -> tuple[Maneuver, ...]:
+    """The maneuvers alone."""
+    return tuple(candidate.maneuver for candidate in found)
 
 
-def _tied(known: Sequence[Solved], orbit: Orbit, aircraft: Aircraft) -> tuple[Maneuver, ...]:
-    """The maneuvers in the direction asked for that tie with the fastest; `known` has the fastest first."""
-    asked = [_asked_as(one, orbit) for one in known if orbit.turn in (Turn.EITHER, one.maneuver.turn)]
-    R = radius_in_turns(orbit, aircraft)
-    least = min(candidate.time for candidate in asked)
-    return tuple(candidate.maneuver for candidate in asked if wind_search.is_tie(candidate.time, least, R))
-
-
-def _optimum_alone(*scene: Any) -> list[Entry]:
-    return [optimum(*scene)]
-
-
-def _fastest_alone(problem: WindProblem) -> list[WindEntry]:
-    return [wind_search.fastest(problem)]
-
-
-def _solved(
-    pose: Pose,
-    orbit: Orbit,
-    aircraft: Aircraft,
-    wind: Wind | None,
-    tolerance_m: float,
+def solved(
+    problem: Problem,
     in_still_air: Callable[..., list[Entry]],
     in_wind: Callable[..., list[WindEntry]],
 ) -> tuple[Solved, ...]:
-    """The answers of the function for still air or of that for wind, in SI."""
-    wind = CALM if wind is None else wind
-    if air_past(orbit, aircraft, wind) == (0.0, 0.0):
-        scene = normalised(pose, orbit, aircraft, tolerance_m)
+    """The answers of the kernel's function for still air, or of that for wind, in SI."""
+    if problem.still:
+        reduced = problem.reduced()
+        x, y, R, _, _ = reduced
         return tuple(
-            Solved(maneuver(pose, orbit, aircraft, wind, entry, _missed(scene, entry)), duration(entry))
-            for entry in in_still_air(*scene)
+            Solved(maneuver(problem, entry, miss(x, y, R, entry)), duration(entry)) for entry in in_still_air(*reduced)
         )
-    found = in_wind(drifting(pose, orbit, aircraft, wind, tolerance_m))
+    found = in_wind(problem.in_wind())
     if not found or found[0].status != Status.OK:
-        raise NotConverged(
-            f"{Status.NOT_CONVERGED.message}: pose {pose.east_m:g} {pose.north_m:g} {pose.heading_deg:g}, wind "
-            f"{wind.speed_m_s:g} m/s from {wind.from_deg:g}; a pose moved by a millimetre may do"
-        )
+        raise _not_converged(problem)
     return tuple(
-        Solved(
-            maneuver(pose, orbit, aircraft, wind, wind_search.entry_of(entry), entry.miss), wind_search.time_of(entry)
-        )
+        Solved(maneuver(problem, wind_search.entry_of(entry), entry.miss), wind_search.time_of(entry))
         for entry in found
     )
 
 
-def _missed(scene: Scene, flown: Entry) -> float:
-    return miss(scene.x, scene.y, scene.R, flown)
+def _not_converged(problem: Problem) -> NotConverged:
+    pose, wind = problem.pose, problem.wind
+    return NotConverged(
+        f"{Status.NOT_CONVERGED.message}: pose {pose.east_m:g} {pose.north_m:g} {pose.heading_deg:g}, wind "
+        f"{wind.speed_m_s:g} m/s from {wind.from_deg:g}; a pose moved by a millimetre may do"
+    )
+
+
+def _with_orbit(candidate: Solved, orbit: Orbit) -> Solved:
+    """A candidate with the circle of the problem: one direction, or either."""
+    return candidate._replace(maneuver=replace(candidate.maneuver, orbit=orbit))
+
+
+def _tied(known: Sequence[Solved], problem: Problem) -> tuple[Maneuver, ...]:
+    """The maneuvers in the problem's direction that tie with the fastest of them; `known` is sorted by time."""
+    turn, R = problem.orbit.turn, problem.radius
+    allowed = [_with_orbit(one, problem.orbit) for one in known if turn in (Turn.EITHER, one.maneuver.turn)]
+    least = min(candidate.time for candidate in allowed)
+    return maneuvers(candidate for candidate in allowed if wind_search.is_tie(candidate.time, least, R))
+
+
+def _optimum_alone(*arguments: Any) -> list[Entry]:
+    return [optimum(*arguments)]
+
+
+def _fastest_alone(problem: WindProblem) -> list[WindEntry]:
+    return [wind_search.fastest(problem)]

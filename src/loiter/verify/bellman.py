@@ -11,7 +11,7 @@ from loiter.kernel.codes import Side
 from loiter.kernel.exact import beyond
 from loiter.kernel.synthesis import Entry, duration, optimum, rounding
 from loiter.kernel.words import Word
-from loiter.planning.scaling import Scene
+from loiter.planning.problem import ReducedProblem
 from loiter.verify.proof import Flight, Residual
 
 # Steps of the quotients of T, each half the one before: from a sixteenth of a turn radius, over which few T are
@@ -80,7 +80,7 @@ def _steps(flight: Flight) -> list[float]:
     return [h for h in QUOTIENT_STEPS if h <= widest]
 
 
-def _clearance(scene: Scene) -> float:
+def _clearance(scene: ReducedProblem) -> float:
     """The distance of a state from the nearest curve beside it that bounds the regions of docs/theory.md, section 4.
 
     They are circles about (0, -1) for words that begin with L, about (0, 1) for those that begin with R, and the axis;
@@ -102,7 +102,7 @@ def _clearance(scene: Scene) -> float:
     return min((distance for distance in distances if distance > rounding(x, y, R)), default=inf)
 
 
-def _gradient(scene: Scene, steps: list[float]) -> Gradient | str:
+def _gradient(scene: ReducedProblem, steps: list[float]) -> Gradient | str:
     """The gradient of the kernel's T by central differences at the step of the least bound; why not, where none does.
 
     Quotients D(h) and D(h/2) of a smooth T differ by three times the truncation of the second. The kernel's T is that
@@ -128,14 +128,14 @@ def _gradient(scene: Scene, steps: list[float]) -> Gradient | str:
     return f"T has a corner or a jump here, or bends too sharply: {', '.join(words)}"
 
 
-def _around(scene: Scene, h: float) -> list[Entry]:
+def _around(scene: ReducedProblem, h: float) -> list[Entry]:
     """The fastest from the state and from its neighbours east, west, north and south."""
     x, y, R, side, tolerance = scene
     places = ((0.0, 0.0), (h, 0.0), (-h, 0.0), (0.0, h), (0.0, -h))
     return [optimum(x + dx, y + dy, R, side, tolerance) for dx, dy in places]
 
 
-def _quotients(scene: Scene, h: float) -> tuple[float, float, float]:
+def _quotients(scene: ReducedProblem, h: float) -> tuple[float, float, float]:
     """Central difference quotients of T, and how far the one-sided ones are apart."""
     T, *others = map(duration, _around(scene, h))
     east, west, north, south = (other - T for other in others)

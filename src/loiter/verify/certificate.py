@@ -16,10 +16,9 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.words import Word
-from loiter.planning.feasibility import air_past
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
-from loiter.planning.scaling import time_unit_s
+from loiter.planning.problem import problem_of
 from loiter.planning.solve import candidates
 from loiter.verify import drifting
 from loiter.verify.conditions import residuals
@@ -105,7 +104,7 @@ class Certificate:
 
     def history(self, steps: int = 100) -> Iterator[list[Instant]]:
         """The certificate over time, piece by piece, each at `steps` + 1 instants from its start to its end."""
-        unit_s = time_unit_s(self.maneuver.aircraft)
+        unit_s = problem_of(self.maneuver).time_unit_s
         began = 0.0
         for piece in self.pieces:
             yield [
@@ -150,10 +149,10 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
     (True, 1.0, 'LSL', 16.45)
     """
     others = _others(maneuver, tolerance_m)
-    if air_past(maneuver.orbit, maneuver.aircraft, maneuver.wind) != (0.0, 0.0):
+    if not problem_of(maneuver).still:
         return _in_wind(maneuver, tolerance_m, others)
     flight = flight_of(maneuver, tolerance_m, others)
-    unit_s = time_unit_s(maneuver.aircraft)
+    unit_s = problem_of(maneuver).time_unit_s
     certain = bool(flight.pieces)
     psi = (flight.pieces[0].psi1, flight.pieces[0].psi2) if certain else None
     return Certificate(
@@ -172,7 +171,7 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
 def _in_wind(maneuver: Maneuver, tolerance_m: float, others: tuple[Candidate, ...]) -> Certificate:
     """The certificate in wind, whose adjoint is docs/wind.md's: psi is (p.e, p.Je), phi is f."""
     flight = drifting.flight_of(maneuver, tolerance_m)
-    legs, unit_s = flight.legs, time_unit_s(maneuver.aircraft)
+    legs, unit_s = flight.legs, problem_of(maneuver).time_unit_s
     start = legs[0].at(0.0) if legs else None
     ends = [sum(leg.t for leg in legs[:i]) * unit_s for i in range(1, len(legs))]
     switches = (

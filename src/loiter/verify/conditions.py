@@ -12,7 +12,7 @@ from loiter.kernel.extremals import onto_axis
 from loiter.kernel.synthesis import ROUNDING
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
-from loiter.planning.scaling import normalised, time_unit_s
+from loiter.planning.problem import Problem, problem_of
 from loiter.verify.bellman import bellman
 from loiter.verify.proof import Candidate, Flight, Piece, Residual
 
@@ -40,7 +40,7 @@ def _arrival(flight: Flight, maneuver: Maneuver, tolerance_m: float) -> Iterator
     scene, (end, size, *_) = flight.scene, flight.accuracy
     x, y = flight.end[:2] if flight.pieces else (scene.x, scene.y)
     yield Residual("target", "x(T) = 0, y(T) = R or -R (8)-(10)", hypot(x, y - flight.side * scene.R), end)
-    join = normalised(maneuver.join, maneuver.orbit_at_join, maneuver.aircraft, tolerance_m)
+    join = Problem(maneuver.join, maneuver.orbit_at_join, maneuver.aircraft, tolerance_m=tolerance_m).reduced()
     # A heading is rounded at each of three pieces, twice, and the course errs by that much over the whole length.
     headings = 6.0 * 2.0**-52 * radians(abs(maneuver.start.heading_deg) + 720.0)
     far = maneuver.length_m / maneuver.aircraft.turn_radius_m + scene.R
@@ -152,7 +152,7 @@ def _crossings(piece: Piece) -> Iterator[float]:
 
 def _fastest(flight: Flight, maneuver: Maneuver, others: tuple[Candidate, ...]) -> Residual:
     """No candidate is faster: what makes an extremal an optimum."""
-    unit_s = time_unit_s(maneuver.aircraft)
+    unit_s = problem_of(maneuver).time_unit_s
     sooner = max((-other.later_s / unit_s for other in others), default=0.0)
     note = f"{others[0].word} {others[0].turn.value} is faster" if sooner > flight.accuracy.tie else ""
     return Residual("fastest", "T is the least of all candidates", max(0.0, sooner), flight.accuracy.tie, note)

@@ -25,7 +25,8 @@ from loiter.kernel.wind_search import WindProblem
 from loiter.kernel.words import Word
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
-from loiter.planning.scaling import SIDES, drifting, time_unit_s
+from loiter.planning.problem import problem_of
+from loiter.planning.sides import SIDES
 from loiter.verify.proof import SAMPLES, Candidate, PieceState, Residual, durations_of, side_of, word_of
 
 # A piece as short as this is what rounding may leave of none: p is then looked for without it too.
@@ -135,7 +136,7 @@ def inner(a: complex, b: complex) -> float:
 
 def flight_of(maneuver: Maneuver, tolerance_m: float) -> Flight:
     """The maneuver flown from its start, its letters and its durations alone."""
-    scene = drifting(maneuver.start, maneuver.orbit, maneuver.aircraft, maneuver.wind, tolerance_m)
+    scene = problem_of(maneuver, tolerance_m).in_wind()
     word, times, side = word_of(maneuver), durations_of(maneuver), int(SIDES[side_of(maneuver)])
     size = rounding(scene.x, scene.y, scene.R)
     end = 3.0 * size + 2.0 * ROUNDING * sum(times)
@@ -229,7 +230,7 @@ def residuals(flight: Flight, maneuver: Maneuver, others: tuple[Candidate, ...])
         yield from _motions(flight)
         yield from _maximum_principle(flight)
         yield from _bellman(flight)
-    unit_s = time_unit_s(maneuver.aircraft)
+    unit_s = problem_of(maneuver).time_unit_s
     sooner = max((-other.later_s / unit_s for other in others), default=0.0)
     note = f"{others[0].word} {others[0].turn.value} is faster" if sooner > flight.tie else ""
     yield Residual("fastest", "T is the least of all candidates", max(0.0, sooner), flight.tie, note)

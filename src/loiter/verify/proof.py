@@ -31,7 +31,8 @@ from loiter.kernel.synthesis import REACH, Entry, rounding
 from loiter.kernel.words import Word, controls, encode, rest
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
-from loiter.planning.scaling import SIDES, Scene, normalised, time_unit_s
+from loiter.planning.problem import ReducedProblem, problem_of
+from loiter.planning.sides import SIDES
 
 # Between two of them psi1 and phi are monotone once their extremes are added, so few will do.
 SAMPLES = 9
@@ -132,7 +133,7 @@ class Piece(NamedTuple):
 class Flight(NamedTuple):
     """A maneuver in the kernel's terms, with its adjoint."""
 
-    scene: Scene
+    scene: ReducedProblem
     side: int
     word: int
     lam: float
@@ -152,7 +153,7 @@ class Flight(NamedTuple):
 
 def flight_of(maneuver: Maneuver, tolerance_m: float, others: tuple[Candidate, ...]) -> Flight:
     """The maneuver from its start, its letters and its durations alone."""
-    scene = normalised(maneuver.start, maneuver.orbit, maneuver.aircraft, tolerance_m)
+    scene = problem_of(maneuver, tolerance_m).reduced()
     turn, word, durations = side_of(maneuver), word_of(maneuver), durations_of(maneuver)
     x, y, R = scene.x, scene.y, scene.R
     side, size = int(SIDES[turn]), rounding(x, y, R)
@@ -160,7 +161,7 @@ def flight_of(maneuver: Maneuver, tolerance_m: float, others: tuple[Candidate, .
     if len(pieces) == 2 and pieces[0].u * pieces[1].u < 0:
         word, lam, pieces = _one_arc(x, y, R, side, word, durations, size) or (word, lam, pieces)
     accuracy = _accuracy(scene, size, pieces)
-    tie_s = accuracy.tie * time_unit_s(maneuver.aircraft)
+    tie_s = accuracy.tie * problem_of(maneuver).time_unit_s
     if len(pieces) == 1 or any(abs(other.later_s) <= tie_s for other in others):
         accuracy = accuracy._replace(choice=sqrt(size))
     return Flight(scene, side, word, lam, pieces, accuracy)
@@ -185,7 +186,7 @@ def _one_arc(
     return None
 
 
-def _accuracy(scene: Scene, size: float, pieces: list[Piece]) -> Accuracy:
+def _accuracy(scene: ReducedProblem, size: float, pieces: list[Piece]) -> Accuracy:
     # Durations went through metres and seconds and back, 4 roundings, so a flight of them ends a rounding further off.
     end = max(scene.tolerance, size) + size
     middle = pieces[1].radius if len(pieces) == 3 and pieces[1].u else 1.0

@@ -73,22 +73,22 @@ def _plans(api: FastAPI, workers: Workers) -> None:
     @api.post("/api/plan", response_model=models.Plan, response_model_exclude_unset=True, dependencies=JSON)
     async def plan(scene: models.Scene) -> Any:
         """The fastest entry, and every other with what it costs: what `loiter plan --json` prints, with tracks."""
-        return await workers.run(plans.plan, scene.asked())
+        return await workers.run(plans.plan, scene.placed())
 
     @api.post("/api/fastest", response_model=models.Plan, response_model_exclude_unset=True, dependencies=JSON)
     async def fastest(scene: models.Scene) -> Any:
         """The fastest entry, of the others only the best the other way round; in wind in half the time."""
-        return await workers.run(plans.fastest, scene.asked())
+        return await workers.run(plans.fastest, scene.placed())
 
     @api.post("/api/candidates", response_model=models.Candidates, response_model_exclude_unset=True, dependencies=JSON)
     async def candidates(scene: models.Scene) -> Any:
         """Every extremal for the turn asked for, fastest first."""
-        return await workers.run(plans.every, scene.asked())
+        return await workers.run(plans.every, scene.placed())
 
     @api.post("/api/certificate", response_model=models.Proof, dependencies=JSON)
     async def certificate(scene: models.Scene) -> Any:
         """The certificate of the first optimal maneuver: the maximum principle, condition by condition."""
-        return await workers.run(plans.proof, scene.asked())
+        return await workers.run(plans.proof, scene.placed())
 
 
 def _maps(api: FastAPI, workers: Workers) -> None:
@@ -119,7 +119,7 @@ def _files(api: FastAPI, workers: Workers, artists: Workers) -> None:
     told: dict[int | str, dict[str, Any]] = {200: {"description": "The file, as an attachment.", "content": media}}
 
     async def file(format_: str, options: models.ExportOptions) -> Response:
-        options.asked()
+        options.placed()
         crew = artists if format_ in exports.PICTURES else workers
         content = await crew.run(exports.maker(format_), exports.Export(format_, options))
         headers = {"content-disposition": f'attachment; filename="entry.{format_}"'}

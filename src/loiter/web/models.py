@@ -6,14 +6,16 @@ What a number may be the library checks, in its own sentences; the schema tells 
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, Strict, field_validator
 from pydantic.json_schema import SkipJsonSchema
 
 from loiter.geo import LocalFrame
+from loiter.geo.placed import PlacedProblem
 from loiter.planning import model
 from loiter.planning.model import TurnName
+from loiter.planning.problem import Problem
 
 # A JSON number, never a string or a truth value.
 Number = Annotated[float, Strict()]
@@ -88,17 +90,6 @@ class OriginIn(Request):
     longitude_deg: Longitude
 
 
-class Asked(NamedTuple):
-    """A scene as the library takes it."""
-
-    pose: model.Pose
-    orbit: model.Orbit
-    aircraft: model.Aircraft
-    wind: model.Wind
-    tolerance_m: float
-    frame: LocalFrame | None
-
-
 EXAMPLE: dict[str, Any] = {
     "pose": {"east_m": -400.0, "north_m": 120.0, "heading_deg": 90.0},
     "orbit": {"east_m": 0.0, "north_m": 0.0, "radius_m": 80.0, "turn": "either"},
@@ -127,17 +118,17 @@ class Scene(Request):
         None, description="With it places of the answer are told in degrees too, headings from true north."
     )
 
-    def asked(self) -> Asked:
-        """The library's values; raises `loiter.errors.InvalidArgument` for what they refuse."""
+    def placed(self) -> PlacedProblem:
+        """The problem in the library's values; raises `loiter.errors.InvalidArgument` for what they refuse."""
         orbit = self.orbit.model_dump() | {"turn": model.Turn(self.orbit.turn)}
-        return Asked(
+        problem = Problem(
             model.Pose(**self.pose.model_dump()),
             model.Orbit(**orbit),
             model.Aircraft(**self.aircraft.model_dump()),
             model.CALM if self.wind is None else model.Wind(**self.wind.model_dump()),
             self.tolerance_m,
-            None if self.origin is None else LocalFrame(**self.origin.model_dump()),
         )
+        return PlacedProblem(problem, None if self.origin is None else LocalFrame(**self.origin.model_dump()))
 
 
 class ExportOptions(Scene):

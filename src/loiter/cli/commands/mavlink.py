@@ -25,12 +25,13 @@ from loiter.cli.options import (
     PlacedStartOptions,
     StartOptions,
     WindOptions,
-    scene_of,
+    read_options,
 )
 from loiter.errors import InvalidArgument
 from loiter.io.missions.items import Mission
 from loiter.mavlink.connection.link import check
 from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
+from loiter.planning.solve import fastest
 
 if TYPE_CHECKING:
     from loiter.mavlink import Report
@@ -130,13 +131,13 @@ def _planned(
     if uav.altitude is None:
         raise InvalidArgument("altitude_m", f"is needed: a vehicle's mission has one, {waypoints.datum.unit}")
     along_path = waypoints.along_path
-    asked = scene_of(pose, circle, uav, air, waypoints.datum)
-    assert asked.frame is not None  # both places are in degrees
-    best = loiter.plan(asked.start, asked.circle, asked.aircraft, asked.wind)
+    (problem, frame), remark = read_options(pose, circle, uav, air, datum=waypoints.datum)
+    assert frame is not None  # both places are in degrees
+    best = fastest(problem)
     made = partial(
         loiter.io.mission,
         best,
-        asked.frame,
+        frame,
         uav.altitude,
         spacing_m=waypoints.spacing,
         chord_error_m=waypoints.chord_error_m,
@@ -145,9 +146,7 @@ def _planned(
     )
     # What cannot be a mission is refused before anything is printed.
     made()
-    report.write(
-        *([asked.remark] if asked.remark else []), report.headline(best), *([report.ALONG_PATH] if along_path else [])
-    )
+    report.write(*([remark] if remark else []), report.headline(best), *([report.ALONG_PATH] if along_path else []))
     return lambda autopilot: made(autopilot=autopilot)
 
 

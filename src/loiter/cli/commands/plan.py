@@ -17,15 +17,15 @@ from loiter.cli.options import (
     WindOptions,
     missions,
     output,
+    read_options,
     scene,
-    scene_of,
 )
 from loiter.cli.status import CHECK_FAILED
 from loiter.io.document import answer
 from loiter.io.files import is_mission
 from loiter.io.missions.items import Autopilot
 from loiter.planning.model import Turn
-from loiter.planning.solve import compared
+from loiter.planning.solve import best_and_others
 from loiter.plot import files
 
 AUTOPILOTS = {"ardupilot": Autopilot.ARDUPILOT, "px4": Autopilot.PX4}
@@ -79,20 +79,20 @@ def plan(
     ] = "ardupilot",
 ) -> int:
     """Plan the fastest entry onto a holding circle: what to fly, for how long, where to peel off."""
-    asked = scene_of(start, circle, uav, air, waypoints.datum)
+    (problem, frame), remark = read_options(start, circle, uav, air, tolerance_m=tolerance, datum=waypoints.datum)
     if plot is not None:
         files.check_format(plot)
     if save is not None:
         loiter.io.check_format(save)
     along_path = save is not None and is_mission(save) and waypoints.along_path
-    best, others = compared(asked.start, asked.circle, asked.aircraft, asked.wind, tolerance_m=tolerance)
+    best, others = best_and_others(problem)
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in (best if all_ else best[:1]) if certify]
     # A file needs more than a picture: what it lacks is said before either is written.
     if save is not None:
         loiter.io.save(
             best[0],
             save,
-            frame=asked.frame,
+            frame=frame,
             altitude_m=uav.altitude,
             datum=waypoints.datum,
             spacing_m=waypoints.spacing,
@@ -101,15 +101,15 @@ def plan(
             along_path=along_path,
         )
     if plot is not None:
-        losers = [m for m in others if asked.circle.turn in (Turn.EITHER, m.turn)]
-        files.save(plot, best if all_ else best[:1], losers if all_ else [*best[1:], *losers], frame=asked.frame)
+        losers = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
+        files.save(plot, best if all_ else best[:1], losers if all_ else [*best[1:], *losers], frame=frame)
         if certified:
             certificates.save_picture(plot, certified[0])
     if json:
         certificate = {"certificate": certified[0].to_dict()} if certified else {}
-        report.print_json(answer(best, others, asked.frame) | certificate)
+        report.print_json(answer(best, others, frame) | certificate)
     else:
-        report.print_tables(best, others, everything=all_, frame=asked.frame, remark=asked.remark)
+        report.print_tables(best, others, everything=all_, frame=frame, remark=remark)
         certificates.print_text(certified)
         report.write(*([report.ALONG_PATH] if along_path else []))
     return 0 if all(certificate.valid for certificate in certified) else CHECK_FAILED

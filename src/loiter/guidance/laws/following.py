@@ -15,8 +15,9 @@ from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.vehicle.limits import clipped
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.planning.compass import heading_vector
-from loiter.planning.feasibility import SIDES, check_held
+from loiter.planning.feasibility import check_held
 from loiter.planning.model import CALM, STANDARD_GRAVITY_M_S2, Aircraft, Orbit, Pose, Turn, Wind
+from loiter.planning.sides import SIDES
 from loiter.planning.solve import plan
 
 # So near the centre, metres, the direction from it is that of flight: what ArduPilot's L1 takes.

@@ -18,9 +18,9 @@ from loiter.kernel.codes import Side, Status
 from loiter.kernel.hold import tightest_radius
 from loiter.kernel.synthesis import Entry, duration, is_solvable, optimum, rounded_radius
 from loiter.kernel.wind_search import WindProblem
-from loiter.planning.feasibility import SIDES, air_past, check_held
+from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind
-from loiter.planning.scaling import TURNS
+from loiter.planning.sides import SIDES, TURNS
 
 # The figures below were tuned in gusts, 200 to 500 starts each: docs/guidance.md.
 # How much wider than the aircraft can turn the plan turns, as a share; what is left corrects the last arc.
@@ -95,8 +95,8 @@ class LoiterEntry:
     ) -> None:
         wind = CALM if wind is None else wind
         check_held(orbit, aircraft, wind)
-        self._orbit, self._roll, self._wind = orbit, roll, air_past(orbit, aircraft, wind)
-        self._still = self._wind == (0.0, 0.0)
+        self._orbit, self._roll, self._wind = orbit, roll, relative_wind(orbit, aircraft, wind)
+        self._still = self._wind.still
         self._gain, self._recent = positive("gain", gain, "units"), Recent(not_negative("delay_s", delay_s, "seconds"))
         self._V, self._side = aircraft.airspeed_m_s, SIDES[orbit.turn]
         tightest_m, widest_m = aircraft.turn_radius_m, orbit.radius_m / tightest_radius(*self._wind)

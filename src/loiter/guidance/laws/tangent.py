@@ -25,8 +25,9 @@ from loiter.kernel.motion import fly
 from loiter.kernel.moving_target import Path
 from loiter.kernel.wind_search import WindProblem
 from loiter.planning.compass import heading_vector
-from loiter.planning.feasibility import SIDES, air_past
+from loiter.planning.feasibility import relative_wind
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
+from loiter.planning.sides import SIDES
 
 # The part of the turn radius that is kept for corrections.
 RESERVE = 0.1
@@ -80,7 +81,7 @@ class Tangent(L1):
         damping: float = DAMPING,
     ) -> None:
         super().__init__(orbit, aircraft, wind, period_s=period_s, damping=damping)
-        self._past = air_past(orbit, aircraft, self.wind)
+        self._past = relative_wind(orbit, aircraft, self.wind)
         wider = aircraft.turn_radius_m * (1.0 + not_negative("reserve", reserve, "one"))
         # No wider than what holds the circle.
         self._radius_m = min(wider, orbit.radius_m / tightest_radius(*self._past))

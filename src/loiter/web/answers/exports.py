@@ -12,7 +12,7 @@ from loiter.errors import InvalidArgument
 from loiter.io import AltitudeDatum, AltitudeReference, Autopilot, save
 from loiter.io.maps.track import steps
 from loiter.planning.model import Turn
-from loiter.planning.solve import compared
+from loiter.planning.solve import all_fastest, best_and_others
 from loiter.web.models import ExportOptions
 
 # Points of the track that the service writes into one file: a second's work. `loiter plan --save` has no such limit.
@@ -45,8 +45,8 @@ def maker(format_: str) -> Callable[[Export], bytes]:
 
 def written(export: Export) -> bytes:
     """The file for the first optimal maneuver; raises as `loiter.io.save`, and where it would have too many points."""
-    asked, options = export.options.asked(), export.options
-    first = compared(*asked[:4], tolerance_m=asked.tolerance_m)[0][0]
+    (problem, frame), options = export.options.placed(), export.options
+    first, *_ = all_fastest(problem)
     count = sum(steps(first, options.spacing_m, options.chord_error_m))
     if count > MOST_POINTS:
         name = "chord_error_m" if options.spacing_m is None else "spacing_m"
@@ -60,7 +60,7 @@ def written(export: Export) -> bytes:
         save(
             first,
             path,
-            frame=asked.frame,
+            frame=frame,
             altitude_m=options.altitude_m,
             datum=AltitudeDatum(AltitudeReference(options.altitude_reference), options.home_altitude_m),
             spacing_m=options.spacing_m,
@@ -74,10 +74,10 @@ def drawn(export: Export) -> bytes:
     """The picture that `loiter plan --plot` draws. One at a time: matplotlib is not made for threads."""
     from loiter.plot.picture import draw
 
-    asked = export.options.asked()
-    best, others = compared(*asked[:4], tolerance_m=asked.tolerance_m)
-    losers = [m for m in others if asked.orbit.turn in (Turn.EITHER, m.turn)]
+    problem, frame = export.options.placed()
+    best, others = best_and_others(problem)
+    losers = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
     picture = BytesIO()
-    figure = draw(best[:1], [*best[1:], *losers], frame=asked.frame)
+    figure = draw(best[:1], [*best[1:], *losers], frame=frame)
     figure.savefig(picture, format=export.format, dpi=150)
     return picture.getvalue()

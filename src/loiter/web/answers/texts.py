@@ -5,7 +5,7 @@ from __future__ import annotations
 from loiter.io.maps.chart import ACTIONS
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, TURN_LIMITS, Aircraft, Orbit, Turn
-from loiter.web.models import Asked
+from loiter.planning.problem import Problem
 
 LIMIT_OPTIONS = {
     "max_bank_deg": "--bank",
@@ -25,37 +25,37 @@ def instruction(maneuver: Maneuver) -> str:
     return f"{ACTIONS[first.letter].capitalize()} now, then {following} in {first.duration_s:.{decimals}f} s."
 
 
-def command(asked: Asked) -> str:
+def command(problem: Problem) -> str:
     """The command line that plans the scene, in local metres."""
-    pose, orbit, wind = asked.pose, asked.orbit, asked.wind
-    limit = _limit(asked.aircraft)
+    pose, orbit, wind = problem.pose, problem.orbit, problem.wind
+    limit = _limit(problem.aircraft)
     words = [
         "loiter plan",
         _option("--pose", pose.east_m, pose.north_m, pose.heading_deg),
         _option("--orbit", orbit.east_m, orbit.north_m, orbit.radius_m),
     ]
     words += [f"--turn {orbit.turn.value}"] if orbit.turn != Turn.EITHER else []
-    words.append(_option("--airspeed", asked.aircraft.airspeed_m_s))
-    words.append(_option(LIMIT_OPTIONS[limit], getattr(asked.aircraft, limit)))
+    words.append(_option("--airspeed", problem.aircraft.airspeed_m_s))
+    words.append(_option(LIMIT_OPTIONS[limit], getattr(problem.aircraft, limit)))
     words += [_option("--wind", wind.speed_m_s, wind.from_deg)] if wind != CALM else []
     words += [_option("--orbit-velocity", orbit.velocity_east_m_s, orbit.velocity_north_m_s)] if orbit.moves else []
-    words += [_option("--tolerance", asked.tolerance_m)] if asked.tolerance_m else []
+    words += [_option("--tolerance", problem.tolerance_m)] if problem.tolerance_m else []
     return " ".join(words)
 
 
-def python(asked: Asked) -> str:
+def python(problem: Problem) -> str:
     """Lines of Python after which `m` is the plan."""
-    wind = f", {asked.wind!r}" if asked.wind != CALM else ""
-    tolerance = f", tolerance_m={asked.tolerance_m!r}" if asked.tolerance_m else ""
-    limit = _limit(asked.aircraft)
+    wind = f", {problem.wind!r}" if problem.wind != CALM else ""
+    tolerance = f", tolerance_m={problem.tolerance_m!r}" if problem.tolerance_m else ""
+    uav, limit = problem.aircraft, _limit(problem.aircraft)
     names = ", ".join(["Aircraft", "Orbit", "Pose", *(["Wind"] if wind else []), "plan_all"])
     return "\n".join(
         [
             f"from loiter import {names}",
             "",
-            f"pose = {asked.pose!r}",
-            f"orbit = {_orbit(asked.orbit)}",
-            f"uav = Aircraft(airspeed_m_s={asked.aircraft.airspeed_m_s!r}, {limit}={getattr(asked.aircraft, limit)!r})",
+            f"pose = {problem.pose!r}",
+            f"orbit = {_orbit(problem.orbit)}",
+            f"uav = Aircraft(airspeed_m_s={uav.airspeed_m_s!r}, {limit}={getattr(uav, limit)!r})",
             f"m, *as_fast = plan_all(pose, orbit, uav{wind}{tolerance})",
             "print(m.word, m.turn.value, m.duration_s)",
         ]

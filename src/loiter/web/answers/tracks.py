@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from loiter.arrays import reduce
 from loiter.io.maps.track import steps, vertices
 from loiter.planning.maneuver import Maneuver
@@ -17,9 +19,9 @@ def track(maneuver: Maneuver) -> dict[str, list[float]]:
     """
     flown = vertices(maneuver, steps(maneuver, None, CHORD_ERROR * maneuver.aircraft.turn_radius_m))
     orbit, time = maneuver.orbit, flown.time_s
-    east = flown.east_m - orbit.velocity_east_m_s * time
-    north = flown.north_m - orbit.velocity_north_m_s * time
-    x, y = reduce(east, north, flown.heading_deg, orbit, maneuver.aircraft)
+    centre_east, centre_north = orbit.centre_after(time)
+    east, north = flown.east_m - centre_east, flown.north_m - centre_north
+    x, y = reduce(east, north, flown.heading_deg, replace(orbit, east_m=0.0, north_m=0.0), maneuver.aircraft)
     return {
         "time_s": time.tolist(),
         "east_m": flown.east_m.tolist(),

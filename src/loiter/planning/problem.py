@@ -1,0 +1,122 @@
+"""One entry to plan, in SI, and its scale: the one place where SI is divided by turn radius and airspeed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from math import inf
+from typing import TYPE_CHECKING, NamedTuple
+
+from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, not_negative
+from loiter.kernel import motion, wind_search
+from loiter.kernel.codes import Side, Status
+from loiter.kernel.synthesis import REACH, ROUNDING, rounded_radius, status_of
+from loiter.kernel.wind_search import WindProblem
+from loiter.planning.compass import heading_vector
+from loiter.planning.feasibility import RelativeWind, check_held, radius_in_turns, relative_wind, too_tight
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
+from loiter.planning.sides import SIDES
+
+if TYPE_CHECKING:
+    from loiter.planning.maneuver import Maneuver
+
+
+class ReducedProblem(NamedTuple):
+    """The kernel's arguments in still air: reduced state, radius and tolerance in turn radii, side."""
+
+    x: float
+    y: float
+    R: float
+    side: Side
+    tolerance: float
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """An entry to plan: from where, onto which circle, by which aircraft, in which wind.
+
+    `tolerance_m` is the distance, metres, by which a start may lie beyond the last arc and still count as on it; it is
+    used in still air alone. `relative_wind` is the velocity of the air past the circle over the airspeed.
+    Raises `InvalidArgument` for a tolerance that is negative or not finite.
+    """
+
+    pose: Pose
+    orbit: Orbit
+    aircraft: Aircraft
+    wind: Wind = CALM
+    tolerance_m: float = 0.0
+    relative_wind: RelativeWind = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "tolerance_m", not_negative("tolerance_m", self.tolerance_m, "metres"))
+        object.__setattr__(self, "relative_wind", relative_wind(self.orbit, self.aircraft, self.wind))
+
+    @property
+    def still(self) -> bool:
+        """Whether the circle meets still air: no wind, or a wind as fast as the circle moves."""
+        return self.relative_wind.still
+
+    @property
+    def radius(self) -> float:
+        """R, the radius of the circle in turn radii."""
+        return radius_in_turns(self.orbit, self.aircraft)
+
+    @property
+    def time_unit_s(self) -> float:
+        """The kernel's unit of time, seconds: the time in which the aircraft flies its turn radius."""
+        return self.aircraft.turn_radius_m / self.aircraft.airspeed_m_s
+
+    def with_turn(self, turn: Turn) -> Problem:
+        """The same with another direction of the circle."""
+        return replace(self, orbit=replace(self.orbit, turn=turn))
+
+    def reduced(self) -> ReducedProblem:
+        """The kernel's arguments, as in still air.
+
+        Raises `RadiusTooSmall` for a circle tighter than the turn radius, `OutOfRange` for a scene too large.
+        """
+        pose, orbit, r = self.pose, self.orbit, self.aircraft.turn_radius_m
+        x, y = motion.reduce(*self._place(), *heading_vector(pose.heading_deg))
+        # Coordinates far from their origin carry the rounding of their own size into a small difference.
+        size = abs(pose.east_m) + abs(orbit.east_m) + abs(pose.north_m) + abs(orbit.north_m)
+        tolerance = max(self.tolerance_m, ROUNDING * size) / r
+        reduced = ReducedProblem(x, y, rounded_radius(self.radius), SIDES[orbit.turn], tolerance)
+        status = status_of(reduced.x, reduced.y, reduced.R, reduced.tolerance)
+        if status == Status.RADIUS_TOO_SMALL:
+            raise RadiusTooSmall(too_tight(orbit, self.aircraft))
+        if status != Status.OK or not self._has_durations():
+            raise self._too_large()
+        return reduced
+
+    def in_wind(self) -> WindProblem:
+        """The kernel's arguments in wind.
+
+        Raises `RadiusTooSmall` or `WindTooStrong` for a circle that cannot be held, `OutOfRange` for a scene too large.
+        """
+        check_held(self.orbit, self.aircraft, self.wind)
+        (x, y), (c, s) = self._place(), heading_vector(self.pose.heading_deg)
+        wx, wy = self.relative_wind
+        found = WindProblem(x, y, c, s, self.radius, SIDES[self.orbit.turn], wx, wy)
+        if wind_search.status_of(found) != Status.OK or not self._has_durations():
+            raise self._too_large()
+        return found
+
+    def _place(self) -> tuple[float, float]:
+        """Where the aircraft is from the centre of the circle, in turn radii."""
+        r = self.aircraft.turn_radius_m
+        return (self.pose.east_m - self.orbit.east_m) / r, (self.pose.north_m - self.orbit.north_m) / r
+
+    def _has_durations(self) -> bool:
+        """Whether durations of up to REACH turns are finite numbers of seconds too."""
+        return 0.0 < REACH * self.time_unit_s < inf
+
+    def _too_large(self) -> LoiterError:
+        return OutOfRange(
+            f"the scene is too large for double precision: {self.orbit.distance_m(self.pose):g} m from the centre of a "
+            f"circle of {self.orbit.radius_m:g} m, with a turn radius of {self.aircraft.turn_radius_m:g} m at an "
+            f"airspeed of {self.aircraft.airspeed_m_s:g} m/s; distances must stay below 2**52 turn radii"
+        )
+
+
+def problem_of(maneuver: Maneuver, tolerance_m: float = 0.0) -> Problem:
+    """The problem that a maneuver answers, planned with a tolerance (metres)."""
+    return Problem(maneuver.start, maneuver.orbit, maneuver.aircraft, maneuver.wind, tolerance_m)

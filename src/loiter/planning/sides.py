@@ -1,0 +1,7 @@
+"""Directions as the user gives them, and as the kernel's codes."""
+
+from loiter.kernel.codes import Side
+from loiter.planning.model import Turn
+
+SIDES = {Turn.CW: Side.CW, Turn.CCW: Side.CCW, Turn.EITHER: Side.EITHER}
+TURNS = {side: turn for turn, side in SIDES.items()}
