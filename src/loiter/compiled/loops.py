@@ -2,8 +2,8 @@
 
 NumPy calls an inner loop (PyUFuncGenericFunction) with pointers to the operands and their strides. The loop copies a
 block of states into buffers on the stack, works on these with loops that LLVM vectorises, and copies the results out:
-it allocates no other memory, and any strides run at the same speed. `branchless` and a fused multiply-add replace
-what would not vectorise.
+it allocates no other memory, and any strides run at the same speed. `branchless` and a fused multiply-add replace what
+would not vectorise.
 """
 
 from math import nan
