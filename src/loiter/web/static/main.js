@@ -2,23 +2,20 @@
 /** The page: wires store, requests and views together. */
 import { candidatesView } from "./answer/candidates.js";
 import { factsView } from "./answer/facts.js";
-import { failureView } from "./answer/failure_view.js";
-import { messageView } from "./answer/message.js";
+import { failureView, messageView } from "./answer/notices.js";
 import { verdictView } from "./answer/verdict.js";
-import { copyButtons } from "./export/copy_buttons.js";
-import { exportPanel } from "./export/export_panel.js";
+import { copyButtons, exportPanel } from "./export/export_panel.js";
 import { createFields } from "./fields/fields.js";
 import { mapView } from "./map/map_view.js";
 import { createCamera } from "./plan/camera.js";
 import { planView } from "./plan/plan_view.js";
-import { createLatency } from "./requests/latency.js";
+import { createLatency, publishProgress } from "./requests/progress.js";
 import { createRequests } from "./requests/requests.js";
 import { openAddress, writeAddress } from "./scene/address.js";
 import { presetButtons } from "./scene/presets.js";
 import { themeSwitch } from "./shared/theme.js";
 import { createActions } from "./state/actions.js";
 import { INITIAL_STATE } from "./state/page_state.js";
-import { publishProgress } from "./state/progress.js";
 import { createStore } from "./state/store.js";
 import { player } from "./timeline/player.js";
 import { timelineView } from "./timeline/timeline_view.js";

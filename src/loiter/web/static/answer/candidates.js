@@ -8,8 +8,7 @@
  * @typedef {import("../shared/types.js").Maneuver} Maneuver
  */
 import { byId, html } from "../shared/dom.js";
-import { DIRECTIONS, DIRECTION_ARROWS, wordLabel } from "../shared/labels.js";
-import { isAllowed, splitAnswer } from "../shared/track.js";
+import { DIRECTIONS, DIRECTION_ARROWS, isAllowed, splitAnswer, wordLabel } from "../shared/maneuver.js";
 import { fixed, signedTimeDifference } from "../shared/units.js";
 
 /**

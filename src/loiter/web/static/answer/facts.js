@@ -7,8 +7,7 @@
  * @typedef {import("../shared/types.js").Answer} Answer
  */
 import { byId, html } from "../shared/dom.js";
-import { DIRECTIONS, DIRECTION_ARROWS, wordLabel } from "../shared/labels.js";
-import { splitAnswer } from "../shared/track.js";
+import { DIRECTIONS, DIRECTION_ARROWS, splitAnswer, wordLabel } from "../shared/maneuver.js";
 import { decimalsFor, fixed, quantityText, signedTimeDifference } from "../shared/units.js";
 
 const TIE_S = 1e-9; // durations closer than this count as ties

@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * The buttons that save the plan in a file.
+ * The buttons that save the plan in a file, or copy its command line, its Python or its link.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
@@ -9,9 +9,10 @@
  * @typedef {import("./formats.js").Format} Format
  */
 import { refusalOf } from "../fields/field_names.js";
-import { getFile } from "../requests/api.js";
-import { Unreachable } from "../requests/problems.js";
+import { Unreachable, getFile } from "../requests/api.js";
+import { linkOf } from "../scene/address.js";
 import { byId, html } from "../shared/dom.js";
+import { currentPlan } from "../state/page_state.js";
 import { FORMATS, altitudeFor, missingFor, savedText } from "./formats.js";
 
 const KEPT_MS = 60_000; // an address of a file is kept until the browser has surely read it
@@ -79,4 +80,38 @@ function download(content, name) {
   const address = URL.createObjectURL(content);
   html("a", { href: address, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(address), KEPT_MS);
+}
+
+/**
+ * @param {Store} store
+ * @param {Actions} actions
+ */
+export function copyButtons(store, actions) {
+  copyButton("copy-python", "Python", () => currentPlan(store.get())?.python, actions);
+  copyButton("copy-command", "Command", () => currentPlan(store.get())?.command, actions);
+  copyButton("copy-link", "Link", () => linkOf(store.get()), actions);
+  store.watch(
+    ({ announced }) => [announced],
+    ({ announced }) => {
+      byId("python", HTMLElement).textContent = announced?.python ?? "";
+      byId("command", HTMLElement).textContent = announced?.command ?? "";
+    },
+  );
+}
+
+/**
+ * @param {string} id
+ * @param {string} name
+ * @param {() => string | undefined} text  undefined while the scene has no plan
+ * @param {Actions} actions
+ */
+function copyButton(id, name, text, actions) {
+  byId(id, HTMLButtonElement).addEventListener("click", () => {
+    const copied = text();
+    if (copied === undefined) return actions.say("The plan of this scene is not ready yet.", true);
+    navigator.clipboard.writeText(copied).then(
+      () => actions.say(`${name} copied.`),
+      () => actions.say("The browser does not let this page copy; select the text instead.", true),
+    );
+  });
 }

@@ -4,7 +4,7 @@
  *
  * @typedef {import("../state/page_state.js").FieldErrors} FieldErrors
  */
-import { Problem } from "../requests/problems.js";
+import { Problem } from "../requests/api.js";
 import { byId } from "../shared/dom.js";
 
 /**

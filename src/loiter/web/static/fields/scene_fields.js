@@ -7,7 +7,7 @@
  * @typedef {import("../shared/types.js").Turn} Turn
  * @typedef {import("../shared/units.js").Quantity} Quantity
  * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("./number_field.js").Source} Source
+ * @typedef {import("./input_fields.js").Source} Source
  *
  * @typedef {(scene: Scene, event: Event) => void} Change
  *
@@ -16,11 +16,10 @@
  * @property {(scene: Scene) => number | undefined} get
  * @property {(scene: Scene, value: number) => Scene} set
  */
-import { LIMITS, limitFor, limitOf, turnRadiusOf } from "../scene/aircraft.js";
-import { withOrbit, withPose, withWind } from "../scene/scene.js";
+import { LIMITS, limitFor, limitOf, turnRadiusOf, withOrbit, withPose, withWind } from "../scene/scene.js";
 import { byId } from "../shared/dom.js";
 import { tidy } from "../shared/units.js";
-import { numberField } from "./number_field.js";
+import { numberField } from "./input_fields.js";
 
 /** @param {Quantity} quantity @param {keyof Scene["pose"]} name @returns {Part} */
 const posePart = (quantity, name) => ({

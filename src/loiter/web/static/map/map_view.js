@@ -6,16 +6,14 @@
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
  * @typedef {import("../shared/types.js").Synthesis} Synthesis
- * @typedef {import("../shared/view.js").View} View
+ * @typedef {import("../shared/geometry.js").View} View
  */
 import { byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
-import { splitAnswer } from "../shared/track.js";
-import { toScreen } from "../shared/view.js";
+import { toScreen } from "../shared/geometry.js";
+import { splitAnswer } from "../shared/maneuver.js";
 import { ghostOf } from "../state/page_state.js";
-import { drawAxes } from "./axes.js";
-import { drawCurve, drawReducedPath, drawTargets } from "./curves.js";
-import { drawRegionLabels } from "./region_labels.js";
-import { paintRegions } from "./regions.js";
+import { drawAxes, drawCurve, drawReducedPath, drawTargets } from "./map_lines.js";
+import { drawRegionLabels, paintRegions } from "./regions.js";
 import { stateHandle } from "./state_handle.js";
 
 /**

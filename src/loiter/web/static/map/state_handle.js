@@ -5,17 +5,15 @@
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
  * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/view.js").Point} Point
- * @typedef {import("../shared/view.js").View} View
+ * @typedef {import("../shared/geometry.js").Point} Point
+ * @typedef {import("../shared/geometry.js").View} View
  */
-import { turnRadiusOf } from "../scene/aircraft.js";
-import { withPose } from "../scene/scene.js";
-import { unitVector } from "../shared/compass.js";
+import { turnRadiusOf, withPose } from "../scene/scene.js";
 import { show, svg } from "../shared/dom.js";
 import { makeHandle, placeHandle } from "../shared/draggable.js";
+import { toScreen, toWorld, unitVector } from "../shared/geometry.js";
 import { fixed, tidy } from "../shared/units.js";
-import { toScreen, toWorld } from "../shared/view.js";
-import { stepOf } from "./axes.js";
+import { stepOf } from "./map_lines.js";
 import { mapViewOf } from "./map_view.js";
 
 const EDGE_PX = 4; // a state beyond the map is drawn this far from its edge

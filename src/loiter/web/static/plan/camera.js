@@ -6,14 +6,13 @@
  * @typedef {import("../state/page_state.js").Camera} Camera
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Answer} Answer
- * @typedef {import("../shared/view.js").View} View
- * @typedef {import("../shared/view.js").Point} Point
+ * @typedef {import("../shared/geometry.js").View} View
+ * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {ReturnType<typeof createCamera>} PlanCamera
  */
-import { unitVector } from "../shared/compass.js";
-import { splitAnswer } from "../shared/track.js";
+import { contains, fitted, unitVector, zoomed } from "../shared/geometry.js";
+import { splitAnswer } from "../shared/maneuver.js";
 import { tidy } from "../shared/units.js";
-import { contains, fitted, zoomed } from "../shared/view.js";
 import { HEADING_HANDLE_PX } from "./handles.js";
 
 // Pixels between the contents and the edges, for buttons, dial, labels and key; fewer on a small screen.

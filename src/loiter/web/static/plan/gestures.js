@@ -2,12 +2,12 @@
 /**
  * Gestures and keys that move the plan view.
  *
- * @typedef {import("../shared/view.js").View} View
- * @typedef {import("../shared/view.js").Point} Point
+ * @typedef {import("../shared/geometry.js").View} View
+ * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("./camera.js").PlanCamera} PlanCamera
  */
 import { POINTER_ENDS, isShortcut, pointOf } from "../shared/draggable.js";
-import { panned, zoomed } from "../shared/view.js";
+import { panned, zoomed } from "../shared/geometry.js";
 
 const KEY_PAN_PX = 60;
 const LINE_PX = 16; // of a wheel that counts lines

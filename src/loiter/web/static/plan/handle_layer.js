@@ -9,7 +9,7 @@
  */
 import { polyline, svg } from "../shared/dom.js";
 import { makeHandle, placeHandle } from "../shared/draggable.js";
-import { pointAt, positionToScreen } from "../shared/view.js";
+import { pointAt, positionToScreen } from "../shared/geometry.js";
 import { AIRCRAFT, CENTRE, HEADING, HEADING_HANDLE_PX, radiusHandle } from "./handles.js";
 import { WIND, windDial } from "./wind_handle.js";
 

@@ -5,8 +5,8 @@
  *
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Units} Units
- * @typedef {import("../shared/view.js").View} View
- * @typedef {import("../shared/view.js").Point} Point
+ * @typedef {import("../shared/geometry.js").View} View
+ * @typedef {import("../shared/geometry.js").Point} Point
  *
  * @typedef {object} Stage
  * @property {View} view
@@ -27,11 +27,10 @@
  * @property {(scene: Scene, units: Units) => string} text  for assistive software
  */
 import { withOrbit, withPose } from "../scene/scene.js";
-import { headingOf, wrapped } from "../shared/compass.js";
 import { svg } from "../shared/dom.js";
+import { headingOf, pointAt, positionToScreen, toWorld, wrapped } from "../shared/geometry.js";
 import { decimalsFor, fixed, quantityText, tidy } from "../shared/units.js";
-import { pointAt, positionToScreen, toWorld } from "../shared/view.js";
-import { gridOf } from "./grid.js";
+import { gridOf } from "./background.js";
 
 /** An aeroplane from above, nose up, some 30 pixels long. */
 export const AEROPLANE =

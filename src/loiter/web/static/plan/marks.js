@@ -4,14 +4,13 @@
  *
  * @typedef {import("../shared/types.js").Maneuver} Maneuver
  * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/view.js").Point} Point
- * @typedef {import("../shared/view.js").View} View
+ * @typedef {import("../shared/geometry.js").Point} Point
+ * @typedef {import("../shared/geometry.js").View} View
  */
-import { unitVector } from "../shared/compass.js";
 import { svg } from "../shared/dom.js";
-import { stateAt } from "../shared/track.js";
+import { pointAt, positionToScreen, toScreen, unitVector } from "../shared/geometry.js";
+import { stateAt } from "../shared/maneuver.js";
 import { decimalsFor, fixed } from "../shared/units.js";
-import { pointAt, positionToScreen, toScreen } from "../shared/view.js";
 
 // Pixels: a label at the start of the last segment is left out if its point is nearer than this to another.
 const LEAST_DISTANCE = { join: 26, aircraft: 30 };

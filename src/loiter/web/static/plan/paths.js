@@ -7,15 +7,14 @@
  * @typedef {import("../shared/types.js").Maneuver} Maneuver
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Track} Track
- * @typedef {import("../shared/view.js").Point} Point
- * @typedef {import("../shared/view.js").View} View
+ * @typedef {import("../shared/geometry.js").Point} Point
+ * @typedef {import("../shared/geometry.js").View} View
  */
-import { DEGREE } from "../shared/compass.js";
 import { polyline, setAttributes, svg } from "../shared/dom.js";
-import { isAllowed, piecesOf } from "../shared/track.js";
+import { DEGREE, toScreen } from "../shared/geometry.js";
+import { isAllowed, piecesOf } from "../shared/maneuver.js";
 import { timeDifference } from "../shared/units.js";
-import { toScreen } from "../shared/view.js";
-import { ARROWHEAD } from "./circle.js";
+import { ARROWHEAD } from "./background.js";
 
 const LEAST_LENGTH_PX = 46; // of a segment with an arrow
 

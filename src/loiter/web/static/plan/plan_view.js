@@ -8,13 +8,12 @@
  * @typedef {import("./camera.js").PlanCamera} PlanCamera
  */
 import { byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
-import { splitAnswer } from "../shared/track.js";
-import { positionToScreen } from "../shared/view.js";
+import { positionToScreen } from "../shared/geometry.js";
+import { splitAnswer } from "../shared/maneuver.js";
 import { ghostOf, shownTime } from "../state/page_state.js";
+import { drawCircle, drawGrid } from "./background.js";
 import { showOpenedScenes } from "./camera.js";
-import { drawCircle } from "./circle.js";
 import { gestures } from "./gestures.js";
-import { drawGrid } from "./grid.js";
 import { createHandles } from "./handle_layer.js";
 import { AEROPLANE } from "./handles.js";
 import { drawMarks } from "./marks.js";

@@ -3,16 +3,15 @@
  * The dial of the wind and its handle.
  *
  * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/view.js").View} View
- * @typedef {import("../shared/view.js").Point} Point
+ * @typedef {import("../shared/geometry.js").View} View
+ * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("./handles.js").Handle} Handle
  * @typedef {import("./handles.js").Stage} Stage
  */
 import { withWind } from "../scene/scene.js";
-import { headingOf, unitVector } from "../shared/compass.js";
 import { polyline, setAttributes, svg } from "../shared/dom.js";
+import { headingOf, pointAt, unitVector } from "../shared/geometry.js";
 import { fixed, quantityText, tidy } from "../shared/units.js";
-import { pointAt } from "../shared/view.js";
 import { handleParts } from "./handles.js";
 
 const DIAL_PX = { small: 28, large: 42 }; // radius: half the airspeed

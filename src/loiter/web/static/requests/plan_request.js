@@ -16,9 +16,7 @@
  */
 import { refusalOf } from "../fields/field_names.js";
 import { NO_MESSAGE } from "../state/page_state.js";
-import { post } from "./api.js";
-import { newestOnly } from "./newest.js";
-import { Unreachable } from "./problems.js";
+import { Unreachable, newestOnly, post } from "./api.js";
 
 /**
  * A function that applies changes to the state and requests the plan of the scene.

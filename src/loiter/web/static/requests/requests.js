@@ -8,10 +8,9 @@
  * @typedef {ReturnType<typeof createRequests>} Requests
  */
 import { drifts } from "../scene/scene.js";
-import { PAUSE_MS, debounced } from "../shared/timing.js";
+import { PAUSE_MS, debounced } from "../shared/dom.js";
 import { isSettled } from "../state/page_state.js";
-import { certificateRequest } from "./certificate_request.js";
-import { mapRequest } from "./map_request.js";
+import { certificateRequest, mapRequest } from "./pause_requests.js";
 import { planRequest } from "./plan_request.js";
 import { createRetries } from "./retry.js";
 

@@ -1,7 +1,10 @@
 // @ts-check
 /**
  * Retries for a service that does not answer: a limited number, with growing waits.
+ *
+ * @typedef {import("../state/page_state.js").Fault} Fault
  */
+import { Unreachable } from "./api.js";
 
 /** Seconds before each attempt: two minutes in total. */
 const WAITS_S = [1, 2, 4, 8, 15, 30, 30, 30];
@@ -66,4 +69,19 @@ export function createRetries(ask) {
 function attemptAfter(made, least_s) {
   if (made >= WAITS_S.length) return null;
   return { wait_s: Math.max(WAITS_S[made], Math.min(least_s, LONGEST_S)), number: made + 1, of: WAITS_S.length };
+}
+
+/**
+ * The reason why a certificate or a map is missing. If the service does not answer, the next attempt is planned.
+ *
+ * @param {Error} error
+ * @param {Retries} retries
+ * @param {string} consequence  first words of the sentence
+ * @returns {Fault}
+ */
+export function faultOf(error, retries, consequence) {
+  if (!(error instanceof Unreachable)) return { sentence: `${consequence}: ${error.message}`, temporary: false };
+  const attempt = retries.plan(error.wait_s);
+  const next = attempt ? ` Retrying in ${attempt.wait_s} s.` : "";
+  return { sentence: `${consequence}: ${error.headline}.${next}`, temporary: true };
 }

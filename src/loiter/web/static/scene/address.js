@@ -6,10 +6,10 @@
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../state/actions.js").Actions} Actions
  */
+import { spanOf } from "../plan/camera.js";
+import { PAUSE_MS, debounced } from "../shared/dom.js";
 import { fromLink, toLink } from "./link.js";
 import { PRESETS } from "./presets.js";
-import { spanOf } from "../plan/camera.js";
-import { PAUSE_MS, debounced } from "../shared/timing.js";
 
 /** @type {import("./link.js").Linked} */
 const FIRST = { scene: PRESETS[0].scene, units: "metric", altitude: {}, view: null };

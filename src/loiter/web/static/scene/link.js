@@ -15,8 +15,7 @@
  * @property {Altitude} altitude
  * @property {number[] | null} view  middle east and north, width: metres; null unless the user has moved the view
  */
-import { LIMITS, limitOf } from "./aircraft.js";
-import { orbitMoves, withWind } from "./scene.js";
+import { LIMITS, limitOf, orbitMoves, withWind } from "./scene.js";
 
 /** @type {Record<Limit, string>} */
 const LIMIT_KEYS = { max_bank_deg: "bank", min_turn_radius_m: "turn-radius", max_turn_rate_deg_s: "turn-rate" };

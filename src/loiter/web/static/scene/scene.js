@@ -1,10 +1,13 @@
 // @ts-check
 /**
- * Properties of a scene, and scenes with one part changed.
+ * Properties of a scene and its aircraft, and scenes with one part changed.
  *
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Wind} Wind
+ * @typedef {import("../shared/types.js").Aircraft} Aircraft
+ * @typedef {import("../shared/types.js").Limit} Limit
  */
+import { DEGREE } from "../shared/geometry.js";
 
 /** @param {Scene} scene @param {Partial<Scene["pose"]>} pose @returns {Scene} */
 export const withPose = (scene, pose) => ({ ...scene, pose: { ...scene.pose, ...pose } });
@@ -36,4 +39,43 @@ const ROUNDING = 1e-9;
  */
 export function isProved(scene, radius) {
   return !drifts(scene) && scene.tolerance_m === 0 && Math.abs(radius - 1) < ROUNDING;
+}
+
+const STANDARD_GRAVITY_M_S2 = 9.80665;
+
+/** @type {Limit[]} */
+export const LIMITS = ["max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s"];
+
+/**
+ * The limit that an aircraft gives.
+ *
+ * @param {Aircraft} aircraft
+ * @returns {Limit}
+ */
+export function limitOf(aircraft) {
+  return LIMITS.find((name) => aircraft[name] !== undefined) ?? "max_bank_deg";
+}
+
+/**
+ * The turn radius of an aircraft, metres.
+ *
+ * @param {Aircraft} aircraft
+ */
+export function turnRadiusOf({ airspeed_m_s, max_bank_deg, min_turn_radius_m, max_turn_rate_deg_s }) {
+  if (min_turn_radius_m !== undefined) return min_turn_radius_m;
+  if (max_turn_rate_deg_s !== undefined) return airspeed_m_s / (max_turn_rate_deg_s * DEGREE);
+  return airspeed_m_s ** 2 / (STANDARD_GRAVITY_M_S2 * Math.tan((max_bank_deg ?? 0) * DEGREE));
+}
+
+/**
+ * The value of a limit that gives this turn radius: tan(bank) = V^2 / (g r), rate = V / r.
+ *
+ * @param {Limit} kind
+ * @param {number} airspeed_m_s
+ * @param {number} turnRadius_m
+ */
+export function limitFor(kind, airspeed_m_s, turnRadius_m) {
+  if (kind === "min_turn_radius_m") return turnRadius_m;
+  if (kind === "max_turn_rate_deg_s") return airspeed_m_s / turnRadius_m / DEGREE;
+  return Math.atan(airspeed_m_s ** 2 / (STANDARD_GRAVITY_M_S2 * turnRadius_m)) / DEGREE;
 }

@@ -1,5 +1,5 @@
 // @ts-check
-/** Elements of the page: find, make, show, measure. */
+/** Helpers for the browser: elements, sizes, timers. */
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -117,4 +117,21 @@ export function observeSize(box, resized) {
   const measure = () => resized(Math.round(box.clientWidth), Math.round(box.clientHeight));
   new ResizeObserver(measure).observe(box);
   measure();
+}
+
+/** Milliseconds without a change after which a drag counts as paused. */
+export const PAUSE_MS = 140;
+
+/**
+ * A function that calls `act` once, when it has not been called for some time.
+ *
+ * @param {number} wait_ms
+ * @param {() => void} act
+ */
+export function debounced(wait_ms, act) {
+  let timer = 0;
+  return () => {
+    clearTimeout(timer);
+    timer = window.setTimeout(act, wait_ms);
+  };
 }

@@ -1,4 +1,5 @@
 // @ts-check
+
 /**
  * The requests and answers of the service. Lengths are in metres, times in seconds, headings in compass degrees.
  *

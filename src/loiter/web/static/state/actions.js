@@ -6,7 +6,7 @@
  * @typedef {import("./page_state.js").PageState} PageState
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../requests/requests.js").Requests} Requests
- * @typedef {import("../requests/latency.js").Latency} Latency
+ * @typedef {import("../requests/progress.js").Latency} Latency
  * @typedef {ReturnType<typeof createActions>} Actions
  */
 import { NO_MESSAGE, durationOf } from "./page_state.js";

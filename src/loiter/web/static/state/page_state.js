@@ -11,7 +11,7 @@
  * @typedef {import("../shared/types.js").Altitude} Altitude
  * @typedef {import("../shared/types.js").Origin} Origin
  * @typedef {import("../shared/types.js").Synthesis} Synthesis
- * @typedef {import("../shared/view.js").View} View
+ * @typedef {import("../shared/geometry.js").View} View
  * @typedef {import("../requests/retry.js").Attempt} Attempt
  *
  * @typedef {"idle" | "stale" | "asking" | "failed"} Status
@@ -77,7 +77,7 @@
  * @property {Message} message
  */
 import { PRESETS } from "../scene/presets.js";
-import { stateAt } from "../shared/track.js";
+import { stateAt } from "../shared/maneuver.js";
 
 /** @type {Message} */
 export const NO_MESSAGE = { text: "", bad: false };

@@ -9,8 +9,7 @@
  * @typedef {ReturnType<typeof timeScale>} TimeScale
  */
 import { polyline, svg } from "../shared/dom.js";
-import { CONTROLS } from "../shared/labels.js";
-import { interpolator } from "../shared/track.js";
+import { CONTROLS, interpolator } from "../shared/maneuver.js";
 import { decimalsOfStep, fixed, roundStep } from "../shared/units.js";
 
 // Pixels

@@ -1,15 +1,37 @@
 // @ts-check
 /**
- * Samples of a maneuver: its segments, and its state at a time.
+ * Maneuvers: names of controls and directions, segments, and the state at a time.
  *
+ * @typedef {import("./types.js").Direction} Direction
+ * @typedef {import("./types.js").Letter} Letter
  * @typedef {import("./types.js").Track} Track
  * @typedef {import("./types.js").Maneuver} Maneuver
- * @typedef {import("./types.js").Letter} Letter
  * @typedef {import("./types.js").Answer} Answer
  * @typedef {import("./types.js").Alternative} Alternative
  * @typedef {import("./types.js").Scene} Scene
+ *
  * @typedef {{east_m: number, north_m: number, heading_deg: number, x: number, y: number}} Instant
  */
+import { html } from "./dom.js";
+
+/** @type {Record<Letter, string>} */
+export const CONTROLS = { L: "left", S: "straight", R: "right" };
+
+/** @type {Record<Direction, string>} */
+export const DIRECTIONS = { cw: "clockwise", ccw: "counter-clockwise" };
+
+/** @type {Record<Direction, string>} */
+export const DIRECTION_ARROWS = { cw: "↻", ccw: "↺" };
+
+/**
+ * A word with each letter in the colour of its control; "hold" for the empty word.
+ *
+ * @param {string} word
+ */
+export function wordLabel(word) {
+  const letters = Array.from(word, (letter) => html("span", { class: letter }, [letter]));
+  return html("span", { class: "word" }, letters.length > 0 ? letters : ["hold"]);
+}
 
 /**
  * The index of the last sample at or before a time, but not the last sample itself.

@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * Fields for numbers. A text that is no number, or a number that the service refuses, is marked, with a sentence below the
- * field. Until it is corrected the previous number stays in use.
+ * Fields for numbers and choices. A text that is no number, or a number that the service refuses, is marked, with a sentence
+ * below the field. Until it is corrected the previous number stays in use.
  *
  * @typedef {import("../shared/types.js").Units} Units
  * @typedef {import("../shared/units.js").Quantity} Quantity
@@ -18,10 +18,28 @@
  * @property {(sentence: string | null) => void} refuse  mark the number as wrong, or remove the mark
  * @property {() => string} typo  the error in the text, or nothing
  */
+import { html } from "../shared/dom.js";
 import { sixDigits, unitOf } from "../shared/units.js";
-import { errorLine, markInvalid } from "./error_line.js";
 import { nameOf } from "./field_names.js";
 import { parseNumber } from "./number_text.js";
+
+/**
+ * A new line below a field for the sentence that says what is wrong with it.
+ *
+ * @param {HTMLElement} field
+ */
+export function errorLine(field) {
+  const line = html("p", { id: `${field.id}-fault`, class: "fault", role: "alert" });
+  (field.closest("label, .pair") ?? field).after(line);
+  field.setAttribute("aria-describedby", line.id);
+  return line;
+}
+
+/**
+ * @param {HTMLElement} field
+ * @param {boolean} invalid
+ */
+export const markInvalid = (field, invalid) => field.setAttribute("aria-invalid", String(invalid));
 
 const TYPING_PAUSE_MS = 500; // an error is shown when the typing pauses: "12 k" may become "12 km"
 
@@ -116,3 +134,23 @@ class NumberField {
  * @returns {Field}
  */
 export const numberField = (input, source) => new NumberField(input, source);
+
+/**
+ * @param {HTMLSelectElement} select
+ * @param {() => string} get
+ * @param {(value: string) => void} set
+ * @returns {Field}
+ */
+export function choiceField(select, get, set) {
+  const line = errorLine(select);
+  /** @param {string | null} sentence */
+  function refuse(sentence) {
+    line.textContent = sentence ?? "";
+    markInvalid(select, sentence !== null);
+  }
+  select.addEventListener("change", () => {
+    refuse(null);
+    set(select.value);
+  });
+  return { draw: () => (select.value = get()), refuse, typo: () => "" };
+}

@@ -1,6 +1,7 @@
 // @ts-check
 /**
- * A scene without a plan: the page says why, disables what would use the plan, and shows the previous plan faintly.
+ * The message over the plan view, and a scene without a plan: the page says why, disables what would use the plan, and shows
+ * the previous plan faintly.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
@@ -8,6 +9,18 @@
  * @typedef {import("../requests/retry.js").Attempt} Attempt
  */
 import { byId, show } from "../shared/dom.js";
+
+/** @param {Store} store */
+export function messageView(store) {
+  const element = byId("message", HTMLElement);
+  store.watch(
+    ({ message }) => [message],
+    ({ message: { text, bad } }) => {
+      element.textContent = text;
+      element.classList.toggle("bad", bad);
+    },
+  );
+}
 
 const REASON_IDS = "no-plan refusal"; // the elements that say why a button is disabled
 

@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * A view maps the plane (metres, or turn radii) to the screen (pixels; y grows downwards). Views are never changed in
- * place.
+ * Compass headings, and views. A view maps the plane (metres, or turn radii) to the screen (pixels; y grows downwards). Views
+ * are never changed in place.
  *
  * @typedef {object} View
  * @property {number} scale  pixels per metre
@@ -11,7 +11,38 @@
  * @property {number} height
  * @typedef {[number, number]} Point
  */
-import { unitVector } from "./compass.js";
+
+/** Radians per degree. */
+export const DEGREE = Math.PI / 180;
+
+/**
+ * The east and north components of the unit vector along a heading.
+ *
+ * @param {number} heading_deg
+ * @returns {[number, number]}
+ */
+export function unitVector(heading_deg) {
+  return [Math.sin(heading_deg * DEGREE), Math.cos(heading_deg * DEGREE)];
+}
+
+/**
+ * The heading along a vector, degrees in [0, 360).
+ *
+ * @param {number} east
+ * @param {number} north
+ */
+export function headingOf(east, north) {
+  return (Math.atan2(east, north) / DEGREE + 360) % 360;
+}
+
+/**
+ * A heading as the same direction in [0, 360).
+ *
+ * @param {number} degrees
+ */
+export function wrapped(degrees) {
+  return (((degrees % 360) + 360) % 360) + 0;
+}
 
 // Pixels per metre: from a screen that shows the whole Earth to one that shows micrometres.
 const SCALES = { least: 1e-7, most: 1e7 };
