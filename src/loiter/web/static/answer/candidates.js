@@ -41,7 +41,7 @@ function rowsOf({ answer, scene }, highlight) {
       const button = html("button", { type: "button", class: "row" }, cells(other, signedTimeDifference(other.later_s)));
       for (const event of ["pointerenter", "focus"]) button.addEventListener(event, () => highlight(index));
       for (const event of ["pointerleave", "blur"]) button.addEventListener(event, () => highlight(null));
-      return html("li", { class: isAllowed(scene, other) ? "" : "unasked" }, [button]);
+      return html("li", { class: isAllowed(scene, other) ? "" : "disallowed" }, [button]);
     }),
   ];
 }

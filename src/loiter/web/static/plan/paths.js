@@ -90,7 +90,7 @@ function cumulativeLengths(points) {
  */
 export function drawOther(view, other, index, scene, highlight) {
   const d = polyline(pointsOf(view, other.track));
-  const group = svg("g", { class: isAllowed(scene, other) ? "other" : "other unasked" }, [
+  const group = svg("g", { class: isAllowed(scene, other) ? "other" : "other disallowed" }, [
     svg("path", { d, class: "line", "stroke-opacity": Math.max(0.25, 0.8 - 0.12 * index) }),
     svg("path", { d, class: "reach" }),
   ]);

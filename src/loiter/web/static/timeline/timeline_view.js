@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * The time line: control, switching function and adjoint of the optimal maneuver, with the switching times. It shows what
+ * The time line: control, switching function and costate of the optimal maneuver, with the switching times. It shows what
  * the certificate checks: phi > 0 turns left, phi < 0 turns right, phi = 0 allows straight flight, and psi1 equals lambda
  * where phi vanishes.
  *
