@@ -36,9 +36,13 @@ function rowsOf({ answer, scene }, highlight) {
   if (!answer) return [];
   const { best, others } = splitAnswer(answer);
   return [
-    ...best.map((maneuver) => html("li", { class: "best" }, [html("span", { class: "row" }, cells(maneuver, "optimal"))])),
+    ...best.map((maneuver) => {
+      const row = html("span", { class: "row" }, cells(maneuver, "optimal"));
+      return html("li", { class: "best" }, [row]);
+    }),
     ...others.map((other, index) => {
-      const button = html("button", { type: "button", class: "row" }, cells(other, signedTimeDifference(other.later_s)));
+      const later = signedTimeDifference(other.later_s);
+      const button = html("button", { type: "button", class: "row" }, cells(other, later));
       for (const event of ["pointerenter", "focus"]) button.addEventListener(event, () => highlight(index));
       for (const event of ["pointerleave", "blur"]) button.addEventListener(event, () => highlight(null));
       return html("li", { class: isAllowed(scene, other) ? "" : "disallowed" }, [button]);

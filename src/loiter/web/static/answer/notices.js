@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * The message over the plan view, and a scene without a plan: the page says why, disables what would use the plan, and shows
- * the previous plan faintly.
+ * The message over the plan view, and a scene without a plan: the page says why, disables what would use the plan, and
+ * shows the previous plan faintly.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions

@@ -1,6 +1,7 @@
 // @ts-check
 /**
- * All fields of the page, and their error marks: those of the scene, of the position of (0, 0) on Earth, and of the altitude.
+ * All fields of the page, and their error marks: those of the scene, of the position of (0, 0) on Earth, and of the
+ * altitude.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions

@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * Fields for numbers and choices. A text that is no number, or a number that the service refuses, is marked, with a sentence
- * below the field. Until it is corrected the previous number stays in use.
+ * Fields for numbers and choices. A text that is no number, or a number that the service refuses, is marked, with a
+ * sentence below the field. Until it is corrected the previous number stays in use.
  *
  * @typedef {import("../shared/types.js").Units} Units
  * @typedef {import("../shared/units.js").Quantity} Quantity

@@ -4,7 +4,7 @@
  *
  * @typedef {import("../shared/types.js").Units} Units
  * @typedef {import("../shared/units.js").Quantity} Quantity
- * @typedef {{value: number} | {problem: string}} Entry  in metres, metres per second or degrees; or the reason why there is none
+ * @typedef {{value: number} | {problem: string}} Entry  in metres, metres per second or degrees; or why there is none
  */
 import { acceptedUnits, unitOf } from "../shared/units.js";
 
@@ -14,8 +14,8 @@ const NUMBER = /^([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+))(e[+-]?\d+)?\s*(.*)$/i;
 const AMBIGUOUS = /^[+-]?[1-9]\d{0,2},\d{3}$/;
 
 /**
- * The number in a text. Without a unit it has the unit that the field shows. The problem completes a sentence that begins
- * with the name of the field.
+ * The number in a text. Without a unit it has the unit that the field shows. The problem completes a sentence that
+ * begins with the name of the field.
  *
  * @param {string} text
  * @param {Quantity} quantity

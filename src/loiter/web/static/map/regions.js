@@ -1,6 +1,7 @@
 // @ts-check
 /**
- * The regions of the map and their words. The hue is that of the word's first control, the strength distinguishes words.
+ * The regions of the map and their words. The hue is that of the word's first control, the strength distinguishes
+ * words.
  *
  * @typedef {import("../shared/types.js").Synthesis} Synthesis
  * @typedef {import("../shared/geometry.js").View} View
@@ -92,8 +93,8 @@ export function drawRegionLabels(view, { region, words, x, y }) {
 }
 
 /**
- * The cell of a region that is farthest from the other regions, and its depth: the number of steps along rows and columns
- * to the nearest cell outside.
+ * The cell of a region that is farthest from the other regions, and its depth: the number of steps along rows and
+ * columns to the nearest cell outside.
  *
  * @param {number[][]} rows
  * @param {number} index

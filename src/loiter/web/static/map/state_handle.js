@@ -60,8 +60,8 @@ export function stateHandle(group, root, store, actions) {
 }
 
 /**
- * The position of an aircraft with this heading and the reduced state (x, y): the inverse of equation (2) of the paper, a
- * rotation. x counts along the heading, y to the left of it, both from the centre.
+ * The position of an aircraft with this heading and the reduced state (x, y): the inverse of equation (2) of the paper,
+ * a rotation. x counts along the heading, y to the left of it, both from the centre.
  *
  * @param {number} x turn radii
  * @param {number} y turn radii

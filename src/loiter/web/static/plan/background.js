@@ -60,7 +60,8 @@ export function drawGrid(view, units) {
 const line = (d, k) => svg("path", { d, class: k === 0 ? "axis" : "" });
 
 /**
- * The whole numbers k with k * step between two values: none where neighbours cannot be distinguished in floating point.
+ * The whole numbers k with k * step between two values: none where neighbours cannot be distinguished in floating
+ * point.
  *
  * @param {number} from
  * @param {number} to

@@ -119,7 +119,7 @@ function marginsOf({ width, height }) {
  */
 function contentsOf({ scene: { pose, orbit }, answer }) {
   const best = answer ? splitAnswer(answer).best : [];
-  const centres = best.map(({ join_over_ground: { centre_east_m, centre_north_m } }) => [centre_east_m, centre_north_m]);
+  const centres = best.map(({ join_over_ground: centre }) => [centre.centre_east_m, centre.centre_north_m]);
   const r = Math.abs(orbit.radius_m);
   return [
     [pose.east_m, pose.north_m],

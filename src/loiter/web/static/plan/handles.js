@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * The handles of the plan view: aircraft, heading, centre and radius of the circle. Each gives its position on the screen,
- * and the scene after a drag or a key.
+ * The handles of the plan view: aircraft, heading, centre and radius of the circle. Each gives its position on the
+ * screen, and the scene after a drag or a key.
  *
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Units} Units
@@ -135,8 +135,8 @@ export const CENTRE = {
 };
 
 /**
- * The handle of the radius. It may be anywhere on the circle, but never too near to the centre: on a tiny circle it lies
- * outside, by as many pixels as a drag must not add to the radius.
+ * The handle of the radius. It may be anywhere on the circle, but never too near to the centre: on a tiny circle it
+ * lies outside, by as many pixels as a drag must not add to the radius.
  *
  * @returns {Handle}
  */

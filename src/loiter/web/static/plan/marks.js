@@ -1,6 +1,7 @@
 // @ts-check
 /**
- * Marks on a path, where the control changes and where the circle is joined, with labels that cover as little as possible.
+ * Marks on a path, where the control changes and where the circle is joined, with labels that cover as little as
+ * possible.
  *
  * @typedef {import("../shared/types.js").Maneuver} Maneuver
  * @typedef {import("../shared/types.js").Scene} Scene

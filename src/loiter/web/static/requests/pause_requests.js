@@ -47,7 +47,8 @@ export function certificateRequest(store, retries) {
 const CELLS = 280; // along a side: 1.5 pixels each; the curves cover the steps between them
 
 /**
- * A function that requests the map for a plan, unless it is shown already. An answer that is no longer wanted is dropped.
+ * A function that requests the map for a plan, unless it is shown already. An answer that is no longer wanted is
+ * dropped.
  *
  * @param {Store} store
  * @param {Retries} retries

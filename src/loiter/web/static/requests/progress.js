@@ -1,7 +1,8 @@
 // @ts-check
 /**
- * The progress of the requests as data attributes of the plan view, for which tests and measurements wait; and the delay from a
- * move of the pointer to the path that it asks for, as entries "move to path" of the browser's performance timeline.
+ * The progress of the requests as data attributes of the plan view, for which tests and measurements wait; and the
+ * delay from a move of the pointer to the path that it asks for, as entries "move to path" of the browser's performance
+ * timeline.
  *
  * @typedef {import("../state/store.js").Store} Store
  *

@@ -18,7 +18,7 @@ const LONGEST_S = 60; // that a busy service may demand
  * @property {number} of  how many attempts there are
  *
  * @typedef {object} Retries
- * @property {(least_s: number) => Attempt | null} plan  plan the next attempt, unless one is planned; null if none is left
+ * @property {(least_s: number) => Attempt | null} plan  plan an attempt, unless one is planned; null if none is left
  * @property {() => void} now  ask at once, and count from the beginning
  * @property {() => void} cancel  the planned attempt: the service has answered; the count goes on
  * @property {() => void} reset  the count: the service has answered everything

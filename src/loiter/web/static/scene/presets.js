@@ -30,9 +30,9 @@ function scene([east_m, north_m, heading_deg], radius_m, aircraft, wind = null) 
 }
 
 /**
- * In the examples of the paper the aircraft heads east, the circle is about (0, 0) and the turn radius is 1 m, so that the
- * reduced state equals the position. In the last one the start is one hundredth of a turn radius inside the last arc of a
- * circle of the turn radius; just outside it the minimum time is much longer.
+ * In the examples of the paper the aircraft heads east, the circle is about (0, 0) and the turn radius is 1 m, so that
+ * the reduced state equals the position. In the last one the start is one hundredth of a turn radius inside the last
+ * arc of a circle of the turn radius; just outside it the minimum time is much longer.
  *
  * @type {{name: string, scene: Scene}[]}
  */

@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * Handles: parts of a drawing that are moved by mouse, finger or arrow keys. Assistive software sees a slider, whose text
- * gives both coordinates.
+ * Handles: parts of a drawing that are moved by mouse, finger or arrow keys. Assistive software sees a slider, whose
+ * text gives both coordinates.
  *
  * @typedef {import("./geometry.js").Point} Point
  *

@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * Compass headings, and views. A view maps the plane (metres, or turn radii) to the screen (pixels; y grows downwards). Views
- * are never changed in place.
+ * Compass headings, and views. A view maps the plane (metres, or turn radii) to the screen (pixels; y grows downwards).
+ * Views are never changed in place.
  *
  * @typedef {object} View
  * @property {number} scale  pixels per metre

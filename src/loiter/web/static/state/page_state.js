@@ -1,8 +1,8 @@
 // @ts-check
 /**
- * The state of the page. A plan, its certificate and the map are requested from the service, each in one of four states:
- * `idle` (answered), `stale` (the scene has changed; requested again when the drag pauses), `asking` (a request is under
- * way) and `failed`.
+ * The state of the page. A plan, its certificate and the map are requested from the service, each in one of four
+ * states: `idle` (answered), `stale` (the scene has changed; requested again when the drag pauses), `asking` (a request
+ * is under way) and `failed`.
  *
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Answer} Answer

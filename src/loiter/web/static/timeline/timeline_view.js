@@ -1,8 +1,8 @@
 // @ts-check
 /**
- * The time line: control, switching function and costate of the optimal maneuver, with the switching times. It shows what
- * the certificate checks: phi > 0 turns left, phi < 0 turns right, phi = 0 allows straight flight, and psi1 equals lambda
- * where phi vanishes.
+ * The time line: control, switching function and costate of the optimal maneuver, with the switching times. It shows
+ * what the certificate checks: phi > 0 turns left, phi < 0 turns right, phi = 0 allows straight flight, and psi1 equals
+ * lambda where phi vanishes.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
