@@ -55,7 +55,7 @@ def drawn(rng: random.Random) -> Asked:
         path = f"/api/export/{rng.choice(['geojson', 'kml', 'gpx', 'csv'])}"
         return Asked(kind, "POST", path, scene(rng, origin=ORIGIN), 200)
     if kind == "page":
-        return Asked(kind, "GET", rng.choice(["/", "/healthz", "/static/layout.css"]), b"", 200)
+        return Asked(kind, "GET", rng.choice(["/", "/healthz", "/static/styles/layout.css"]), b"", 200)
     if kind == "bad":
         return Asked(kind, "POST", "/api/plan", scene(rng, tolerance_m=-1.0), 422)
     if kind == "too large":
