@@ -46,15 +46,7 @@ def synthesis(
     ] = None,
 ) -> None:
     """Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions."""
-    if plot is not None:
-        files.check_format(plot)
-    if save is not None and save.suffix.lower() != ".npz":
-        raise InvalidArgument("save", f"is {str(save)!r}: the file name must end in .npz")
-    if show == "worth" and turn == "either":
-        raise InvalidArgument(
-            "show",
-            "is 'worth': it compares a free choice of direction with one direction, so give --turn cw or ccw",
-        )
+    _check_options(turn, show, plot, save)
     regions = partition(radius, turn, reach=reach, cells=cells)
     curves = boundaries(regions)
     if plot is not None:
@@ -64,6 +56,19 @@ def synthesis(
     if save is not None:
         write_arrays(save, regions, curves)
     report.write(table(curves))
+
+
+def _check_options(turn: TurnName, show: str, plot: Path | None, save: Path | None) -> None:
+    """Raise `InvalidArgument` for file names and options that cannot be used."""
+    if plot is not None:
+        files.check_format(plot)
+    if save is not None and save.suffix.lower() != ".npz":
+        raise InvalidArgument("save", f"is {str(save)!r}: the file name must end in .npz")
+    if show == "worth" and turn == "either":
+        raise InvalidArgument(
+            "show",
+            "is 'worth': it compares a free choice of direction with one direction, so give --turn cw or ccw",
+        )
 
 
 def table(curves: tuple[Boundary, ...]) -> Table:
