@@ -9,10 +9,9 @@ from loiter.geo.frame import LocalFrame
 from loiter.io.maps.places import degrees, true_headings
 from loiter.io.maps.track import ring, steps, vertices
 from loiter.io.missions.mission import BEND_PER_M, LEAST_EARTH_RADIUS_M
+from loiter.io.vocabulary import ACTIONS
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Samples, Segment
-
-ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
 
 # Next to a pole degrees draw no map: the bend grows without bound.
 POLEMOST_DEG = 89.99

@@ -9,7 +9,8 @@ import json
 from typing import Any
 
 from loiter.io.maps.antimeridian import Position, cut_line, cut_ring
-from loiter.io.maps.chart import ACTIONS, Chart, Leg, Mark
+from loiter.io.maps.chart import Chart, Leg, Mark
+from loiter.io.vocabulary import ACTIONS
 
 # 1e-9 degrees are 0.1 mm.
 DECIMALS = 9
