@@ -13,8 +13,7 @@ from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Pose
-
-ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
+from loiter.planning.vocabulary import ACTIONS
 
 # Two durations that are equal in theory differ by rounding, near 1e-15 of themselves in near and 1e-14 in far scenes.
 SAME_TIME = 1e-12

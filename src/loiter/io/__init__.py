@@ -1,4 +1,4 @@
-"""A maneuver as files for maps, ground stations and autopilots; parameter files of autopilots read."""
+"""Maneuvers written as files for maps, ground stations and autopilots; missions and parameter files read."""
 
 from loiter.io.files import FORMATS, check_format, read_mission, save
 from loiter.io.mission import mission

@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, Strict, field_validator
 from pydantic.json_schema import SkipJsonSchema
 
 from loiter.geo import LocalFrame
+from loiter.io.missions.items import AutopilotName
 from loiter.planning import model
 from loiter.planning.model import TurnName
 
@@ -155,7 +156,7 @@ class ExportOptions(Scene):
     chord_error_m: Annotated[Number, Field(json_schema_extra={"minimum": LEAST_CHORD_ERROR_M})] = Field(
         1.0, description="The track is nowhere further from the lines between points, metres."
     )
-    autopilot: Literal["ardupilot", "px4"] = Field("ardupilot", description="Whom a .plan is for.")
+    autopilot: AutopilotName = Field("ardupilot", description="Whom a .plan is for.")
 
     @field_validator("chord_error_m")
     @classmethod

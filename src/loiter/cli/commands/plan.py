@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 from cyclopts import Parameter
 
@@ -23,12 +23,10 @@ from loiter.cli.options import (
 from loiter.cli.status import CHECK_FAILED
 from loiter.io.document import answer
 from loiter.io.files import is_mission
-from loiter.io.missions.items import Autopilot
+from loiter.io.missions.items import AUTOPILOTS, AutopilotName
 from loiter.planning.model import Turn
 from loiter.planning.solve import compared
 from loiter.plot import files
-
-AUTOPILOTS = {"ardupilot": Autopilot.ARDUPILOT, "px4": Autopilot.PX4}
 
 
 def plan(
@@ -75,7 +73,7 @@ def plan(
     ] = None,
     waypoints: MissionOptions = MissionOptions(),
     autopilot: Annotated[
-        Literal["ardupilot", "px4"], Parameter(group=missions, help="Whom a mission is for.")
+        AutopilotName, Parameter(group=missions, help="The autopilot that a mission is for.")
     ] = "ardupilot",
 ) -> int:
     """Plan the fastest entry onto a holding circle: what to fly, for how long, where to peel off."""

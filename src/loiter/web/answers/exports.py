@@ -9,16 +9,15 @@ from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.io import AltitudeDatum, AltitudeReference, Autopilot, save
-from loiter.io.maps.track import steps
+from loiter.io import AltitudeDatum, AltitudeReference, save
+from loiter.io.maps.track import step_counts
+from loiter.io.missions.items import AUTOPILOTS
 from loiter.planning.model import Turn
 from loiter.planning.solve import compared
 from loiter.web.models import ExportOptions
 
 # Points of the track that the service writes into one file: a second's work. `loiter plan --save` has no such limit.
 MOST_POINTS = 20_000
-
-AUTOPILOTS = {"ardupilot": Autopilot.ARDUPILOT, "px4": Autopilot.PX4}
 
 FILES = {
     "geojson": "application/geo+json",
@@ -47,7 +46,7 @@ def written(export: Export) -> bytes:
     """The file for the first optimal maneuver; raises as `loiter.io.save`, and where it would have too many points."""
     asked, options = export.options.asked(), export.options
     first = compared(*asked[:4], tolerance_m=asked.tolerance_m)[0][0]
-    count = sum(steps(first, options.spacing_m, options.chord_error_m))
+    count = sum(step_counts(first, options.spacing_m, options.chord_error_m))
     if count > MOST_POINTS:
         name = "chord_error_m" if options.spacing_m is None else "spacing_m"
         raise InvalidArgument(

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from loiter.io.maps.chart import ACTIONS
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, TURN_LIMITS, Aircraft, Orbit, Turn
+from loiter.planning.vocabulary import ACTIONS
 from loiter.web.models import Asked
 
 LIMIT_OPTIONS = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from loiter.arrays import reduce
-from loiter.io.maps.track import steps, vertices
+from loiter.io.maps.track import step_counts, vertices
 from loiter.planning.maneuver import Maneuver
 
 # In turn radii: a pixel of a screen that shows a turn 500 pixels wide.
@@ -15,7 +15,7 @@ def track(maneuver: Maneuver) -> dict[str, list[float]]:
 
     The reduced state is that relative to the circle, where it is at the time if it moves.
     """
-    flown = vertices(maneuver, steps(maneuver, None, CHORD_ERROR * maneuver.aircraft.turn_radius_m))
+    flown = vertices(maneuver, step_counts(maneuver, None, CHORD_ERROR * maneuver.aircraft.turn_radius_m))
     orbit, time = maneuver.orbit, flown.time_s
     east = flown.east_m - orbit.velocity_east_m_s * time
     north = flown.north_m - orbit.velocity_north_m_s * time
