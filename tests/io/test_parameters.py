@@ -167,7 +167,10 @@ def test_pymavlink_reads_the_same_values(tmp_path, text):
             r"line 2 is '1\\t1\\tFW_AIRSPD_TRIM\\t15': it is not a para",
         ),
         ("1\tx\tFW_R_LIM\t50\t9\n", r"line 1 is '1\\tx\\tFW_R_LIM\\t50\\t9': it is not a parameter with a value"),
-        ("ROLL_LIMIT_DEG,45\n1\t1\tWP_LOITER_RAD\t50\t9\n", r"line 2 is '1\\t1\\tWP_LOITER_RAD.*: it is no parameter"),
+        (
+            "ROLL_LIMIT_DEG,45\n1\t1\tWP_LOITER_RAD\t50\t9\n",
+            r"line 2 is '1\\t1\\tWP_LOITER_RAD.*: it is not a parameter",
+        ),
         ("{}", "line 1 is '{}': it is not a parameter with a value"),
         ("\x00" * 500, r"line 1 is '(\\x00)+\.\.\.: it is not a parameter with a value"),
         (b"\xff\xfe", "it is not UTF-8 text, see byte 0"),
