@@ -91,7 +91,7 @@ VALUES = {
     "tolerance": ([*OPTIONS, "--tolerance", "-1"], ["--tolerance is -1.0"]),
     "no workers": ([*OPTIONS, "--workers", "0"], ["--workers is 0", "at least 1"]),
     "half a worker": ([*OPTIONS, "--workers", "1.5"], ["--workers is '1.5'", "whole number"]),
-    "workers of both kinds": ([*OPTIONS, "--workers", "2", "--scheduler", "tcp://127.0.0.1:1"], ["--workers is given"]),
+    "workers of both kinds": ([*OPTIONS, "--workers", "2", "--scheduler", "tcp://127.0.0.1:1"], ["--workers and a scheduler are given"]),
     "no address": ([*OPTIONS, "--scheduler", "somewhere"], ["--scheduler is 'somewhere'", "tcp://"]),
     "no such option": ([*OPTIONS, "--speed", "3"], ["--speed"]),
     "one word too many": ([*OPTIONS, "more"], ["more"]),

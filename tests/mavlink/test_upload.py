@@ -140,7 +140,7 @@ def test_one_of_two_vehicles_is_not_taken_by_chance():
                 super().beat()
 
     both = Both()
-    with flying(both), pytest.raises(LinkFailed, match=r"several .* system 1 \(PX4\) and system 2 \(PX4\): say which"):
+    with flying(both), pytest.raises(LinkFailed, match=r"several .* system 1 \(PX4\) and system 2 \(PX4\): choose one"):
         upload(NEW, both.connection)
     with flying(Both()) as vehicle:
         assert upload(NEW, vehicle.connection, system=1).system == 1
