@@ -29,7 +29,7 @@ TABLES = (".csv",)
 FORMATS = (*MAPS, *TABLES, *MISSIONS)
 
 
-class Export(NamedTuple):
+class SaveArguments(NamedTuple):
     """The arguments of `save` that determine what a file contains."""
 
     maneuver: Maneuver
@@ -84,8 +84,8 @@ def save(
     if autopilot not in tuple(Autopilot):
         known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
         raise InvalidArgument("autopilot", f"is {autopilot!r}: it must be {known}")
-    export = Export(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path)
-    content = _content(path.suffix.lower(), export)
+    arguments = SaveArguments(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path)
+    content = _content(path.suffix.lower(), arguments)
     write_whole("save", path, lambda file: file.write(content))
 
 
@@ -104,17 +104,17 @@ def read_mission(path: str | Path) -> Mission:
     raise source.fault("it is neither a QGroundControl plan nor a QGC WPL 110 file")
 
 
-def _content(ending: str, export: Export) -> bytes:
-    maneuver, frame, altitude_m = export.maneuver, export.frame, export.altitude_m
-    above_sea_m = None if altitude_m is None or ending in MISSIONS else export.datum.above_sea_m(altitude_m)
+def _content(ending: str, arguments: SaveArguments) -> bytes:
+    maneuver, frame, altitude_m = arguments.maneuver, arguments.frame, arguments.altitude_m
+    above_sea_m = None if altitude_m is None or ending in MISSIONS else arguments.datum.above_sea_m(altitude_m)
     if ending in TABLES:
-        counts = step_counts(maneuver, export.spacing_m, export.chord_error_m)
+        counts = step_counts(maneuver, arguments.spacing_m, arguments.chord_error_m)
         return table(vertices(maneuver, counts), frame, above_sea_m)
     if frame is None:
         raise InvalidArgument("frame", f"is missing: a {ending} file needs places on Earth; .csv does not")
     if ending in MAPS:
-        return MAPS[ending](chart(maneuver, frame, above_sea_m, export.spacing_m, export.chord_error_m))
-    return _mission_file(ending, frame, export)
+        return MAPS[ending](chart(maneuver, frame, above_sea_m, arguments.spacing_m, arguments.chord_error_m))
+    return _mission_file(ending, frame, arguments)
 
 
 def _with_home_at(plan: Mission, altitude_m: float) -> Mission:
@@ -123,23 +123,23 @@ def _with_home_at(plan: Mission, altitude_m: float) -> Mission:
     return plan._replace(home=(latitude_deg, longitude_deg, altitude_m))
 
 
-def _mission_file(ending: str, frame: LocalFrame, export: Export) -> bytes:
-    datum, altitude_m = export.datum, export.altitude_m
+def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> bytes:
+    datum, altitude_m = arguments.datum, arguments.altitude_m
     if altitude_m is None:
         raise InvalidArgument("altitude_m", f"is missing: a {ending} file needs {datum.unit}")
     plan = mission(
-        export.maneuver,
+        arguments.maneuver,
         frame,
         altitude_m,
-        spacing_m=export.spacing_m,
-        chord_error_m=export.chord_error_m,
+        spacing_m=arguments.spacing_m,
+        chord_error_m=arguments.chord_error_m,
         datum=datum,
-        along_path=export.along_path,
-        autopilot=export.autopilot,
+        along_path=arguments.along_path,
+        autopilot=arguments.autopilot,
     )
     if ending != ".plan":
         # Some programs fly the line of the home as a waypoint: it is at the altitude of the flight unless given.
         return wpl(plan if datum.home_altitude_m is not None else _with_home_at(plan, altitude_m))
-    if export.autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
+    if arguments.autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
         raise InvalidArgument("altitude_reference", "is ground: PX4 flies no missions with altitudes above the ground")
-    return qgcplan(plan, export.autopilot, export.maneuver.aircraft.airspeed_m_s)
+    return qgcplan(plan, arguments.autopilot, arguments.maneuver.aircraft.airspeed_m_s)

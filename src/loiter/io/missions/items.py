@@ -35,7 +35,7 @@ AutopilotName = Literal["ardupilot", "px4"]
 AUTOPILOTS: dict[AutopilotName, Autopilot] = {"ardupilot": Autopilot.ARDUPILOT, "px4": Autopilot.PX4}
 
 
-class Command(IntEnum):
+class MavCommand(IntEnum):
     """The commands that fly to a place or round it: MAVLink's MAV_CMD."""
 
     NAV_WAYPOINT = 16
@@ -45,6 +45,10 @@ class Command(IntEnum):
     NAV_LOITER_TO_ALT = 31
     DO_ORBIT = 34
     DO_REPOSITION = 192
+
+
+# The public name.
+Command = MavCommand
 
 
 class MissionItem(NamedTuple):

@@ -9,7 +9,7 @@ from loiter.geo.frame import REACH_M, LocalFrame
 from loiter.io.maps.places import degrees
 from loiter.io.maps.track import step_counts, vertices
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
-from loiter.io.missions.items import Autopilot, Command, Mission, MissionItem
+from loiter.io.missions.items import Autopilot, MavCommand, Mission, MissionItem
 from loiter.io.missions.signs import with_circle
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit
@@ -90,14 +90,14 @@ def mission(
         waypoints = path_waypoints(maneuver, spacing_m, chord_error_m)
     else:
         waypoints = approach_waypoints(maneuver, autopilot)
-    params = with_circle(Command.NAV_LOITER_UNLIM, NO_PARAMS, orbit.radius_m, maneuver.turn)
+    params = with_circle(MavCommand.NAV_LOITER_UNLIM, NO_PARAMS, orbit.radius_m, maneuver.turn)
     start, centre = Waypoint(maneuver.start.east_m, maneuver.start.north_m), Waypoint(orbit.east_m, orbit.north_m)
     home_place, *places, centre_place = _in_degrees(frame, (start, *waypoints, centre))
     items = [
-        MissionItem(Command.NAV_WAYPOINT, datum.frame, (0.0, w.acceptance_m, 0.0, 0.0), *place, altitude_m)
+        MissionItem(MavCommand.NAV_WAYPOINT, datum.frame, (0.0, w.acceptance_m, 0.0, 0.0), *place, altitude_m)
         for w, place in zip(waypoints, places, strict=True)
     ]
-    loiter = MissionItem(Command.NAV_LOITER_UNLIM, datum.frame, params, *centre_place, altitude_m)
+    loiter = MissionItem(MavCommand.NAV_LOITER_UNLIM, datum.frame, params, *centre_place, altitude_m)
     return Mission((*items, loiter), (*home_place, home_m))
 
 

@@ -12,7 +12,7 @@ from math import isfinite, isnan
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, positive
-from loiter.io.missions.items import Autopilot, Command
+from loiter.io.missions.items import Autopilot, MavCommand
 from loiter.planning.model import Turn
 
 
@@ -27,13 +27,13 @@ class CircleParameters(NamedTuple):
     direction: int | None = None
 
 
-COMMANDS: dict[Command, CircleParameters] = {
-    Command.NAV_LOITER_UNLIM: CircleParameters(radius=3),
-    Command.NAV_LOITER_TURNS: CircleParameters(radius=3),
-    Command.NAV_LOITER_TIME: CircleParameters(radius=3),
-    Command.NAV_LOITER_TO_ALT: CircleParameters(radius=2),
-    Command.DO_ORBIT: CircleParameters(radius=1),
-    Command.DO_REPOSITION: CircleParameters(radius=3, direction=4),
+COMMANDS: dict[MavCommand, CircleParameters] = {
+    MavCommand.NAV_LOITER_UNLIM: CircleParameters(radius=3),
+    MavCommand.NAV_LOITER_TURNS: CircleParameters(radius=3),
+    MavCommand.NAV_LOITER_TIME: CircleParameters(radius=3),
+    MavCommand.NAV_LOITER_TO_ALT: CircleParameters(radius=2),
+    MavCommand.DO_ORBIT: CircleParameters(radius=1),
+    MavCommand.DO_REPOSITION: CircleParameters(radius=3, direction=4),
 }
 
 # The autopilot parameters with the default radius of a loiter, metres; the sign gives the direction as in a command.
@@ -69,7 +69,7 @@ def with_circle(command: int, params: Sequence[float], radius_m: float, turn: Tu
 
     Raises `InvalidArgument` for a command that flies no circle, and otherwise like `signed_radius_m`.
 
-    >>> with_circle(Command.NAV_LOITER_UNLIM, (0.0, 0.0, 0.0, 0.0), 80.0, Turn.CCW)
+    >>> with_circle(MavCommand.NAV_LOITER_UNLIM, (0.0, 0.0, 0.0, 0.0), 80.0, Turn.CCW)
     (0.0, 0.0, -80.0, 0.0)
     """
     numbers, new = _circle_parameters(command), [float(value) for value in params]
@@ -92,7 +92,9 @@ def circle(command: int, params: Sequence[float]) -> tuple[float, Turn]:
     if numbers.direction is None:
         return radius_m, turn
     if turn == Turn.CCW:
-        raise InvalidArgument("radius", f"is {-radius_m:g}: the command {Command(command).name} takes no negative one")
+        raise InvalidArgument(
+            "radius", f"is {-radius_m:g}: the command {MavCommand(command).name} takes no negative one"
+        )
     direction = float(params[numbers.direction - 1])
     # ArduPlane reads both 0 and nan as clockwise.
     return radius_m, Turn.CW if isnan(direction) or direction == 0.0 else Turn.CCW

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import nan
 
-from loiter.io.missions.items import Command, Frame, Mission, MissionItem
+from loiter.io.missions.items import Frame, MavCommand, Mission, MissionItem
 from loiter.io.missions.limits import MAX_COMMAND, MAX_COUNT, check_place, checked_item, checked_mission
 from loiter.io.reading import Source, shown
 
@@ -19,7 +19,7 @@ FIELDS = 12
 
 def wpl(mission: Mission) -> bytes:
     """The file. The numbers have nine decimals: 0.1 mm in degrees."""
-    home = MissionItem(Command.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
+    home = MissionItem(MavCommand.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
     lines = [_line(number, item) for number, item in enumerate((home, *mission.items))]
     return "\n".join([HEADER, *lines, ""]).encode()
 

@@ -7,7 +7,7 @@ from time import monotonic
 from typing import Any
 
 from loiter.errors import LinkFailed
-from loiter.io.missions.items import Autopilot, Command, Frame
+from loiter.io.missions.items import Autopilot, Frame, MavCommand
 from loiter.io.missions.signs import with_circle
 from loiter.mavlink.connection.enumerations import ACCEPTED, IN_PROGRESS, command_result
 from loiter.mavlink.connection.link import Link, Vehicle, dialect
@@ -22,7 +22,7 @@ GLOBAL, GLOBAL_INT = int(Frame.ABOVE_SEA), 5
 
 # The parameters besides the circle. DO_REPOSITION: keep the speed, and change the mode (bit 0 of
 # MAV_DO_REPOSITION_FLAGS). DO_ORBIT: keep the speed, default yaw behaviour, without end.
-_OTHER_PARAMS = {Command.DO_REPOSITION: (-1.0, 1.0, 0.0, 0.0), Command.DO_ORBIT: (0.0, nan, nan, 0.0)}
+_OTHER_PARAMS = {MavCommand.DO_REPOSITION: (-1.0, 1.0, 0.0, 0.0), MavCommand.DO_ORBIT: (0.0, nan, nan, 0.0)}
 
 
 def hold_circle(link: Link, place: tuple[float, float, float], radius_m: float, turn: Turn, timeout_s: float) -> None:
@@ -39,7 +39,7 @@ def hold_command(vehicle: Vehicle, place: tuple[float, float, float], radius_m: 
     PX4 takes the radius and the direction from DO_ORBIT, but not from DO_REPOSITION (navigator_main.cpp).
     """
     px4 = vehicle.autopilot == Autopilot.PX4
-    command, frame = (Command.DO_ORBIT, GLOBAL_INT) if px4 else (Command.DO_REPOSITION, GLOBAL)
+    command, frame = (MavCommand.DO_ORBIT, GLOBAL_INT) if px4 else (MavCommand.DO_REPOSITION, GLOBAL)
     params = with_circle(command, _OTHER_PARAMS[command], radius_m, turn)
     head = vehicle.system, vehicle.component, frame, int(command), 0, 0
     latitude_deg, longitude_deg, altitude_m = place

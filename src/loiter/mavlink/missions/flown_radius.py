@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.geo.atmosphere import HIGHEST_M, LOWEST_M, density_ratio
-from loiter.io.missions.items import Autopilot, Command
+from loiter.io.missions.items import Autopilot, MavCommand
 from loiter.io.missions.signs import COMMANDS, circle, with_circle
 from loiter.mavlink.connection.link import Link, Vehicle
 from loiter.mavlink.connection.parameters import Parameters
@@ -26,7 +26,7 @@ from loiter.planning.model import STANDARD_GRAVITY_M_S2
 BANK_LIMIT, CRUISE, OLD_CRUISE = "NAVL1_LIM_BANK", "AIRSPEED_CRUISE", "TRIM_ARSPD_CM"
 
 # The loiters of a mission whose radius ArduPlane stores; it does not store that of NAV_LOITER_TIME.
-LOITERS = {int(c): c for c in (Command.NAV_LOITER_UNLIM, Command.NAV_LOITER_TURNS, Command.NAV_LOITER_TO_ALT)}
+LOITERS = {int(c): c for c in (MavCommand.NAV_LOITER_UNLIM, MavCommand.NAV_LOITER_TURNS, MavCommand.NAV_LOITER_TO_ALT)}
 
 # The smallest difference of radii, metres, that is reported: ArduPlane stores whole metres.
 LEAST_REPORTED_M = 1.0

@@ -14,7 +14,7 @@ from struct import pack, unpack
 from typing import Any, NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.io.missions.items import Autopilot, Command, Frame, Mission, MissionItem
+from loiter.io.missions.items import Autopilot, Frame, MavCommand, Mission, MissionItem
 from loiter.io.missions.signs import Params
 from loiter.mavlink.connection.link import Vehicle, dialect
 
@@ -142,7 +142,7 @@ def is_same(some: Sequence[StoredItem], others: Sequence[StoredItem], vehicle: V
 
 
 def _encode_home(mission: Mission, vehicle: Vehicle) -> StoredItem:
-    item = MissionItem(Command.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
+    item = MissionItem(MavCommand.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
     return _encode_item(item, 0, item_name(0, vehicle))
 
 
@@ -198,18 +198,18 @@ def _as_stored(item: StoredItem, vehicle: Vehicle) -> StoredItem:
 def _stored_by_ardupilot(command: int, params: Params) -> Params:
     a, b, c, d = params
     match command:
-        case Command.NAV_WAYPOINT:
+        case MavCommand.NAV_WAYPOINT:
             return 0.0, min(_whole(b), 255.0), min(_whole(c), 255.0), 0.0
-        case Command.NAV_LOITER_UNLIM:
+        case MavCommand.NAV_LOITER_UNLIM:
             return 0.0, 0.0, _whole(c), 0.0
-        case Command.NAV_LOITER_TURNS:
+        case MavCommand.NAV_LOITER_TURNS:
             # One byte for the radius, in tens of metres above 255, and one for the turns, in 256ths of a turn below 1.
             radius = abs(c) if abs(c) <= 255.0 else 10.0 * min(_whole(abs(c) * 0.1), 255.0)
             turns = _whole(256.0 * a) / 256.0 if 0.0 < a < 1.0 else min(_whole(a), 255.0)
             return turns, 0.0, copysign(_whole(radius), c), float(d > 0.0)
-        case Command.NAV_LOITER_TIME:
+        case MavCommand.NAV_LOITER_TIME:
             return _whole(a), 0.0, -1.0 if c < 0.0 else 1.0, float(d > 0.0)
-        case Command.NAV_LOITER_TO_ALT:
+        case MavCommand.NAV_LOITER_TO_ALT:
             return 0.0, _whole(b), 0.0, float(d > 0.0)
     return params
 
@@ -217,13 +217,13 @@ def _stored_by_ardupilot(command: int, params: Params) -> Params:
 def _stored_by_px4(command: int, params: Params) -> Params:
     a, b, c, d = params
     match command:
-        case Command.NAV_WAYPOINT:
+        case MavCommand.NAV_WAYPOINT:
             return a, b, 0.0, d % 360.0
-        case Command.NAV_LOITER_UNLIM:
+        case MavCommand.NAV_LOITER_UNLIM:
             return 0.0, 0.0, c, d % 360.0
-        case Command.NAV_LOITER_TIME:
+        case MavCommand.NAV_LOITER_TIME:
             return a, float(b > 0.0), c, float(d > 0.0)
-        case Command.NAV_LOITER_TO_ALT:
+        case MavCommand.NAV_LOITER_TO_ALT:
             return float(a > 0.0), b, 0.0, float(d > 0.0)
     return params
 
