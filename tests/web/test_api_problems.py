@@ -234,7 +234,7 @@ def test_a_link_is_checked_like_a_body(refused, scene, status, sentence):
         ({"altitude_m": 1e300}, "altitude_m"),
         ({"autopilot": "none"}, "autopilot is wrong: it should be 'ardupilot' or 'px4'"),
         ({"altitude_reference": "sea"}, "altitude_reference is wrong: it should be 'msl', 'home' or 'ground'"),
-        ({"altitude_m": 9, "altitude_reference": "home"}, "home_altitude_m is missing: it takes altitudes above home"),
+        ({"altitude_m": 9, "altitude_reference": "home"}, "home_altitude_m is missing: altitudes above home"),
         ({"altitude_m": 9, "altitude_reference": "ground"}, "altitude_reference is ground: how high that is"),
         ({"home_altitude_m": 1e300}, "home_altitude_m is 1e+300: it must be from -83000 to 83000 metres"),
     ],

@@ -11,9 +11,9 @@ from rich.text import Text
 
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
-from loiter.io.vocabulary import ACTIONS
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Pose
+from loiter.planning.vocabulary import ACTIONS
 
 # Two durations that are equal in theory differ by rounding, near 1e-15 of themselves in near and 1e-14 in far scenes.
 TIE_TOLERANCE = 1e-12

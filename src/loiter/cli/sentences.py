@@ -3,8 +3,8 @@
 from cyclopts import Argument, CoercionError, CycloptsError, MissingArgumentError, UnusedCliTokensError
 
 from loiter.errors import InvalidArgument
-from loiter.io.vocabulary import OPTIONS
 from loiter.planning.model import TURN_LIMITS
+from loiter.planning.vocabulary import OPTIONS
 
 
 def sentence(error: Exception) -> str:

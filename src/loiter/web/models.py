@@ -13,6 +13,7 @@ from pydantic.json_schema import SkipJsonSchema
 
 from loiter.geo import LocalFrame
 from loiter.geo.placed import PlacedProblem
+from loiter.io.missions.items import AutopilotName
 from loiter.planning import model
 from loiter.planning.model import TurnName
 from loiter.planning.problem import Problem
@@ -146,7 +147,7 @@ class ExportOptions(Scene):
     chord_error_m: Annotated[Number, Field(json_schema_extra={"minimum": MIN_CHORD_ERROR_M})] = Field(
         1.0, description="Largest distance between the track and the straight lines through its points, metres."
     )
-    autopilot: Literal["ardupilot", "px4"] = Field("ardupilot", description="The autopilot that a .plan file is for.")
+    autopilot: AutopilotName = Field("ardupilot", description="The autopilot that a .plan file is for.")
 
     @field_validator("chord_error_m")
     @classmethod

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 from cyclopts import Parameter
 
@@ -24,7 +24,7 @@ from loiter.cli.status import CHECK_FAILED
 from loiter.geo import LocalFrame
 from loiter.io.document import answer
 from loiter.io.files import is_mission
-from loiter.io.missions.items import Autopilot
+from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import best_and_others
@@ -65,9 +65,7 @@ Save = Annotated[
         help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) or .waypoints (QGC WPL 110) for autopilots.",
     ),
 ]
-AutopilotName = Annotated[
-    Literal["ardupilot", "px4"], Parameter(group=missions, help="The autopilot that a mission is for.")
-]
+AutopilotChoice = Annotated[AutopilotName, Parameter(group=missions, help="The autopilot that a mission is for.")]
 
 
 def plan(
@@ -83,7 +81,7 @@ def plan(
     certify: Certify = False,
     save: Save = None,
     waypoints: MissionOptions = MissionOptions(),
-    autopilot: AutopilotName = "ardupilot",
+    autopilot: AutopilotChoice = "ardupilot",
 ) -> int:
     """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off."""
     (problem, frame), remark = read_options(start, circle, uav, air, tolerance_m=tolerance, datum=waypoints.datum)
@@ -95,7 +93,7 @@ def plan(
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
     # The file comes before the picture: it has more requirements, and an error leaves neither.
     if save is not None:
-        _save(save, first, frame, uav, waypoints, Autopilot[autopilot.upper()])
+        _save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot])
     if plot is not None:
         slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
         files.save(plot, shown, slower if all_ else [*ties, *slower], frame=frame)

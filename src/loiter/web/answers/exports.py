@@ -8,8 +8,7 @@ from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.io import AltitudeDatum, AltitudeReference, Autopilot, save
-from loiter.io.maps.track import steps
+from loiter.io import AltitudeDatum, AltitudeReference, save
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import all_fastest, best_and_others
@@ -58,14 +57,14 @@ def map_or_mission(request: ExportRequest) -> bytes:
             datum=AltitudeDatum(AltitudeReference(options.altitude_reference), options.home_altitude_m),
             spacing_m=options.spacing_m,
             chord_error_m=options.chord_error_m,
-            autopilot=Autopilot[options.autopilot.upper()],
+            autopilot=AUTOPILOTS[options.autopilot],
         )
         return path.read_bytes()
 
 
 def _check_points(maneuver: Maneuver, options: ExportOptions) -> None:
     """Raise `InvalidArgument` where the track would have more than `MAX_POINTS` points."""
-    count = sum(steps(maneuver, options.spacing_m, options.chord_error_m))
+    count = sum(step_counts(maneuver, options.spacing_m, options.chord_error_m))
     if count > MAX_POINTS:
         name = "chord_error_m" if options.spacing_m is None else "spacing_m"
         raise InvalidArgument(

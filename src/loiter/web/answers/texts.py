@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from loiter.io.vocabulary import ACTIONS, OPTIONS
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, TURN_LIMITS, Aircraft, Orbit, Turn
 from loiter.planning.problem import Problem
+from loiter.planning.vocabulary import ACTIONS, OPTIONS
 
 
 def instruction(maneuver: Maneuver) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from loiter.arrays import reduce
-from loiter.io.maps.track import steps, vertices
+from loiter.io.maps.track import step_counts, vertices
 from loiter.planning.maneuver import Maneuver
 
 # Largest chord error, turn radii: a pixel on a screen that shows the turn radius as 500 pixels.
@@ -17,7 +17,7 @@ def track(maneuver: Maneuver) -> dict[str, list[float]]:
 
     The reduced state is relative to the circle, at its position at that time if it moves.
     """
-    flown = vertices(maneuver, steps(maneuver, None, CHORD_ERROR * maneuver.aircraft.turn_radius_m))
+    flown = vertices(maneuver, step_counts(maneuver, None, CHORD_ERROR * maneuver.aircraft.turn_radius_m))
     orbit, time = maneuver.orbit, flown.time_s
     centre_east, centre_north = orbit.centre_after(time)
     east, north = flown.east_m - centre_east, flown.north_m - centre_north

@@ -1,6 +1,10 @@
-"""Words that several front ends share: actions of the pilot, and the command line's names of arguments."""
+"""Words that several front ends share: actions of the pilot, and the names of options. Each stands here once."""
 
+# What the pilot does on a segment, by its letter.
 ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
+
+# The same in one word, for lines where space is short.
+BRIEF_ACTIONS = {"L": "left", "S": "straight", "R": "right"}
 
 # The command line's option for each argument of the library. "pose east_m" is the east_m of the argument pose.
 OPTIONS = {
