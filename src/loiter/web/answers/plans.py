@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from loiter.io.document import answer, described
+from loiter.io.document import answer, maneuver_values
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.scaling import radius_in_turns
 from loiter.planning.solve import candidates, compared, each_way, plan_all
@@ -52,7 +52,7 @@ def every(asked: Asked) -> dict[str, Any]:
     found = candidates(*asked[:4], tolerance_m=asked.tolerance_m)
     return {
         "candidates": [
-            described(m, asked.frame) | {"track": track(m), "later_s": m.duration_s - found[0].duration_s}
+            maneuver_values(m, asked.frame) | {"track": track(m), "later_s": m.duration_s - found[0].duration_s}
             for m in found
         ]
     }
