@@ -27,7 +27,7 @@ def samples(dt, n, time_s=1.0, seed=11):
     rows = np.empty((n, 2))
     for i in range(n):
         rows[i] = gusts.velocity_m_s
-        gusts.after(dt)
+        gusts.advance(dt)
     return rows
 
 
@@ -53,5 +53,5 @@ def test_the_first_sample_is_as_gusty_as_any():
 
 def test_a_calm_is_a_calm():
     gusts = Gusts(0.0, 1.0, np.random.default_rng(1))
-    gusts.after(0.1)
+    gusts.advance(0.1)
     assert gusts.velocity_m_s == (0.0, 0.0)

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter.guidance.simulators.airframes import AIRFRAMES
-from loiter.guidance.simulators.inner_loops import Flight, InnerLoops, Surfaces
+from loiter.guidance.simulators.inner_loops import InnerLoops, LoopInputs, Surfaces
 
 both = pytest.mark.parametrize("airframe", AIRFRAMES.values(), ids=list(AIRFRAMES))
 TRIM = Surfaces(0.0, -0.2, 0.0, 0.6)
@@ -15,8 +15,8 @@ DT = 1.0 / 120.0
 
 
 def level(airframe, **changes):
-    flight = Flight(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, airframe.altitude_m, 0.0, airframe.aircraft.airspeed_m_s)
-    return flight._replace(**changes)
+    inputs = LoopInputs(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, airframe.altitude_m, 0.0, airframe.aircraft.airspeed_m_s)
+    return inputs._replace(**changes)
 
 
 def loops(airframe):
@@ -31,11 +31,11 @@ def test_trimmed_flight_keeps_its_trim(airframe):
 @both
 @given(st.floats(-1.0, 1.0), st.floats(-0.3, 0.3), *[st.floats(-0.5, 0.5)] * 4, st.floats(-35.0, 35.0))
 def test_a_mirrored_flight_gets_mirrored_surfaces(airframe, bank, pitch, p, q, r, slip, command):
-    flight = level(airframe, bank=bank, pitch=pitch, roll_rate=p, pitch_rate=q, yaw_rate=r, slip=slip)
-    mirrored = flight._replace(bank=-bank, roll_rate=-p, yaw_rate=-r, slip=-slip)
+    inputs = level(airframe, bank=bank, pitch=pitch, roll_rate=p, pitch_rate=q, yaw_rate=r, slip=slip)
+    mirrored = inputs._replace(bank=-bank, roll_rate=-p, yaw_rate=-r, slip=-slip)
     a, b = loops(airframe), loops(airframe)
     for _ in range(3):
-        seen, other = a.step(flight, command, DT), b.step(mirrored, -command, DT)
+        seen, other = a.step(inputs, command, DT), b.step(mirrored, -command, DT)
         assert other == pytest.approx(seen._replace(aileron=-seen.aileron, rudder=-seen.rudder), abs=1e-12)
         assert all(abs(share) <= 1.0 for share in seen)
         assert seen.throttle >= 0.0

@@ -99,7 +99,7 @@ def test_it_rolls_as_its_airframe_says(airframe):
     for command in (limit, -limit):
         missed = []
         for state, _ in states(simulator, command, 6.0, 0.02):
-            bank = airframe.roll.after(bank, command, 0.02)
+            bank = airframe.roll.bank_after(bank, command, 0.02)
             missed.append(bank - state.bank_deg)
         assert np.sqrt(np.mean(np.square(missed))) < 1.5
         assert np.max(np.abs(missed)) < 3.0

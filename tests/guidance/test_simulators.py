@@ -14,7 +14,7 @@ from loiter.guidance.protocol import Command, Phase
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import EXACT
-from loiter.guidance.vehicle.rolling import AT_ONCE, Roll
+from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
 from loiter.guidance.vehicle.turning import rate_at_bank
 from loiter.planning.model import STANDARD_GRAVITY_M_S2, Turn
 from strategies import windy_scenes
@@ -91,7 +91,7 @@ def test_the_point_mass_obeys_its_equations():
 
 
 def test_a_steady_bank_is_a_circle():
-    mass = PointMass(START, UAV, seed=1, gust=0.0, noise=EXACT, roll=AT_ONCE)
+    mass = PointMass(START, UAV, seed=1, gust=0.0, noise=EXACT, roll=INSTANT_ROLL)
     for _ in range(1000):
         mass.advance(command(35.0), 2.0 * pi * UAV.turn_radius_m / 18.0 / 1000)
     end = mass.true_state()

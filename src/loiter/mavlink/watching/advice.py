@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from math import atan2, degrees
 from typing import NamedTuple
 
-from loiter.guidance.laws.following import around
+from loiter.guidance.laws.following import polar_state
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
@@ -70,7 +70,7 @@ def beside(plan: Maneuver) -> Beside:
         speed * east + wind_east - orbit.velocity_east_m_s,
         speed * north + wind_north - orbit.velocity_north_m_s,
     )
-    seen = around(here.east_m - orbit.east_m, here.north_m - orbit.north_m, velocity, here.heading_deg)
+    seen = polar_state(here.east_m - orbit.east_m, here.north_m - orbit.north_m, velocity, here.heading_deg)
     off = abs(degrees(atan2(seen.outward_m_s, seen.clockwise_m_s)))
     return Beside(seen.distance_m - orbit.radius_m, off)
 
