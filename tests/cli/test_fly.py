@@ -1,4 +1,4 @@
-"""`loiter fly`: what it prints and writes, and how it refuses."""
+"""`loiter fly`: its output, its files and its errors."""
 
 import csv
 import re
@@ -69,7 +69,7 @@ def test_six_degrees_of_freedom(shown):
         (f"{SCENE} --save f.txt", "--save is 'f.txt': the file name must end in .csv"),
         (f"{SCENE} --save no/f.csv", "--save is 'no/f.csv': it cannot be written"),
         (f"{SCENE} --plot no/f.png", "--plot is 'no/f.png': it cannot be written"),
-        # Asked before anything flies: a table on the screen would be the first thing written.
+        # Checked before anything flies: otherwise a table on the screen would be written first.
         (f"--runs 2 {UAV} --save no/f.csv", "--save is 'no/f.csv': it cannot be written"),
         (f"{SCENE} --seed -1", "--seed is -1: it must be at least 0"),
         (f"--runs 2 {UAV} --seed -1", "--seed is -1: it must be at least 0"),

@@ -1,4 +1,4 @@
-"""The inner loops by themselves: trim, mirrors, stops, speed before altitude. In flight: `test_jsbsim_aircraft`."""
+"""The inner loops alone: trim, mirror symmetry, stops, priority of speed. In flight: `test_jsbsim_aircraft`."""
 
 from math import radians
 
@@ -42,8 +42,8 @@ def test_a_mirrored_flight_gets_mirrored_surfaces(airframe, bank, pitch, p, q, r
 
 
 @both
-def test_against_a_stop_an_integral_waits(airframe):
-    # Pitched down, rolled about and slow beyond what surfaces and throttle can do: a minute of it leaves what 20 s do.
+def test_integrals_are_frozen_at_a_stop(airframe):
+    # Errors of pitch rate, roll rate and airspeed that the controls cannot correct: 60 s have the same effect as 20 s.
     wrong = level(airframe, pitch_rate=-1.0, roll_rate=2.0, airspeed=0.6 * airframe.aircraft.airspeed_m_s)
 
     def released(time_s):
@@ -57,18 +57,18 @@ def test_against_a_stop_an_integral_waits(airframe):
 
 
 @both
-def test_speed_goes_before_altitude(airframe):
+def test_speed_has_priority_over_altitude(airframe):
     V = airframe.aircraft.airspeed_m_s
     low = level(airframe, altitude=airframe.altitude_m - 50.0)
     climbs = loops(airframe).step(low, 0.0, DT)
     dives = loops(airframe).step(low._replace(airspeed=0.8 * V), 0.0, DT)
-    # A positive elevator dives.
+    # A positive elevator deflection pitches down.
     assert climbs.elevator < TRIM.elevator < dives.elevator
     assert dives.throttle > climbs.throttle
 
 
 @both
-def test_a_bank_takes_aileron_lift_and_power(airframe):
+def test_a_bank_needs_aileron_lift_and_power(airframe):
     turning = level(airframe, bank=radians(30.0))
     held = loops(airframe).step(turning, 30.0, DT)
     assert held.elevator < TRIM.elevator

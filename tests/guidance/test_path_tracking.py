@@ -1,4 +1,4 @@
-"""Following paths: signs by hand, the hold's rate of turn by the kernel, convergence by flying."""
+"""Path tracking: signs by hand, the turn rate of the hold from the kernel, convergence in flight."""
 
 from math import cos, pi, sin
 
@@ -20,15 +20,15 @@ from loiter.kernel.motion import fly
 from strategies import one_way
 
 
-def test_beside_a_line():
+def test_the_offset_from_a_line():
     east = StraightLine(0.0, 0.0, 1.0, 0.0)
     assert path_offset(east, 5.0, 2.0, 1.0, 0.0) == (2.0, 0.0, 0.0)
     assert path_offset(east, 5.0, -2.0, 0.0, 1.0) == pytest.approx((-2.0, pi / 2, 0.0))
 
 
-def test_beside_an_arc():
+def test_the_offset_from_an_arc():
     left = Arc(0.0, 0.0, 2.0, 1)
-    # On it and along it; inside, which is left of a left turn; heading inwards, which is to the left.
+    # On the arc and along it; inside, which is to the left of a left turn; heading inwards, which is to the left.
     assert path_offset(left, 2.0, 0.0, 0.0, 1.0) == pytest.approx((0.0, 0.0, 0.5))
     assert path_offset(left, 1.5, 0.0, 0.0, 1.0) == pytest.approx((0.5, 0.0, 1.0 / 1.5))
     assert path_offset(left, 2.0, 0.0, -1.0, 0.0) == pytest.approx((0.0, pi / 2, 0.0))
@@ -50,7 +50,7 @@ def test_a_mirror_turns_left_into_right(x, y, course, R):
 
 @given(st.floats(0.0, 2 * pi), one_way, st.floats(0.0, 0.7), st.floats(-pi, pi), st.floats(1.0, 5.0))
 def test_on_the_circle_in_wind_the_rate_is_that_of_the_hold(phase, side, wind, blows, wider):
-    """(3) of docs/wind.md: no correction is left, and the curvature ahead is all there is to fly."""
+    """(3) of docs/wind.md: there are no corrections, only the feedforward of the path's turn rate."""
     wx, wy = wind * cos(blows), wind * sin(blows)
     R = wider * tightest_held(wx, wy)
     x, y, c, s, g = held(phase, side, R, wx, wy)
@@ -64,7 +64,7 @@ def test_on_the_circle_in_wind_the_rate_is_that_of_the_hold(phase, side, wind, b
 
 @given(st.floats(1.2, 4.0), one_way, st.floats(-0.2, 0.2), st.floats(-0.5, 0.5))
 def test_it_converges_on_the_circle(R, side, off, astray):
-    """From beside the circle and across it, within a turn of three and with the limit of turn rate."""
+    """From a crosstrack error and a course error, with limited turn rate."""
     c, s = cos(side * astray), -side * sin(side * astray) * side
     x, y = 0.0, side * (R + off)
     path, dt = holding_circle(side, R), 0.02
@@ -81,7 +81,7 @@ def test_it_converges_on_the_circle(R, side, off, astray):
     assert offset.course_error == pytest.approx(0.0, abs=1e-3)
 
 
-def test_a_velocity_that_is_no_flight_gives_way_to_the_heading():
+def test_an_implausible_velocity_is_replaced_by_the_heading():
     assert flight_velocity(0.0, 0.0, 0.6, 0.8) == (0.6, 0.8)
     assert flight_velocity(-0.6, -0.8, 0.6, 0.8) == (0.6, 0.8)
     assert flight_velocity(0.5, 0.9, 0.6, 0.8) == (0.5, 0.9)

@@ -1,4 +1,4 @@
-"""Both simulators, beside plans and beside a differential equation solved by small steps."""
+"""Both simulators, compared with plans and with a differential equation solved in small steps."""
 
 from functools import partial
 from math import cos, hypot, pi, radians, sin, tan
@@ -44,7 +44,7 @@ def test_the_kinematic_vehicle_flies_a_plan(scene):
     assert cos(radians(end.heading_deg - m.join.heading_deg)) == pytest.approx(1.0)
 
 
-def test_the_kinematic_vehicle_turns_no_tighter_than_it_can():
+def test_the_kinematic_vehicle_keeps_its_turn_limit():
     vehicle = Kinematic(START, UAV)
     vehicle.advance(command(rate_deg_s=1000.0), 1.0)
     assert vehicle.true_state().bank_deg == pytest.approx(35.0)
@@ -53,7 +53,7 @@ def test_the_kinematic_vehicle_turns_no_tighter_than_it_can():
 
 @pytest.mark.parametrize("dt", [float("nan"), float("inf"), -0.1])
 @pytest.mark.parametrize("make", [Kinematic, partial(PointMass, seed=1)])
-def test_a_step_is_a_time(make, dt):
+def test_a_step_must_be_finite_and_not_negative(make, dt):
     vehicle = make(START, UAV)
     before = vehicle.true_state()
     with pytest.raises(InvalidArgument, match=r"^dt is"):
@@ -84,7 +84,7 @@ def test_the_point_mass_obeys_its_equations():
         mass.advance(command(30.0), 0.02)
     east, north, heading, bank = runge_kutta(30.0, 5.0, Roll(), WIND)
     end = mass.true_state()
-    # The simulator's step, 0.02 s, is of second order: some 0.02^2 of 90 m.
+    # The error of the simulator's step, 0.02 s, is of second order: about 0.02^2 of 90 m.
     assert hypot(end.east_m - east, end.north_m - north) < 0.01
     assert end.heading_deg == pytest.approx(np.degrees(heading), abs=0.01)
     assert end.bank_deg == pytest.approx(bank, abs=1e-4)

@@ -25,7 +25,7 @@ def test_a_turn_is_an_arc(speed, rate, time, course):
 
 
 @given(st.floats(-80.0, 80.0), speeds)
-def test_bank_and_rate_are_one(bank, speed):
+def test_bank_and_rate_are_inverse(bank, speed):
     assert bank_at_rate(rate_at_bank(bank, speed), speed) == pytest.approx(bank, abs=1e-12)
 
 

@@ -256,7 +256,7 @@ def _fly_many(
 
 
 def _campaign_table(outcomes: Mapping[str, Sequence[Outcome]]) -> Table:
-    """A row for each law: its settling times beside the fastest entries, and where the first law settles sooner."""
+    """A row for each law: its settling times relative to the fastest entries, and how often the first law is sooner."""
     from loiter.guidance.trials.summary import summary
 
     first = next(iter(outcomes))

@@ -133,7 +133,7 @@ class Tangent(L1):
         return wind_search.first_path(phase, side, scene, inf)
 
     def _progress(self, piece: DubinsPiece, start: State, state: State) -> PieceProgress:
-        """The progress of the aircraft along a piece, both seen from the moving air."""
+        """The progress of the aircraft along a piece, relative to the moving air."""
         wind_east, wind_north = self.wind.velocity_m_s
         elapsed_s = state.time_s - start.time_s
         east = state.east_m - start.east_m - wind_east * elapsed_s - piece.east_m
