@@ -1,4 +1,4 @@
-"""`loiter fly`: what it prints and writes, and how it refuses."""
+"""`loiter fly`: its output, its files and its errors."""
 
 import csv
 import re
@@ -69,16 +69,16 @@ def test_six_degrees_of_freedom(shown):
         (f"{SCENE} --save f.txt", "--save is 'f.txt': the file name must end in .csv"),
         (f"{SCENE} --save no/f.csv", "--save is 'no/f.csv': it cannot be written"),
         (f"{SCENE} --plot no/f.png", "--plot is 'no/f.png': it cannot be written"),
-        # Asked before anything flies: a table on the screen would be the first thing written.
+        # Checked before anything flies: otherwise a table on the screen would be written first.
         (f"--runs 2 {UAV} --save no/f.csv", "--save is 'no/f.csv': it cannot be written"),
         (f"{SCENE} --seed -1", "--seed is -1: it must be at least 0"),
         (f"--runs 2 {UAV} --seed -1", "--seed is -1: it must be at least 0"),
         (f"{SCENE} --gust -1", "--gust is -1"),
         (f"{SCENE} --gust nan", "--gust is nan"),
-        (f"{SCENE} --sim kinematic --gust 0.05", "--gust is of no use with --sim kinematic"),
-        (f"{SCENE} --airframe j3cub", "--airframe is of no use with --sim point"),
-        (f"{SCENE} --workers 2", "--workers share the flights of --runs"),
-        (f"{SCENE} --sim jsbsim", "--airframe has an airspeed and a bank limit of its own"),
+        (f"{SCENE} --sim kinematic --gust 0.05", "--gust has no effect with --sim kinematic"),
+        (f"{SCENE} --airframe j3cub", "--airframe has no effect with --sim point"),
+        (f"{SCENE} --workers 2", "--workers has no effect without --runs"),
+        (f"{SCENE} --sim jsbsim", "--airframe has its own airspeed and bank limit"),
         (f"{SCENE} --wind 30 0", "a wind of 30 m/s leaves"),
         (f"--runs 3 --workers 0 {UAV}", "--workers is 0"),
         (f"--pose 0 0 0 --orbit 0 0 30 {UAV}", "orbit radius 30 m is tighter"),

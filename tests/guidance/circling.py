@@ -1,4 +1,4 @@
-"""A simple aircraft that the laws fly round a circle: exact flow of the commanded bank, and when it has settled."""
+"""A simple aircraft for the circle-following laws: exact flow of the commanded bank, and its settling time."""
 
 from math import atan2, degrees, hypot, nan, pi, radians, tan
 
@@ -11,7 +11,7 @@ from loiter.planning.model import STANDARD_GRAVITY_M_S2
 
 STEP_S = 0.05
 
-# Settled: within 5 % of the radius and 5 degrees of tangent, the right way round.
+# The settling band: within 5 % of the radius and 5 degrees of the tangent, in the right direction.
 NEAR, ALONG = 0.05, radians(5.0)
 
 
@@ -21,8 +21,8 @@ def state_of(time_s, east, north, c, s, uav, wind=(0.0, 0.0)):
     return State(time_s, east, north, degrees(atan2(c, s)), 0.0, V * c + wind[0], V * s + wind[1], V)
 
 
-def flown(state: State, bank_deg: float, uav: Aircraft, wind=(0.0, 0.0)) -> State:
-    """The state a step later."""
+def next_state(state: State, bank_deg: float, uav: Aircraft, wind=(0.0, 0.0)) -> State:
+    """The state one step later."""
     V, rate = uav.airspeed_m_s, STANDARD_GRAVITY_M_S2 * tan(radians(bank_deg)) / uav.airspeed_m_s
     r = V / max(abs(rate), 1e-9)
     u = (rate < 0.0) - (rate > 0.0)
@@ -31,8 +31,8 @@ def flown(state: State, bank_deg: float, uav: Aircraft, wind=(0.0, 0.0)) -> Stat
     return state_of(state.time_s + STEP_S, x * r + wind[0] * STEP_S, y * r + wind[1] * STEP_S, c, s, uav, wind)
 
 
-def along(state: State, orbit: Orbit, turn: Turn) -> bool:
-    """Whether a state is on the circle, up to the bounds above."""
+def is_in_band(state: State, orbit: Orbit, turn: Turn) -> bool:
+    """Whether a state is within the settling band."""
     orbit = orbit.after(state.time_s)
     east, north = state.east_m - orbit.east_m, state.north_m - orbit.north_m
     d, side = hypot(east, north), 1.0 if turn == Turn.CW else -1.0
@@ -42,18 +42,18 @@ def along(state: State, orbit: Orbit, turn: Turn) -> bool:
 
 
 def settled_s(law: Follower, pose: Pose, uav: Aircraft, wind=(0.0, 0.0), limit_s=600.0) -> float:
-    """When a law has settled on its circle, to stay there for a full turn; nan where it has not in time."""
+    """The time at which a law settles on its circle for a full turn; nan if it does not settle within the limit."""
     state = state_of(0.0, pose.east_m, pose.north_m, *heading_vector(pose.heading_deg), uav, wind)
     since = nan
     while state.time_s < limit_s:
         command = law.step(state, STEP_S)
         assert abs(command.bank_deg) <= uav.bank_deg(uav.turn_radius_m)
-        state = flown(state, command.bank_deg, uav, wind)
-        if not along(state, law.orbit, law.turn):
+        state = next_state(state, command.bank_deg, uav, wind)
+        if not is_in_band(state, law.orbit, law.turn):
             since = nan
         elif since != since:
             since = state.time_s
-        # A round over the ground takes no longer than this against the wind.
+        # A full turn over the ground takes at most this time, at the speed against the wind.
         elif state.time_s - since > 2.0 * pi * law.orbit.radius_m / (uav.airspeed_m_s - hypot(*wind)):
             return since
     return nan

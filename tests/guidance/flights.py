@@ -1,4 +1,4 @@
-"""What the tests of the law fly: an aircraft, and the hard places to start from."""
+"""An aircraft and difficult starts for the tests of the law."""
 
 from math import cos, pi, sin, sqrt
 
@@ -14,13 +14,13 @@ def reduced(x, y):
 
 
 def hard_starts(R):
-    """By name: the jump of the clockwise circle of R turn radii, switching curve, ties, the wrong way round."""
+    """Names and poses, for a clockwise circle of R turn radii: jump of T, switching curve, ties, opposite direction."""
     yield "at the centre", reduced(0.0, 0.0)
     yield "away along a tie line", reduced(3.0, 0.0)
     yield "towards the centre along a tie line", reduced(-8.0, 0.0)
     yield "on the circle the other way", reduced(0.0, -R)
     for degrees_left in (20, 60, 120, 170):
-        # On the last arc, of radius R + 1 about (0, -1), and a metre inside, where the least time jumps or is steep.
+        # On the last arc, of radius R + 1 about (0, -1), and just inside it, where the least time jumps or is steep.
         s, c = sin(pi * degrees_left / 180), cos(pi * degrees_left / 180)
         yield f"on the jump, {degrees_left} deg left", reduced(-(R + 1.0) * s, -1.0 + (R + 1.0) * c)
         yield f"inside the jump, {degrees_left} deg left", reduced(-(R + 0.98) * s, -1.0 + (R + 0.98) * c)

@@ -1,4 +1,4 @@
-"""The rivals, states to put them in, and what a mirror in the north axis makes of a scene."""
+"""The circle-following laws, states to test them in, and mirror images in the north axis."""
 
 from hypothesis import strategies as st
 
@@ -10,13 +10,13 @@ from loiter.guidance.laws.vector_field import VectorField
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.planning.compass import heading_vector
 
-RIVALS = {"L1": L1, "vector field": VectorField, "tangent": Tangent}
+FOLLOWERS = {"L1": L1, "vector field": VectorField, "tangent": Tangent}
 
 OTHER_PHASE = {Phase.LEFT: Phase.RIGHT, Phase.RIGHT: Phase.LEFT}
 
 
 def states(uav: Aircraft) -> st.SearchStrategy[State]:
-    """States in still air and in wind, up to a kilometre off."""
+    """States in still air and in wind, up to a kilometre from the origin."""
     metres, knots = st.floats(-1000.0, 1000.0), st.floats(-8.0, 8.0)
     headings = st.floats(0.0, 360.0)
     return st.builds(

@@ -1,4 +1,4 @@
-"""Campaigns: the same starts for all, whoever flies them; and what the law must show, in small."""
+"""Campaigns: the same starts for all laws and any number of processes; the performance of the law on a few starts."""
 
 from functools import partial
 
@@ -14,7 +14,7 @@ from loiter.guidance.trials.summary import summary
 STARTS = trials(12, 5, UAV)
 
 
-def test_starts_are_where_they_should_be_and_do_not_depend_on_how_many_there_are():
+def test_starts_are_within_their_bounds_and_independent_of_their_number():
     assert trials(4, 5, UAV) == STARTS[:4]
     assert trials(4, 6, UAV) != STARTS[:4]
     r = UAV.turn_radius_m
@@ -24,8 +24,8 @@ def test_starts_are_where_they_should_be_and_do_not_depend_on_how_many_there_are
         assert trial.ideal.orbit.distance_m(trial.ideal.start) <= 3.0 * radius
 
 
-def test_in_wind_there_are_only_circles_that_can_be_held():
-    """The same starts, wider: by (1 + w/V)^2, by which an aircraft turns wider downwind (docs/wind.md, section 2)."""
+def test_in_wind_every_circle_can_be_held():
+    """The same starts scaled by (1 + w/V)^2, the factor of the tightest circle in wind (docs/wind.md, section 2)."""
     windy = trials(12, 5, UAV, Wind(9.0, 250.0))
     assert [t.ideal.orbit.radius_m for t in windy] == pytest.approx([2.25 * t.ideal.orbit.radius_m for t in STARTS])
     assert [t.ideal.start.heading_deg for t in windy] == [t.ideal.start.heading_deg for t in STARTS]
@@ -33,14 +33,14 @@ def test_in_wind_there_are_only_circles_that_can_be_held():
         trials(1, 5, UAV, Wind(18.0, 250.0))
 
 
-def test_rivals_are_told_the_direction_of_the_fastest_entry():
+def test_other_laws_get_the_direction_of_the_fastest_entry():
     for trial in STARTS:
         assert trial.orbit.turn == trial.ideal.turn
         assert trial.ideal.orbit.turn == "either"
         assert all(law(trial) for law in LAWS.values())
 
 
-def test_a_campaign_does_not_depend_on_who_flies_it_and_finds_the_law_sooner():
+def test_a_campaign_does_not_depend_on_its_processes_and_the_law_settles_sooner():
     """Twelve starts in gusts of 5 %; the table of docs/guidance.md has a thousand."""
     laws = {name: LAWS[name] for name in ("optimal", "l1")}
     seen = []
@@ -48,10 +48,10 @@ def test_a_campaign_does_not_depend_on_who_flies_it_and_finds_the_law_sooner():
     alone = campaign(laws, point_mass, STARTS[:2], workers=1, limit_s=200.0, progress=lambda *n: seen.append(n))
     assert seen == [(1, 2), (2, 2)]
     for name in laws:
-        # As text, since nan, of who has not settled, is not equal to itself.
+        # As text, since nan, the settling time of a flight that has not settled, is not equal to itself.
         assert repr(shared[name][:2]) == repr(alone[name])
-    own, rival = shared["optimal"], shared["l1"]
-    one = summary(own, rival)
+    optimal_law, l1 = shared["optimal"], shared["l1"]
+    one = summary(optimal_law, l1)
     assert (one.flights, one.settled, one.round_again) == (12, 12, 0)
     assert one.median_ratio < 1.15
     assert one.sooner >= 0.9
@@ -63,7 +63,7 @@ def test_the_theory_flies_the_optimum():
     assert all(o.settled and abs(o.settled_s - o.ideal_s) < 0.2 * o.ideal_s + 1.0 for o in flown)
 
 
-def test_who_does_not_settle_is_later_than_all():
+def test_a_flight_that_does_not_settle_is_later_than_all():
     far = Trial(plan(Pose(-5000.0, 0.0, 90.0), Orbit(0.0, 0.0, 90.0), UAV, Wind(0.0, 0.0)), 1)
     outcomes = campaign({"optimal": optimal}, partial(point_mass, gust=0.0), [far], workers=1, limit_s=1.0)["optimal"]
     one = summary(outcomes)
@@ -72,7 +72,7 @@ def test_who_does_not_settle_is_later_than_all():
     assert np.isnan(one.sooner)
 
 
-def test_a_campaign_has_a_run():
+def test_a_campaign_has_at_least_one_run():
     with pytest.raises(InvalidArgument, match=r"^runs is 0: it must be at least 1$"):
         trials(0, 1, UAV)
 

@@ -1,21 +1,21 @@
-"""Time stamps: which are believed at once, which after a second, and which never."""
+"""Time stamps that are accepted at once, after a second, or never."""
 
 from math import inf
 
 import pytest
 
-from loiter.guidance.laws.clock import GAP_S, Clock
+from loiter.guidance.laws.clock import LARGEST_GAP_S, Clock
 
 DT = 0.02
 
 
-def believed(stamps, clock=None):
-    """Whether each of the stamps, `DT` apart, is believed."""
+def accepted(stamps, clock=None):
+    """Whether each of the stamps, `DT` apart, is accepted."""
     clock = Clock() if clock is None else clock
     answers = []
     for time_s in stamps:
-        answers.append(clock.believes(time_s))
-        clock.let(DT)
+        answers.append(clock.accept(time_s))
+        clock.advance(DT)
     return answers
 
 
@@ -24,59 +24,59 @@ def steady(begin_s, count):
 
 
 @pytest.mark.parametrize("begin_s", [0.0, -7.5, 1.7e9])
-def test_a_clock_that_advances_is_believed_from_the_first_stamp_on(begin_s):
-    assert all(believed(steady(begin_s, 200)))
+def test_a_clock_that_advances_is_accepted_from_the_first_stamp_on(begin_s):
+    assert all(accepted(steady(begin_s, 200)))
 
 
 @pytest.mark.parametrize("wrong_s", [1.7e9, 0.0, -1e6, 1e6])
-def test_one_wrong_stamp_is_passed_over(wrong_s):
-    assert believed([*steady(10.0, 5), wrong_s, *steady(10.12, 100)]) == [True] * 5 + [False] + [True] * 100
+def test_one_wrong_stamp_is_ignored(wrong_s):
+    assert accepted([*steady(10.0, 5), wrong_s, *steady(10.12, 100)]) == [True] * 5 + [False] + [True] * 100
 
 
 @pytest.mark.parametrize("begin_s", [0.0, 9.5, 1.7e9])
-def test_a_clock_that_starts_anew_is_believed_after_a_second(begin_s):
-    answers = believed([*steady(10.0, 50), *steady(begin_s, 200)])
+def test_a_clock_that_restarts_is_accepted_after_a_second(begin_s):
+    answers = accepted([*steady(10.0, 50), *steady(begin_s, 200)])
     assert answers[:50] == [True] * 50
     first = answers.index(True, 50) - 50
     assert 49 <= first <= 51
     assert all(answers[50 + first :])
 
 
-def test_stamps_that_come_twice_or_out_of_order_do_not_keep_a_new_clock_from_being_believed():
+def test_a_new_clock_is_accepted_despite_repeated_and_unordered_stamps():
     new = [stamp for i in range(60) for stamp in (0.1 * i, 0.1 * i, 0.1 * i - 0.05)]
-    answers = believed([*steady(50.0, 10), *new])
+    answers = accepted([*steady(50.0, 10), *new])
     assert True in answers[10 : 10 + 3 * 12]
-    # From then on each new stamp counts once, and those that come late do not.
+    # From then on each new stamp is accepted once, and late stamps are not.
     assert answers[-3:] == [True, False, False]
 
 
-def test_two_stamps_prove_nothing():
-    assert believed([100.0, 3.0, 40.0, 7.0, 60.0, 100.12]) == [True, False, False, False, False, True]
+def test_two_stamps_do_not_confirm_a_clock():
+    assert accepted([100.0, 3.0, 40.0, 7.0, 60.0, 100.12]) == [True, False, False, False, False, True]
 
 
-def test_what_is_repeated_is_not_new():
-    assert believed([4.0] * 500) == [True] + [False] * 499
+def test_a_repeated_stamp_is_not_new():
+    assert accepted([4.0] * 500) == [True] + [False] * 499
 
 
-def test_a_pause_is_none_of_the_clocks_business():
-    """A law that was not called for a while goes on at once, and one that was blind, however long."""
-    assert believed([0.0, 0.02, 0.02 + GAP_S]) == [True, True, True]
+def test_after_a_pause_stamps_are_accepted():
+    """A law that was not called for a while, or had no data for any time, continues at once."""
+    assert accepted([0.0, 0.02, 0.02 + LARGEST_GAP_S]) == [True, True, True]
     clock = Clock()
-    assert clock.believes(5.0)
-    clock.let(3.0 * GAP_S)
-    assert clock.believes(5.0 + 3.0 * GAP_S)
-    assert (clock.gap_s, clock.jump_s) == (3.0 * GAP_S, 0.0)
+    assert clock.accept(5.0)
+    clock.advance(3.0 * LARGEST_GAP_S)
+    assert clock.accept(5.0 + 3.0 * LARGEST_GAP_S)
+    assert (clock.gap_s, clock.jump_s) == (3.0 * LARGEST_GAP_S, 0.0)
 
 
-def test_the_jump_is_what_the_steps_do_not_account_for():
+def test_the_jump_is_the_change_beyond_the_time_of_the_steps():
     clock = Clock()
     assert clock.gap_s == inf
-    believed(steady(100.0, 11), clock)
+    accepted(steady(100.0, 11), clock)
     assert clock.jump_s == 0.0
     new = steady(3.0, 52)
-    first = believed(new, clock).index(True)
+    first = accepted(new, clock).index(True)
     clock = Clock()
-    believed([*steady(100.0, 11), *new[: first + 1]], clock)
-    # By the clock before, the new one began at 100.22.
+    accepted([*steady(100.0, 11), *new[: first + 1]], clock)
+    # By the previous clock, the new one began at 100.22.
     assert clock.jump_s == pytest.approx(3.0 - 100.22)
     assert clock.gap_s == pytest.approx((first + 1) * DT)

@@ -1,4 +1,4 @@
-"""Dryden gusts: the specification's scale lengths, and the covariances that belong to its spectra."""
+"""Dryden gusts: the scale lengths of the specification, and the covariances of its spectra."""
 
 from math import exp
 
@@ -27,16 +27,16 @@ def samples(dt, n, time_s=1.0, seed=11):
     rows = np.empty((n, 2))
     for i in range(n):
         rows[i] = gusts.velocity_m_s
-        gusts.after(dt)
+        gusts.advance(dt)
     return rows
 
 
 @pytest.mark.parametrize("dt", [0.1, 0.5])
 def test_covariances_are_those_of_the_spectra(dt):
-    """Along: s^2 exp(-h), h the lag over T; across: s^2 (1 - h/2) exp(-h), whatever the step."""
+    """For any step, with h the lag divided by T: s^2 exp(-h) along and s^2 (1 - h/2) exp(-h) across."""
     n, lags = 60_000, np.array([0.0, 0.5, 1.0, 2.0, 3.0])
     rows = samples(dt, n)
-    # n dt correlation times, some half as many independent samples: standard errors of 4/sqrt(n dt/2).
+    # n dt correlation times give about half as many independent samples: standard errors of 4/sqrt(n dt/2).
     tolerance = 4.0 * 4.0 / (n * dt / 2.0) ** 0.5
     for lag in lags:
         k = round(lag / dt)
@@ -46,12 +46,12 @@ def test_covariances_are_those_of_the_spectra(dt):
     assert (rows[:, 0] * rows[:, 1]).mean() == pytest.approx(0.0, abs=tolerance)
 
 
-def test_the_first_sample_is_as_gusty_as_any():
+def test_the_first_sample_has_the_stationary_deviation():
     first = np.array([Gusts(2.0, 1.0, np.random.default_rng(i)).velocity_m_s for i in range(4000)])
     assert first.std(axis=0) == pytest.approx([2.0, 2.0], rel=0.05)
 
 
-def test_a_calm_is_a_calm():
+def test_gusts_without_deviation_are_zero():
     gusts = Gusts(0.0, 1.0, np.random.default_rng(1))
-    gusts.after(0.1)
+    gusts.advance(0.1)
     assert gusts.velocity_m_s == (0.0, 0.0)

@@ -1,4 +1,4 @@
-"""The inner loops by themselves: trim, mirrors, stops, speed before altitude. In flight: `test_jsbsim_aircraft`."""
+"""The inner loops alone: trim, mirror symmetry, stops, priority of speed. In flight: `test_jsbsim_aircraft`."""
 
 from math import radians
 
@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter.guidance.simulators.airframes import AIRFRAMES
-from loiter.guidance.simulators.inner_loops import Flight, InnerLoops, Surfaces
+from loiter.guidance.simulators.inner_loops import InnerLoops, LoopInputs, Surfaces
 
 both = pytest.mark.parametrize("airframe", AIRFRAMES.values(), ids=list(AIRFRAMES))
 TRIM = Surfaces(0.0, -0.2, 0.0, 0.6)
@@ -15,8 +15,8 @@ DT = 1.0 / 120.0
 
 
 def level(airframe, **changes):
-    flight = Flight(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, airframe.altitude_m, 0.0, airframe.aircraft.airspeed_m_s)
-    return flight._replace(**changes)
+    inputs = LoopInputs(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, airframe.altitude_m, 0.0, airframe.aircraft.airspeed_m_s)
+    return inputs._replace(**changes)
 
 
 def loops(airframe):
@@ -31,19 +31,19 @@ def test_trimmed_flight_keeps_its_trim(airframe):
 @both
 @given(st.floats(-1.0, 1.0), st.floats(-0.3, 0.3), *[st.floats(-0.5, 0.5)] * 4, st.floats(-35.0, 35.0))
 def test_a_mirrored_flight_gets_mirrored_surfaces(airframe, bank, pitch, p, q, r, slip, command):
-    flight = level(airframe, bank=bank, pitch=pitch, roll_rate=p, pitch_rate=q, yaw_rate=r, slip=slip)
-    mirrored = flight._replace(bank=-bank, roll_rate=-p, yaw_rate=-r, slip=-slip)
+    inputs = level(airframe, bank=bank, pitch=pitch, roll_rate=p, pitch_rate=q, yaw_rate=r, slip=slip)
+    mirrored = inputs._replace(bank=-bank, roll_rate=-p, yaw_rate=-r, slip=-slip)
     a, b = loops(airframe), loops(airframe)
     for _ in range(3):
-        seen, other = a.step(flight, command, DT), b.step(mirrored, -command, DT)
+        seen, other = a.step(inputs, command, DT), b.step(mirrored, -command, DT)
         assert other == pytest.approx(seen._replace(aileron=-seen.aileron, rudder=-seen.rudder), abs=1e-12)
         assert all(abs(share) <= 1.0 for share in seen)
         assert seen.throttle >= 0.0
 
 
 @both
-def test_against_a_stop_an_integral_waits(airframe):
-    # Pitched down, rolled about and slow beyond what surfaces and throttle can do: a minute of it leaves what 20 s do.
+def test_integrals_are_frozen_at_a_stop(airframe):
+    # Errors of pitch rate, roll rate and airspeed that the controls cannot correct: 60 s have the same effect as 20 s.
     wrong = level(airframe, pitch_rate=-1.0, roll_rate=2.0, airspeed=0.6 * airframe.aircraft.airspeed_m_s)
 
     def released(time_s):
@@ -57,18 +57,18 @@ def test_against_a_stop_an_integral_waits(airframe):
 
 
 @both
-def test_speed_goes_before_altitude(airframe):
+def test_speed_has_priority_over_altitude(airframe):
     V = airframe.aircraft.airspeed_m_s
     low = level(airframe, altitude=airframe.altitude_m - 50.0)
     climbs = loops(airframe).step(low, 0.0, DT)
     dives = loops(airframe).step(low._replace(airspeed=0.8 * V), 0.0, DT)
-    # A positive elevator dives.
+    # A positive elevator deflection pitches down.
     assert climbs.elevator < TRIM.elevator < dives.elevator
     assert dives.throttle > climbs.throttle
 
 
 @both
-def test_a_bank_takes_aileron_lift_and_power(airframe):
+def test_a_bank_needs_aileron_lift_and_power(airframe):
     turning = level(airframe, bank=radians(30.0))
     held = loops(airframe).step(turning, 30.0, DT)
     assert held.elevator < TRIM.elevator

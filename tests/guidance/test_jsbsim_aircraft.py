@@ -1,4 +1,4 @@
-"""Six degrees of freedom: trim, hold, banks, wind, turbulence; the Aerosonde beside its publication's equations."""
+"""Six degrees of freedom: trim, hold, bank, wind, turbulence; the Aerosonde compared with its published equations."""
 
 import subprocess
 import sys
@@ -30,7 +30,7 @@ def course_deg(state):
 
 
 def states(simulator, bank_deg, time_s, step_s=0.05):
-    """The states, and the altitudes, every step of some seconds under a bank."""
+    """The state and the altitude after each step of a flight under a commanded bank."""
     for _ in range(round(time_s / step_s)):
         simulator.advance(banked(bank_deg), step_s)
         yield simulator.true_state(), simulator.altitude_m
@@ -48,7 +48,7 @@ def test_it_starts_trimmed_and_flies_straight(airframe, wind):
         assert altitude == pytest.approx(airframe.altitude_m, abs=0.1)
         assert state.airspeed_m_s == pytest.approx(V, abs=0.02)
         place = np.array([1000.0, -500.0]) + velocity * state.time_s
-        # Without bank the torque of the propeller is left to turn it, by 0.01 degrees a second.
+        # At zero bank the torque of the propeller turns the aircraft by 0.01 degrees a second.
         assert state.heading_deg == pytest.approx(40.0, abs=0.4)
         assert (state.east_m, state.north_m) == pytest.approx(tuple(place), abs=2.0)
 
@@ -68,8 +68,8 @@ def test_it_holds_altitude_and_airspeed_and_follows_the_bank(airframe):
 
 @both
 def test_a_banked_turn_is_coordinated(airframe):
-    # The course turns at g tan(bank)/V, but for the side force of a rudder that keeps the slip away, some 1 %, gravity
-    # at the equator, 0.3 %, and the nose, which banks a little less than the lift.
+    # The course turns at g tan(bank)/V, except for the side force of the rudder that removes the slip (about 1 %),
+    # gravity at the equator (0.3 %), and the bank of the nose, which is a little smaller than that of the lift.
     simulator, bank = JsbsimAircraft(START, airframe), airframe.aircraft.max_bank_deg
     *_, (before, _) = states(simulator, bank, 10.0)
     turned_deg = coordinated_deg = 0.0
@@ -78,7 +78,7 @@ def test_a_banked_turn_is_coordinated(airframe):
         rate = STANDARD_GRAVITY_M_S2 * tan(radians(state.bank_deg)) / state.airspeed_m_s
         coordinated_deg += degrees(rate) * 0.05
         before = state
-        # The nose is up by the angle of attack, 4 degrees or so: banked, it points that much into the turn.
+        # The nose is up by the angle of attack, about 4 degrees. In a bank it therefore points into the turn.
         assert -3.0 < (course_deg(state) - state.heading_deg + 180.0) % 360.0 - 180.0 < 0.6
     assert turned_deg == pytest.approx(coordinated_deg, rel=0.025)
 
@@ -93,21 +93,21 @@ def test_a_bank_beyond_the_limit_is_not_flown(airframe):
 def test_it_rolls_as_its_airframe_says(airframe):
     roll = identified_roll(airframe)
     assert (roll.time_s, roll.rate_deg_s) == pytest.approx((airframe.roll.time_s, airframe.roll.rate_deg_s), rel=0.02)
-    # ... which predicts a bank from level and a reversal, rms and at worst.
+    # This model predicts the bank in a step from level and in a reversal, rms and at worst.
     simulator, bank = JsbsimAircraft(START, airframe), 0.0
     limit = airframe.aircraft.max_bank_deg
     for command in (limit, -limit):
         missed = []
         for state, _ in states(simulator, command, 6.0, 0.02):
-            bank = airframe.roll.after(bank, command, 0.02)
+            bank = airframe.roll.bank_after(bank, command, 0.02)
             missed.append(bank - state.bank_deg)
         assert np.sqrt(np.mean(np.square(missed))) < 1.5
         assert np.max(np.abs(missed)) < 3.0
 
 
 @both
-def test_places_are_what_the_velocities_lead_to(airframe):
-    # Round a circle and on, in wind: the trapezoidal rule knows nothing of JSBSim's earth.
+def test_positions_agree_with_integrated_velocities(airframe):
+    # Circling in wind. The trapezoidal rule does not use JSBSim's model of the earth.
     simulator = JsbsimAircraft(START, airframe, Wind(8.0, from_deg=250.0))
     before = simulator.true_state()
     east, north = before.east_m, before.north_m
@@ -118,8 +118,8 @@ def test_places_are_what_the_velocities_lead_to(airframe):
         before = state
 
 
-def test_any_step_will_do():
-    # Steps are cut into equal parts of at most 1/120 s: 0.1 s and 1/400 s fly alike.
+def test_the_step_does_not_matter():
+    # Steps are divided into equal parts of at most 1/120 s, so that 0.1 s and 1/400 s give the same flight.
     ends = []
     for step_s in (0.1, 1.0 / 400.0):
         simulator = JsbsimAircraft(START, AEROSONDE)
@@ -129,7 +129,7 @@ def test_any_step_will_do():
 
 
 @pytest.mark.parametrize("dt", [nan, inf, -0.05])
-def test_a_step_is_a_time(dt):
+def test_a_step_must_be_finite_and_not_negative(dt):
     simulator = JsbsimAircraft(START, J3CUB)
     before = simulator.true_state()
     with pytest.raises(InvalidArgument, match=r"^dt is"):
@@ -138,9 +138,9 @@ def test_a_step_is_a_time(dt):
 
 
 @both
-def test_turbulence_is_as_strong_as_asked(airframe):
-    # What the air carries along: the velocity over the ground less that through the air, level and nearly along the
-    # nose. Gusts last some 10 s, so that 400 s tell their strength to a fifth or so.
+def test_turbulence_has_the_given_strength(airframe):
+    # The velocity of the air along the nose: the ground velocity less the airspeed, in nearly level flight. Gusts last
+    # about 10 s, so that 400 s determine their strength to about a fifth.
     gust, V = 0.05, airframe.aircraft.airspeed_m_s
     simulator = JsbsimAircraft(START, airframe, gust=gust, seed=1)
     along = []
@@ -154,7 +154,7 @@ def test_turbulence_is_as_strong_as_asked(airframe):
 
 @both
 def test_it_stays_in_the_air_in_turbulence(airframe):
-    # 5 % of the airspeed, turning about for a minute. A downdraught may be more than the Cub can climb.
+    # 5 % of the airspeed, turning left and right for a minute. A downdraught can exceed the Cub's rate of climb.
     simulator, limit = JsbsimAircraft(START, airframe, gust=0.05, seed=3), airframe.aircraft.max_bank_deg
     for bank in (limit, -limit, 0.0, -limit, limit, 0.0):
         for state, altitude in states(simulator, bank, 10.0, 0.1):
@@ -180,12 +180,12 @@ def test_sensors_have_noise_and_delay():
     exact = JsbsimAircraft(START, AEROSONDE)
     assert exact.measured_state() == exact.true_state()
     for state, _ in states(simulator, 0.0, 1.0):
-        told = simulator.measured_state()
-        assert told.time_s == pytest.approx(state.time_s - 0.1)
-        assert 0.0 < hypot(told.east_m - state.east_m, told.north_m - state.north_m) < 10.0
+        measured = simulator.measured_state()
+        assert measured.time_s == pytest.approx(state.time_s - 0.1)
+        assert 0.0 < hypot(measured.east_m - state.east_m, measured.north_m - state.north_m) < 10.0
 
 
-def test_jsbsim_says_nothing(capfd):
+def test_jsbsim_prints_nothing(capfd):
     simulator = JsbsimAircraft(START, J3CUB)
     for _ in states(simulator, 20.0, 1.0):
         pass
@@ -208,7 +208,7 @@ def test_a_bad_gust_is_refused():
         JsbsimAircraft(START, AEROSONDE, gust=-1.0)
 
 
-# Beard and McLain's equations of motion in SI, from their tables: an oracle that knows nothing of the XML.
+# Beard and McLain's equations of motion in SI, from their tables: an oracle independent of the XML file.
 M, JX, JZ, JXZ, S, B, C = 11.0, 0.8244, 1.759, 0.1204, 0.55, 2.8956, 0.18994
 
 

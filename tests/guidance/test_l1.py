@@ -1,4 +1,4 @@
-"""The L1 loiter law: what its publications ask for, by hand. Mirrors and settling: `test_following`."""
+"""The L1 loiter law: the demands of its publications, by hand. Symmetry and settling: `test_following`."""
 
 from math import atan, degrees, pi, radians, tan
 
@@ -37,7 +37,7 @@ BY_HAND = {
 
 
 @pytest.mark.parametrize(("turn", "east", "north", "heading", "right", "phase"), BY_HAND.values(), ids=list(BY_HAND))
-def test_it_asks_for_what_the_publications_say(turn, east, north, heading, right, phase):
+def test_it_demands_what_the_publications_say(turn, east, north, heading, right, phase):
     command = L1(Orbit(0.0, 0.0, 100.0, turn), UAV, period_s=15.0).step(at(east, north, heading), 0.1)
     bank = max(min(degrees(atan(right / STANDARD_GRAVITY_M_S2)), 45.0), -45.0)
     assert command.bank_deg == pytest.approx(bank, abs=1e-9)

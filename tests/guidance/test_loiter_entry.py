@@ -1,4 +1,4 @@
-"""The law that flies the fastest entry: exact in the theory's world, settled in noise, safe without data."""
+"""The law that flies the fastest entry: exact with the vehicle of the theory, settling in noise, safe without data."""
 
 from itertools import pairwise
 from math import cos, hypot, inf, isnan, nan, radians
@@ -27,36 +27,36 @@ ORBIT = Orbit(0.0, 0.0, 120.0)
 START = Pose(-400.0, 120.0, 90.0)
 
 
-def held_from(flight):
-    """When the law first held, and the track up to there."""
+def first_hold(flight):
+    """The time at which the law first holds, and its index in the track."""
     k = flight.phases.index(Phase.HOLD)
     return float(flight.track.time_s[k]), k
 
 
-def flown_exactly(pose, orbit, uav, wind=None):
-    """The exact law in the exact vehicle with its plan, up to the hold."""
+def exact_flight(pose, orbit, uav, wind=None):
+    """A plan, the commands of the exact law in the exact vehicle up to the hold, and the final state."""
     m = plan(pose, orbit, uav, wind)
     law, vehicle = LoiterEntry.exact(orbit, uav, wind), Kinematic(pose, uav, wind)
-    told, step = [], m.duration_s / 50.0 + 1e-3
+    commands, step = [], m.duration_s / 50.0 + 1e-3
     for _ in range(120):
         state = vehicle.true_state()
         command = law.step(state, step)
-        told.append((state.time_s, command))
+        commands.append((state.time_s, command))
         if command.phase == Phase.HOLD:
             break
         vehicle.advance(command, min(step, command.next_in_s))
-    return m, told, vehicle.true_state()
+    return m, commands, vehicle.true_state()
 
 
-def check_exact(m, told, end):
-    assert told[-1][0] == pytest.approx(m.duration_s, abs=1e-6)
+def check_exact(m, commands, end):
+    assert commands[-1][0] == pytest.approx(m.duration_s, abs=1e-6)
     gone = m.orbit.after(m.duration_s)
     assert hypot(end.east_m - gone.east_m, end.north_m - gone.north_m) == pytest.approx(m.orbit.radius_m, abs=1e-6)
-    for time_s, command in told:
+    for time_s, command in commands:
         assert time_s + command.time_to_join_s == pytest.approx(m.duration_s, abs=1e-6)
-    assert told[-1][1].turn == m.turn
+    assert commands[-1][1].turn == m.turn
     letters = {Phase.LEFT: "L", Phase.STRAIGHT: "S", Phase.RIGHT: "R"}
-    flown = [letters[command.phase] for _, command in told[:-1]]
+    flown = [letters[command.phase] for _, command in commands[:-1]]
     assert "".join(a for a, b in zip(flown, ["", *flown], strict=False) if a != b) == m.word
 
 
@@ -65,13 +65,13 @@ def check_exact(m, told, end):
 def test_without_noise_it_flies_the_optimum(scene):
     pose, orbit, uav = scene
     m = plan(pose, orbit, uav)
-    # Pieces of less than a millisecond may be dropped where words with and without them tie.
+    # Pieces of less than a millisecond may be left out where words with and without them tie.
     if all(segment.duration_s > 1e-3 for segment in m.segments) and next_best(m) > 1e-3:
-        check_exact(*flown_exactly(pose, orbit, uav))
+        check_exact(*exact_flight(pose, orbit, uav))
 
 
 def next_best(m):
-    """How much later the runner-up is, seconds."""
+    """The margin of the second-fastest candidate, seconds."""
     from loiter import candidates
 
     times = [other.duration_s for other in candidates(m.start, m.orbit, m.aircraft, m.wind)]
@@ -80,11 +80,11 @@ def next_best(m):
 
 @settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(windy_scenes(windiest=0.4))
-def test_so_it_does_in_wind_and_about_circles_that_move(scene):
+def test_without_noise_it_flies_the_optimum_in_wind_and_about_moving_circles(scene):
     pose, orbit, uav, wind = scene
     m = plan(pose, orbit, uav, wind)
     if all(segment.duration_s > 1e-3 for segment in m.segments):
-        check_exact(*flown_exactly(pose, orbit, uav, wind))
+        check_exact(*exact_flight(pose, orbit, uav, wind))
 
 
 @pytest.mark.parametrize("step_s", [0.1, 0.02, 0.0025])
@@ -104,12 +104,12 @@ def test_it_settles_from_the_hardest_starts(R, turn):
         for simulator in (Kinematic(pose, UAV), PointMass(pose, UAV, seed=1)):
             flight = fly(LoiterEntry(orbit, UAV), simulator, orbit, limit_s=150.0)
             assert flight.settled, name
-            # Never round again: the jump is a turn and half a turn high.
+            # No go-around: the jump of T is one and a half turns.
             assert flight.turned_deg < arcs_deg + 300.0, name
 
 
 @pytest.mark.parametrize("heading", [89.0, 90.0, 91.0])
-def test_it_does_not_dither_between_ways_that_tie(heading):
+def test_it_keeps_its_choice_between_plans_that_tie(heading):
     """Along the axis two directions and two first turns tie: the first choice is kept."""
     law, mass, turns, phases = LoiterEntry(ORBIT, UAV), PointMass(Pose(300.0, 0.0, heading), UAV, seed=4), [], []
     for _ in range(1500):
@@ -123,7 +123,7 @@ def test_it_does_not_dither_between_ways_that_tie(heading):
 
 @settings(max_examples=20, deadline=None)
 @given(st.floats(-500.0, 500.0), st.floats(-500.0, 500.0), st.floats(0.0, 360.0), st.sampled_from([Turn.CW, Turn.CCW]))
-def test_a_mirror_flies_the_mirror_image(east, north, heading, turn):
+def test_a_mirrored_state_gets_the_mirrored_command(east, north, heading, turn):
     vehicle = Kinematic(Pose(east, north, heading), UAV)
     law, other = LoiterEntry(Orbit(0.0, 0.0, 90.0, turn), UAV), LoiterEntry(Orbit(0.0, 0.0, 90.0, turn.other), UAV)
     for _ in range(12):
@@ -140,15 +140,15 @@ def test_the_time_to_join_falls_with_the_clock_in_noise():
         assert flight.join_error_s < 0.3
 
 
-def test_nothing_but_the_plan_steps_the_bank():
-    """Without noise, over the hand-over too: the command goes from arc to hold once, and comes to the circle's bank."""
+def test_the_bank_command_is_continuous_except_at_switches():
+    """Without noise, also at the transition from the last arc to the hold: the bank converges to that of the circle."""
     mass = PointMass(START, UAV, seed=1, gust=0.0, noise=EXACT)
     flight = fly(LoiterEntry(ORBIT, UAV, delay_s=0.0), mass, ORBIT)
-    joined_s, k = held_from(flight)
+    joined_s, k = first_hold(flight)
     after = flight.track.bank_deg[k:]
     turn = 1.0 if after[-1] > 0.0 else -1.0
     hold_deg = UAV.bank_deg(120.0)
-    # From then on the bank goes to that of the circle and never beyond by more than the radial error asks for.
+    # From then on the bank approaches that of the circle, and exceeds it only by the correction of the radial error.
     assert (turn * after).max() < hold_deg + 3.0
     assert np.abs(np.diff(turn * after)).max() <= 60.0 * 0.02 + 1e-9
     late = flight.track.time_s > joined_s + 3.0
@@ -162,7 +162,7 @@ BAD = [{"time_s": nan}, {"east_m": nan}, {"heading_deg": inf}, {"velocity_north_
 @pytest.mark.parametrize("bad", [*BAD, {"time_s": 0.0}])
 @pytest.mark.parametrize("begins_s", [1.0, 40.0])
 def test_without_data_it_is_safe_and_it_recovers_in_one_step(bad, begins_s):
-    """Blind for three seconds in the entry or on the circle, then on, and settled all the same."""
+    """Three seconds without data, in the entry or on the circle; the aircraft settles nevertheless."""
     law, mass = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=2)
     commands, times = [], []
     while mass.true_state().time_s < 50.0:
@@ -188,7 +188,7 @@ SCENES = {"still air": (ORBIT, None), "wind": (ORBIT, AIR), "a ship in wind": (S
 
 
 def with_stamps(stamp, orbit=ORBIT, wind=None, until_s=60.0):
-    """The commands of a law whose measurements bear other stamps: number i, at a time, bears `stamp(i, time_s)`."""
+    """The commands of a law with changed time stamps: measurement i has the stamp `stamp(i, time_s)`."""
     law, mass, commands = LoiterEntry(orbit, UAV, wind), PointMass(START, UAV, wind, seed=2), []
     while mass.true_state().time_s < until_s:
         state = mass.measured_state()
@@ -197,7 +197,7 @@ def with_stamps(stamp, orbit=ORBIT, wind=None, until_s=60.0):
     return commands, mass.true_state()
 
 
-def blind(commands):
+def steps_without_data(commands):
     return [i for i, command in enumerate(commands) if command.phase == Phase.NO_DATA]
 
 
@@ -214,51 +214,51 @@ def check_on_the_circle(commands, end, orbit, time_s):
 def test_one_wrong_time_stamp_costs_one_step(scene, wrong_s, i):
     orbit, wind = SCENES[scene]
     commands, end = with_stamps(lambda k, time_s: wrong_s if k == i else time_s, orbit, wind)
-    assert blind(commands) == [i]
+    assert steps_without_data(commands) == [i]
     assert commands[i].bank_deg == commands[i - 1].bank_deg
     check_on_the_circle(commands, end, orbit, end.time_s)
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_a_stamp_a_minute_ahead_costs_a_second(scene):
-    """It may be true, where the law was not called for a minute; the second that follows tells."""
+    """The law may not have been called for a minute; the stamps of the next second decide."""
     orbit, wind = SCENES[scene]
     commands, end = with_stamps(lambda k, time_s: time_s + (60.0 if k == 300 else 0.0), orbit, wind)
-    assert blind(commands) == list(range(301, 301 + len(blind(commands))))
-    assert 49 <= len(blind(commands)) <= 52
+    assert steps_without_data(commands) == list(range(301, 301 + len(steps_without_data(commands))))
+    assert 49 <= len(steps_without_data(commands)) <= 52
     check_on_the_circle(commands, end, orbit, end.time_s)
 
 
 @pytest.mark.parametrize("wind", [None, AIR])
 @pytest.mark.parametrize("jump_s", [-1e6, -4.0, 1e6])
 @pytest.mark.parametrize("begins", [300, 2000])
-def test_a_clock_that_starts_anew_is_taken_after_a_second(wind, jump_s, begins):
-    """In the entry or on the circle; the plan is kept, as are the times that it promises."""
+def test_a_clock_that_restarts_is_accepted_after_a_second(wind, jump_s, begins):
+    """In the entry or on the circle; the plan and its predicted times are kept."""
     commands, end = with_stamps(lambda k, time_s: time_s + (jump_s if k >= begins else 0.0), ORBIT, wind)
-    assert blind(commands) == list(range(begins, begins + len(blind(commands))))
-    assert 49 <= len(blind(commands)) <= 52
-    before, after = commands[begins - 1], commands[begins + len(blind(commands))]
+    assert steps_without_data(commands) == list(range(begins, begins + len(steps_without_data(commands))))
+    assert 49 <= len(steps_without_data(commands)) <= 52
+    before, after = commands[begins - 1], commands[begins + len(steps_without_data(commands))]
     assert (after.phase, after.turn) == (before.phase, before.turn)
-    gone_s = 0.02 * (len(blind(commands)) + 1)
+    gone_s = 0.02 * (len(steps_without_data(commands)) + 1)
     assert after.time_to_join_s == pytest.approx(max(before.time_to_join_s - gone_s, 0.0), abs=0.5)
     check_on_the_circle(commands, end, ORBIT, end.time_s)
 
 
-def test_a_circle_that_moves_is_where_it_is_by_the_new_clock():
+def test_the_position_of_a_moving_circle_follows_the_new_clock():
     commands, end = with_stamps(lambda k, time_s: time_s - (20.0 if k >= 1500 else 0.0), SHIP, until_s=100.0)
     check_on_the_circle(commands, end, SHIP, end.time_s - 20.0)
 
 
 def test_the_first_stamp_may_be_the_wrong_one():
     commands, end = with_stamps(lambda k, time_s: 1.7e9 if k == 0 else time_s, SHIP, AIR)
-    assert blind(commands) == list(range(1, 1 + len(blind(commands))))
-    assert len(blind(commands)) <= 57  # the second, and the tenth by which measurements are late
+    assert steps_without_data(commands) == list(range(1, 1 + len(steps_without_data(commands))))
+    assert len(steps_without_data(commands)) <= 57  # one second, and the delay of measurements, 0.1 s
     check_on_the_circle(commands, end, SHIP, end.time_s)
 
 
 @pytest.mark.parametrize("dt", [nan, inf, 0.0, -0.02, "0.02", None, True])
-def test_a_step_must_be_a_time(dt):
-    """It is refused at once, and the law goes on as if it had not been asked."""
+def test_a_step_must_be_positive_and_finite(dt):
+    """It is refused, and the law continues unchanged."""
     law, twin, mass = LoiterEntry(ORBIT, UAV), LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=2)
     for i in range(40):
         if i == 10:
@@ -272,7 +272,7 @@ def test_a_step_must_be_a_time(dt):
 
 
 @pytest.mark.parametrize("dt", [1e-300, 1e6, 1e308])
-def test_a_step_of_any_length_leaves_the_law_able(dt):
+def test_the_law_continues_after_a_step_of_any_length(dt):
     law, mass = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=2)
     for i in range(40):
         command = law.step(mass.measured_state(), dt if i == 10 else 0.02)
@@ -282,7 +282,7 @@ def test_a_step_of_any_length_leaves_the_law_able(dt):
 
 
 @given(st.tuples(*[st.floats(allow_nan=True, allow_infinity=True)] * 8), st.floats(0.0025, 0.1))
-def test_whatever_is_measured_the_command_is_bounded(values, dt):
+def test_the_command_is_bounded_for_any_measurement(values, dt):
     law = LoiterEntry(ORBIT, UAV)
     law.step(State(0.0, -400.0, 120.0, 90.0, 0.0, 18.0, 0.0, 18.0), dt)
     for state in (State(*values), State(dt, *values[1:]), State(2.0 * dt, -400.0, 120.0, 90.0, 0.0, 0.0, 0.0, 18.0)):
@@ -298,7 +298,7 @@ def test_data_before_any_plan_levels_the_wings():
 
 
 @pytest.mark.parametrize("known", [True, False])
-def test_it_settles_in_wind_told_of_it_or_not(known):
+def test_it_settles_in_known_and_unknown_wind(known):
     wind, start = Wind(4.0, 200.0), Pose(-350.0, 100.0, 300.0)
     law = LoiterEntry(ORBIT, UAV, wind if known else None)
     flight = fly(law, PointMass(start, UAV, wind, seed=6), ORBIT, limit_s=150.0)
@@ -308,8 +308,8 @@ def test_it_settles_in_wind_told_of_it_or_not(known):
 
 @pytest.mark.parametrize("wind", [None, Wind(5.0, 200.0), Wind(5.0, 20.0)])
 @pytest.mark.parametrize("start", [Pose(-350.0, 100.0, 300.0), Pose(400.0, 300.0, 80.0), Pose(-200.0, 500.0, 10.0)])
-def test_in_wind_it_is_as_near_the_optimum_as_in_still_air(start, wind):
-    """A turn before the last is flown at the limit; what is late is the roll, to the limit, level and to the other."""
+def test_in_wind_it_is_as_close_to_the_optimum_as_in_still_air(start, wind):
+    """A turn before the last is flown at the limit; the delay comes from rolling to it, level, and to the other."""
     ideal = plan(start, ORBIT, UAV, wind)
     mass = PointMass(start, UAV, wind, seed=6, gust=0.0, noise=EXACT)
     flight = fly(LoiterEntry(ORBIT, UAV, wind, delay_s=0.0), mass, ORBIT, limit_s=150.0)
@@ -318,14 +318,14 @@ def test_in_wind_it_is_as_near_the_optimum_as_in_still_air(start, wind):
     assert flight.settled_s < ideal.duration_s + 1.6
 
 
-def test_it_settles_about_a_circle_that_moves():
+def test_it_settles_about_a_moving_circle():
     orbit, wind = Orbit(0.0, 0.0, 140.0, "either", 2.0, -1.5), Wind(3.0, 100.0)
     start = Pose(-350.0, 100.0, 300.0)
     flight = fly(LoiterEntry(orbit, UAV, wind), PointMass(start, UAV, wind, seed=6), orbit, limit_s=150.0)
     assert flight.settled_s < plan(start, orbit, UAV, wind).duration_s + 3.0
 
 
-def test_what_cannot_be_held_is_refused():
+def test_a_circle_that_cannot_be_held_is_refused():
     with pytest.raises(RadiusTooSmall, match="orbit radius 40 m is tighter"):
         LoiterEntry(Orbit(0.0, 0.0, 40.0), UAV)
     with pytest.raises(WindTooStrong):
@@ -338,7 +338,7 @@ def test_arguments_are_not_negative(name):
         LoiterEntry(ORBIT, UAV, **{name: -1})
 
 
-def test_an_aircraft_may_be_told_by_its_rate_of_turn_and_bank_slowly():
+def test_an_aircraft_given_by_its_turn_rate_that_banks_slowly():
     slow = Aircraft(25.0, max_turn_rate_deg_s=15.0)
     orbit, roll = Orbit(50.0, -30.0, 200.0, "ccw"), Roll(1.0, 30.0)
     start = Pose(600.0, 200.0, 10.0)

@@ -1,4 +1,4 @@
-"""The observer: exact where measurements are, quieter where they are not."""
+"""The observer: exact for exact measurements, and with less noise for noisy ones."""
 
 from math import cos, hypot, radians, sin
 
@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from guidance.flights import UAV
 from loiter import Pose, Wind
-from loiter.guidance.laws.observer import Air, Observer, Recent, usable
+from loiter.guidance.laws.observer import AirVelocityFilter, BankHistory, Observer, is_usable
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.simulators.gusts import Gusts
 from loiter.guidance.simulators.kinematic import Kinematic
@@ -27,21 +27,21 @@ def turning(rate_deg_s, bank_deg=0.0):
 
 @settings(max_examples=20, deadline=None)
 @given(st.floats(0.0, 1.0), st.lists(st.floats(-20.0, 20.0), min_size=3, max_size=30), st.floats(0.0, 9.0))
-def test_exact_measurements_are_left_as_they_are(smoothing, rates, wind):
-    """Dead reckoning is the exact flow of the kinematic vehicle, so that nothing is left to correct."""
+def test_exact_measurements_are_not_changed(smoothing, rates, wind):
+    """Dead reckoning is the exact flow of the kinematic vehicle, so that there is nothing to correct."""
     vehicle, observer = Kinematic(Pose(-40.0, 10.0, 200.0), UAV, Wind(wind, 30.0)), Observer(smoothing)
     for rate in rates:
         state = vehicle.measured_state()
-        seen = observer.see(state, state.bank_deg)
-        x, y, c, s = seen.place
+        estimate = observer.update(state, state.bank_deg)
+        x, y, c, s = estimate.pose
         assert hypot(x - state.east_m, y - state.north_m) < 1e-9
         assert c * c + s * s == pytest.approx(1.0, abs=1e-14)
-        assert 18.0 * c + seen.air_east_m_s == pytest.approx(state.velocity_east_m_s, abs=1e-9)
-        assert 18.0 * s + seen.air_north_m_s == pytest.approx(state.velocity_north_m_s, abs=1e-9)
+        assert 18.0 * c + estimate.air_east_m_s == pytest.approx(state.velocity_east_m_s, abs=1e-9)
+        assert 18.0 * s + estimate.air_north_m_s == pytest.approx(state.velocity_north_m_s, abs=1e-9)
         vehicle.advance(turning(rate), 0.1)
         later = vehicle.true_state()
-        ahead = seen._replace(rate=-radians(np.clip(rate, -21.87, 21.87))).ahead(0.1)
-        assert hypot(ahead.place[0] - later.east_m, ahead.place[1] - later.north_m) < 0.05
+        ahead = estimate._replace(turn_rate=-radians(np.clip(rate, -21.87, 21.87))).after(0.1)
+        assert hypot(ahead.pose.x - later.east_m, ahead.pose.y - later.north_m) < 0.05
     assert ahead.time_s == pytest.approx(later.time_s)
 
 
@@ -50,53 +50,53 @@ def test_noise_is_averaged_without_lag_in_a_turn():
     mass, observer = PointMass(Pose(0.0, 0.0, 0.0), UAV, seed=2, gust=0.0, noise=noise), Observer(0.5)
     off, across = [], []
     for _ in range(3000):
-        true, seen = mass.true_state(), observer.see(mass.measured_state(), mass.true_state().bank_deg)
-        off.append((seen.place[0] - true.east_m, seen.place[1] - true.north_m))
+        true, estimate = mass.true_state(), observer.update(mass.measured_state(), mass.true_state().bank_deg)
+        off.append((estimate.pose.x - true.east_m, estimate.pose.y - true.north_m))
         across.append(cos(radians(true.heading_deg)) * off[-1][0])
         mass.advance(turning(0.0, 30.0), 0.02)
     settled = np.array(off[200:])
-    # White noise of 1 m averaged over 0.5 s in steps of 0.02 s: sqrt(0.02/(2 0.5)) = 0.14 m; what heading and air add
-    # to it is of the same size. No mean error is left, where an average that lags 0.5 s would be 9 m behind.
+    # White noise of 1 m averaged over 0.5 s in steps of 0.02 s: sqrt(0.02/(2 0.5)) = 0.14 m. Heading and air add noise
+    # of the same size. There is no mean error; an average with a lag of 0.5 s would be 9 m behind.
     assert settled.std(axis=0).max() < 0.3
     assert np.abs(settled.mean(axis=0)).max() < 0.1
 
 
-def aired(gust_m_s, seed):
-    """A minute of gusts as sensors tell them, and what the average of each was."""
+def averaged_gusts(gust_m_s, seed):
+    """The filter after a minute of measured gusts, and its averages."""
     random = np.random.default_rng(seed)
-    gusts, air = Gusts(gust_m_s, 14.6, random), Air(0.5)
-    air.begin(*gusts.velocity_m_s)
-    told = []
+    gusts, air = Gusts(gust_m_s, 14.6, random), AirVelocityFilter(0.5)
+    air.reset(*gusts.velocity_m_s)
+    averages = []
     for noise in random.normal(0.0, 0.3, (3000, 2)):
-        gusts.after(0.02)
-        told.append(air.see(*(np.array(gusts.velocity_m_s) + noise), 0.02))
-    return air, np.array(told)
+        gusts.advance(0.02)
+        averages.append(air.update(*(np.array(gusts.velocity_m_s) + noise), 0.02))
+    return air, np.array(averages)
 
 
 @pytest.mark.parametrize(("gust_m_s", "averaged_s"), [(0.0, 0.25), (0.45, 0.25), (0.9, 0.25), (3.6, 0.0625)])
 def test_air_is_averaged_over_less_where_it_is_rough(gust_m_s, averaged_s):
-    """How much of a step shows a sixteenth of a second later; gusts of 18 m/s up to 5 %, and of 20 %."""
+    """The response to a step after 1/16 s, in gusts of up to 5 % and of 20 % of 18 m/s."""
     for seed in range(5):
-        air, told = aired(gust_m_s, seed)
-        before = told[-1]
-        after = air.see(before[0] + 1.0, before[1], 0.0625)
+        air, averages = averaged_gusts(gust_m_s, seed)
+        before = averages[-1]
+        after = air.update(before[0] + 1.0, before[1], 0.0625)
         assert after[0] - before[0] == pytest.approx(1.0 - np.exp(-0.0625 / averaged_s), rel=0.25)
         assert after[1] == pytest.approx(before[1])
 
 
-def test_noise_alone_makes_no_rough_air():
-    _, told = aired(0.0, seed=7)
+def test_noise_alone_does_not_count_as_rough_air():
+    _, averages = averaged_gusts(0.0, seed=7)
     # White noise of 0.3 m/s over 1/4 s, in steps of 0.02 s: 0.3 sqrt(0.02/(2 0.25)) = 0.06; over 1/16 s twice that.
-    assert told[1500:].std(axis=0) == pytest.approx([0.06, 0.06], rel=0.15)
+    assert averages[1500:].std(axis=0) == pytest.approx([0.06, 0.06], rel=0.15)
 
 
 @given(st.lists(st.tuples(st.floats(-30.0, 30.0), st.floats(-30.0, 30.0), st.floats(0.0, 5.0)), min_size=1))
-def test_an_average_is_between_what_is_averaged(told):
-    air = Air(0.5)
-    air.begin(*told[0][:2])
-    for i, measured in enumerate(told):
-        for axis, value in enumerate(air.see(*measured)):
-            so_far = [other[axis] for other in told[: i + 1]]
+def test_an_average_lies_between_its_samples(averages):
+    air = AirVelocityFilter(0.5)
+    air.reset(*averages[0][:2])
+    for i, measured in enumerate(averages):
+        for axis, value in enumerate(air.update(*measured)):
+            so_far = [other[axis] for other in averages[: i + 1]]
             assert min(so_far) - 1e-9 <= value <= max(so_far) + 1e-9
 
 
@@ -104,58 +104,58 @@ steps = st.lists(st.tuples(st.floats(0.0025, 0.3), st.floats(-35.0, 35.0)), min_
 
 
 @given(steps, st.floats(0.0, 0.5))
-def test_the_recent_bank_is_that_of_the_delay(taken, delay):
-    """Against the whole history, level before it, looked up: the mean over the delay, and where it began."""
-    recent = Recent(delay)
+def test_the_bank_history_covers_the_delay(taken, delay):
+    """Compared with the complete history, level before it: the mean over the delay, and the bank at its start."""
+    history = BankHistory(delay)
     for dt, bank in taken:
-        recent.keep(bank, dt)
+        history.record(bank, dt)
     ends = np.cumsum([10.0, *(dt for dt, _ in taken)])
     banks, begin = np.array([0.0, *(bank for _, bank in taken)]), ends[-1] - delay
     overlap = np.clip(ends - np.maximum(np.concatenate([[0.0], ends[:-1]]), begin), 0.0, None)
-    assert recent.now_deg == taken[-1][1]
+    assert history.current_deg == taken[-1][1]
     if delay > 1e-3:
-        assert recent.mean_deg == pytest.approx(overlap @ banks / delay, abs=1e-8)
+        assert history.mean_deg == pytest.approx(overlap @ banks / delay, abs=1e-8)
     near = {banks[np.searchsorted(ends, begin + nudge)] for nudge in (-1e-9, 1e-9) if begin + nudge <= ends[-1]}
-    assert recent.then_deg in near
+    assert history.delayed_deg in near
 
 
-def test_a_step_longer_than_the_delay_leaves_nothing_older():
-    recent = Recent(0.1)
+def test_a_step_longer_than_the_delay_replaces_the_history():
+    history = BankHistory(0.1)
     for dt in (0.02, 1e308, 0.02, 0.02):
-        recent.keep(20.0, dt)
-    assert (recent.then_deg, recent.now_deg) == (20.0, 20.0)
-    assert recent.mean_deg == pytest.approx(20.0)
+        history.record(20.0, dt)
+    assert (history.delayed_deg, history.current_deg) == (20.0, 20.0)
+    assert history.mean_deg == pytest.approx(20.0)
 
 
-def test_late_measurements_are_brought_to_the_present():
-    """Through a reversal of the bank in wind, a tenth of a second late, without noise."""
+def test_delayed_measurements_are_flown_on_to_the_present():
+    """In a reversal of the bank in wind, with a delay of 0.1 s and no noise."""
     late = Noise(0.0, 0.0, 0.0, 0.0, 0.0, 0.1)
     mass = PointMass(Pose(0.0, 0.0, 0.0), UAV, Wind(5.0, 90.0), seed=2, gust=0.0, noise=late)
-    observer, recent, roll, bank = Observer(0.5), Recent(0.1), Roll(), 0.0
+    observer, history, roll, bank = Observer(0.5), BankHistory(0.1), Roll(), 0.0
     for i in range(200):
         true = mass.true_state()
-        seen = observer.see(mass.measured_state(), recent.then_deg).brought(recent)
-        assert seen.time_s == pytest.approx(true.time_s)
-        x, y, c, s = seen.place
+        estimate = observer.update(mass.measured_state(), history.delayed_deg).at_present(history)
+        assert estimate.time_s == pytest.approx(true.time_s)
+        x, y, c, s = estimate.pose
         assert hypot(x - true.east_m, y - true.north_m) < 0.05
         assert hypot(c - sin(radians(true.heading_deg)), s - cos(radians(true.heading_deg))) < radians(0.5)
-        assert seen.bank_deg == pytest.approx(true.bank_deg, abs=1.0)
+        assert estimate.bank_deg == pytest.approx(true.bank_deg, abs=1.0)
         command = 35.0 if i % 100 < 50 else -35.0
-        bank = roll.after(bank, command, 0.02)
-        recent.keep(bank, 0.02)
+        bank = roll.bank_after(bank, command, 0.02)
+        history.record(bank, 0.02)
         mass.advance(turning(0.0, command), 0.02)
 
 
 @pytest.mark.parametrize("field", State._fields)
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf"), 1e300])
-def test_what_is_no_measurement(field, value):
+def test_unusable_measurements(field, value):
     bad = GOOD._replace(**{field: value})
-    assert not usable(bad)
+    assert not is_usable(bad)
 
 
-def test_what_is_one():
-    assert usable(GOOD)
+def test_usable_measurements():
+    assert is_usable(GOOD)
     # Seconds since 1970, and before.
-    assert usable(GOOD._replace(time_s=1.7e9))
-    assert usable(GOOD._replace(time_s=-1.7e9))
-    assert not usable(GOOD._replace(airspeed_m_s=0.0))
+    assert is_usable(GOOD._replace(time_s=1.7e9))
+    assert is_usable(GOOD._replace(time_s=-1.7e9))
+    assert not is_usable(GOOD._replace(airspeed_m_s=0.0))

@@ -1,4 +1,4 @@
-"""When the law takes a new plan on its way, in still air."""
+"""When the law adopts a new plan in flight, in still air."""
 
 import pytest
 
@@ -16,8 +16,8 @@ def stepped(law, time_s, pose):
 
 
 @pytest.mark.parametrize("off_m", [-0.5, 0.5])
-def test_in_still_air_the_same_way_is_planned_anew_from_where_the_aircraft_is(off_m):
-    """On the first turn: the switch moves with where the aircraft is found, though that is no sooner than the plan."""
+def test_in_still_air_the_same_plan_is_updated_from_the_present_state(off_m):
+    """On the first turn: the switch moves with the measured position, even where that makes the plan no faster."""
     start = Pose(-400.0, 120.0, 200.0)
     law, first = LoiterEntry.exact(ORBIT, UAV), plan(start, ORBIT, UAV).segments[0]
     command = stepped(law, 0.0, start)

@@ -1,4 +1,4 @@
-"""Sensors: what their noise and their delay make of a flight."""
+"""Sensors: the effects of noise and delay."""
 
 from dataclasses import astuple
 
@@ -16,34 +16,34 @@ def later(i):
     return FIRST._replace(time_s=2.0 + 0.02 * i, east_m=10.0 + i)
 
 
-def told(noise, n, seed=1):
+def latest(noise, n, seed=1):
     sensors = Sensors(FIRST, noise, np.random.default_rng(seed))
-    yield sensors.told
+    yield sensors.latest
     for i in range(1, n):
         sensors.measure(later(i))
-        yield sensors.told
+        yield sensors.latest
 
 
-def test_exact_sensors_tell_what_is():
-    assert list(told(EXACT, 20)) == [later(i) for i in range(20)]
+def test_exact_sensors_measure_the_true_state():
+    assert list(latest(EXACT, 20)) == [later(i) for i in range(20)]
 
 
-def test_a_delay_tells_what_was():
-    states = list(told(Noise(0.0, 0.0, 0.0, 0.0, 0.0, delay_s=0.1), 30))
+def test_delayed_sensors_measure_an_earlier_state():
+    states = list(latest(Noise(0.0, 0.0, 0.0, 0.0, 0.0, delay_s=0.1), 30))
     assert states[5:] == [later(i) for i in range(25)]
-    # Before, it flew straight; time goes on from the first call.
+    # Before the first state the aircraft flew straight; the time stamps are continuous from the first call.
     assert [s.time_s for s in states] == pytest.approx([1.9 + 0.02 * i for i in range(30)])
     assert states[0].east_m == pytest.approx(10.0 - 1.2)
     assert states[2].north_m == pytest.approx(-5.0 - 0.06 * 9.0)
 
 
-def test_noise_has_the_deviations_asked_for():
+def test_noise_has_the_given_deviations():
     noise = Noise(delay_s=0.0)
     sensors = Sensors(FIRST, noise, np.random.default_rng(7))
     rows = []
     for i in range(1, 4001):
         sensors.measure(FIRST._replace(time_s=2.0 + i))
-        rows.append(np.array(sensors.told[1:]) - FIRST[1:])
+        rows.append(np.array(sensors.latest[1:]) - FIRST[1:])
     position, heading, bank, velocity, airspeed, _ = astuple(noise)
     deviations = [position, position, heading, bank, velocity, velocity, airspeed]
     assert np.std(rows, axis=0) == pytest.approx(deviations, rel=0.06)

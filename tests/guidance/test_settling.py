@@ -1,4 +1,4 @@
-"""The measure: flights drawn by hand, settled or not."""
+"""Settling and joining, for constructed flights."""
 
 from math import cos, degrees, pi, sin
 
@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from loiter import Orbit, Turn
 from loiter.errors import InvalidArgument
 from loiter.guidance.protocol import State
-from loiter.guidance.trials.settling import COUNTED_DEG, Band, Settling
+from loiter.guidance.trials.settling import COUNTED_DEG, Band, SettlingMonitor
 
 STEP = 0.01
 
@@ -24,13 +24,13 @@ def state(t, azimuth, distance=100.0, course_off=0.0, sense=1, moving=(0.0, 0.0)
 
 
 def settled_after(states, turn="either", band=Band(), velocity=(0.0, 0.0)):  # noqa: B008
-    """The settling, once it has settled or the states are over."""
-    settling = Settling(Orbit(0.0, 0.0, 100.0, turn, *velocity), band)
+    """The monitor after the last state, or once it has settled."""
+    monitor = SettlingMonitor(Orbit(0.0, 0.0, 100.0, turn, *velocity), band)
     for each in states:
-        settling.watch(each)
-        if settling.settled:
+        monitor.update(each)
+        if monitor.settled:
             break
-    return settling
+    return monitor
 
 
 def turns(n, begin_s=0.0, **how):
@@ -41,9 +41,9 @@ def turns(n, begin_s=0.0, **how):
 
 @given(st.floats(-4.9, 4.9), st.floats(-4.9, 4.9), st.sampled_from([1, -1]))
 def test_a_full_turn_in_the_band_settles(off_m, off_deg, sense):
-    settling = settled_after(turns(1.01, distance=100.0 + off_m, course_off=off_deg * pi / 180, sense=sense))
-    assert settling.settled
-    assert settling.entered_s == settling.joined_s == 0.0
+    monitor = settled_after(turns(1.01, distance=100.0 + off_m, course_off=off_deg * pi / 180, sense=sense))
+    assert monitor.settled
+    assert monitor.entered_s == monitor.joined_s == 0.0
 
 
 @pytest.mark.parametrize("how", [{"distance": 105.2}, {"distance": 94.8}, {"course_off": 0.09}, {"course_off": -0.09}])
@@ -56,34 +56,34 @@ def test_less_than_a_turn_is_not_enough():
     assert not settled_after(turns(0.99)).settled
 
 
-def test_the_direction_is_that_asked_for():
+def test_only_the_direction_of_the_orbit_counts():
     assert settled_after(turns(1.1), turn="cw").settled
     assert not settled_after(turns(1.1), turn="ccw").settled
     assert not settled_after(turns(1.1, sense=-1), turn=Turn.CW).settled
 
 
-def test_who_leaves_begins_anew():
+def test_an_aircraft_that_leaves_the_band_starts_again():
     half = turns(0.5)
     out = [state(half[-1].time_s + STEP * i, 1.0 + pi, 107.0) for i in range(1, 50)]
     again = turns(1.1, out[-1].time_s + STEP)
-    settling = settled_after(half + out + again)
-    assert settling.settled
-    assert settling.entered_s == pytest.approx(again[0].time_s)
-    # 107 m is within twice the band: it had joined, and stayed about there.
-    assert settling.joined_s == 0.0
+    monitor = settled_after(half + out + again)
+    assert monitor.settled
+    assert monitor.entered_s == pytest.approx(again[0].time_s)
+    # 107 m is within twice the band: the aircraft had joined and stayed near the circle.
+    assert monitor.joined_s == 0.0
     far = [each._replace(east_m=each.east_m * 1.1, north_m=each.north_m * 1.1) for each in out]
-    assert settled_after(half + far + again).joined_s == settling.entered_s
+    assert settled_after(half + far + again).joined_s == monitor.entered_s
 
 
-def test_what_throws_it_off_after_a_full_turn_does_not_undo_the_joining():
+def test_leaving_the_circle_after_a_full_turn_does_not_change_the_joining():
     first = turns(0.3)
     about = turns(1.0, first[-1].time_s + STEP, distance=107.0)
     out = turns(0.2, about[-1].time_s + STEP, distance=125.0)
     again = turns(1.1, out[-1].time_s + STEP)
-    settling = settled_after(first + about + out + again)
-    assert settling.settled
-    assert settling.joined_s == 0.0
-    assert settling.entered_s == pytest.approx(again[0].time_s)
+    monitor = settled_after(first + about + out + again)
+    assert monitor.settled
+    assert monitor.joined_s == 0.0
+    assert monitor.entered_s == pytest.approx(again[0].time_s)
 
 
 def loop(begin_s, azimuth):
@@ -109,22 +109,22 @@ def test_turns_off_the_circle_are_counted_and_those_on_it_are_not():
     assert degrees(0.6) - COUNTED_DEG < off.turned_deg <= degrees(0.6)
 
 
-def test_what_gusts_turn_to_and_fro_is_no_turn():
+def test_small_turns_in_gusts_are_not_counted():
     there = [state(STEP * i, 1.0, 400.0) for i in range(1885)]
     swaying = [s._replace(heading_deg=90.0 + 4.5 * sin(i / 20)) for i, s in enumerate(there)]
     assert settled_after(swaying).turned_deg == 0.0
-    # To the left by 90 degrees and back again, swaying: two turns.
+    # To the left by 90 degrees and back again, with small turns: two turns.
     weaving = [s._replace(heading_deg=s.heading_deg - 45.0 + 45.0 * cos(i / 300)) for i, s in enumerate(swaying)]
     assert settled_after(weaving).turned_deg == pytest.approx(180.0, abs=20.0)
 
 
-def test_a_circle_that_moves_takes_its_band_along():
+def test_the_band_moves_with_the_circle():
     velocity = (3.0, -2.0)
     assert settled_after(turns(1.1, moving=velocity), velocity=velocity).settled
     assert not settled_after(turns(1.1, moving=velocity)).settled
 
 
 @pytest.mark.parametrize("band", [(0.0, 5.0), (0.05, -1.0), (float("nan"), 5.0)])
-def test_a_band_has_a_width(band):
+def test_a_band_must_have_a_width(band):
     with pytest.raises(InvalidArgument, match=r"^(radial|course_deg) is "):
         Band(*band)

@@ -1,4 +1,4 @@
-"""Both simulators, beside plans and beside a differential equation solved by small steps."""
+"""Both simulators, compared with plans and with a differential equation solved in small steps."""
 
 from functools import partial
 from math import cos, hypot, pi, radians, sin, tan
@@ -14,7 +14,7 @@ from loiter.guidance.protocol import Command, Phase
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import EXACT
-from loiter.guidance.vehicle.rolling import AT_ONCE, Roll
+from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
 from loiter.guidance.vehicle.turning import rate_at_bank
 from loiter.planning.model import STANDARD_GRAVITY_M_S2, Turn
 from strategies import windy_scenes
@@ -44,7 +44,7 @@ def test_the_kinematic_vehicle_flies_a_plan(scene):
     assert cos(radians(end.heading_deg - m.join.heading_deg)) == pytest.approx(1.0)
 
 
-def test_the_kinematic_vehicle_turns_no_tighter_than_it_can():
+def test_the_kinematic_vehicle_keeps_its_turn_limit():
     vehicle = Kinematic(START, UAV)
     vehicle.advance(command(rate_deg_s=1000.0), 1.0)
     assert vehicle.true_state().bank_deg == pytest.approx(35.0)
@@ -53,7 +53,7 @@ def test_the_kinematic_vehicle_turns_no_tighter_than_it_can():
 
 @pytest.mark.parametrize("dt", [float("nan"), float("inf"), -0.1])
 @pytest.mark.parametrize("make", [Kinematic, partial(PointMass, seed=1)])
-def test_a_step_is_a_time(make, dt):
+def test_a_step_must_be_finite_and_not_negative(make, dt):
     vehicle = make(START, UAV)
     before = vehicle.true_state()
     with pytest.raises(InvalidArgument, match=r"^dt is"):
@@ -84,14 +84,14 @@ def test_the_point_mass_obeys_its_equations():
         mass.advance(command(30.0), 0.02)
     east, north, heading, bank = runge_kutta(30.0, 5.0, Roll(), WIND)
     end = mass.true_state()
-    # The simulator's step, 0.02 s, is of second order: some 0.02^2 of 90 m.
+    # The error of the simulator's step, 0.02 s, is of second order: about 0.02^2 of 90 m.
     assert hypot(end.east_m - east, end.north_m - north) < 0.01
     assert end.heading_deg == pytest.approx(np.degrees(heading), abs=0.01)
     assert end.bank_deg == pytest.approx(bank, abs=1e-4)
 
 
 def test_a_steady_bank_is_a_circle():
-    mass = PointMass(START, UAV, seed=1, gust=0.0, noise=EXACT, roll=AT_ONCE)
+    mass = PointMass(START, UAV, seed=1, gust=0.0, noise=EXACT, roll=INSTANT_ROLL)
     for _ in range(1000):
         mass.advance(command(35.0), 2.0 * pi * UAV.turn_radius_m / 18.0 / 1000)
     end = mass.true_state()

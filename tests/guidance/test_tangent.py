@@ -1,4 +1,4 @@
-"""Dubins' path to the nearest tangent point: beside OMPL, and by hand. Mirrors and settling: `test_following`."""
+"""Dubins' path to the nearest tangent point, compared with OMPL and by hand. Symmetry, settling: `test_following`."""
 
 from math import asin, atan, atan2, hypot, isfinite, pi, sqrt
 
@@ -25,7 +25,7 @@ def first_command(pose, orbit, reserve=0.0):
 
 
 def test_half_a_turn_by_hand():
-    # Two turn radii outside, the other way: half a left turn ends at the nearest point, along the circle clockwise.
+    # Two turn radii outside, in the opposite direction: half a left turn ends at the nearest point, along the circle.
     command = first_command(Pose(-5.0 * R, 0.0, 180.0), Orbit(0.0, 0.0, 3.0 * R, "cw"))
     assert (command.phase, command.next_phase) == (Phase.LEFT, Phase.HOLD)
     assert command.time_to_join_s == command.next_in_s == pytest.approx(pi * R / V)
@@ -33,7 +33,7 @@ def test_half_a_turn_by_hand():
 
 
 def test_the_reserve_makes_arcs_wider_but_no_wider_than_the_circle():
-    # Half a turn as above, of a radius larger by a quarter; and all the circle allows where a quarter is too much.
+    # Half a turn as above with a radius larger by a quarter, or with that of the circle where a quarter is too much.
     wide = 1.25 * R
     command = first_command(Pose(-3.0 * R - 2.0 * wide, 0.0, 180.0), Orbit(0.0, 0.0, 3.0 * R, "cw"), reserve=0.25)
     assert command.time_to_join_s == pytest.approx(pi * wide / V)
@@ -63,11 +63,11 @@ def test_the_path_is_as_long_as_that_of_ompl(pose, turn, wider):
     nearest = search.state(circle.join(atan2(pose.north_m, pose.east_m)))
     length = search.space.distance(search.state(start), nearest)
     command = first_command(pose, Orbit(0.0, 0.0, wider * R, turn))
-    # OMPL counts what lacks 1e-6 radians to a full turn as none, and `Tangent` what is shorter than SHORT_M.
+    # OMPL ignores arcs within 1e-6 radians of a full turn, and `Tangent` ignores pieces shorter than SHORT_M.
     assert command.time_to_join_s * V == pytest.approx(length, abs=3.0 * (SHORT_M + 1e-6 * R))
 
 
-def test_either_way_is_the_way_of_the_shorter_path():
+def test_the_chosen_direction_is_that_of_the_shorter_path():
     pose = Pose(-400.0, 120.0, 90.0)
     times = {turn: first_command(pose, Orbit(0.0, 0.0, 3.0 * R, turn)).time_to_join_s for turn in ("cw", "ccw")}
     command = first_command(pose, Orbit(0.0, 0.0, 3.0 * R))
@@ -76,7 +76,7 @@ def test_either_way_is_the_way_of_the_shorter_path():
 
 
 def test_it_joins_where_it_planned_to():
-    # Without reserve and lag it flies its plan: settled within a step of it, at the latest.
+    # Without reserve and lag it flies its plan: it settles within a step of the planned time, at the latest.
     pose, orbit = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 3.0 * R)
     settled = settled_s(Tangent(orbit, UAV, reserve=0.0), pose, UAV)
     assert isfinite(settled)

@@ -1,4 +1,4 @@
-"""Turns at any rate: complex numbers as the witness."""
+"""Turns at any rate, compared with complex exponentials."""
 
 from cmath import exp
 from math import pi
@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter import Aircraft
-from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank, turned
+from loiter.guidance.vehicle.turning import PlanarPose, bank_at_rate, constant_turn, rate_at_bank
 
 speeds, times = st.floats(1.0, 60.0), st.floats(0.0, 20.0)
 
@@ -16,7 +16,7 @@ speeds, times = st.floats(1.0, 60.0), st.floats(0.0, 20.0)
 @given(speeds, st.floats(-1.0, 1.0), times, st.floats(-pi, pi))
 def test_a_turn_is_an_arc(speed, rate, time, course):
     start, way = complex(30.0, -20.0), exp(1j * course)
-    x, y, c, s = turned((start.real, start.imag, way.real, way.imag), speed, rate, time)
+    x, y, c, s = constant_turn(PlanarPose(start.real, start.imag, way.real, way.imag), speed, rate, time)
     # (e^(i a) - 1)/(i a) by its series where the angle is small.
     a = rate * time
     mean = (exp(1j * a) - 1.0) / (1j * a) if abs(a) > 1e-4 else 1.0 + 0.5j * a - a * a / 6.0
@@ -25,7 +25,7 @@ def test_a_turn_is_an_arc(speed, rate, time, course):
 
 
 @given(st.floats(-80.0, 80.0), speeds)
-def test_bank_and_rate_are_one(bank, speed):
+def test_bank_and_rate_are_inverse(bank, speed):
     assert bank_at_rate(rate_at_bank(bank, speed), speed) == pytest.approx(bank, abs=1e-12)
 
 

@@ -8,15 +8,22 @@ from hypothesis import strategies as st
 
 from guidance.circling import state_of
 from loiter import Aircraft, Orbit
-from loiter.guidance.laws.following import Around
-from loiter.guidance.laws.vector_field import FieldGains, VectorField, advised_gains, course_rate, field_rate, largest_k
+from loiter.guidance.laws.following import PolarState
+from loiter.guidance.laws.vector_field import (
+    FieldGains,
+    VectorField,
+    advised_gains,
+    commanded_course_rate,
+    field_rate,
+    largest_k,
+)
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 
 UAV = Aircraft(20.0, max_bank_deg=60.0)
 GAINS = FieldGains(k=2.0, kappa=0.5, epsilon=1.0)
 
-# At 150 m from the centre of a circle of 100 m, k (d - R)/R = 1: the course wanted is 45 degrees inward of tangent.
+# 150 m from the centre of a circle of 100 m, k (d - R)/R = 1: the desired course is 45 degrees inward of the tangent.
 BY_HAND = {
     # On the field, V cos 45 round and in: phi' = V sin 45/150, and k V cos 45/(R (1 + 1)) less.
     "on the field": (45.0, 20.0 / sqrt(2.0) * (1.0 / 150.0 - 1.0 / 100.0)),
@@ -31,8 +38,8 @@ BY_HAND = {
 
 @pytest.mark.parametrize("turn", ["cw", "ccw"])
 @pytest.mark.parametrize(("inward_deg", "rate"), BY_HAND.values(), ids=list(BY_HAND))
-def test_it_asks_for_what_the_publications_say(inward_deg, rate, turn):
-    # North of the centre; clockwise heads east there, inward is to its right.
+def test_it_demands_what_the_publications_say(inward_deg, rate, turn):
+    # North of the centre, where clockwise is east and inward is to the right.
     side = 1.0 if turn == "cw" else -1.0
     state = state_of(0.0, 0.0, 150.0, *heading_vector(side * (90.0 + inward_deg)), UAV)
     command = VectorField(Orbit(0.0, 0.0, 100.0, turn), UAV, gains=GAINS).step(state, 0.1)
@@ -40,10 +47,10 @@ def test_it_asks_for_what_the_publications_say(inward_deg, rate, turn):
 
 
 def test_on_the_circle_the_rate_is_that_of_the_circle():
-    on = Around(100.0, 0.0, 1.0, 0.0, 20.0)
-    assert course_rate(on, 1, 100.0, GAINS) == pytest.approx(0.2)
+    on = PolarState(100.0, 0.0, 1.0, 0.0, 20.0)
+    assert commanded_course_rate(on, 1, 100.0, GAINS) == pytest.approx(0.2)
     # The other way round: half a turn to go, beyond the boundary layer.
-    assert abs(course_rate(on, -1, 100.0, GAINS) - 0.2) == pytest.approx(0.5)
+    assert abs(commanded_course_rate(on, -1, 100.0, GAINS) - 0.2) == pytest.approx(0.5)
 
 
 @given(st.floats(0.05, 6.0), st.floats(0.2, 12.0))
@@ -63,7 +70,7 @@ def test_the_rate_of_the_field_is_its_derivative(distance, k):
 def test_the_field_stays_within_the_turn_of_the_aircraft(tightest):
     k = largest_k(tightest)
     assert all(abs(field_rate(1.0 + 0.01 * i, k)) <= tightest for i in range(1, 600))
-    # A k a tenth larger would not, unless it is the largest that is ever flown.
+    # With a k larger by a tenth it would not, unless k is the largest one allowed.
     assert k == 10.0 or any(abs(field_rate(1.0 + 0.01 * i, 1.1 * k)) > 0.9 * tightest for i in range(1, 600))
 
 

@@ -14,7 +14,7 @@ TRIAL = Trial(plan(Pose(-300.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18
 
 @pytest.fixture(scope="module")
 def flights():
-    setting = settings.theory()
+    setting = settings.kinematic_setting()
     return {
         name: fly(setting.laws[name](TRIAL), setting.simulator(TRIAL), TRIAL.ideal.orbit) for name in ("optimal", "l1")
     }
@@ -43,7 +43,7 @@ def test_the_fastest_entry_lies_beneath(flights):
 
 
 def test_who_has_not_settled_is_said_so():
-    setting = settings.theory()
+    setting = settings.kinematic_setting()
     short = fly(setting.laws["l1"](TRIAL), setting.simulator(TRIAL), TRIAL.ideal.orbit, limit_s=1.0)
     axes = draw(TRIAL.ideal, {"l1": short}).axes[0]
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["fastest entry", "l1: not settled"]

@@ -1,4 +1,4 @@
-"""The closed-loop law that flies the fastest entry, its rivals, and simulators to fly them in."""
+"""The closed-loop law that flies the fastest entry, laws to compare it with, and simulators to fly them in."""
 
 from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Command, Law, Phase, Simulator, State

@@ -1,4 +1,4 @@
-"""`loiter.guidance.simulators.airframes` under its former name, which earlier documentation gave."""
+"""Former import path of `loiter.guidance.simulators.airframes`, given in earlier documentation."""
 
 from loiter.guidance.simulators.airframes import AEROSONDE, AIRFRAMES, J3CUB, Airframe
 

@@ -1,4 +1,4 @@
-"""`loiter.guidance.trials.campaign` under its former name, which earlier documentation gave."""
+"""Former import path of `loiter.guidance.trials.campaign`, given in earlier documentation."""
 
 from loiter.guidance.trials.campaign import (
     LAWS,

@@ -1,4 +1,4 @@
-"""`loiter.guidance.laws.loiter_entry` under its former name, which earlier documentation gave."""
+"""Former import path of `loiter.guidance.laws.loiter_entry`, given in earlier documentation."""
 
 from loiter.guidance.laws.loiter_entry import LoiterEntry
 

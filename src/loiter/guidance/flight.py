@@ -1,5 +1,8 @@
-"""`loiter.guidance.trials.flight` under its former name, which earlier documentation gave."""
+"""Former import path of `loiter.guidance.trials.flight`, given in earlier documentation."""
 
-from loiter.guidance.trials.flight import Flight, Track, fly
+from loiter.guidance.trials.flight import Flight, FlightTrack, fly
 
-__all__ = ["Flight", "Track", "fly"]
+# The former name of `FlightTrack`.
+Track = FlightTrack
+
+__all__ = ["Flight", "FlightTrack", "Track", "fly"]

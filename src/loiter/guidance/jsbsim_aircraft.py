@@ -1,4 +1,4 @@
-"""`loiter.guidance.simulators.jsbsim_aircraft` under its former name, which earlier documentation gave."""
+"""Former import path of `loiter.guidance.simulators.jsbsim_aircraft`, given in earlier documentation."""
 
 from loiter.guidance.simulators.jsbsim_aircraft import JsbsimAircraft, identified_roll
 

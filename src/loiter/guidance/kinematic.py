@@ -1,4 +1,4 @@
-"""`loiter.guidance.simulators.kinematic` under its former name, which earlier documentation gave."""
+"""Former import path of `loiter.guidance.simulators.kinematic`, given in earlier documentation."""
 
 from loiter.guidance.simulators.kinematic import Kinematic
 

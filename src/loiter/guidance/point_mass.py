@@ -1,4 +1,4 @@
-"""`loiter.guidance.simulators.point_mass` under its former name, which earlier documentation gave."""
+"""Former import path of `loiter.guidance.simulators.point_mass`, given in earlier documentation."""
 
 from loiter.guidance.simulators.point_mass import PointMass
 

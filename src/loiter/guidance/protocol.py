@@ -1,6 +1,6 @@
-"""What laws and simulators say to one another: a measured state in, a command out.
+"""The interface between laws and simulators: a law takes a measured state and returns a command.
 
-Angles as a pilot counts them: headings and tracks in compass degrees, rates of turn and banks positive to the right.
+Angles follow pilots' conventions: headings and tracks in compass degrees, turn rates and banks positive to the right.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from loiter.planning.vocabulary import ACTIONS
 
 
 class State(NamedTuple):
-    """An aircraft at an instant: as it is, or as its sensors say it is.
+    """An aircraft at an instant, true or as measured by its sensors.
 
-    Place over the ground (metres, local east and north), where the nose points, bank, velocity over the ground and true
-    airspeed (metres per second).
+    Position in local metres east and north, heading of the nose, bank, velocity over the ground and true airspeed
+    (metres per second).
     """
 
     time_s: float
@@ -30,7 +30,7 @@ class State(NamedTuple):
 
 
 class Phase(StrEnum):
-    """What a law is doing."""
+    """The present action of a law."""
 
     LEFT = ACTIONS["L"]
     STRAIGHT = ACTIONS["S"]
@@ -43,11 +43,17 @@ class Phase(StrEnum):
 PHASES = {1: Phase.LEFT, 0: Phase.STRAIGHT, -1: Phase.RIGHT}
 
 
-class Command(NamedTuple):
-    """What a law asks for: the rate of turn through the air and the bank of the coordinated turn that has it.
+def phase_of_control(control: int | None) -> Phase:
+    """The phase in which a control is flown; `HOLD` where there is none, since the circle comes after the last."""
+    return Phase.HOLD if control is None else PHASES[control]
 
-    `time_to_join_s` is how long the circle is away (0 on it, nan where the law cannot tell), `turn` the way round it
-    will be held, `next_phase` what comes then and `next_in_s` when.
+
+class Command(NamedTuple):
+    """The command of a law: the turn rate through the air, and the bank of the coordinated turn at that rate.
+
+    `time_to_join_s` is the time until the aircraft joins the circle (0 on it, nan where the law cannot predict it),
+    `turn` the direction in which the circle will be held, `next_phase` the phase that follows and `next_in_s` the time
+    until it begins.
     """
 
     turn_rate_deg_s: float
@@ -60,20 +66,20 @@ class Command(NamedTuple):
 
 
 class Law(Protocol):
-    """A guidance law: keeps what it has to remember between steps."""
+    """A guidance law. It keeps its own memory between steps."""
 
     def step(self, state: State, dt: float) -> Command:
-        """The command for the next `dt` seconds, from what was measured."""
+        """The command for the next `dt` seconds, from a measured state."""
 
 
 class Simulator(Protocol):
-    """An aircraft in air: keeps its state; time goes on by `advance`."""
+    """A simulated aircraft in moving air. It keeps its state; `advance` moves time on."""
 
     def true_state(self) -> State:
-        """The state as it is."""
+        """The true state."""
 
     def measured_state(self) -> State:
-        """The state as its sensors say it is."""
+        """The state as measured by the sensors."""
 
     def advance(self, command: Command, dt: float) -> None:
         """Fly `dt` seconds under a command."""

@@ -1,5 +1,8 @@
-"""`loiter.guidance.trials.summary` under its former name, which earlier documentation gave."""
+"""Former import path of `loiter.guidance.trials.summary`, given in earlier documentation."""
 
-from loiter.guidance.trials.summary import Summary, summary
+from loiter.guidance.trials.summary import CampaignSummary, summary
 
-__all__ = ["Summary", "summary"]
+# The former name of `CampaignSummary`.
+Summary = CampaignSummary
+
+__all__ = ["CampaignSummary", "Summary", "summary"]

@@ -1,4 +1,4 @@
-"""Pictures of simulated flights: tracks over the circle, and bank and time to join over time."""
+"""Figures of flights in closed loop: tracks with the circle, and bank and time to join over time."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from loiter.guidance.trials.flight import Flight
 from loiter.planning.maneuver import Maneuver
 from loiter.plot.picture import FAINT
 
-# Okabe and Ito's palette.
+# From the palette of Okabe and Ito.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 
 
 def draw(ideal: Maneuver, flights: Mapping[str, Flight]) -> Figure:
-    """Draw the tracks of laws from one start beside the fastest entry; below, bank and the reported time to join.
+    """A figure with the tracks of laws from one start and the fastest entry; below, bank and reported time to join.
 
-    A dot on a track marks the position at the settling time. A moving circle is drawn where it is when the fastest
-    entry joins it.
+    A dot marks where the full turn began in which the aircraft settled. A circle that moves is drawn where it is when
+    the fastest entry joins it.
     """
     figure = Figure(figsize=(8.0, 8.6), layout="constrained")
     layout: Any = [["tracks"], ["bank"], ["join"]]
     axes = figure.subplot_mosaic(layout, height_ratios=[6, 2, 2])
     _draw_tracks(axes["tracks"], ideal, flights)
     for (name, flight), colour in zip(flights.items(), COLOURS, strict=False):
-        track, time_s = flight.track, _elapsed_s(flight)
+        track, time_s = flight.track, flight.track.elapsed_s
         axes["bank"].plot(time_s, track.bank_deg, color=colour, linewidth=1.2, gid=f"bank {name}")
         axes["join"].plot(time_s, track.time_to_join_s, color=colour, linewidth=1.2, gid=f"join {name}")
     axes["bank"].set_ylabel("bank (deg)")
@@ -53,7 +53,7 @@ def _draw_tracks(axes: Axes, ideal: Maneuver, flights: Mapping[str, Flight]) -> 
         east, north = flight.track.east_m, flight.track.north_m
         axes.plot(east, north, color=colour, linewidth=1.3, label=_label(name, flight), gid=f"track {name}")
         if flight.settled:
-            i = np.searchsorted(_elapsed_s(flight), flight.settled_s)
+            i = np.searchsorted(flight.track.elapsed_s, flight.settled_s)
             axes.plot([east[i]], [north[i]], color=colour, marker="o", linestyle="none", gid=f"settled {name}")
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("east (m)")

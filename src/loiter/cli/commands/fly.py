@@ -1,4 +1,4 @@
-"""`loiter fly`: guidance laws in closed loop, once or from many starts."""
+"""`loiter fly`: guidance laws in closed loop, from one start or from many."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import io
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -25,47 +26,51 @@ from loiter.plot import files
 from loiter.writing import check_writable, write_whole
 
 if TYPE_CHECKING:
+    from loiter.guidance.simulators.airframes import Airframe
     from loiter.guidance.trials.campaign import Outcome, Trial
     from loiter.guidance.trials.flight import Flight
     from loiter.guidance.trials.settings import Setting
 
-Sim = Literal["kinematic", "point", "jsbsim"]
-Law = Literal["optimal", "l1", "vector-field", "tangent"]
+SimulatorName = Literal["kinematic", "point", "jsbsim"]
+LawName = Literal["optimal", "l1", "vector-field", "tangent"]
 
-# What flies where the options leave it open.
+# The defaults of --airframe and --gust, which are absent where they would have no effect.
 AIRFRAME, GUST = "aerosonde", 0.05
 
 simulation = Group("Simulation", sort_key=0)
 
 
-def fly(
-    *,
+@Parameter(name="*")
+@dataclass(frozen=True)
+class SimulationOptions:
+    """The simulator, the laws and the number of flights."""
+
     sim: Annotated[
-        Sim,
+        SimulatorName,
         Parameter(
             group=simulation,
-            help="kinematic: the vehicle of the theory, exactly. point: with roll, gusts, noise and delay. jsbsim: six degrees of freedom.",
+            help="kinematic: the exact vehicle of the theory. point: with roll response, gusts, noise and delay. jsbsim: six degrees of freedom.",
         ),
-    ] = "point",
-    law: Annotated[Law, Parameter(group=simulation, help="The guidance law.")] = "optimal",
-    compare: Annotated[
-        bool, Parameter(group=simulation, help="Fly all laws from the same start, in the same air.")
-    ] = False,
+    ] = "point"
+    law: Annotated[LawName, Parameter(group=simulation, help="The guidance law.")] = "optimal"
+    compare: Annotated[bool, Parameter(group=simulation, help="Fly all laws from the same start, in the same air.")] = (
+        False
+    )
     airframe: Annotated[
         Literal["aerosonde", "j3cub"] | None,
         Parameter(
             group=simulation,
-            help="What jsbsim flies, with an airspeed and a bank limit of its own; the Aerosonde if absent.",
+            help="The airframe for jsbsim, with its own airspeed and bank limit; the Aerosonde if absent.",
         ),
-    ] = None,
+    ] = None
     gust: Annotated[
         float | None,
         Parameter(
             group=simulation,
             metavar="SHARE",
-            help="Dryden gusts: their standard deviation over the airspeed, 0.05 if absent. From 0.1 on, settled means within 10 % of the radius and 10 degrees, else 5 and 5.",
+            help="Dryden gusts: their standard deviation over the airspeed, 0.05 if absent. From 0.1 on, settled means within 10 % of the radius and 10 degrees, otherwise 5 and 5.",
         ),
-    ] = None,
+    ] = None
     runs: Annotated[
         int | None,
         Parameter(
@@ -74,14 +79,59 @@ def fly(
             converter=whole,
             help="Fly from N random starts within 6 radii of circles of 1.2 to 4 times the tightest that can be held, instead of from --pose.",
         ),
-    ] = None,
+    ] = None
     seed: Annotated[
         int, Parameter(group=simulation, metavar="N", converter=whole, help="The same seed gives the same flights.")
-    ] = 0,
+    ] = 0
     workers: Annotated[
         int | None,
-        Parameter(group=simulation, metavar="N", converter=whole, help="Processes; as many as cores if absent."),
-    ] = None,
+        Parameter(group=simulation, metavar="N", converter=whole, help="Processes; the number of cores if absent."),
+    ] = None
+
+    @property
+    def laws(self) -> list[str]:
+        """The names of the laws to fly."""
+        from loiter.guidance.trials.campaign import LAWS
+
+        return list(LAWS) if self.compare else [self.law]
+
+    def check(self) -> None:
+        """Raise `InvalidArgument` for an option that would have no effect."""
+        if self.sim == "kinematic" and self.gust is not None:
+            raise InvalidArgument("gust", "has no effect with --sim kinematic: this vehicle flies in calm air")
+        if self.sim != "jsbsim" and self.airframe is not None:
+            raise InvalidArgument("airframe", f"has no effect with --sim {self.sim}: only jsbsim flies airframes")
+        if self.runs is None and self.workers is not None:
+            raise InvalidArgument("workers", "has no effect without --runs: there is only one start")
+
+    def setting(self) -> Setting:
+        """The simulator with its laws and its settling band."""
+        from loiter.guidance.trials import settings
+
+        gust = GUST if self.gust is None else self.gust
+        if self.sim == "kinematic":
+            return settings.kinematic_setting()
+        if self.sim == "point":
+            return settings.point_mass_setting(gust)
+        return settings.jsbsim_setting(self._airframe(), gust)
+
+    def aircraft(self, uav: AircraftOptions) -> Aircraft:
+        """The aircraft of the options, or that of the airframe, which has its own airspeed and bank limit."""
+        if self.sim != "jsbsim":
+            return uav.aircraft(uav.preset())
+        if uav != AircraftOptions():
+            raise InvalidArgument("airframe", "has its own airspeed and bank limit: options for them have no effect")
+        return self._airframe().aircraft
+
+    def _airframe(self) -> Airframe:
+        from loiter.guidance.simulators.airframes import AIRFRAMES
+
+        return AIRFRAMES[self.airframe or AIRFRAME]
+
+
+def fly(
+    *,
+    simulated: SimulationOptions = SimulationOptions(),
     start: StartOptions = StartOptions(),
     circle: OrbitOptions = OrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
@@ -97,60 +147,24 @@ def fly(
         ),
     ] = None,
 ) -> None:
-    """Fly the fastest entry in closed loop, beside the laws that autopilots use today."""
+    """Fly the fastest entry in closed loop, compared with the laws that autopilots use today."""
     from loiter.guidance.trials import campaign
 
-    _check_use(sim, airframe, gust, runs, workers)
-    _check_files(plot, save, runs)
-    flown, share = airframe or AIRFRAME, GUST if gust is None else gust
-    names: list[str] = list(campaign.LAWS) if compare else [law]
-    if runs is None:
+    simulated.check()
+    _check_files(plot, save, simulated.runs)
+    if simulated.runs is None:
         pose, orbit, _ = placed(start, circle, uav.preset())
-        trial = campaign.Trial(loiter.plan(pose, orbit, _aircraft(sim, flown, uav), air.moving_air), seed)
-        _fly_once(trial, _setting(sim, flown, share), names, plot, save)
+        trial = campaign.Trial(loiter.plan(pose, orbit, simulated.aircraft(uav), air.moving_air), simulated.seed)
+        _fly_once(trial, simulated.setting(), simulated.laws, plot, save)
         return
     if (start, circle) != (StartOptions(), OrbitOptions()):
-        raise InvalidArgument("runs", "asks for random starts and circles: --pose and --orbit are of no use")
-    starts = campaign.trials(runs, seed, _aircraft(sim, flown, uav), air.moving_air)
-    _fly_many(starts, _setting(sim, flown, share), names, workers, save)
-
-
-def _setting(sim: Sim, airframe: str, gust: float) -> Setting:
-    """How the simulator is flown."""
-    from loiter.guidance.trials import settings
-
-    if sim == "kinematic":
-        return settings.theory()
-    if sim == "point":
-        return settings.rolling(gust)
-    from loiter.guidance.simulators.airframes import AIRFRAMES
-
-    return settings.flying(AIRFRAMES[airframe], gust)
-
-
-def _aircraft(sim: Sim, airframe: str, uav: AircraftOptions) -> Aircraft:
-    """The aircraft of the options, or that of the airframe, which has an airspeed and a limit of its own."""
-    if sim != "jsbsim":
-        return uav.aircraft(uav.preset())
-    if uav != AircraftOptions():
-        raise InvalidArgument("airframe", "has an airspeed and a bank limit of its own: options for them are of no use")
-    from loiter.guidance.simulators.airframes import AIRFRAMES
-
-    return AIRFRAMES[airframe].aircraft
-
-
-def _check_use(sim: Sim, airframe: str | None, gust: float | None, runs: int | None, workers: int | None) -> None:
-    """Refuse an option that would change nothing."""
-    if sim == "kinematic" and gust is not None:
-        raise InvalidArgument("gust", "is of no use with --sim kinematic: the vehicle of the theory flies in calm air")
-    if sim != "jsbsim" and airframe is not None:
-        raise InvalidArgument("airframe", f"is of no use with --sim {sim}: jsbsim flies airframes")
-    if runs is None and workers is not None:
-        raise InvalidArgument("workers", "share the flights of --runs: there is one flight")
+        raise InvalidArgument("runs", "asks for random starts and circles: --pose and --orbit have no effect")
+    starts = campaign.trials(simulated.runs, simulated.seed, simulated.aircraft(uav), air.moving_air)
+    _fly_many(starts, simulated.setting(), simulated.laws, simulated.workers, save)
 
 
 def _check_files(plot: Path | None, save: Path | None, runs: int | None) -> None:
-    """Refuse what cannot be written before anything flies."""
+    """Raise `InvalidArgument` before anything flies if a file could not be written."""
     if plot is not None:
         files.check_format(plot)
         if runs is not None:
@@ -163,11 +177,11 @@ def _check_files(plot: Path | None, save: Path | None, runs: int | None) -> None
 
 
 def _fly_once(trial: Trial, setting: Setting, names: Sequence[str], plot: Path | None, save: Path | None) -> None:
-    """One start: the time line of the first law, and a row for each."""
-    from loiter.guidance.trials.flight import fly as flown
+    """Fly laws from one start: write the time line of the first law, and a table with a row for each."""
+    from loiter.guidance.trials.flight import fly as fly_law
 
     flights = {
-        name: flown(
+        name: fly_law(
             setting.laws[name](trial),
             setting.simulator(trial),
             trial.ideal.orbit,
@@ -182,17 +196,17 @@ def _fly_once(trial: Trial, setting: Setting, names: Sequence[str], plot: Path |
         files.save_figure("plot", plot, draw(trial.ideal, flights))
     if save is not None:
         _save(save, _steps(flights))
-    first = flights[names[0]]
+    first, *_ = flights.values()
     report.write(f"Fastest entry: {report.headline(trial.ideal)}", *_time_line(first), _flights_table(trial, flights))
 
 
 def _time_line(flight: Flight) -> Iterator[str]:
-    """When each phase began, and when the aircraft settled."""
-    before, start_s = None, flight.track.time_s[0]
-    for time_s, phase, bank in zip(flight.track.time_s, flight.phases, flight.track.bank_deg, strict=False):
-        if phase != before:
-            yield f"{time_s - start_s:6.1f} s  {phase}, bank {round(bank)} deg"
-        before = phase
+    """The time at which each phase begins, and the settling time."""
+    previous = None
+    for time_s, phase, bank in zip(flight.track.elapsed_s, flight.phases, flight.track.bank_deg, strict=False):
+        if phase != previous:
+            yield f"{time_s:6.1f} s  {phase}, bank {round(bank)} deg"
+        previous = phase
     yield (
         f"{flight.settled_s:6.1f} s  settled: the full turn within the band begins"
         if flight.settled
@@ -216,32 +230,33 @@ def _flights_table(trial: Trial, flights: Mapping[str, Flight]) -> Table:
 
 
 def _steps(flights: Mapping[str, Flight]) -> Iterator[Sequence[object]]:
-    """A head, and a row for each step of each flight."""
-    from loiter.guidance.trials.flight import Track
+    """A header, and a row for each step of each flight."""
+    from loiter.guidance.trials.flight import FlightTrack
 
-    yield ["law", *Track._fields, "phase"]
+    yield ["law", *FlightTrack._fields, "phase"]
     for name, flight in flights.items():
         columns = [column.tolist() for column in flight.track]
-        for *row, phase in zip(*columns, (*flight.phases, flight.phases[-1]), strict=True):
+        *_, last_phase = flight.phases
+        for *row, phase in zip(*columns, (*flight.phases, last_phase), strict=True):
             yield [name, *row, phase.value]
 
 
 def _fly_many(
     starts: Sequence[Trial], setting: Setting, names: Sequence[str], workers: int | None, save: Path | None
 ) -> None:
-    """Many starts: a row for each law."""
+    """Fly laws from many starts, and write a table with a row for each law."""
     from loiter.guidance.trials.campaign import campaign
 
     laws = {name: setting.laws[name] for name in names}
-    with _progress() as tell:
-        outcomes = campaign(laws, setting.simulator, starts, band=setting.band, workers=workers, progress=tell)
+    with _progress_bar() as progress:
+        outcomes = campaign(laws, setting.simulator, starts, band=setting.band, workers=workers, progress=progress)
     report.write(_campaign_table(outcomes))
     if save is not None:
         _save(save, _rows(starts, outcomes))
 
 
 def _campaign_table(outcomes: Mapping[str, Sequence[Outcome]]) -> Table:
-    """A row for each law: how its times to settle compare with the fastest entries, and the first law with it."""
+    """A row for each law: its settling times relative to the fastest entries, and how often the first law is sooner."""
     from loiter.guidance.trials.summary import summary
 
     first = next(iter(outcomes))
@@ -265,7 +280,7 @@ def _campaign_table(outcomes: Mapping[str, Sequence[Outcome]]) -> Table:
 
 
 def _rows(starts: Sequence[Trial], outcomes: Mapping[str, Sequence[Outcome]]) -> Iterator[Sequence[object]]:
-    """A head, and a row for each flight with its start."""
+    """A header, and a row for each flight with its start."""
     from loiter.guidance.trials.campaign import Outcome
 
     yield ["law", "east_m", "north_m", "heading_deg", "radius_m", *Outcome._fields]
@@ -283,15 +298,15 @@ def _table(*names: str) -> Table:
 
 
 def _save(path: Path, rows: Iterator[Sequence[object]]) -> None:
-    """Rows as CSV, whole or not at all."""
+    """Write rows as CSV; an error leaves no partial file."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(rows)
     write_whole("save", path, lambda file: file.write(text.getvalue().encode()))
 
 
 @contextmanager
-def _progress() -> Iterator[Callable[[int, int], None]]:
-    """A bar on standard error, where that is a terminal."""
+def _progress_bar() -> Iterator[Callable[[int, int], None]]:
+    """A progress bar on standard error, if that is a terminal."""
     columns = (TextColumn("flying"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as bar:
         task = bar.add_task("", total=None)

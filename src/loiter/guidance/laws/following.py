@@ -1,6 +1,6 @@
-"""What the laws that follow a circle share: the state as a circle sees it, and a demand as a command.
+"""The common part of the circle-following laws: the state in polar coordinates, and a demand as a command.
 
-They stand for what users fly today, each written from its publication: `l1`, `vector_field`, `tangent`.
+These laws represent what autopilots fly today. Each is written from its publication: `l1`, `vector_field`, `tangent`.
 """
 
 from __future__ import annotations
@@ -10,9 +10,9 @@ from math import degrees, hypot, nan, radians, sin, tan
 from typing import NamedTuple
 
 from loiter.errors import positive
-from loiter.guidance.laws.observer import plausible
+from loiter.guidance.laws.observer import is_plausible
 from loiter.guidance.protocol import Command, Phase, State
-from loiter.guidance.vehicle.limits import clipped
+from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import check_held
@@ -20,18 +20,19 @@ from loiter.planning.model import CALM, STANDARD_GRAVITY_M_S2, Aircraft, Orbit, 
 from loiter.planning.sides import SIDES
 from loiter.planning.solve import plan
 
-# So near the centre, metres, the direction from it is that of flight: what ArduPilot's L1 takes.
+# Within this distance of the centre, metres, the heading is taken as the direction outward, as in ArduPilot's L1.
 AT_CENTRE_M = 0.1
 
-# On the circle, as far as these laws tell: within this share of its radius, and of the speed across it (5 degrees).
-HELD, ACROSS = 0.05, sin(radians(5.0))
+# These laws count as holding within this share of the radius from the circle, with a radial velocity of at most this
+# share of the speed (5 degrees).
+HOLD_RADIAL_SHARE, HOLD_COURSE_SINE = 0.05, sin(radians(5.0))
 
-# A demand of less bank than this, degrees, is straight flight: it names the phase, and steers nothing.
+# A demand for less bank than this, degrees, is reported as straight flight. It does not affect the command.
 LEVEL_DEG = 1.0
 
 
-class Around(NamedTuple):
-    """An aircraft as a circle sees it: distance from the centre, direction out, velocity out and clockwise round.
+class PolarState(NamedTuple):
+    """An aircraft relative to a circle: distance from the centre, unit vector outward, radial and tangential velocity.
 
     Metres and metres per second; velocities are relative to the circle.
     """
@@ -49,7 +50,7 @@ class Around(NamedTuple):
 
 
 class Demand(NamedTuple):
-    """What a law asks for: the acceleration to the right, and what it tells of the flight."""
+    """The demand of a law: the acceleration to the right, and what it reports of the flight."""
 
     right_m_s2: float
     phase: Phase
@@ -58,22 +59,23 @@ class Demand(NamedTuple):
     next_in_s: float = nan
 
 
-def around(east_m: float, north_m: float, velocity: tuple[float, float], heading_deg: float) -> Around:
-    """The aircraft at a place from the centre, with a velocity relative to it (east, north)."""
+def polar_state(east_m: float, north_m: float, velocity: tuple[float, float], heading_deg: float) -> PolarState:
+    """The polar state of an aircraft from its position and velocity (east, north) relative to the centre."""
+    velocity_east, velocity_north = velocity
     distance = hypot(east_m, north_m)
     if distance > AT_CENTRE_M:
         out_east, out_north = east_m / distance, north_m / distance
     else:
         out_east, out_north = heading_vector(heading_deg)
-    outward = velocity[0] * out_east + velocity[1] * out_north
-    # Clockwise is the direction out, turned right.
-    return Around(distance, out_east, out_north, outward, velocity[0] * out_north - velocity[1] * out_east)
+    outward = velocity_east * out_east + velocity_north * out_north
+    # The clockwise direction is the outward one, turned to the right by 90 degrees.
+    return PolarState(distance, out_east, out_north, outward, velocity_east * out_north - velocity_north * out_east)
 
 
-def phase_of(right_m_s2: float, seen: Around, side: int, radius_m: float) -> Phase:
-    """Holding, or which way a demand turns."""
-    near = abs(seen.distance_m - radius_m) <= HELD * radius_m
-    if near and side * seen.clockwise_m_s > 0.0 and abs(seen.outward_m_s) <= ACROSS * seen.speed_m_s:
+def demand_phase(right_m_s2: float, polar: PolarState, side: int, radius_m: float) -> Phase:
+    """The phase to report: holding, or the direction in which a demand turns."""
+    near = abs(polar.distance_m - radius_m) <= HOLD_RADIAL_SHARE * radius_m
+    if near and side * polar.clockwise_m_s > 0.0 and abs(polar.outward_m_s) <= HOLD_COURSE_SINE * polar.speed_m_s:
         return Phase.HOLD
     if abs(right_m_s2) <= STANDARD_GRAVITY_M_S2 * tan(radians(LEVEL_DEG)):
         return Phase.STRAIGHT
@@ -81,12 +83,12 @@ def phase_of(right_m_s2: float, seen: Around, side: int, radius_m: float) -> Pha
 
 
 class Follower(ABC):
-    """A law that steers round a circle by a demand of lateral acceleration, within the bank limit of the aircraft.
+    """A law that follows a circle by demanding lateral acceleration, within the bank limit of the aircraft.
 
-    `orbit` is where it is at `State.time_s` = 0, `wind` the wind that the law is told of. A circle held either way is
-    held in the direction of the fastest entry from the first state that is measured. While a measured number is not
-    finite, or absurd (`observer.plausible`), the last bank is kept, as autopilots do on stale data, or the wings are
-    level where there was none: phase `NO_DATA`.
+    `orbit` gives the circle at `State.time_s` = 0, `wind` the wind that the law assumes. If the turn is "either", the
+    circle is held in the direction of the fastest entry from the first measured state. While a measured number is not
+    finite or not plausible (`observer.is_plausible`) the last bank is kept, as autopilots do on stale data; before the
+    first plausible measurement the wings are level. The phase is then `NO_DATA`.
     Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held.
     """
 
@@ -98,42 +100,45 @@ class Follower(ABC):
         self._bank_deg = 0.0
 
     def step(self, state: State, dt: float) -> Command:
-        """The command for the next `dt` seconds, from what was measured; `InvalidArgument` for a `dt` that is none."""
+        """The command for the next `dt` seconds, from a measured state.
+
+        Raises `InvalidArgument` where `dt` is not positive and finite.
+        """
         positive("dt", dt, "seconds")
-        if not plausible(state):
+        if not is_plausible(state):
             return self._command(Demand(0.0, Phase.NO_DATA))
         if self.turn == Turn.EITHER:
-            self.turn = self._chosen(state)
+            self.turn = self._choose_turn(state)
         demand = self._demand(state)
         V = self.aircraft.airspeed_m_s
-        self._bank_deg = clipped(bank_at_rate(demand.right_m_s2 / V, V), self._max_bank_deg)
+        self._bank_deg = clip(bank_at_rate(demand.right_m_s2 / V, V), self._max_bank_deg)
         return self._command(demand)
 
-    def _chosen(self, state: State) -> Turn:
-        """The direction to hold, where either will do: that of the fastest entry."""
+    def _choose_turn(self, state: State) -> Turn:
+        """The direction to hold where both are allowed: that of the fastest entry."""
         here = Pose(state.east_m, state.north_m, state.heading_deg)
         return plan(here, self.orbit.after(state.time_s), self.aircraft, self.wind).turn
 
     @abstractmethod
     def _demand(self, state: State) -> Demand:
-        """What the law asks for in a state that is finite."""
+        """The demand of the law in a plausible state."""
 
     @property
     def _side(self) -> int:
         """+1 clockwise, -1 counter-clockwise."""
         return SIDES[self.turn] + 0
 
-    def _around(self, state: State) -> Around:
-        """The state as the orbit sees it."""
+    def _polar_state(self, state: State) -> PolarState:
+        """The state relative to the orbit."""
         orbit = self.orbit.after(state.time_s)
         velocity = (
             state.velocity_east_m_s - orbit.velocity_east_m_s,
             state.velocity_north_m_s - orbit.velocity_north_m_s,
         )
-        return around(state.east_m - orbit.east_m, state.north_m - orbit.north_m, velocity, state.heading_deg)
+        return polar_state(state.east_m - orbit.east_m, state.north_m - orbit.north_m, velocity, state.heading_deg)
 
     def _command(self, demand: Demand) -> Command:
-        """The bank in force as a command: a coordinated turn at the airspeed of the aircraft."""
+        """The present bank as a command: a coordinated turn at the airspeed of the aircraft."""
         return Command(
             degrees(rate_at_bank(self._bank_deg, self.aircraft.airspeed_m_s)),
             self._bank_deg,

@@ -1,17 +1,18 @@
-"""The law that flies the fastest entry: a plan kept while it is good, followed with a reserve of turn rate."""
+"""The law that flies the fastest entry: it keeps a plan while that is good, and a reserve of turn rate to follow it."""
 
 from __future__ import annotations
 
 from math import degrees, hypot, inf, nan
+from typing import NamedTuple
 
 from loiter.errors import not_negative, positive
 from loiter.guidance.laws.clock import Clock
-from loiter.guidance.laws.holding import air_rate, course_rate, forward
-from loiter.guidance.laws.observer import Observer, Recent, Seen, usable
-from loiter.guidance.laws.route import Route, View, controls_of, unit
-from loiter.guidance.protocol import PHASES, Command, Phase, State
-from loiter.guidance.vehicle.limits import clipped
-from loiter.guidance.vehicle.rolling import AT_ONCE, Roll
+from loiter.guidance.laws.observer import BankHistory, Estimate, Observer, is_usable
+from loiter.guidance.laws.path_tracking import air_rate, course_rate, flight_velocity
+from loiter.guidance.laws.route import RelativeState, Route, controls_of, unit
+from loiter.guidance.protocol import Command, Phase, State, phase_of_control
+from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.kernel import motion, wind_search
 from loiter.kernel.codes import Side, Status
@@ -22,61 +23,74 @@ from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind
 from loiter.planning.sides import SIDES, TURNS
 
-# The figures below were tuned in gusts, 200 to 500 starts each: docs/guidance.md.
-# How much wider than the aircraft can turn the plan turns, as a share; what is left corrects the last arc.
+# The values below were tuned in gusts, with 200 to 500 starts each: docs/guidance.md.
+# Planned turns are wider than the tightest turn by this share; the difference is left to correct the last arc.
 RESERVE = 0.1
 
-# How long measurements are averaged, and how old one may be when it is told, seconds.
+# The averaging time of measurements, and their dead time, seconds.
 SMOOTHING_S, DELAY_S = 0.5, 0.1
 
-# Turns are begun early by so many time constants of the roll. 0.12 make up for the rate, g tan(bank)/V, that lags the
-# bank on the way into 35 deg; the rest is for gusts: begun late a turn ends inside the circle, begun early it is wider.
+# Turns begin early by this many roll time constants. 0.12 of them compensate the turn rate, g tan(bank)/V, which lags
+# the bank on the way into 35 deg. The rest allows for gusts: a turn begun late ends inside the circle, a turn begun
+# early can be flown wider.
 TURN_LAG = 0.6
 
-# Course errors are corrected so many times as quickly as the aircraft banks and its sensors are averaged, and errors of
-# place a fraction as quickly: a course steep enough to be quicker would leave the circle's tangent by degrees.
+# Course errors are corrected this many times as fast as the aircraft banks and its sensors are averaged. Crosstrack
+# errors are corrected at this fraction of that gain: a faster correction would need an intercept angle of several
+# degrees.
 GAIN, PLACE_GAIN = 4.0, 0.25
 
-# On the circle errors of place are corrected over 1/HOLD_GAIN radians of it: a share of the radius beside it asks for
-# the same course beside its tangent, however large it is.
+# On the circle crosstrack errors are corrected over 1/HOLD_GAIN radians of it: the intercept angle depends on the error
+# as a share of the radius, whatever the radius.
 HOLD_GAIN = 0.8
 
-# In turn radii over airspeed: how much sooner another plan must be to be taken, and how much later may be what is the
-# same plan from here. The noise of a sensor moves T by less, but at a jump, where the plan that is kept is the soonest.
-SOONER, LATER = 0.25, 0.25
+# In turn radii over airspeed: a different plan replaces the present one if it is faster by the first margin, the same
+# plan from the present state if it is slower by no more than the second. Sensor noise changes T by less than this
+# except at a jump of T, where the present plan is the fastest.
+SWITCH_MARGIN, UPDATE_MARGIN = 0.25, 0.25
 
-# How often another plan is looked for, seconds; in wind, where it takes milliseconds, only where the last one slipped.
-STILL_S, WINDY_S = 0.1, 1.0
+# The interval between searches for another plan, seconds. In wind, where a search takes milliseconds, it is also
+# required that the aircraft has deviated from the last plan.
+STILL_AIR_INTERVAL_S, WIND_INTERVAL_S = 0.1, 1.0
 
-# How far off its path or its time, in turn radii, a plan in wind has slipped; and how long the bend may be, back to the
-# path, with which another begins that is the same way.
-SLIPPED, BEND = 0.1, 0.1
+# In wind a plan has deviated if the crosstrack error or the change of the time to join exceeds this, in turn radii. A
+# new plan counts as the same one if it differs only by a first bend back to the path, no longer than `LONGEST_BEND`.
+DEVIATION, LONGEST_BEND = 0.1, 0.1
 
-# How far off its path, in turn radii and radians, a vehicle is lost: the plan is made anew, whatever it costs.
-LOST, ASTRAY = 0.5, 1.0
+# Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is accepted.
+LOST_OFFSET, LOST_COURSE = 0.5, 1.0
 
-# Without data the last command is kept so long, seconds; older measurements are not averaged with new ones.
+# Without data the last command is kept for this time, seconds. Older measurements are not averaged with new ones.
 BLIND_S = 1.0
 
-# A piece shorter than this, seconds, is over: rounding.
-OVER_S = 1e-9
+# A piece with less than this left, seconds, is complete but for rounding.
+ROUNDING_S = 1e-9
+
+
+class ResponsePoint(NamedTuple):
+    """The predicted state in which a command takes effect, and how early the next piece must begin, seconds."""
+
+    state: RelativeState
+    early_s: float
 
 
 class LoiterEntry:
     """A guidance law that flies the fastest entry onto `orbit`, in noise and gusts, and holds the circle.
 
-    `wind` is the steady wind, `orbit` where it is at `State.time_s` = 0; a circle that moves keeps its velocity.
-    `roll` is how the aircraft banks, `delay_s` how old its measurements are; they are flown on by what was commanded
-    since. `reserve` is the share by which planned turns are wider than the tightest, `smoothing_s` how long
-    measurements are averaged, `gain` how hard courses are corrected. Call `step` 10 to 400 times a second.
+    `wind` is the steady wind. `orbit` gives the circle at `State.time_s` = 0; a circle that moves keeps its velocity.
+    `roll` is the roll response of the aircraft, `delay_s` the dead time of its measurements, which the law compensates
+    from the commands given since. `reserve` is the share by which planned turns are wider than the tightest,
+    `smoothing_s` the averaging time of measurements, `gain` the gain of course corrections. Call `step` 10 to 400 times
+    a second.
 
-    One plan is kept, with its direction and its word, until another is sooner by a margin or the aircraft is lost, so
-    that noise makes it neither dither nor go round again. docs/guidance.md tells how it works and how well.
+    The law keeps one plan, with its direction and its word, until another is faster by a margin or the aircraft is
+    lost, so that noise causes neither switching between plans nor a go-around. docs/guidance.md describes the method
+    and its performance.
 
-    Where a measurement is not finite, or no later than the last one, the phase is `NO_DATA`: the last command is kept
-    for a second; then the wings are levelled, or, on the circle, its bank is kept. One good measurement ends that. A
-    clock that jumps back, or more than an hour ahead, is taken for the new one when its stamps have advanced by a
-    second; a circle that moves is then where it is by the new clock.
+    Where a measurement is not finite, or not later than the last one, the phase is `NO_DATA`: the last command is kept
+    for a second; then the wings are levelled or, on the circle, the bank of the circle is kept. The first good
+    measurement ends this phase. A clock that jumps back, or more than an hour ahead, is accepted when its stamps have
+    advanced by a second; the position of a moving circle is then taken from the new clock.
 
     Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held, `InvalidArgument` for numbers below 0.
     """
@@ -96,200 +110,207 @@ class LoiterEntry:
         wind = CALM if wind is None else wind
         check_held(orbit, aircraft, wind)
         self._orbit, self._roll, self._wind = orbit, roll, relative_wind(orbit, aircraft, wind)
-        self._still = self._wind.still
-        self._gain, self._recent = positive("gain", gain, "units"), Recent(not_negative("delay_s", delay_s, "seconds"))
+        self._in_still_air = self._wind.still
+        self._gain = positive("gain", gain, "units")
+        self._history = BankHistory(not_negative("delay_s", delay_s, "seconds"))
         self._V, self._side = aircraft.airspeed_m_s, SIDES[orbit.turn]
+        self._set_planned_turn(orbit, aircraft, not_negative("reserve", reserve, "one"))
+        self._observer = Observer(not_negative("smoothing_s", smoothing_s, "seconds"))
+        self._response_s = self._lead_s(0.0, self._limit_deg) + smoothing_s
+        self._route: Route | None = None
+        # The predicted time of joining in the units of a `RelativeState`, and the one that the present plan began with.
+        self._join_time = self._planned_join_time = inf
+        self._clock, self._last_search_s = Clock(), -inf
+        self._last_command = Command(0.0, 0.0, Phase.NO_DATA, nan, orbit.turn, Phase.NO_DATA, nan)
+
+    def _set_planned_turn(self, orbit: Orbit, aircraft: Aircraft, reserve: float) -> None:
+        """Set the planned turn radius, the units that follow from it, and the banks."""
         tightest_m, widest_m = aircraft.turn_radius_m, orbit.radius_m / tightest_radius(*self._wind)
-        # As wide as the reserve asks for and the circle allows.
-        wide_m = tightest_m * (1.0 + not_negative("reserve", reserve, "one"))
-        self._r = max(tightest_m, min(wide_m, widest_m))
+        # Wider by the reserve, as far as the circle allows.
+        self._r = max(tightest_m, min(tightest_m * (1.0 + reserve), widest_m))
         self._R, self._unit_s = rounded_radius(orbit.radius_m / self._r), self._r / self._V
-        # What the reserve can make up for beside the last arc counts as on it.
+        # A start beside the last arc counts as on it, as far as half of the reserve can correct it.
         self._tolerance = 0.5 * (self._r / tightest_m - 1.0)
         self._limit_deg, self._hold_deg = aircraft.bank_deg(tightest_m), aircraft.bank_deg(orbit.radius_m)
         self._planned_deg = aircraft.bank_deg(self._r)
-        self._observer = Observer(not_negative("smoothing_s", smoothing_s, "seconds"))
-        self._slowness_s = self._lead_s(0.0, self._limit_deg) + smoothing_s
-        self._route: Route | None = None
-        # When the circle will be joined, by the clock of a view, and what the plan in force promised.
-        self._joins = self._promised = inf
-        self._clock, self._sought_s = Clock(), -inf
-        self._last = Command(0.0, 0.0, Phase.NO_DATA, nan, orbit.turn, Phase.NO_DATA, nan)
 
     @classmethod
     def exact(cls, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None) -> LoiterEntry:
-        """The law of the theory: no reserve, bank at once, measurements as they are."""
-        return cls(orbit, aircraft, wind, roll=AT_ONCE, delay_s=0.0, reserve=0.0, smoothing_s=0.0)
+        """The law of the theory: no reserve, instant bank, no smoothing, no dead time."""
+        return cls(orbit, aircraft, wind, roll=INSTANT_ROLL, delay_s=0.0, reserve=0.0, smoothing_s=0.0)
 
     def step(self, state: State, dt: float) -> Command:
-        """The command for the next `dt` seconds, from what was measured.
+        """The command for the next `dt` seconds, from a measured state.
 
-        Raises `InvalidArgument` where `dt` is not positive and finite; the law then is as it was.
+        Raises `InvalidArgument` where `dt` is not positive and finite; the law is then unchanged.
         """
         dt = positive("dt", dt, "seconds")
-        if not usable(state) or not self._clock.believes(state.time_s):
-            return self._without_data(dt)
-        seen = self._seen(state)
+        if not is_usable(state) or not self._clock.accept(state.time_s):
+            return self._command_without_data(dt)
+        estimate = self._estimate(state)
         if self._route is None:
-            self._seek(self._view(seen.ahead(self._lead_s(0.0, self._limit_deg))))
+            self._search(self._relative_state(estimate.after(self._lead_s(0.0, self._limit_deg))))
         if self._route is None:
-            return self._without_data(dt)
-        view, early_s = self._advanced(self._route, seen)
-        if self._reconsidered(self._route, view):
-            view, early_s = self._advanced(self._route, seen)
-        self._last = self._followed(self._route, view, early_s, dt)
-        return self._last
+            return self._command_without_data(dt)
+        response = self._advance(self._route, estimate)
+        if self._reconsider(self._route, response.state):
+            response = self._advance(self._route, estimate)
+        self._last_command = self._follow(self._route, response, dt)
+        return self._last_command
 
-    def _seen(self, state: State) -> Seen:
-        """What a measurement makes of the state of the aircraft."""
+    def _estimate(self, state: State) -> Estimate:
+        """The estimate of the present state from a measurement."""
         if self._clock.jump_s != 0.0:
-            self._shift(self._clock.jump_s)
+            self._shift_clock(self._clock.jump_s)
         if self._clock.jump_s != 0.0 or self._clock.gap_s > BLIND_S:
-            self._observer.forget()
-        return self._observer.see(state, self._recent.then_deg).brought(self._recent)
+            self._observer.reset()
+        return self._observer.update(state, self._history.delayed_deg).at_present(self._history)
 
-    def _shift(self, jump_s: float) -> None:
-        """Tell by a clock that has jumped what was told by the one before."""
+    def _shift_clock(self, jump_s: float) -> None:
+        """Convert all times that are kept to a clock that has jumped."""
         jump = jump_s / self._unit_s
-        self._joins, self._promised, self._sought_s = self._joins + jump, self._promised + jump, self._sought_s + jump_s
+        self._join_time, self._planned_join_time = self._join_time + jump, self._planned_join_time + jump
+        self._last_search_s += jump_s
         if self._route is not None:
-            self._route.shift(jump)
+            self._route.shift_clock(jump)
 
-    def _without_data(self, dt: float) -> Command:
-        """What is safe while nothing is known."""
-        bank_deg = self._last.bank_deg
+    def _command_without_data(self, dt: float) -> Command:
+        """The safe command while there is no usable measurement."""
+        bank_deg, route = self._last_command.bank_deg, self._route
         if self._clock.since_s > BLIND_S:
-            bank_deg = self._route.side * self._hold_deg if self._route is not None and self._route.holds else 0.0
-        self._bank_to(bank_deg, dt)
+            bank_deg = route.side * self._hold_deg if route is not None and route.is_holding else 0.0
+        self._record_bank(bank_deg, dt)
         rate_deg_s = degrees(rate_at_bank(bank_deg, self._V))
-        return Command(rate_deg_s, bank_deg, Phase.NO_DATA, nan, self._last.turn, Phase.NO_DATA, nan)
+        return Command(rate_deg_s, bank_deg, Phase.NO_DATA, nan, self._last_command.turn, Phase.NO_DATA, nan)
 
-    def _view(self, seen: Seen) -> View:
-        """The aircraft as the circle sees it."""
-        (x, y, c, s), V, r, o = seen.place, self._V, self._r, self._orbit
-        hx, hy = seen.airspeed_m_s * c / V, seen.airspeed_m_s * s / V
-        return View(
-            seen.time_s / self._unit_s,
-            (x - o.east_m - o.velocity_east_m_s * seen.time_s) / r,
-            (y - o.north_m - o.velocity_north_m_s * seen.time_s) / r,
-            hx + (seen.air_east_m_s - o.velocity_east_m_s) / V,
-            hy + (seen.air_north_m_s - o.velocity_north_m_s) / V,
+    def _relative_state(self, estimate: Estimate) -> RelativeState:
+        """The aircraft relative to the circle, in turn radii and airspeeds."""
+        (x, y, c, s), V, r = estimate.pose, self._V, self._r
+        orbit = self._orbit.after(estimate.time_s)
+        hx, hy = estimate.airspeed_m_s * c / V, estimate.airspeed_m_s * s / V
+        return RelativeState(
+            estimate.time_s / self._unit_s,
+            (x - orbit.east_m) / r,
+            (y - orbit.north_m) / r,
+            hx + (estimate.air_east_m_s - orbit.velocity_east_m_s) / V,
+            hy + (estimate.air_north_m_s - orbit.velocity_north_m_s) / V,
             hx,
             hy,
         )
 
-    def _advanced(self, route: Route, seen: Seen) -> tuple[View, float]:
-        """From where a command changes the way, and how early the next piece must be begun, seconds.
+    def _advance(self, route: Route, estimate: Estimate) -> ResponsePoint:
+        """Drop the pieces that are complete when a command takes effect; the predicted state then.
 
-        A change of bank takes effect late; from there on the aircraft turns as one that banks at once. Pieces that are
-        over by then are dropped.
+        A change of bank takes effect with a delay; from then on the aircraft turns like one that banks instantly.
         """
         while True:
-            lead_s = self._lead_s(seen.bank_deg, self._target_deg(route, 0))
-            view = self._view(seen.ahead(lead_s))
-            left = route.follow(view)
-            if route.holds:
-                return view, 0.0
-            # The hold is not hurried: what is turned beyond brings the course to the circle sooner.
-            lag_s = TURN_LAG * self._roll.time_s if len(route.controls) > 1 else 0.0
-            early_s = max(self._lead_s(seen.bank_deg, self._target_deg(route, 1)) + lag_s - lead_s, 0.0)
-            if left * self._unit_s > early_s + OVER_S:
-                self._joins = view.clock + route.rest
-                return view, early_s
-            route.drop()
+            lead_s = self._lead_s(estimate.bank_deg, self._piece_bank_deg(route, route.control))
+            state = self._relative_state(estimate.after(lead_s))
+            remaining = route.update_remaining(state)
+            if route.is_holding:
+                return ResponsePoint(state, 0.0)
+            # The hold itself begins without `TURN_LAG`: turning longer brings the course to the circle sooner.
+            lag_s = TURN_LAG * self._roll.time_s if route.next_control is not None else 0.0
+            next_bank_deg = self._piece_bank_deg(route, route.next_control)
+            early_s = max(self._lead_s(estimate.bank_deg, next_bank_deg) + lag_s - lead_s, 0.0)
+            if remaining * self._unit_s > early_s + ROUNDING_S:
+                self._join_time = state.time + route.time_to_join
+                return ResponsePoint(state, early_s)
+            route.drop_piece()
 
     def _lead_s(self, bank_deg: float, target_deg: float) -> float:
         return self._roll.lead_s(bank_deg, target_deg, self._limit_deg)
 
-    def _target_deg(self, route: Route, i: int) -> float:
-        """The bank, positive to the right, of the piece that comes i-th, or of the circle."""
-        controls = route.controls
-        return -controls[i] * self._planned_deg if i < len(controls) else route.side * self._hold_deg
+    def _piece_bank_deg(self, route: Route, control: int | None) -> float:
+        """The planned bank, positive to the right, of a piece with this control, or of the circle where it is none."""
+        return route.side * self._hold_deg if control is None else -control * self._planned_deg
 
-    def _reconsidered(self, route: Route, view: View) -> bool:
-        """Whether another plan was worth taking, and was taken."""
-        beside = route.beside(view)
-        lost = abs(beside.left) > LOST or abs(beside.course) > ASTRAY
-        slipped = max(abs(beside.left), abs(self._joins - self._promised)) > SLIPPED
-        wanted = lost or (not route.holds and (self._still or slipped))
-        return wanted and self._seek(view, None if lost else route)
+    def _reconsider(self, route: Route, state: RelativeState) -> bool:
+        """Search for another plan if that is due; whether one was adopted."""
+        offset = route.offset(state)
+        lost = abs(offset.crosstrack) > LOST_OFFSET or abs(offset.course_error) > LOST_COURSE
+        deviated = max(abs(offset.crosstrack), abs(self._join_time - self._planned_join_time)) > DEVIATION
+        due = lost or (not route.is_holding and (self._in_still_air or deviated))
+        return due and self._search(state, None if lost else route)
 
-    def _seek(self, view: View, route: Route | None = None) -> bool:
-        """Take the fastest way from a view, in place of a route only if it is worth it; whether it was taken."""
-        if self._clock.time_s - self._sought_s < (STILL_S if self._still else WINDY_S) - OVER_S:
+    def _search(self, state: RelativeState, route: Route | None = None) -> bool:
+        """Adopt the fastest entry from a state, but replace `route` only by a better one; whether it was adopted."""
+        interval_s = STILL_AIR_INTERVAL_S if self._in_still_air else WIND_INTERVAL_S
+        if self._clock.time_s - self._last_search_s < interval_s - ROUNDING_S:
             return False
-        self._sought_s = self._clock.time_s
-        scale = self._scale(view)
-        found = self._fastest(view, scale)
-        if found is None or not (route is None or _worth(found, route, 0.0 if self._still else BEND)):
+        self._last_search_s = self._clock.time_s
+        scale = self._scale(state)
+        entry = self._fastest_entry(state, scale)
+        bend = 0.0 if self._in_still_air else LONGEST_BEND
+        if entry is None or not (route is None or _is_better(entry, route, bend)):
             return False
-        self._route = Route(view, found, self._R, self._wind, scale)
-        self._joins = self._promised = view.clock + duration(found)
+        self._route = Route(state, entry, self._R, self._wind, scale)
+        self._join_time = self._planned_join_time = state.time + duration(entry)
         return True
 
-    def _scale(self, view: View) -> float:
-        """How much wider turns are for a gust along the way: as wide as the speed is large, as the rate is the same.
+    def _scale(self, state: RelativeState) -> float:
+        """The factor by which turns are wider in the present gust: at a given turn rate the radius grows with speed.
 
-        But no wider than the circle, which then is as tight as turns are.
+        It is at most the radius of the circle, which is then as tight as the turns.
         """
-        if not self._still:
+        if not self._in_still_air:
             return 1.0
-        return min(hypot(*forward(view.vx, view.vy, view.hx, view.hy)), self._R)
+        return min(hypot(*flight_velocity(state.vx, state.vy, state.hx, state.hy)), self._R)
 
-    def _fastest(self, view: View, scale: float) -> Entry | None:
-        """The kernel's answer for a view, if it has one; the course through the air of the plan is its heading."""
+    def _fastest_entry(self, state: RelativeState, scale: float) -> Entry | None:
+        """The kernel's entry from a state, if there is one. Its heading is the course through the air of the plan."""
         (wx, wy), R = self._wind, self._R
-        c, s = unit(*forward(view.vx - wx, view.vy - wy, view.hx, view.hy))
-        if self._still:
-            scene = *motion.reduce(view.x / scale, view.y / scale, c, s), rounded_radius(R / scale)
+        c, s = unit(*flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy))
+        if self._in_still_air:
+            scene = *motion.reduce(state.x / scale, state.y / scale, c, s), rounded_radius(R / scale)
             return optimum(*scene, self._side, self._tolerance) if is_solvable(*scene, self._tolerance) else None
-        found = wind_search.fastest(WindProblem(view.x, view.y, c, s, R, self._side, wx, wy))
+        found = wind_search.fastest(WindProblem(state.x, state.y, c, s, R, self._side, wx, wy))
         return wind_search.entry_of(found) if found.status == Status.OK else None
 
-    def _followed(self, route: Route, view: View, early_s: float, dt: float) -> Command:
-        """The command that follows the route, and what there is to tell of it."""
-        target_deg = clipped(self._wanted_deg(route, view, dt), self._limit_deg)
-        bank_deg = self._roll.demand_deg(self._recent.now_deg, target_deg, self._limit_deg)
-        self._bank_to(bank_deg, dt)
+    def _follow(self, route: Route, response: ResponsePoint, dt: float) -> Command:
+        """The command that follows the route, with the times that the law reports."""
+        target_deg = clip(self._target_bank_deg(route, response.state, dt), self._limit_deg)
+        bank_deg = self._roll.demand_deg(self._history.current_deg, target_deg, self._limit_deg)
+        self._record_bank(bank_deg, dt)
         return Command(
             degrees(rate_at_bank(bank_deg, self._V)),
             bank_deg,
-            PHASES[route.controls[0]] if route.controls else Phase.HOLD,
-            max(self._joins * self._unit_s - self._clock.time_s - self._recent.delay_s, 0.0),
+            phase_of_control(route.control),
+            max(self._join_time * self._unit_s - self._clock.time_s - self._history.delay_s, 0.0),
             TURNS[Side(route.side)],
-            PHASES[route.controls[1]] if len(route.controls) > 1 else Phase.HOLD,
-            route.left * self._unit_s - early_s if route.controls else inf,
+            phase_of_control(route.next_control),
+            inf if route.is_holding else route.remaining * self._unit_s - response.early_s,
         )
 
-    def _wanted_deg(self, route: Route, view: View, dt: float) -> float:
-        """The bank that follows the route; on a turn before its last piece all the bank there is.
+    def _target_bank_deg(self, route: Route, state: RelativeState, dt: float) -> float:
+        """The bank that follows the route; on a turn before the last piece it is the bank limit.
 
-        Such a turn is planned anew before it is over: nothing is gained by flying it as wide as planned.
+        Such a turn is planned again before it ends, so that flying it as wide as planned would only cost time.
         """
-        if len(route.controls) > 1 and route.controls[0] != 0:
-            return -route.controls[0] * self._limit_deg
-        vx, vy = route.velocity(view)
-        quickness = self._unit_s / (self._slowness_s + self._gain * dt)
-        place_gain = HOLD_GAIN / self._R if route.holds else PLACE_GAIN * quickness
-        course = course_rate(route.beside(view), self._gain * quickness, place_gain, hypot(vx, vy) / route.scale)
-        return bank_at_rate(-air_rate(course, vx, vy, view.hx, view.hy) / self._unit_s, self._V)
+        if route.control and route.next_control is not None:
+            return -route.control * self._limit_deg
+        vx, vy = route.velocity(state)
+        bandwidth = self._unit_s / (self._response_s + self._gain * dt)
+        place_gain = HOLD_GAIN / self._R if route.is_holding else PLACE_GAIN * bandwidth
+        course = course_rate(route.offset(state), self._gain * bandwidth, place_gain, hypot(vx, vy) / route.scale)
+        return bank_at_rate(-air_rate(course, vx, vy, state.hx, state.hy) / self._unit_s, self._V)
 
-    def _bank_to(self, bank_deg: float, dt: float) -> None:
-        """Reckon what a command does to the bank in a step, and let its time pass."""
-        self._clock.let(dt)
-        self._recent.keep(self._roll.after(self._recent.now_deg, bank_deg, dt), dt)
+    def _record_bank(self, bank_deg: float, dt: float) -> None:
+        """Record the modelled bank after a step under a command, and advance the clock."""
+        self._clock.advance(dt)
+        self._history.record(self._roll.bank_after(self._history.current_deg, bank_deg, dt), dt)
 
 
-def _worth(found: Entry, route: Route, bend: float) -> bool:
-    """Whether a way is worth leaving a route for: the same one from here, or one that is sooner by a margin.
+def _is_better(entry: Entry, route: Route, bend: float) -> bool:
+    """Whether an entry should replace a route: it is the same one, up to a small margin, or faster by a margin.
 
-    It is the same whatever it begins with that is no longer than `bend`.
+    It counts as the same where it only begins with more pieces, which together are no longer than `bend`.
     """
-    controls = controls_of(found.word)
-    first = max(len(controls) - len(route.controls), 0)
+    controls = controls_of(entry.word)
+    extra = max(len(controls) - len(route.controls), 0)
     same = (
-        found.side == route.side
-        and controls[first:] == route.controls
-        and sum((found.t1, found.t2, found.t3)[:first]) <= bend
+        entry.side == route.side
+        and controls[extra:] == route.controls
+        and sum((entry.t1, entry.t2, entry.t3)[:extra]) <= bend
     )
-    return duration(found) < route.rest + (LATER if same else -SOONER)
+    return duration(entry) < route.time_to_join + (UPDATE_MARGIN if same else -SWITCH_MARGIN)

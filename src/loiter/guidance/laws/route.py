@@ -1,10 +1,17 @@
-"""A plan as a path to follow: arcs and lines through air that drifts, then the circle."""
+"""A plan as a path to follow: arcs and straight lines through drifting air, then the circle."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from loiter.guidance.laws.holding import Arc, Line, Offset, circle, forward, offset
+from loiter.guidance.laws.path_tracking import (
+    Arc,
+    PathOffset,
+    StraightLine,
+    flight_velocity,
+    holding_circle,
+    path_offset,
+)
 from loiter.kernel.angles import TWO_PI, angle, arc_rotation
 from loiter.kernel.motion import fly
 from loiter.kernel.synthesis import Entry
@@ -13,10 +20,13 @@ from loiter.kernel.words import ABSENT, controls
 Controls = tuple[int, ...]
 
 
-class View(NamedTuple):
-    """An aircraft as the circle sees it, in turn radii and airspeeds: clock, place, velocity, velocity in the air."""
+class RelativeState(NamedTuple):
+    """An aircraft relative to the circle, in turn radii and airspeeds.
 
-    clock: float
+    Time, position (x, y), velocity (vx, vy), and velocity through the air (hx, hy).
+    """
+
+    time: float
     x: float
     y: float
     vx: float
@@ -25,83 +35,96 @@ class View(NamedTuple):
     hy: float
 
 
-class Piece(NamedTuple):
-    """One piece of a plan: its control u, its path, its end and its duration."""
+class RoutePiece(NamedTuple):
+    """One arc or straight line of a route: its control u, its path, its end (x, y) and its duration t."""
 
     u: int
-    path: Arc | Line
+    path: Arc | StraightLine
     x: float
     y: float
     t: float
 
 
 class Route:
-    """What is left of a plan that `view` was at the start of, in air that passes the circle with the velocity `wind`.
+    """The rest of a plan that begins at `state`, in air that moves past the circle with the velocity `wind`.
 
-    `side` is the way the circle is held, `left` how much is left of the piece under way, in turn radii.
+    `side` is the direction in which the circle is held, `remaining` the length left of the current piece, in turn
+    radii. `scale` is the length of the plan's unit in turn radii.
     """
 
-    def __init__(self, view: View, flown: Entry, R: float, wind: tuple[float, float], scale: float) -> None:
-        self.side, word, *times = flown
-        self._wind, self._scale, self._start = wind, scale, view.clock
-        self._circle = circle(self.side, R)
-        x, y, vx, vy = self._in_air(view)
-        self._pieces = pieces(x, y, *unit(vx, vy), word, times)
-        self.left = self._pieces[0].t if self._pieces else 0.0
+    def __init__(self, state: RelativeState, entry: Entry, R: float, wind: tuple[float, float], scale: float) -> None:
+        self.side = entry.side
+        self._wind, self._scale, self._start = wind, scale, state.time
+        self._circle = holding_circle(self.side, R)
+        x, y, vx, vy = self._in_air(state)
+        self._later = route_pieces(x, y, *unit(vx, vy), entry.word, (entry.t1, entry.t2, entry.t3))
+        self._current: RoutePiece | None = None
+        self.remaining = 0.0
+        self.drop_piece()
 
     @property
-    def holds(self) -> bool:
-        """Whether nothing is left but the circle."""
-        return not self._pieces
+    def is_holding(self) -> bool:
+        """Whether only the circle is left."""
+        return self._current is None
 
     @property
     def controls(self) -> Controls:
-        """The controls that are left, the first of them under way."""
-        return tuple(piece.u for piece in self._pieces)
+        """The controls of the remaining pieces, the current one first."""
+        return () if self._current is None else (self._current.u, *(piece.u for piece in self._later))
 
     @property
-    def rest(self) -> float:
-        """The time that is left to the circle."""
-        return self.left + sum(piece.t for piece in self._pieces[1:])
+    def control(self) -> int | None:
+        """The control of the current piece; none on the circle."""
+        return None if self._current is None else self._current.u
+
+    @property
+    def next_control(self) -> int | None:
+        """The control of the next piece; none where the circle is next."""
+        return next((piece.u for piece in self._later), None)
+
+    @property
+    def time_to_join(self) -> float:
+        """The time until the aircraft joins the circle."""
+        return self.remaining + sum(piece.t for piece in self._later)
 
     @property
     def scale(self) -> float:
-        """How many turn radii a unit of what is `beside` is worth."""
-        return self._scale if self._pieces else 1.0
+        """The unit of `offset`, in turn radii."""
+        return 1.0 if self._current is None else self._scale
 
-    def follow(self, view: View) -> float:
-        """How much of the piece under way is left at a view, in turn radii; it is kept as `left`."""
-        if self._pieces:
-            x, y, _, _ = self._in_air(view)
-            self.left = _left(self._pieces[0], x, y, self.left)
-        return self.left
+    def update_remaining(self, state: RelativeState) -> float:
+        """Set `remaining` to the length of the current piece left at a state, in turn radii, and return it."""
+        if self._current is not None:
+            x, y, _, _ = self._in_air(state)
+            self.remaining = _remaining(self._current, x, y, self.remaining)
+        return self.remaining
 
-    def drop(self) -> None:
-        """Leave the piece under way for the next."""
-        del self._pieces[0]
-        self.left = self._pieces[0].t if self._pieces else 0.0
+    def drop_piece(self) -> None:
+        """Make the next piece the current one."""
+        self._current = self._later.pop(0) if self._later else None
+        self.remaining = 0.0 if self._current is None else self._current.t
 
-    def shift(self, jump: float) -> None:
-        """Tell the way by a clock that has jumped."""
+    def shift_clock(self, jump: float) -> None:
+        """Convert the start of the route to a clock that has jumped."""
         self._start += jump
 
-    def beside(self, view: View) -> Offset:
-        """Where a view is beside the piece under way, or the circle."""
-        if self._pieces:
-            return offset(self._pieces[0].path, *self._in_air(view))
-        return offset(self._circle, view.x, view.y, *self.velocity(view))
+    def offset(self, state: RelativeState) -> PathOffset:
+        """The offset of a state from the current piece, or from the circle."""
+        if self._current is not None:
+            return path_offset(self._current.path, *self._in_air(state))
+        return path_offset(self._circle, state.x, state.y, *self.velocity(state))
 
-    def velocity(self, view: View) -> tuple[float, float]:
-        """The velocity that follows the path: in the air of the plan, on the circle that past it."""
-        wx, wy = self._wind if self._pieces else (0.0, 0.0)
-        return forward(view.vx - wx, view.vy - wy, view.hx, view.hy)
+    def velocity(self, state: RelativeState) -> tuple[float, float]:
+        """The velocity along the path: through the air of the plan; on the circle, relative to the circle."""
+        wx, wy = (0.0, 0.0) if self._current is None else self._wind
+        return flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy)
 
-    def _in_air(self, view: View) -> tuple[float, float, float, float]:
-        """Place and velocity in the air of the plan: where still air would have the vehicle."""
-        (wx, wy), since = self._wind, view.clock - self._start
-        vx, vy = forward(view.vx - wx, view.vy - wy, view.hx, view.hy)
+    def _in_air(self, state: RelativeState) -> tuple[float, float, float, float]:
+        """Position and velocity in the air of the plan, as the vehicle would have them in still air."""
+        (wx, wy), elapsed = self._wind, state.time - self._start
+        vx, vy = flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy)
         q = self._scale
-        return (view.x - wx * since) / q, (view.y - wy * since) / q, vx / q, vy / q
+        return (state.x - wx * elapsed) / q, (state.y - wy * elapsed) / q, vx / q, vy / q
 
 
 def unit(x: float, y: float) -> tuple[float, float]:
@@ -110,25 +133,30 @@ def unit(x: float, y: float) -> tuple[float, float]:
     return x / size, y / size
 
 
-def pieces(x: float, y: float, c: float, s: float, word: int, times: list[float]) -> list[Piece]:
+def route_pieces(
+    x: float, y: float, c: float, s: float, word: int, times: tuple[float, float, float]
+) -> list[RoutePiece]:
     """The pieces of a word flown from (x, y) along (c, s)."""
     chain = []
     for u, t in zip(controls_of(word), times, strict=False):
-        path = Arc(x - u * s, y + u * c, 1.0, u) if u else Line(x, y, c, s)
+        path = Arc(x - u * s, y + u * c, 1.0, u) if u else StraightLine(x, y, c, s)
         x, y, c, s = fly(x, y, c, s, u, t)
-        chain.append(Piece(u, path, x, y, t))
+        chain.append(RoutePiece(u, path, x, y, t))
     return chain
 
 
 def controls_of(word: int) -> Controls:
-    """The controls of a word (`codes.Word`) as flown."""
+    """The controls of a word (`kernel.words`) in the order flown, without the absent ones."""
     return tuple(u for u in controls(word) if u != ABSENT)
 
 
-def _left(piece: Piece, x: float, y: float, about: float) -> float:
-    """How much of a piece is left at (x, y); an arc may pass a place twice, and the value nearest to `about` counts."""
+def _remaining(piece: RoutePiece, x: float, y: float, previous: float) -> float:
+    """The length of a piece left at (x, y).
+
+    On an arc this is known up to whole turns: the value nearest to `previous` is taken.
+    """
     path = piece.path
-    if isinstance(path, Line):
+    if isinstance(path, StraightLine):
         return (piece.x - x) * path.c + (piece.y - y) * path.s
-    left = angle(arc_rotation(piece.u, x - path.x, y - path.y, piece.x - path.x, piece.y - path.y))
-    return left + TWO_PI * round((about - left) / TWO_PI)
+    remaining = angle(arc_rotation(piece.u, x - path.x, y - path.y, piece.x - path.x, piece.y - path.y))
+    return remaining + TWO_PI * round((previous - remaining) / TWO_PI)

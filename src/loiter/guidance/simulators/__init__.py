@@ -1,1 +1,1 @@
-"""Simulated aircraft, gusts and sensors, to fly guidance laws in."""
+"""Simulated aircraft, gusts and sensors for flights of guidance laws."""

@@ -1,4 +1,4 @@
-"""The airframes that fly in six degrees of freedom, each with what a guidance law is told of it."""
+"""The airframes that fly in six degrees of freedom, each with the properties that a guidance law needs."""
 
 from __future__ import annotations
 
@@ -15,12 +15,11 @@ MODELS = Path(__file__).parent / "models"
 
 @dataclass(frozen=True, slots=True)
 class Airframe:
-    """An airframe of JSBSim: its model, where and how it is flown, and how it then rolls.
+    """An airframe of JSBSim: its model, its flight condition, its roll response and the gains of its inner loops.
 
-    `folder` holds the model, in a folder of its name, where it is not one of JSBSim's own. `aircraft` has the true
+    `folder` holds the model, in a subfolder of the same name; None for a model of JSBSim's own. `aircraft` has the true
     airspeed and the bank limit, `roll` the response to a commanded bank as identified in the simulation
-    (`jsbsim_aircraft.identified_roll`): both are what a law is to be given. `altitude_m` is above the sea, which is the
-    ground here.
+    (`jsbsim_aircraft.identified_roll`); a law needs both. `altitude_m` is above sea level, which is also ground level.
     """
 
     model: str
@@ -38,7 +37,7 @@ class Airframe:
         return bool(fdm.load_model_with_paths(self.model, str(self.folder), str(engines), str(self.folder)))
 
 
-# The Piper J-3 Cub of JSBSim's wheel, 439 kg, at 30 m/s: a little below its cruise, well above its stall (17 m/s).
+# The Piper J-3 Cub from JSBSim's package, 439 kg, at 30 m/s: a little below cruise, well above the stall (17 m/s).
 J3CUB = Airframe(
     "J3Cub",
     None,
@@ -64,7 +63,7 @@ J3CUB = Airframe(
     ),
 )
 
-# The Aerosonde UAV of Beard and McLain, 11 kg, at the 25 m/s of their examples.
+# The Aerosonde UAV of Beard and McLain, 11 kg, at 25 m/s as in their examples.
 AEROSONDE = Airframe(
     "aerosonde",
     MODELS,

@@ -1,8 +1,8 @@
-"""An airframe in six degrees of freedom, flown by JSBSim with inner loops of our own.
+"""An airframe in six degrees of freedom, flown by JSBSim with the inner loops of this package.
 
-JSBSim flies round the rotating earth; it starts above 0 N 0 E, and east and north are measured in the plane that
-touches the ellipsoid there. So near the equator the meridians are parallel, and a circle of some kilometres is a circle
-to better than a millimetre.
+JSBSim simulates flight above the rotating earth. Flights start above 0 N 0 E, and east and north are measured in the
+plane tangent to the ellipsoid there. So close to the equator the meridians are parallel, and a circle of a few
+kilometres is accurate to better than a millimetre.
 """
 
 from __future__ import annotations
@@ -17,26 +17,27 @@ from typing import Any
 from loiter.errors import LoiterError, MissingPackage, not_negative
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.simulators.airframes import Airframe
-from loiter.guidance.simulators.inner_loops import Flight, InnerLoops, Surfaces
+from loiter.guidance.simulators.inner_loops import InnerLoops, LoopInputs, Surfaces
 from loiter.guidance.simulators.sensors import Noise, Sensors
-from loiter.guidance.vehicle.limits import clipped
+from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.model import CALM, Pose, Turn, Wind
 
 FOOT_M = 0.3048  # exact by definition
 
-# JSBSim's own step and the rate of the loops, seconds: at most this.
+# The longest step of JSBSim and of the inner loops, seconds.
 STEP_S = 1.0 / 120.0
 
-# `FGWinds`: Dryden's spectra as MIL-F-8785C has them, and any severity but 0, which turns them off below 1000 feet.
+# For JSBSim's `FGWinds`: Dryden spectra of MIL-F-8785C, and a severity, which has no effect below 1000 feet except that
+# 0 turns turbulence off.
 MILSPEC, SEVERITY = 3, 1
 
-# A bank is identified in steps of, and takes no longer than, seconds.
+# The step of a roll identification and the time allowed for each change of bank, seconds.
 IDENTIFY_S, SETTLE_S = 0.02, 6.0
 
-# What the loops measure: property, unit.
-FLIGHT = (
+# The properties that the inner loops measure, in the order of `LoopInputs`, with their units.
+INPUT_PROPERTIES = (
     ("attitude/phi-rad", 1.0),
     ("attitude/theta-rad", 1.0),
     ("velocities/p-rad_sec", 1.0),
@@ -47,18 +48,18 @@ FLIGHT = (
     ("velocities/h-dot-fps", FOOT_M),
     ("velocities/vtrue-fps", FOOT_M),
 )
-SURFACES = ("fcs/aileron-cmd-norm", "fcs/elevator-cmd-norm", "fcs/rudder-cmd-norm", "fcs/throttle-cmd-norm")
+SURFACE_PROPERTIES = ("fcs/aileron-cmd-norm", "fcs/elevator-cmd-norm", "fcs/rudder-cmd-norm", "fcs/throttle-cmd-norm")
 
 
 class JsbsimAircraft:
-    """A simulator: an airframe of JSBSim with its inner loops, in wind and turbulence, seen by its sensors.
+    """A simulator: an airframe of JSBSim with inner loops and sensors, in wind and turbulence.
 
     It begins at `start`, trimmed in level flight at the airspeed and altitude of the airframe; `start` and all states
     are in local metres east and north. `gust` is the standard deviation of the horizontal turbulence over the airspeed
-    (Dryden's spectra; the vertical one is a little less); the J-3 Cub can be lost in 15 %. `noise` is that of the
-    sensors, none if absent. The same seed gives the same flight. Raises `MissingPackage` where JSBSim is not installed,
-    `InvalidArgument` for a gust that is negative or not finite, `LoiterError` where JSBSim cannot load or trim the
-    airframe.
+    (Dryden spectra; the vertical turbulence is a little weaker). The J-3 Cub can lose control at 15 %. `noise` is the
+    noise of the sensors; without it they are exact. The same seed gives the same flight. Raises `MissingPackage` where
+    JSBSim is not installed, `InvalidArgument` for a gust that is negative or not finite, `LoiterError` where JSBSim
+    cannot load or trim the airframe.
     """
 
     def __init__(
@@ -78,24 +79,24 @@ class JsbsimAircraft:
         check_installed()
         with _quiet():
             self._fdm, trim = trimmed(airframe)
-            _begin(self._fdm, airframe, start.heading_deg, CALM if wind is None else wind)
-            _disturb(self._fdm, airframe, gust, seed)
+            _start_flight(self._fdm, airframe, start.heading_deg, CALM if wind is None else wind)
+            _set_turbulence(self._fdm, airframe, gust, seed)
         self._loops = InnerLoops(airframe.gains, trim, airframe.altitude_m, airframe.aircraft.airspeed_m_s)
         self._limit_deg = airframe.aircraft.bank_deg(airframe.aircraft.turn_radius_m)
         node = self._fdm.get_property_manager().get_node
-        self._measured = [(node(name).get_double_value, unit) for name, unit in FLIGHT]
-        self._set = [node(name).set_double_value for name in SURFACES]
+        self._input_readers = [(node(name).get_double_value, unit) for name, unit in INPUT_PROPERTIES]
+        self._surface_setters = [node(name).set_double_value for name in SURFACE_PROPERTIES]
         self._sensors = None
         if noise is not None:
             self._sensors = Sensors(self.true_state(), noise, np.random.default_rng(seed))
 
     @property
     def altitude_m(self) -> float:
-        """The altitude above the sea."""
+        """The altitude above sea level, metres."""
         return float(self._fdm["position/h-sl-ft"] * FOOT_M)
 
     def true_state(self) -> State:
-        """The state as it is."""
+        """The true state."""
         fdm = self._fdm
         return State(
             self._time_s,
@@ -109,21 +110,25 @@ class JsbsimAircraft:
         )
 
     def measured_state(self) -> State:
-        """The state as its sensors last told it."""
-        return self.true_state() if self._sensors is None else self._sensors.told
+        """The latest measured state; the true one without sensor noise."""
+        return self.true_state() if self._sensors is None else self._sensors.latest
 
     def advance(self, command: Command, dt: float) -> None:
-        """Fly `dt` seconds under a commanded bank, in equal steps of `STEP_S` at most; `InvalidArgument` below 0."""
+        """Fly `dt` seconds under a commanded bank, in equal steps of at most `STEP_S`.
+
+        Raises `InvalidArgument` for a `dt` below 0.
+        """
         not_negative("dt", dt, "seconds")
         steps = max(ceil(dt / STEP_S - 1e-9), 1)
         if dt / steps != self._step_s:
             self._step_s = dt / steps
             self._fdm.set_dt(self._step_s)
-        bank_deg = clipped(command.bank_deg, self._limit_deg)
+        bank_deg = clip(command.bank_deg, self._limit_deg)
         for _ in range(steps):
-            flight = Flight(*[value() * unit for value, unit in self._measured])
-            for setter, share in zip(self._set, self._loops.step(flight, bank_deg, self._step_s), strict=True):
-                setter(share)
+            measured = LoopInputs(*[read() * unit for read, unit in self._input_readers])
+            surfaces = self._loops.step(measured, bank_deg, self._step_s)
+            for set_share, share in zip(self._surface_setters, surfaces, strict=True):
+                set_share(share)
             self._fdm.run()
         self._time_s += dt
         if self._sensors is not None:
@@ -131,18 +136,18 @@ class JsbsimAircraft:
 
 
 def identified_roll(airframe: Airframe) -> Roll:
-    """The response in bank of an airframe in still air: what `Roll` has to be for a reversal from limit to limit.
+    """The roll response of an airframe in still air, identified from a reversal from one bank limit to the other.
 
-    The rate is the largest, over a tenth of a second; the time is the one for which what is missing of the commanded
-    bank adds up to the same: D^2/(2 p) + p time^2/2 for a change of D with the rate p (`Roll.lead_s`). Raises as
-    `JsbsimAircraft`.
+    The rate is the largest mean rate over a tenth of a second. The time constant gives the same integral of the missing
+    bank: D^2/(2 p) + p time^2/2 for a change of D at the rate p (`Roll.lead_s`). Raises the same as `JsbsimAircraft`.
     """
     limit_deg = airframe.aircraft.bank_deg(airframe.aircraft.turn_radius_m)
     simulator = JsbsimAircraft(Pose(0.0, 0.0, 0.0), airframe)
     _banks(simulator, limit_deg)
     before = simulator.true_state().bank_deg
     banks = [before, *_banks(simulator, -limit_deg)]
-    change, end = before - banks[-1], banks[-1]
+    *_, end = banks
+    change = before - end
     stride = round(0.1 / IDENTIFY_S)
     rate = max(a - b for a, b in zip(banks, banks[stride:], strict=False)) / (stride * IDENTIFY_S)
     missing = sum(bank - end for bank in banks[1:]) * IDENTIFY_S
@@ -150,7 +155,7 @@ def identified_roll(airframe: Airframe) -> Roll:
 
 
 def _banks(simulator: JsbsimAircraft, bank_deg: float) -> list[float]:
-    """The bank every `IDENTIFY_S` while one is commanded for `SETTLE_S`."""
+    """The banks at intervals of `IDENTIFY_S` while a bank is commanded for `SETTLE_S`."""
     command = Command(nan, bank_deg, Phase.NO_DATA, nan, Turn.EITHER, Phase.NO_DATA, nan)
     banks = []
     for _ in range(round(SETTLE_S / IDENTIFY_S)):
@@ -166,7 +171,7 @@ def check_installed() -> None:
 
 
 def trimmed(airframe: Airframe) -> tuple[Any, Surfaces]:
-    """An `FGFDMExec` with the airframe trimmed in still air, heading north, and what its surfaces are set to.
+    """An `FGFDMExec` with the airframe trimmed in still air, heading north, and its trimmed surfaces and throttle.
 
     Raises `LoiterError` where JSBSim cannot load or trim it.
     """
@@ -193,23 +198,20 @@ def trimmed(airframe: Airframe) -> tuple[Any, Surfaces]:
         fdm.do_trim(1)
     except jsbsim.TrimFailureError as error:
         raise LoiterError(f"JSBSim cannot trim the airframe {airframe.model}") from error
-    # JSBSim trims the pitch by the trim tab; the loops have it in the elevator, where it does the same.
-    aileron, elevator, rudder, throttle = (fdm[name] for name in SURFACES)
+    # JSBSim trims the pitch with the trim tab. The inner loops use the elevator instead, with the same effect.
+    aileron, elevator, rudder, throttle = (fdm[name] for name in SURFACE_PROPERTIES)
     trim = Surfaces(aileron, elevator + fdm["fcs/pitch-trim-cmd-norm"], rudder, throttle)
     fdm["fcs/pitch-trim-cmd-norm"], fdm["fcs/elevator-cmd-norm"] = 0.0, trim.elevator
     return fdm, trim
 
 
-def _begin(fdm: Any, airframe: Airframe, heading_deg: float, wind: Wind) -> None:
-    """Start anew in the attitude of the trim, on a heading, in a wind."""
-    V, (east, north), (wind_east, wind_north) = (
-        airframe.aircraft.airspeed_m_s,
-        heading_vector(heading_deg),
-        wind.velocity_m_s,
-    )
+def _start_flight(fdm: Any, airframe: Airframe, heading_deg: float, wind: Wind) -> None:
+    """Restart the simulation in the trimmed attitude, on a heading, in a wind."""
+    V, (east, north) = airframe.aircraft.airspeed_m_s, heading_vector(heading_deg)
+    wind_east, wind_north = wind.velocity_m_s
     pitch, bank = fdm["attitude/theta-deg"], fdm["attitude/phi-deg"]
     for name, value in (
-        # A direction is kept of a wind that has a speed; it is where the wind blows to.
+        # JSBSim keeps a wind direction only while the wind has a speed. It is the direction that the wind blows to.
         ("ic/vw-mag-fps", 1.0),
         ("ic/vw-dir-deg", wind.from_deg + 180.0),
         ("ic/vw-mag-fps", wind.speed_m_s / FOOT_M),
@@ -224,10 +226,11 @@ def _begin(fdm: Any, airframe: Airframe, heading_deg: float, wind: Wind) -> None
     fdm.run_ic()
 
 
-def _disturb(fdm: Any, airframe: Airframe, gust: float, seed: int) -> None:
-    """Turbulence of MIL-F-8785C below 1000 feet, where JSBSim counts the wind at 20 feet: the vertical is 0.1 of it.
+def _set_turbulence(fdm: Any, airframe: Airframe, gust: float, seed: int) -> None:
+    """Set the turbulence of MIL-F-8785C below 1000 feet, which JSBSim derives from the wind speed at 20 feet.
 
-    The horizontal is that over (0.177 + 0.000823 h)^0.4 at h feet.
+    The standard deviation of the vertical turbulence is 0.1 times that speed; that of the horizontal turbulence is the
+    vertical one divided by (0.177 + 0.000823 h)^0.4 at h feet.
     """
     vertical_m_s = gust * airframe.aircraft.airspeed_m_s * (0.177 + 0.000823 * airframe.altitude_m / FOOT_M) ** 0.4
     fdm["atmosphere/randomseed"] = seed
@@ -238,7 +241,7 @@ def _disturb(fdm: Any, airframe: Airframe, gust: float, seed: int) -> None:
 
 @cache
 def _silence() -> Any:
-    """A logger that says nothing: JSBSim's own prints a banner."""
+    """A logger that discards all messages: JSBSim's own prints a banner."""
     import jsbsim
 
     class Silence(jsbsim.FGLogger):
@@ -253,12 +256,12 @@ def _silence() -> Any:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """JSBSim says nothing meanwhile on this thread."""
+    """Suppress JSBSim's messages on this thread within the context."""
     import jsbsim
 
-    told = jsbsim.get_logger()
+    previous = jsbsim.get_logger()
     jsbsim.set_logger(_silence())
     try:
         yield
     finally:
-        jsbsim.set_logger(told)
+        jsbsim.set_logger(previous)

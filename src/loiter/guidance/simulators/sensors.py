@@ -1,4 +1,4 @@
-"""Sensors: noise on each quantity of a state, and a delay before it is told."""
+"""Sensors: noise on each quantity of a state, and a delay before a measurement is available."""
 
 from __future__ import annotations
 
@@ -13,15 +13,16 @@ from loiter.planning.compass import wrapped
 if TYPE_CHECKING:
     from numpy.random import Generator
 
+# Random numbers are drawn in blocks: drawing a single one costs as much as a hundred.
 BLOCK = 1024
 
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """Standard deviations of white noise, one draw a measurement, and how old a measurement is when it is told.
+    """Standard deviations of white noise, drawn for each measurement, and the delay of measurements, seconds.
 
-    The velocity's is that of each component over the ground. Raises `InvalidArgument` for what is negative or not
-    finite.
+    `velocity_m_s` applies to each component over the ground. Raises `InvalidArgument` for values that are negative or
+    not finite.
     """
 
     position_m: float = 1.0
@@ -40,9 +41,9 @@ EXACT = Noise(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class Sensors:
-    """Measures states one after the other and tells each `noise.delay_s` later.
+    """Measures states one after another; each measurement is available `noise.delay_s` later.
 
-    Before the first state was measured the aircraft flew straight, as its velocity was.
+    The measurements before the first state assume that the aircraft flew straight with its present velocity.
     """
 
     def __init__(self, first: State, noise: Noise, random: Generator) -> None:
@@ -50,22 +51,22 @@ class Sensors:
         self._draws: list[list[float]] = []
         self._first = first
         self._waiting = deque([self._noisy(first)])
-        self._told = self._noisy(_earlier(first, noise.delay_s)) if noise.delay_s > 0.0 else self._waiting.popleft()
+        self._latest = self._noisy(_earlier(first, noise.delay_s)) if noise.delay_s > 0.0 else self._waiting.popleft()
 
     @property
-    def told(self) -> State:
-        """The last measurement that was told."""
-        return self._told
+    def latest(self) -> State:
+        """The latest available measurement."""
+        return self._latest
 
     def measure(self, state: State) -> None:
-        """Measure a state, and tell what is due by then."""
+        """Measure a state, and update `latest` to its time."""
         self._waiting.append(self._noisy(state))
         due_s = state.time_s - self._noise.delay_s
         if due_s < self._first.time_s:
-            self._told = self._noisy(_earlier(self._first, self._first.time_s - due_s))
-        # A measurement due now by all but rounding is due.
+            self._latest = self._noisy(_earlier(self._first, self._first.time_s - due_s))
+        # The margin is for rounding.
         while self._waiting and self._waiting[0].time_s <= due_s + 1e-9:
-            self._told = self._waiting.popleft()
+            self._latest = self._waiting.popleft()
 
     def _noisy(self, state: State) -> State:
         if not self._draws:
@@ -84,7 +85,7 @@ class Sensors:
 
 
 def _earlier(state: State, time_s: float) -> State:
-    """The state of an aircraft that flew straight until now, `time_s` seconds ago."""
+    """The state `time_s` seconds earlier of an aircraft that has flown straight since."""
     return state._replace(
         time_s=state.time_s - time_s,
         east_m=state.east_m - state.velocity_east_m_s * time_s,

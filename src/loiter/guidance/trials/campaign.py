@@ -1,10 +1,10 @@
-"""Monte Carlo: several laws flown from the same random starts in the same noise."""
+"""Monte Carlo campaigns: several laws flown from the same random starts with the same noise."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import cos, degrees, pi, sin, sqrt
 from typing import NamedTuple
@@ -30,7 +30,7 @@ from loiter.planning.solve import plan
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """One start: the fastest entry from it in the steady wind, and the seed of its noise.
+    """One start: the fastest entry from it in the steady wind, and the seed of the noise.
 
     Raises `InvalidArgument` for a seed below 0.
     """
@@ -43,14 +43,14 @@ class Trial:
 
     @property
     def orbit(self) -> Orbit:
-        """The circle, in the direction that the fastest entry holds."""
-        o = self.ideal.orbit
-        return Orbit(o.east_m, o.north_m, o.radius_m, self.ideal.turn, o.velocity_east_m_s, o.velocity_north_m_s)
+        """The circle with the direction of the fastest entry."""
+        return replace(self.ideal.orbit, turn=self.ideal.turn)
 
 
-# Who turns so much more off the circle than the fastest entry went round again: a whole turn that leaves the circle and
-# comes back to it, less what of it is within twice the band, up to 20 degrees at either end, and some more.
-ROUND_DEG = 270.0
+# A flight that turns by this much more off the circle than the fastest entry counts as a go-around. A go-around is a
+# whole turn that leaves the circle and returns to it. Up to 20 degrees at each end lie within twice the band and do not
+# count; the rest is margin.
+GO_AROUND_DEG = 270.0
 
 
 def _at_least(least: int, name: str, value: int) -> None:
@@ -58,19 +58,18 @@ def _at_least(least: int, name: str, value: int) -> None:
         raise InvalidArgument(name, f"is {value}: it must be at least {least}")
 
 
-# What makes a law, or a simulator, for a trial: a function of a module, or a `partial` of one, so that other processes
-# can have it.
+# Functions that make a law or a simulator for a trial. They must be functions of a module, or a `partial` of one, so
+# that they can be sent to other processes.
 MakeLaw = Callable[[Trial], Law]
 MakeSimulator = Callable[[Trial], Simulator]
 
 
 class Outcome(NamedTuple):
-    """What became of one flight of a campaign; times in seconds, nan for what never was.
+    """The result of one flight of a campaign; times in seconds, nan for events that did not happen.
 
-    `ideal_s` is the duration of the fastest entry. `settled_s`, `joined_s`, `overshoot_m`, `bank_rate_deg_s` and
-    `distance_m` are those of `Flight`. `round_again` tells that the heading had turned, off the circle and before the
-    aircraft joined, by `ROUND_DEG` more than in the ideal entry's arcs; `join_error_s` is how much the reported time to
-    join was off a fall of 1 s a second, root mean square over steps of 0.1 s up to the hold.
+    `ideal_s` is the duration of the fastest entry. `settled_s`, `joined_s`, `overshoot_m`, `bank_rate_deg_s`,
+    `distance_m` and `join_error_s` are those of `Flight`. `round_again` marks a go-around: the heading turned, off the
+    circle and before the aircraft joined, by `GO_AROUND_DEG` more than in the arcs of the fastest entry.
     """
 
     trial: int
@@ -98,11 +97,11 @@ def trials(
     radii: tuple[float, float] = (1.2, 4.0),
     reach: float = 6.0,
 ) -> list[Trial]:
-    """Random starts, the same for the same seed: the first of many are those of few.
+    """Random starts from a seed; start i depends on the seed and on i alone, not on `runs`.
 
-    The circle is about the origin, of a radius between `radii` times the tightest that can be held in the wind, that is
-    in still air the turn radius, held either way; the start is anywhere within `reach` radii of the circle from its
-    centre, on any heading. Raises `InvalidArgument` for fewer than one run and a seed below 0, and as `plan`.
+    The circle is about the origin and may be held in either direction. Its radius is between `radii` times the tightest
+    that can be held in the wind; in still air that is the turn radius. The start is within `reach` radii of the centre,
+    on any heading. Raises `InvalidArgument` for fewer than one run and a seed below 0, and the same as `plan`.
     """
     _at_least(1, "runs", runs)
     _at_least(0, "seed", seed)
@@ -121,28 +120,28 @@ def _trial(seed: int, i: int, aircraft: Aircraft, wind: Wind | None, radii: tupl
 
 
 def optimal(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
-    """The fastest entry, which may hold the circle either way."""
+    """The fastest entry, which chooses the direction of holding itself."""
     m = trial.ideal
     return LoiterEntry(m.orbit, m.aircraft, m.wind, roll=roll)
 
 
 def l1(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
-    """L1 as its autopilot's guide says to tune it, told the direction of the fastest entry."""
+    """L1 tuned as its autopilot's guide advises, with the direction of the fastest entry."""
     return L1(trial.orbit, trial.ideal.aircraft, trial.ideal.wind, period_s=advised_period_s(roll.time_s))
 
 
 def vector_field(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
-    """The vector field with the gains that its publication asks for, told the direction of the fastest entry."""
+    """The vector field with the gains that its publication advises, with the direction of the fastest entry."""
     gains = advised_gains(trial.orbit, trial.ideal.aircraft, roll.time_s)
     return VectorField(trial.orbit, trial.ideal.aircraft, trial.ideal.wind, gains=gains)
 
 
 def nearest_tangent(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
-    """Dubins' path to the nearest point of the circle, told the direction of the fastest entry."""
+    """Dubins' path to the nearest point of the circle, with the direction of the fastest entry."""
     return Tangent(trial.orbit, trial.ideal.aircraft, trial.ideal.wind, lead_s=roll.time_s)
 
 
-# Each takes a `Roll` too.
+# The laws by name. Each function also takes a `Roll`.
 LAWS: dict[str, Callable[..., Law]] = {
     "optimal": optimal,
     "l1": l1,
@@ -171,7 +170,7 @@ def outcome(
     step_s: float = STEP_S,
     limit_s: float = LIMIT_S,
 ) -> Outcome:
-    """Fly one trial and keep what it came to."""
+    """Fly one trial, number `i`, and return its result."""
     m = trial.ideal
     flight = fly(law(trial), simulator(trial), m.orbit, band=band, step_s=step_s, limit_s=limit_s)
     arcs_deg = degrees(sum(abs(segment.curvature_per_m) * segment.length_m for segment in m.segments))
@@ -183,7 +182,7 @@ def outcome(
         flight.overshoot_m,
         flight.bank_rate_deg_s,
         flight.distance_m,
-        flight.settled and flight.turned_deg > arcs_deg + ROUND_DEG,
+        flight.settled and flight.turned_deg > arcs_deg + GO_AROUND_DEG,
         flight.join_error_s,
     )
 
@@ -199,17 +198,17 @@ def campaign(
     workers: int | None = None,
     progress: Callable[[int, int], None] = lambda done, of: None,
 ) -> dict[str, list[Outcome]]:
-    """Fly each law from each start; for each law the outcomes in the order of the starts.
+    """Fly each law from each start; the outcomes of each law, in the order of the starts.
 
-    What comes out depends on the starts alone, not on how many processes share them: `workers`, as many as there are
-    cores if absent; 1 stays in this one. `progress` is called with the number of starts that are done and of all.
-    Raises `InvalidArgument` for fewer than one worker.
+    The outcomes do not depend on `workers`, the number of processes: by default the number of cores; 1 uses this
+    process. `progress` is called with the number of completed starts and the number of all. Raises `InvalidArgument`
+    for fewer than one worker.
     """
     if workers is not None:
         _at_least(1, "workers", workers)
     fly_all = partial(_outcomes, tuple(laws.values()), simulator, band, step_s, limit_s)
     done: list[tuple[Outcome, ...]] = []
-    for row in _shared(fly_all, list(enumerate(starts)), workers):
+    for row in _map_in_processes(fly_all, list(enumerate(starts)), workers):
         done.append(row)
         progress(len(done), len(starts))
     return {name: list(column) for name, column in zip(laws, zip(*done, strict=True), strict=True)}
@@ -226,7 +225,7 @@ def _outcomes(
     return tuple(outcome(*numbered, law, simulator, band, step_s, limit_s) for law in laws)
 
 
-def _shared(
+def _map_in_processes(
     job: Callable[[tuple[int, Trial]], tuple[Outcome, ...]], tasks: list[tuple[int, Trial]], workers: int | None
 ) -> Iterator[tuple[Outcome, ...]]:
     if workers == 1:

@@ -1,4 +1,4 @@
-"""The simulators with what each asks of the laws and of the measure: what `loiter fly` flies."""
+"""The settings that `loiter fly` offers: each simulator with the laws and the settling band that suit it."""
 
 from __future__ import annotations
 
@@ -20,15 +20,16 @@ from loiter.guidance.trials.campaign import (
 )
 from loiter.guidance.trials.settling import Band
 
-# Gusts of this share of the airspeed are heavy: no law holds the circle so exactly then.
+# From this share of the airspeed on gusts count as heavy, and the settling band is wider: in such gusts no law stays
+# within the standard band.
 HEAVY_GUST = 0.1
-CALM_BAND, HEAVY_BAND = Band(0.05, 5.0), Band(0.1, 10.0)
+STANDARD_BAND, HEAVY_GUST_BAND = Band(0.05, 5.0), Band(0.1, 10.0)
 
 
 class Setting(NamedTuple):
-    """How flights are flown: what makes the simulator and each law for a trial, and what counts as settled.
+    """How trials are flown: the functions that make the simulator and each law for a trial, and the settling band.
 
-    `exact_switches` is that of `flight.fly`: in the vehicle of the theory switches are where they are.
+    `exact_switches` is the argument of `flight.fly`: the vehicle of the theory switches at the exact time.
     """
 
     simulator: MakeSimulator
@@ -37,25 +38,25 @@ class Setting(NamedTuple):
     exact_switches: bool
 
 
-def theory() -> Setting:
-    """The vehicle of the theory: bank at once, no noise, and the fastest entry without reserve."""
-    return Setting(kinematic, LAWS | {"optimal": _exact}, CALM_BAND, exact_switches=True)
+def kinematic_setting() -> Setting:
+    """The vehicle of the theory: instant bank, no noise, and the fastest entry without reserve."""
+    return Setting(kinematic, LAWS | {"optimal": _exact}, STANDARD_BAND, exact_switches=True)
 
 
-def rolling(gust: float) -> Setting:
-    """The point mass with its roll, noise and delay, in gusts of the given share of the airspeed."""
-    return Setting(partial(point_mass, gust=gust), LAWS, band(gust), exact_switches=False)
+def point_mass_setting(gust: float) -> Setting:
+    """The point mass with roll response, noise and dead time, in gusts of the given share of the airspeed."""
+    return Setting(partial(point_mass, gust=gust), LAWS, settling_band(gust), exact_switches=False)
 
 
-def flying(airframe: Airframe, gust: float) -> Setting:
-    """An airframe in six degrees of freedom; the laws know how it rolls."""
+def jsbsim_setting(airframe: Airframe, gust: float) -> Setting:
+    """An airframe in six degrees of freedom; the laws use its roll response."""
     laws: dict[str, MakeLaw] = {name: partial(law, roll=airframe.roll) for name, law in LAWS.items()}
-    return Setting(partial(_jsbsim, airframe=airframe, gust=gust), laws, band(gust), exact_switches=False)
+    return Setting(partial(_jsbsim, airframe=airframe, gust=gust), laws, settling_band(gust), exact_switches=False)
 
 
-def band(gust: float) -> Band:
-    """How near the circle counts as on it in gusts of a share of the airspeed."""
-    return HEAVY_BAND if not_negative("gust", gust, "shares of the airspeed") >= HEAVY_GUST else CALM_BAND
+def settling_band(gust: float) -> Band:
+    """The band that counts as on the circle, in gusts of a share of the airspeed."""
+    return HEAVY_GUST_BAND if not_negative("gust", gust, "shares of the airspeed") >= HEAVY_GUST else STANDARD_BAND
 
 
 def _exact(trial: Trial) -> Law:

@@ -1,4 +1,4 @@
-"""What a campaign says about each law."""
+"""Summaries of campaigns: the results of each law over all its flights."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Summary:
-    """The flights of one law. Ratios and lateness are of the times to settle to the fastest entries'.
+class CampaignSummary:
+    """The flights of one law. Ratios and delays compare settling times with the durations of the fastest entries.
 
-    Medians and percentiles count a flight that did not settle as later than all others. `sooner`: the share of the
-    starts from which the law settled sooner than another; nan where there is none to compare with.
+    Medians and percentiles count a flight that did not settle as later than all others. `round_again` is the number of
+    go-arounds. `sooner` is the share of the starts from which the law settled sooner than another law; nan where there
+    is none to compare with.
     """
 
     flights: int
@@ -35,17 +36,17 @@ class Summary:
     sooner: float
 
 
-def summary(outcomes: Sequence[Outcome], others: Sequence[Outcome] = ()) -> Summary:
-    """One law's flights, beside another law's from the same starts where there are any."""
+def summary(outcomes: Sequence[Outcome], others: Sequence[Outcome] = ()) -> CampaignSummary:
+    """The summary of one law, compared with the flights `others` of another law from the same starts, if given."""
     import numpy as np
 
     ideal_s = np.array([o.ideal_s for o in outcomes])
     settled_s = _later_than_all([o.settled_s for o in outcomes])
-    # A start on the circle has nothing to be compared with.
-    begun = ideal_s > 0.0
-    ratio, late_s = settled_s[begun] / ideal_s[begun], settled_s - ideal_s
+    # A start on the circle has no ratio: the fastest entry takes no time.
+    off_circle = ideal_s > 0.0
+    ratio, late_s = settled_s[off_circle] / ideal_s[off_circle], settled_s - ideal_s
     sooner = np.mean(settled_s < _later_than_all([o.settled_s for o in others])) if others else np.nan
-    return Summary(
+    return CampaignSummary(
         len(outcomes),
         sum(o.settled for o in outcomes),
         sum(o.round_again for o in outcomes),
@@ -61,6 +62,7 @@ def summary(outcomes: Sequence[Outcome], others: Sequence[Outcome] = ()) -> Summ
 
 
 def _later_than_all(times_s: Sequence[float]) -> NDArray[float64]:
+    """Settling times as an array, infinite in place of nan."""
     import numpy as np
 
     times = np.array(times_s, dtype=float)
@@ -68,7 +70,7 @@ def _later_than_all(times_s: Sequence[float]) -> NDArray[float64]:
 
 
 def _quantile(values: NDArray[float64], share: float) -> float:
-    """The value that this share of all does not exceed; unlike an interpolation it may be infinite."""
+    """The quantile without interpolation, so that it can be infinite; nan of no values."""
     import numpy as np
 
     return float(np.sort(values)[int(np.ceil(share * values.size)) - 1]) if values.size else nan

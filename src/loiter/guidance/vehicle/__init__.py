@@ -1,1 +1,1 @@
-"""What laws and simulators assume of an aircraft: turn rates, bank limits and roll response."""
+"""The model of the aircraft that laws and simulators share: turn rates, bank limits and roll response."""

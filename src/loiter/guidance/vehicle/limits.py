@@ -1,6 +1,6 @@
-"""Limits, of bank, of rates of turn and of demands, alike on both sides."""
+"""Symmetric limits on bank angles, turn rates and commands."""
 
 
-def clipped(value: float, limit: float) -> float:
-    """`value`, but no further from 0 than `limit`."""
+def clip(value: float, limit: float) -> float:
+    """`value`, limited to the range from -`limit` to `limit`."""
     return min(max(value, -limit), limit)

@@ -1,4 +1,4 @@
-"""How an aircraft rolls: a first-order lag whose rate is limited, and by how much it delays a turn."""
+"""The roll response of an aircraft: a first-order lag with a limited roll rate, and how long it delays a turn."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from math import exp, inf, log
 
 from loiter.errors import InvalidArgument, as_float, not_negative
-from loiter.guidance.vehicle.limits import clipped
+from loiter.guidance.vehicle.limits import clip
 
-# A change of bank is made so many times as quickly as by commanding what is wanted, where the limits leave room.
-HASTE = 4.0
+# The commanded change of bank is this many times the change that is wanted, where the limits leave room.
+COMMAND_GAIN = 4.0
 
 
 @dataclass(frozen=True, slots=True)
 class Roll:
-    """The response in bank: the commanded one is approached as (command - bank)/`time_s`, at `rate_deg_s` at most.
+    """The roll response: bank rate = (command - bank)/`time_s`, limited to `rate_deg_s`.
 
-    A time of 0 and an infinite rate are an aircraft that banks at once. Raises `InvalidArgument` for a time that is
-    negative or not finite and a rate that is not positive.
+    A time constant of 0 with an infinite rate describes an aircraft that banks instantly. Raises `InvalidArgument` for
+    a time constant that is negative or not finite, and for a rate that is not positive.
     """
 
     time_s: float = 0.5
@@ -29,41 +29,42 @@ class Roll:
             raise InvalidArgument("roll rate_deg_s", f"is {self.rate_deg_s}: it must be above 0 degrees per second")
 
     @property
-    def at_once(self) -> bool:
-        """Whether bank changes at once."""
+    def is_instant(self) -> bool:
+        """Whether the bank follows a command instantly."""
         return self.time_s == 0.0 and self.rate_deg_s == inf
 
     def demand_deg(self, bank_deg: float, target_deg: float, limit_deg: float) -> float:
-        """The command that takes the bank to a target `HASTE` times as quickly as the target as a command would.
+        """The command that brings the bank to a target `COMMAND_GAIN` times as fast as commanding the target would.
 
-        As far beyond the target as that takes, within the limit of bank.
+        It lies beyond the target, but never beyond the bank limit.
         """
         if self.time_s == 0.0:
             return target_deg
-        return clipped(bank_deg + HASTE * (target_deg - bank_deg), limit_deg)
+        return clip(bank_deg + COMMAND_GAIN * (target_deg - bank_deg), limit_deg)
 
     def lead_s(self, bank_deg: float, target_deg: float, limit_deg: float) -> float:
-        """How much later than at once a change of bank by `demand_deg` takes effect, seconds: its area over its size.
+        """The delay of a change of bank by `demand_deg` against an instant one, seconds.
 
-        With m missing, the bank changes at the least of p, the limit of its rate; (m + g)/tau, as the limit of bank
-        is g beyond the target; and `HASTE` m/tau. As m shrinks the one gives way to the next. The area is the sum of m
-        over the rate of m: m^2/(2 p); tau (m - g ln(m + g)); tau m/HASTE.
+        It is the integral of the missing bank over time, divided by the whole change. Let m be the missing bank, p the
+        limit of the roll rate, and g how far the bank limit lies beyond the target. The bank changes at the least of
+        p, (m + g)/tau (the command is at the bank limit) and `COMMAND_GAIN` m/tau. As m shrinks these apply in that
+        order. The integral is that of m over its own rate: m^2/(2 p); tau (m - g ln(m + g)); tau m/COMMAND_GAIN.
         """
         m, g = abs(target_deg - bank_deg), limit_deg - (target_deg if target_deg >= bank_deg else -target_deg)
         tau, p = self.time_s, self.rate_deg_s
         if m == 0.0 or tau == 0.0:
-            return 0.5 * m / p + tau / HASTE
-        # What is missing where the rate leaves its limit, and where the command leaves the limit of bank.
-        slow = min(max(p * tau - g, p * tau / HASTE), m)
-        free = min(g / (HASTE - 1.0), slow)
-        area = 0.5 * (m - slow) * (m + slow) / p + tau * free / HASTE
+            return 0.5 * m / p + tau / COMMAND_GAIN
+        # The missing bank at which the rate leaves its limit, and at which the command leaves the bank limit.
+        slow = min(max(p * tau - g, p * tau / COMMAND_GAIN), m)
+        free = min(g / (COMMAND_GAIN - 1.0), slow)
+        area = 0.5 * (m - slow) * (m + slow) / p + tau * free / COMMAND_GAIN
         if slow > free:
             area += tau * (slow - free - (g * log((slow + g) / (free + g)) if g > 0.0 else 0.0))
         return area / m
 
-    def after(self, bank_deg: float, command_deg: float, time_s: float) -> float:
-        """The bank `time_s` seconds later under a constant command, exactly."""
-        if self.at_once:
+    def bank_after(self, bank_deg: float, command_deg: float, time_s: float) -> float:
+        """The exact bank after `time_s` seconds under a constant command."""
+        if self.is_instant:
             return command_deg
         missing = command_deg - bank_deg
         sign = 1.0 if missing >= 0.0 else -1.0
@@ -76,4 +77,4 @@ class Roll:
         return command_deg - missing * lag
 
 
-AT_ONCE = Roll(0.0, inf)
+INSTANT_ROLL = Roll(0.0, inf)

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from math import atan2, degrees
 from typing import NamedTuple
 
-from loiter.guidance.laws.following import around
+from loiter.guidance.laws.following import polar_state
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
@@ -72,9 +72,9 @@ def circle_offset(plan: Maneuver) -> CircleOffset:
         speed * east + wind_east - orbit.velocity_east_m_s,
         speed * north + wind_north - orbit.velocity_north_m_s,
     )
-    seen = around(here.east_m - orbit.east_m, here.north_m - orbit.north_m, velocity, here.heading_deg)
-    angle_deg = abs(degrees(atan2(seen.outward_m_s, seen.clockwise_m_s)))
-    return CircleOffset(seen.distance_m - orbit.radius_m, angle_deg)
+    polar = polar_state(here.east_m - orbit.east_m, here.north_m - orbit.north_m, velocity, here.heading_deg)
+    angle_deg = abs(degrees(atan2(polar.outward_m_s, polar.clockwise_m_s)))
+    return CircleOffset(polar.distance_m - orbit.radius_m, angle_deg)
 
 
 class HoldDetector:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import atan2, degrees, hypot, radians
 
-from loiter.guidance.vehicle.turning import turned
+from loiter.guidance.vehicle.turning import PlanarPose, constant_turn
 from loiter.mavlink.watching.telemetry import Motion
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import Pose, Wind
@@ -20,9 +20,9 @@ def extrapolated_pose(here: Pose, motion: Motion, airspeed_m_s: float, wind: Win
     speed = hypot(east, north)
     if speed == 0.0:
         return here
-    # The kernel's angles grow counter-clockwise, so a rate to the right is negative there.
-    place = here.east_m, here.north_m, east / speed, north / speed
-    x, y, _, _ = turned(place, speed, -radians(motion.rate_deg_s), time_s)
+    # A rate to the right is negative as the kernel counts angles.
+    place = PlanarPose(here.east_m, here.north_m, east / speed, north / speed)
+    x, y, _, _ = constant_turn(place, speed, -radians(motion.rate_deg_s), time_s)
     wind_east, wind_north = wind.velocity_m_s
     return Pose(x + wind_east * time_s, y + wind_north * time_s, here.heading_deg)
 
