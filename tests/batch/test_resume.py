@@ -1,4 +1,4 @@
-"""A job that is stopped, by whatever means, goes on from its finished parts and gives the same bytes."""
+"""A job that was stopped by any means resumes from its finished parts and gives the same bytes."""
 
 import errno
 import json
@@ -70,23 +70,23 @@ def script(*arguments):
     ("source", "target", "times"),
     [("in.parquet", "out.parquet", 20), ("in.csv", "out.csv.gz", 4)],
 )
-def test_killed_at_any_moment_it_goes_on_to_the_same_bytes(tmp_path, source, target, times):
+def test_killed_at_any_moment_it_resumes_to_the_same_bytes(tmp_path, source, target, times):
     write(poses(10_000), tmp_path / source, 250)
     script("kill", tmp_path / source, tmp_path / target, SystemRandom().randrange(10**6), times, *OPTIONS)
 
 
-def test_processes_that_race_for_one_output_do_not_spoil_it(tmp_path):
+def test_processes_that_race_for_one_output_do_not_damage_it(tmp_path):
     write(poses(5000), tmp_path / "in.parquet", 250)
     script("race", tmp_path / "in.parquet", tmp_path / "out.parquet", 0, 8, *OPTIONS)
 
 
 def test_a_second_process_is_refused(job, capsys):
     arguments, _ = job
-    with folder.held(Path("out.parquet")):
+    with folder.locked_folder(Path("out.parquet")):
         before = names(".")
         assert main(arguments) == 2
         assert names(".") == before
-    assert capsys.readouterr().err == "loiter: OUT is 'out.parquet': another loiter batch is at work on it\n"
+    assert capsys.readouterr().err == "loiter: OUT is 'out.parquet': another loiter batch is writing it\n"
 
 
 def test_a_full_disk_keeps_the_finished_parts(job, capsys, monkeypatch):
@@ -96,12 +96,12 @@ def test_a_full_disk_keeps_the_finished_parts(job, capsys, monkeypatch):
         stop_after(patch, 4, OSError(errno.ENOSPC, "Error writing bytes to file"))
         assert main([*arguments, "--workers", "1"]) == 2
     err = capsys.readouterr().err
-    kept = f"4 parts that are finished stay in {Path('out.parquet.parts').absolute()}"
-    assert err == f"loiter: the job stopped: No space left on device; {kept}, and the same command goes on from there\n"
+    kept = f"4 finished parts stay in {Path('out.parquet.parts').absolute()}"
+    assert err == f"loiter: the job stopped: No space left on device; {kept}, and the same command resumes from there\n"
     assert Path("out.parquet").read_bytes() == b"older"
     assert names("out.parquet.parts") == ["job.json", "lock", *(f"part-{i:05}.arrow" for i in range(4))]
     assert main(arguments) == 0
-    assert "going on from 4 of 10 parts\n1,000 rows, 600 of them in this run," in capsys.readouterr().err
+    assert "resuming from 4 of 10 parts\n1,000 rows, 600 of them in this run," in capsys.readouterr().err
     assert Path("out.parquet").read_bytes() == expected
     assert names(".") == ["expected.parquet", "in.parquet", "out.parquet"]
 
@@ -120,8 +120,8 @@ sys.exit(main({arguments!r}))
     ("source", "target"),
     [("in.parquet", "out.parquet"), ("in.parquet", "out.csv"), ("in.parquet", "out.csv.gz"), ("in.csv", "out.parquet")],
 )
-@pytest.mark.parametrize(("limit", "kept"), [(20_000, "no part was"), (100_000, r"\d+ parts? that")])
-def test_files_that_may_grow_no_further_are_told(tmp_path, source, target, limit, kept):
+@pytest.mark.parametrize(("limit", "kept"), [(20_000, "no part was"), (100_000, r"\d+ finished parts?")])
+def test_files_that_may_grow_no_further_are_reported(tmp_path, source, target, limit, kept):
     # A part of 500 rows takes some 50 kB, the output 500 kB, a CSV file as Parquet 300 kB.
     write(poses(5000), tmp_path / source, 500)
     arguments = ["batch", source, target, *OPTIONS]
@@ -139,18 +139,18 @@ import sys, time
 from batch.killing import small
 from loiter.batch.jobs import parts
 from loiter.cli.app import main
-answered = parts.answered
+solve_batch = parts.solve_batch
 def slowly(*arguments):
     time.sleep(0.02)
-    return answered(*arguments)
-parts.answered = slowly
+    return solve_batch(*arguments)
+parts.solve_batch = slowly
 small()
 sys.exit(main({arguments!r}))
 """
 
 
 @pytest.mark.parametrize("workers", ["1", "3"])
-def test_an_interrupt_is_told_and_what_is_finished_is_kept(tmp_path, workers):
+def test_an_interrupt_is_reported_and_what_is_finished_is_kept(tmp_path, workers):
     write(poses(50_000), tmp_path / "in.parquet", 500)
     arguments = ["batch", "in.parquet", "out.parquet", *OPTIONS]
     code = INTERRUPTED.format(arguments=[*arguments, "--workers", workers])
@@ -164,7 +164,7 @@ def test_an_interrupt_is_told_and_what_is_finished_is_kept(tmp_path, workers):
     assert child.returncode == 130
     [line] = err.splitlines()
     assert line.startswith("loiter: interrupted; ")
-    assert "parts that are finished stay in" in line
+    assert "finished parts stay in" in line
     left = names(tmp_path / "out.parquet.parts")
     assert left[:2] == ["job.json", "lock"]
     assert all(name.endswith(".arrow") for name in left[2:])
@@ -219,7 +219,7 @@ def test_parts_of_another_job_are_not_mixed_in(job, capsys, monkeypatch, change,
 
 def test_the_description_says_what_the_parts_depend_on(job, monkeypatch):
     stop_after(monkeypatch, 1, OSError(errno.EIO, ""))
-    with pytest.raises(Unfinished, match="Input/output error; 1 part that is finished stays in"):
+    with pytest.raises(Unfinished, match="Input/output error; 1 finished part stays in"):
         loiter.batch.run("in.parquet", "out.parquet", workers=1, **GIVEN)
     description = json.loads(Path("out.parquet.parts/job.json").read_text())
     assert description["program"] == loiter.__version__
@@ -249,7 +249,7 @@ def test_a_part_that_lost_its_end_is_done_again(job, monkeypatch):
     assert Path("out.parquet").read_bytes() == expected
 
 
-def test_an_input_that_changes_meanwhile_is_told(job, monkeypatch):
+def test_an_input_that_changes_meanwhile_is_reported(job, monkeypatch):
     solve = parts.solve_part
 
     def solve_part(job, part, *tick):
@@ -274,11 +274,11 @@ def test_files_of_others_in_the_folder_are_left_alone(job):
 def test_a_worker_that_outlives_its_job_writes_nothing(job):
     description = {"of": "another job"}
     Path("out.parquet.parts").mkdir()
-    assert folder.resumed(Path("out.parquet.parts"), description) is None
+    assert folder.resume(Path("out.parquet.parts"), description) is None
     columns = loiter.batch.tables.columns.columns(
         "source",
         files.parquet_schema("source", Path("in.parquet")),
-        loiter.batch.tables.columns.shared(ORBIT, None, UAV),
+        loiter.batch.tables.columns.shared_values(ORBIT, None, UAV),
         0.0,
     )
     schema = loiter.batch.tables.outputs.part_schema(files.parquet_schema("source", Path("in.parquet")))
@@ -292,7 +292,7 @@ def test_limits_of_this_process_are_as_they_were():
     assert resource.getrlimit(resource.RLIMIT_FSIZE)[0] == resource.RLIM_INFINITY
 
 
-def test_a_table_that_is_damaged_further_on_is_told(job, capsys):
+def test_a_table_that_is_damaged_further_on_is_reported(job, capsys):
     arguments, _ = job
     content = bytearray(Path("in.parquet").read_bytes())
     content[len(content) // 2 : len(content) // 2 + 400] = bytes(400)

@@ -42,7 +42,7 @@ TABLES = {
     "text for numbers": (retyped("east_m", pa.string()), OPTIONS, ["IN", "column east_m of string", "numbers"]),
     "dates for numbers": (retyped("north_m", pa.timestamp("s")), OPTIONS, ["column north_m of timestamp", "numbers"]),
     "numbers for text": (column("turn", [1] * 5), OPTIONS, ["IN", "column turn of int64", "text"]),
-    "name of the output": (column("duration_s", ZERO), OPTIONS, ["IN", "column duration_s", "another"]),
+    "name of the output": (column("duration_s", ZERO), OPTIONS, ["IN", "column duration_s", "rename"]),
     "status already": (column("status", ["ok"] * 5), OPTIONS, ["IN", "column status"]),
     "name twice": (column("id", ZERO), OPTIONS, ["IN", "two columns named 'id'"]),
     "part of an orbit": (column("orbit_east_m", ZERO), without("orbit"), ["orbit_east_m but no orbit_north_m and no"]),
@@ -91,7 +91,10 @@ VALUES = {
     "tolerance": ([*OPTIONS, "--tolerance", "-1"], ["--tolerance is -1.0"]),
     "no workers": ([*OPTIONS, "--workers", "0"], ["--workers is 0", "at least 1"]),
     "half a worker": ([*OPTIONS, "--workers", "1.5"], ["--workers is '1.5'", "whole number"]),
-    "workers of both kinds": ([*OPTIONS, "--workers", "2", "--scheduler", "tcp://127.0.0.1:1"], ["--workers is given"]),
+    "workers of both kinds": (
+        [*OPTIONS, "--workers", "2", "--scheduler", "tcp://127.0.0.1:1"],
+        ["--workers and a scheduler are given"],
+    ),
     "no address": ([*OPTIONS, "--scheduler", "somewhere"], ["--scheduler is 'somewhere'", "tcp://"]),
     "no such option": ([*OPTIONS, "--speed", "3"], ["--speed"]),
     "one word too many": ([*OPTIONS, "more"], ["more"]),
@@ -180,7 +183,7 @@ def test_a_csv_table_is_checked_by_its_header(refused):
     assert "IN has two columns named 'east_m'" in refused("in.csv", "out.csv", *OPTIONS)
 
 
-def test_a_missing_package_is_told(refused, monkeypatch):
+def test_a_missing_package_is_reported(refused, monkeypatch):
     write(poses(5), Path("in.parquet"))
     monkeypatch.setitem(sys.modules, "distributed", None)
     line = refused("in.parquet", "out.parquet", *OPTIONS, "--scheduler", "tcp://127.0.0.1:1")

@@ -59,7 +59,7 @@ def read(tmp_path, text, name="uav.param"):
         (PX4.replace("RAD\t80", "RAD\t-80"), Preset(Autopilot.PX4, 15.0, 50.0, 80.0, Turn.CCW)),
     ],
 )
-def test_formats_are_told_apart_by_what_is_in_them(tmp_path, text, expected, name):
+def test_formats_are_distinguished_by_their_content(tmp_path, text, expected, name):
     assert read(tmp_path, text, name) == expected
 
 
@@ -109,7 +109,7 @@ def test_a_parameter_that_stands_twice_and_says_the_same_is_one(tmp_path):
     turn=st.sampled_from([Turn.CW, Turn.CCW]),
 )
 def test_what_pymavlink_writes_is_read(tmp_path_factory, cruise, bank, radius, turn):
-    """With the six decimals that it writes, beside the parameters that it leaves to others."""
+    """With the six decimals that it writes, and with parameters of other components."""
     parameters = mavparm.MAVParmDict()
     for name, value in [
         ("AIRSPEED_CRUISE", cruise),
@@ -149,27 +149,30 @@ def test_pymavlink_reads_the_same_values(tmp_path, text):
             "line 2: TRIM_ARSPD_CM is '1800': that contradicts another parameter, which says 22",
         ),
         ("WP_LOITER_RAD,80\nFW_R_LIM,50\n", "line 2: FW_R_LIM is not of the autopilot of WP_LOITER_RAD"),
-        ("WP_LOITER_RAD,0\n", "line 1: WP_LOITER_RAD is '0': it tells no circle"),
+        ("WP_LOITER_RAD,0\n", "line 1: WP_LOITER_RAD is '0': it describes no circle"),
         ("AIRSPEED_CRUISE,0\n", "line 1: AIRSPEED_CRUISE is '0': it must be positive"),
         ("AIRSPEED_CRUISE,-3\n", "line 1: AIRSPEED_CRUISE is '-3': it must be positive"),
         ("LIM_ROLL_CD,9000\n", "line 1: LIM_ROLL_CD is '9000': the bank must be below 90 degrees"),
         ("ROLL_LIMIT_DEG,1e400\n", "line 1: ROLL_LIMIT_DEG is '1e400': it must be a finite number"),
         ("ROLL_LIMIT_DEG,nan\n", "line 1: ROLL_LIMIT_DEG is 'nan': it must be a finite number"),
         ("ROLL_LIMIT_DEG,４５\n", "line 1: ROLL_LIMIT_DEG is '４５': it must be a finite number"),
-        ("ROLL_LIMIT_DEG 45 50\n", "line 1 is 'ROLL_LIMIT_DEG 45 50': it is no parameter with a value"),
-        ("ROLL_LIMIT_DEG\n", "line 1 is 'ROLL_LIMIT_DEG': it is no parameter with a value"),
-        ("roll_limit_deg,45\n", "line 1 is 'roll_limit_deg,45': it is no parameter with a value"),
-        ("1\t1\tTWO WORDS\t45\t9\n", r"line 1 is '1\\t1\\tTWO WORDS\\t45\\t9': it is no parameter with a value"),
-        ("__HASH_CHECK,45\n", "line 1 is '__HASH_CHECK,45': it is no parameter with a value"),
-        ("@include plane.parm\n", "line 1 is '@include plane.parm': it is no parameter with a value"),
+        ("ROLL_LIMIT_DEG 45 50\n", "line 1 is 'ROLL_LIMIT_DEG 45 50': it is not a parameter with a value"),
+        ("ROLL_LIMIT_DEG\n", "line 1 is 'ROLL_LIMIT_DEG': it is not a parameter with a value"),
+        ("roll_limit_deg,45\n", "line 1 is 'roll_limit_deg,45': it is not a parameter with a value"),
+        ("1\t1\tTWO WORDS\t45\t9\n", r"line 1 is '1\\t1\\tTWO WORDS\\t45\\t9': it is not a parameter with a value"),
+        ("__HASH_CHECK,45\n", "line 1 is '__HASH_CHECK,45': it is not a parameter with a value"),
+        ("@include plane.parm\n", "line 1 is '@include plane.parm': it is not a parameter with a value"),
         (
             "1\t1\tFW_R_LIM\t50\t9\n1\t1\tFW_AIRSPD_TRIM\t15\n",
-            r"line 2 is '1\\t1\\tFW_AIRSPD_TRIM\\t15': it is no para",
+            r"line 2 is '1\\t1\\tFW_AIRSPD_TRIM\\t15': it is not a para",
         ),
-        ("1\tx\tFW_R_LIM\t50\t9\n", r"line 1 is '1\\tx\\tFW_R_LIM\\t50\\t9': it is no parameter with a value"),
-        ("ROLL_LIMIT_DEG,45\n1\t1\tWP_LOITER_RAD\t50\t9\n", r"line 2 is '1\\t1\\tWP_LOITER_RAD.*: it is no parameter"),
-        ("{}", "line 1 is '{}': it is no parameter with a value"),
-        ("\x00" * 500, r"line 1 is '(\\x00)+\.\.\.: it is no parameter with a value"),
+        ("1\tx\tFW_R_LIM\t50\t9\n", r"line 1 is '1\\tx\\tFW_R_LIM\\t50\\t9': it is not a parameter with a value"),
+        (
+            "ROLL_LIMIT_DEG,45\n1\t1\tWP_LOITER_RAD\t50\t9\n",
+            r"line 2 is '1\\t1\\tWP_LOITER_RAD.*: it is not a parameter",
+        ),
+        ("{}", "line 1 is '{}': it is not a parameter with a value"),
+        ("\x00" * 500, r"line 1 is '(\\x00)+\.\.\.: it is not a parameter with a value"),
         (b"\xff\xfe", "it is not UTF-8 text, see byte 0"),
     ],
 )

@@ -1,4 +1,4 @@
-"""Missions sent to vehicles that keep to the protocol, and to such as do not: the new mission, or the old one."""
+"""Missions sent to vehicles that follow the protocol or do not: afterwards they have the new mission or the old one."""
 
 import os
 import re
@@ -140,7 +140,7 @@ def test_one_of_two_vehicles_is_not_taken_by_chance():
                 super().beat()
 
     both = Both()
-    with flying(both), pytest.raises(LinkFailed, match=r"several .* system 1 \(PX4\) and system 2 \(PX4\): say which"):
+    with flying(both), pytest.raises(LinkFailed, match=r"several .* system 1 \(PX4\) and system 2 \(PX4\): choose one"):
         upload(NEW, both.connection)
     with flying(Both()) as vehicle:
         assert upload(NEW, vehicle.connection, system=1).system == 1
@@ -212,7 +212,7 @@ def test_a_vehicle_that_takes_part_of_a_mission_again_and_again(kind):
 
 @pytest.mark.parametrize("at", [0, 3, 4])
 @pytest.mark.parametrize("result", [*range(1, 13), 14, 15])
-def test_a_refusal_is_told_in_words_and_at_its_item(result, at):
+def test_a_refusal_is_reported_in_words_and_at_its_item(result, at):
     class Refuses(Vehicle):
         def on_mission_item_int(self, message):
             if message.seq == at:
@@ -267,7 +267,7 @@ def test_a_vehicle_that_stays_busy_says_so():
             self.partner = self.who(message)
             self.acknowledge(14)
 
-    fails(Busy(), "refused to give its mission: it takes no missions from this station")
+    fails(Busy(), "refused to give its mission: it accepts no missions from this station")
 
 
 CHANGES = {
@@ -334,7 +334,7 @@ def test_a_vehicle_that_cannot_be_given_its_old_mission_back():
 
     vehicle = Spoils()
     done, _ = simulated(vehicle, NEW)
-    assert "; its old mission could not be sent back: see what it has before it flies" in str(done)
+    assert "; its old mission could not be sent back: check its mission before it flies" in str(done)
     assert len(vehicle.mission) == len(OLD)
 
 
@@ -456,7 +456,7 @@ def test_a_caller_that_fails_halfway_leaves_the_old_mission():
 
 
 def test_a_vehicle_that_gives_up_by_itself_begins_anew():
-    """As mavsdk's does after it has asked for an item five times."""
+    """Like mavsdk's vehicle after it has requested an item five times."""
 
     class Tires(Vehicle):
         tired = 0
@@ -500,7 +500,7 @@ def far(**fields):
         (far(altitude_m=float("inf")), "mission has an infinite number in item 1"),
         (far(params=(1e39, 0.0, 0.0, 0.0)), "mission has a number that is too large for MAVLink in item 1"),
         (far(command=70000), "mission has a number that is too large for MAVLink in item 1"),
-        (Mission(NEW.items[:1] * 65536, NEW.home), "mission has 65536 items: MAVLink counts no further than 65535"),
+        (Mission(NEW.items[:1] * 65536, NEW.home), "mission has 65536 items: MAVLink allows 65535"),
     ],
 )
 def test_a_mission_that_cannot_be_sent_is_refused_before_anything_is(new, sentence):
@@ -585,8 +585,8 @@ class Widens(Plane):
 # Measured in ArduPlane's simulator at 684 m: 80 m became 85.9, 150 became 160.2.
 EAS2TAS_SQUARED = 1.0684
 WIDENED = (
-    "ArduPlane will hold 85.5 m in place of 80, since it multiplies the radius by EAS2TAS squared, 1.068 at 684 m, "
-    "with NAVL1_LIM_BANK at 0: set that to the bank limit of the aircraft, or ask for --true-radius."
+    "ArduPlane will hold 85.5 m instead of 80, because it multiplies the radius by EAS2TAS squared, 1.068 at 684 m, "
+    "with NAVL1_LIM_BANK at 0: set that to the bank limit of the aircraft, or use --true-radius."
 )
 
 
@@ -594,7 +594,7 @@ WIDENED = (
     ("command", "params"),
     [(17, (0.0, 0.0, -80.0, 0.0)), (18, (3.0, 0.0, 80.0, 1.0)), (31, (0.0, -80.0, 0.0, 0.0))],
 )
-def test_that_ardupilot_widens_loiters_is_told_in_one_sentence(command, params):
+def test_that_ardupilot_widens_loiters_is_reported_in_one_sentence(command, params):
     with flying(Widens()) as vehicle:
         summary = upload(circling(command, params), vehicle.connection, system=1)
     assert summary.remarks == (WIDENED,)
@@ -649,7 +649,7 @@ def test_the_true_radius_needs_to_be_known():
     class Mute(Plane):
         parameters = {}  # noqa: RUF012
 
-    with flying(Mute()) as vehicle, pytest.raises(LinkFailed, match=r"does not tell its NAVL1_LIM_BANK: which radius"):
+    with flying(Mute()) as vehicle, pytest.raises(LinkFailed, match=r"does not report NAVL1_LIM_BANK: which radius"):
         upload(circling(), vehicle.connection, system=1, true_radius=True)
     assert vehicle.mission == OLD
     new = circling(frame=Frame.ABOVE_TERRAIN)
@@ -715,7 +715,7 @@ ALIKE = "both a takeoff and a landing, or neither"
         (5, [16, 21], ""),
     ],
 )
-def test_that_px4_requires_more_of_a_mission_is_told_in_one_sentence(requirement, commands, missing):
+def test_that_px4_requires_more_of_a_mission_is_reported_in_one_sentence(requirement, commands, missing):
     """FeasibilityChecker::checkTakeoffLandAvailable; the value is an integer, whose bytes come in a float."""
     items = tuple(MissionItem(c, Frame.ABOVE_SEA, (0.0,) * 4, 47.0, 8.0, 500.0) for c in commands)
     with flying(Requires(requirement)) as vehicle:
@@ -751,7 +751,7 @@ def test_px4_keeps_the_mission_that_it_flies():
     assert vehicle.heard["MISSION_CLEAR_ALL"] == 0
 
 
-def test_a_refusal_to_fly_is_told_with_what_the_vehicle_says():
+def test_a_refusal_to_fly_is_reported_with_what_the_vehicle_says():
     refused = (
         r"^system 1 \(PX4\) refused to fly the mission: not now \(MAV_RESULT_TEMPORARILY_REJECTED\); it says: No valid "
         r"mission available, loitering; it has the mission; PX4 will not fly this mission: MIS_TKO_LAND_REQ is 2, which"
@@ -805,11 +805,14 @@ class Other(Vehicle):
 @pytest.mark.parametrize(
     ("kind", "sentence"),
     [
-        (Stubborn, r"^system 1 \(ArduPilot\) accepted to fly the mission, and is in another mode; it has the mission$"),
+        (Stubborn, r"^system 1 \(ArduPilot\) accepted to fly the mission, but is in another mode; it has the mission$"),
         (Refuses, r"refused to fly the mission: it tried and failed \(MAV_RESULT_FAILED\); it has the mission$"),
-        (Landed, r"^system 1 \(ArduPilot\) is not in the air, and is not told to fly; it has the mission$"),
-        (Secretive, r"^system 1 \(ArduPilot\) does not say whether it flies, and is not told to; it has the mission$"),
-        (Other, r"^system 1 \(generic\) is told to fly missions in no way that is known here; it has the mission$"),
+        (Landed, r"^system 1 \(ArduPilot\) is not in the air: the mission is not started; it has the mission$"),
+        (
+            Secretive,
+            r"^system 1 \(ArduPilot\) does not report whether it is in the air: .* not started; it has the mission$",
+        ),
+        (Other, r"^system 1 \(generic\) has an autopilot whose mission mode is not known here; it has the mission$"),
     ],
 )
 def test_a_vehicle_that_is_not_started_has_the_mission_and_says_why(kind, sentence):

@@ -35,8 +35,8 @@ def item(command=16, frame=0, params=(0.0, 0.0, 0.0, 0.0), x=470000000, y=800000
 WAITS = {
     (module, name): getattr(module, name)
     for module, names in {
-        link: ["BEAT_S", "ALONE_S"],
-        transfer: ["REPEAT_S", "ITEM_REPEAT_S", "SILENCE_S", "DOUBLED_S", "BUSY_S"],
+        link: ["HEARTBEAT_S", "SECOND_VEHICLE_S"],
+        transfer: ["REPEAT_S", "ITEM_REPEAT_S", "SILENCE_S", "DUPLICATE_S", "BUSY_S"],
         command: ["REPEAT_S"],
         parameters: ["REPEAT_S"],
         start: ["REPEAT_S", "WORDS_S", "STAYS_S"],
@@ -270,7 +270,7 @@ class Vehicle:
 
 
 class Faithful(Vehicle):
-    """PX4's UDP port: answers whoever spoke to it first, and nobody else until it restarts (mavlink_receiver.cpp)."""
+    """PX4's UDP port: answers only the first port that sent to it, until it restarts (mavlink_receiver.cpp)."""
 
     partner_port = None
 
