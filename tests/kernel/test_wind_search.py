@@ -31,7 +31,7 @@ WINDIEST = 0.6
 @st.composite
 def scenes(draw, windiest=WINDIEST):
     """Start, heading, radius, wind: what the kernel takes, but for the side."""
-    # Below the square root of the least double directions have no digits; the kernel takes such winds for calm.
+    # Below the square root of the least double directions have no digits; the kernel treats such winds as zero.
     wind = draw(st.one_of(st.just(0.0), st.floats(1e-100, windiest)))
     azimuth, angle = draw(angles), draw(angles)
     wx, wy = wind * cos(azimuth), wind * sin(azimuth)
@@ -212,8 +212,8 @@ def test_a_whole_turn_first_never_helps(scene, side, u):
 
 
 @given(scenes(), one_way, st.floats(0.0, 2.0 * pi), st.floats(0.0, 1.0))
-def test_whoever_joins_can_follow_the_circle(scene, side, phase, width):
-    """T(s') <= T(s) + (s' - s): what branch and bound rests on, for the first ways as they are computed."""
+def test_a_path_that_joins_can_follow_the_circle(scene, side, phase, width):
+    """T(s') <= T(s) + (s' - s): what branch and bound rests on, for the first paths as computed."""
     x, y, _, _, R, wx, wy = scene
     inner = WindScene(*scene, rounding(x, y, R) / 3.0)
     ahead = phase + width * (2.0 * pi - phase)
@@ -295,7 +295,7 @@ def test_on_the_circle_and_along_it_nothing_is_left_to_do(scene, side, phase):
 
 
 @pytest.mark.parametrize("wind", [5e-324, 1e-310, 1e-200, 1e-17])
-def test_a_wind_of_no_account_is_calm(wind):
+def test_negligible_wind_is_treated_as_zero(wind):
     calm, windy = (least_time((3.0, 1.0, 0.6, 0.8, 2.0, w, w), Side.EITHER) for w in (0.0, wind))
     assert windy == pytest.approx(calm, abs=1e-14)
 

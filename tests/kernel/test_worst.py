@@ -68,9 +68,9 @@ def test_a_larger_tolerance_never_makes_a_plan_slower(x, y, R, side, exponent, t
     small = 10.0**exponent
     large = min(small * 10.0**times, 10.0)
     exact, first, second = (duration(optimum(x, y, R, side, tolerance)) for tolerance in (0.0, small, large))
-    dust = 2.0 * rounding(x, y, R)
-    assert first <= exact + dust
-    assert second <= max(first, exact) + dust
+    length_tolerance = 2.0 * rounding(x, y, R)
+    assert first <= exact + length_tolerance
+    assert second <= max(first, exact) + length_tolerance
 
 
 @settings(max_examples=300)

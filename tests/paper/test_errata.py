@@ -16,7 +16,7 @@ from loiter.kernel.words import Word
 from paper.printed import curve_23, distance_24, feedback, inside_26, on_right_circle, right_bound
 
 REACH = 4.0
-DUST = rounding(REACH, REACH, 1.0)
+LENGTH_TOLERANCE = rounding(REACH, REACH, 1.0)
 SQRT3 = sqrt(3.0)
 ORDINATES = [k / 50.0 for k in range(1, 50)]
 flow_arrays = rebound(flow, {"sin": np.sin, "cos": np.cos})
@@ -38,7 +38,7 @@ def test_the_printed_right_hand_bound_is_negative_and_the_curve_23_is_not(sign):
     for y in ORDINATES:
         assert right_bound(sign * y) < 0.0 < curve_23(sign * y)
         # The square under the root cancels to a few roundings.
-        assert switching_abscissa(y, 1.0) == pytest.approx(curve_23(sign * y), abs=DUST / curve_23(y))
+        assert switching_abscissa(y, 1.0) == pytest.approx(curve_23(sign * y), abs=LENGTH_TOLERANCE / curve_23(y))
 
 
 def test_with_the_printed_bound_example_2_would_not_satisfy_26():
@@ -74,10 +74,10 @@ def test_the_printed_sign_of_the_control_loses_time_everywhere():
     u = np.array([feedback(*state) for state in zip(x.tolist(), y.tolist(), strict=True)])
     assert later(x, y, u, step).min() > 1e-8
     # The right sign loses none, while the first piece lasts. Next to a last arc rounding of a flown state, which moves
-    # e = 4 - rp^2 by 4 DUST, moves T by sqrt(3 e/2).
+    # e = 4 - rp^2 by 4 LENGTH_TOLERANCE, moves T by sqrt(3 e/2).
     lasting = loiter.solve(x, y).durations[:, 0] > step
     assert np.count_nonzero(lasting) > 15_000
-    assert later(x, y, -u, step)[lasting].max() <= sqrt(6.0 * DUST)
+    assert later(x, y, -u, step)[lasting].max() <= sqrt(6.0 * LENGTH_TOLERANCE)
 
 
 def test_the_right_sign_is_the_feedback_law():
@@ -127,12 +127,12 @@ def test_from_where_24_as_printed_holds_wrongly_the_axis_is_met_too_late(x, y):
 def test_25_as_printed_does_not_lead_to_the_corner(y):
     """From the printed circle the first arc does not meet (-sqrt 3, 0); from the right one it does."""
     x = sqrt(4.0 - (y + 1.0) ** 2)
-    assert distance_24(x, y) == pytest.approx(4.0, abs=DUST)
+    assert distance_24(x, y) == pytest.approx(4.0, abs=LENGTH_TOLERANCE)
     assert hypot(x, y - 1.0) < hypot(-SQRT3, 0.0 - 1.0) - 0.05
     [only] = optima(x, y, 1.0, Side.EITHER, 0.0)
     assert letters(only) == "RL"
     x = sqrt(4.0 - (y - 1.0) ** 2)
-    assert hypot(x, y - 1.0) == pytest.approx(hypot(-SQRT3, 0.0 - 1.0), abs=DUST)
+    assert hypot(x, y - 1.0) == pytest.approx(hypot(-SQRT3, 0.0 - 1.0), abs=LENGTH_TOLERANCE)
     assert len(optima(x, y, 1.0, Side.EITHER, 0.0)) == 2
 
 
@@ -147,8 +147,8 @@ def test_example_2_second_piece_belongs_to_the_second_interval():
     assert (b1, b2) == pytest.approx((-0.1027, 0.6748), abs=0.5e-4)
     # On [0, tau1] it would begin away from the initial point; on [tau1, tau2] it joins the first piece to the third.
     assert hypot(on_right_circle(b1, b2, 0.0)[0] - x, on_right_circle(b1, b2, 0.0)[1] - y) > 0.4
-    assert on_right_circle(b1, b2, tau1) == pytest.approx(start, abs=DUST)
-    assert on_right_circle(b1, b2, tau1 + middle) == pytest.approx(flow(*start, -1, middle), abs=DUST)
+    assert on_right_circle(b1, b2, tau1) == pytest.approx(start, abs=LENGTH_TOLERANCE)
+    assert on_right_circle(b1, b2, tau1 + middle) == pytest.approx(flow(*start, -1, middle), abs=LENGTH_TOLERANCE)
 
 
 def test_example_2_steers_to_the_end_point_not_to_the_origin():
@@ -180,4 +180,4 @@ def test_25_has_an_optimum_without_a_switch(y):
     x = sqrt(4.0 - (y - 1.0) ** 2)
     assert {letters(m) for m in optima(x, y, 1.0, Side.EITHER, 0.0)} == {"R", "RL"}
     [alone] = [m for m in optima(x, y, 1.0, Side.EITHER, 0.0) if letters(m) == "R"]
-    assert flow(x, y, -1, alone[2]) == pytest.approx((0.0, -1.0), abs=DUST)
+    assert flow(x, y, -1, alone[2]) == pytest.approx((0.0, -1.0), abs=LENGTH_TOLERANCE)

@@ -22,8 +22,8 @@ SQRT3 = sqrt(3.0)
 CONTROLS = {"L": 1, "S": 0, "R": -1}
 REACH = 4.0
 # Rounding of lengths and times of the states drawn here.
-DUST = rounding(REACH, REACH, 1.0)
-UNCLEAR = cbrt(24.0 * DUST)
+LENGTH_TOLERANCE = rounding(REACH, REACH, 1.0)
+UNCLEAR = cbrt(24.0 * LENGTH_TOLERANCE)
 flow_arrays = rebound(flow, {"sin": np.sin, "cos": np.cos})
 
 
@@ -76,25 +76,25 @@ def words_of(swarm_words):
 @pytest.mark.parametrize("tau", [0.0, 0.4, 2.0, 3.7, 6.1])
 def test_4_to_6_on_the_circle_the_reduced_state_is_one_point(tau):
     for side, theta in ((Side.CCW, tau + pi / 2.0), (Side.CW, tau - pi / 2.0)):
-        assert reduce(cos(tau), sin(tau), cos(theta), sin(theta)) == pytest.approx((0.0, side), abs=DUST)
+        assert reduce(cos(tau), sin(tau), cos(theta), sin(theta)) == pytest.approx((0.0, side), abs=LENGTH_TOLERANCE)
 
 
 @pytest.mark.parametrize(("side", "end"), [(Side.CCW, -1.0), (Side.CW, 1.0)])
 def test_8_and_9_each_direction_has_its_end_point(side, end):
     for x, y in states(200):
         [*_, last] = switching_points(x, y, best(x, y, side))
-        assert last == pytest.approx((0.0, end), abs=DUST)
+        assert last == pytest.approx((0.0, end), abs=LENGTH_TOLERANCE)
 
 
 def test_10_with_two_end_points_the_sooner_is_chosen():
     for x, y, maneuver in optimal():
         both = [duration(best(x, y, side)) for side in (Side.CW, Side.CCW)]
-        assert duration(maneuver) == pytest.approx(min(both), abs=DUST)
+        assert duration(maneuver) == pytest.approx(min(both), abs=LENGTH_TOLERANCE)
 
 
 def test_a_solution_exists_from_everywhere():
     assert np.all(np.isfinite(swarm()[2].time))
-    assert swarm()[2].miss.max() <= DUST
+    assert swarm()[2].miss.max() <= LENGTH_TOLERANCE
 
 
 # Section 1
@@ -124,22 +124,22 @@ def test_11_to_14_the_control_maximises_and_the_maximum_is_lambda():
         assert lam >= 0.0
         for u, x, y, psi1, psi2, phi in instants:
             hamiltonian = psi1 * (u * y + 1.0) - psi2 * u * x
-            assert hamiltonian == pytest.approx(u * phi + psi1, abs=DUST)  # (11), (15)
-            assert u * phi == pytest.approx(abs(phi), abs=DUST)  # (13)
-            assert abs(phi) + psi1 == pytest.approx(lam, abs=DUST)  # (14)
+            assert hamiltonian == pytest.approx(u * phi + psi1, abs=LENGTH_TOLERANCE)  # (11), (15)
+            assert u * phi == pytest.approx(abs(phi), abs=LENGTH_TOLERANCE)  # (13)
+            assert abs(phi) + psi1 == pytest.approx(lam, abs=LENGTH_TOLERANCE)  # (14)
 
 
 def test_16_and_18_psi_keeps_its_length_and_left_of_lambda():
     for start in optimal():
         lam, instants = along(*start)
         for _, _, _, psi1, psi2, _ in instants:
-            assert psi1 <= lam + DUST
-            assert hypot(psi1, psi2) == pytest.approx(1.0, abs=DUST)
+            assert psi1 <= lam + LENGTH_TOLERANCE
+            assert hypot(psi1, psi2) == pytest.approx(1.0, abs=LENGTH_TOLERANCE)
 
 
 def test_12_and_17_the_derivatives_of_psi_and_phi():
-    step = 2.0**-13  # truncation step^2/6 and rounding DUST/step are alike: some 2e-9
-    bound = 4.0 * (REACH * step**2 / 6.0 + DUST / step)
+    step = 2.0**-13  # truncation step^2/6 and rounding LENGTH_TOLERANCE/step are alike: some 2e-9
+    bound = 4.0 * (REACH * step**2 / 6.0 + LENGTH_TOLERANCE / step)
     for x, y, maneuver in optimal():
         _, psi1, psi2 = adjoint(x, y, 1.0, maneuver)
         if maneuver[2] < 2.0 * step:
@@ -159,7 +159,7 @@ def test_a_turn_goes_round_its_centre_in_its_sense():
     for x, y in states(50):
         for u in (1, -1):
             x1, y1 = flow(x, y, u, 0.1)
-            assert hypot(x1, y1 + u) == pytest.approx(hypot(x, y + u), abs=DUST)
+            assert hypot(x1, y1 + u) == pytest.approx(hypot(x, y + u), abs=LENGTH_TOLERANCE)
             assert u * ((y + u) * x1 - x * (y1 + u)) > 0.0  # clockwise for u = 1
 
 
@@ -176,10 +176,10 @@ def test_between_switches_lambda_is_passed_and_more_than_half_a_turn():
         lam, psi1, psi2 = adjoint(x, y, 1.0, maneuver)
         for t in (first, first + middle):
             now = state_and_adjoint_at(StateAndAdjoint(x, y, psi1, psi2), maneuver, t)
-            assert now[2] == pytest.approx(lam, abs=DUST)
-            assert switching_function(*now) == pytest.approx(0.0, abs=DUST)
+            assert now[2] == pytest.approx(lam, abs=LENGTH_TOLERANCE)
+            assert switching_function(*now) == pytest.approx(0.0, abs=LENGTH_TOLERANCE)
         assert 0.0 < lam < 1.0
-        assert middle == pytest.approx(2.0 * (pi - acos(lam)), abs=DUST / sqrt(1.0 - lam * lam))
+        assert middle == pytest.approx(2.0 * (pi - acos(lam)), abs=LENGTH_TOLERANCE / sqrt(1.0 - lam * lam))
         assert pi < middle
         assert first <= middle
         assert last < middle
@@ -188,7 +188,7 @@ def test_between_switches_lambda_is_passed_and_more_than_half_a_turn():
 def test_at_the_end_psi1_is_half_of_lambda():
     for start in optimal():
         lam, instants = along(*start)
-        assert instants[-1][3] == pytest.approx(lam / 2.0, abs=DUST)
+        assert instants[-1][3] == pytest.approx(lam / 2.0, abs=LENGTH_TOLERANCE)
 
 
 def test_a_singular_piece_lies_on_the_axis_and_lasts_as_long_as_it_is():
@@ -199,8 +199,8 @@ def test_a_singular_piece_lies_on_the_axis_and_lasts_as_long_as_it_is():
         straight = [now for now in instants if now[0] == 0]
         assert lam == 1.0
         for _, _, y1, psi1, psi2, phi in straight:
-            assert (y1, psi1, psi2, phi) == pytest.approx((0.0, 1.0, 0.0, 0.0), abs=DUST)
-        assert straight[-1][1] - straight[0][1] == pytest.approx(maneuver[3], abs=DUST)
+            assert (y1, psi1, psi2, phi) == pytest.approx((0.0, 1.0, 0.0, 0.0), abs=LENGTH_TOLERANCE)
+        assert straight[-1][1] - straight[0][1] == pytest.approx(maneuver[3], abs=LENGTH_TOLERANCE)
 
 
 def test_two_types_of_optimal_trajectories():
@@ -208,13 +208,13 @@ def test_two_types_of_optimal_trajectories():
     assert words_of(swarm()[2].word) <= {"RSL", "LSR", "RL", "LR", "LRL", "RLR"}
     for x, y, maneuver in optimal():
         if "S" in letters(maneuver):
-            assert maneuver[4] == pytest.approx(pi / 3.0, abs=DUST)
-            assert switching_points(x, y, maneuver)[1] == pytest.approx((-SQRT3, 0.0), abs=DUST)
+            assert maneuver[4] == pytest.approx(pi / 3.0, abs=LENGTH_TOLERANCE)
+            assert switching_points(x, y, maneuver)[1] == pytest.approx((-SQRT3, 0.0), abs=LENGTH_TOLERANCE)
 
 
 def test_t1_beats_t_so_lambda_zero_has_no_switch():
-    assert T(0.0) == pytest.approx(pi, abs=DUST)
-    assert T1(0.0) == pytest.approx(pi, abs=DUST)
+    assert T(0.0) == pytest.approx(pi, abs=LENGTH_TOLERANCE)
+    assert T1(0.0) == pytest.approx(pi, abs=LENGTH_TOLERANCE)
     step = 2.0**-17  # of a central difference: truncation step^2, rounding 2**-50/step, both below 2e-10
     assert (T1(step) - T1(-step)) / (2.0 * step) == pytest.approx(-2.0, abs=1e-9)
     for xi in (1e-6, 1e-3, 0.01, 0.1, 0.3, 1.0):
@@ -229,19 +229,19 @@ def test_t_and_t1_are_the_kernels_rl_and_lsl(xi):
     e = 1e-7
     inside = named("RL", (1.0 - e) * x, 1.0 + (1.0 - e) * (y - 1.0))
     assert inside + 3.0 * sqrt(2.0 * e) == pytest.approx(T(xi), abs=10.0 * e)
-    assert named("LSL", x, y) == pytest.approx(T1(xi), abs=DUST)
-    assert duration(best(x, y, Side.CW)) <= T1(xi) + DUST
+    assert named("LSL", x, y) == pytest.approx(T1(xi), abs=LENGTH_TOLERANCE)
+    assert duration(best(x, y, Side.CW)) <= T1(xi) + LENGTH_TOLERANCE
 
 
 @pytest.mark.parametrize("left", [0.1, 1.0, pi / 3.0, 2.0, 3.0])
 def test_lambda_zero_belongs_to_the_left_half_of_the_last_circle(left):
     """One end point: L alone, with psi(T) = (0, 1), obeys (13) and (14) for half a turn before the end, and no more."""
     alone = best(-2.0 * sin(left), 2.0 * cos(left) - 1.0, Side.CW)
-    assert (letters(alone), duration(alone)) == ("L", pytest.approx(left, abs=DUST))
+    assert (letters(alone), duration(alone)) == ("L", pytest.approx(left, abs=LENGTH_TOLERANCE))
     for before in (left, pi + left):
         psi1, psi2 = turn_adjoint(0.0, 1.0, 1, -before)
         phi = switching_function(*flow(0.0, 1.0, 1, -before), psi1, psi2)
-        assert phi + psi1 == pytest.approx(0.0, abs=DUST)
+        assert phi + psi1 == pytest.approx(0.0, abs=LENGTH_TOLERANCE)
         assert (phi > 0.0) == (before < pi)
 
 
@@ -277,26 +277,26 @@ def switch_pairs():
 
 def test_19_to_23_two_switches_lie_where_the_paper_says():
     for x, y, x1, y1 in switch_pairs():
-        assert x1 * x1 + (y1 + 1.0) ** 2 == pytest.approx(4.0, abs=DUST)  # (19), line by line
-        assert hypot(x1, y1 - 1.0) == pytest.approx(hypot(x, y - 1.0), abs=DUST)
-        assert x1 * y == pytest.approx(-x * y1, abs=DUST)
+        assert x1 * x1 + (y1 + 1.0) ** 2 == pytest.approx(4.0, abs=LENGTH_TOLERANCE)  # (19), line by line
+        assert hypot(x1, y1 - 1.0) == pytest.approx(hypot(x, y - 1.0), abs=LENGTH_TOLERANCE)
+        assert x1 * y == pytest.approx(-x * y1, abs=LENGTH_TOLERANCE)
         a = (x / y) ** 2 + 1.0
         # a is known to the rounding of x/y, that is of 1/y.
-        assert a * (y1 + y) == pytest.approx(2.0, abs=DUST / y**2)  # (20)
-        assert a == pytest.approx(root_21(y), abs=DUST / y**2)  # (21)
-        assert x == pytest.approx(curve_23(y), abs=DUST / x)  # (22)
-        assert switching_abscissa(y, 1.0) == pytest.approx(curve_23(y), abs=DUST / x)
+        assert a * (y1 + y) == pytest.approx(2.0, abs=LENGTH_TOLERANCE / y**2)  # (20)
+        assert a == pytest.approx(root_21(y), abs=LENGTH_TOLERANCE / y**2)  # (21)
+        assert x == pytest.approx(curve_23(y), abs=LENGTH_TOLERANCE / x)  # (22)
+        assert switching_abscissa(y, 1.0) == pytest.approx(curve_23(y), abs=LENGTH_TOLERANCE / x)
 
 
 def test_23_is_symmetric_and_ends_on_the_axis():
     assert switching_abscissa(0.0, 1.0) == 0.0
     assert curve_23(0.0) == curve_23(1.0) == 0.0
     # The square is known to a few roundings, its root to their root.
-    assert switching_abscissa(1.0, 1.0) == pytest.approx(0.0, abs=sqrt(DUST))
+    assert switching_abscissa(1.0, 1.0) == pytest.approx(0.0, abs=sqrt(LENGTH_TOLERANCE))
     below = best(-0.53, -0.31)
     assert letters(below) == "RLR"
     x, y = switching_points(-0.53, -0.31, below)[0]
-    assert x == pytest.approx(curve_23(y), abs=DUST / x)
+    assert x == pytest.approx(curve_23(y), abs=LENGTH_TOLERANCE / x)
 
 
 @pytest.mark.parametrize("b", [0.1, 0.5, 1.0])
@@ -309,7 +309,7 @@ def test_a_full_loop_back_onto_the_last_circle_loses(b):
 
 def test_a_last_switch_has_one_before_it_only_near_the_target():
     """x1^2 + (y1 - 1)^2 <= 1 for two switches; past the axis, where it is more, RL has one."""
-    assert all(hypot(x1, y1 - 1.0) <= 1.0 + DUST for _, _, x1, y1 in switch_pairs())
+    assert all(hypot(x1, y1 - 1.0) <= 1.0 + LENGTH_TOLERANCE for _, _, x1, y1 in switch_pairs())
     x, y = 1.0, 0.5
     assert letters(best(x, y)) == "RL"
     assert hypot(*np.subtract(switching_points(x, y, best(x, y))[0], (0.0, 1.0))) > 1.0
@@ -334,7 +334,7 @@ def test_an_optimum_stays_in_the_half_plane_of_its_start():
             lowest = np.minimum(lowest, flown(x, y, u, share * t)[1])
         x, y = flown(x, y, u, t)
         word = word >> 2
-    assert lowest.min() >= -DUST
+    assert lowest.min() >= -LENGTH_TOLERANCE
 
 
 def flown(x, y, u, t):
@@ -351,7 +351,7 @@ def test_folded_at_the_axis_a_trajectory_is_one_still():
     for t in np.linspace(0.0, 2.0, 21).tolist():
         x1, y1 = flow(x, y, 1, t)
         folded = flow(x, -y, -1, t) if t < below else flow(*axis, 1, t - below)
-        assert (x1, abs(y1)) == pytest.approx(folded, abs=DUST)
+        assert (x1, abs(y1)) == pytest.approx(folded, abs=LENGTH_TOLERANCE)
 
 
 def test_the_other_optimum_crosses_the_axis_at_most_once():
@@ -360,7 +360,7 @@ def test_the_other_optimum_crosses_the_axis_at_most_once():
         for maneuver in optima(x, y, 1.0, Side.EITHER, 0.0):
             times = np.linspace(0.0, duration(maneuver), 400).tolist()
             ys = [state_and_adjoint_at(StateAndAdjoint(x, y, 1.0, 0.0), maneuver, t).y for t in times]
-            signs = [s for s in np.sign(np.where(np.abs(ys) <= DUST, 0.0, ys)).tolist() if s]
+            signs = [s for s in np.sign(np.where(np.abs(ys) <= LENGTH_TOLERANCE, 0.0, ys)).tolist() if s]
             assert sum(a != b for a, b in pairwise(signs)) <= 1
 
 
@@ -383,11 +383,11 @@ def test_each_case_of_y0_zero(case, x, words, points):
     assert {letters(m) for m in maneuvers} == words
     assert len(maneuvers) == len(words) == (4 if x >= SQRT3 else 2)
     for maneuver in maneuvers:
-        assert miss(x, 0.0, 1.0, maneuver) <= DUST
-        assert duration(maneuver) == pytest.approx(duration(maneuvers[0]), abs=DUST)
+        assert miss(x, 0.0, 1.0, maneuver) <= LENGTH_TOLERANCE
+        assert duration(maneuver) == pytest.approx(duration(maneuvers[0]), abs=LENGTH_TOLERANCE)
         if points is not None:
             flown_through = switching_points(x, 0.0, maneuver)[:-1]
-            assert flown_through == [pytest.approx(p, abs=DUST) for p in points[: len(flown_through)]]
+            assert flown_through == [pytest.approx(p, abs=LENGTH_TOLERANCE) for p in points[: len(flown_through)]]
 
 
 @pytest.mark.parametrize("x", [row[1] for row in ON_THE_AXIS])
@@ -395,7 +395,7 @@ def test_on_the_axis_every_control_has_its_mirror_image(x):
     swap = str.maketrans("LR", "RL")
     found = {(letters(m), m[0]): m[2:] for m in optima(x, 0.0, 1.0, Side.EITHER, 0.0)}
     for (word, side), durations in found.items():
-        assert found[word.translate(swap), -side] == pytest.approx(durations, abs=DUST)
+        assert found[word.translate(swap), -side] == pytest.approx(durations, abs=LENGTH_TOLERANCE)
 
 
 def test_on_the_axis_the_end_points_are_those_of_the_paper():
@@ -408,7 +408,7 @@ def test_on_the_axis_the_end_points_are_those_of_the_paper():
 def test_left_of_the_centre_the_first_switch_lies_on_the_curve_23():
     for maneuver in optima(-1.0, 0.0, 1.0, Side.EITHER, 0.0):
         x, y = switching_points(-1.0, 0.0, maneuver)[0]
-        assert x == pytest.approx(curve_23(y), abs=DUST / x)
+        assert x == pytest.approx(curve_23(y), abs=LENGTH_TOLERANCE / x)
 
 
 # Section 6, y0 != 0: the open-loop rule, and how many controls there are
@@ -434,10 +434,12 @@ def test_each_case_of_y0_not_zero(x, y, words, points, s):
     for maneuver in maneuvers:
         flown_through = switching_points(x, s * y, maneuver)[:-1]
         if points is not None:
-            assert flown_through == [pytest.approx((px, s * py), abs=DUST) for px, py in points[: len(flown_through)]]
+            assert flown_through == [
+                pytest.approx((px, s * py), abs=LENGTH_TOLERANCE) for px, py in points[: len(flown_through)]
+            ]
         elif "L" in words[0]:
             xb, yb = flown_through[-1]
-            assert beyond_last_circle(xb, s * yb, 1.0) == pytest.approx(0.0, abs=DUST)
+            assert beyond_last_circle(xb, s * yb, 1.0) == pytest.approx(0.0, abs=LENGTH_TOLERANCE)
 
 
 def test_off_the_axis_a_nonsingular_control_is_the_only_one():

@@ -21,12 +21,12 @@ from loiter.kernel.words import Word
 
 MILLION = 1_000_000
 REACH = 4.0
-DUST = rounding(REACH, REACH, 1.0)
+LENGTH_TOLERANCE = rounding(REACH, REACH, 1.0)
 
 # How near a boundary rounding of T may hide which word wins. T with and without a straight piece of length s differs by
 # s^3/24; with and without a first arc of duration t at the switching curve by t^2 times a number of order one.
-STRAIGHT = cbrt(24.0 * DUST)
-FIRST_ARC = sqrt(DUST)
+STRAIGHT = cbrt(24.0 * LENGTH_TOLERANCE)
+FIRST_ARC = sqrt(LENGTH_TOLERANCE)
 
 MIRRORED = np.array([mirrored(word) for word in range(64)])
 
@@ -57,7 +57,7 @@ def on_a_boundary(x, y):
     if abs(beyond_first_circle(x, y, 1.0)) <= 2.0 * sqrt(3.0) * STRAIGHT * 1.01:
         return True
     # A state counts as on the last circle up to rounding of its place (synthesis.arc_tolerance_of), times 2 radii.
-    if y <= DUST or abs(beyond_last_circle(x, y, 1.0)) <= 4.0 * DUST:
+    if y <= LENGTH_TOLERANCE or abs(beyond_last_circle(x, y, 1.0)) <= 4.0 * LENGTH_TOLERANCE:
         return True
     # L moves along the curve's normal by no more than its duration times the radius, 2.
     return y < 1.0 and abs(x - switching_abscissa(y, 1.0)) <= 2.0 * FIRST_ARC
@@ -141,9 +141,9 @@ def test_across_the_last_arc_t_jumps_by_pi(left, e):
     radius = sqrt(4.0 - e)
     inside = loiter.min_time(-radius * sin(left), radius * cos(left) - 1.0)
     on = loiter.min_time(-2.0 * sin(left), 2.0 * cos(left) - 1.0)
-    assert on == pytest.approx(left, abs=DUST)
+    assert on == pytest.approx(left, abs=LENGTH_TOLERANCE)
     # e is known to the rounding of the state, T to that over sqrt(e).
-    assert inside - on == pytest.approx(pi + sqrt(1.5 * e), abs=e**1.5 + 4.0 * DUST / sqrt(e))
+    assert inside - on == pytest.approx(pi + sqrt(1.5 * e), abs=e**1.5 + 4.0 * LENGTH_TOLERANCE / sqrt(e))
 
 
 @pytest.mark.parametrize("left", [0.5, 1.0, 1.5, 2.0, 2.2, 2.5, 3.0])
@@ -171,7 +171,7 @@ def test_on_each_boundary_t_is_that_of_the_side_with_the_smaller_one():
     y = np.linspace(0.05, 0.95, 19)
     arc = np.array([last_arc_abscissa(v) for v in y.tolist()])
     here = loiter.min_time(arc, y)
-    assert here == pytest.approx(np.arccos((y + 1.0) / 2.0), abs=DUST)
+    assert here == pytest.approx(np.arccos((y + 1.0) / 2.0), abs=LENGTH_TOLERANCE)
     for offset in (-1e-9, 1e-9):
         assert np.all(loiter.min_time(arc + offset, y) > here - 2e-9)
 

@@ -14,7 +14,7 @@ from loiter.kernel.synthesis import rounding
 from loiter.plot.figures import FIGURES, piece
 
 SQRT3 = sqrt(3.0)
-DUST = rounding(4.0, 4.0, 1.0)
+LENGTH_TOLERANCE = rounding(4.0, 4.0, 1.0)
 CENTRES = {"L": (0.0, -1.0), "R": (0.0, 1.0)}
 
 
@@ -46,11 +46,11 @@ def arrows(axes):
 def assert_flown(letter, points):
     """On its circle or its line, in its sense."""
     if letter == "S":
-        assert np.abs(points[:, 1]).max() <= DUST
+        assert np.abs(points[:, 1]).max() <= LENGTH_TOLERANCE
         assert np.all(np.diff(points[:, 0]) > 0.0)
         return
     away = points - CENTRES[letter]
-    assert np.hypot(*away.T) == pytest.approx(np.hypot(*away[0]), abs=DUST)
+    assert np.hypot(*away.T) == pytest.approx(np.hypot(*away[0]), abs=LENGTH_TOLERANCE)
     turned = away[:-1, 0] * away[1:, 1] - away[:-1, 1] * away[1:, 0]
     assert np.all(turned < 0.0 if letter == "L" else turned > 0.0)
 
@@ -91,9 +91,9 @@ def test_figure_1_whole_circles_about_both_centres_in_their_senses():
         for drawn, points in pieces(axes):
             assert drawn == letter
             assert_flown(letter, points)
-            assert points[0] == pytest.approx(points[-1], abs=DUST)
+            assert points[0] == pytest.approx(points[-1], abs=LENGTH_TOLERANCE)
             radii.append(hypot(*(points[0] - CENTRES[letter])))
-        assert radii == pytest.approx([0.5, 1.0, 1.5, 2.0], abs=DUST)
+        assert radii == pytest.approx([0.5, 1.0, 1.5, 2.0], abs=LENGTH_TOLERANCE)
 
 
 def test_figure_2_the_adjoint_takes_the_longer_arc_left_of_lambda():
@@ -102,14 +102,14 @@ def test_figure_2_the_adjoint_takes_the_longer_arc_left_of_lambda():
     for letter, axes in zip("RL", panels(2), strict=True):
         [(drawn, arc)] = pieces(axes)
         assert drawn == letter
-        assert np.hypot(*arc.T) == pytest.approx(1.0, abs=DUST)
-        assert arc[:, 0].max() <= lam + DUST
+        assert np.hypot(*arc.T) == pytest.approx(1.0, abs=LENGTH_TOLERANCE)
+        assert arc[:, 0].max() <= lam + LENGTH_TOLERANCE
         up = 1.0 if letter == "R" else -1.0
         ends = np.array([[lam, up * sqrt(1.0 - lam**2)], [lam, -up * sqrt(1.0 - lam**2)]])
-        assert arc[[0, -1]] == pytest.approx(ends, abs=DUST)
-        assert np.array(marks(axes, "switch")) == pytest.approx(ends, abs=DUST)
+        assert arc[[0, -1]] == pytest.approx(ends, abs=LENGTH_TOLERANCE)
+        assert np.array(marks(axes, "switch")) == pytest.approx(ends, abs=LENGTH_TOLERANCE)
         [[(x, _), _]] = lines(axes, "lambda")
-        assert x == pytest.approx(lam, abs=DUST)
+        assert x == pytest.approx(lam, abs=LENGTH_TOLERANCE)
         sense = arc[:-1, 0] * arc[1:, 1] - arc[:-1, 1] * arc[1:, 0]
         assert np.all(sense * up > 0.0)
 
@@ -121,7 +121,7 @@ def test_figure_3_straight_pieces_lie_on_the_axis_and_end_at_the_corner():
     for letter, points in pieces(axes):
         assert_flown(letter, points)
     for points in straight:
-        assert points[-1] == pytest.approx((-SQRT3, 0.0), abs=DUST)
+        assert points[-1] == pytest.approx((-SQRT3, 0.0), abs=LENGTH_TOLERANCE)
     ends = np.round(marks(axes, "end"), 9) + 0.0
     assert {tuple(end) for end in ends.tolist()} == {(0.0, 1.0), (0.0, -1.0)}
     assert len(marks(axes, "start")) == 3
@@ -146,12 +146,12 @@ def test_figure_4_draws_the_curves_between_the_regions():
         assert x == switching_abscissa(abs(y), 1.0)
     for x, y in arc.tolist():
         assert x <= 0.0
-        assert beyond_last_circle(x, abs(y), 1.0) == pytest.approx(0.0, abs=DUST)
+        assert beyond_last_circle(x, abs(y), 1.0) == pytest.approx(0.0, abs=LENGTH_TOLERANCE)
     for points in (curve, arc):
         assert points[[0, -1], 1].tolist() == [-1.0, 1.0]
-    assert ray[-1] == pytest.approx((-SQRT3, 0.0), abs=DUST)
+    assert ray[-1] == pytest.approx((-SQRT3, 0.0), abs=LENGTH_TOLERANCE)
     # T with and without a straight piece of length s differs by s^3/24 only: rounding may leave a shorter one out.
-    unclear = cbrt(24.0 * DUST)
+    unclear = cbrt(24.0 * LENGTH_TOLERANCE)
     assert np.all(loiter.control(np.linspace(ray[0, 0], ray[1, 0] - unclear, 50), 0.0) == 0.0)
     assert tie.tolist() == [ray[-1].tolist(), [3.0, 0.0]]
     assert marks(axes, "end") == [(0.0, 1.0), (0.0, -1.0)]
@@ -179,9 +179,9 @@ def assert_joined(found, start, end):
     for letter, points in found:
         assert_flown(letter, points)
     for (_, before), (_, after) in pairwise(found):
-        assert before[-1] == pytest.approx(after[0], abs=DUST)
-    assert found[0][1][0] == pytest.approx(start, abs=DUST)
-    assert found[-1][1][-1] == pytest.approx(end, abs=DUST)
+        assert before[-1] == pytest.approx(after[0], abs=LENGTH_TOLERANCE)
+    assert found[0][1][0] == pytest.approx(start, abs=LENGTH_TOLERANCE)
+    assert found[-1][1][-1] == pytest.approx(end, abs=LENGTH_TOLERANCE)
 
 
 def test_figure_5_two_trajectories_to_both_ends():
@@ -191,7 +191,7 @@ def test_figure_5_two_trajectories_to_both_ends():
     assert_joined(found[:3], (4.0, 4.0), (0.0, 1.0))
     assert_joined(found[3:], (4.0, 4.0), (0.0, -1.0))
     corners = [(-sqrt(24.0), 0.0), (-SQRT3, 0.0)] * 2
-    assert np.array(marks(axes, "switch")) == pytest.approx(np.array(corners), abs=DUST)
+    assert np.array(marks(axes, "switch")) == pytest.approx(np.array(corners), abs=LENGTH_TOLERANCE)
     assert "T = 6.9136" in axes.get_title()
 
 
@@ -202,7 +202,7 @@ def test_figure_6_the_admissible_trajectory():
     assert_joined(found, (-0.53, 0.31), (0.0, 1.0))
     last = ADMISSIBLE[1]
     assert np.array(marks(axes, "switch")) == pytest.approx(
-        np.array([[-2.0 * sin(last), 2.0 * cos(last) - 1.0]]), abs=DUST
+        np.array([[-2.0 * sin(last), 2.0 * cos(last) - 1.0]]), abs=LENGTH_TOLERANCE
     )
     assert "T = 6.0252" in axes.get_title()
     assert "not optimal" in axes.get_title()
@@ -216,7 +216,7 @@ def test_figure_7_the_optimal_trajectory():
     first, second = marks(axes, "switch")
     assert first == pytest.approx((0.291365, 0.382789), abs=0.5e-6)
     assert second == pytest.approx((-0.672517, 0.883539), abs=0.5e-6)
-    assert first[0] == pytest.approx(switching_abscissa(first[1], 1.0), abs=DUST)
+    assert first[0] == pytest.approx(switching_abscissa(first[1], 1.0), abs=LENGTH_TOLERANCE)
     assert "T = 5.3779" in axes.get_title()
 
 

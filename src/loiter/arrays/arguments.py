@@ -44,6 +44,4 @@ def is_lazy(argument: object) -> bool:
 def refuse_lazy_out(out: object) -> None:
     """Raise `InvalidArgument` for an `out` where the results are lazy: nothing would ever fill it."""
     if out is not None:
-        raise InvalidArgument(
-            "out", "is given, and an argument is a lazy array: the result is lazy too and fills nothing"
-        )
+        raise InvalidArgument("out", "cannot be filled: an argument is a lazy array, and so is the result")

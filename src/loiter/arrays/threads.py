@@ -54,7 +54,7 @@ def _same_places(a: Any, b: Any) -> bool:
 def thread_count(workers: int) -> int:
     """The number of threads for `workers`; raises `InvalidArgument` for a number that is neither positive nor -1."""
     if not isinstance(workers, int) or workers == 0 or workers < -1:
-        raise InvalidArgument("workers", f"is {workers!r}: it must be a whole number from 1, or -1 for one a core")
+        raise InvalidArgument("workers", f"is {workers!r}: it must be a whole number from 1, or -1 for one per core")
     return workers if workers > 0 else cores()
 
 

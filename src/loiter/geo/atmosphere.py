@@ -64,6 +64,6 @@ def _kelvin(temperature_c: float) -> float:
     kelvin = number("temperature_c", temperature_c, "degrees Celsius") + ZERO_CELSIUS_K
     if kelvin <= 0.0:
         raise InvalidArgument(
-            "temperature_c", f"is {temperature_c:g}: nothing is colder than {-ZERO_CELSIUS_K} degrees"
+            "temperature_c", f"is {temperature_c:g}: it must be above {-ZERO_CELSIUS_K} degrees Celsius"
         )
     return kelvin

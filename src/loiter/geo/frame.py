@@ -110,7 +110,7 @@ class LocalFrame:
     def _too_far(self, where: str) -> OutOfRange:
         return OutOfRange(
             f"the place {where} is more than {REACH_M / 1000.0:g} km from the origin {self.latitude_deg:g} "
-            f"{self.longitude_deg:g}: a plane is no good model of the Earth there"
+            f"{self.longitude_deg:g}: the plane is not a good model of the Earth at that distance"
         )
 
     def _rays(self, latitude_deg: Any, longitude_deg: Any) -> tuple[NDArray[float64], ...]:
