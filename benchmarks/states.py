@@ -14,7 +14,7 @@ from benchmarks.timing import least_times
 from loiter import Aircraft, Orbit, Pose
 from loiter.compiled import ufuncs
 from loiter.kernel.codes import Side
-from loiter.verify.checks import wind_scan_check as met
+from loiter.verify.checks import wind_scan_check
 
 COUNT = 4_000_000
 ROUNDS = 7
@@ -75,7 +75,7 @@ def any_circle() -> list[Row]:
 
 def wind() -> list[Row]:
     """|w| up to 0.6, R from (1 + |w|)^2 to 2.5 of it: compiled and as plain Python, beside the search over words."""
-    drawn = list(met.scenes(3000, 0))
+    drawn = list(wind_scan_check.random_problems(3000, 0))
     columns = [
         (s.start.east, s.start.north, s.start.angle, s.radius, int(s.side), s.wind_east, s.wind_north) for s in drawn
     ]
@@ -86,7 +86,7 @@ def wind() -> list[Row]:
         {"plain Python": lambda: loiter.solve_in_wind(*few), "compiled": lambda: loiter.solve_in_wind(*all_)}, 3
     )
     begin = perf_counter()
-    searched = [met.difference(scene) for scene in drawn[:20]]
+    searched = [wind_scan_check.scan_difference(scene) for scene in drawn[:20]]
     search = (perf_counter() - begin) / 20
     apart = [max(d.later, d.earlier) for d in searched]
     rows = [("search over points, words and times, NumPy", search, max(apart), float(np.mean(apart)))]

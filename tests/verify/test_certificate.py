@@ -16,7 +16,7 @@ from kernel.worst import states as worst_states
 from loiter import Aircraft, Orbit, Pose, Turn, candidates, plan, plan_all
 from loiter.errors import InvalidArgument
 from loiter.verify import Certificate, certify
-from loiter.verify.checks.oracle_check import scenes as hard_scenes
+from loiter.verify.checks.oracle_check import random_problems as hard_problems
 from strategies import coordinates, radii, scenes, turns
 
 UNIT = Aircraft(1.0, min_turn_radius_m=1.0)
@@ -59,8 +59,8 @@ def test_every_optimum_of_the_reduced_plane_has_a_valid_certificate(x, y, R, tur
 
 @pytest.mark.parametrize("seed", [7, 8])
 def test_hard_places_have_valid_certificates(seed):
-    for scene in hard_scenes(150, seed):
-        certificate = certify(plan(scene.pose, scene.orbit, scene.aircraft))
+    for problem in hard_problems(150, seed):
+        certificate = certify(plan(problem.pose, problem.orbit, problem.aircraft))
         assert certificate.valid, shown(certificate)
 
 

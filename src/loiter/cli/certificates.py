@@ -1,4 +1,4 @@
-"""What `loiter plan --certify` adds: the certificate as text and as a picture."""
+"""The certificate that `loiter plan --certify` adds, as text and as a picture."""
 
 import sys
 from collections.abc import Sequence
@@ -15,12 +15,12 @@ def print_text(certificates: Sequence[Certificate]) -> None:
 
 
 def picture_path(plot: Path) -> Path:
-    """Where the picture of the certificate goes: entry.png beside it is entry-certificate.png."""
+    """The file of the certificate's picture: entry-certificate.png beside entry.png."""
     return plot.with_name(f"{plot.stem}-certificate{plot.suffix}")
 
 
 def save_picture(plot: Path, certificate: Certificate) -> None:
-    """Draw u, phi and psi over time to a file beside the plan's; errors as `files.save`."""
+    """Draw u, phi and psi over time to a file beside the plan's picture; raises as `files.save_figure`."""
     from loiter.plot.certificate import draw
 
     files.save_figure("plot", picture_path(plot), draw(certificate))

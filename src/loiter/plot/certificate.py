@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from loiter.plot.picture import COLOURS
 from loiter.verify.certificate import Certificate, Instant
 
-# Chords of a sine over a hundredth of a turn depart from it by 0.05 % of its height, less than a line is wide.
+# Chords of a sine over a hundredth of a turn differ from it by 0.05 % of its height, less than the width of a line.
 STEPS = 100
 
 LINES = {"phi": "#000000", "psi1": "#0072B2", "psi2": "#D55E00"}
@@ -19,8 +19,8 @@ CONTROL = {1: COLOURS["L"], 0: COLOURS["S"], -1: COLOURS["R"]}
 def draw(certificate: Certificate) -> Figure:
     """Draw u, phi, psi1 and psi2 over time (seconds), with lambda and the switching instants marked.
 
-    Where phi > 0 the control is +1, where phi < 0 it is -1; psi1 stays below lambda and meets it where phi = 0. The
-    panels of a start on the circle, which has nothing to decide, are empty.
+    Where phi > 0 the control is +1, where phi < 0 it is -1; psi1 <= lambda, with equality where phi = 0. For a start on
+    the circle, which has nothing to decide, the panels are empty.
     """
     figure = Figure(figsize=(8.0, 6.4), layout="constrained")
     control, switching, adjoint = figure.subplots(3, sharex=True, height_ratios=(1.0, 2.0, 2.0))
@@ -45,8 +45,8 @@ def draw(certificate: Certificate) -> Figure:
 
 def _draw_control(axes: Axes, pieces: list[list[Instant]]) -> None:
     for piece in pieces:
-        times = [instant.time_s for instant in piece]
-        axes.plot(times, [instant.u for instant in piece], color=CONTROL[piece[0].u], linewidth=2.6, gid="u")
+        times, controls = [instant.time_s for instant in piece], [instant.u for instant in piece]
+        axes.plot(times, controls, color=CONTROL[max(controls)], linewidth=2.6, gid="u")
     axes.set_ylim(-1.4, 1.4)
     axes.set_yticks([-1, 0, 1], ["right", "straight", "left"])
     axes.set_ylabel("u")

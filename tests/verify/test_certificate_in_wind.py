@@ -15,7 +15,7 @@ from loiter.kernel.synthesis import Entry
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
 from loiter.verify import certify
-from loiter.verify.checks.wind_scan_check import scenes
+from loiter.verify.checks.wind_scan_check import random_problems
 from strategies import windy_scenes
 
 settings.register_profile("certificate in wind", deadline=None, max_examples=12)
@@ -38,12 +38,12 @@ def test_plans_are_proved(scene):
 def test_plans_of_the_comparison_are_proved_and_most_gradients_known():
     """Random scenes as the search has them: inside, near and far, circles of the least radius that can be held."""
     skipped = 0
-    for scene in list(scenes(30, 17)):
-        if scene.wind_east == scene.wind_north == 0.0:
+    for problem in random_problems(30, 17):
+        if problem.wind_east == problem.wind_north == 0.0:
             continue
-        east, north, angle = scene.start
-        velocity = -scene.wind_east, -scene.wind_north
-        orbit = Orbit(0.0, 0.0, scene.radius, {1: "cw", -1: "ccw", 0: "either"}[int(scene.side)], *velocity)
+        east, north, angle = problem.start
+        velocity = -problem.wind_east, -problem.wind_north
+        orbit = Orbit(0.0, 0.0, problem.radius, {1: "cw", -1: "ccw", 0: "either"}[int(problem.side)], *velocity)
         certificate = certify(plan(Pose(east, north, 90.0 - degrees(angle)), orbit, UNIT))
         assert certificate.valid, str(certificate)
         assert [residual.name for residual in certificate.residuals] == NAMES
