@@ -6,7 +6,7 @@ import shlex
 import pytest
 
 from loiter.cli.app import main
-from loiter.verify import conditions as module
+from loiter.verify import accuracy as module
 
 UNIT = "--orbit 0 0 1 --airspeed 1 --turn-radius 1"
 EXAMPLE_1 = f"plan --pose 4 4 90 {UNIT} --certify"
@@ -77,8 +77,8 @@ def test_the_tolerance_of_the_plan_is_that_of_the_certificate(ran):
     assert "Certificate of L, clockwise: valid." in out
 
 
-def test_a_failed_condition_is_told_and_is_the_exit_status(ran, monkeypatch):
-    monkeypatch.setattr(module, "ROUNDING", -1.0)  # a bound that nothing meets
+def test_a_failed_condition_is_shown_and_gives_exit_status_1(ran, monkeypatch):
+    monkeypatch.setattr(module, "ROUNDING", -1.0)  # a bound that no value meets
     status, out, _ = ran(EXAMPLE_2)
     assert status == 1
     assert "NOT VALID" in out
