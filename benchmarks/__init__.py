@@ -1,1 +1,1 @@
-"""What answers cost, beside the same work done otherwise. `make bench` runs all of it."""
+"""Costs of the answers, compared with other ways to compute them. `make bench` runs all benchmarks."""

@@ -1,4 +1,4 @@
-"""What one would use instead: a sweep of Dubins paths, a nonlinear program, a grid. None of them knows the kernel."""
+"""Alternatives to the kernel: a sweep of Dubins paths, a nonlinear program, a grid. None of them uses its code."""
 
 from math import cos, pi, remainder, sin
 
@@ -12,7 +12,7 @@ HEADINGS = 360
 
 
 def sweep(x, y, R, sides):
-    """OMPL's Dubins distance to `HEADINGS` poses round the circle, each way asked for; the least. Turn radius 1."""
+    """T as the least of OMPL's Dubins distances to `HEADINGS` poses round the circle, on each side; turn radius 1."""
     space = Search(1.0).space
     start, goal = space.allocState(), space.allocState()
     start.setX(x)
@@ -30,13 +30,13 @@ def sweep(x, y, R, sides):
 
 
 def program(x, y, R, sides):
-    """Direct collocation by CasADi and IPOPT (`loiter.verify.checks.collocation`)."""
+    """T by direct collocation with CasADi and IPOPT (`loiter.verify.checks.collocation`)."""
     return collocate(Planar(x, y, 0.0), [Circle(R, side == 1) for side in sides]).time
 
 
 def grid(R, sides, cells):
-    """A map of T by hj-reachability: abscissae, ordinates and T, inf where it has not arrived."""
-    found = reach(R, sides, cells)
-    inside = np.hypot(found.x[:, np.newaxis], found.y) <= found.within
-    X, Y = np.broadcast_arrays(found.x[:, np.newaxis], found.y)
-    return X[inside], Y[inside], found.time[inside]
+    """A map of T by hj-reachability: x, y and T at its nodes, inf where the front has not arrived."""
+    solution = reach(R, sides, cells)
+    inside = np.hypot(solution.x[:, np.newaxis], solution.y) <= solution.within
+    X, Y = np.broadcast_arrays(solution.x[:, np.newaxis], solution.y)
+    return X[inside], Y[inside], solution.time[inside]

@@ -1,16 +1,17 @@
-"""The table and the plot of a run."""
+"""The table and the plot of the results."""
 
 import os
 import platform
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from benchmarks.states import Row
 from benchmarks.tables import Run
 
 
 def table(rows: Sequence[Row], runs: Sequence[Run]) -> str:
-    """Everything measured, as Markdown."""
+    """All results, as Markdown."""
     lines = [f"Measured on {processor()}, {os.cpu_count()} cores, Python {platform.python_version()}.", ""]
     for task in dict.fromkeys(row.task for row in rows):
         lines += [
@@ -46,9 +47,9 @@ def _batch(runs: Sequence[Run]) -> list[str]:
 
 
 def processor() -> str:
-    """The processor's own name, where the system tells it."""
-    names = [line.split(":")[1].strip() for line in _cpuinfo() if line.startswith("model name")]
-    return names[0] if names else platform.machine()
+    """The name of the processor, where the system gives it; otherwise the architecture."""
+    fields = (line.partition(":") for line in _cpuinfo())
+    return next((value.strip() for name, _, value in fields if name.startswith("model name")), platform.machine())
 
 
 def _cpuinfo() -> list[str]:
@@ -59,7 +60,7 @@ def _cpuinfo() -> list[str]:
 
 
 def duration(seconds: float) -> str:
-    """Seconds in the unit that leaves three digits."""
+    """Seconds with three digits, in the unit that fits."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
         if seconds >= size:
             return f"{seconds / size:.3g} {unit}"
@@ -72,16 +73,22 @@ def share(ratio: float) -> str:
 
 
 def error(value: float) -> str:
-    """An error of T; a dash where there is none to tell."""
+    """An error of T; empty for nan."""
     return "" if value != value else f"{value:.1e}"
 
 
 def draw(rows: Sequence[Row], runs: Sequence[Run], path: Path) -> None:
-    """Accuracy over seconds a state, and rows a second over rows."""
+    """Plot the accuracy over seconds per state, and the rows per second over rows."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(11.0, 4.6), layout="constrained")
     left, right = figure.subplots(1, 2)
+    _draw_accuracy(left, rows)
+    _draw_speed(right, runs)
+    figure.savefig(path, dpi=150)
+
+
+def _draw_accuracy(axes: Any, rows: Sequence[Row]) -> None:
     hidden = ("control", "solve", "threads")
     shown = {
         row.contender: row
@@ -90,20 +97,23 @@ def draw(rows: Sequence[Row], runs: Sequence[Run], path: Path) -> None:
     }
     for name, row in shown.items():
         ours = name.startswith("loiter")
-        left.loglog(row.seconds, max(row.mean, 1e-17), "o" if ours else "s", color="C0" if ours else "0.5")
-        # The three that are exact stand side by side: their names one above the other.
+        axes.loglog(row.seconds, max(row.mean, 1e-17), "o" if ours else "s", color="C0" if ours else "0.5")
+        # The points of the three exact methods are close together: their labels are at different heights.
         height = 20 if ours else -11 if "NumPy" in name else 5
         place = {"xytext": (0 if ours else 6, height), "textcoords": "offset points", "fontsize": 8}
-        left.annotate(name, (row.seconds, max(row.mean, 1e-17)), **place)
-    left.set(xlabel="seconds a state", ylabel="mean error of T", title="R = 1, either way")
-    left.set_xlim(left.get_xlim()[0], left.get_xlim()[1] * 100.0)
-    left.grid(alpha=0.3)
+        axes.annotate(name, (row.seconds, max(row.mean, 1e-17)), **place)
+    axes.set(xlabel="seconds a state", ylabel="mean error of T", title="R = 1, either way")
+    left, right = axes.get_xlim()
+    axes.set_xlim(left, right * 100.0)
+    axes.grid(alpha=0.3)
+
+
+def _draw_speed(axes: Any, runs: Sequence[Run]) -> None:
     for workers in sorted({run.workers for run in runs}):
         here = [run for run in runs if run.workers == workers]
         label = f"{workers} worker" + ("s" if workers > 1 else "")
-        right.loglog([run.rows for run in here], [run.rows / run.seconds for run in here], "o-", label=label)
-    right.set(xlabel="rows", ylabel="rows a second", title="loiter batch, Parquet to Parquet")
-    right.grid(alpha=0.3)
+        axes.loglog([run.rows for run in here], [run.rows / run.seconds for run in here], "o-", label=label)
+    axes.set(xlabel="rows", ylabel="rows a second", title="loiter batch, Parquet to Parquet")
+    axes.grid(alpha=0.3)
     if runs:
-        right.legend(frameon=False)
-    figure.savefig(path, dpi=150)
+        axes.legend(frameon=False)

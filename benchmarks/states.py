@@ -1,4 +1,4 @@
-"""Seconds for one state, and how far off the answer is: the kernel, the plain formulas, what one would use instead."""
+"""Seconds per state and error of T: the kernel, the plain formulas, and other methods."""
 
 import os
 from collections.abc import Callable
@@ -20,12 +20,12 @@ COUNT = 4_000_000
 ROUNDS = 7
 CORES = os.cpu_count() or 1
 
-# The states of the paper's figures, where every word occurs, and starts mostly far off, which are RSL.
+# |x| and |y| of the states: those of the paper's figures, where every word occurs, and mostly distant ones, with RSL.
 NEAR, FAR = 4.0, 40.0
 
 
 class Row(NamedTuple):
-    """One line of the table: seconds a state, their ratio to the first line's, largest and mean error of T."""
+    """One line of the table: seconds per state, their ratio to the first line, largest and mean error of T."""
 
     task: str
     contender: str
@@ -36,12 +36,12 @@ class Row(NamedTuple):
 
 
 def measure() -> list[Row]:
-    """All tasks; the first contender of each is its yardstick."""
+    """The rows of all tasks; ratios are to the first contender of each task."""
     return [*tight(NEAR, "|x|, |y| < 4"), *tight(FAR, "|x|, |y| < 40"), *any_circle(), *wind(), *one_plan(), *others()]
 
 
 def tight(span: float, where: str) -> list[Row]:
-    """R = 1, *either*."""
+    """Rows for R = 1, *either*."""
     x, y = np.random.default_rng(0).uniform(-span, span, (2, COUNT))
     out = np.empty(COUNT)
     calls = {
@@ -57,7 +57,7 @@ def tight(span: float, where: str) -> list[Row]:
 
 
 def any_circle() -> list[Row]:
-    """Any radius, any turn, one of each state."""
+    """Rows for a random radius and turn of each state."""
     rng = np.random.default_rng(1)
     R = 1.0 + rng.exponential(1.5, COUNT)
     x, y = rng.uniform(-1.0, 1.0, (2, COUNT)) * (R + 3.0)
@@ -74,10 +74,10 @@ def any_circle() -> list[Row]:
 
 
 def wind() -> list[Row]:
-    """|w| up to 0.6, R from (1 + |w|)^2 to 2.5 of it: compiled and as plain Python, beside the search over words."""
-    drawn = list(wind_scan_check.random_problems(3000, 0))
+    """Rows for wind, |w| up to 0.6, R from 1 to 2.5 times (1 + |w|)^2: compiled, plain Python, search over words."""
+    scenes = list(wind_scan_check.random_problems(3000, 0))
     columns = [
-        (s.start.east, s.start.north, s.start.angle, s.radius, int(s.side), s.wind_east, s.wind_north) for s in drawn
+        (s.start.east, s.start.north, s.start.angle, s.radius, int(s.side), s.wind_east, s.wind_north) for s in scenes
     ]
     x, y, angle, R, side, wx, wy = np.array(columns).T
     few = [column[:100] for column in (x, y, angle, R, side.astype(np.int8), wx, wy)]
@@ -86,10 +86,10 @@ def wind() -> list[Row]:
         {"plain Python": lambda: loiter.solve_in_wind(*few), "compiled": lambda: loiter.solve_in_wind(*all_)}, 3
     )
     begin = perf_counter()
-    searched = [wind_scan_check.scan_difference(scene) for scene in drawn[:20]]
+    differences = [wind_scan_check.scan_difference(scene) for scene in scenes[:20]]
     search = (perf_counter() - begin) / 20
-    apart = [max(d.later, d.earlier) for d in searched]
-    rows = [("search over points, words and times, NumPy", search, max(apart), float(np.mean(apart)))]
+    errors = [max(d.later, d.earlier) for d in differences]
+    rows = [("search over points, words and times, NumPy", search, max(errors), float(np.mean(errors)))]
     rows += [
         (f"loiter.solve_in_wind, {name}", seconds / count, nan, nan)
         for (name, seconds), count in zip(times.items(), (100, 3000), strict=True)
@@ -98,7 +98,7 @@ def wind() -> list[Row]:
 
 
 def scalar(x, y, R, side) -> np.ndarray:
-    """T by the scalar functions, for the first ten thousand states: what errors are counted from."""
+    """T by the scalar functions for the first ten thousand states: the reference of all errors."""
     from loiter.kernel.synthesis import duration, optimum
 
     first = zip(x[:10_000].tolist(), y[:10_000].tolist(), R[:10_000].tolist(), side[:10_000].tolist(), strict=True)
@@ -108,19 +108,19 @@ def scalar(x, y, R, side) -> np.ndarray:
 def rows(
     task: str, calls: dict[str, Callable[[], object]], results: dict[str, np.ndarray], true: np.ndarray
 ) -> list[Row]:
-    """Times of all contenders; errors of those whose results are known, and of our own."""
+    """Rows of all contenders; the errors compare `results`, and the answers of our own functions, with `true`."""
     times = least_times(calls, ROUNDS)
-    yardstick = next(iter(times.values()))
+    baseline = next(iter(times.values()))
     table = []
     for name, seconds in times.items():
-        found = results[name] if name in results else getattr(calls[name](), "time", calls[name]())
-        error = np.abs(found[: len(true)] - true) if "control" not in name else np.array([nan])
-        table.append(Row(task, name, seconds / COUNT, seconds / yardstick, float(error.max()), float(error.mean())))
+        answer = results[name] if name in results else getattr(calls[name](), "time", calls[name]())
+        error = np.abs(answer[: len(true)] - true) if "control" not in name else np.array([nan])
+        table.append(Row(task, name, seconds / COUNT, seconds / baseline, float(error.max()), float(error.mean())))
     return table
 
 
 def one_plan() -> list[Row]:
-    """One plan as plain Python, in SI, beside the sweep for the same scene."""
+    """Rows for one plan in SI units, in plain Python, and for the sweep of the same scene."""
     uav, pose, orbit = Aircraft(18.0, max_bank_deg=35.0), Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0)
     r = uav.turn_radius_m
     state = -400.0 / r, 120.0 / r, 80.0 / r
@@ -132,28 +132,24 @@ def one_plan() -> list[Row]:
         50,
     )
     best = float(ufuncs.min_time(*state, 0, 0.0))
-    yardstick = times["OMPL, 360 headings each way"]
+    baseline = times["OMPL, 360 headings each way"]
     planned = loiter.plan(pose, orbit, uav).length_m / r
     errors = {"OMPL, 360 headings each way": peers.sweep(*state, (1, -1)) - best, "loiter.plan": abs(planned - best)}
-    return [Row("one plan", name, s, s / yardstick, errors[name], errors[name]) for name, s in times.items()]
+    return [Row("one plan", name, s, s / baseline, errors[name], errors[name]) for name, s in times.items()]
 
 
 def others() -> list[Row]:
-    """R = 1, *either*: the sweep, a nonlinear program, a grid, as accurate as they are, and the kernel."""
+    """Rows for R = 1, *either*: the sweep, a nonlinear program, a grid, and the kernel, with their errors."""
     task, sides = "R = 1, either, other methods", (Side.CW, Side.CCW)
     x, y = np.random.default_rng(2).uniform(-NEAR, NEAR, (2, 400))
     true = scalar(x, y, np.ones(400), np.zeros(400, np.int8))
-    table = [
-        _others_row(
-            task, "OMPL, 360 headings each way", lambda n: [peers.sweep(*s, 1.0, sides) for s in _states(x, y, n)], true
-        )
-    ]
-    yardstick = table[0].seconds
-    table.append(
-        _others_row(
-            task, "CasADi, IPOPT", lambda n: [peers.program(*s, 1.0, sides) for s in _states(x, y, n)], true, 12
-        )
+    sweep = _others_row(
+        task, "OMPL, 360 headings each way", lambda n: [peers.sweep(*s, 1.0, sides) for s in _states(x, y, n)], true
     )
+    program = _others_row(
+        task, "CasADi, IPOPT", lambda n: [peers.program(*s, 1.0, sides) for s in _states(x, y, n)], true, 12
+    )
+    table = [sweep, program]
     peers.grid(1.0, sides, 20)
     begin = perf_counter()
     gx, gy, times = peers.grid(1.0, sides, 80)
@@ -166,17 +162,19 @@ def others() -> list[Row]:
     seconds = least_times({"": lambda: loiter.min_time(*wide)}, ROUNDS)[""] / COUNT
     error = np.abs(loiter.min_time(x, y) - true)
     table.append(Row(task, "loiter.min_time", seconds, 0.0, float(error.max()), float(error.mean())))
-    return [row._replace(ratio=row.seconds / yardstick) for row in table]
+    return [row._replace(ratio=row.seconds / sweep.seconds) for row in table]
 
 
 def _states(x, y, count):
+    """The first `count` states."""
     return zip(x[:count].tolist(), y[:count].tolist(), strict=True)
 
 
 def _others_row(task, name, answers, true, count=400) -> Row:
+    """The row of `answers(count)`, a function that solves the first `count` states."""
     answers(1)
     begin = perf_counter()
-    found = np.array(answers(count))
+    times = np.array(answers(count))
     seconds = (perf_counter() - begin) / count
-    error = np.abs(found - true[:count])
+    error = np.abs(times - true[:count])
     return Row(task, name, seconds, 0.0, float(error.max()), float(error.mean()))

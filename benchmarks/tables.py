@@ -1,4 +1,4 @@
-"""`loiter batch` as a whole process: rows a second and peak memory from 1e5 rows up, one worker against two."""
+"""`loiter batch` as a whole process: rows per second and peak memory from 1e5 rows up, with one worker and with two."""
 
 import subprocess
 import sys
@@ -23,11 +23,11 @@ class Run(NamedTuple):
     peak_mib: float
 
 
-def measure(most: int) -> list[Run]:
-    """1e5, 1e6 ... up to `most` rows, with one worker and with two; the largest needs some 200 bytes of disk a row."""
+def measure(max_rows: int) -> list[Run]:
+    """Runs of 1e5, 1e6 ... up to `max_rows` rows with one and two workers; they take some 200 bytes of disk per row."""
     runs = []
     with TemporaryDirectory(prefix="loiter-bench-") as folder:
-        sizes = [10**k for k in range(5, 10) if 10**k <= most]
+        sizes = [10**k for k in range(5, 10) if 10**k <= max_rows]
         for rows in sizes:
             source = Path(folder) / f"{rows}.parquet"
             write_states(source, rows)
@@ -37,7 +37,7 @@ def measure(most: int) -> list[Run]:
 
 
 def write_states(path: Path, rows: int) -> None:
-    """Random starts within 10 radii of the circle, in row groups of a million."""
+    """Write random starts within 10 radii of the circle, in row groups of a million."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -51,14 +51,14 @@ def write_states(path: Path, rows: int) -> None:
 
 
 def run(source: Path, target: Path, rows: int, workers: int) -> Run:
-    """One run of the command in a process of its own."""
+    """Run the command in a separate process."""
     loiter = Path(sys.executable).with_name("loiter")
     command = [str(loiter), "batch", str(source), str(target), *SCENE, "--workers", str(workers)]
     begin = perf_counter()
     process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
     peak = 0
     while process.poll() is None:
-        peak = max(peak, high_water(process.pid))
+        peak = max(peak, peak_memory(process.pid))
         sleep(0.02)
     seconds = perf_counter() - begin
     if process.returncode:
@@ -67,10 +67,11 @@ def run(source: Path, target: Path, rows: int, workers: int) -> Run:
     return Run(rows, workers, seconds, peak / 1024.0)
 
 
-def high_water(pid: int) -> int:
-    """Peak memory of a process so far, KiB; what it tells itself (getrusage) begins with that of its parent."""
+def peak_memory(pid: int) -> int:
+    """Peak memory of a process so far, KiB. (getrusage would include that of its parent.)"""
     with suppress(OSError):
         for line in Path(f"/proc/{pid}/status").read_text().splitlines():
             if line.startswith("VmHWM"):
-                return int(line.split()[1])
+                _, kib, _ = line.split()
+                return int(kib)
     return 0

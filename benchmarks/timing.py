@@ -1,11 +1,11 @@
-"""Times side by side: contenders take turns, and the least of their rounds counts; other work can only lengthen it."""
+"""Times of several contenders: they take turns, and the fastest round counts, since other work only slows them down."""
 
 from collections.abc import Callable, Mapping
 from time import perf_counter
 
 
 def least_times(contenders: Mapping[str, Callable[[], object]], rounds: int) -> dict[str, float]:
-    """Seconds of the fastest of `rounds` calls of each contender, after one that warms up."""
+    """Seconds of the fastest of `rounds` calls of each contender, after one call to warm up."""
     times = dict.fromkeys(contenders, float("inf"))
     for call in contenders.values():
         call()

@@ -9,7 +9,7 @@ import pytest
 from cli.test_completion import COMMANDS
 from loiter.cli.app import main
 from loiter.web.app import create_app
-from web.test_api_problems import asking
+from web.test_api_problems import requester
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -68,7 +68,7 @@ def test_help_claims_no_more_than_is_so(command, capsys, monkeypatch):
 
 
 def test_the_service_claims_no_more_than_is_so():
-    described = asking(create_app())("GET", "/openapi.json").json()
+    described = requester(create_app())("GET", "/openapi.json").json()
     # Not the names of its schemas.
     texts = [text for text in strings(described) if " " in text]
     assert len(texts) > 50

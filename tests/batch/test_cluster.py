@@ -15,7 +15,7 @@ import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, write
 from loiter.batch.jobs import cluster, folder, job, parts
 from loiter.batch.tables import files
-from loiter.batch.tables.columns import shared
+from loiter.batch.tables.columns import shared_values
 
 HERE = Path(__file__).parent
 ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])}
@@ -176,19 +176,19 @@ def test_a_job_begun_on_a_cluster_goes_on_without_it(cluster_here, place):
 
 def test_a_worker_that_sees_other_files_cannot_take_part(tmp_path):
     source = write(poses(5), tmp_path / "in.parquet")
-    asked = job.request(source, tmp_path / "out.parquet", shared(ORBIT, None, UAV), 0.0)
-    with folder.held(asked.target) as here:
+    asked = job.check_request(source, tmp_path / "out.parquet", shared_values(ORBIT, None, UAV), 0.0)
+    with folder.locked_folder(asked.target) as here:
         description = {"some": "job"}
-        folder.resumed(here, description)
+        folder.resume(here, description)
         one = parts.Job(source, here, asked.columns, asked.schema, folder.digest(description))
         size = source.stat().st_size
-        assert cluster._sight(one, source, size, loiter.__version__) == ""
-        assert "has loiter" in cluster._sight(one, source, size, "0.0.1")
-        assert f"does not see {source}" in cluster._sight(one, source, size + 1, loiter.__version__)
-        assert "does not see" in cluster._sight(one, tmp_path / "no.parquet", size, loiter.__version__)
-        folder.resumed(here, {"another": "job"})
+        assert cluster._worker_problem(one, source, size, loiter.__version__) == ""
+        assert "has loiter" in cluster._worker_problem(one, source, size, "0.0.1")
+        assert f"does not see {source}" in cluster._worker_problem(one, source, size + 1, loiter.__version__)
+        assert "does not see" in cluster._worker_problem(one, tmp_path / "no.parquet", size, loiter.__version__)
+        folder.resume(here, {"another": "job"})
         (here / folder.DESCRIPTION).unlink()
-        assert f"does not see {here}" in cluster._sight(one, source, size, loiter.__version__)
+        assert f"does not see {here}" in cluster._worker_problem(one, source, size, loiter.__version__)
 
 
 def test_when_every_worker_is_lost_another_may_join(cluster_here, place):
@@ -214,4 +214,4 @@ def test_a_scheduler_that_goes_is_told_and_what_is_finished_is_kept(cluster_here
     assert process.returncode == 2
     [line] = err.splitlines()
     assert line.startswith("loiter: the job stopped: ")
-    assert "finished stay in" in line
+    assert "finished parts stay in" in line

@@ -170,10 +170,10 @@ def test_a_quote_that_is_never_closed_spoils_its_own_line_alone(solved, monkeypa
 @pytest.mark.parametrize("chunk", [1, 7, 64, 4096])
 def test_mended_text_is_the_same_in_pieces_of_any_size(monkeypatch, chunk):
     text = (HEADER + '0,1,2,3\n"a\n\n,b",1,2,3\r\n' * 20 + '0,"1,2,3\n' + "1,2,3,4\n" * 150 + '"q"",1,2,3').encode()
-    expected = b"".join(lines.mended(io.BytesIO(text), 4))
+    expected = b"".join(lines.repaired_lines(io.BytesIO(text), 4))
     monkeypatch.setattr(lines, "CHUNK_BYTES", chunk)
-    assert b"".join(lines.mended(io.BytesIO(text), 4)) == expected
-    assert lines.Mended(io.BytesIO(text), 4).read() == expected
+    assert b"".join(lines.repaired_lines(io.BytesIO(text), 4)) == expected
+    assert lines.RepairedLines(io.BytesIO(text), 4).read() == expected
     assert expected == text.replace(b'0,"1,2,3', b",,,,").replace(b'"q"",1,2,3', b",,,,") + b"\n"
 
 

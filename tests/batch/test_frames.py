@@ -47,7 +47,7 @@ def test_missing_values_are_bad_rows():
         (lambda frame: frame.assign(heading_deg="north"), "frame has a column heading_deg of"),
         (lambda frame: frame.assign(heading_deg=[1.0, "north", None] + [0.0] * 7), "frame has a column of mixed types"),
         (lambda frame: frame.assign(word="RSL"), "frame has a column word"),
-        (lambda frame: pd.concat([frame, frame[["id"]]], axis=1), "frame has two columns of one name"),
+        (lambda frame: pd.concat([frame, frame[["id"]]], axis=1), "frame has two columns with the same name"),
         (lambda frame: frame.assign(orbit_east_m=0.0), "orbit is given, and by the table's column orbit_east_m too"),
     ],
 )

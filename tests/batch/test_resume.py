@@ -82,11 +82,11 @@ def test_processes_that_race_for_one_output_do_not_spoil_it(tmp_path):
 
 def test_a_second_process_is_refused(job, capsys):
     arguments, _ = job
-    with folder.held(Path("out.parquet")):
+    with folder.locked_folder(Path("out.parquet")):
         before = names(".")
         assert main(arguments) == 2
         assert names(".") == before
-    assert capsys.readouterr().err == "loiter: OUT is 'out.parquet': another loiter batch is at work on it\n"
+    assert capsys.readouterr().err == "loiter: OUT is 'out.parquet': another loiter batch is writing it\n"
 
 
 def test_a_full_disk_keeps_the_finished_parts(job, capsys, monkeypatch):
@@ -96,12 +96,12 @@ def test_a_full_disk_keeps_the_finished_parts(job, capsys, monkeypatch):
         stop_after(patch, 4, OSError(errno.ENOSPC, "Error writing bytes to file"))
         assert main([*arguments, "--workers", "1"]) == 2
     err = capsys.readouterr().err
-    kept = f"4 parts that are finished stay in {Path('out.parquet.parts').absolute()}"
-    assert err == f"loiter: the job stopped: No space left on device; {kept}, and the same command goes on from there\n"
+    kept = f"4 finished parts stay in {Path('out.parquet.parts').absolute()}"
+    assert err == f"loiter: the job stopped: No space left on device; {kept}, and the same command resumes from there\n"
     assert Path("out.parquet").read_bytes() == b"older"
     assert names("out.parquet.parts") == ["job.json", "lock", *(f"part-{i:05}.arrow" for i in range(4))]
     assert main(arguments) == 0
-    assert "going on from 4 of 10 parts\n1,000 rows, 600 of them in this run," in capsys.readouterr().err
+    assert "resuming from 4 of 10 parts\n1,000 rows, 600 of them in this run," in capsys.readouterr().err
     assert Path("out.parquet").read_bytes() == expected
     assert names(".") == ["expected.parquet", "in.parquet", "out.parquet"]
 
@@ -139,11 +139,11 @@ import sys, time
 from batch.killing import small
 from loiter.batch.jobs import parts
 from loiter.cli.app import main
-answered = parts.answered
+solve_batch = parts.solve_batch
 def slowly(*arguments):
     time.sleep(0.02)
-    return answered(*arguments)
-parts.answered = slowly
+    return solve_batch(*arguments)
+parts.solve_batch = slowly
 small()
 sys.exit(main({arguments!r}))
 """
@@ -164,7 +164,7 @@ def test_an_interrupt_is_told_and_what_is_finished_is_kept(tmp_path, workers):
     assert child.returncode == 130
     [line] = err.splitlines()
     assert line.startswith("loiter: interrupted; ")
-    assert "parts that are finished stay in" in line
+    assert "finished parts stay in" in line
     left = names(tmp_path / "out.parquet.parts")
     assert left[:2] == ["job.json", "lock"]
     assert all(name.endswith(".arrow") for name in left[2:])
@@ -219,7 +219,7 @@ def test_parts_of_another_job_are_not_mixed_in(job, capsys, monkeypatch, change,
 
 def test_the_description_says_what_the_parts_depend_on(job, monkeypatch):
     stop_after(monkeypatch, 1, OSError(errno.EIO, ""))
-    with pytest.raises(Unfinished, match="Input/output error; 1 part that is finished stays in"):
+    with pytest.raises(Unfinished, match="Input/output error; 1 finished part stays in"):
         loiter.batch.run("in.parquet", "out.parquet", workers=1, **GIVEN)
     description = json.loads(Path("out.parquet.parts/job.json").read_text())
     assert description["program"] == loiter.__version__
@@ -274,11 +274,11 @@ def test_files_of_others_in_the_folder_are_left_alone(job):
 def test_a_worker_that_outlives_its_job_writes_nothing(job):
     description = {"of": "another job"}
     Path("out.parquet.parts").mkdir()
-    assert folder.resumed(Path("out.parquet.parts"), description) is None
+    assert folder.resume(Path("out.parquet.parts"), description) is None
     columns = loiter.batch.tables.columns.columns(
         "source",
         files.parquet_schema("source", Path("in.parquet")),
-        loiter.batch.tables.columns.shared(ORBIT, None, UAV),
+        loiter.batch.tables.columns.shared_values(ORBIT, None, UAV),
         0.0,
     )
     schema = loiter.batch.tables.outputs.part_schema(files.parquet_schema("source", Path("in.parquet")))

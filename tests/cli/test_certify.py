@@ -62,7 +62,7 @@ def test_json_has_the_key_and_keeps_the_rest(ran):
 
 
 @pytest.mark.parametrize("name", ["entry.png", "an entry.v2.svg", "entry.PDF"])
-def test_the_picture_stands_beside_the_plans(ran, tmp_path, monkeypatch, name):
+def test_the_picture_is_saved_beside_that_of_the_plan(ran, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     assert ran(f"{EXAMPLE_2} --plot '{name}'")[0] == 0
     stem, ending = name.rsplit(".", 1)
@@ -77,7 +77,7 @@ def test_the_tolerance_of_the_plan_is_that_of_the_certificate(ran):
     assert "Certificate of L, clockwise: valid." in out
 
 
-def test_a_failed_condition_is_shown_and_gives_exit_status_1(ran, monkeypatch):
+def test_a_failed_condition_is_printed_and_sets_the_exit_status(ran, monkeypatch):
     monkeypatch.setattr(module, "ROUNDING", -1.0)  # a bound that no value meets
     status, out, _ = ran(EXAMPLE_2)
     assert status == 1

@@ -103,7 +103,7 @@ ALL = [*BAD_VALUES, *NOT_NUMBERS, *BAD_SHAPES, *IMPOSSIBLE, *UNWRITABLE]
 
 @pytest.fixture
 def refused(capsys, tmp_path, monkeypatch):
-    """Runs a request that must be refused in a folder that must stay as it is; gives the sentence."""
+    """Runs a request that must be refused, in a folder that must not change; returns the sentence."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "folder.png").mkdir()
 
@@ -120,7 +120,7 @@ def refused(capsys, tmp_path, monkeypatch):
 
 
 def short(arguments):
-    """A request without the options that are good."""
+    """The arguments without the good options, as a test id."""
     text = " ".join(arguments) + " "
     for name, value in GOOD.items():
         text = text.replace(f"{name} {value} ", "")
@@ -146,7 +146,7 @@ def test_a_refused_plan_leaves_no_picture(refused, arguments):
 
 
 @every_bad_request
-def test_the_sentence_speaks_the_language_of_the_command_line(refused, arguments, named):
+def test_the_sentence_uses_the_names_of_the_command_line(refused, arguments, named):
     sentence = refused(arguments)
     jargon = ["positional", "Token", "into float", "into int", "airspeed_m_s", "orbit radius_m", "Error"]
     assert [word for word in jargon if word in sentence and word not in named] == [], sentence
@@ -160,7 +160,7 @@ def test_the_installed_program_exits_with_2(tmp_path):
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
 @pytest.mark.parametrize("output", [[], ["--json"]])
-def test_a_full_disk_is_told_in_a_sentence(output):
+def test_a_full_disk_gets_one_sentence(output):
     with Path("/dev/full").open("w") as full:
         done = subprocess.run([SCRIPT, *plan(), *output], stdout=full, stderr=subprocess.PIPE, text=True)
     assert done.returncode == 2

@@ -1,4 +1,4 @@
-"""`loiter figures`: seven pictures and their captions, whole or not at all."""
+"""`loiter figures`: seven pictures and their captions, all or none."""
 
 from xml.etree import ElementTree
 
@@ -50,7 +50,7 @@ def test_as_pdf_over_older_files(tmp_path):
 
 @pytest.fixture
 def refused(capsys, tmp_path, monkeypatch):
-    """Runs a request that must be refused and leaves a file and a folder as they are; gives the sentence."""
+    """Runs a request that must be refused and change no file; returns the sentence."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "file").write_text("kept")
     (tmp_path / "blocked" / "fig1.png").mkdir(parents=True)

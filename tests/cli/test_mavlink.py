@@ -35,7 +35,7 @@ def test_a_scene_is_planned_and_sent(shown, vehicle, held):
     assert sent[0][2][2] == held
     assert "LSR, counter-clockwise: joins in" in text
     assert "items sent and read back, each as sent." in text
-    assert "It took the place of one of" in text
+    assert "It replaced a mission of" in text
 
 
 def test_a_scene_is_sent_with_altitudes_above_home(shown):
@@ -78,7 +78,9 @@ def test_what_the_autopilot_makes_of_the_mission_is_told(shown):
 
     with flying(Widens([])) as vehicle:
         text = shown(f"upload --connect {vehicle.connection} {PLACED}")
-    assert text.splitlines()[-1].startswith("ArduPlane will hold 130.9 m in place of 120, since it multiplies the radi")
+    assert text.splitlines()[-1].startswith(
+        "ArduPlane will hold 130.9 m instead of 120, because it multiplies the radi"
+    )
     with flying(Widens([])) as vehicle:
         text = shown(f"upload --connect {vehicle.connection} {PLACED} --turn cw --true-radius")
     assert vehicle.mission[-1][2][2] == 110.0
@@ -101,7 +103,7 @@ def test_a_vehicle_on_the_ground_is_not_started(ended):
     with flying(Landed()) as vehicle:
         status, _, err = ended(f"upload --connect {vehicle.connection} {PLACED} --start")
     assert status == 3
-    assert err == "loiter: system 1 (PX4) is not in the air, and is not told to fly; it has the mission\n"
+    assert err == "loiter: system 1 (PX4) is not in the air: the mission is not started; it has the mission\n"
     assert vehicle.mode != vehicle.mission_mode
 
 
@@ -212,13 +214,13 @@ def degrees_of_the_circle():
 def test_a_vehicle_that_is_parked_is_told_not_to_fly(shown):
     with flying(Parked()) as vehicle:
         lines = shown(f"watch --connect {vehicle.connection} {SCENE} --every 0.3 --reports 3").splitlines()
-    assert lines[-1].endswith(" s: not flying: it says that it is on the ground")
+    assert lines[-1].endswith(" s: not flying: it reports that it is on the ground")
 
 
 def test_notices_stand_before_the_line(shown):
     with flying(Widens()) as vehicle:
         lines = shown(f"watch --connect {vehicle.connection} {SCENE} --every 0.3 --reports 5").splitlines()
-    assert [line.startswith("ArduPlane will hold 84.9 m in place of 80,") for line in lines].count(True) == 1
+    assert [line.startswith("ArduPlane will hold 84.9 m instead of 80,") for line in lines].count(True) == 1
     assert len(lines) == 6
 
 
@@ -227,24 +229,28 @@ def test_sending_says_so(shown):
         text = shown(
             f"watch --connect {vehicle.connection} {SCENE} --turn ccw --every 0.2 --reports 3 --send --altitude 700"
         )
-    assert text.count("The vehicle is to hold the circle counter-clockwise.") == 1
+    assert text.count("The vehicle was commanded to hold the circle counter-clockwise.") == 1
     assert [(command.param4, command.z) for command in vehicle.commands] == [(1.0, 700.0)]
 
 
 @pytest.mark.parametrize(
     ("options", "status", "sentence"),
     [
-        ("--orbit 0 0 80 --airspeed 18 --bank 35", 2, "--orbit-lla is needed: a vehicle says where it is in degrees"),
-        ("--airspeed 18 --bank 35", 2, "--orbit-lla is needed: a vehicle says where it is in degrees"),
+        (
+            "--orbit 0 0 80 --airspeed 18 --bank 35",
+            2,
+            "--orbit-lla is needed: a vehicle reports its position in degrees",
+        ),
+        ("--airspeed 18 --bank 35", 2, "--orbit-lla is needed: a vehicle reports its position in degrees"),
         (f"{SCENE} --every 0", 2, "--every is 0.0: it must be a positive"),
         (f"{SCENE} --reports 0", 2, "--reports is 0: it must be at least 1"),
         (f"{SCENE} --timeout 0.3", 3, "no heartbeat of a vehicle in 0.3 s"),
         (
             f"{SCENE} --true-radius",
             2,
-            "--true-radius is that of the circle that send has the vehicle hold: it goes with",
+            "--true-radius concerns the circle that the vehicle is commanded to hold: it needs send",
         ),
-        (f"{SCENE} --orbit-velocity 1 0 --send", 2, "--send tells a vehicle to hold a circle that rests"),
+        (f"{SCENE} --orbit-velocity 1 0 --send", 2, "--send commands a vehicle to hold a circle at rest"),
     ],
 )
 def test_what_cannot_be_watched(ended, options, status, sentence):

@@ -211,7 +211,7 @@ def test_a_parameter_file_gives_aircraft_radius_and_direction(planned, tmp_path)
         ),
         (
             f"{PLACED} {UAV} --altitude 120 --altitude-reference home --save entry.plan",
-            "--home-altitude is missing: a mission in metres above home needs home's own",
+            "--home-altitude is missing: a mission in metres above home needs that of home",
         ),
         (
             f"{PLACED} {UAV} --altitude 120 --altitude-reference ground --home-altitude 4 --save entry.kml",

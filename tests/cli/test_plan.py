@@ -51,7 +51,7 @@ def cells(text):
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda example: example.name)
-def test_the_papers_examples_come_out_to_1e_12(planned, example):
+def test_the_examples_of_the_paper_agree_to_1e_12(planned, example):
     answer = planned(f"--pose {example.x} {example.y} 90 {UNIT}")
     tied = [other["word"] for other in answer["alternatives"] if abs(other["later_s"]) <= 1e-12]
     assert [answer["word"], *tied] == example.words
@@ -108,7 +108,7 @@ def test_alternatives_are_the_other_extremals_soonest_first(planned, options):
     assert {"cw", "ccw"} == {maneuver["turn"] for maneuver in (answer, *answer["alternatives"])}
 
 
-def test_json_says_what_the_library_says(planned):
+def test_json_equals_the_plans_of_the_library(planned):
     answer = planned(FAR)
     scene = loiter.Pose(-400.0, 120.0, 90.0), loiter.Orbit(0.0, 0.0, 80.0), loiter.Aircraft(18.0, max_bank_deg=35.0)
     known = loiter.candidates(*scene)
@@ -143,7 +143,7 @@ def test_an_alternative_in_the_direction_not_asked_for_may_be_sooner(planned):
 
 
 @pytest.mark.parametrize(("turn", "other"), [("cw", "Counter-clockwise"), ("ccw", "Clockwise")])
-def test_an_equal_cost_in_words(shown, turn, other):
+def test_an_equal_cost_is_printed(shown, turn, other):
     assert f"{other} takes the same time." in shown(f"plan {FAR} --turn {turn}").splitlines()
 
 
@@ -157,11 +157,11 @@ def test_an_equal_cost_in_words(shown, turn, other):
         ("--pose 5000 0 180 --orbit 0 0 5000 --airspeed 10 --turn-radius 3000", "Counter-clockwise", 1885, "later"),
     ],
 )
-def test_the_cost_of_the_other_direction_in_words(shown, options, other, cost, when):
+def test_the_cost_of_the_other_direction_is_printed(shown, options, other, cost, when):
     text = shown(f"plan {options}")
-    told = re.search(rf"^{other} would join ([\d.]+) s {when}\.$", text, re.MULTILINE)
-    assert told, text
-    assert float(told[1]) == pytest.approx(cost, rel=5e-3)
+    cost_line = re.search(rf"^{other} would join ([\d.]+) s {when}\.$", text, re.MULTILINE)
+    assert cost_line, text
+    assert float(cost_line[1]) == pytest.approx(cost, rel=5e-3)
 
 
 # The table

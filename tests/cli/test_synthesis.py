@@ -38,7 +38,10 @@ def test_a_picture_is_written(tmp_path, show):
     [
         ("--radius 0.5", "--radius is 0.5: it must be at least 1 (turn radii) and at most 1e+09"),
         ("--radius nan", "--radius is nan: it must be at least 1 (turn radii) and at most 1e+09"),
-        ("--show worth", "--show is 'worth': a free direction is worth something beside --turn cw or ccw alone"),
+        (
+            "--show worth",
+            "--show is 'worth': it compares a free choice of direction with one direction, so give --turn cw or ccw",
+        ),
         ("--cells 1000000", "--cells is 1000000: it must be a whole number, at least 8 and at most 4000"),
         ("--radius 1e17", "--radius is 1e+17: it must be at least 1 (turn radii) and at most 1e+09"),
         ("--reach 0", "--reach is 0.0: it must be a positive, finite number of turn radii"),

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter.guidance.laws.holding import Arc, Line, air_rate, circle, course_rate, forward, offset
-from loiter.kernel.hold import held, hold_rate, tightest_held
+from loiter.kernel.hold import hold_pose, hold_rate, tightest_radius
 from loiter.kernel.motion import fly
 from strategies import one_way
 
@@ -41,8 +41,8 @@ def test_a_mirror_turns_left_into_right(x, y, course, R):
 def test_on_the_circle_in_wind_the_rate_is_that_of_the_hold(phase, side, wind, blows, wider):
     """(3) of docs/wind.md: no correction is left, and the curvature ahead is all there is to fly."""
     wx, wy = wind * cos(blows), wind * sin(blows)
-    R = wider * tightest_held(wx, wy)
-    x, y, c, s, g = held(phase, side, R, wx, wy)
+    R = wider * tightest_radius(wx, wy)
+    x, y, c, s, g = hold_pose(phase, side, R, wx, wy)
     vx, vy = c + wx, s + wy
     beside = offset(circle(side, R), x, y, vx, vy)
     assert beside.left == pytest.approx(0.0, abs=1e-9)

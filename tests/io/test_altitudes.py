@@ -100,7 +100,7 @@ def test_maps_and_tables_hold_altitudes_above_home_as_above_the_sea(tmp_path):
 @pytest.mark.parametrize(
     ("datum", "sentence"),
     [
-        (AltitudeDatum("home"), r"^home_altitude_m is missing: it takes altitudes above home to mean sea level$"),
+        (AltitudeDatum("home"), r"^home_altitude_m is missing: altitudes above home cannot be converted without it$"),
         (GROUND, r"^altitude_reference is ground: how high that is above mean sea level is not known$"),
     ],
 )
@@ -113,7 +113,7 @@ def test_maps_need_to_know_how_high_above_the_sea(tmp_path, ending, datum, sente
 @pytest.mark.parametrize("ending", MISSIONS)
 @pytest.mark.parametrize(("reference", "unit"), [("home", "metres above home"), ("ground", "metres above the ground")])
 def test_a_mission_above_home_or_ground_needs_homes_own_altitude(tmp_path, ending, reference, unit):
-    sentence = rf"^home_altitude_m is missing: a mission in {unit} needs home's own, metres above mean sea level$"
+    sentence = rf"^home_altitude_m is missing: a mission in {unit} needs that of home, metres above mean sea level$"
     with pytest.raises(InvalidArgument, match=sentence):
         save(M, tmp_path / f"a{ending}", frame=FRAME, altitude_m=120.0, datum=AltitudeDatum(reference))
     with pytest.raises(InvalidArgument, match=rf"^altitude_m is missing: a {ending} file needs {unit}$"):

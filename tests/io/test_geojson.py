@@ -175,16 +175,16 @@ def test_lines_of_degrees_are_no_further_off_the_track_than_asked(scene, error):
     """A line straight in latitude and longitude is neither straight in the plane nor on the Earth."""
     m, frame = scene
     drawn = chart(m, frame, None, None, error)
-    for leg in drawn.legs:
-        corners = list(zip(leg.longitude_deg, leg.latitude_deg, strict=True))
-        duration = leg.segment.duration_s / (len(corners) - 1)
+    for line in drawn.lines:
+        corners = list(zip(line.longitude_deg, line.latitude_deg, strict=True))
+        duration = line.segment.duration_s / (len(corners) - 1)
         for i in {0, (len(corners) - 1) // 2, len(corners) - 2}:
-            times = leg.segment.start_s + duration * (i + np.linspace(0.0, 1.0, 9))
+            times = line.segment.start_s + duration * (i + np.linspace(0.0, 1.0, 9))
             track = sampled_at(times, m.start, m.segments, m.aircraft, m.wind)
-            line = drawn_line(corners[i], corners[i + 1])
+            straight = drawn_line(corners[i], corners[i + 1])
             here = LocalFrame(corners[i][1], corners[i][0])
             flown = plane(here, *frame.to_geodetic(track.east_m, track.north_m))
-            drawn_m = plane(here, *line)
+            drawn_m = plane(here, *straight)
             off = [off_lines(place, drawn_m[:-1], drawn_m[1:]).min() for place in flown]
             assert max(off) <= error * (1.0 + 1e-6) + 1e-6
 
@@ -203,10 +203,10 @@ def plane(frame, latitude, longitude):
 
 def test_far_north_a_long_straight_piece_has_vertices():
     m, _ = SCENES["huge"]
-    counts = [len(leg.longitude_deg) for leg in chart(m, LocalFrame(70.0, 8.0), None, None, 1.0).legs]
+    counts = [len(line.longitude_deg) for line in chart(m, LocalFrame(70.0, 8.0), None, None, 1.0).lines]
     assert m.word[1] == "S"
     assert counts[1] > 5
-    assert len(chart(m, LocalFrame(0.0, 8.0), None, None, 1.0).legs[1].longitude_deg) == 2
+    assert len(chart(m, LocalFrame(0.0, 8.0), None, None, 1.0).lines[1].longitude_deg) == 2
 
 
 @pytest.mark.parametrize("name", ["antimeridian", "antimeridian from the east"])

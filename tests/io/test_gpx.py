@@ -50,7 +50,7 @@ def test_gpxpy_reads_the_maneuver(tmp_path, name, altitude):
     (track,) = document.tracks
     (points,) = track.segments
     places = [(point.latitude, point.longitude) for point in points.points]
-    vertices = sum(len(leg.latitude_deg) - 1 for leg in chart(m, frame, None, None, 1.0).legs) + 1
+    vertices = sum(len(line.latitude_deg) - 1 for line in chart(m, frame, None, None, 1.0).lines) + 1
     ends = (at_time(m, 0.0), at_time(m, m.duration_s))
     for place, end in zip((places[0], places[-1]), ends, strict=True):
         assert apart_m(place, on_earth(frame, *end[:2])[:2]) < 1e-3

@@ -13,7 +13,7 @@ from loiter import Orbit, Pose, Turn, plan
 from loiter.errors import InvalidArgument, OutOfRange
 from loiter.geo import LocalFrame
 from loiter.io import Autopilot, Command, Frame, mission
-from loiter.io.maps.track import steps, vertices
+from loiter.io.maps.track import step_counts, vertices
 from loiter.io.missions.mission import BEND_PER_M, MAX_ITEMS
 from loiter.io.missions.signs import circle
 from loiter.planning.flight import sampled_at
@@ -28,7 +28,7 @@ def test_waypoints_along_the_path_lie_on_the_track_and_the_loiter_on_the_centre(
     flown = mission(m, frame, 600.0, along_path=True)
     *waypoints, loiter = flown.items
     # The start is none of them: an aircraft in flight has left it.
-    times = vertices(m, steps(m, None, 1.0, BEND_PER_M)).time_s[1:]
+    times = vertices(m, step_counts(m, None, 1.0, BEND_PER_M)).time_s[1:]
     assert len(times) == len(waypoints)
     for item, time in zip(waypoints, times, strict=True):
         assert (item.command, item.frame, item.params) == (Command.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0,) * 4)
@@ -134,7 +134,7 @@ def test_far_from_the_origin_waypoints_are_where_geodesics_stay_on_the_track():
     frame = LocalFrame(60.0, 8.0)
     for error in (0.05, 1.0):
         items = mission(m, frame, 100.0, chord_error_m=error, along_path=True).items[:-1]
-        times = vertices(m, steps(m, None, error, BEND_PER_M)).time_s[1:]
+        times = vertices(m, step_counts(m, None, error, BEND_PER_M)).time_s[1:]
         for i, (a, b) in enumerate(pairwise(items)):
             here = LocalFrame(a.latitude_deg, a.longitude_deg)
             dense = np.linspace(times[i], times[i + 1], 9)

@@ -108,7 +108,9 @@ def test_a_reposition_without_a_direction_is_clockwise(direction):
 @pytest.mark.parametrize("radius_m", [0.0, -0.0, nan, inf])
 @pytest.mark.parametrize("command", COMMANDS)
 def test_no_radius_is_no_circle(command, radius_m):
-    with pytest.raises(InvalidArgument, match=r"^radius is .*: it tells no circle, the autopilot takes its own$"):
+    with pytest.raises(
+        InvalidArgument, match=r"^radius is .*: it describes no circle, the autopilot uses its own radius$"
+    ):
         circle(command, (radius_m,) * 4)
 
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from earth import SCENES, apart_m, at_time, entry, on_earth, placed, same_direction, switches
 from loiter.io import save
 from loiter.io.maps.table import table
-from loiter.io.maps.track import steps, vertices
+from loiter.io.maps.track import step_counts, vertices
 
 settings.register_profile("tables", deadline=None, max_examples=25)
 settings.load_profile("tables")
@@ -52,7 +52,7 @@ def test_pandas_reads_the_maneuver(tmp_path, name):
 @pytest.mark.parametrize("name", ["wind", "wind ccw", "ccw"])
 def test_the_track_is_that_of_the_samples_to_the_last_bit(tmp_path, name):
     m, _ = SCENES[name]
-    rows, track = read(tmp_path, m, spacing_m=5.0), vertices(m, steps(m, 5.0, 1.0))
+    rows, track = read(tmp_path, m, spacing_m=5.0), vertices(m, step_counts(m, 5.0, 1.0))
     for column in ("time_s", "east_m", "north_m", "heading_deg", "track_deg", "ground_speed_m_s"):
         assert rows[column].tolist() == getattr(track, column).tolist()
     assert rows.curvature_right_per_m.tolist() == (-track.ground_curvature_per_m).tolist()
@@ -67,7 +67,7 @@ def test_without_a_frame_or_an_altitude_there_are_no_columns_for_them(tmp_path):
 def test_the_tangent_is_the_direction_of_the_velocity(scene):
     """By differences of the flight: central ones, within a piece."""
     m, _ = scene
-    track = vertices(m, steps(m, None, 1.0))
+    track = vertices(m, step_counts(m, None, 1.0))
     rows = pd.read_csv(pd.io.common.BytesIO(table(track, None, None)))
     assert np.hypot(rows.tangent_north.values, rows.tangent_east.values) == pytest.approx(1.0, abs=1e-14)
     dt = 1e-3

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from earth import SCENES, at_time, off_lines, placed, switches
 from loiter.errors import InvalidArgument
-from loiter.io.maps.track import LEAST_SIDES, ring, steps, vertices
+from loiter.io.maps.track import LEAST_SIDES, circle_polygon, step_counts, vertices
 from loiter.planning.flight import sampled_at
 
 settings.register_profile("tracks", deadline=None, max_examples=40)
@@ -31,7 +31,7 @@ def between(m, track, parts=20):
 @given(placed(), ERRORS)
 def test_no_chord_is_further_off_than_asked(scene, error):
     m, _ = scene
-    track = vertices(m, steps(m, None, error))
+    track = vertices(m, step_counts(m, None, error))
     if m.segments:
         assert off_lines(*between(m, track)).max() <= error * (1.0 + 1e-9) + 1e-9
 
@@ -42,7 +42,7 @@ def test_chords_are_not_much_closer_than_asked(scene, share):
     of what is asked; less what of the acceleration is along the track, a crab angle's sine of at most 0.3."""
     m, _ = scene
     error = share * m.aircraft.turn_radius_m
-    counts = steps(m, None, error)
+    counts = step_counts(m, None, error)
     track = vertices(m, counts)
     off = off_lines(*between(m, track)).reshape(-1, 20).max(axis=1)
     first = 0
@@ -55,7 +55,7 @@ def test_chords_are_not_much_closer_than_asked(scene, share):
 @given(placed(), st.floats(1.0, 200.0))
 def test_neighbours_are_no_further_apart_than_asked(scene, spacing):
     m, _ = scene
-    track = vertices(m, steps(m, max(spacing, m.length_m / 1e4), 1.0))
+    track = vertices(m, step_counts(m, max(spacing, m.length_m / 1e4), 1.0))
     apart = np.hypot(np.diff(track.east_m), np.diff(track.north_m))
     assert apart.max(initial=0.0) <= max(spacing, m.length_m / 1e4) * (1.0 + 1e-9)
 
@@ -63,7 +63,7 @@ def test_neighbours_are_no_further_apart_than_asked(scene, spacing):
 @given(placed(), ERRORS)
 def test_every_switch_is_a_vertex_and_every_vertex_on_the_track(scene, error):
     m, _ = scene
-    counts = steps(m, None, error)
+    counts = step_counts(m, None, error)
     track = vertices(m, counts)
     assert track.time_s.size == sum(counts) + 1
     assert track.time_s[np.cumsum([0, *counts])] == pytest.approx(switches(m), rel=1e-14)
@@ -75,7 +75,7 @@ def test_every_switch_is_a_vertex_and_every_vertex_on_the_track(scene, error):
 
 def test_the_start_and_the_end_are_the_pose_and_the_join():
     for m, _ in SCENES.values():
-        track = vertices(m, steps(m, None, 1.0))
+        track = vertices(m, step_counts(m, None, 1.0))
         assert (track.east_m[0], track.north_m[0]) == (m.start.east_m, m.start.north_m)
         assert (track.east_m[-1], track.north_m[-1]) == pytest.approx((m.join.east_m, m.join.north_m), abs=1e-8)
 
@@ -84,7 +84,7 @@ def test_the_start_and_the_end_are_the_pose_and_the_join():
 def test_a_ring_is_within_the_error_of_its_circle(radius, error):
     m, _ = SCENES["cw"]
     orbit = m.orbit.__class__(30.0, -40.0, radius)
-    east, north = ring(orbit, error)
+    east, north = circle_polygon(orbit, error)
     assert (east[0], north[0]) == (east[-1], north[-1])
     assert len(east) > LEAST_SIDES
     corners = (east - 30.0) + 1j * (north + 40.0)
@@ -96,23 +96,23 @@ def test_a_ring_is_within_the_error_of_its_circle(radius, error):
 @pytest.mark.parametrize("value", [0.0, -1.0, nan, inf, "1", None])
 def test_an_error_is_positive(value):
     with pytest.raises(InvalidArgument, match=r"^chord_error_m is .*: it must be a positive, finite number of metres$"):
-        steps(SCENES["cw"][0], None, value)
+        step_counts(SCENES["cw"][0], None, value)
 
 
 @pytest.mark.parametrize("value", [0.0, -1.0, nan, inf, "1"])
 def test_a_spacing_is_positive(value):
     with pytest.raises(InvalidArgument, match=r"^spacing_m is .*: it must be a positive, finite number of metres$"):
-        steps(SCENES["cw"][0], value, 1.0)
+        step_counts(SCENES["cw"][0], value, 1.0)
 
 
 @pytest.mark.parametrize(("spacing", "error"), [(1e-9, 1.0), (None, 1e-12), (5e-324, 1.0), (1.0, 5e-324)])
 def test_too_many_points_are_refused(spacing, error):
     with pytest.raises(InvalidArgument, match=r"^track would have more than 1,000,000 points with a chord error of"):
-        steps(SCENES["wind"][0], spacing, error)
+        step_counts(SCENES["wind"][0], spacing, error)
 
 
 def test_a_ring_of_too_many_sides_is_refused():
     with pytest.raises(
         InvalidArgument, match=r"^circle would have more than 1,000,000 points with a chord error of 1e-12 m$"
     ):
-        ring(SCENES["cw"][0].orbit, 1e-12)
+        circle_polygon(SCENES["cw"][0].orbit, 1e-12)

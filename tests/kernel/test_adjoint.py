@@ -8,10 +8,17 @@ from hypothesis import assume, given, settings
 
 from golden.paper import EXAMPLES
 from loiter.compiled.rebinding import rebound
-from loiter.kernel.adjoint import adjoint, at_switch, followed, switching_function, turned
+from loiter.kernel.adjoint import (
+    StateAndAdjoint,
+    adjoint,
+    at_switch,
+    state_and_adjoint_at,
+    switching_function,
+    turn_adjoint,
+)
 from loiter.kernel.codes import Side
-from loiter.kernel.synthesis import mirrored, optimum
-from loiter.kernel.words import Word
+from loiter.kernel.synthesis import Entry, optimum
+from loiter.kernel.words import Word, mirrored
 from strategies import controls, coordinates, one_way, radii, sides
 
 CONTROLS = {"L": 1.0, "S": 0.0, "R": -1.0}
@@ -38,36 +45,38 @@ def integrated(psi1, psi2, u, t):
 
 
 def starts(x, y, R, side):
-    held, word, *durations = optimum(x, y, R, side, 0.0)
-    return held, word, durations, adjoint(x, y, R, held, word, *durations)
+    maneuver = optimum(x, y, R, side, 0.0)
+    return maneuver, adjoint(x, y, R, maneuver)
 
 
 @settings(deadline=None)
 @given(coordinates, coordinates, radii, sides)
 def test_psi_obeys_its_equation_of_motion(x, y, R, side):
     """(12), from the start to each switch and to the end, by integration."""
-    _, word, durations, (_, psi1, psi2) = starts(x, y, R, side)
-    assume(word)
+    maneuver, (_, psi1, psi2) = starts(x, y, R, side)
+    assume(maneuver.word)
+    start = StateAndAdjoint(x, y, psi1, psi2)
     now, here = 0.0, (psi1, psi2)
-    for letter, t in zip(Word(word).letters, durations, strict=False):
+    for letter, t in zip(Word(maneuver.word).letters, maneuver[2:], strict=False):
         now, here = now + t, integrated(*here, CONTROLS[letter], t)
-        assert followed(x, y, psi1, psi2, word, *durations, now)[2:] == pytest.approx(here, abs=3 * INTEGRATED)
+        assert state_and_adjoint_at(start, maneuver, now)[2:] == pytest.approx(here, abs=3 * INTEGRATED)
 
 
 @given(coordinates, coordinates, radii, sides)
 def test_lambda_and_psi_are_normed(x, y, R, side):
-    _, word, _, (lam, psi1, psi2) = starts(x, y, R, side)
-    assume(word)
+    maneuver, (lam, psi1, psi2) = starts(x, y, R, side)
+    assume(maneuver.word)
     assert -1e-15 <= lam <= 1.0  # next to 0 it is the cosine of a rounded angle
     assert hypot(psi1, psi2) == pytest.approx(1.0, abs=1e-14)
 
 
 @given(coordinates, coordinates, radii, one_way)
 def test_the_mirror_image_has_the_mirrored_adjoint(x, y, R, side):
-    _, word, *durations = optimum(x, y, R, side, 0.0)
-    assume(word)
-    lam, psi1, psi2 = adjoint(x, y, R, side, word, *durations)
-    assert adjoint(x, -y, R, -side, mirrored(word), *durations) == pytest.approx((lam, psi1, -psi2), abs=1e-15)
+    maneuver = optimum(x, y, R, side, 0.0)
+    assume(maneuver.word)
+    lam, psi1, psi2 = adjoint(x, y, R, maneuver)
+    mirror_image = maneuver._replace(side=-side, word=mirrored(maneuver.word))
+    assert adjoint(x, -y, R, mirror_image) == pytest.approx((lam, psi1, -psi2), abs=1e-15)
 
 
 @pytest.mark.parametrize("R", [1.0, 1.5, 2.0, 5.0, 30.0])
@@ -78,19 +87,21 @@ def test_a_straight_piece_has_lambda_1_and_meets_the_condition_at_the_target(R, 
     last = acos(1.0 / (1.0 + u * R))
     first = word.letters[0] != "S"
     durations = (1.0, 2.0, last) if first else (2.0, last, 0.0)
-    lam, psi1, psi2 = adjoint(3.0, 1.0, R, Side.CW, word, *durations)
+    maneuver = Entry(Side.CW, word, *durations)
+    lam, psi1, psi2 = adjoint(3.0, 1.0, R, maneuver)
     assert lam == 1.0
-    *_, end, _ = followed(3.0, 1.0, psi1, psi2, word, *durations, 100.0)
-    assert end * (1.0 + u * R) == pytest.approx(1.0, abs=1e-13)
+    end = state_and_adjoint_at(StateAndAdjoint(3.0, 1.0, psi1, psi2), maneuver, 100.0)
+    assert end.psi1 * (1.0 + u * R) == pytest.approx(1.0, abs=1e-13)
 
 
 def test_lambda_of_example_2_from_its_switching_points():
     """lambda = psi1 there, psi parallel to the state: both switches give the same."""
     case = EXAMPLES[1]
-    lam, psi1, psi2 = adjoint(case.x, case.y, 1.0, Side.CW, Word.LRL, *case.durations)
+    lam, psi1, psi2 = adjoint(case.x, case.y, 1.0, Entry(Side.CW, Word.LRL, *case.durations))
     for x, y in ((0.291365, 0.382789), (-0.672517, 0.883539)):
         assert lam == pytest.approx(abs(x) / hypot(x, y), abs=2e-6)  # six digits were given
-    first = followed(case.x, case.y, psi1, psi2, Word.LRL, *case.durations, case.durations[0])
+    maneuver = Entry(Side.CW, Word.LRL, *case.durations)
+    first = state_and_adjoint_at(StateAndAdjoint(case.x, case.y, psi1, psi2), maneuver, maneuver.t1)
     assert first == pytest.approx((0.291365, 0.382789, lam, sqrt(1.0 - lam * lam)), abs=1e-6)
     assert switching_function(*first) == pytest.approx(0.0, abs=1e-14)
 
@@ -99,20 +110,21 @@ def test_lambda_of_example_2_from_its_switching_points():
 @pytest.mark.parametrize("t", [0.1, 0.5, 1.0, pi / 3, 2.0, 3.0, 4.0, 6.0])
 def test_every_left_arc_onto_the_circle_has_a_psi_that_meets_every_condition(R, t):
     x, y = -(R + 1.0) * sin(t), (R + 1.0) * cos(t) - 1.0
-    lam, psi1, psi2 = adjoint(x, y, R, Side.CW, Word.L, t, 0.0, 0.0)
+    maneuver = Entry(Side.CW, Word.L, t, 0.0, 0.0)
+    lam, psi1, psi2 = adjoint(x, y, R, maneuver)
     for i in range(101):
-        state = followed(x, y, psi1, psi2, Word.L, t, 0.0, 0.0, t * i / 100)
+        state = state_and_adjoint_at(StateAndAdjoint(x, y, psi1, psi2), maneuver, t * i / 100)
         phi = switching_function(*state)
         assert phi >= -1e-14
-        assert phi + state[2] == pytest.approx(lam, abs=1e-14)
-    assert state[2] * (1.0 + R) == pytest.approx(lam, abs=1e-13)
+        assert phi + state.psi1 == pytest.approx(lam, abs=1e-14)
+    assert state.psi1 * (1.0 + R) == pytest.approx(lam, abs=1e-13)
 
 
 @pytest.mark.parametrize("t", [0.3, 1.0, 3.0])
 def test_a_right_arc_inside_a_circle_of_less_than_2_has_one_up_to_half_a_turn(t):
     R = 1.5
     x, y = (R - 1.0) * sin(t), (R - 1.0) * cos(t) + 1.0
-    lam, psi1, psi2 = adjoint(x, y, R, Side.CW, Word.R, t, 0.0, 0.0)
+    lam, psi1, psi2 = adjoint(x, y, R, Entry(Side.CW, Word.R, t, 0.0, 0.0))
     assert 0.0 < lam < R - 1.0 + 1e-12
     assert (psi1, psi2) == pytest.approx((x / hypot(x, y), y / hypot(x, y)), abs=1e-14)
 
@@ -129,19 +141,20 @@ def test_lambda_0_at_the_papers_switch_below_the_centre():
 
 
 def test_the_empty_word_has_no_adjoint():
-    assert all(map(isnan, adjoint(0.0, 1.0, 1.0, Side.CW, Word.EMPTY, 0.0, 0.0, 0.0)))
+    assert all(map(isnan, adjoint(0.0, 1.0, 1.0, Entry(Side.CW, Word.EMPTY, 0.0, 0.0, 0.0))))
 
 
 @given(controls, coordinates)
 def test_psi_turned_there_and_back(u, t):
-    assert turned(*turned(0.6, 0.8, u, t), u, -t) == pytest.approx((0.6, 0.8), abs=1e-15)
+    assert turn_adjoint(*turn_adjoint(0.6, 0.8, u, t), u, -t) == pytest.approx((0.6, 0.8), abs=1e-15)
 
 
 def test_numba_compiles_the_same_source():
-    compiled, walked = rebound(adjoint, finish=numba.njit), rebound(followed, finish=numba.njit)
+    compiled, walked = rebound(adjoint, finish=numba.njit), rebound(state_and_adjoint_at, finish=numba.njit)
     for x, y, R, side in ((4.0, 4.0, 1.0, 1), (-0.53, 0.31, 1.0, 1), (0.3, 0.4, 5.0, -1), (-sqrt(3.0), 0.0, 1.0, 1)):
-        held, word, durations, plain = starts(x, y, R, side)
-        proof = compiled(x, y, R, int(held), int(word), *durations)
-        assert proof == pytest.approx(plain, abs=1e-15)
-        end = followed(x, y, *plain[1:], word, *durations, 1.0)
-        assert walked(x, y, *proof[1:], int(word), *durations, 1.0) == pytest.approx(end, abs=1e-14)
+        maneuver, plain = starts(x, y, R, side)
+        maneuver = maneuver._replace(side=int(maneuver.side), word=int(maneuver.word))
+        by_numba = compiled(x, y, R, maneuver)
+        assert by_numba == pytest.approx(plain, abs=1e-15)
+        end = state_and_adjoint_at(StateAndAdjoint(x, y, *plain[1:]), maneuver, 1.0)
+        assert walked(StateAndAdjoint(x, y, *by_numba[1:]), maneuver, 1.0) == pytest.approx(end, abs=1e-14)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from loiter.kernel.angles import NONE, TWO_PI, angle, rotation, snapped, total
+from loiter.kernel.angles import NO_ROTATION, TWO_PI, angle, rotation, snap_full_turn, total_angle
 
 angles = st.floats(0.0, TWO_PI, exclude_max=True)
 lengths = st.floats(1e-3, 1e3)
@@ -39,16 +39,16 @@ def lacking(small):
     return rotation(1.0, 0.0, cos(small), -sin(small))
 
 
-def test_a_turn_that_lacks_the_slack_counts_as_none():
-    assert angle(snapped(lacking(1e-9), 100.0, 1.1e-8)) == 0.0
-    assert snapped(lacking(1e-9), 100.0, 0.9e-8) == lacking(1e-9)
-    assert snapped((sin(1e-9), cos(1e-9)), 100.0, 1e-3) == (sin(1e-9), cos(1e-9))
+def test_a_turn_that_lacks_the_tolerance_counts_as_none():
+    assert angle(snap_full_turn(lacking(1e-9), 100.0, 1.1e-8)) == 0.0
+    assert snap_full_turn(lacking(1e-9), 100.0, 0.9e-8) == lacking(1e-9)
+    assert snap_full_turn((sin(1e-9), cos(1e-9)), 100.0, 1e-3) == (sin(1e-9), cos(1e-9))
 
 
 @given(st.floats(1e-9, 3.0), lengths, lengths)
-def test_what_counts_as_none_is_no_longer_than_the_slack(small, radius, slack):
-    if angle(snapped(lacking(small), radius * radius, slack)) == 0.0:
-        assert small * radius <= slack * (1.0 + 1e-9)
+def test_what_counts_as_none_is_no_longer_than_the_tolerance(small, radius, arc_tolerance):
+    if angle(snap_full_turn(lacking(small), radius * radius, arc_tolerance)) == 0.0:
+        assert small * radius <= arc_tolerance * (1.0 + 1e-9)
 
 
 @given(angles, angles, angles, lengths, lengths, lengths)
@@ -58,22 +58,22 @@ def test_what_counts_as_none_is_no_longer_than_the_slack(small, radius, slack):
 def test_rotations_add_up(a, b, c, p, q, r):
     parts = [(length * sin(part), length * cos(part)) for part, length in ((a, p), (b, q), (c, r))]
     # A sum that rounding brings to a whole turn is that turn, never none.
-    assert total(*parts) == pytest.approx(sum(map(angle, parts)), abs=2e-14)
+    assert total_angle(*parts) == pytest.approx(sum(map(angle, parts)), abs=2e-14)
 
 
 @pytest.mark.parametrize("cross", [0.0, -0.0])
 @pytest.mark.parametrize("halves", [0, 1, 2, 3])
 def test_exact_half_turns_add_up(cross, halves):
-    turns = [(cross, -1.0)] * halves + [NONE] * (3 - halves)
-    assert total(*turns) == halves * pi
+    turns = [(cross, -1.0)] * halves + [NO_ROTATION] * (3 - halves)
+    assert total_angle(*turns) == halves * pi
 
 
 def test_a_vector_without_length_is_not_rotated():
     still = rotation(0.0, -0.0, 3.0, -4.0)
     assert angle(still) == 0.0
-    assert total((1.0, 2.0), still, still) == angle((1.0, 2.0))
+    assert total_angle((1.0, 2.0), still, still) == angle((1.0, 2.0))
 
 
 @given(st.floats(1e-300, 1e-3), st.floats(1e-300, 1e-3))
 def test_small_rotations_add_up_to_all_their_digits(a, b):
-    assert total((sin(a), cos(a)), NONE, (sin(b), cos(b))) == pytest.approx(a + b, rel=8e-16)
+    assert total_angle((sin(a), cos(a)), NO_ROTATION, (sin(b), cos(b))) == pytest.approx(a + b, rel=8e-16)

@@ -7,8 +7,17 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from loiter.kernel.angles import angle
-from loiter.kernel.exact import beyond
-from loiter.kernel.extremals import duration, durations, extremals, fastest, lrl, near_circle, onto_axis, rl
+from loiter.kernel.extremals import (
+    duration,
+    durations,
+    extremals,
+    fastest,
+    is_near_circle,
+    lrl,
+    onto_axis,
+    rl,
+    start_at,
+)
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import rounding
 from loiter.kernel.words import Word
@@ -58,7 +67,7 @@ def test_last_arcs_after_a_straight_piece_last_as_long_as_the_radius_says(x, y, 
 @settings(max_examples=500)
 @given(coordinates, coordinates, radii)
 def test_lrl_switches_where_the_maximum_principle_asks(x, y, R):
-    extremal = lrl(x, y, R, 0.0, beyond(x, y, R, 2.0), beyond(x, y, 2.0 - R, 2.0))
+    extremal = lrl(start_at(x, y, R, 0.0))
     first, middle, _ = durations(extremal)
     if duration(extremal) < inf:
         xa, ya = flow(x, y, 1, first)
@@ -69,7 +78,7 @@ def test_lrl_switches_where_the_maximum_principle_asks(x, y, R):
 
 @pytest.mark.parametrize("branch", [-1.0, 1.0])
 def test_rl_meets_the_last_circle_on_the_side_of_its_branch(branch):
-    first, last, _ = durations(rl(-0.53, 0.31, 1.0, 0.0, beyond(-0.53, 0.31, 1.0, -2.0), branch))
+    first, last, _ = durations(rl(start_at(-0.53, 0.31, 1.0, 0.0), branch))
     x1, y1 = flow(-0.53, 0.31, -1, first)
     assert x1 * branch > 0.0
     assert hypot(x1, y1 + 1.0) == pytest.approx(2.0, abs=1e-15)
@@ -94,9 +103,9 @@ def test_no_straight_piece_inside_two_turn_radii():
 @example(-3e-289, -3.0, 1.0)
 def test_the_three_words_that_are_tried_are_as_fast_as_all_eleven(x, y, R):
     """docs/theory.md, section 4: for each first turn one word, and from y < 0 one more."""
-    slack = rounding(x, y, R) / 3.0
-    least, best = fastest(x, y, R, slack, True)
-    assert least == pytest.approx(min(map(duration, extremals(x, y, R, slack))), abs=rounding(x, y, R))
+    arc_tolerance = rounding(x, y, R) / 3.0
+    least, best = fastest(x, y, R, arc_tolerance, True)
+    assert least == pytest.approx(min(map(duration, extremals(x, y, R, arc_tolerance))), abs=rounding(x, y, R))
     assert duration(best) == least
 
 
@@ -109,7 +118,7 @@ def test_the_time_of_an_extremal_is_the_sum_of_its_pieces(x, y, R):
 
 
 @given(coordinates, coordinates, radii, st.floats(0.0, 10.0))
-def test_next_to_a_circle_means_within_the_slack_of_it(x, y, radius, slack):
+def test_next_to_a_circle_means_within_a_distance_of_it(x, y, radius, distance):
     away = abs(hypot(x, y) - radius)
-    assume(abs(away - slack) > 1e-12 * (1.0 + away + slack + radius))
-    assert near_circle(x * x + y * y - radius * radius, radius, slack) == (away <= slack)
+    assume(abs(away - distance) > 1e-12 * (1.0 + away + distance + radius))
+    assert is_near_circle(x * x + y * y - radius * radius, radius, distance) == (away <= distance)

@@ -11,7 +11,7 @@ from loiter.kernel.motion import flow
 
 @pytest.mark.parametrize("end", [-1.0, 1.0])
 @pytest.mark.parametrize("c", [0.1, 0.5, 1.0, 5.0])
-def test_a_turn_that_lacks_no_more_than_the_slack_is_none(c, end):
+def test_a_turn_that_lacks_no_more_than_the_tolerance_is_none(c, end):
     """What it lacks is an arc of the circle that it turns on, of radius sqrt(c^2 + 1) about (0, -1)."""
     lacks = 1e-6
     x, y = flow(end * c, 0.0, 1, lacks)

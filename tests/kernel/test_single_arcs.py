@@ -5,8 +5,7 @@ from math import cos, inf, pi, sin
 import pytest
 
 from loiter.kernel.codes import Side
-from loiter.kernel.exact import beyond
-from loiter.kernel.extremals import duration, extremals, fastest, l, left_first, r, right_first
+from loiter.kernel.extremals import duration, extremals, fastest, l, left_first, r, right_first, start_at
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import optimum, rounding
 from loiter.kernel.words import Word
@@ -17,12 +16,12 @@ from loiter.kernel.words import Word
 @pytest.mark.parametrize("R", [1.2, 2.0, 3.0, 7.0])
 def test_a_state_one_arc_before_the_target_has_that_arc_among_its_extremals(R, word, u, arc):
     x, y = flow(0.0, R, u, -arc)
-    slack = rounding(x, y, R) / 3.0
-    one = {extremal[0]: duration(extremal) for extremal in extremals(x, y, R, slack)}
+    arc_tolerance = rounding(x, y, R) / 3.0
+    one = {extremal[0]: duration(extremal) for extremal in extremals(x, y, R, arc_tolerance)}
     assert one[word] == pytest.approx(arc, abs=1e-14)
-    assert fastest(x, y, R, slack, True)[0] <= one[word] + slack
+    assert fastest(x, y, R, arc_tolerance, True)[0] <= one[word] + arc_tolerance
     # A little beside the circle the arc does not reach the target.
-    beside = {extremal[0]: duration(extremal) for extremal in extremals(x, y + 1e-6, R, slack)}
+    beside = {extremal[0]: duration(extremal) for extremal in extremals(x, y + 1e-6, R, arc_tolerance)}
     assert beside[word] == inf
 
 
@@ -43,13 +42,8 @@ def test_with_a_tolerance_the_sooner_of_the_two_first_turns_wins_on_the_tightest
         angle, radius = pi * (i % 20) / 20.0, 2.0 + tolerance * (i // 20 - 9.5) / 10.0
         x, y = radius * cos(angle), radius * sin(angle) - 1.0
         if y >= 0.0:
-            outer, inner = beyond(x, y, 1.0, 2.0), beyond(x, y, 1.0, -2.0)
-            competing = (
-                left_first(x, y, 1.0, tolerance, outer, outer),
-                right_first(x, y, 1.0, tolerance, inner),
-                l(x, y, 1.0, tolerance, outer),
-                r(x, y, 1.0, tolerance, inner),
-            )
+            start = start_at(x, y, 1.0, tolerance)
+            competing = left_first(start), right_first(start), l(start), r(start)
             least, by_rule = (fastest(x, y, 1.0, tolerance, exact)[0] for exact in (False, True))
             assert least == min(map(duration, competing))
             differ += least < by_rule

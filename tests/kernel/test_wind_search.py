@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from loiter.compiled.rebinding import rebound
 from loiter.kernel.codes import Side, Status
-from loiter.kernel.hold import held, hold_rate, hold_time, phase_of, tightest_held
+from loiter.kernel.hold import hold_pose, hold_rate, hold_time, phase_of, tightest_radius
 from loiter.kernel.motion import reduce
 from loiter.kernel.synthesis import duration, optimum, rounding
-from loiter.kernel.wind_search import WindScene, fastest, first_path, join_slope, optima, ranked, tied
+from loiter.kernel.wind_search import WindProblem, WindScene, fastest, first_path, is_tie, join_slope, optima, ranked
 from loiter.kernel.words import Word
 from strategies import blur, coordinates, one_way, radii, sides
 
@@ -35,13 +35,13 @@ def scenes(draw, windiest=WINDIEST):
     wind = draw(st.one_of(st.just(0.0), st.floats(1e-100, windiest)))
     azimuth, angle = draw(angles), draw(angles)
     wx, wy = wind * cos(azimuth), wind * sin(azimuth)
-    R = tightest_held(wx, wy) * draw(st.one_of(st.just(1.0), st.floats(1.0, 2.5)))
+    R = tightest_radius(wx, wy) * draw(st.one_of(st.just(1.0), st.floats(1.0, 2.5)))
     return draw(coordinates), draw(coordinates), cos(angle), sin(angle), R, wx, wy
 
 
 def solved(scene, side):
     x, y, c, s, R, wx, wy = scene
-    return fastest(x, y, c, s, R, side, wx, wy)
+    return fastest(WindProblem(x, y, c, s, R, side, wx, wy))
 
 
 def least_time(scene, side):
@@ -153,7 +153,7 @@ def test_of_two_valleys_almost_as_deep_the_deeper_is_found(R, beyond, angle, mag
     wind = 10.0**magnitude
     scene = -R - beyond, 0.0, cos(angle), sin(angle), R, wind * cos(azimuth), wind * sin(azimuth)
     least = min(least_time(scene, side) for side in (Side.CW, Side.CCW))
-    assert tied(least_time(scene, Side.EITHER), least, R)
+    assert is_tie(least_time(scene, Side.EITHER), least, R)
 
 
 @settings(max_examples=12)
@@ -178,7 +178,7 @@ def test_next_to_a_tie_the_sooner_direction_is_found(scene, magnitude):
     for angle in (low, low - 10.0**magnitude, low + 10.0**magnitude):
         there = heading(angle)
         least = min(least_time(there, side) for side in (Side.CW, Side.CCW))
-        assert tied(least_time(there, Side.EITHER), least, scene[4])
+        assert is_tie(least_time(there, Side.EITHER), least, scene[4])
 
 
 @given(scenes(), sides, st.floats(0.0, 1.0))
@@ -230,7 +230,7 @@ def test_the_slope_is_the_derivative_of_the_time(scene, side, phase):
     inner, h = WindScene(*scene, rounding(x, y, R) / 3.0), 1e-5
     ways = [first_path(phase + d, side, inner, inf) for d in (-h, 0.0, h)]
     there = join_slope(ways[1], phase, side, inner)
-    speed = held(phase, side, R, wx, wy)[4]
+    speed = hold_pose(phase, side, R, wx, wy)[4]
     measured = (ways[2][0] - ways[0][0]) / (2.0 * h * R / speed)
     assert there <= 1.0 + 1e-9
     # Next to where a piece vanishes neither is to be had.
@@ -262,7 +262,9 @@ def test_the_adjoint_of_three_pieces_is_transversal(scene, side):
 def test_the_hold_flies_along_the_circle_at_its_rate(scene, side, phase):
     *_, R, wx, wy = scene
     h = 1e-6
-    (x0, y0, c0, s0, _), (x, y, c, s, g), (x1, y1, c1, s1, _) = (held(phase + d, side, R, wx, wy) for d in (-h, 0, h))
+    (x0, y0, c0, s0, _), (x, y, c, s, g), (x1, y1, c1, s1, _) = (
+        hold_pose(phase + d, side, R, wx, wy) for d in (-h, 0, h)
+    )
     assert (x1 - x0, y1 - y0) == pytest.approx((2 * h * R * (c + wx) / g, 2 * h * R * (s + wy) / g), abs=1e-9)
     turned, time = atan2(c0 * s1 - s0 * c1, c0 * c1 + s0 * s1), 2 * h * R / g
     assert turned / time == pytest.approx(-side * hold_rate(phase, side, R, wx, wy), abs=1e-6)
@@ -274,7 +276,7 @@ def test_the_hold_flies_along_the_circle_at_its_rate(scene, side, phase):
 @given(st.floats(0.0, 0.95), angles, one_way)
 def test_the_tightest_circle_takes_the_full_rate_downwind_and_nowhere_more(wind, azimuth, side):
     wx, wy = wind * cos(azimuth), wind * sin(azimuth)
-    R = tightest_held(wx, wy)
+    R = tightest_radius(wx, wy)
     rates = [hold_rate(2.0 * pi * i / 360, side, R, wx, wy) for i in range(360)]
     assert max(rates) == pytest.approx(1.0, abs=1e-12)
     assert rates[180] == pytest.approx(1.0, abs=1e-12)
@@ -283,9 +285,9 @@ def test_the_tightest_circle_takes_the_full_rate_downwind_and_nowhere_more(wind,
 @given(scenes(), one_way, st.floats(0.0, 2.0 * pi))
 def test_on_the_circle_and_along_it_nothing_is_left_to_do(scene, side, phase):
     *_, R, wx, wy = scene
-    x, y, c, s, _ = held(phase, side, R, wx, wy)
+    x, y, c, s, _ = hold_pose(phase, side, R, wx, wy)
     for asked in (side, Side.EITHER):
-        status, held_side, word, *durations, angle, miss = fastest(x, y, c, s, R, asked, wx, wy)
+        status, held_side, word, *durations, angle, miss = fastest(WindProblem(x, y, c, s, R, asked, wx, wy))
         assert (status, held_side, word, durations) == (Status.OK, side, Word.EMPTY, [0.0, 0.0, 0.0])
         assert cos(angle - atan2(y, x)) == pytest.approx(1.0)
         assert miss <= rounding(x, y, R)
@@ -301,7 +303,7 @@ def test_a_wind_of_no_account_is_calm(wind):
 @pytest.mark.parametrize("wind", [0.95, 0.99])
 def test_almost_as_windy_as_the_aircraft_is_fast(wind):
     for i in range(12):
-        scene = (6.0 * cos(i), 6.0 * sin(i), cos(3 * i), sin(3 * i), tightest_held(wind, 0.0), wind, 0.0)
+        scene = (6.0 * cos(i), 6.0 * sin(i), cos(3 * i), sin(3 * i), tightest_radius(wind, 0.0), wind, 0.0)
         assert 0.0 < least_time(scene, Side.EITHER) < 40.0 / (1.0 - wind)
 
 
@@ -322,7 +324,7 @@ def test_almost_as_windy_as_the_aircraft_is_fast(wind):
 )
 def test_what_cannot_be_solved_has_a_status(change, status):
     arguments = {"x": 3.0, "y": 1.0, "c": 1.0, "s": 0.0, "R": 2.0, "side": Side.CW, "wx": 0.0, "wy": 0.1} | change
-    answer = fastest(**arguments)
+    answer = fastest(WindProblem(**arguments))
     assert answer[0] == status
     assert Status(answer[0]).message
     assert isnan(answer[3]) == (status != Status.OK)
@@ -335,28 +337,28 @@ def compiled():
 
 def test_compiled_it_is_the_same():
     for i in range(40):
-        scene = (
+        problem = WindProblem(
             5.0 * cos(i),
             4.0 * sin(2 * i),
             cos(3 * i),
             sin(3 * i),
             3.0,
-            Side.EITHER,
+            int(Side.EITHER),
             0.4 * cos(5 * i),
             0.4 * sin(5 * i),
         )
-        assert compiled()(*scene) == pytest.approx(fastest(*scene), abs=1e-9)
+        assert compiled()(problem) == pytest.approx(fastest(problem), abs=1e-9)
 
 
 @given(scenes(), sides)
 def test_what_is_ranked_begins_with_the_fastest_and_ends_on_the_circle(scene, side):
     x, y, c, s, R, wx, wy = scene
-    found = ranked(x, y, c, s, R, side, wx, wy)
+    found = ranked(WindProblem(x, y, c, s, R, side, wx, wy))
     times = [sum(maneuver[3:6]) for maneuver in found]
     assert times == sorted(times)
     assert times[0] == pytest.approx(least_time(scene, side), abs=moved(scene, times[0]))
     assert {maneuver[1] for maneuver in found} == ({1, -1} if side == Side.EITHER else {side})
-    tied = optima(x, y, c, s, R, side, wx, wy)
+    tied = optima(WindProblem(x, y, c, s, R, side, wx, wy))
     assert tied == found[: len(tied)]
     assert sum(tied[-1][3:6]) <= times[0] + 1e-11 * (R + times[0])
     for status, *_, miss in found:
@@ -368,7 +370,7 @@ def test_what_is_ranked_begins_with_the_fastest_and_ends_on_the_circle(scene, si
 def test_no_point_beside_a_ranked_one_is_met_sooner(scene, side):
     x, y, c, s, R, wx, wy = scene
     inner = WindScene(*scene, rounding(x, y, R) / 3.0)
-    for _, held_side, _, t1, t2, t3, azimuth, _ in ranked(x, y, c, s, R, side, wx, wy):
+    for _, held_side, _, t1, t2, t3, azimuth, _ in ranked(WindProblem(x, y, c, s, R, side, wx, wy)):
         phase, time = phase_of(cos(azimuth), sin(azimuth), held_side, wx, wy), t1 + t2 + t3
         beside = [first_path(phase + d, held_side, inner, inf)[0] for d in (-1e-4, 1e-4)]
         assert min(beside) >= time - moved(scene, time)
@@ -376,7 +378,7 @@ def test_no_point_beside_a_ranked_one_is_met_sooner(scene, side):
 
 def test_a_side_without_an_answer_leaves_none(monkeypatch):
     monkeypatch.setattr("loiter.kernel.wind_search.end_miss", lambda *_: nan)
-    assert ranked(3.0, 1.0, 1.0, 0.0, 2.0, Side.EITHER, 0.1, 0.0) == []
+    assert ranked(WindProblem(3.0, 1.0, 1.0, 0.0, 2.0, Side.EITHER, 0.1, 0.0)) == []
 
 
 VALLEYS_SEEN = 64
@@ -398,7 +400,7 @@ def valleys_seen(scene, side):
 def test_each_valley_is_ranked_once(scene, side):
     """Two points of joining of one side are two maneuvers; the fastest, which is found twice, is one."""
     *_, wx, wy = scene
-    found = ranked(*scene[:5], side, wx, wy)
+    found = ranked(WindProblem(*scene[:5], side, wx, wy))
     phases = [(m[1], phase_of(cos(m[6]), sin(m[6]), m[1], wx, wy)) for m in found]
     for one in sorted({m[1] for m in found}):
         joins = [phase for held_side, phase in phases if held_side == one]

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
-from loiter.mavlink.watching.advice import Action, Beside, Holding, actions, beside
+from loiter.mavlink.watching.advice import Action, CircleOffset, HoldDetector, actions, circle_offset
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 ORBIT = Orbit(30.0, -20.0, 80.0, Turn.CW)
@@ -64,10 +64,10 @@ def at(outside_m, azimuth_deg, off_deg=0.0, turn=Turn.CW, orbit=ORBIT, wind=None
     turn=st.sampled_from([Turn.CW, Turn.CCW]),
 )
 def test_beside_is_how_far_outside_and_how_far_off_the_tangent(outside, azimuth, off, turn):
-    seen = beside(at(outside, azimuth, off, turn))
+    seen = circle_offset(at(outside, azimuth, off, turn))
     assert seen.outside_m == pytest.approx(outside, abs=1e-9)
-    assert seen.off_deg(turn) == pytest.approx(abs(off), abs=1e-6)
-    assert seen.off_deg(turn.other) == pytest.approx(180.0 - abs(off), abs=1e-6)
+    assert seen.angle_deg(turn) == pytest.approx(abs(off), abs=1e-6)
+    assert seen.angle_deg(turn.other) == pytest.approx(180.0 - abs(off), abs=1e-6)
 
 
 def test_beside_is_over_the_ground_and_as_a_circle_that_moves_sees_it():
@@ -75,44 +75,49 @@ def test_beside_is_over_the_ground_and_as_a_circle_that_moves_sees_it():
     wide, wind = replace(ORBIT, radius_m=120.0), Wind(6.0, from_deg=270.0)
     crab = Pose(wide.east_m - 130.0, wide.north_m, -19.471220634490695)
     assert 18.0 * sin(radians(crab.heading_deg)) == pytest.approx(-6.0)
-    assert beside(plan(crab, wide, UAV, wind)) == pytest.approx((10.0, 0.0), abs=1e-9)
-    assert beside(plan(crab, replace(wide, velocity_east_m_s=-6.0), UAV)) == pytest.approx((10.0, 0.0), abs=1e-9)
+    assert circle_offset(plan(crab, wide, UAV, wind)) == pytest.approx((10.0, 0.0), abs=1e-9)
+    assert circle_offset(plan(crab, replace(wide, velocity_east_m_s=-6.0), UAV)) == pytest.approx((10.0, 0.0), abs=1e-9)
 
 
 def held(seen, turns=(Turn.CW,), radius_m=80.0, step_s=0.5):
     """The direction that is held, report after report."""
-    holding = Holding(radius_m, 5.0)
+    holding = HoldDetector(radius_m, 5.0)
     return [holding.turn(each, turns, i * step_s) for i, each in enumerate(seen)]
 
 
 def test_who_keeps_along_twelve_metres_outside_holds_the_circle():
     """ "Joins clockwise in 3.5 s" for ever, it said."""
-    assert held([Beside(12.0, 4.0)] * 10) == [None] * 6 + [Turn.CW] * 4
+    assert held([CircleOffset(12.0, 4.0)] * 10) == [None] * 6 + [Turn.CW] * 4
 
 
 def test_on_the_circle_it_counts_at_once():
-    assert held([Beside(3.0, 9.0)]) == [Turn.CW]
-    assert held([Beside(-4.9, 9.0)]) == [Turn.CW]
-    assert held([Beside(3.0, 20.0)]) == [None]
+    assert held([CircleOffset(3.0, 9.0)]) == [Turn.CW]
+    assert held([CircleOffset(-4.9, 9.0)]) == [Turn.CW]
+    assert held([CircleOffset(3.0, 20.0)]) == [None]
 
 
 def test_who_flies_through_the_band_does_not_hold_the_circle():
-    steep = [Beside(16.0 - 2.0 * i, 35.0 - 2.0 * i) for i in range(8)]
+    steep = [CircleOffset(16.0 - 2.0 * i, 35.0 - 2.0 * i) for i in range(8)]
     assert held(steep) == [None] * 8
 
 
 def test_the_hold_is_left_later_than_it_is_entered():
-    seen = [Beside(12.0, 4.0)] * 7 + [Beside(25.0, 20.0), Beside(12.0, 29.0), Beside(31.0, 0.0), Beside(12.0, 0.0)]
+    seen = [CircleOffset(12.0, 4.0)] * 7 + [
+        CircleOffset(25.0, 20.0),
+        CircleOffset(12.0, 29.0),
+        CircleOffset(31.0, 0.0),
+        CircleOffset(12.0, 0.0),
+    ]
     assert held(seen) == [None] * 6 + [Turn.CW] * 3 + [None] * 2
 
 
 def test_the_other_way_round_counts_where_it_may_be_held():
-    seen = [Beside(2.0, 176.0)] * 8
+    seen = [CircleOffset(2.0, 176.0)] * 8
     assert held(seen) == [None] * 8
     assert held(seen, (Turn.CW, Turn.CCW)) == [None] * 6 + [Turn.CCW] * 2
 
 
 def test_beside_a_large_circle_the_band_is_a_share_of_it():
-    assert held([Beside(140.0, 4.0)] * 8, radius_m=1000.0)[-1] == Turn.CW
-    assert held([Beside(160.0, 4.0)] * 8, radius_m=1000.0)[-1] is None
-    assert held([Beside(14.0, 4.0)] * 8, radius_m=30.0)[-1] == Turn.CW
+    assert held([CircleOffset(140.0, 4.0)] * 8, radius_m=1000.0)[-1] == Turn.CW
+    assert held([CircleOffset(160.0, 4.0)] * 8, radius_m=1000.0)[-1] is None
+    assert held([CircleOffset(14.0, 4.0)] * 8, radius_m=30.0)[-1] == Turn.CW

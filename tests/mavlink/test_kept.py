@@ -4,7 +4,7 @@ import pytest
 
 from loiter.io.missions.items import Autopilot, Command, Frame, Mission, MissionItem
 from loiter.mavlink.connection.link import Vehicle
-from loiter.mavlink.missions.stored_items import compared, decoded, encoded
+from loiter.mavlink.missions.stored_items import decode, differences, encode
 
 PX4, PLANE = Vehicle(1, 1, Autopilot.PX4), Vehicle(1, 1, Autopilot.ARDUPILOT)
 HOME = (47.0, 8.0, 400.0)
@@ -29,7 +29,7 @@ KEPT = [
 
 
 def sent_to(vehicle, command, params, frame=Frame.ABOVE_HOME):
-    return encoded(Mission((MissionItem(command, frame, params, 47.0, 8.0, 50.0),), HOME), vehicle)
+    return encode(Mission((MissionItem(command, frame, params, 47.0, 8.0, 50.0),), HOME), vehicle)
 
 
 @pytest.mark.parametrize(("vehicle", "command", "params", "kept"), KEPT)
@@ -41,11 +41,11 @@ def test_what_is_kept_is_expected_and_any_other_parameter_is_not(vehicle, comman
         for i, (was, now) in enumerate(zip(params, kept, strict=True), 1)
         if was != now
     ]
-    assert compared(sent, back, vehicle) == ([], cut)
+    assert differences(sent, back, vehicle) == ([], cut)
     for i in range(4):
         for off in (-0.25, 0.25):
             other = (*kept[:i], kept[i] + off, *kept[i + 1 :])
-            (wrong,), _ = compared(sent, [*sent[:-1], sent[-1]._replace(params=other)], vehicle)
+            (wrong,), _ = differences(sent, [*sent[:-1], sent[-1]._replace(params=other)], vehicle)
             assert wrong == f"item 1 has {other[i]:.9g} for parameter {i + 1}, not {params[i]:.9g}"
 
 
@@ -54,13 +54,13 @@ def test_what_is_kept_is_expected_and_any_other_parameter_is_not(vehicle, comman
 def test_px4_answers_in_the_frame_whose_name_ends_in_int(frame, twin):
     sent = sent_to(PX4, Command.NAV_WAYPOINT, (0.0, 0.0, 0.0, 0.0), Frame(frame))
     back = [sent[0]._replace(frame=twin)]
-    assert compared(sent, back, PX4) == ([], [])
-    (item,) = decoded(back, PX4).items
+    assert differences(sent, back, PX4) == ([], [])
+    (item,) = decode(back, PX4).items
     assert (item.frame, item.latitude_deg, item.longitude_deg) == (frame, 47.0, 8.0)
 
 
 def test_items_without_a_place_keep_their_parameters_in_px4():
     sent = sent_to(PX4, Command.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, -90.0), Frame.NOWHERE)
     kept = [sent[0]._replace(params=(0.0, 0.0, -80.5, 270.0))]
-    assert len(compared(sent, kept, PX4)[0]) == 3
-    assert compared(sent, sent, PX4) == ([], [])
+    assert len(differences(sent, kept, PX4)[0]) == 3
+    assert differences(sent, sent, PX4) == ([], [])

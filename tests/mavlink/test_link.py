@@ -126,7 +126,7 @@ def test_a_vehicle_that_calls_us_gets_its_mission():
 
 @pytest.mark.parametrize("packets", [1, 6, 9])
 def test_a_line_that_is_hung_up_fails_and_prints_nothing(packets, capfd):
-    hung_up = r"the line to the vehicle is gone: "
+    hung_up = r"the connection to the vehicle is lost: "
     vehicle = Vehicle()
     with flying(vehicle), answering(vehicle, packets) as connection, pytest.raises(LinkFailed, match=hung_up):
         upload(NEW, connection, system=1, timeout_s=0.5)
@@ -156,7 +156,7 @@ def test_where_another_program_has_that_port_another_is_taken():
 
 
 def test_where_nothing_answers_px4s_habit_is_told():
-    hint = "; PX4 answers only the port that spoke to it first since it started"
+    hint = "; PX4 answers only the port that first sent to it since it started"
     port = free_port()
     with pytest.raises(LinkFailed, match=rf"no vehicle at all{hint}$"):
         download(f"udpout:127.0.0.1:{port}", timeout_s=0.3)
@@ -210,7 +210,7 @@ def test_another_string_is_no_connection(connection):
 
 @pytest.mark.parametrize("host", ["a..b", ".", "x" * 64])
 def test_what_python_cannot_encode_is_no_name_of_a_host(host):
-    with pytest.raises(InvalidArgument, match=r"^connection is '.*': '.*' is no name of a host$"):
+    with pytest.raises(InvalidArgument, match=r"^connection is '.*': '.*' is not a host name$"):
         download(f"udpout:{host}:14550")
 
 
@@ -303,6 +303,6 @@ def test_importing_the_room_does_not_load_pymavlink():
 
 
 def test_the_line_says_who_we_are():
-    port = link.opened(f"udpin:127.0.0.1:{free_port()}", 1.0)
+    port = link.open_port(f"udpin:127.0.0.1:{free_port()}", 1.0)
     assert link.Link(port, link.Vehicle(1, 1, 3)).us == (link.OUR_SYSTEM, link.OUR_COMPONENT)
     port.close()

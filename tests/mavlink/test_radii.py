@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter.mavlink.missions.flown_radius import Scaling, eas2tas_squared, scaling
+from loiter.mavlink.missions.flown_radius import LoiterScaling, eas2tas_squared, loiter_scaling
 
 GRAVITY = 9.80665
 
@@ -26,7 +26,7 @@ def by_ardupilot(radius_m, eas2tas_squared, bank_limit_deg, airspeed_m_s):
     [(80.0, 684.0, 0.0, 85.9), (150.0, 684.0, 0.0, 160.2), (80.0, 684.0, 45.0, 80.8), (150.0, 684.0, 45.0, 150.0)],
 )
 def test_the_radius_is_the_one_that_a_simulator_flew(radius, altitude, limit, measured):
-    assert Scaling(limit, 18.0).flown_m(radius, altitude) == pytest.approx(measured, abs=1.0)
+    assert LoiterScaling(limit, 18.0).flown_m(radius, altitude) == pytest.approx(measured, abs=1.0)
 
 
 @pytest.mark.parametrize(
@@ -44,12 +44,12 @@ limits = st.sampled_from([0.0, 20.0, 30.0, 45.0, 60.0])
 @given(radius=st.floats(10.0, 3000.0), altitude=st.floats(-400.0, 9000.0), limit=limits, airspeed=st.floats(8.0, 40.0))
 def test_the_radius_is_ardupilots(radius, altitude, limit, airspeed):
     expected = by_ardupilot(radius, eas2tas_squared(altitude), limit, airspeed)
-    assert Scaling(limit, airspeed).flown_m(radius, altitude) == pytest.approx(expected, rel=1e-12)
+    assert LoiterScaling(limit, airspeed).flown_m(radius, altitude) == pytest.approx(expected, rel=1e-12)
 
 
 @given(radius=st.floats(10.0, 3000.0), altitude=st.floats(0.0, 9000.0), limit=limits, airspeed=st.floats(8.0, 40.0))
 def test_what_is_sent_is_flown_as_asked(radius, altitude, limit, airspeed):
-    widened = Scaling(limit, airspeed)
+    widened = LoiterScaling(limit, airspeed)
     assert widened.flown_m(widened.sent_m(radius, altitude), altitude) == pytest.approx(radius, rel=1e-12)
     assert widened.sent_whole_m(radius, altitude) == pytest.approx(widened.sent_m(radius, altitude), abs=0.5)
 
@@ -59,12 +59,12 @@ def test_what_is_sent_is_flown_as_asked(radius, altitude, limit, airspeed):
     [
         ({}, None),
         ({"AIRSPEED_CRUISE": 18.0}, None),
-        ({"NAVL1_LIM_BANK": 0.0}, Scaling(0.0, 0.0)),
+        ({"NAVL1_LIM_BANK": 0.0}, LoiterScaling(0.0, 0.0)),
         ({"NAVL1_LIM_BANK": 45.0}, None),
-        ({"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0}, Scaling(45.0, 18.0)),
-        ({"NAVL1_LIM_BANK": 45.0, "TRIM_ARSPD_CM": 1800.0}, Scaling(45.0, 18.0)),
-        ({"NAVL1_LIM_BANK": -1.0}, Scaling(0.0, 0.0)),
+        ({"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0}, LoiterScaling(45.0, 18.0)),
+        ({"NAVL1_LIM_BANK": 45.0, "TRIM_ARSPD_CM": 1800.0}, LoiterScaling(45.0, 18.0)),
+        ({"NAVL1_LIM_BANK": -1.0}, LoiterScaling(0.0, 0.0)),
     ],
 )
 def test_how_loiters_are_widened_is_known_once_the_vehicle_has_told_enough(known, expected):
-    assert scaling(known) == expected
+    assert loiter_scaling(known) == expected

@@ -13,7 +13,7 @@ from loiter import Turn
 from loiter.io.missions.items import Autopilot, Command, Frame, Mission, MissionItem
 from loiter.io.missions.signs import circle, with_circle
 from loiter.mavlink.connection.link import Vehicle
-from loiter.mavlink.missions.stored_items import compared, decoded, encoded, packet, same, unpacked
+from loiter.mavlink.missions.stored_items import decode, differences, encode, from_message, is_same, to_message
 
 PX4, PLANE, OTHER = (Vehicle(1, 1, code) for code in (Autopilot.PX4, Autopilot.ARDUPILOT, 0))
 HOME = (47.0, 8.0, 400.0)
@@ -31,7 +31,7 @@ items = st.builds(
 def through(item, vehicle):
     """An item packed, parsed by pymavlink and read."""
     mav = mavlink.MAVLink(None, 250, 190)
-    return unpacked(mav.decode(bytearray(packet(item, 3, vehicle).pack(mav))))
+    return from_message(mav.decode(bytearray(to_message(item, 3, vehicle).pack(mav))))
 
 
 def single(value):
@@ -40,21 +40,19 @@ def single(value):
 
 @given(item=items, vehicle=st.sampled_from([PX4, PLANE, OTHER]))
 def test_an_item_comes_back_as_it_went(item, vehicle):
-    sent = encoded(Mission((item,), HOME), vehicle)
+    sent = encode(Mission((item,), HOME), vehicle)
     back = [through(each, vehicle) for each in sent]
     assert repr(back) == repr(sent)
-    assert compared(sent, back, vehicle) == ([], [])
-    assert same(back, sent, vehicle)
-    assert repr(decoded(back, vehicle).items) == repr(
-        (item._replace(frame=int(item.frame), command=int(item.command)),)
-    )
+    assert differences(sent, back, vehicle) == ([], [])
+    assert is_same(back, sent, vehicle)
+    assert repr(decode(back, vehicle).items) == repr((item._replace(frame=int(item.frame), command=int(item.command)),))
 
 
 @given(lon=st.floats(-360.0, 360.0))
 @example(lon=181.0)
 @example(lon=-359.5)
 def test_longitudes_are_counted_from_0_or_from_180(lon):
-    (sent,) = encoded(Mission((MissionItem(16, 0, (0.0,) * 4, 1.0, lon, 5.0),), HOME), OTHER)
+    (sent,) = encode(Mission((MissionItem(16, 0, (0.0,) * 4, 1.0, lon, 5.0),), HOME), OTHER)
     assert abs(sent.y) <= 1800000000
     assert (sent.y / 1e7 - lon + 180.0) % 360.0 == pytest.approx(180.0, abs=1e-6)
 
@@ -87,18 +85,18 @@ class Kept:
 @given(radius=st.floats(1.0, 5000.0, width=32), turn=st.sampled_from([Turn.CW, Turn.CCW]), z=altitudes)
 def test_what_ardupilot_cuts_is_expected_and_another_direction_is_not(command, radius, turn, z):
     params = with_circle(command, (2.5, 0.0, 0.0, 1.0), radius, turn)
-    sent = encoded(Mission((MissionItem(command, 0, params, 47.0, 8.0, z),), HOME), PLANE)
+    sent = encode(Mission((MissionItem(command, 0, params, 47.0, 8.0, z),), HOME), PLANE)
     stored = [sent[0]._replace(x=1, y=2), Kept(command).of(sent[1])]
-    wrong, cut = compared(sent, stored, PLANE)
+    wrong, cut = differences(sent, stored, PLANE)
     assert wrong == []
     assert all(sentence.startswith("item 1 has ") for sentence in cut)
     # The same items from a vehicle of another kind are not what was sent.
-    assert compared(sent, stored, Vehicle(1, 1, 0))[0] or not cut
+    assert differences(sent, stored, Vehicle(1, 1, 0))[0] or not cut
     flipped = [
         -value if value and i == (1 if command == 31 else 2) else value for i, value in enumerate(stored[1].params)
     ]
     other = [stored[0], stored[1]._replace(params=tuple(flipped))]
-    assert any("for parameter" in sentence for sentence in compared(sent, other, PLANE)[0])
+    assert any("for parameter" in sentence for sentence in differences(sent, other, PLANE)[0])
 
 
 # What ArduPilot gives back of a NAV_LOITER_TURNS, by the comments of AP_Mission::mavlink_int_to_mission_cmd (pull
@@ -130,7 +128,7 @@ TURNS = {0.0: 0.0, 0.25: 0.25, 0.3: 76.0 / 256.0, 1.0: 1.0, 1.5: 1.0, 255.0: 255
 def stored_turns(turns, radius, turn=Turn.CW):
     """A NAV_LOITER_TURNS on its way to ArduPilot, home before it."""
     params = with_circle(18, (turns, 0.0, 0.0, 1.0), radius, turn)
-    return encoded(Mission((MissionItem(18, 0, params, 47.0, 8.0, 500.0),), HOME), PLANE)
+    return encode(Mission((MissionItem(18, 0, params, 47.0, 8.0, 500.0),), HOME), PLANE)
 
 
 @pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
@@ -138,14 +136,14 @@ def stored_turns(turns, radius, turn=Turn.CW):
 def test_ardupilot_packs_the_radius_of_turns_into_a_byte(radius, turn):
     home, sent = stored_turns(3.0, radius, turn)
     kept = copysign(RADII[radius], sent.params[2])
-    assert compared([home, sent], [home, sent._replace(params=(3.0, 0.0, kept, 1.0))], PLANE) == (
+    assert differences([home, sent], [home, sent._replace(params=(3.0, 0.0, kept, 1.0))], PLANE) == (
         [],
         [] if RADII[radius] == radius else [f"item 1 has {kept:.9g} for parameter 3, not {sent.params[2]:.9g}"],
     )
     # What is a metre, or a step of ten, beside that is a fault.
     for off in (-10.0, -1.0, 1.0, 10.0):
         if kept + off != sent.params[2]:
-            wrong, _ = compared([home, sent], [home, sent._replace(params=(3.0, 0.0, kept + off, 1.0))], PLANE)
+            wrong, _ = differences([home, sent], [home, sent._replace(params=(3.0, 0.0, kept + off, 1.0))], PLANE)
             assert [sentence.partition(" for ")[0] for sentence in wrong] == [f"item 1 has {kept + off:.9g}"]
 
 
@@ -153,32 +151,32 @@ def test_ardupilot_packs_the_radius_of_turns_into_a_byte(radius, turn):
 def test_ardupilot_packs_the_number_of_turns_into_a_byte(turns):
     home, sent = stored_turns(turns, 80.0)
     kept = sent._replace(params=(TURNS[turns], *sent.params[1:]))
-    wrong, cut = compared([home, sent], [home, kept], PLANE)
+    wrong, cut = differences([home, sent], [home, kept], PLANE)
     assert wrong == []
     assert len(cut) == (single(turns) != TURNS[turns])
-    assert compared([home, sent], [home, kept._replace(params=(TURNS[turns] + 1.0, *sent.params[1:]))], PLANE)[0]
+    assert differences([home, sent], [home, kept._replace(params=(TURNS[turns] + 1.0, *sent.params[1:]))], PLANE)[0]
 
 
 @pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
 def test_px4_answers_with_twin_frames_and_what_it_uses(turn):
     params = with_circle(17, (0.0, 0.0, 0.0, -90.0), 80.5, turn)
-    sent = encoded(Mission((MissionItem(17, Frame.ABOVE_HOME, params, 47.0, 8.0, 50.0),), HOME), PX4)
+    sent = encode(Mission((MissionItem(17, Frame.ABOVE_HOME, params, 47.0, 8.0, 50.0),), HOME), PX4)
     stored = [sent[0]._replace(frame=6, params=(0.0, 0.0, sent[0].params[2], single(269.99998)))]
-    assert compared(sent, stored, PX4) == ([], ["item 1 has 269.999969 for parameter 4, not -90"])
-    assert circle(17, decoded(stored, PX4).items[0].params) == (80.5, turn)
-    assert decoded(stored, PX4).items[0].frame == Frame.ABOVE_HOME
-    assert compared(sent, [stored[0]._replace(frame=5)], PX4)[0] == ["item 1 has 0 for frame, not 3"]
+    assert differences(sent, stored, PX4) == ([], ["item 1 has 269.999969 for parameter 4, not -90"])
+    assert circle(17, decode(stored, PX4).items[0].params) == (80.5, turn)
+    assert decode(stored, PX4).items[0].frame == Frame.ABOVE_HOME
+    assert differences(sent, [stored[0]._replace(frame=5)], PX4)[0] == ["item 1 has 0 for frame, not 3"]
 
 
 def test_the_home_of_ardupilot_is_its_own_and_is_not_compared():
-    sent = encoded(Mission((MissionItem(16, 0, (0.0,) * 4, 47.0, 8.0, 5.0),), HOME), PLANE)
+    sent = encode(Mission((MissionItem(16, 0, (0.0,) * 4, 47.0, 8.0, 5.0),), HOME), PLANE)
     assert (sent[0].command, sent[0].x, sent[0].y, sent[0].z) == (16, 470000000, 80000000, 400.0)
-    assert compared(sent, [sent[0]._replace(x=0, y=0, z=0.0), sent[1]], PLANE) == ([], [])
-    assert len(encoded(Mission((MissionItem(16, 0, (0.0,) * 4, 47.0, 8.0, 5.0),), (nan, nan, nan)), PX4)) == 1
+    assert differences(sent, [sent[0]._replace(x=0, y=0, z=0.0), sent[1]], PLANE) == ([], [])
+    assert len(encode(Mission((MissionItem(16, 0, (0.0,) * 4, 47.0, 8.0, 5.0),), (nan, nan, nan)), PX4)) == 1
 
 
 def test_nan_is_nan_and_not_a_number():
-    sent = encoded(Mission((MissionItem(16, 0, (0.0, 0.0, 0.0, nan), 47.0, 8.0, 5.0),), HOME), OTHER)
-    assert compared(sent, sent, OTHER) == ([], [])
+    sent = encode(Mission((MissionItem(16, 0, (0.0, 0.0, 0.0, nan), 47.0, 8.0, 5.0),), HOME), OTHER)
+    assert differences(sent, sent, OTHER) == ([], [])
     for other in (0.0, inf):
-        assert compared(sent, [sent[0]._replace(params=(0.0, 0.0, 0.0, other))], OTHER)[0]
+        assert differences(sent, [sent[0]._replace(params=(0.0, 0.0, 0.0, other))], OTHER)[0]

@@ -140,7 +140,7 @@ def test_one_of_two_vehicles_is_not_taken_by_chance():
                 super().beat()
 
     both = Both()
-    with flying(both), pytest.raises(LinkFailed, match=r"several .* system 1 \(PX4\) and system 2 \(PX4\): say which"):
+    with flying(both), pytest.raises(LinkFailed, match=r"several .* system 1 \(PX4\) and system 2 \(PX4\): choose one"):
         upload(NEW, both.connection)
     with flying(Both()) as vehicle:
         assert upload(NEW, vehicle.connection, system=1).system == 1
@@ -267,7 +267,7 @@ def test_a_vehicle_that_stays_busy_says_so():
             self.partner = self.who(message)
             self.acknowledge(14)
 
-    fails(Busy(), "refused to give its mission: it takes no missions from this station")
+    fails(Busy(), "refused to give its mission: it accepts no missions from this station")
 
 
 CHANGES = {
@@ -334,7 +334,7 @@ def test_a_vehicle_that_cannot_be_given_its_old_mission_back():
 
     vehicle = Spoils()
     done, _ = simulated(vehicle, NEW)
-    assert "; its old mission could not be sent back: see what it has before it flies" in str(done)
+    assert "; its old mission could not be sent back: check its mission before it flies" in str(done)
     assert len(vehicle.mission) == len(OLD)
 
 
@@ -500,7 +500,7 @@ def far(**fields):
         (far(altitude_m=float("inf")), "mission has an infinite number in item 1"),
         (far(params=(1e39, 0.0, 0.0, 0.0)), "mission has a number that is too large for MAVLink in item 1"),
         (far(command=70000), "mission has a number that is too large for MAVLink in item 1"),
-        (Mission(NEW.items[:1] * 65536, NEW.home), "mission has 65536 items: MAVLink counts no further than 65535"),
+        (Mission(NEW.items[:1] * 65536, NEW.home), "mission has 65536 items: MAVLink allows 65535"),
     ],
 )
 def test_a_mission_that_cannot_be_sent_is_refused_before_anything_is(new, sentence):
@@ -585,8 +585,8 @@ class Widens(Plane):
 # Measured in ArduPlane's simulator at 684 m: 80 m became 85.9, 150 became 160.2.
 EAS2TAS_SQUARED = 1.0684
 WIDENED = (
-    "ArduPlane will hold 85.5 m in place of 80, since it multiplies the radius by EAS2TAS squared, 1.068 at 684 m, "
-    "with NAVL1_LIM_BANK at 0: set that to the bank limit of the aircraft, or ask for --true-radius."
+    "ArduPlane will hold 85.5 m instead of 80, because it multiplies the radius by EAS2TAS squared, 1.068 at 684 m, "
+    "with NAVL1_LIM_BANK at 0: set that to the bank limit of the aircraft, or use --true-radius."
 )
 
 
@@ -649,7 +649,7 @@ def test_the_true_radius_needs_to_be_known():
     class Mute(Plane):
         parameters = {}  # noqa: RUF012
 
-    with flying(Mute()) as vehicle, pytest.raises(LinkFailed, match=r"does not tell its NAVL1_LIM_BANK: which radius"):
+    with flying(Mute()) as vehicle, pytest.raises(LinkFailed, match=r"does not report NAVL1_LIM_BANK: which radius"):
         upload(circling(), vehicle.connection, system=1, true_radius=True)
     assert vehicle.mission == OLD
     new = circling(frame=Frame.ABOVE_TERRAIN)
@@ -805,11 +805,14 @@ class Other(Vehicle):
 @pytest.mark.parametrize(
     ("kind", "sentence"),
     [
-        (Stubborn, r"^system 1 \(ArduPilot\) accepted to fly the mission, and is in another mode; it has the mission$"),
+        (Stubborn, r"^system 1 \(ArduPilot\) accepted to fly the mission, but is in another mode; it has the mission$"),
         (Refuses, r"refused to fly the mission: it tried and failed \(MAV_RESULT_FAILED\); it has the mission$"),
-        (Landed, r"^system 1 \(ArduPilot\) is not in the air, and is not told to fly; it has the mission$"),
-        (Secretive, r"^system 1 \(ArduPilot\) does not say whether it flies, and is not told to; it has the mission$"),
-        (Other, r"^system 1 \(generic\) is told to fly missions in no way that is known here; it has the mission$"),
+        (Landed, r"^system 1 \(ArduPilot\) is not in the air: the mission is not started; it has the mission$"),
+        (
+            Secretive,
+            r"^system 1 \(ArduPilot\) does not report whether it is in the air: .* not started; it has the mission$",
+        ),
+        (Other, r"^system 1 \(generic\) has an autopilot whose mission mode is not known here; it has the mission$"),
     ],
 )
 def test_a_vehicle_that_is_not_started_has_the_mission_and_says_why(kind, sentence):

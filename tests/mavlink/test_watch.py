@@ -224,9 +224,9 @@ class Parked(Flight):
 @pytest.mark.parametrize(
     ("state", "why"),
     [
-        (0, "airspeed 0.4 m/s and ground speed 0.1 m/s, where it flies at 18 m/s"),
-        (1, "it says that it is on the ground"),
-        (2, "airspeed 0.4 m/s and ground speed 0.1 m/s, where it flies at 18 m/s"),
+        (0, "airspeed 0.4 m/s and ground speed 0.1 m/s, far below 18 m/s"),
+        (1, "it reports that it is on the ground"),
+        (2, "airspeed 0.4 m/s and ground speed 0.1 m/s, far below 18 m/s"),
     ],
 )
 def test_a_vehicle_that_is_parked_is_not_flying(state, why):
@@ -256,7 +256,7 @@ def test_a_vehicle_that_says_it_is_on_the_ground_is_believed_at_any_speed():
             super().stream(time_s)
             self.send(mavlink.MAVLink_extended_sys_state_message(0, 1))
 
-    assert watched(Rolls(), 2)[-1].problem == "not flying: it says that it is on the ground"
+    assert watched(Rolls(), 2)[-1].problem == "not flying: it reports that it is on the ground"
 
 
 # On the circle, and on the way to it
@@ -504,13 +504,13 @@ def test_a_vehicle_that_restarts_is_connected_to_again():
         with closing(reports) as each:
             taken = list(islice(each, 32))
         assert server.calls == 2
-    lost = [report for report in taken if "the line to the vehicle is gone" in report.problem]
+    lost = [report for report in taken if "the connection to the vehicle is lost" in report.problem]
     refused = [report for report in taken if "cannot be opened: connection refused" in report.problem]
     assert lost
     assert refused
     assert all(report.problem.endswith("; opening it again") for report in [*lost, *refused])
     notices = [notice for report in taken for notice in report.notices]
-    assert notices == ["The line to the vehicle stands again.", "The vehicle has restarted."]
+    assert notices == ["The connection to the vehicle is restored.", "The vehicle has restarted."]
     assert taken[-1].plan
     assert taken[-1].turn == next(report.turn for report in taken if report.plan)
 
@@ -549,7 +549,7 @@ def notices(reports):
 
 def test_that_ardupilot_widens_circles_is_told_once():
     told = notices(watched(Widens(), 12))
-    assert [notice.partition(",")[0] for notice in told] == ["ArduPlane will hold 84.9 m in place of 80"]
+    assert [notice.partition(",")[0] for notice in told] == ["ArduPlane will hold 84.9 m instead of 80"]
     assert notices(watched(Circles(), 12)) == []
 
 
@@ -558,9 +558,9 @@ def test_the_true_radius_is_commanded_where_it_is_asked_for(true_radius, sent):
     vehicle = Widens()
     told = notices(watched(vehicle, 5, send=True, true_radius=true_radius))
     assert [command.param3 for command in vehicle.commands] == [sent]
-    said = "The radius is sent as 75 m" if true_radius else "ArduPlane will hold 84.9 m in place of 80"
+    said = "The radius is sent as 75 m" if true_radius else "ArduPlane will hold 84.9 m instead of 80"
     assert [notice.partition(",")[0] for notice in told] == [said]
-    with pytest.raises(InvalidArgument, match=r"^true_radius .*: it goes with send"):
+    with pytest.raises(InvalidArgument, match=r"^true_radius .*: it needs send"):
         watch("udpout:127.0.0.1:14550", ORBIT, FRAME, UAV, true_radius=True)
 
 
@@ -624,7 +624,7 @@ def test_no_position_and_no_heading_are_said():
         def stream(self, time_s):
             self.send(mavlink.MAVLink_global_position_int_message(0, 470000000, 80000000, 0, 0, 0, 0, 0, 65535))
 
-    assert watched(Headless(), 1)[0].problem == "no heading: the vehicle knows none"
+    assert watched(Headless(), 1)[0].problem == "no heading: the vehicle reports none"
 
 
 def test_the_heading_comes_with_the_position_where_there_is_no_attitude():
@@ -678,7 +678,7 @@ def test_a_circle_that_moves_is_watched_and_not_held():
     moving = Orbit(0.0, 0.0, 120.0, velocity_east_m_s=3.0)
     reports = watched(Flight(), 5, orbit=moving)
     assert [r.plan.orbit.east_m for r in reports] == pytest.approx([3.0 * r.time_s for r in reports])
-    with pytest.raises(InvalidArgument, match=r"send tells a vehicle to hold a circle that rests"):
+    with pytest.raises(InvalidArgument, match=r"send commands a vehicle to hold a circle at rest"):
         watch("udpout:127.0.0.1:14550", moving, FRAME, UAV, send=True)
 
 
@@ -719,8 +719,8 @@ def test_a_wind_is_turned_from_the_vehicles_north_to_the_planes(origin):
     frame, telemetry, module = LocalFrame(*origin), Telemetry(), import_module("loiter.mavlink.watching.watch")
     there = Geodesic.WGS84.Direct(*origin, 70.0, 40e3)
     place = round(there["lat2"] * 1e7), round(there["lon2"] * 1e7)
-    telemetry.hear(mavlink.MAVLink_global_position_int_message(0, *place, 0, 0, 0, 0, 0, 9000), 10.0)
-    telemetry.hear(mavlink.MAVLink_wind_message(30.0, 5.0, 0.0), 10.0)
+    telemetry.update(mavlink.MAVLink_global_position_int_message(0, *place, 0, 0, 0, 0, 0, 9000), 10.0)
+    telemetry.update(mavlink.MAVLink_wind_message(30.0, 5.0, 0.0), 10.0)
     report = module._Planner(ORBIT, frame, UAV, None, 5.0).report(telemetry, 10.1, 0.1, False)
     assert report.wind == Wind(5.0, 30.0)
     assert report.plan.wind.from_deg % 360.0 == pytest.approx((30.0 + there["azi1"] - there["azi2"]) % 360.0, abs=1e-6)
@@ -738,12 +738,12 @@ def test_a_wind_is_turned_from_the_vehicles_north_to_the_planes(origin):
 @settings(max_examples=200, deadline=None)
 def test_whatever_a_vehicle_says_is_a_report(lat, lon, hdg, yaw, wind, px4):
     telemetry, module = Telemetry(), import_module("loiter.mavlink.watching.watch")
-    telemetry.hear(mavlink.MAVLink_global_position_int_message(0, lat, lon, 0, 0, 0, 0, 0, hdg), 10.0)
-    telemetry.hear(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, yaw, 0.0, 0.0, 0.0), 10.0)
+    telemetry.update(mavlink.MAVLink_global_position_int_message(0, lat, lon, 0, 0, 0, 0, 0, hdg), 10.0)
+    telemetry.update(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, yaw, 0.0, 0.0, 0.0), 10.0)
     if px4:
-        telemetry.hear(mavlink.MAVLink_wind_cov_message(0, *wind, 0.0, 1.0, 1.0, 612.0, 1.0, 1.0), 10.0)
+        telemetry.update(mavlink.MAVLink_wind_cov_message(0, *wind, 0.0, 1.0, 1.0, 612.0, 1.0, 1.0), 10.0)
     else:
-        telemetry.hear(mavlink.MAVLink_wind_message(*wind, 0.0), 10.0)
+        telemetry.update(mavlink.MAVLink_wind_message(*wind, 0.0), 10.0)
     report = module._Planner(ORBIT, FRAME, UAV, None, 5.0).report(telemetry, 10.1, 0.1, False)
     assert (report.plan is None) == bool(report.problem)
     assert report.plan is None or report.time_to_join_s >= 0.0

@@ -35,8 +35,8 @@ def item(command=16, frame=0, params=(0.0, 0.0, 0.0, 0.0), x=470000000, y=800000
 WAITS = {
     (module, name): getattr(module, name)
     for module, names in {
-        link: ["BEAT_S", "ALONE_S"],
-        transfer: ["REPEAT_S", "ITEM_REPEAT_S", "SILENCE_S", "DOUBLED_S", "BUSY_S"],
+        link: ["HEARTBEAT_S", "SECOND_VEHICLE_S"],
+        transfer: ["REPEAT_S", "ITEM_REPEAT_S", "SILENCE_S", "DUPLICATE_S", "BUSY_S"],
         command: ["REPEAT_S"],
         parameters: ["REPEAT_S"],
         start: ["REPEAT_S", "WORDS_S", "STAYS_S"],

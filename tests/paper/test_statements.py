@@ -10,7 +10,7 @@ import pytest
 import loiter
 from golden.paper import ADMISSIBLE, EXAMPLES
 from loiter.compiled.rebinding import rebound
-from loiter.kernel.adjoint import adjoint, followed, switching_function, turned
+from loiter.kernel.adjoint import StateAndAdjoint, adjoint, state_and_adjoint_at, switching_function, turn_adjoint
 from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow, reduce
 from loiter.kernel.switching import beyond_last_circle, switching_abscissa
@@ -108,11 +108,11 @@ def test_optimal_is_one_end_point_optimal_but_not_the_converse():
 
 def along(x, y, maneuver, count=7):
     """lambda, then instants of a maneuver with its adjoint: control, x, y, psi1, psi2, phi."""
-    lam, psi1, psi2 = adjoint(x, y, 1.0, *maneuver)
+    lam, psi1, psi2 = adjoint(x, y, 1.0, maneuver)
     instants, begun = [], 0.0
     for letter, t in zip(letters(maneuver), maneuver[2:], strict=False):
         for share in np.linspace(0.0, 1.0, count).tolist():
-            now = followed(x, y, psi1, psi2, *maneuver[1:], begun + share * t)
+            now = state_and_adjoint_at(StateAndAdjoint(x, y, psi1, psi2), maneuver, begun + share * t)
             instants.append((CONTROLS[letter], *now, switching_function(*now)))
         begun += t
     return lam, instants
@@ -141,11 +141,11 @@ def test_12_and_17_the_derivatives_of_psi_and_phi():
     step = 2.0**-13  # truncation step^2/6 and rounding DUST/step are alike: some 2e-9
     bound = 4.0 * (REACH * step**2 / 6.0 + DUST / step)
     for x, y, maneuver in optimal():
-        _, psi1, psi2 = adjoint(x, y, 1.0, *maneuver)
+        _, psi1, psi2 = adjoint(x, y, 1.0, maneuver)
         if maneuver[2] < 2.0 * step:
             continue
         u = CONTROLS[letters(maneuver)[0]]
-        three = [followed(x, y, psi1, psi2, *maneuver[1:], k * step) for k in range(3)]
+        three = [state_and_adjoint_at(StateAndAdjoint(x, y, psi1, psi2), maneuver, k * step) for k in range(3)]
         slopes = [(after - before) / (2.0 * step) for before, after in zip(three[0], three[2], strict=True)]
         assert slopes[2:] == pytest.approx([u * three[1][3], -u * three[1][2]], abs=bound)
         phi = [switching_function(*now) for now in three]
@@ -173,9 +173,9 @@ def test_between_switches_lambda_is_passed_and_more_than_half_a_turn():
     assert len(two) > 5
     for x, y, maneuver in two:
         first, middle, last = maneuver[2:]
-        lam, psi1, psi2 = adjoint(x, y, 1.0, *maneuver)
+        lam, psi1, psi2 = adjoint(x, y, 1.0, maneuver)
         for t in (first, first + middle):
-            now = followed(x, y, psi1, psi2, *maneuver[1:], t)
+            now = state_and_adjoint_at(StateAndAdjoint(x, y, psi1, psi2), maneuver, t)
             assert now[2] == pytest.approx(lam, abs=DUST)
             assert switching_function(*now) == pytest.approx(0.0, abs=DUST)
         assert 0.0 < lam < 1.0
@@ -239,7 +239,7 @@ def test_lambda_zero_belongs_to_the_left_half_of_the_last_circle(left):
     alone = best(-2.0 * sin(left), 2.0 * cos(left) - 1.0, Side.CW)
     assert (letters(alone), duration(alone)) == ("L", pytest.approx(left, abs=DUST))
     for before in (left, pi + left):
-        psi1, psi2 = turned(0.0, 1.0, 1, -before)
+        psi1, psi2 = turn_adjoint(0.0, 1.0, 1, -before)
         phi = switching_function(*flow(0.0, 1.0, 1, -before), psi1, psi2)
         assert phi + psi1 == pytest.approx(0.0, abs=DUST)
         assert (phi > 0.0) == (before < pi)
@@ -359,7 +359,7 @@ def test_the_other_optimum_crosses_the_axis_at_most_once():
     for x, y in ((4.0, 4.0), (0.0, 3.0), (-3.0, 1.0), (SQRT3, 0.0), (3.0, 0.0)):
         for maneuver in optima(x, y, 1.0, Side.EITHER, 0.0):
             times = np.linspace(0.0, duration(maneuver), 400).tolist()
-            ys = [followed(x, y, 1.0, 0.0, *maneuver[1:], t)[1] for t in times]
+            ys = [state_and_adjoint_at(StateAndAdjoint(x, y, 1.0, 0.0), maneuver, t).y for t in times]
             signs = [s for s in np.sign(np.where(np.abs(ys) <= DUST, 0.0, ys)).tolist() if s]
             assert sum(a != b for a, b in pairwise(signs)) <= 1
 

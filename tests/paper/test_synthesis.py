@@ -56,7 +56,7 @@ def on_a_boundary(x, y):
     # Past the circle (24) by beyond, the straight piece is c - sqrt 3 = beyond/(c + sqrt 3), c near sqrt 3.
     if abs(beyond_first_circle(x, y, 1.0)) <= 2.0 * sqrt(3.0) * STRAIGHT * 1.01:
         return True
-    # A state counts as on the last circle up to rounding of its place (synthesis.slack_of), times 2 radii.
+    # A state counts as on the last circle up to rounding of its place (synthesis.arc_tolerance_of), times 2 radii.
     if y <= DUST or abs(beyond_last_circle(x, y, 1.0)) <= 4.0 * DUST:
         return True
     # L moves along the curve's normal by no more than its duration times the radius, 2.

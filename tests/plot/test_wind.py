@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from loiter import Orbit, Wind, plan
-from loiter.plot.wind import AIRCRAFT, MAP_WIND, RADIUS, SPEEDS, START, TIED, differences, draw
+from loiter.plot.wind import AIRCRAFT, MAP_WIND, RADIUS, SPEEDS, START, TIE_TOLERANCE, differences, draw
 
 
 def artists(axes, gid):
@@ -33,7 +33,7 @@ def test_the_maps_show_the_differences(panels):
         [mesh] = artists(axes, "later")
         assert np.allclose(mesh.get_array().reshape(8, 8), differences(wind, 8)[1], rtol=0.0, atol=1e-12)
     [tied] = artists(panels[1], "tied")
-    assert tied.get_array().count() == np.count_nonzero(np.abs(differences(0.0, 8)[1]) < TIED) > 30
+    assert tied.get_array().count() == np.count_nonzero(np.abs(differences(0.0, 8)[1]) < TIE_TOLERANCE) > 30
     assert artists(panels[2], "tied") == []
 
 
@@ -41,6 +41,6 @@ def test_in_wind_the_ties_of_still_air_are_gone():
     """On a grid that keeps clear of the curves where they remain."""
     line, still = differences(0.0, 8)
     _, windy = differences(MAP_WIND, 8)
-    assert np.count_nonzero(np.abs(still) < TIED) > 30
+    assert np.count_nonzero(np.abs(still) < TIE_TOLERANCE) > 30
     assert np.count_nonzero(np.abs(windy) < 1e-3) == 0
     assert np.allclose(line, -line[::-1])

@@ -66,7 +66,7 @@ def joined_at(phase, side):
     pose, orbit, uav, wind = SCENE
     problem = Problem(pose, orbit, uav, wind)
     scene = problem.in_wind()
-    inner = wind_search.scene_of(*scene[:5], scene.wx, scene.wy)
+    inner = wind_search.scene_of(scene)
     way = wind_search.first_path(phase, side, inner, inf)
     return maneuver(problem, Entry(side, *way[1:5]), 0.0)
 

@@ -7,7 +7,7 @@ import pytest
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.codes import Side
-from loiter.kernel.wind_search import fastest, time_of
+from loiter.kernel.wind_search import WindProblem, fastest, time_of
 from loiter.verify.checks import wind_scan_check as module
 from loiter.verify.checks.collocation import AirVelocity, collocate
 from loiter.verify.checks.oracle import Circle, Planar
@@ -96,10 +96,10 @@ def test_a_dozen_collocations_in_wind_agree():
     for problem in windy(12):
         east, north, angle = problem.start
         wind = AirVelocity(problem.wind_east, problem.wind_north)
-        answer = fastest(east, north, cos(angle), sin(angle), problem.radius, problem.side, *wind)
+        scene = WindProblem(east, north, cos(angle), sin(angle), problem.radius, problem.side, *wind)
         circles = [Circle(problem.radius, circle.clockwise) for circle in problem.circles()]
         path = collocate(problem.start, circles, wind)
-        later = time_of(answer) - path.time
+        later = time_of(fastest(scene)) - path.time
         assert later <= path.error + 1e-12 < inf
         same += later >= -path.error - path.gap - 1e-12
     assert same >= 11

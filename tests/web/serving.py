@@ -1,4 +1,4 @@
-"""A real server: `loiter serve` in a process of its own, on a free port."""
+"""A real server: `loiter serve` in a separate process, on a free port."""
 
 import json
 import socket
@@ -6,7 +6,7 @@ import subprocess
 import sys
 from contextlib import contextmanager, suppress
 
-# A server whose constants are others, as {"limits.BODY_S": 0.3}: nobody wants to wait for the real ones.
+# A server with other constants, such as {"limits.BODY_TIMEOUT_S": 0.3}, so that tests need not wait for the real ones.
 RUN = """
 import sys
 from importlib import import_module
@@ -20,7 +20,7 @@ sys.exit(main(["serve", "--port", "0", *{options!r}]))
 
 @contextmanager
 def serving(*options, **constants):
-    """The port of a server and its process; `limits__BODY_S=0.3` sets a constant."""
+    """The port of a server and its process; `limits__BODY_TIMEOUT_S=0.3` sets a constant."""
     named = {name.replace("__", "."): value for name, value in constants.items()}
     code = RUN.format(constants=named, options=options)
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
@@ -32,36 +32,38 @@ def serving(*options, **constants):
 
 @contextmanager
 def connected(port):
-    """A connection whose reads end after a while."""
-    with socket.create_connection(("127.0.0.1", port), timeout=20) as wire:
-        yield wire
+    """A connection whose reads time out after 20 s."""
+    with socket.create_connection(("127.0.0.1", port), timeout=20) as connection:
+        yield connection
 
 
-def answered(wire):
+def read_all(connection):
     """Every byte until the connection ends."""
-    said = []
+    chunks = []
     with suppress(ConnectionResetError):
-        while more := wire.recv(65536):
-            said.append(more)
-    return b"".join(said)
+        while chunk := connection.recv(65536):
+            chunks.append(chunk)
+    return b"".join(chunks)
 
 
-def heard(wire):
-    """Everything that is said until the connection ends: status, headers, body; None where nothing is."""
-    said = answered(wire)
-    if not said:
+def read_response(connection):
+    """Status, headers and all further bytes until the connection ends; None where nothing arrives."""
+    received = read_all(connection)
+    if not received:
         return None
-    head, _, body = said.partition(b"\r\n\r\n")
+    head, _, body = received.partition(b"\r\n\r\n")
     first, *lines = head.decode().split("\r\n")
     headers = {name.lower(): value.strip() for name, _, value in (line.partition(":") for line in lines)}
-    return int(first.split()[1]), headers, body
+    _, status, *_ = first.split()
+    return int(status), headers, body
 
 
-def asking(body, path="/api/plan", more=""):
+def encode_request(body, path="/api/plan", headers=""):
     """A request with a body, as bytes."""
     kind = "Content-Type: application/json\r\n"
-    return f"POST {path} HTTP/1.1\r\nHost: x\r\n{kind}Content-Length: {len(body)}\r\n{more}\r\n".encode() + body
+    return f"POST {path} HTTP/1.1\r\nHost: x\r\n{kind}Content-Length: {len(body)}\r\n{headers}\r\n".encode() + body
 
 
-def encoded(scene):
+def encode_scene(scene):
+    """A scene as the bytes of a body."""
     return json.dumps(scene).encode()

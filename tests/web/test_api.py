@@ -1,4 +1,4 @@
-"""Every endpoint beside the library's own answers, over loopback."""
+"""Every endpoint compared with the library's own answers, over loopback."""
 
 import json
 import shlex
@@ -51,39 +51,39 @@ SCENES = {
 ORIGIN = {"latitude_deg": 47.11, "longitude_deg": 8.23}
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
-# What a plan has beside what `loiter plan --json` prints.
+# The fields of a plan that `loiter plan --json` does not print.
 MORE = {"track", "optimal", "other_turn_later_s", "instruction", "command", "python", "reduced"}
 
 
 @pytest.fixture
 def post(client):
     def post(path, scene):
-        said = client.post(path, json=scene)
-        assert said.status_code == 200, said.text
-        return said.json()
+        response = client.post(path, json=scene)
+        assert response.status_code == 200, response.text
+        return response.json()
 
     return post
 
 
-def asked(scene):
+def arguments(scene):
     """The library's arguments for a scene."""
     wind = Wind(**scene["wind"]) if "wind" in scene else None
     return Pose(**scene["pose"]), Orbit(**scene["orbit"]), Aircraft(**scene["aircraft"]), wind
 
 
 def best(scene):
-    return loiter.plan_all(*asked(scene), tolerance_m=scene.get("tolerance_m", 0.0))
+    return loiter.plan_all(*arguments(scene), tolerance_m=scene.get("tolerance_m", 0.0))
 
 
 def others(scene):
-    pose, orbit, aircraft, wind = asked(scene)
+    pose, orbit, aircraft, wind = arguments(scene)
     either = replace(orbit, turn=Turn.EITHER)
     known = loiter.candidates(pose, either, aircraft, wind, tolerance_m=scene.get("tolerance_m", 0.0))
     return [m for m in known if not any((m.turn, m.segments) == (b.turn, b.segments) for b in best(scene))]
 
 
 def without(document, names):
-    """An object without some of its names, its alternatives without tracks."""
+    """A document without some of its fields, and its alternatives without tracks."""
     kept = {name: value for name, value in document.items() if name not in names}
     if "alternatives" in kept:
         kept["alternatives"] = [without(other, {"track"}) for other in kept["alternatives"]]
@@ -99,50 +99,54 @@ def as_json(document):
 
 @every_scene
 @pytest.mark.parametrize("origin", [None, ORIGIN], ids=["metres", "degrees"])
-def test_a_plan_is_what_the_library_says(post, scene, origin):
-    told = post("/api/plan", scene | {"origin": origin})
+def test_a_plan_equals_that_of_the_library(post, scene, origin):
+    document = post("/api/plan", scene | {"origin": origin})
     frame = None if origin is None else LocalFrame(**origin)
-    assert set(told) >= MORE
-    assert without(told, MORE) == as_json(answer(best(scene), others(scene), frame))
-    assert told["optimal"] == len(best(scene))
+    assert set(document) >= MORE
+    assert without(document, MORE) == as_json(answer(best(scene), others(scene), frame))
+    assert document["optimal"] == len(best(scene))
 
 
 @every_scene
 def test_the_command_line_gives_the_same_plan(post, scene, capsys):
-    told = post("/api/plan", scene)
-    program, *arguments = shlex.split(told["command"])
+    document = post("/api/plan", scene)
+    program, *arguments = shlex.split(document["command"])
     assert (program, main([*arguments, "--json"])) == ("loiter", 0)
-    assert json.loads(capsys.readouterr().out) == without(told, MORE)
+    assert json.loads(capsys.readouterr().out) == without(document, MORE)
 
 
 @every_scene
 def test_the_lines_of_python_give_the_same_plan(post, scene, capsys):
-    told = post("/api/plan", scene)
+    document = post("/api/plan", scene)
     names = {}
-    exec(told["python"], names)
-    word, turn, duration = told["word"], told["turn"], told["duration_s"]
+    exec(document["python"], names)
+    word, turn, duration = document["word"], document["turn"], document["duration_s"]
     assert (names["m"].word, names["m"].turn.value, names["m"].duration_s) == (word, turn, duration)
     *printed, seconds = capsys.readouterr().out.split()
     assert (printed, float(seconds)) == ([*([word] if word else []), turn], duration)
 
 
 @every_scene
-def test_the_other_direction_costs_what_its_plan_takes_longer(post, scene):
-    told = post("/api/plan", scene)
-    other = Turn(told["turn"]).other.value
-    asked_so = post("/api/plan", scene | {"orbit": scene["orbit"] | {"turn": other}})
-    later = asked_so["duration_s"] - told["duration_s"]
-    assert told["other_turn_later_s"] == pytest.approx(later, abs=1e-9)
+def test_the_cost_of_the_other_direction_is_the_difference_of_the_plans(post, scene):
+    document = post("/api/plan", scene)
+    other = Turn(document["turn"]).other.value
+    other_plan = post("/api/plan", scene | {"orbit": scene["orbit"] | {"turn": other}})
+    later = other_plan["duration_s"] - document["duration_s"]
+    assert document["other_turn_later_s"] == pytest.approx(later, abs=1e-9)
 
 
 @every_scene
 def test_the_fastest_each_way_is_the_plan_without_the_other_candidates(post, scene):
-    told, whole = post("/api/fastest", scene), post("/api/plan", scene)
-    assert {told["turn"], *(other["turn"] for other in told["alternatives"])} == {"cw", "ccw"}
-    assert len(told["alternatives"]) == 1
+    document, whole = post("/api/fastest", scene), post("/api/plan", scene)
+    assert {document["turn"], *(other["turn"] for other in document["alternatives"])} == {"cw", "ccw"}
+    assert len(document["alternatives"]) == 1
     for name in ("duration_s", "other_turn_later_s"):
-        assert told[name] == pytest.approx(whole[name], abs=1e-9)
-    assert (told["command"], told["python"], told["reduced"]) == (whole["command"], whole["python"], whole["reduced"])
+        assert document[name] == pytest.approx(whole[name], abs=1e-9)
+    assert (document["command"], document["python"], document["reduced"]) == (
+        whole["command"],
+        whole["python"],
+        whole["reduced"],
+    )
 
 
 @pytest.mark.parametrize(
@@ -161,20 +165,20 @@ def test_the_fastest_each_way_is_the_plan_without_the_other_candidates(post, sce
         ),
     ],
 )
-def test_the_instruction_says_what_to_do_now_and_next(post, scene, sentence):
+def test_the_instruction_names_this_action_and_the_next(post, scene, sentence):
     assert post("/api/plan", scene)["instruction"] == sentence
 
 
 def test_a_last_arc_is_followed_by_the_hold(post):
     # Half a metre before the point of joining of a left arc onto the clockwise circle.
-    m = loiter.plan(*asked(STILL))
+    m = loiter.plan(*arguments(STILL))
     last = m.segments[-1]
     track = m.sample(0.01)
     here = int(np.searchsorted(track.time_s, m.duration_s - 0.5))
     pose = {name: float(getattr(track, name)[here]) for name in ("east_m", "north_m", "heading_deg")}
-    told = post("/api/plan", STILL | {"pose": pose, "orbit": STILL["orbit"] | {"turn": "cw"}, "tolerance_m": 1e-6})
-    assert (last.letter, told["word"]) == ("L", "L")
-    assert told["instruction"] == "Turn left now, then hold clockwise in 0.5 s."
+    document = post("/api/plan", STILL | {"pose": pose, "orbit": STILL["orbit"] | {"turn": "cw"}, "tolerance_m": 1e-6})
+    assert (last.letter, document["word"]) == ("L", "L")
+    assert document["instruction"] == "Turn left now, then hold clockwise in 0.5 s."
 
 
 # Tracks
@@ -190,10 +194,10 @@ def distance_m(east, north, line):
 
 @every_scene
 def test_a_track_drawn_as_a_polyline_is_off_by_less_than_0_002_turn_radii(post, scene):
-    told = post("/api/plan", scene)
+    document = post("/api/plan", scene)
     maneuvers = [*best(scene), *others(scene)]
-    for said, m in zip([told, *told["alternatives"]], maneuvers, strict=True):
-        track, r = said["track"], m.aircraft.turn_radius_m
+    for entry, m in zip([document, *document["alternatives"]], maneuvers, strict=True):
+        track, r = entry["track"], m.aircraft.turn_radius_m
         if not m.segments:
             assert track["time_s"] == [0.0]
             continue
@@ -207,23 +211,26 @@ def test_a_track_drawn_as_a_polyline_is_off_by_less_than_0_002_turn_radii(post, 
 
 @every_scene
 def test_the_reduced_track_ends_at_the_target(post, scene):
-    told = post("/api/plan", scene)
-    _, orbit, aircraft, _ = asked(scene)
+    document = post("/api/plan", scene)
+    _, orbit, aircraft, _ = arguments(scene)
     radius = orbit.radius_m / aircraft.turn_radius_m
-    assert told["reduced"]["radius"] == radius
-    assert [told["reduced"]["x"], told["reduced"]["y"]] == [told["track"]["x"][0], told["track"]["y"][0]]
+    assert document["reduced"]["radius"] == radius
+    assert [document["reduced"]["x"], document["reduced"]["y"]] == [
+        document["track"]["x"][0],
+        document["track"]["y"][0],
+    ]
     if ("wind" in scene and scene is not CARRIED) or scene is MOVING:
         # In wind the nose does not point along the circle.
-        assert np.hypot(told["track"]["x"][-1], told["track"]["y"][-1]) == pytest.approx(radius)
+        assert np.hypot(document["track"]["x"][-1], document["track"]["y"][-1]) == pytest.approx(radius)
         return
-    side = 1 if told["turn"] == "cw" else -1
+    side = 1 if document["turn"] == "cw" else -1
     near = 1e-9 + scene.get("tolerance_m", 0.0) / aircraft.turn_radius_m
-    assert [told["track"]["x"][-1], told["track"]["y"][-1]] == pytest.approx([0.0, side * radius], abs=near)
+    assert [document["track"]["x"][-1], document["track"]["y"][-1]] == pytest.approx([0.0, side * radius], abs=near)
 
 
 def test_the_reduced_track_is_that_of_the_library(post):
     track = post("/api/plan", STILL)["track"]
-    _, orbit, aircraft, _ = asked(STILL)
+    _, orbit, aircraft, _ = arguments(STILL)
     x, y = loiter.reduce(track["east_m"], track["north_m"], track["heading_deg"], orbit, aircraft)
     assert (track["x"], track["y"]) == (x.tolist(), y.tolist())
 
@@ -232,20 +239,20 @@ def test_the_reduced_track_is_that_of_the_library(post):
 
 
 @every_scene
-def test_candidates_are_all_extremals_for_the_turn_asked_for(post, scene):
-    told = post("/api/candidates", scene)["candidates"]
-    known = loiter.candidates(*asked(scene), tolerance_m=scene.get("tolerance_m", 0.0))
+def test_candidates_are_all_extremals_for_the_requested_turn(post, scene):
+    document = post("/api/candidates", scene)["candidates"]
+    known = loiter.candidates(*arguments(scene), tolerance_m=scene.get("tolerance_m", 0.0))
     later = [as_json(described(m) | {"later_s": m.duration_s - known[0].duration_s}) for m in known]
-    assert [without(m, {"track"}) for m in told] == later
+    assert [without(m, {"track"}) for m in document] == later
 
 
 @every_scene
 def test_a_certificate_is_that_of_the_first_optimal_maneuver(post, scene):
-    told = post("/api/certificate", scene)
+    document = post("/api/certificate", scene)
     proof = certify(best(scene)[0], tolerance_m=scene.get("tolerance_m", 0.0))
-    assert told["certificate"] == as_json(proof.to_dict())
-    assert told["certificate"]["valid"]
-    series = told["series"]
+    assert document["certificate"] == as_json(proof.to_dict())
+    assert document["certificate"]["valid"]
+    series = document["series"]
     assert series["switches_s"] == [switch.time_s for switch in proof.switches]
     assert len({len(series[name]) for name in ("time_s", "u", "phi", "psi1", "psi2")}) == 1
     assert series["time_s"] == sorted(series["time_s"])
@@ -255,13 +262,13 @@ def test_a_certificate_is_that_of_the_first_optimal_maneuver(post, scene):
 
 @pytest.mark.parametrize(("radius", "turn"), [(1.0, "either"), (1.5, "cw"), (3.0, "ccw")])
 def test_a_map_is_the_librarys_partition(client, radius, turn):
-    told = client.get("/api/synthesis", params={"radius": radius, "turn": turn, "cells": 41}).json()
+    document = client.get("/api/synthesis", params={"radius": radius, "turn": turn, "cells": 41}).json()
     regions = partition(radius, turn, cells=41)
-    words = np.array([loiter.kernel.words.Word[word] if word else 0 for word in told["words"]])
-    assert (words[np.array(told["region"])] == regions.word).all()
-    assert (told["x"], told["y"]) == (regions.x.tolist(), regions.y.tolist())
+    words = np.array([loiter.kernel.words.Word[word] if word else 0 for word in document["words"]])
+    assert (words[np.array(document["region"])] == regions.word).all()
+    assert (document["x"], document["y"]) == (regions.x.tolist(), regions.y.tolist())
     for curve in boundaries(regions):
-        mine = [c for c in told["curves"] if (c["kind"], tuple(c["words"])) == (curve.kind, curve.words)]
+        mine = [c for c in document["curves"] if (c["kind"], tuple(c["words"])) == (curve.kind, curve.words)]
         points = {point for c in mine for point in zip(c["x"], c["y"], strict=True)}
         assert points == {tuple(point) for point in curve.points.tolist()}
         steps = [np.hypot(np.diff(c["x"]), np.diff(c["y"])) for c in mine]
@@ -269,9 +276,9 @@ def test_a_map_is_the_librarys_partition(client, radius, turn):
         assert all((step <= 3.0 * (regions.x[1] - regions.x[0])).all() for step in steps)
 
 
-def test_a_map_reaches_as_far_as_asked(client):
-    told = client.get("/api/synthesis", params={"reach": 10, "cells": 40}).json()
-    assert (told["x"][0], told["x"][-1], len(told["x"])) == (-9.75, 9.75, 40)
+def test_a_map_has_the_requested_reach(client):
+    document = client.get("/api/synthesis", params={"reach": 10, "cells": 40}).json()
+    assert (document["x"][0], document["x"][-1], len(document["x"])) == (-9.75, 9.75, 40)
 
 
 # Files
@@ -283,7 +290,7 @@ def test_a_file_is_what_the_library_saves(client, tmp_path, format_, link):
     options = {"origin": ORIGIN, "altitude_m": 600, "spacing_m": 50, "chord_error_m": 0.5, "autopilot": "px4"}
     scene = WINDY | options
     path = f"/api/export/{format_}"
-    said = client.get(path, params={"scene": json.dumps(scene)}) if link else client.post(path, json=scene)
+    response = client.get(path, params={"scene": json.dumps(scene)}) if link else client.post(path, json=scene)
     file = tmp_path / f"entry.{format_}"
     loiter.io.save(
         best(WINDY)[0],
@@ -294,10 +301,10 @@ def test_a_file_is_what_the_library_saves(client, tmp_path, format_, link):
         chord_error_m=0.5,
         autopilot=Autopilot.PX4,
     )
-    assert said.content == file.read_bytes()
-    assert said.headers["content-disposition"] == f'attachment; filename="entry.{format_}"'
+    assert response.content == file.read_bytes()
+    assert response.headers["content-disposition"] == f'attachment; filename="entry.{format_}"'
     assert (
-        said.headers["content-type"].partition(";")[0]
+        response.headers["content-type"].partition(";")[0]
         == {
             "geojson": "application/geo+json",
             "kml": "application/vnd.google-earth.kml+xml",
@@ -311,25 +318,25 @@ def test_a_file_is_what_the_library_saves(client, tmp_path, format_, link):
 
 @pytest.mark.parametrize(("format_", "start"), [("png", b"\x89PNG\r\n\x1a\n"), ("svg", b"<?xml")])
 def test_a_picture_is_drawn(client, format_, start):
-    said = client.post(f"/api/export/{format_}", json=STILL)
-    assert said.content.startswith(start)
-    assert said.headers["content-type"] == {"png": "image/png", "svg": "image/svg+xml"}[format_]
+    response = client.post(f"/api/export/{format_}", json=STILL)
+    assert response.content.startswith(start)
+    assert response.headers["content-type"] == {"png": "image/png", "svg": "image/svg+xml"}[format_]
 
 
 def test_a_mission_can_be_read_back(client, tmp_path):
-    said = client.post("/api/export/plan", json=STILL | {"origin": ORIGIN, "altitude_m": 600})
+    response = client.post("/api/export/plan", json=STILL | {"origin": ORIGIN, "altitude_m": 600})
     file = tmp_path / "entry.plan"
-    file.write_bytes(said.content)
+    file.write_bytes(response.content)
     assert loiter.io.read_mission(file).items[-1].altitude_m == 600.0
 
 
 @pytest.mark.parametrize("format_", ["plan", "waypoints"])
 @pytest.mark.parametrize(("reference", "frame"), [("msl", 0), ("home", 3), ("ground", 10)])
-def test_a_mission_is_measured_from_what_is_asked_for(client, tmp_path, format_, reference, frame):
+def test_a_mission_has_the_requested_altitude_reference(client, tmp_path, format_, reference, frame):
     options = {"origin": ORIGIN, "altitude_m": 120, "altitude_reference": reference, "home_altitude_m": 450}
-    said = client.post(f"/api/export/{format_}", json=STILL | options)
+    response = client.post(f"/api/export/{format_}", json=STILL | options)
     file = tmp_path / f"entry.{format_}"
-    file.write_bytes(said.content)
+    file.write_bytes(response.content)
     flown = loiter.io.read_mission(file)
     assert {(item.frame, item.altitude_m) for item in flown.items} == {(frame, 120.0)}
     assert flown.home[2] == 450.0
@@ -338,7 +345,7 @@ def test_a_mission_is_measured_from_what_is_asked_for(client, tmp_path, format_,
 # The rest
 
 
-def test_it_is_in_good_health(client):
+def test_healthz_reports_the_version(client):
     assert client.get("/healthz").json() == {"status": "ok", "version": loiter.__version__}
 
 

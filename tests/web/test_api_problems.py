@@ -1,4 +1,4 @@
-"""What is refused, and how: problem documents (RFC 9457) with the library's own sentences."""
+"""Refused requests and their problem documents (RFC 9457), which contain the library's own sentences."""
 
 import asyncio
 import json
@@ -10,11 +10,11 @@ import pytest
 import loiter
 from loiter.errors import LoiterError
 from loiter.web.app import create_app
-from loiter.web.problems import TABLE, TYPES, Problem
-from web.serving import connected, heard
-from web.test_api import ORIGIN, STILL, WINDY, asked
+from loiter.web.problems import PROBLEM_TYPES, TYPE_PREFIX, ProblemDocument
+from web.serving import connected, read_response
+from web.test_api import ORIGIN, STILL, WINDY, arguments
 
-SCHEMA = Problem.model_json_schema()
+SCHEMA = ProblemDocument.model_json_schema()
 
 
 def changed(scene=STILL, **changes):
@@ -31,22 +31,22 @@ def changed(scene=STILL, **changes):
 
 @pytest.fixture
 def refused(client):
-    """Asks for what must be refused; gives the problem document."""
+    """Sends a request that must be refused; returns the problem document."""
 
     def refused(status, method, path, **request):
-        said = client.request(method, path, **request)
-        problem = said.json()
+        response = client.request(method, path, **request)
+        problem = response.json()
         jsonschema.validate(problem, SCHEMA)
-        assert (said.status_code, problem["status"]) == (status, status)
-        assert said.headers["content-type"] == "application/problem+json"
+        assert (response.status_code, problem["status"]) == (status, status)
+        assert response.headers["content-type"] == "application/problem+json"
         assert problem["instance"] == path
         return problem
 
     return refused
 
 
-def asking(app, **options):
-    """Asks an application in this process."""
+def requester(app, **options):
+    """A function that sends requests to an application in this process."""
 
     async def once(method, path, request):
         transport = httpx.ASGITransport(app, **options)
@@ -75,24 +75,24 @@ REFUSED = [
 
 
 @pytest.mark.parametrize("path", ["/api/plan", "/api/candidates", "/api/certificate", "/api/export/csv"])
-@pytest.mark.parametrize(("scene", "kind", "pointer", "said"), REFUSED)
-def test_what_the_library_refuses_is_refused_in_its_words(refused, path, scene, kind, pointer, said):
+@pytest.mark.parametrize(("scene", "kind", "pointer", "sentence"), REFUSED)
+def test_errors_of_the_library_are_refused_in_its_words(refused, path, scene, kind, pointer, sentence):
     problem = refused(422, "POST", path, json=scene)
-    assert problem["type"] == TYPES + kind
-    assert said in problem["detail"]
+    assert problem["type"] == TYPE_PREFIX + kind
+    assert sentence in problem["detail"]
     assert [error["pointer"] for error in problem.get("errors", [])] == ([] if pointer is None else [pointer])
 
 
 @pytest.mark.parametrize("path", ["/api/plan", "/api/candidates", "/api/export/csv"])
 def test_places_too_far_for_a_plane_are_refused(refused, path):
     problem = refused(422, "POST", path, json=changed(pose__east_m=1e6, origin=ORIGIN))
-    assert (problem["type"], "more than 100 km" in problem["detail"]) == (TYPES + "out-of-range", True)
+    assert (problem["type"], "more than 100 km" in problem["detail"]) == (TYPE_PREFIX + "out-of-range", True)
 
 
 def test_the_sentence_is_the_librarys(refused):
     scene = changed(WINDY, orbit__radius_m=60)
     with pytest.raises(loiter.errors.RadiusTooSmall) as error:
-        loiter.plan(*asked(scene))
+        loiter.plan(*arguments(scene))
     assert refused(422, "POST", "/api/plan", json=scene)["detail"] == str(error.value)
 
 
@@ -101,12 +101,12 @@ def subclasses(cls):
 
 
 def test_every_error_of_the_library_has_a_status():
-    assert all(any(parent in TABLE for parent in error.__mro__) for error in subclasses(LoiterError))
+    assert all(any(parent in PROBLEM_TYPES for parent in error.__mro__) for error in subclasses(LoiterError))
 
 
 # What does not fit the schema
 
-MISFITS = [
+INVALID_REQUESTS = [
     ({}, [("#/pose", "pose is needed"), ("#/orbit", "orbit is needed"), ("#/aircraft", "aircraft is needed")]),
     (changed(height_m=3), [("#/height_m", "height_m is not known")]),
     (changed(pose__east=3), [("#/pose/east", "pose.east is not known")]),
@@ -120,26 +120,26 @@ MISFITS = [
 ]
 
 
-@pytest.mark.parametrize(("body", "errors"), MISFITS, ids=[errors[0][1] for _, errors in MISFITS])
-def test_what_does_not_fit_the_schema_is_told_one_by_one(refused, body, errors):
+@pytest.mark.parametrize(("body", "errors"), INVALID_REQUESTS, ids=[errors[0][1] for _, errors in INVALID_REQUESTS])
+def test_each_error_of_an_invalid_request_is_listed(refused, body, errors):
     problem = refused(422, "POST", "/api/plan", json=body)
-    assert problem["type"] == TYPES + "invalid-request"
+    assert problem["type"] == TYPE_PREFIX + "invalid-request"
     assert [(error["pointer"], error["detail"]) for error in problem["errors"]] == errors
     assert problem["detail"] == errors[0][1]
 
 
 @pytest.mark.parametrize(
-    ("number", "said"),
+    ("number", "shown"),
     [("NaN", "nan"), ("Infinity", "inf"), ("-Infinity", "-inf"), ("1e400", "inf"), ("-1e400", "-inf")],
 )
 @pytest.mark.parametrize("name", ["east_m", "radius_m", "airspeed_m_s", "tolerance_m"])
-def test_numbers_that_are_not_finite_are_refused(refused, name, number, said):
+def test_numbers_that_are_not_finite_are_refused(refused, name, number, shown):
     scene = changed(tolerance_m=1, pose__east_m=-400.5)
     text = json.dumps(scene)
     old = {"east_m": "-400.5", "radius_m": "80", "airspeed_m_s": "18", "tolerance_m": "1"}[name]
     content = text.replace(f'"{name}": {old}', f'"{name}": {number}').encode()
     problem = refused(422, "POST", "/api/plan", content=content, headers={"content-type": "application/json"})
-    assert f"{name} is {said}: it must be" in problem["detail"]
+    assert f"{name} is {shown}: it must be" in problem["detail"]
 
 
 BROKEN = {
@@ -153,37 +153,37 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("body", BROKEN.values(), ids=BROKEN)
-def test_what_is_no_json_or_too_deep_is_refused(refused, body):
+def test_invalid_or_too_deep_json_is_refused(refused, body):
     problem = refused(400, "POST", "/api/plan", content=body, headers={"content-type": "application/json"})
     assert problem["type"] == "about:blank"
     assert "JSON" in problem["detail"] or "nested" in problem["detail"]
 
 
 def test_brackets_in_strings_are_not_deep(refused):
-    # As deep as it gets would be refused with 400: this is a field that is not known.
+    # Counted as nesting, they would be refused with 400; here the field is unknown.
     name = '"' + "[" * 100 + '\\"['
     body = f"{{{json.dumps(name)}: 1}}".encode()
     problem = refused(422, "POST", "/api/plan", content=body, headers={"content-type": "application/json"})
     assert problem["errors"][-1]["detail"] == f"{name} is not known"
 
 
-def test_what_is_no_text_is_quoted_in_ascii(client):
-    said = client.post("/api/plan", content=b'{"\\ud800": 1}', headers={"content-type": "application/json"})
-    assert said.status_code == 422
-    assert said.content.isascii()
+def test_invalid_text_is_quoted_in_ascii(client):
+    response = client.post("/api/plan", content=b'{"\\ud800": 1}', headers={"content-type": "application/json"})
+    assert response.status_code == 422
+    assert response.content.isascii()
 
 
 @pytest.mark.parametrize("kind", ["text/plain", "application/x-www-form-urlencoded", "multipart/form-data", ""])
-def test_a_body_that_is_not_called_json_is_refused(refused, kind):
+def test_a_body_of_another_type_than_json_is_refused(refused, kind):
     refused(415, "POST", "/api/plan", content=json.dumps(STILL), headers={"content-type": kind})
 
 
-def test_a_body_may_say_its_encoding(client):
+def test_the_content_type_may_name_an_encoding(client):
     kind = {"content-type": "Application/JSON; charset=utf-8"}
     assert client.post("/api/plan", content=json.dumps(STILL), headers=kind).status_code == 200
 
 
-def test_an_empty_body_is_needed(refused):
+def test_a_missing_body_is_refused(refused):
     problem = refused(422, "POST", "/api/plan", headers={"content-type": "application/json"})
     assert problem["detail"] == "the body is needed"
 
@@ -202,15 +202,15 @@ QUERIES = [
 ]
 
 
-@pytest.mark.parametrize(("query", "parameter", "said"), QUERIES, ids=[query for query, _, _ in QUERIES])
-def test_a_parameter_that_cannot_be_used_is_named(refused, query, parameter, said):
+@pytest.mark.parametrize(("query", "parameter", "sentence"), QUERIES, ids=[query for query, _, _ in QUERIES])
+def test_a_parameter_that_cannot_be_used_is_named(refused, query, parameter, sentence):
     problem = refused(422, "GET", "/api/synthesis", params=dict([query.split("=")]))
     assert [error["parameter"] for error in problem["errors"]] == [parameter]
-    assert said in problem["detail"]
+    assert sentence in problem["detail"]
 
 
 @pytest.mark.parametrize(
-    ("scene", "status", "said"),
+    ("scene", "status", "sentence"),
     [
         ("{", 400, "JSON"),
         ("3", 422, "scene must be an object"),
@@ -219,14 +219,14 @@ def test_a_parameter_that_cannot_be_used_is_named(refused, query, parameter, sai
         (json.dumps(STILL), 422, "origin is missing"),
     ],
 )
-def test_a_link_is_checked_as_a_body_is(refused, scene, status, said):
+def test_a_link_is_checked_like_a_body(refused, scene, status, sentence):
     problem = refused(status, "GET", "/api/export/kml", params={"scene": scene})
-    assert said in problem["detail"]
+    assert sentence in problem["detail"]
     assert all(error["parameter"] == "scene" for error in problem.get("errors", []))
 
 
 @pytest.mark.parametrize(
-    ("options", "said"),
+    ("options", "sentence"),
     [
         ({"chord_error_m": 0.001}, "chord_error_m is wrong: it is 0.001 and must be at least 0.01"),
         ({"spacing_m": 0.001}, "spacing_m is 0.001: the file would have"),
@@ -234,14 +234,14 @@ def test_a_link_is_checked_as_a_body_is(refused, scene, status, said):
         ({"altitude_m": 1e300}, "altitude_m"),
         ({"autopilot": "none"}, "autopilot is wrong: it should be 'ardupilot' or 'px4'"),
         ({"altitude_reference": "sea"}, "altitude_reference is wrong: it should be 'msl', 'home' or 'ground'"),
-        ({"altitude_m": 9, "altitude_reference": "home"}, "home_altitude_m is missing: it takes altitudes above home"),
+        ({"altitude_m": 9, "altitude_reference": "home"}, "home_altitude_m is missing: altitudes above home"),
         ({"altitude_m": 9, "altitude_reference": "ground"}, "altitude_reference is ground: how high that is"),
         ({"home_altitude_m": 1e300}, "home_altitude_m is 1e+300: it must be from -83000 to 83000 metres"),
     ],
 )
-def test_a_file_that_cannot_be_written_is_refused(refused, options, said):
+def test_a_file_that_cannot_be_written_is_refused(refused, options, sentence):
     problem = refused(422, "POST", "/api/export/csv", json=STILL | options)
-    assert said in problem["detail"]
+    assert sentence in problem["detail"]
 
 
 def test_a_mission_needs_an_altitude(refused):
@@ -262,16 +262,16 @@ def test_an_unknown_format_is_refused(refused):
 
 @pytest.mark.parametrize("path", ["/nothing", "/api", "/api/plan/", "/static/nothing.js", "/static/", "/docs"])
 def test_nothing_is_there(refused, path):
-    assert refused(404, "GET", path)["detail"] == f"nothing is at {path}"
+    assert refused(404, "GET", path)["detail"] == f"there is nothing at {path}"
 
 
 @pytest.mark.parametrize(
     "path", ["/static/../app.py", "/static/%2e%2e/app.py", "/static/..%2fapp.py", "/static//etc/passwd"]
 )
 def test_no_file_outside_the_page_is_served(port, path):
-    with connected(port) as wire:
-        wire.sendall(f"GET {path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n".encode())
-        status, headers, _ = heard(wire)
+    with connected(port) as connection:
+        connection.sendall(f"GET {path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n".encode())
+        status, headers, _ = read_response(connection)
     assert (status, headers["content-type"]) == (404, "application/problem+json")
 
 
@@ -286,16 +286,16 @@ def test_no_file_outside_the_page_is_served(port, path):
         ("POST", "/static/main.js", "GET, HEAD"),
     ],
 )
-def test_a_method_that_is_not_understood_is_refused(client, method, path, allowed):
-    said = client.request(method, path)
-    assert (said.status_code, said.headers["allow"]) == (405, allowed)
-    assert said.json()["detail"] == f"{method} is not understood at {path}"
+def test_a_method_that_is_not_allowed_is_refused(client, method, path, allowed):
+    response = client.request(method, path)
+    assert (response.status_code, response.headers["allow"]) == (405, allowed)
+    assert response.json()["detail"] == f"{method} is not allowed at {path}"
 
 
 @pytest.mark.parametrize("range_", ["bytes=9-3", "bytes=0-3", "bytes=99999999-"])
-def test_a_range_is_answered_whole(client, range_):
-    whole, said = client.get("/static/main.js"), client.get("/static/main.js", headers={"range": range_})
-    assert (said.status_code, said.content) == (200, whole.content)
+def test_a_range_request_gets_the_whole_file(client, range_):
+    whole, response = client.get("/static/main.js"), client.get("/static/main.js", headers={"range": range_})
+    assert (response.status_code, response.content) == (200, whole.content)
 
 
 # Headers
@@ -316,7 +316,7 @@ ANSWERS = [
 
 
 @pytest.mark.parametrize(("method", "path", "request_"), ANSWERS)
-def test_every_answer_keeps_the_page_to_itself(client, method, path, request_):
+def test_every_answer_has_the_security_headers(client, method, path, request_):
     headers = client.request(method, path, **request_).headers
     policy = dict(part.split(" ", 1) for part in headers["content-security-policy"].split("; "))
     assert policy["default-src"] == "'none'"
@@ -329,24 +329,24 @@ def test_every_answer_keeps_the_page_to_itself(client, method, path, request_):
     assert not {"access-control-allow-origin", "server"} & set(headers)
 
 
-def test_what_fails_inside_is_told_without_its_reasons(monkeypatch):
-    def failing(asked):
+def test_an_internal_error_does_not_reveal_its_reason(monkeypatch):
+    def failing(placed):
         raise RuntimeError("secret")
 
     monkeypatch.setattr("loiter.web.answers.plans.plan", failing)
-    said = asking(create_app(), raise_app_exceptions=False)("POST", "/api/plan", json=STILL)
-    assert (said.status_code, said.json()["title"]) == (500, "Internal Server Error")
-    assert "secret" not in said.text
-    assert said.headers["x-content-type-options"] == "nosniff"
+    response = requester(create_app(), raise_app_exceptions=False)("POST", "/api/plan", json=STILL)
+    assert (response.status_code, response.json()["title"]) == (500, "Internal Server Error")
+    assert "secret" not in response.text
+    assert response.headers["x-content-type-options"] == "nosniff"
 
 
-def test_another_origin_may_ask_where_that_is_allowed():
+def test_another_origin_is_answered_where_it_is_allowed():
     page = {"origin": "http://localhost:8000"}
-    ask = asking(create_app("http://localhost:8000"))
-    asked_first = {"access-control-request-method": "POST", "access-control-request-headers": "content-type"}
-    before = ask("OPTIONS", "/api/plan", headers=page | asked_first)
-    said = [ask("POST", "/api/plan", headers=page, json=scene) for scene in (STILL, {})]
+    ask = requester(create_app("http://localhost:8000"))
+    preflight = {"access-control-request-method": "POST", "access-control-request-headers": "content-type"}
+    before = ask("OPTIONS", "/api/plan", headers=page | preflight)
+    responses = [ask("POST", "/api/plan", headers=page, json=scene) for scene in (STILL, {})]
     stranger = ask("POST", "/api/plan", headers={"origin": "http://localhost:9000"}, json=STILL)
     assert before.status_code == 200
-    assert {answer.headers["access-control-allow-origin"] for answer in (before, *said)} == {page["origin"]}
+    assert {answer.headers["access-control-allow-origin"] for answer in (before, *responses)} == {page["origin"]}
     assert "access-control-allow-origin" not in stranger.headers

@@ -196,7 +196,7 @@ def test_a_plan_that_is_on_its_way_is_not_copied_as_the_last_one(page):
     page.locator("#circle-radius").fill("150")
     for name in ("copy-command", "copy-python"):
         page.locator(f"#{name}").click()
-        expect(page.locator("#message")).to_have_text("The plan of this scene is still on its way.")
+        expect(page.locator("#message")).to_have_text("The plan of this scene is not ready yet.")
     assert clipboard(page) == "untouched"
     held[0].continue_()
     settle(page)
@@ -229,7 +229,7 @@ def test_a_service_that_ends_is_missed_and_found_again(browser):
     fail(page, "unreachable")
     assert page.locator("#instruction").inner_text() == "The service does not answer"
     assert page.locator("#why").inner_text() == "Is loiter serve still running?"
-    assert "Asking again in" in page.locator("#attempt").inner_text()
+    assert "Retrying in" in page.locator("#attempt").inner_text()
     assert_off(page, "Is loiter serve still running?")
     with service(address.rstrip("/").rpartition(":")[2]):
         # Nobody touches the page.
@@ -258,18 +258,18 @@ def test_the_service_is_asked_again_a_bounded_number_of_times_ever_more_rarely(p
     page.locator("#circle-radius").fill("90")
     waits = [1, 2, 4, 8, 15, 30, 30, 30]
     for number, wait in enumerate(waits, start=1):
-        expect(page.locator("#attempt")).to_have_text(f"Asking again in {wait} s, attempt {number} of {len(waits)}.")
+        expect(page.locator("#attempt")).to_have_text(f"Retrying in {wait} s, attempt {number} of {len(waits)}.")
         assert count(page, "/api/plan") - before == number
         page.clock.run_for(1000 * wait - 100)
         assert count(page, "/api/plan") - before == number
         page.clock.run_for(200)
-    expect(page.locator("#attempt")).to_have_text("It was asked again and again, and does not answer.")
+    expect(page.locator("#attempt")).to_have_text("All attempts have failed.")
     page.clock.run_for(600_000)
     assert count(page, "/api/plan") - before == 1 + len(waits)
     assert page.locator("#again").inner_text() == "Try again"
     # By hand it is asked at once, and the count begins anew.
     page.locator("#again").click()
-    expect(page.locator("#attempt")).to_have_text(f"Asking again in 1 s, attempt 1 of {len(waits)}.")
+    expect(page.locator("#attempt")).to_have_text(f"Retrying in 1 s, attempt 1 of {len(waits)}.")
     page.unroute("**/api/*")
     page.locator("#again").click()
     page.clock.resume()
@@ -305,7 +305,7 @@ def test_a_service_that_is_busy_says_when_it_is_asked_again(page):
     fail(page, "unreachable")
     assert page.locator("#instruction").inner_text() == "The service is busy"
     assert page.locator("#why").inner_text() == "Too many requests wait"
-    assert page.locator("#attempt").inner_text() == "Asking again in 7 s, attempt 1 of 8."
+    assert page.locator("#attempt").inner_text() == "Retrying in 7 s, attempt 1 of 8."
     page.unroute("**/api/plan")
     page.locator("#again").click()
     fail(page, "")
@@ -327,7 +327,7 @@ def test_an_answer_that_is_cut_short_is_none(page):
 def test_what_is_missing_of_a_plan_is_said_and_asked_for_again(page, path, where):
     page.route(f"**/api/{path}", lost)
     press_soon(page, "Paper, example 2")
-    expect(page.locator(where)).to_contain_text("The service does not answer. Asking again in 1 s.")
+    expect(page.locator(where)).to_contain_text("The service does not answer. Retrying in 1 s.")
     # The plan is there, and can be used.
     assert_on(page)
     page.unroute(f"**/api/{path}")
@@ -347,7 +347,7 @@ def test_what_is_missing_is_not_asked_for_without_end(page):
         planned(page)
         page.clock.run_for(150)
         expect(page.locator("#verdict")).to_have_text(
-            f"Not checked: The service does not answer. Asking again in {wait} s."
+            f"Not checked: The service does not answer. Retrying in {wait} s."
         )
         page.clock.run_for(1000 * wait)
     planned(page)

@@ -26,27 +26,27 @@ UNDERSTOOD = [
 REFUSED = [
     ("airspeed", "", "Airspeed needs a number."),
     ("airspeed", "fast", 'Airspeed is "fast": it must be a number.'),
-    ("airspeed", "20 m", 'Airspeed is "20 m": the units understood here are m/s, km/h, kn and kt.'),
-    ("limit", "0.5 rad", 'Bank limit is "0.5 rad": the units understood here are ° and deg.'),
+    ("airspeed", "20 m", 'Airspeed is "20 m": the accepted units are m/s, km/h, kn and kt.'),
+    ("limit", "0.5 rad", 'Bank limit is "0.5 rad": the accepted units are ° and deg.'),
     (
         "circle-radius",
         "80 furlongs",
-        'Radius of the circle is "80 furlongs": the units understood here are m, km and ft.',
+        'Radius of the circle is "80 furlongs": the accepted units are m, km and ft.',
     ),
     ("circle-radius", "1,200", 'Radius of the circle is "1,200": write 1.2 or 1200.'),
     (
         "circle-radius",
         "1,200.5",
-        'Radius of the circle is "1,200.5": write the number in one piece, 1200.5 or 1200,5.',
+        'Radius of the circle is "1,200.5": write the number without separators, 1200.5 or 1200,5.',
     ),
     (
         "circle-radius",
         "1 200",
-        'Radius of the circle is "1 200": write the number in one piece, 1200.5 or 1200,5.',
+        'Radius of the circle is "1 200": write the number without separators, 1200.5 or 1200,5.',
     ),
-    ("circle-radius", "80 constructor", 'Radius of the circle is "80 constructor": the units understood here are'),
+    ("circle-radius", "80 constructor", 'Radius of the circle is "80 constructor": the accepted units are'),
     ("east", "1e999", 'East of the aircraft is "1e999": that is too large.'),
-    ("east", "0x10", 'East of the aircraft is "0x10": the units understood here are m, km and ft.'),
+    ("east", "0x10", 'East of the aircraft is "0x10": the accepted units are m, km and ft.'),
 ]
 
 
@@ -150,9 +150,7 @@ def test_a_place_on_earth_takes_decimals_and_degrees(page):
     settle(page)
     assert scene(page)["origin"] == {"latitude_deg": 47.1, "longitude_deg": 8.2}
     page.locator("#longitude").fill("8 E")
-    expect(fault(page, "longitude")).to_have_text(
-        'Longitude of (0, 0) is "8 E": the units understood here are ° and deg.'
-    )
+    expect(fault(page, "longitude")).to_have_text('Longitude of (0, 0) is "8 E": the accepted units are ° and deg.')
     settle(page)
     assert scene(page)["origin"] == {"latitude_deg": 47.1, "longitude_deg": 8.2}
     page.locator("#longitude").fill("")

@@ -131,7 +131,7 @@ def test_a_map_has_an_altitude_where_it_is_known_above_the_sea(page):
     assert b",570.0" in path.read_bytes()
     page.locator("#altitude-reference").select_option("ground")
     path, said = pressed(page, "kml")
-    assert said == "entry.kml saved, without the altitude: how high that is above mean sea level is not known."
+    assert said == "entry.kml saved without the altitude: it is not known above mean sea level."
     assert b"clampToGround" in path.read_bytes()
 
 

@@ -62,7 +62,10 @@ def test_every_preset_shows_what_the_library_says(page):
         assert page.locator("#verdict").inner_text().startswith(f"All {held} conditions hold.")
 
 
-PROVED, NECESSARY = "The paper proves that nothing is faster.", "They are necessary, not a proof of the optimum."
+PROVED, NECESSARY = (
+    "The paper proves that nothing is faster.",
+    "They are necessary conditions, not a proof of optimality.",
+)
 
 
 @pytest.mark.parametrize(
@@ -279,7 +282,7 @@ def test_feet_and_knots_are_shown_and_typed(page):
 def test_in_wind_the_path_is_told_to_be_through_the_air(page):
     assert page.locator("#path small").count() == 0
     press(page, "In wind")
-    assert page.locator("#path small").inner_text() == "in the air"
+    assert page.locator("#path small").inner_text() == "through the air"
 
 
 def test_the_view_pans_and_zooms_and_comes_back(page):
@@ -355,7 +358,7 @@ def test_a_spoilt_link_gets_a_sentence_and_the_first_scene(opened):
 
 def test_a_link_whose_view_has_no_width_is_told_so(opened):
     page = opened("#pose=90,60,100&orbit=0,0,80&airspeed=18&bank=35&view=0,0,0")
-    assert page.locator("#message").inner_text() == "The link's view is 0 m wide: it must be wider than that."
+    assert page.locator("#message").inner_text() == "The link's view is 0 m wide: it must be wider than 0 m."
     assert_shows_the_plan(page)
 
 
@@ -484,7 +487,7 @@ def test_the_link_reproduces_the_scene(page, opened, address):
     page.locator("#velocity-east").evaluate("input => input.closest('details').open = true")
     page.locator("#velocity-east").fill("1.5")
     located(page)
-    page.get_by_role("button", name="Closer").click()
+    page.get_by_role("button", name="Zoom in").click()
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     page.get_by_role("button", name="Copy link").click()
     link = clipboard(page)

@@ -1,4 +1,4 @@
-"""Schemathesis reads the OpenAPI and asks what it allows, and what it does not: no 5xx, every answer as described."""
+"""Schemathesis sends requests that the OpenAPI allows and forbids: no 5xx, and every answer fits its description."""
 
 from pathlib import Path
 
@@ -18,8 +18,8 @@ schema = schemathesis.openapi.from_asgi("/openapi.json", create_app())
 
 @schema.parametrize()
 @settings(max_examples=25, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
-def test_every_answer_is_as_described(case):
-    # What a schema cannot say, that the circle can be held in this wind, the library refuses with 422.
+def test_every_answer_fits_its_description(case):
+    # A schema cannot express that the circle can be held in this wind; the library refuses such scenes with 422.
     case.call_and_validate(excluded_checks=[positive_data_acceptance])
 
 
@@ -31,7 +31,7 @@ def operations():
     }
 
 
-def test_every_operation_says_what_it_is_for_and_how_it_refuses():
+def test_every_operation_has_a_description_and_refusals():
     for operation in operations().values():
         assert operation["description"].endswith(".")
         assert {"200", *(str(int(status)) for status in REFUSALS)} == set(operation["responses"])
@@ -43,7 +43,7 @@ def test_every_operation_is_in_the_documentation():
 
 
 @pytest.mark.parametrize("name", ["PoseIn", "OrbitIn", "AircraftIn", "WindIn", "Scene", "ExportOptions"])
-def test_requests_forbid_what_they_do_not_know(name):
+def test_requests_forbid_unknown_fields(name):
     assert schema.raw_schema["components"]["schemas"][name]["additionalProperties"] is False
 
 

@@ -1,4 +1,4 @@
-"""`loiter serve` as a program: where it listens, what it says, how it ends."""
+"""`loiter serve` as a program: its address, its messages, its end."""
 
 import asyncio
 import signal
@@ -15,16 +15,16 @@ from loiter.cli.app import main
 from loiter.errors import MissingPackage
 from loiter.web import serve
 from loiter.web.app import create_app
-from loiter.web.server import Server, _listening
+from loiter.web.server import Server, listening_socket
 from web.serving import connected, serving
 from web.test_api import STILL
 
 
 @pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM])
-def test_it_says_where_it_is_and_ends_cleanly(end):
+def test_it_prints_its_address_and_ends_cleanly(end):
     with serving() as (port, process):
         assert httpx.post(f"http://127.0.0.1:{port}/api/plan", json=STILL, timeout=30.0).status_code == 200
-        # One that is still there does not keep it.
+        # An open connection does not delay the end.
         with connected(port):
             process.send_signal(end)
             assert process.wait(20) == 0
@@ -33,10 +33,10 @@ def test_it_says_where_it_is_and_ends_cleanly(end):
 
 def test_an_answer_under_way_is_finished_first():
     with serving() as (port, process), httpx.Client(timeout=30.0) as client:
-        with client.stream("GET", f"http://127.0.0.1:{port}/api/synthesis?cells=400") as said:
+        with client.stream("GET", f"http://127.0.0.1:{port}/api/synthesis?cells=400") as response:
             process.terminate()
-            said.read()
-        assert said.json()["radius"] == 1.0
+            response.read()
+        assert response.json()["radius"] == 1.0
         assert process.wait(20) == 0
 
 
@@ -59,21 +59,21 @@ def test_the_first_map_is_begun_when_signals_are_handled():
 
 
 class Late:
-    """A connection that is accepted when the others have been told that the server ends."""
+    """A connection that is accepted after the server has begun to close the others."""
 
     def __init__(self, connections):
-        self.connections, self.transport, self.told = connections, self, 0
+        self.connections, self.transport, self.shutdowns = connections, self, 0
 
     def is_closing(self):
         return False
 
     def shutdown(self):
-        self.told += 1
-        if self.told > 1:
+        self.shutdowns += 1
+        if self.shutdowns > 1:
             self.connections.discard(self)
 
 
-def test_a_connection_that_comes_while_it_ends_does_not_keep_it(caplog):
+def test_a_connection_accepted_while_it_ends_does_not_delay_the_end(caplog):
     async def scenario():
         config = uvicorn.Config(create_app(), lifespan="off", log_config=None, timeout_graceful_shutdown=5)
         config.load()
@@ -82,7 +82,7 @@ def test_a_connection_that_comes_while_it_ends_does_not_keep_it(caplog):
         late = Late(server.server_state.connections)
         server.server_state.connections.add(late)
         await asyncio.wait_for(server.shutdown(), 4.0)
-        return late.told
+        return late.shutdowns
 
     assert asyncio.run(scenario()) == 2
     assert not caplog.records
@@ -99,23 +99,23 @@ def test_it_listens_on_this_machine_alone():
 
 
 def test_it_warns_where_others_can_reach_it(monkeypatch):
-    said = []
+    lines = []
     monkeypatch.setattr("uvicorn.Server.run", lambda *_, **__: None)
-    serve(host="0.0.0.0", port=0, announce=said.append)
-    assert said[0].startswith("http://0.0.0.0:")
-    assert said[1:] == ["Others on the network can reach it: it asks nobody for a name or a password."]
+    serve(host="0.0.0.0", port=0, announce=lines.append)
+    assert lines[0].startswith("http://0.0.0.0:")
+    assert lines[1:] == ["Other machines on the network can reach it: it asks for no user name and no password."]
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "127.0.0.2"])
 def test_it_does_not_warn_on_loopback(monkeypatch, host):
-    said = []
+    lines = []
     monkeypatch.setattr("uvicorn.Server.run", lambda *_, **__: None)
-    serve(host=host, port=0, announce=said.append)
-    assert len(said) == 1
+    serve(host=host, port=0, announce=lines.append)
+    assert len(lines) == 1
 
 
 def test_answers_are_sent_at_once():
-    with _listening("127.0.0.1", 0) as listener:
+    with listening_socket("127.0.0.1", 0) as listener:
         assert listener.proto == socket.IPPROTO_TCP
 
         async def sends_at_once():
@@ -150,30 +150,30 @@ def test_a_port_in_use_is_refused(refused):
 
 
 @pytest.mark.parametrize(
-    ("options", "said"),
+    ("options", "sentence"),
     [
         (["--port", "70000"], "--port is 70000: it must be a whole number from 0 to 65535"),
         (["--port", "-1"], "--port is -1"),
         (["--port", "http"], "--port is 'http': it must be a whole number"),
-        (["--host", "no.such.host.invalid"], "--host is 'no.such.host.invalid': it is no address of this machine"),
+        (["--host", "no.such.host.invalid"], "--host is 'no.such.host.invalid': it is not an address of this machine"),
         (["--host", "192.0.2.1"], "192.0.2.1"),
         (["--cors", "*"], "--cors is '*': it must be an origin such as"),
         (["--cors", "http://localhost:8000/"], "--cors is 'http://localhost:8000/'"),
         (["--cors", "localhost"], "--cors is 'localhost'"),
     ],
 )
-def test_what_cannot_be_served_is_refused(refused, options, said):
-    assert said in refused(*options)
+def test_a_bad_address_or_origin_is_refused(refused, options, sentence):
+    assert sentence in refused(*options)
 
 
 @pytest.mark.parametrize("package", ["fastapi", "uvicorn"])
-def test_a_missing_package_is_told_with_how_to_install_it(monkeypatch, package):
+def test_a_missing_package_is_named_with_how_to_install_it(monkeypatch, package):
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(MissingPackage, match=rf'needs {package}: pip install "loiter\[web\]" brings it'):
         serve()
 
 
-def test_naming_the_room_does_not_load_the_framework():
+def test_importing_the_package_does_not_load_the_framework():
     code = "import loiter, sys; loiter.web.serve; print({'fastapi', 'uvicorn', 'pydantic'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "set()\n"

@@ -1,4 +1,4 @@
-"""Arrays of states and columns of tables: the same answers as `plan`, for millions of rows."""
+"""Arrays of states and columns of tables: the answers of `plan` for millions of rows."""
 
 from loiter.arrays.reduction import reduce
 from loiter.arrays.still_air import Solution, control, min_time, solve

@@ -37,12 +37,12 @@ def side_code(turn: Any) -> Side:
 
 
 def is_lazy(argument: object) -> bool:
-    """Whether an argument is an array of another library, which knows how to apply ufuncs of several results."""
+    """Whether an argument is an array of another library, which applies ufuncs of several results by itself."""
     return hasattr(argument, "__array_function__") and not isinstance(argument, (np.ndarray, np.generic))
 
 
 def refuse_lazy_out(out: object) -> None:
-    """Refuse an `out` where the results are lazy: nothing would ever fill it."""
+    """Raise `InvalidArgument` for an `out` where the results are lazy: nothing would ever fill it."""
     if out is not None:
         raise InvalidArgument(
             "out", "is given, and an argument is a lazy array: the result is lazy too and fills nothing"

@@ -1,4 +1,4 @@
-"""Entries for columns of states in SI: one row a state, the same answers as `plan`, codes where there is none."""
+"""The fastest entries for columns of states in SI: the answers of `plan`, and status codes where there is none."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from loiter.compiled.rebinding import Function, rebound
 from loiter.kernel import motion
 from loiter.kernel.codes import Status
 from loiter.kernel.synthesis import REACH, ROUNDING
+from loiter.kernel.wind_search import WindEntry
 from loiter.kernel.words import Word
 from loiter.planning.compass import heading_after
 from loiter.planning.feasibility import RelativeWind, relative_velocity
@@ -28,19 +29,19 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Codes = NDArray[np.int8]
 
-# Rows worked on at a time: some ten columns of them stay in the cache of a core (1 MiB), and calls cost little.
+# Rows solved at a time: about ten columns of them fit into the cache of a core (1 MiB), and calls cost little.
 BLOCK = 8192
 
-# A code that is no `Side`, for a turn that nobody knows.
+# A code that is no `Side`, for an unknown turn.
 UNKNOWN = 2
 
 
 class States(NamedTuple):
-    """Rows to solve: float64 arrays of one length n, or, but for the pose, one number where all rows share it.
+    """Rows to solve: float64 arrays of one length n or, except for the pose, one number that all rows share.
 
-    `side` holds `loiter.kernel.codes.Side` codes (int8), `UNKNOWN` among them. `limit` names what `turn_limit` is:
-    "max_bank_deg", "min_turn_radius_m" or "max_turn_rate_deg_s". The circle is where it is at the start. What all rows
-    share is taken as checked.
+    `side` holds `loiter.kernel.codes.Side` codes (int8), `UNKNOWN` among them. `limit` names the kind of `turn_limit`:
+    "max_bank_deg", "min_turn_radius_m" or "max_turn_rate_deg_s". The position of the circle is that at the start.
+    Values that all rows share must have been checked.
     """
 
     east_m: Floats
@@ -63,8 +64,8 @@ class States(NamedTuple):
 class Entries(NamedTuple):
     """The fastest entries, arrays of length n: nan and codes 0 where `status`, a `Status`, is not `OK`.
 
-    `word` holds `Word`, `side` `Side` codes (int8). The point of joining lies on the circle as it is then, its heading
-    in [0, 360); a piece that is not flown lasts 0 s.
+    `word` holds `Word`, `side` `Side` codes (int8). The point of joining lies on the circle at the time of joining; its
+    heading is in [0, 360). A piece that is not flown lasts 0 s.
     """
 
     duration_s: Floats
@@ -80,9 +81,10 @@ class Entries(NamedTuple):
 
 
 def entries(states: States, *, compiled: bool | None = None) -> Entries:
-    """The fastest entry of each row, as `plan` gives it; the first call loads the kernel, which may take seconds.
+    """The fastest entry of each row, as `plan` returns it; the first call loads the kernel, which may take seconds.
 
-    `compiled` says whether rows in wind are solved by compiled code, which differs by rounding; their number if None.
+    `compiled` says whether rows in wind are solved by compiled code, which differs by rounding. None means: if they are
+    many.
     """
     n = len(states.east_m)
     found: list[Any] = [np.empty(n, dtype=np.int8 if name in _CODES else np.float64) for name in Entries._fields]
@@ -97,7 +99,7 @@ def entries(states: States, *, compiled: bool | None = None) -> Entries:
 
 
 def compile_kernel(*, in_wind: bool = False) -> None:
-    """Load and compile what `entries` needs, so that it does not happen in the midst of the work."""
+    """Load and compile what `entries` needs, so that the work itself is not interrupted."""
     one = np.zeros(1)
     calm = States(one, one, one, 0.0, 0.0, 1.0, 0, 1.0, 1.0, "min_turn_radius_m")
     entries(calm)
@@ -106,7 +108,7 @@ def compile_kernel(*, in_wind: bool = False) -> None:
 
 
 def _solve(states: States, rows: Any, solve: Callable[[States], Entries], found: list[Any]) -> None:
-    """Put the entries of some rows, a slice or their numbers, in their places."""
+    """Solve some rows, a slice or row numbers, and store their entries."""
     some: list[Any] = [value[rows] if isinstance(value, np.ndarray) else value for value in states]
     for column, values in zip(found, solve(States(*some)), strict=True):
         column[rows] = values
@@ -122,11 +124,11 @@ for _word in Word:
 
 
 def _in_still_air(s: States) -> Entries:
-    """The entries of rows whose circle the air does not pass; of others, which are then solved anew, anything."""
+    """The entries of rows in still air relative to the circle; rows in wind get values that are overwritten later."""
     r = _turn_radius(s)
     refused = _refused(s, r)
     east, north = s.east_m - s.orbit_east_m, s.north_m - s.orbit_north_m
-    # The formula is arithmetic alone, so it takes arrays as they are.
+    # The formula is plain arithmetic, so it takes arrays.
     reduced: Any = motion.reduce(east / r, north / r, *heading_vectors()(s.heading_deg))
     x, y = reduced
     R = s.orbit_radius_m / r
@@ -139,7 +141,7 @@ def _in_still_air(s: States) -> Entries:
     time_s, (first_s, second_s, third_s) = time * seconds, durations.T * seconds
     heading = _joining_heading(s, word, durations)
     c, v = heading_vectors()(heading)
-    # Clockwise the centre is to the right: the aircraft joins a radius to the left of it, along (-v, c).
+    # Clockwise, the centre is to the right: the aircraft joins at a radius to the left of it, along (-v, c).
     left = side * s.orbit_radius_m
     east, north = _centre_after(s, time_s)
     return Entries(
@@ -157,18 +159,18 @@ def _in_still_air(s: States) -> Entries:
 
 
 def _in_wind(s: States, solve_rows: Function) -> Entries:
-    """The entries of rows whose circle the air passes; `solve_rows` is one of `rows_in_wind`."""
+    """The entries of rows in wind relative to the circle; `solve_rows` is one of `rows_in_wind`."""
     r = _turn_radius(s)
     refused = _refused(s, r)
     x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
-    scenes = np.empty((len(s.east_m), 8))
-    columns = np.where(refused, nan, x), y, *heading_vectors()(s.heading_deg), s.orbit_radius_m / r, s.side
-    for i, column in enumerate((*columns, *_relative_wind(s))):
-        scenes[:, i] = column
-    answers = np.empty_like(scenes)
-    solve_rows(scenes, answers)
-    status, side, word = (answers[:, i].astype(np.int8) for i in range(3))
-    durations, azimuth = answers[:, 3:6], answers[:, 6]
+    (c, v), (wx, wy) = heading_vectors()(s.heading_deg), _relative_wind(s)
+    columns = np.broadcast_arrays(np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy)
+    problems = np.stack(columns, axis=1).astype(np.float64)
+    answers = np.empty_like(problems)
+    solve_rows(problems, answers)
+    found: Any = WindEntry(*answers.T)
+    status, side, word = (codes.astype(np.int8) for codes in (found.status, found.side, found.word))
+    durations = np.stack([found.t1, found.t2, found.t3], axis=1)
     seconds = r / s.airspeed_m_s
     time_s, (first_s, second_s, third_s) = durations.sum(axis=1) * seconds, durations.T * seconds
     east, north = _centre_after(s, time_s)
@@ -176,8 +178,8 @@ def _in_wind(s: States, solve_rows: Function) -> Entries:
         time_s,
         word,
         side,
-        east + s.orbit_radius_m * np.cos(azimuth),
-        north + s.orbit_radius_m * np.sin(azimuth),
+        east + s.orbit_radius_m * np.cos(found.azimuth),
+        north + s.orbit_radius_m * np.sin(found.azimuth),
         _joining_heading(s, word, durations),
         first_s,
         second_s,
@@ -187,7 +189,7 @@ def _in_wind(s: States, solve_rows: Function) -> Entries:
 
 
 def _windy(s: States) -> NDArray[np.intp]:
-    """The numbers of the rows whose circle the air passes."""
+    """The numbers of the rows in wind relative to the circle."""
     if not any(np.ndim(v) or v for v in (s.wind_speed_m_s, s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)):
         return np.empty(0, dtype=np.intp)
     return np.flatnonzero(np.broadcast_to(np.logical_not(_relative_wind(s).still), s.east_m.shape))
@@ -206,7 +208,7 @@ def _joining_heading(s: States, word: Any, durations: Any) -> Any:
 
 
 def _centre_after(s: States, time_s: Any) -> tuple[Any, Any]:
-    """Where the circle's centre is when it is joined."""
+    """The position of the circle's centre when it is joined."""
     if not any(np.ndim(v) or v for v in (s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)):
         return s.orbit_east_m, s.orbit_north_m
     east_m = moved(s.orbit_east_m, s.orbit_velocity_east_m_s, time_s)
@@ -214,7 +216,7 @@ def _centre_after(s: States, time_s: Any) -> tuple[Any, Any]:
 
 
 def _kernel(x: Any, y: Any, R: Any, side: Any, tolerance: Any) -> tuple[Any, ...]:
-    """Time, word, durations, status, side, miss. The one place where the kernel is called."""
+    """Time, word, durations, status, side, miss. The only place where the kernel is called for still air."""
     from loiter.compiled import ufuncs
 
     result: tuple[Any, ...] = ufuncs.solve(x, y, R, side, tolerance, np.empty(3))
@@ -234,9 +236,9 @@ def _radius(limit: str) -> Function:
 def _tolerance(s: States, r: Any) -> Any:
     """The tolerance as a normalised length, not below the rounding of the coordinates: as `Problem.reduced`.
 
-    The kernel itself allows for the rounding of x, y and R. Where the centre is no further from the origin than the
-    circle is large, that of the coordinates is at most twice as much, |e| + |n| <= sqrt(2) (|x| + |y|) r + centre, and
-    is left out: no tolerance at all is what the kernel is fastest with.
+    The kernel itself allows for the rounding of x, y and R. Where the centre is near the origin, within the radius and
+    the turn radius, the rounding of the coordinates is at most twice as large, |e| + |n| <= sqrt(2) (|x| + |y|) r +
+    centre, and is left out: the kernel is fastest without a tolerance.
     """
     centre = np.abs(s.orbit_east_m) + np.abs(s.orbit_north_m)
     if np.all(centre <= r + s.orbit_radius_m):
@@ -246,22 +248,22 @@ def _tolerance(s: States, r: Any) -> Any:
 
 
 def _refused(s: States, r: Any) -> Any:
-    """The statuses of rows that the kernel is not to see, 0 elsewhere: an array, or 0 for all."""
-    # Durations of up to REACH turns must be numbers too.
+    """The statuses of rows that are not solved, 0 elsewhere: an array, or 0 for all."""
+    # Durations of up to REACH turns must be finite numbers of seconds too.
     refused: Any = np.where(_positive(REACH * r / s.airspeed_m_s), 0, Status.OUT_OF_RANGE)
     if isinstance(s.side, np.ndarray):
         refused = np.where(s.side == UNKNOWN, Status.BAD_TURN, refused)
     circle = s.orbit_east_m, s.orbit_north_m, s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s
     if any(isinstance(v, np.ndarray) for v in (*circle, s.orbit_radius_m)):
-        held = reduce(and_, map(np.isfinite, circle)) & _positive(s.orbit_radius_m)
-        refused = np.where(held, refused, Status.BAD_ORBIT)
+        valid = reduce(and_, map(np.isfinite, circle)) & _positive(s.orbit_radius_m)
+        refused = np.where(valid, refused, Status.BAD_ORBIT)
     if any(isinstance(v, np.ndarray) for v in (s.wind_speed_m_s, s.wind_from_deg)):
-        blows = np.isfinite(s.wind_speed_m_s) & np.isfinite(s.wind_from_deg) & np.greater_equal(s.wind_speed_m_s, 0.0)
-        refused = np.where(blows, refused, Status.BAD_WIND)
+        valid = np.isfinite(s.wind_speed_m_s) & np.isfinite(s.wind_from_deg) & np.greater_equal(s.wind_speed_m_s, 0.0)
+        refused = np.where(valid, refused, Status.BAD_WIND)
     if any(isinstance(v, np.ndarray) for v in (s.airspeed_m_s, s.turn_limit)):
-        banked = np.less(s.turn_limit, 90.0) if s.limit == "max_bank_deg" else True
-        flies = _positive(s.airspeed_m_s) & _positive(s.turn_limit) & _positive(r) & banked
-        refused = np.where(flies, refused, Status.BAD_AIRCRAFT)
+        below_90 = np.less(s.turn_limit, 90.0) if s.limit == "max_bank_deg" else True
+        valid = _positive(s.airspeed_m_s) & _positive(s.turn_limit) & _positive(r) & below_90
+        refused = np.where(valid, refused, Status.BAD_AIRCRAFT)
     return refused
 
 
@@ -270,7 +272,7 @@ def _positive(value: Any) -> Any:
 
 
 def _explained(s: States, status: Any, refused: Any) -> Any:
-    """The statuses of the rows from those of the kernel."""
+    """The statuses of the rows, from those of the kernel."""
     # Finite coordinates whose difference is not are too large.
     finite = np.isfinite(s.east_m) & np.isfinite(s.north_m) & np.isfinite(s.heading_deg)
     why = np.where(finite, Status.OUT_OF_RANGE, Status.BAD_POSE)

@@ -1,4 +1,4 @@
-"""The synthesis of the reduced plane as arrays: which word wins where, and the curves between the regions."""
+"""The synthesis of the reduced plane as arrays: the fastest word at each point, and the curves between the regions."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-# The largest circle, and the finest grid, that are mapped: a square of so many cells takes a gigabyte.
+# The largest circle and the finest grid that are mapped: a square grid of that size takes a gigabyte.
 LARGEST, MOST_CELLS = 1e9, 4000
 
-# A boundary is narrowed down between two neighbours of the grid to this share of a grid step: far above the rounding
-# within which a start counts as on the last arc, so that both ends show the open regions on either side.
+# A boundary is located between two neighbours of the grid to this share of a grid step. It is far above the rounding
+# within which a start counts as on the last arc, so both ends lie in the open regions on either side.
 NARROW = 1e-6
 
-# Where to try next between the two ends. The uneven share keeps clear of the axes, where words tie, and which halves of
-# a symmetric grid would hit.
+# Where to divide the interval between the two ends. The uneven share avoids the axes, where words tie, and which
+# bisection on a symmetric grid would hit.
 SHARE = 0.437
 
-# At R = 1, where alone T jumps (docs/theory.md, section 6), T differs by less than this across a boundary where it is
-# continuous: by NARROW, or its root.
+# T jumps at R = 1 only (docs/theory.md, section 6). There it differs by less than this across a boundary where it is
+# continuous: by NARROW, or its square root.
 JUMP = 1e-3
 
-# Neighbours on a boundary lie at most a cell's diagonal apart; so many grid steps bridge a coarse corner.
-BRIDGED = 3.0
+# Neighbours on a boundary are at most a cell's diagonal apart. A gap of this many grid steps is bridged, for corners.
+LARGEST_GAP = 3.0
 
-# A first piece shorter than this next to a boundary vanishes on it: its length is NARROW or its root.
+# A first piece shorter than this next to a boundary vanishes on it: its length is NARROW or its square root.
 VANISHING = 1e-3
 
 
@@ -51,9 +51,9 @@ class Partition(NamedTuple):
 
 
 class Boundary(NamedTuple):
-    """Points where one region meets another, (n, 2), unordered, each within 1e-6 grid steps of the boundary.
+    """Points where one region borders on another, (n, 2), unordered, each within 1e-6 grid steps of the boundary.
 
-    Where a later piece vanishes ("same") T tells the two words apart only beyond the cube root of rounding, some 1e-4.
+    Where a later piece vanishes ("same"), T distinguishes the two words only beyond the cube root of rounding: 1e-4.
 
     `kind` is "jump" (T jumps; by how much is in `rise`, (n,)), "switch" (the trajectory changes its control there: the
     first piece of one side vanishes), "straight" (the axis, along which the optimum flies), "tie" (two different
@@ -79,62 +79,81 @@ def partition(radius: float = 1.0, turn: str = "either", *, reach: float | None 
         raise InvalidArgument("reach", f"is {reach}: it must be at most {2.0 * LARGEST:g} turn radii")
     if not 8 <= as_float(cells) <= MOST_CELLS or cells != int(cells):
         raise InvalidArgument("cells", f"is {cells}: it must be a whole number, at least 8 and at most {MOST_CELLS}")
-    # An even number of cells, shifted by half a cell, keeps clear of the axes.
+    # An even number of cells, shifted by half a cell, avoids the axes.
     line = (np.arange(cells + cells % 2) + 0.5) / (cells + cells % 2) * 2.0 * reach - reach
     best = solve(line[np.newaxis, :], line[:, np.newaxis], radius, turn)
     return Partition(float(radius), Turn(turn), line, line, best.time, best.word, best.side)
 
 
 def worth(regions: Partition) -> Floats:
-    """What a free choice of direction is worth on the grid of a partition: its T less that of *either*, (ny, nx)."""
+    """The time that a free choice of direction saves on the grid of a partition: its T less T of *either*, (ny, nx)."""
     either = solve(regions.x[np.newaxis, :], regions.y[:, np.newaxis], regions.radius)
     return regions.time - either.time
 
 
 def boundaries(regions: Partition) -> tuple[Boundary, ...]:
-    """The curves between the regions of a partition: every edge of the grid whose ends differ, narrowed down.
+    """The curves between the regions of a partition, sorted by kind and words.
 
-    Sorted by kind and words. A region thinner than a cell may be missed; a finer grid finds it.
+    Each edge of the grid whose ends differ gives one point. A region thinner than a cell may be missed; a finer grid
+    finds it.
     """
     found: dict[tuple[str, tuple[str, str]], list[tuple[float, float, float]]] = {}
     for first, second in _neighbours(regions):
-        left, right = _narrowed(regions, first, second)
+        left, right = _bisect(regions, first, second)
         a, b = _solve(regions, left), _solve(regions, right)
         middle, rise = 0.5 * (left + right), np.abs(a.time - b.time)
         for i, (x, y) in enumerate(middle.tolist()):
             words = Word(int(a.word[i])).letters, Word(int(b.word[i])).letters
-            vanish = bool(a.durations[i, 0] < VANISHING), bool(b.durations[i, 0] < VANISHING)
+            vanishes = bool(min(a.durations[i, 0], b.durations[i, 0]) < VANISHING)
             jumps = regions.radius == 1.0 and rise[i] > JUMP
-            key = "jump" if jumps else _kind(words, vanish), (min(words), max(words))
+            key = "jump" if jumps else _kind(*words, vanishes), (min(words), max(words))
             found.setdefault(key, []).append((x, y, float(rise[i])))
-    return tuple(
-        Boundary(kind, words, np.array(rows)[:, :2], np.array(rows)[:, 2])
-        for (kind, words), rows in sorted(found.items())
-    )
+    return tuple(_boundary(kind, words, rows) for (kind, words), rows in sorted(found.items()))
+
+
+def _boundary(kind: str, words: tuple[str, str], rows: list[tuple[float, float, float]]) -> Boundary:
+    """A boundary from the x, y and rise of its points."""
+    x, y, rise = np.array(rows).T
+    return Boundary(kind, words, np.stack([x, y], axis=1), rise)
 
 
 def lines(regions: Partition, curve: Boundary) -> list[Floats]:
-    """The points of a curve as lines (n, 2): each next to the nearest left, another line where that is too far away."""
-    gap = BRIDGED * (regions.x[1] - regions.x[0])
-    left = curve.points[np.argsort(curve.points[:, 0])]
-    here, left = left[0], left[1:]
-    found = [[here]]
-    while len(left):
-        distance = np.hypot(*(left - here).T)
+    """The points of a curve as lines (n, 2): each point is followed by the nearest of the remaining ones.
+
+    Another line begins where that one is too far away.
+    """
+    gap = LARGEST_GAP * _grid_step(regions)
+    remaining = curve.points[np.argsort(curve.points[:, 0])]
+    here, remaining = _take(remaining, 0)
+    line = [here]
+    found = [line]
+    while len(remaining):
+        distance = np.hypot(*(remaining - here).T)
         nearest = int(distance.argmin())
         if distance[nearest] > gap:
-            found.append([])
-            nearest = 0
-        # A copy: a view would keep what is left of the points alive, once for each point.
-        here, left = left[nearest].copy(), np.delete(left, nearest, axis=0)
-        found[-1].append(here)
-    return [np.array(line) for line in found]
+            line, nearest = [], 0
+            found.append(line)
+        here, remaining = _take(remaining, nearest)
+        line.append(here)
+    return [np.array(points) for points in found]
 
 
-def _kind(words: tuple[str, str], vanish: tuple[bool, bool]) -> str:
-    if any(vanish):
-        return "straight" if "S" in words[0][:2] and "S" in words[1][:2] else "switch"
-    return "same" if words[0][:1] == words[1][:1] else "tie"
+def _take(points: Floats, i: int) -> tuple[Floats, Floats]:
+    """Point i, and the others. The point is a copy: a view of it would keep the whole array in memory."""
+    return points[i].copy(), np.delete(points, i, axis=0)
+
+
+def _grid_step(regions: Partition) -> float:
+    """The distance of neighbouring points of the grid."""
+    first, second = regions.x[:2].tolist()
+    return float(second - first)
+
+
+def _kind(word: str, other: str, vanishes: bool) -> str:
+    """The kind of a boundary between two words, where T does not jump; `vanishes`: the first piece of one of them."""
+    if vanishes:
+        return "straight" if "S" in word[:2] and "S" in other[:2] else "switch"
+    return "same" if word[:1] == other[:1] else "tie"
 
 
 def _neighbours(regions: Partition) -> tuple[tuple[Floats, Floats], ...]:
@@ -148,10 +167,10 @@ def _neighbours(regions: Partition) -> tuple[tuple[Floats, Floats], ...]:
     )
 
 
-def _narrowed(regions: Partition, first: Floats, second: Floats) -> tuple[Floats, Floats]:
-    """Two points, one each side of the boundary between `first` and `second`, NARROW grid steps apart at most."""
+def _bisect(regions: Partition, first: Floats, second: Floats) -> tuple[Floats, Floats]:
+    """Pairs of points on either side of the boundary between `first` and `second`, at most NARROW grid steps apart."""
     a = _solve(regions, first)
-    near = NARROW * (regions.x[1] - regions.x[0])
+    near = NARROW * _grid_step(regions)
     while len(first) and (wide := np.abs(second - first).max(axis=1, keepdims=True) > near).any():
         middle = first + SHARE * (second - first)
         m = _solve(regions, middle)

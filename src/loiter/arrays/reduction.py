@@ -29,8 +29,8 @@ def reduce(
 ) -> tuple[Any, Any]:
     """Reduced states (x, y), equation (2), in turn radii, of aircraft at local positions with compass headings.
 
-    Arguments broadcast, `out` is two arrays to fill; Dask arrays, pandas columns and xarray's arrays come back as what
-    they are. The circle's radius for the other functions is `orbit.radius_m / aircraft.turn_radius_m`.
+    Arguments broadcast, `out` is two arrays to fill; Dask arrays, pandas columns and xarray's arrays give results of
+    the same kind. The circle's radius for the other functions is `orbit.radius_m / aircraft.turn_radius_m`.
     """
     r = aircraft.turn_radius_m
     east: Any = np.subtract(east_m, orbit.east_m, dtype=np.float64) / r
@@ -40,18 +40,18 @@ def reduce(
     if lazy:
         refuse_lazy_out(out)
     if lazy or (out is None and max(np.size(east), np.size(north), np.size(c)) < KERNEL_FROM):
-        # The formula is arithmetic alone, and Dask does not apply a ufunc of two results.
+        # The formula is plain arithmetic, and Dask does not apply a ufunc of two results.
         return motion.reduce(east, north, c, s)
     reduced: tuple[Any, Any] = ufunc("reduce")(east, north, c, s, **({} if out is None else {"out": out}))
     return reduced
 
 
-# Fewer states are reduced without the compiled kernel, which takes a tenth of a second to load, or ten to compile.
+# Fewer states are reduced without the compiled kernel, which takes 0.1 s to load, or ten seconds to compile.
 KERNEL_FROM = 10_000
 
 
 @cache
 def heading_vectors() -> Function:
-    """`compass.heading_vector` for arrays."""
+    """The function `compass.heading_vector` for arrays."""
     arithmetic = {"sin": np.sin, "cos": np.cos, "radians": np.radians, "floor": np.floor, "fmod": np.fmod}
     return rebound(heading_vector, arithmetic)

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 class Solution(NamedTuple):
     """Optimal maneuvers of an array of states, shape (...) as broadcast; durations are (..., 3), in flying order.
 
-    `word` holds `loiter.kernel.words.Word`, `status` `Status`, `side` `Side` codes (int8); where the status is not
-    `OK` the floats are nan. `miss` is the distance from the target at which the durations end when flown exactly.
+    `word` holds `loiter.kernel.words.Word`, `status` `Status`, `side` `Side` codes (int8); where the status is not `OK`
+    the floats are nan. `miss` is the distance from the target at which the durations end when flown exactly.
     """
 
     time: NDArray[np.float64]
@@ -44,11 +44,11 @@ def min_time(
 
     `x`, `y` are the coordinates (2) of docs/theory.md and `radius` the circle's, all in turn radii; `turn` is "cw",
     "ccw" or "either", or a `Side` code; `tolerance` is that of `plan`, in turn radii. It behaves as a ufunc: arguments
-    broadcast, float64 comes back, `out` is an array to fill, which may overlap an argument; Dask arrays, pandas columns
-    and xarray's arrays come back as what they are. A state that cannot be solved (nan, infinite, radius < 1) gives nan;
-    `solve` says why. `workers` threads share NumPy arrays, -1 for one a core. Raises `InvalidArgument` for an unknown
-    turn or number of workers.
-    The first call on a machine compiles the kernel, some ten seconds; the code is kept in the user's cache folder.
+    broadcast, the result is float64, `out` is an array to fill, which may overlap an argument; Dask arrays, pandas
+    columns and xarray's arrays give results of the same kind. A state that cannot be solved (nan, infinite, radius < 1)
+    gives nan; the status of `solve` gives the reason. `workers` threads share NumPy arrays; -1 means one per core.
+    Raises `InvalidArgument` for an unknown turn or number of workers. The first call on a machine compiles the kernel,
+    which takes about ten seconds; the code is kept in the user's cache folder.
 
     >>> round(float(loiter.min_time(4.0, 4.0)), 4)
     6.9136
@@ -70,8 +70,8 @@ def control(
 ) -> Any:
     """The feedback law: first control of the optimum at (x, y), -1 (right), 0 or +1 (left), as float64.
 
-    At the target itself, where nothing is left to decide, the turn rate that holds the circle: -1/radius clockwise,
-    +1/radius counter-clockwise. Arguments, nan and errors as `min_time`.
+    At the target itself, where nothing is left to decide, it is the turn rate that holds the circle: -1/radius
+    clockwise, +1/radius counter-clockwise. Arguments, nan and errors as for `min_time`.
 
     >>> loiter.control([4.0, -0.53, -3.0], [4.0, 0.31, 0.0])
     array([-1.,  1.,  0.])
@@ -89,10 +89,10 @@ def solve(
     out: Solution | None = None,
     workers: int = 1,
 ) -> Solution:
-    """Optimal maneuvers from reduced states (x, y): time, word, durations, status. Arguments and errors as `min_time`.
+    """Optimal maneuvers from reduced states (x, y): time, word, durations, status. Arguments as for `min_time`.
 
-    NumPy and Dask arrays come back as what they are, other columns as NumPy arrays; `out` is a `Solution` to fill.
-    Raises `InvalidArgument` too for an `out` with Dask arrays.
+    Dask arrays give Dask arrays, all other columns NumPy arrays; `out` is a `Solution` to fill. Raises as `min_time`,
+    and `InvalidArgument` for an `out` with Dask arrays.
 
     >>> loiter.solve(4.0, 4.0).durations.round(4)
     array([2.6994, 3.1669, 1.0472])
@@ -115,7 +115,7 @@ _DTYPES = {"word": np.int8, "status": np.int8, "side": np.int8}
 
 
 def _broadcast(name: str, arguments: tuple[Any, ...], out: Any, workers: int) -> Any:
-    """A ufunc of one result, by threads where that is asked for and all arguments are NumPy's."""
+    """Apply a ufunc of one result, by threads where there are several workers and all arguments are NumPy's."""
     function, count = ufunc(name), thread_count(workers)
     arrays = [a if hasattr(a, "__array_ufunc__") else np.asarray(a, dtype=np.float64) for a in arguments]
     shareable = all(isinstance(a, (np.ndarray, np.generic)) for a in arrays)

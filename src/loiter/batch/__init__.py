@@ -1,6 +1,6 @@
-"""Tables of states in, tables of entries out: files of any size, pandas and Dask frames.
+"""Entries for tables of states: files of any size, pandas and Dask data frames.
 
-Needs what `pip install "loiter[cluster]"` brings.
+Needs the packages that `pip install "loiter[cluster]"` installs.
 """
 
 from __future__ import annotations
@@ -16,10 +16,12 @@ from loiter.errors import InvalidArgument, MissingPackage
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
 
 if TYPE_CHECKING:
+    from loiter.batch.jobs.job import JobProgress as JobProgress
+    from loiter.batch.jobs.job import JobSummary as JobSummary
     from loiter.batch.jobs.job import Progress as Progress
     from loiter.batch.jobs.job import Summary as Summary
 
-__all__ = ["Progress", "Summary", "plan", "run"]
+__all__ = ["JobProgress", "JobSummary", "Progress", "Summary", "plan", "run"]
 
 
 def run(
@@ -34,32 +36,31 @@ def run(
     tolerance_m: float = 0.0,
     workers: int | None = None,
     scheduler: str | None = None,
-    progress: Callable[[Progress], object] = lambda progress: None,
-) -> Summary:
-    """Plan the fastest entry of every row of a table; docs/batch.md says which columns it may have and which it gets.
+    progress: Callable[[JobProgress], object] = lambda progress: None,
+) -> JobSummary:
+    """Plan the fastest entry of every row of a table; docs/batch.md describes the columns of the input and the output.
 
-    `source` and `target` end in .parquet, .csv or .csv.gz. `orbit`, `turn`, `aircraft` and `wind` stand for columns
-    that the table does not have; `aircraft` may be a part of one, such as {"airspeed_m_s": 18.0} beside a column
-    max_bank_deg. Circles move as `orbit` does, or those of columns with `orbit_velocity_m_s`, (east, north).
-    `workers` threads work, as many as there are cores, or the Dask cluster with the scheduler at the address
-    `scheduler`.
-    `progress` hears every now and then how far the job is.
+    `source` and `target` end in .parquet, .csv or .csv.gz. `orbit`, `turn`, `aircraft` and `wind` replace columns that
+    the table does not have; `aircraft` may be incomplete, such as {"airspeed_m_s": 18.0} with a column max_bank_deg.
+    `orbit_velocity_m_s`, (east, north), is the velocity of circles that are given by columns.
+    `workers` is the number of threads, by default that of the cores; `scheduler` is the address of the scheduler of a
+    Dask cluster that does the work instead. `progress` is called periodically.
 
-    The target appears whole or not at all. A job that was stopped goes on from its finished parts when it is asked for
-    again. A bad row gets nan and a status and stops nothing.
+    The target appears whole or not at all. A job that was stopped resumes from its finished parts when it is run again.
+    A bad row gets nan and a status; the other rows are solved.
 
-    Raises `InvalidArgument` for what cannot be used, before any work; `Unfinished` where the work stops half way, as on
-    a full disk; `MissingPackage`.
+    Raises `InvalidArgument` before any work for files, columns and options that cannot be used; `Unfinished` if the
+    work stops, for example because the disk is full; `MissingPackage`.
     """
     _need_packages("pyarrow", *(["dask", "distributed"] if scheduler is not None else []))
     if find_spec("fcntl") is None:
-        raise MissingPackage("a batch job locks its files, as Linux and macOS can and this system cannot")
+        raise MissingPackage("a batch job locks its files, which needs Linux or macOS")
     from loiter.batch.jobs import job
-    from loiter.batch.tables.columns import shared
+    from loiter.batch.tables.columns import shared_values
 
-    count, given = _workers(workers, scheduler), shared(orbit, turn, aircraft, wind, orbit_velocity_m_s)
-    asked = job.request(Path(source), Path(target), given, tolerance_m)
-    return job.carry_out(asked, count, scheduler, progress)
+    count, given = _workers(workers, scheduler), shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s)
+    request = job.check_request(Path(source), Path(target), given, tolerance_m)
+    return job.run_request(request, count, scheduler, progress)
 
 
 def plan(
@@ -72,15 +73,15 @@ def plan(
     orbit_velocity_m_s: tuple[float, float] | None = None,
     tolerance_m: float = 0.0,
 ) -> Any:
-    """The same for a pandas or a Dask data frame: a frame with the added columns, its index kept.
+    """The fastest entries of the rows of a pandas or Dask data frame: the frame with added columns and the same index.
 
-    A Dask frame stays lazy. Columns, options and errors as `run`; word, turn and status are categories.
+    A Dask frame stays lazy. Columns, options and errors are those of `run`; word, turn and status are categories.
     """
     _need_packages("pyarrow")
-    from loiter.batch.frames import planned
-    from loiter.batch.tables.columns import shared
+    from loiter.batch.frames import plan_frame
+    from loiter.batch.tables.columns import shared_values
 
-    return planned(frame, shared(orbit, turn, aircraft, wind, orbit_velocity_m_s), tolerance_m)
+    return plan_frame(frame, shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s), tolerance_m)
 
 
 def _workers(workers: int | None, scheduler: str | None) -> int:
@@ -91,7 +92,7 @@ def _workers(workers: int | None, scheduler: str | None) -> int:
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
         raise InvalidArgument("workers", f"is {workers!r}: it must be a whole number, at least 1")
     if scheduler is not None:
-        raise InvalidArgument("workers", "is given, and a scheduler too, whose workers do the work")
+        raise InvalidArgument("workers", "and a scheduler are given: the scheduler's workers do the work")
     return workers
 
 
@@ -104,7 +105,7 @@ def _need_packages(*names: str) -> None:
 
 
 def __getattr__(name: str) -> Any:
-    # What they are defined with needs pyarrow.
-    if name in {"Progress", "Summary"}:
+    # The module of these classes needs pyarrow.
+    if name in {"JobProgress", "JobSummary", "Progress", "Summary"}:
         return getattr(import_module("loiter.batch.jobs.job"), name)
     raise AttributeError(f"module 'loiter.batch' has no attribute {name!r}")

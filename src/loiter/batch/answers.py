@@ -1,4 +1,4 @@
-"""From the rows of a table to their answers: columns to arrays, through `arrays.entries`, and back."""
+"""The added columns of a table: its columns as arrays, solved by `arrays.entries`, and converted back to columns."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from loiter.batch.tables.columns import (
     WIND,
     WORDS,
     Columns,
-    carried,
-    numbers_read,
+    carried_columns,
+    number_columns,
 )
 from loiter.kernel.codes import Status
 from loiter.planning.model import Turn
@@ -33,43 +33,47 @@ from loiter.planning.sides import SIDES
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# A number as people write it; what else a cast takes ("nan", "inf") would be refused later all the same.
+# A decimal number; "nan" and "inf", which a cast accepts too, would be refused later anyway.
 NUMBER = r"^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$"
 
 _WORD_INDEX = np.zeros(64, dtype=np.int8)
 _WORD_INDEX[list(WORDS)] = range(len(WORDS))
-_WORDS, _TURNS, _STATUSES = views.text([word.letters for word in WORDS]), views.text(TURNS), views.text(STATUSES)
+_WORDS = views.text_column([word.letters for word in WORDS])
+_TURNS, _STATUSES = views.text_column(TURNS), views.text_column(STATUSES)
 
 
-def answered(batch: pa.RecordBatch, columns: Columns, compiled: bool | None = None) -> pa.RecordBatch:
-    """The batch's carried columns and the added ones; columns encoded by a dictionary come out plain.
+def solve_batch(batch: pa.RecordBatch, columns: Columns, compiled: bool | None = None) -> pa.RecordBatch:
+    """The carried columns of a batch, without dictionary encoding, and the added columns.
 
     `compiled` is that of `entries`.
     """
-    # All but the mark of malformed lines, which is the last one.
-    names = carried(batch.schema.names[:-1] if columns.text else batch.schema.names)
-    kept = [plain(batch.column(name)) for name in names]
-    return pa.RecordBatch.from_arrays([*kept, *answers(batch, columns, compiled)], [*names, *ADDED.names])
+    # The last column of text marks malformed lines.
+    names = carried_columns(batch.schema.names[:-1] if columns.text else batch.schema.names)
+    kept = [without_dictionary(batch.column(name)) for name in names]
+    return pa.RecordBatch.from_arrays([*kept, *added_columns(batch, columns, compiled)], [*names, *ADDED.names])
 
 
-def answers(batch: pa.RecordBatch, columns: Columns, compiled: bool | None = None) -> list[pa.Array]:
+def added_columns(batch: pa.RecordBatch, columns: Columns, compiled: bool | None = None) -> list[pa.Array]:
     """The added columns, in the order of `ADDED`."""
     found = entries(states(batch, columns), compiled=compiled)
     status = found.status
     if columns.text:
-        status = np.where(views.numbers(batch.column(-1)), np.int8(Status.MALFORMED), status)
+        status = np.where(views.to_numpy(batch.column(-1)), np.int8(Status.MALFORMED), status)
     text = {
         "word": (_WORD_INDEX.take(found.word), _WORDS),
         TURN: (found.side + np.int8(1), _TURNS),
         "status": (status, _STATUSES),
     }
-    encoded = {name: pa.DictionaryArray.from_arrays(views.column(indices), of) for name, (indices, of) in text.items()}
-    return [encoded[name] if name in encoded else views.column(getattr(found, name)) for name in ADDED.names]
+    encoded = {
+        name: pa.DictionaryArray.from_arrays(views.from_numpy(indices), values)
+        for name, (indices, values) in text.items()
+    }
+    return [encoded[name] if name in encoded else views.from_numpy(getattr(found, name)) for name in ADDED.names]
 
 
 def states(batch: pa.RecordBatch, columns: Columns) -> States:
-    """The rows of a batch as arrays; what cannot be read as a number is nan, an unknown turn `UNKNOWN`."""
-    read = {name: _numbers(batch.column(name), columns.text) for name in numbers_read(columns)}
+    """The rows of a batch as arrays; text that is not a number is nan, an unknown turn is `UNKNOWN`."""
+    read = {name: _numbers(batch.column(name), columns.text) for name in number_columns(columns)}
     values: dict[str, Any] = {**columns.shared, **read}
     side = _sides(batch.column(TURN)) if columns.turn is None else int(SIDES[columns.turn])
     return States(
@@ -81,23 +85,23 @@ def states(batch: pa.RecordBatch, columns: Columns) -> States:
     )
 
 
-def plain(column: pa.Array) -> pa.Array:
-    """The values, dictionary-encoded or not."""
+def without_dictionary(column: pa.Array) -> pa.Array:
+    """The column without dictionary encoding."""
     return column.dictionary_decode() if pa.types.is_dictionary(column.type) else column
 
 
 def _numbers(column: pa.Array, text: bool) -> NDArray[np.float64]:
-    column = plain(column)
+    column = without_dictionary(column)
     if text:
-        column = _parsed(column)
+        column = _parse_numbers(column)
     elif column.type != pa.float64():
-        # A large integer rounds to the nearest double.
+        # Large integers are rounded to the nearest double.
         column = column.cast(pa.float64(), safe=False)
-    return views.filled(column, nan)
+    return views.fill_nulls(column, nan)
 
 
-def _parsed(column: pa.Array) -> pa.Array:
-    """Numbers written as text; null where a value is none."""
+def _parse_numbers(column: pa.Array) -> pa.Array:
+    """The numbers in a column of text; null for text that is not a number."""
     try:
         return column.cast(pa.float64())
     except pa.ArrowInvalid:
@@ -107,8 +111,9 @@ def _parsed(column: pa.Array) -> pa.Array:
 
 def _sides(column: pa.Array) -> NDArray[np.int8]:
     known = {turn.value: int(SIDES[turn]) for turn in Turn}
-    encoded = plain(column).cast(pa.string()).dictionary_encode()
+    encoded = without_dictionary(column).cast(pa.string()).dictionary_encode()
     codes = [known.get((name or "").strip(), UNKNOWN) for name in encoded.dictionary.to_pylist()]
-    # A null is as unknown as another word.
-    sides: NDArray[np.int8] = np.array([*codes, UNKNOWN], dtype=np.int8)[views.filled(encoded.indices, len(codes))]
+    # The index of a null is that of an additional, unknown turn.
+    indices = views.fill_nulls(encoded.indices, len(codes))
+    sides: NDArray[np.int8] = np.array([*codes, UNKNOWN], dtype=np.int8)[indices]
     return sides

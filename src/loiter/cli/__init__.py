@@ -1,1 +1,1 @@
-"""The command line: parses, calls the library, prints. No mathematics of its own."""
+"""The command line: it parses options, calls the library and prints; it contains no mathematics."""

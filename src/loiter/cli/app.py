@@ -1,4 +1,4 @@
-"""The commands, and the one place where an error becomes a sentence and an exit status."""
+"""The commands, and `main`, which turns errors into one sentence and an exit status."""
 
 import os
 import sys
@@ -23,43 +23,43 @@ app = App(
     help_format="plaintext",
     help="""The fastest way onto a holding circle for a fixed-wing aircraft.
 
-An aircraft of constant speed turns left or right, no tighter than its turn radius. It is to join a circle tangentially, in the least time, and to stay on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum for a circle of the minimum turn radius, cross-checked by independent methods for wider ones. In wind, and onto a circle that moves, it is found by branch and bound over the point of joining.
+An aircraft of constant speed turns left or right, no tighter than its minimum turn radius. The plan joins a circle tangentially in the least time and stays on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum for a circle of the minimum turn radius, cross-checked by independent methods for wider ones. In wind, and onto a circle that moves, a search (branch and bound over the point of joining) finds the answer.
 
-Positions are metres east and north of any local origin, or WGS84 degrees; headings are degrees clockwise from north.""",
+Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north.""",
     help_epilogue=epilogue("plan", "completion"),
 )  # fmt: skip
 
-# Each is loaded when it is asked for.
+# The module of a command is imported when the command runs.
 app.command(
     "loiter.cli.commands.plan:plan",
     help_epilogue=epilogue("plan"),
-    help="Plan the fastest entry onto a holding circle: what to fly, for how long, where to peel off.",
+    help="Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off.",
 )
 app.command(
     "loiter.cli.commands.batch:batch",
     help_epilogue=epilogue("batch"),
-    help="""Plan the fastest entry of every row of a table: Parquet or CSV, any size.
+    help="""Plan the fastest entry for every row of a table: Parquet or CSV, any size.
 
-IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s; wind_speed_m_s and wind_from_deg; and orbit_velocity_east_m_s and orbit_velocity_north_m_s. What no column gives, an option must, but for the turn, the wind and the circle's velocity.
+IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s; wind_speed_m_s and wind_from_deg; and orbit_velocity_east_m_s and orbit_velocity_north_m_s. Values without a column come from options; all but the turn, the wind and the circle's velocity are needed.
 
-OUT has the columns and the rows of IN, in their order, and then duration_s, word, turn (cw or ccw, in the place of that asked for), join_east_m, join_north_m, join_heading_deg, duration_1_s, duration_2_s, duration_3_s and status. A bad row gets nan, or an empty field, and a status other than ok; it stops nothing.
+OUT has the rows and the columns of IN, in their order, and then duration_s, word, turn (the direction of the plan, cw or ccw, in place of the turn of IN), join_east_m, join_north_m, join_heading_deg, duration_1_s, duration_2_s, duration_3_s and status. A bad row gets nan or empty fields and a status other than ok; the job goes on.
 
-OUT appears whole or not at all. What is finished is kept in OUT.parts until then: a job that was interrupted goes on from there when the same command is given again.""",
+OUT is written whole or not at all. Until then finished parts are kept in OUT.parts: run the same command again to continue an interrupted job.""",
 )
 app.command(
     "loiter.cli.commands.mavlink:upload",
     help_epilogue=epilogue("upload"),
-    help="Send the fastest entry to a vehicle as a mission, and read it back to see that it is there, item by item.",
+    help="Send the fastest entry to a vehicle as a mission, then read the mission back and compare it item by item.",
 )
 app.command(
     "loiter.cli.commands.mavlink:watch",
     help_epilogue=epilogue("watch"),
-    help="Listen to a vehicle and print, live, the fastest entry from where it is.",
+    help="Listen to a vehicle and print, live, the fastest entry from its position.",
 )
 app.command(
     "loiter.cli.commands.fly:fly",
     help_epilogue=epilogue("fly"),
-    help="Fly the fastest entry in closed loop, beside the laws that autopilots use today.",
+    help="Fly the fastest entry in closed loop, and compare it with the laws that autopilots use today.",
 )
 app.command(
     "loiter.cli.commands.synthesis:synthesis",
@@ -69,7 +69,7 @@ app.command(
 app.command(
     "loiter.cli.commands.figures:figures",
     help_epilogue=epilogue("figures"),
-    help="Draw the seven figures of the paper from the code, with captions of their own.",
+    help="Draw the seven figures of the paper, and write their captions.",
 )
 
 
@@ -81,7 +81,7 @@ app.command(
 app.command(
     "loiter.cli.commands.serve:serve",
     help_epilogue=epilogue("serve"),
-    help="Serve the page, where one drags the aircraft and sees the plan, and plans to programs, over HTTP.",
+    help="Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.",
 )
 
 
@@ -92,19 +92,18 @@ def completion(shell: Literal["bash", "zsh", "fish"], /) -> None:
     Parameters
     ----------
     shell
-        The shell that is to complete commands and options.
+        The shell for which the script completes commands and options.
     """
     sys.stdout.write(app.generate_completion(shell=shell))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; returns the exit status, 2 after one sentence on standard error."""
+    """Run the command line and return the exit status; an error prints one sentence to standard error."""
     try:
         status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
         sys.stdout.flush()
     except (BrokenPipeError, SystemExit):
-        # Rich turns the first into the second where it prints help.
-        # The reader of a pipe has left, as `head` does; nothing is wrong.
+        # The reader of a pipe has closed it, as `head` does: no error. While rich prints help, it raises SystemExit for it.
         _abandon_output()
         return 0
     except (LoiterError, CycloptsError, OSError) as error:
@@ -113,7 +112,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             _abandon_output()
         return LINK_FAILED if isinstance(error, LinkFailed) else USAGE_ERROR
     except KeyboardInterrupt as interrupt:
-        # A batch job says what is kept of it.
+        # The message of a batch job says which parts are kept.
         if str(interrupt):
             print(f"loiter: {interrupt}", file=sys.stderr)  # noqa: T201
         return INTERRUPTED
@@ -121,6 +120,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _abandon_output() -> None:
-    # What is still buffered would fail again when the interpreter ends.
+    # Otherwise the interpreter would fail once more at its end, when it flushes what is still buffered.
     with suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

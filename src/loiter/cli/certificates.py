@@ -1,4 +1,4 @@
-"""The certificate that `loiter plan --certify` adds, as text and as a picture."""
+"""Output of `loiter plan --certify`: certificates as text, as JSON and as a picture."""
 
 import sys
 from collections.abc import Sequence
@@ -14,13 +14,24 @@ def print_text(certificates: Sequence[Certificate]) -> None:
         sys.stdout.write(f"\n{certificate}\n")
 
 
+def document(certificates: Sequence[Certificate]) -> dict[str, object]:
+    """The first certificate as a member of the JSON object; empty without one."""
+    if not certificates:
+        return {}
+    first, *_ = certificates
+    return {"certificate": first.to_dict()}
+
+
 def picture_path(plot: Path) -> Path:
-    """The file of the certificate's picture: entry-certificate.png beside entry.png."""
+    """The file for the picture of the certificate: entry-certificate.png beside the plan's entry.png."""
     return plot.with_name(f"{plot.stem}-certificate{plot.suffix}")
 
 
-def save_picture(plot: Path, certificate: Certificate) -> None:
-    """Draw u, phi and psi over time to a file beside the plan's picture; raises as `files.save_figure`."""
+def save_picture(plot: Path, certificates: Sequence[Certificate]) -> None:
+    """Draw u, phi and psi of the first certificate, if any, to a file beside the plan's; errors as for `files.save`."""
+    if not certificates:
+        return
     from loiter.plot.certificate import draw
 
-    files.save_figure("plot", picture_path(plot), draw(certificate))
+    first, *_ = certificates
+    files.save_figure("plot", picture_path(plot), draw(first))

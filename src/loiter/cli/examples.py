@@ -1,6 +1,6 @@
-"""What help ends with: examples of a command, and what exit statuses mean."""
+"""The end of a help text: examples of the command, and the meaning of exit statuses."""
 
-# By command; a line that goes on is indented.
+# Examples of each command; continuation lines are indented.
 EXAMPLES = {
     "plan": r"""
   loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35
@@ -52,11 +52,11 @@ Exit status
   1  a check failed (loiter verify, loiter plan --certify)
   2  the request cannot be met: one sentence on standard error says why,
      and no file is left half written
-  3  a vehicle is not there, is silent or refuses: the sentence says what
-     mission it has
-  130  interrupted; what a batch job has finished is kept"""
+  3  the vehicle cannot be reached, does not answer or refuses: the
+     sentence says which mission it has now
+  130  interrupted; finished parts of a batch job are kept"""
 
 
 def epilogue(*commands: str) -> str:
-    """What help ends with: the examples of the commands, and the exit statuses."""
+    """The end of a help text: the examples of the commands, and the exit statuses."""
     return f"Examples{''.join(EXAMPLES[command] for command in commands)}{STATUSES}"

@@ -1,4 +1,4 @@
-"""Numbers as people type them."""
+"""Numbers on the command line."""
 
 from collections.abc import Sequence
 
@@ -6,8 +6,9 @@ from cyclopts import CoercionError, Token
 
 
 def whole(type_: type, tokens: Sequence[Token]) -> int:
-    """A whole number as it stands: 1.5 is refused, not rounded."""
+    """A whole number; 1.5 is refused, not rounded."""
+    token, *_ = tokens
     try:
-        return int(tokens[0].value)
+        return int(token.value)
     except ValueError as error:
-        raise CoercionError(token=tokens[0], target_type=int) from error
+        raise CoercionError(token=token, target_type=int) from error

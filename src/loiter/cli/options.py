@@ -1,4 +1,4 @@
-"""What several commands ask for alike: where the aircraft is, the circle, the air, the aircraft."""
+"""Options that several commands share: the start, the circle, the wind, the aircraft, missions."""
 
 from __future__ import annotations
 
@@ -25,25 +25,29 @@ air = Group("Wind, and circles that move", sort_key=3)
 output = Group("Output", sort_key=5)
 missions = Group("Missions", sort_key=6)
 
-# Where no chord error is given, metres: as the library has it.
+# Default chord error, metres, the same as that of the library.
 CHORD_ERROR_M = 1.0
 
 
 @Parameter(name="*")
 @dataclass(frozen=True)
 class StartOptions:
-    """Where the aircraft is, in metres or in degrees."""
+    """The pose of the aircraft, in metres or in degrees."""
 
     pose: Annotated[
         tuple[float, float, float] | None,
-        Parameter(group=scene, metavar="EAST NORTH HEADING", help="The aircraft: metres, and degrees from north."),
+        Parameter(
+            group=scene,
+            metavar="EAST NORTH HEADING",
+            help="Pose of the aircraft: metres, and heading in degrees clockwise from north.",
+        ),
     ] = None
     pose_lla: Annotated[
         tuple[float, float, float] | None,
         Parameter(
             group=scene,
             metavar="LAT LON HEADING",
-            help="The aircraft: WGS84 degrees, and degrees from true north.",
+            help="Pose of the aircraft: WGS84 degrees, and heading in degrees clockwise from true north.",
         ),
     ] = None
 
@@ -51,7 +55,7 @@ class StartOptions:
 @Parameter(name="*")
 @dataclass(frozen=True)
 class PlacedStartOptions(StartOptions):
-    """Where the aircraft is, in degrees; metres are understood, and refused where they mean nothing."""
+    """The pose of the aircraft in degrees, for commands that need places on Earth; --pose is parsed, but hidden."""
 
     pose: Annotated[tuple[float, float, float] | None, Parameter(show=False)] = None
 
@@ -59,7 +63,7 @@ class PlacedStartOptions(StartOptions):
 @Parameter(name="*")
 @dataclass(frozen=True)
 class OrbitOptions:
-    """The circle, in metres or in degrees."""
+    """The circle, in metres or in degrees, and its motion."""
 
     orbit: Annotated[
         tuple[float, ...],
@@ -68,7 +72,7 @@ class OrbitOptions:
             consume_multiple=True,
             show_default=False,
             metavar="EAST NORTH RADIUS",
-            help="The circle: its centre and its radius, metres.",
+            help="The circle: centre and radius, metres.",
         ),
     ] = ()
     orbit_lla: Annotated[
@@ -78,14 +82,14 @@ class OrbitOptions:
             consume_multiple=True,
             show_default=False,
             metavar="LAT LON RADIUS",
-            help="The circle: its centre in WGS84 degrees, its radius in metres, which --params may give.",
+            help="The circle: centre in WGS84 degrees, radius in metres; the radius may come from --params.",
         ),
     ] = ()
     turn: Annotated[
         TurnName | None,
         Parameter(
             group=scene,
-            help="Direction in which the circle is held, seen from above: that of --params if absent, without it either.",
+            help="Direction of flight around the circle, seen from above. If absent: that of --params, or either without --params.",
         ),
     ] = None
     orbit_velocity: Annotated[
@@ -93,12 +97,12 @@ class OrbitOptions:
         Parameter(
             group=air,
             metavar="EAST NORTH",
-            help="How the circle moves over the ground, metres per second; --orbit is where it is at the start.",
+            help="Velocity of the circle over the ground, metres per second; --orbit is its position at the start.",
         ),
     ] = (0.0, 0.0)
 
     def circle(self, preset: Preset | None) -> tuple[Orbit, LocalFrame | None]:
-        """The circle, and the plane of metres about its centre where that is in degrees."""
+        """The circle, and, where it is in degrees, the local frame about its centre; `InvalidArgument` without one."""
         radius = None if preset is None else preset.loiter_radius_m
         if bool(self.orbit) == bool(self.orbit_lla):
             raise InvalidArgument("orbit", "or --orbit-lla is needed, and not both")
@@ -117,7 +121,7 @@ class OrbitOptions:
 @Parameter(name="*")
 @dataclass(frozen=True)
 class PlacedOrbitOptions(OrbitOptions):
-    """The circle, in degrees; as `PlacedStartOptions`."""
+    """The circle in degrees; otherwise like `PlacedStartOptions`."""
 
     orbit: Annotated[tuple[float, ...], Parameter(show=False, consume_multiple=True)] = ()
 
@@ -125,7 +129,7 @@ class PlacedOrbitOptions(OrbitOptions):
 @Parameter(name="*")
 @dataclass(frozen=True)
 class AircraftOptions:
-    """The aircraft: by options, or by its autopilot's parameters, and the air that it flies in."""
+    """The aircraft, from options or from the parameters of its autopilot, and the density of the air."""
 
     airspeed: Annotated[
         float | None, Parameter(group=aircraft, metavar="M_PER_S", help="True airspeed, metres per second.")
@@ -135,7 +139,7 @@ class AircraftOptions:
         Parameter(
             group=aircraft,
             metavar="M_PER_S",
-            help="Instead of --airspeed: as indicated, metres per second; true airspeed follows from --altitude.",
+            help="Instead of --airspeed: indicated airspeed, metres per second; --altitude converts it to true airspeed.",
         ),
     ] = None
     bank: Annotated[float | None, Parameter(group=aircraft, metavar="DEGREES", help="Largest bank, degrees.")] = None
@@ -150,7 +154,7 @@ class AircraftOptions:
         Parameter(
             group=aircraft,
             metavar="FILE",
-            help="Parameters of ArduPlane (.param) or PX4 (.params): they give what no option does, the indicated airspeed, the bank limit, and the circle's radius and direction.",
+            help="Parameter file of ArduPlane (.param) or PX4 (.params): it gives the indicated airspeed, the bank limit, and the circle's radius and direction where no option does.",
         ),
     ] = None
     altitude: Annotated[
@@ -158,16 +162,20 @@ class AircraftOptions:
         Parameter(
             group=aircraft,
             metavar="METRES",
-            help="Above mean sea level, or what --altitude-reference says: in thin air an indicated airspeed is a higher true one. Missions and maps hold it too.",
+            help="Altitude above mean sea level, or above --altitude-reference. It converts an indicated airspeed (in thin air the true one is higher), and is written to missions and maps.",
         ),
     ] = None
     temperature: Annotated[
         float | None,
-        Parameter(group=aircraft, metavar="CELSIUS", help="Of the air outside; that of standard air if absent."),
+        Parameter(
+            group=aircraft,
+            metavar="CELSIUS",
+            help="Outside air temperature; that of the standard atmosphere if absent.",
+        ),
     ] = None
 
     def preset(self) -> Preset | None:
-        """What the parameter file says."""
+        """The values of the parameter file; None without one."""
         if self.params is None:
             return None
         from loiter.io.missions.parameters import read_parameters
@@ -175,9 +183,9 @@ class AircraftOptions:
         return read_parameters(self.params)
 
     def above_sea(self, preset: Preset | None, datum: AltitudeDatum) -> AircraftOptions:
-        """The same with its altitude above mean sea level, where an airspeed is indicated in the air there.
+        """The same options with the altitude above mean sea level, if an indicated airspeed needs it.
 
-        Raises `InvalidArgument` where that altitude is not known.
+        Raises `InvalidArgument` where that altitude is unknown.
         """
         if self.altitude is None:
             if datum != MEAN_SEA_LEVEL:
@@ -188,7 +196,7 @@ class AircraftOptions:
         return replace(self, altitude=datum.above_sea_m(self.altitude))
 
     def aircraft(self, preset: Preset | None) -> Aircraft:
-        """The aircraft; an option stands above the parameter file."""
+        """The aircraft; options take precedence over the parameter file."""
         limits = {
             "max_bank_deg": self.bank,
             "min_turn_radius_m": self.turn_radius,
@@ -199,7 +207,7 @@ class AircraftOptions:
         return Aircraft(self._true_airspeed(preset), **limits)
 
     def indicated(self, preset: Preset | None) -> float | None:
-        """The indicated airspeed, where that is what is given."""
+        """The indicated airspeed, metres per second; None where the true airspeed is given."""
         if self.airspeed is not None:
             if self.indicated_airspeed is not None:
                 raise InvalidArgument("airspeed_m_s", "and --indicated-airspeed are given: one is enough")
@@ -211,56 +219,59 @@ class AircraftOptions:
         return self.indicated_airspeed
 
     def remark(self, preset: Preset | None) -> str:
-        """A line for the user where the airspeed was not given as true airspeed; else empty."""
+        """A line with the true airspeed where the indicated one was given; otherwise empty."""
         indicated = self.indicated(preset)
         if indicated is None:
             return ""
-        height = density_altitude_m(self._height, self.temperature)
-        return f"True airspeed {self._true_airspeed(preset):.4g} m/s: {indicated:g} indicated, density altitude {height:.0f} m."
+        density_altitude = density_altitude_m(self._altitude_m, self.temperature)
+        return (
+            f"True airspeed {self._true_airspeed(preset):.4g} m/s: {indicated:g} indicated, "
+            f"density altitude {density_altitude:.0f} m."
+        )
 
     def _true_airspeed(self, preset: Preset | None) -> float:
         indicated = self.indicated(preset)
         if indicated is not None:
-            return true_airspeed(indicated, self._height, self.temperature)
+            return true_airspeed(indicated, self._altitude_m, self.temperature)
         if self.airspeed is None:
             raise InvalidArgument("airspeed_m_s", "is needed, or --indicated-airspeed, or --params with an airspeed")
         return self.airspeed
 
     @property
-    def _height(self) -> float:
+    def _altitude_m(self) -> float:
         return 0.0 if self.altitude is None else self.altitude
 
 
 @Parameter(name="*")
 @dataclass(frozen=True)
 class WindOptions:
-    """The wind."""
+    """The wind option."""
 
     wind: Annotated[
         tuple[float, float] | None,
         Parameter(
             group=air,
             metavar="SPEED FROM",
-            help="Metres per second, and the compass direction the wind comes from; from true north at the circle, where places are in degrees.",
+            help="Wind speed, metres per second, and the compass direction that the wind comes from; with places in degrees it counts from true north at the circle.",
         ),
     ] = None
 
     @property
     def moving_air(self) -> Wind:
-        """The wind; none is still air."""
+        """The wind; still air if the option is absent."""
         return CALM if self.wind is None else Wind(*self.wind)
 
 
 @Parameter(name="*")
 @dataclass(frozen=True)
 class MissionOptions:
-    """How a mission leads onto the circle, and how finely a file follows the track."""
+    """How a mission leads onto the circle, how closely a file follows the track, and what altitudes refer to."""
 
     path: Annotated[
         bool,
         Parameter(
             group=missions,
-            help="Waypoints all along the path, in place of the one at most that autopilots fly best: they cut its turns and join later.",
+            help="Write waypoints all along the path. Autopilots cut its turns and join later; without --path a mission has at most one waypoint, which they fly best.",
         ),
     ] = False
     spacing: Annotated[
@@ -268,7 +279,7 @@ class MissionOptions:
         Parameter(
             group=missions,
             metavar="METRES",
-            help="Points of the track at most so far apart, as far as they may if absent; a mission then has --path.",
+            help="Largest distance between points of the track; limited by --chord-error alone if absent. For a mission it implies --path.",
         ),
     ] = None
     chord_error: Annotated[
@@ -276,14 +287,14 @@ class MissionOptions:
         Parameter(
             group=missions,
             metavar="METRES",
-            help="By how much straight lines between points of the track may cut a turn; 1 if absent.",
+            help="Largest distance by which straight lines between points of the track may cut a turn; 1 if absent.",
         ),
     ] = None
     altitude_reference: Annotated[
         Literal["msl", "home", "ground"],
         Parameter(
             group=missions,
-            help="What --altitude is measured from: mean sea level, the home position, or the ground below (ArduPilot only).",
+            help="Reference of --altitude: mean sea level, the home position, or the ground below (ArduPilot only).",
         ),
     ] = "msl"
     home_altitude: Annotated[
@@ -291,18 +302,18 @@ class MissionOptions:
         Parameter(
             group=missions,
             metavar="METRES",
-            help="Of the home position, above mean sea level: needed for altitudes above home or ground.",
+            help="Altitude of the home position above mean sea level; needed for altitudes above home or ground.",
         ),
     ] = None
 
     @property
     def datum(self) -> AltitudeDatum:
-        """What --altitude is measured from."""
+        """The reference of --altitude."""
         return AltitudeDatum(AltitudeReference(self.altitude_reference), self.home_altitude)
 
     @property
     def along_path(self) -> bool:
-        """Whether a mission has waypoints all along the path; an error without them is an `InvalidArgument`."""
+        """Whether a mission has waypoints all along the path; a chord error without them is an `InvalidArgument`."""
         positive("chord_error_m", self.chord_error_m, "metres")
         if self.chord_error is not None and not self.path and self.spacing is None:
             raise InvalidArgument("chord_error_m", "goes with --path: without it a mission has no turns to cut")
@@ -315,7 +326,7 @@ class MissionOptions:
 
 
 class OptionsRead(NamedTuple):
-    """The problem that the options of a command describe, and a remark that the user should read first, if any."""
+    """The problem that the options of a command describe, and a remark to print before the result, or ""."""
 
     placed: PlacedProblem
     remark: str
@@ -330,7 +341,7 @@ def read_options(
     tolerance_m: float = 0.0,
     datum: AltitudeDatum = MEAN_SEA_LEVEL,
 ) -> OptionsRead:
-    """The problem that the options describe; raises `InvalidArgument` where they contradict each other or fall short."""
+    """The problem that the options describe; raises `InvalidArgument` where they are contradictory or incomplete."""
     preset = aircraft.preset()
     aircraft = aircraft.above_sea(preset, datum)
     pose, circle, frame = placed(start, orbit, preset)
@@ -341,7 +352,7 @@ def read_options(
 def placed(
     start: StartOptions, orbit: OrbitOptions, preset: Preset | None = None
 ) -> tuple[Pose, Orbit, LocalFrame | None]:
-    """The start and the circle, and the plane of metres where they are in degrees."""
+    """The start and the circle, and, where they are in degrees, the local frame."""
     if (start.pose is None) == (start.pose_lla is None):
         raise InvalidArgument("pose", "or --pose-lla is needed, and not both")
     circle, frame = orbit.circle(preset)
@@ -354,11 +365,12 @@ def placed(
 
 
 def _with_radius(argument: str, numbers: Sequence[float], radius_m: float | None) -> tuple[float, float, float]:
-    """Two numbers for the centre and the radius, which a parameter file may give."""
-    if len(numbers) == 2 and radius_m is not None:
-        return numbers[0], numbers[1], radius_m
-    if len(numbers) != 3:
-        raise InvalidArgument(
-            argument, f"needs 3 numbers, centre and radius, or 2 and --params with a radius: {len(numbers)} were given"
-        )
-    return numbers[0], numbers[1], numbers[2]
+    """The two coordinates of the centre and the radius; `radius_m`, if any, is that of the parameter file."""
+    match [*numbers]:
+        case [first, second, radius]:
+            return first, second, radius
+        case [first, second] if radius_m is not None:
+            return first, second, radius_m
+    raise InvalidArgument(
+        argument, f"needs 3 numbers, centre and radius, or 2 and --params with a radius: {len(numbers)} were given"
+    )

@@ -1,8 +1,8 @@
-"""What `loiter plan` prints: tables for people, JSON for programs."""
+"""Output of the commands: lines and tables for people, JSON for programs."""
 
 import json
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import atan2, degrees, hypot
 
 from rich.console import Console, RenderableType
@@ -13,20 +13,19 @@ from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Pose
-
-ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
+from loiter.planning.vocabulary import ACTIONS
 
 # Two durations that are equal in theory differ by rounding, near 1e-15 of themselves in near and 1e-14 in far scenes.
-SAME_TIME = 1e-12
+TIE_TOLERANCE = 1e-12
 
-# A miss is told from this share of the radius on: a metre on a kilometre.
-SHOWN = 1e-3
+# A miss is printed from this share of the radius on: a metre on a kilometre.
+SMALLEST_MISS = 1e-3
 
 # What a mission with waypoints all along the path costs (docs/maps.md).
 ALONG_PATH = "Waypoints all along the path: autopilots cut its turns, and joined 2 to 4 s later than without --path."
 
-# No line is longer; rich would cut or wrap at the width of the window, and numbers must stay whole.
-WIDEST = 1000
+# Wider than any line: rich would cut or wrap lines at the width of the window, and numbers must stay whole.
+CONSOLE_WIDTH = 1000
 
 
 def print_json(document: dict[str, object]) -> None:
@@ -43,50 +42,60 @@ def print_tables(
     frame: LocalFrame | None = None,
     remark: str = "",
 ) -> None:
-    """Print the first of `best`, or with `everything` each, and what the other direction costs; `remark` before all.
+    """Print the remark, the first of `best` (with `everything` each of them), and the cost of the other direction.
 
-    With a frame headings are true, and places are told in degrees.
+    With a frame headings are true, and places are in degrees.
     """
+    first, *ties = best
     lines: list[RenderableType] = [remark] if remark else []
-    lines += [weather(best[0])] if _windy(best[0]) else []
-    for maneuver in best if everything else best[:1]:
-        lines.append(Text(headline(maneuver), style="bold"))
-        if maneuver.segments:
-            lines += [table(maneuver, frame), peel_off(maneuver, frame)]
-        if _windy(maneuver):
-            lines += hold_in_wind(maneuver, frame)
-        if maneuver.miss_m > SHOWN * maneuver.orbit.radius_m:
-            lines.append(f"Ends {maneuver.miss_m:.3g} m off the point of joining, within the tolerance.")
+    lines += [weather(first)] if _windy(first) else []
+    for maneuver in best if everything else [first]:
+        lines += _description(maneuver, frame)
     lines.append(other_direction(best, others))
-    if len(best) > 1 and not everything:
+    if ties and not everything:
         lines.append(f"{len(best)} maneuvers are optimal; --all shows each.")
     write(*lines)
 
 
+def _description(maneuver: Maneuver, frame: LocalFrame | None) -> list[RenderableType]:
+    """Headline, table and remarks of a maneuver."""
+    lines: list[RenderableType] = [Text(headline(maneuver), style="bold")]
+    if maneuver.segments:
+        lines += [table(maneuver, frame), peel_off(maneuver, frame)]
+    if _windy(maneuver):
+        lines += hold_in_wind(maneuver, frame)
+    if maneuver.miss_m > SMALLEST_MISS * maneuver.orbit.radius_m:
+        lines.append(f"Ends {maneuver.miss_m:.3g} m off the point of joining, within the tolerance.")
+    return lines
+
+
 def write(*lines: RenderableType) -> None:
-    """Write lines and tables to standard output, all at once and none of them cut to the width of a window."""
-    console = Console(highlight=False, width=WIDEST)
+    """Write lines and tables to standard output, all at once and without cutting them to the width of the window."""
+    console = Console(highlight=False, width=CONSOLE_WIDTH)
     with console.capture() as capture:
         for line in lines:
             console.print(line)
     sys.stdout.write(capture.get())
 
 
+def new_table() -> Table:
+    """An empty table without lines, its columns two spaces apart."""
+    return Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+
+
 def headline(maneuver: Maneuver) -> str:
     """One line: the word, the direction, the time to join and the distance."""
     if not maneuver.segments:
         return f"On the circle already, {maneuver.turn.described}: nothing to fly."
-    time, length = _formats(maneuver)
     return (
-        f"{maneuver.word}, {maneuver.turn.described}: joins in {time(maneuver.duration_s)} "
-        f"after {length(maneuver.length_m)}{' through the air' if _windy(maneuver) else ''}"
+        f"{maneuver.word}, {maneuver.turn.described}: joins in {_seconds(maneuver, maneuver.duration_s)} "
+        f"after {_metres(maneuver, maneuver.length_m)}{' through the air' if _windy(maneuver) else ''}"
     )
 
 
 def table(maneuver: Maneuver, frame: LocalFrame | None = None) -> Table:
-    """A row for each piece and one for the join."""
-    time, length = _formats(maneuver)
-    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    """A row for each segment and one for the hold."""
+    rows = new_table()
     rows.add_column("in", justify="right")
     rows.add_column("do", justify="left")
     columns = ["for", "length", "from the centre", "heading, deg"]
@@ -94,41 +103,41 @@ def table(maneuver: Maneuver, frame: LocalFrame | None = None) -> Table:
         rows.add_column(heading, justify="right")
     for segment in maneuver.segments:
         rows.add_row(
-            time(segment.start_s),
+            _seconds(maneuver, segment.start_s),
             ACTIONS[segment.letter],
-            time(segment.duration_s),
-            length(segment.length_m),
-            length(maneuver.orbit.after(segment.start_s).distance_m(segment.start)),
-            _degrees(segment.start.heading_deg - _convergence_deg(segment.start, frame)),
-            *_over_ground(maneuver, segment.start, frame),
+            _seconds(maneuver, segment.duration_s),
+            _metres(maneuver, segment.length_m),
+            _metres(maneuver, maneuver.orbit.after(segment.start_s).distance_m(segment.start)),
+            *_directions(maneuver, segment.start, frame),
         )
     rows.add_row(
-        time(maneuver.duration_s),
+        _seconds(maneuver, maneuver.duration_s),
         f"hold {maneuver.turn.described}",
         "",
         "",
-        length(maneuver.orbit_at_join.distance_m(maneuver.join)),
-        _degrees(maneuver.join.heading_deg - _convergence_deg(maneuver.join, frame)),
-        *_over_ground(maneuver, maneuver.join, frame),
+        _metres(maneuver, maneuver.orbit_at_join.distance_m(maneuver.join)),
+        *_directions(maneuver, maneuver.join, frame),
     )
     return rows
 
 
-def _over_ground(maneuver: Maneuver, pose: Pose, frame: LocalFrame | None) -> list[str]:
-    """Cells for track and ground speed; none in still air about a circle that rests."""
+def _directions(maneuver: Maneuver, pose: Pose, frame: LocalFrame | None) -> list[str]:
+    """Cells for the heading and, in wind or about a circle that moves, for track and ground speed."""
+    convergence_deg = _convergence_deg(pose, frame)
+    heading = _degrees(pose.heading_deg - convergence_deg)
     if not _windy(maneuver):
-        return []
-    track_deg, speed = maneuver.over_ground(pose)
-    return [_degrees(track_deg - _convergence_deg(pose, frame)), f"{speed:.1f} m/s"]
+        return [heading]
+    track_deg, speed_m_s = maneuver.over_ground(pose)
+    return [heading, _degrees(track_deg - convergence_deg), f"{speed_m_s:.1f} m/s"]
 
 
 def _convergence_deg(pose: Pose, frame: LocalFrame | None) -> float:
-    """What a heading of the plane has too much to be true."""
+    """The heading in the local plane less the true heading, degrees; 0 without a frame."""
     return 0.0 if frame is None else pose.heading_deg - frame.place(pose).heading_deg
 
 
 def weather(maneuver: Maneuver) -> str:
-    """One line: the wind, and how the circle moves."""
+    """One line: the wind, and the velocity of a moving circle."""
     wind, orbit = maneuver.wind, maneuver.orbit
     text = f"Wind {wind.speed_m_s:g} m/s from {_degrees(wind.from_deg)} deg" if wind.speed_m_s else "Still air"
     if not orbit.moves:
@@ -140,7 +149,7 @@ def weather(maneuver: Maneuver) -> str:
 
 
 def hold_in_wind(maneuver: Maneuver, frame: LocalFrame | None = None) -> list[str]:
-    """What the wind asks of the hold, and where a circle that moves is joined."""
+    """Lines on the bank that the hold takes, and on the position of a moving circle at the join."""
     lines, hold = [], maneuver.hold
     if maneuver.orbit.moves and maneuver.segments:
         centre = _place(maneuver, maneuver.orbit_at_join, frame)
@@ -156,9 +165,9 @@ def hold_in_wind(maneuver: Maneuver, frame: LocalFrame | None = None) -> list[st
 
 def _place(maneuver: Maneuver, place: Pose | Orbit, frame: LocalFrame | None) -> str:
     if frame is not None:
-        return degrees_of(*frame.place(Pose(place.east_m, place.north_m, 0.0))[:2])
-    _, length = _formats(maneuver)
-    return f"{length(place.east_m)} east, {length(place.north_m)} north"
+        geodetic = frame.place(Pose(place.east_m, place.north_m, 0.0))
+        return degrees_of(geodetic.latitude_deg, geodetic.longitude_deg)
+    return f"{_metres(maneuver, place.east_m)} east, {_metres(maneuver, place.north_m)} north"
 
 
 def _windy(maneuver: Maneuver) -> bool:
@@ -167,22 +176,21 @@ def _windy(maneuver: Maneuver) -> bool:
 
 
 def peel_off(maneuver: Maneuver, frame: LocalFrame | None = None) -> str:
-    """Where the last piece begins: "Peel off: turn left in 12.4 s, 138 m from the centre."."""
-    time, length = _formats(maneuver)
-    last = maneuver.segments[-1]
-    when = f"in {time(last.start_s)}" if len(maneuver.segments) > 1 else "now"
-    away = length(maneuver.orbit.after(last.start_s).distance_m(last.start))
+    """Where the last segment begins: "Peel off: turn left in 12.4 s, 138 m from the centre."."""
+    *before, last = maneuver.segments
+    when = f"in {_seconds(maneuver, last.start_s)}" if before else "now"
+    distance = _metres(maneuver, maneuver.orbit.after(last.start_s).distance_m(last.start))
     where = f", at {_place(maneuver, last.start, frame)}" if _windy(maneuver) or frame is not None else ""
-    return f"Peel off: {ACTIONS[last.letter]} {when}, {away} from the centre{where}."
+    return f"Peel off: {ACTIONS[last.letter]} {when}, {distance} from the centre{where}."
 
 
 def other_direction(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> str:
-    """What holding the circle the other way round would cost."""
-    first = best[0]
-    other = next(m for m in (*best, *others) if m.turn != first.turn)
+    """One line: how much later or sooner the best maneuver of the other direction joins."""
+    first, *rest = *best, *others
+    other = next(m for m in rest if m.turn != first.turn)
     later = other.duration_s - first.duration_s
     subject = other.turn.described.capitalize()
-    if other in best or abs(later) <= SAME_TIME * other.duration_s:
+    if other in best or abs(later) <= TIE_TOLERANCE * other.duration_s:
         return f"{subject} takes the same time."
     return f"{subject} would join {_difference(abs(later))} {'later' if later > 0.0 else 'sooner'}."
 
@@ -193,10 +201,19 @@ def _difference(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds >= 100.0 else f"{seconds:.3g} s"
 
 
-def _formats(maneuver: Maneuver) -> tuple[Callable[[float], str], Callable[[float], str]]:
-    """Formats of times and of lengths, with as many decimals as the size of the scene asks for."""
-    decimals = 1 if maneuver.orbit.radius_m >= 10.0 else 3
-    return lambda seconds: f"{seconds:.{decimals}f} s", lambda metres: f"{metres:.{decimals}f} m"
+def _seconds(maneuver: Maneuver, seconds: float) -> str:
+    """A time of the maneuver as text."""
+    return f"{seconds:.{_decimals(maneuver)}f} s"
+
+
+def _metres(maneuver: Maneuver, metres: float) -> str:
+    """A length of the maneuver as text."""
+    return f"{metres:.{_decimals(maneuver)}f} m"
+
+
+def _decimals(maneuver: Maneuver) -> int:
+    """Decimals of times and lengths: more for small circles."""
+    return 1 if maneuver.orbit.radius_m >= 10.0 else 3
 
 
 def _degrees(value: float) -> str:

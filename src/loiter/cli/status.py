@@ -1,4 +1,4 @@
-"""Exit statuses."""
+"""Exit statuses of the program."""
 
 CHECK_FAILED = 1
 USAGE_ERROR = 2

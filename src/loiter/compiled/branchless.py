@@ -1,7 +1,7 @@
-"""Arctangent, sine and cosine without branches, which a compiler vectorises where it cannot the C library's.
+"""Arctangent, sine and cosine without branches: a compiler can vectorise them, unlike those of the C library.
 
-`rebinding` puts them in the place of those of `math`. They differ from the true values by a rounding or two. The
-polynomials in q^2 come from tests/golden/build_branchless.py, which prints what they leave: below 6e-18.
+`rebinding` puts them in place of those of `math`. They differ from the true values by one or two roundings. The
+polynomials in q^2 come from tests/golden/build_branchless.py, which prints their remaining errors: below 6e-18.
 """
 
 from math import floor, pi, sqrt
@@ -13,7 +13,7 @@ HALF_PI_1, HALF_PI_2, HALF_PI_3 = 1.5707963267341256, 6.077100506303966e-11, 2.0
 
 
 def atan2(y: float, x: float) -> float:
-    """The angle of (x, y) in [-pi, pi], 0 for (0, 0); finite arguments. The sign of a zero is not told.
+    """The angle of (x, y) in [-pi, pi], 0 for (0, 0); finite arguments. The sign of a zero is ignored.
 
     The smaller coordinate over the larger one, reduced from pi/4 to pi/8 by tan(a - pi/4) = (t - 1)/(t + 1).
     """
@@ -50,7 +50,7 @@ def hypot(x: float, y: float) -> float:
 
 
 def _quarters(a: float) -> tuple[float, float, float]:
-    """The whole quarters of a turn in an angle, 0 to 3, and sine and cosine of what is left, within pi/4."""
+    """The quarter turns in an angle, 0 to 3, and sine and cosine of the remainder, which is within pi/4."""
     n = floor(a * (2.0 / pi) + 0.5) * 1.0
     q = ((a - n * HALF_PI_1) - n * HALF_PI_2) - n * HALF_PI_3
     z = q * q
@@ -58,7 +58,7 @@ def _quarters(a: float) -> tuple[float, float, float]:
 
 
 def _atan(z: float) -> float:
-    """atan(q)/q - 1 for z = q^2 up to tan(pi/8)^2; pairs of terms side by side, which shortens the chain."""
+    """atan(q)/q - 1 for z = q^2 up to tan(pi/8)^2; summed in pairs, which shortens the chain of operations."""
     z2 = z * z
     z4 = z2 * z2
     low = (-0.3333333333333333 + 0.19999999999999804 * z) + (-0.14285714285659828 + 0.11111111105155447 * z) * z2

@@ -1,12 +1,13 @@
 """The kernel's functions, unchanged, compiled by Numba into the inner loops of NumPy ufuncs. The only file with Numba.
 
-An inner loop is handed pointers and strides (NumPy's PyUFuncGenericFunction). It copies a block of states into buffers
-on the stack, works on these with loops that LLVM vectorises, and copies the results out: no other memory is asked for,
-and any strides run at the same speed. `branchless` and a fused multiply-add stand in for what would not vectorise.
+NumPy calls an inner loop (PyUFuncGenericFunction) with pointers to the operands and their strides. The loop copies a
+block of states into buffers on the stack, works on these with loops that LLVM vectorises, and copies the results out:
+it allocates no other memory, and any strides run at the same speed. `branchless` and a fused multiply-add replace what
+would not vectorise.
 """
 
 from math import nan
-from typing import Any
+from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
 import numba
@@ -20,19 +21,20 @@ from loiter.kernel import motion, wind_search
 from loiter.kernel.codes import Side, Status
 from loiter.kernel.synthesis import (
     Entry,
-    asked_side,
     first_control,
-    held_radius,
+    is_faster,
+    is_solvable,
     least_time,
     miss,
-    one_sided,
+    optimum_on_side,
+    rounded_radius,
     rounding,
-    solvable,
-    sooner,
+    side_or_near,
     status_of,
 )
+from loiter.kernel.wind_search import WindProblem
 
-# Numba's decorators take and give what their types do not tell.
+# Numba has no types for its decorators.
 _intrinsic: Any = extending.intrinsic
 _njit: Any = numba.njit
 
@@ -45,7 +47,7 @@ LOOP = types.void(types.CPointer(types.voidptr), types.CPointer(types.intp), typ
 OK = int(Status.OK)
 CW, CCW, EITHER = int(Side.CW), int(Side.CCW), int(Side.EITHER)
 
-# All flags of <fenv.h>. Compiled code works out branches that it then leaves; NumPy must not warn of those.
+# All flags of <fenv.h>. Compiled code evaluates both sides of a branch; NumPy must not warn of the unused one.
 FLAGS = 0x3F
 _clear_flags = types.ExternalFunction("feclearexcept", types.int32(types.int32))
 
@@ -58,11 +60,11 @@ def _fma(context: Any, a: Any, b: Any, c: Any) -> Any:
 
 @_intrinsic
 def _buffer(context: Any) -> Any:
-    """Room for a block of doubles on the stack."""
+    """A buffer on the stack for a block of doubles."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        room = cgutils.alloca_once(builder, ir.ArrayType(ir.DoubleType(), BLOCK))
-        return builder.bitcast(room, ir.DoubleType().as_pointer())
+        buffer = cgutils.alloca_once(builder, ir.ArrayType(ir.DoubleType(), BLOCK))
+        return builder.bitcast(buffer, ir.DoubleType().as_pointer())
 
     return DOUBLES(), generate
 
@@ -70,26 +72,32 @@ def _buffer(context: Any) -> Any:
 @_intrinsic
 def _doubles(context: Any, pointer: Any) -> Any:
     """A pointer to doubles."""
-    return DOUBLES(pointer), lambda context, builder, signature, args: builder.bitcast(
-        args[0], ir.DoubleType().as_pointer()
-    )
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        (untyped,) = args
+        return builder.bitcast(untyped, ir.DoubleType().as_pointer())
+
+    return DOUBLES(pointer), generate
 
 
 @_intrinsic
 def _bytes(context: Any, pointer: Any) -> Any:
     """A pointer to bytes."""
-    return BYTES(pointer), lambda context, builder, signature, args: builder.bitcast(
-        args[0], ir.IntType(8).as_pointer()
-    )
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        (untyped,) = args
+        return builder.bitcast(untyped, ir.IntType(8).as_pointer())
+
+    return BYTES(pointer), generate
 
 
 def _inlined(function: Any) -> Any:
-    """Compiled, to be folded into its callers; no other door to it is wanted."""
+    """The function compiled, to be inlined into its callers only."""
     return _njit(forceinline=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
 
 
 def _two_product(a, b):
-    """`exact.two_product` by fused multiply-add, to the same last bit."""
+    """`exact.two_product` by fused multiply-add, equal to the last bit."""
     p = a * b
     return p, _fma(a, b, -p)
 
@@ -99,234 +107,298 @@ _NAMES["two_product"] = _inlined(_two_product)
 
 
 def _compiled(function: Any) -> Any:
+    """A kernel function and the kernel functions that it calls, compiled with the replacements `_NAMES`."""
     return rebound(function, _NAMES, _inlined)
 
 
-_least_time, _one_sided, _asked_side, _sooner = map(_compiled, (least_time, one_sided, asked_side, sooner))
-_status_of, _held_radius, _rounding = map(_compiled, (status_of, held_radius, rounding))
+_least_time, _optimum_on_side, _side_or_near = map(_compiled, (least_time, optimum_on_side, side_or_near))
+_status_of, _rounded_radius, _rounding, _miss = map(_compiled, (status_of, rounded_radius, rounding, miss))
+_first_control, _is_faster, _is_solvable = map(_compiled, (first_control, is_faster, is_solvable))
 _reduce = _compiled(motion.reduce)
-_first_control, _miss, _solvable = map(_compiled, (first_control, miss, solvable))
+
+# The operands of `min_time`, `control` and `solve` by number: five inputs, and the results of each.
+X, Y, RADIUS, SIDE, TOLERANCE = range(5)
+MIN_TIME = CONTROL = 5
+# `solve` has a sixth input, whose only purpose is the number 3 of durations. The strides of all operands are followed
+# by those along the three: of the sixth input, and of the durations.
+_, TIME, WORD, DURATIONS, STATUS, SIDE_HELD, MISS, _, NEXT_DURATION = range(5, 14)
+# The operands of `reduce`.
+EAST, NORTH, COSINE, SINE, REDUCED_X, REDUCED_Y = range(6)
+
+
+class StateBlock(NamedTuple):
+    """Buffers of the inputs of a block of states."""
+
+    x: Any
+    y: Any
+    R: Any
+    side: Any
+    tolerance: Any
+
+
+class EntryBlock(NamedTuple):
+    """Buffers of the maneuvers of a block of states."""
+
+    side: Any
+    word: Any
+    t1: Any
+    t2: Any
+    t3: Any
 
 
 @_inlined
-def _load(buffer, operand, step, start, count):
-    source, stride = _doubles(operand), step // 8
+def _state_block():
+    return StateBlock(_buffer(), _buffer(), _buffer(), _buffer(), _buffer())
+
+
+@_inlined
+def _entry_block():
+    return EntryBlock(_buffer(), _buffer(), _buffer(), _buffer(), _buffer())
+
+
+@_inlined
+def _state_count(dimensions):
+    return dimensions[0]
+
+
+@_inlined
+def _load(buffer, args, steps, operand, start, count):
+    source, stride = _doubles(args[operand]), steps[operand] // 8
     for i in range(count):
         buffer[i] = source[(start + i) * stride]
 
 
 @_inlined
-def _store(buffer, operand, step, start, count):
-    target, stride = _doubles(operand), step // 8
+def _store(buffer, args, steps, operand, start, count):
+    target, stride = _doubles(args[operand]), steps[operand] // 8
     for i in range(count):
         target[(start + i) * stride] = buffer[i]
 
 
 @_inlined
-def _store_bytes(buffer, operand, step, start, count):
-    target = _bytes(operand)
+def _store_bytes(buffer, args, steps, operand, start, count):
+    target, stride = _bytes(args[operand]), steps[operand]
     for i in range(count):
-        target[(start + i) * step] = types.int8(buffer[i])
+        target[(start + i) * stride] = types.int8(buffer[i])
 
 
 @_inlined
-def _store_triples(first, second, third, operand, step, inner, start, count):
-    target, stride, next_one = _doubles(operand), step // 8, inner // 8
+def _store_durations(entries, args, steps, start, count):
+    target, stride, next_one = _doubles(args[DURATIONS]), steps[DURATIONS] // 8, steps[NEXT_DURATION] // 8
+    t1, t2, t3 = entries.t1, entries.t2, entries.t3
     for i in range(count):
         place = (start + i) * stride
-        target[place], target[place + next_one], target[place + 2 * next_one] = first[i], second[i], third[i]
+        target[place], target[place + next_one], target[place + 2 * next_one] = t1[i], t2[i], t3[i]
 
 
 @_inlined
-def _constant(operand, step, value):
-    """Whether an operand is one number, and this one."""
-    return step == 0 and _doubles(operand)[0] == value
+def _is_constant(args, steps, operand, value):
+    """Whether an operand is one number for all states, and equals this value."""
+    return steps[operand] == 0 and _doubles(args[operand])[0] == value
 
 
 @_inlined
-def _exact(args, steps):
+def _is_exact(args, steps):
     """Whether no state has a tolerance."""
-    return _constant(args[4], steps[4], 0.0)
+    return _is_constant(args, steps, TOLERANCE, 0.0)
 
 
 @_inlined
 def _passes(args, steps):
-    """2 where a tolerance may make the far side of *either* the sooner one, else 1."""
-    sided = _constant(args[3], steps[3], CW) or _constant(args[3], steps[3], CCW)
-    return 1 if _exact(args, steps) or sided else 2
+    """2 where a tolerance may make the far side of *either* the faster one, otherwise 1."""
+    one_side = _is_constant(args, steps, SIDE, CW) or _is_constant(args, steps, SIDE, CCW)
+    return 1 if _is_exact(args, steps) or one_side else 2
 
 
 @_inlined
-def _inputs(args, steps, start, count, x, y, R, side, tolerance):
-    _load(x, args[0], steps[0], start, count)
-    _load(y, args[1], steps[1], start, count)
-    _load(R, args[2], steps[2], start, count)
-    _load(side, args[3], steps[3], start, count)
-    _load(tolerance, args[4], steps[4], start, count)
+def _load_states(states, args, steps, start, count):
+    _load(states.x, args, steps, X, start, count)
+    _load(states.y, args, steps, Y, start, count)
+    _load(states.R, args, steps, RADIUS, start, count)
+    _load(states.side, args, steps, SIDE, start, count)
+    _load(states.tolerance, args, steps, TOLERANCE, start, count)
 
 
 @_inlined
-def _asked(y, side, tolerance, asked, far, count):
-    """The side asked for; for *either* the near one, or, where `far` and there is a tolerance, the other."""
+def _choose_sides(states, chosen, far, count):
+    """The side of each state; for *either* the near one or, where `far` and there is a tolerance, the far one."""
+    y, side, tolerance = states.y, states.side, states.tolerance
     for i in range(count):
-        near = _asked_side(y[i], int(side[i]))
-        asked[i] = -near if far and side[i] == EITHER and tolerance[i] > 0.0 else near
+        near = _side_or_near(y[i], int(side[i]))
+        chosen[i] = -near if far and side[i] == EITHER and tolerance[i] > 0.0 else near
 
 
 @_inlined
-def _tight_times(x, y, time, count):
-    """T for R = 1, *either*, no tolerance: all that depends on these alone is worked out by the compiler."""
+def _tight_times(states, time, count):
+    """T for R = 1, *either*, no tolerance: the compiler evaluates all that depends on these alone."""
+    x, y = states.x, states.y
     for i in range(count):
         T = _least_time(x[i], abs(y[i]), 1.0, CW, 0.0)
-        time[i] = T if _solvable(x[i], y[i], 1.0, 0.0) else nan
+        time[i] = T if _is_solvable(x[i], y[i], 1.0, 0.0) else nan
 
 
 @_inlined
-def _times(x, y, R, asked, tolerance, time, count):
+def _times(states, chosen, time, count):
+    x, y, R, tolerance = states.x, states.y, states.R, states.tolerance
     for i in range(count):
-        T = _least_time(x[i], y[i], _held_radius(R[i]), int(asked[i]), tolerance[i])
-        time[i] = T if _solvable(x[i], y[i], R[i], tolerance[i]) else nan
+        T = _least_time(x[i], y[i], _rounded_radius(R[i]), int(chosen[i]), tolerance[i])
+        time[i] = T if _is_solvable(x[i], y[i], R[i], tolerance[i]) else nan
 
 
 @_inlined
-def _exact_times(x, y, R, asked, time, count):
+def _exact_times(states, chosen, time, count):
     """`_times` without a tolerance: the compiler leaves out the words that compete only beside a circle."""
+    x, y, R = states.x, states.y, states.R
     for i in range(count):
-        T = _least_time(x[i], y[i], _held_radius(R[i]), int(asked[i]), 0.0)
-        time[i] = T if _solvable(x[i], y[i], R[i], 0.0) else nan
+        T = _least_time(x[i], y[i], _rounded_radius(R[i]), int(chosen[i]), 0.0)
+        time[i] = T if _is_solvable(x[i], y[i], R[i], 0.0) else nan
 
 
 @_inlined
-def _least(time, other, far, count):
-    """The times of the first pass, or those of the second that are sooner."""
+def _keep_least(time, other, far, count):
+    """Keep the times of the first pass, or those of the second where they are less."""
     for i in range(count):
         time[i] = other[i] if not far or other[i] < time[i] else time[i]
 
 
 def min_time(args, dimensions, steps, data):
     """T, or nan where the status is not OK."""
-    x, y, R, side, tolerance = _buffer(), _buffer(), _buffer(), _buffer(), _buffer()
-    asked, time, other = _buffer(), _buffer(), _buffer()
-    exact, passes = _exact(args, steps), _passes(args, steps)
-    tight = exact and _constant(args[2], steps[2], 1.0) and _constant(args[3], steps[3], EITHER)
-    for start in range(0, dimensions[0], BLOCK):
-        count = min(BLOCK, dimensions[0] - start)
+    states, chosen, time, other = _state_block(), _buffer(), _buffer(), _buffer()
+    n, exact, passes = _state_count(dimensions), _is_exact(args, steps), _passes(args, steps)
+    tight = exact and _is_constant(args, steps, RADIUS, 1.0) and _is_constant(args, steps, SIDE, EITHER)
+    for start in range(0, n, BLOCK):
+        count = min(BLOCK, n - start)
         if tight:
-            _load(x, args[0], steps[0], start, count)
-            _load(y, args[1], steps[1], start, count)
-            _tight_times(x, y, time, count)
+            _load(states.x, args, steps, X, start, count)
+            _load(states.y, args, steps, Y, start, count)
+            _tight_times(states, time, count)
         else:
-            _inputs(args, steps, start, count, x, y, R, side, tolerance)
+            _load_states(states, args, steps, start, count)
             for far in range(passes):
-                _asked(y, side, tolerance, asked, far, count)
+                _choose_sides(states, chosen, far, count)
                 if exact:
-                    _exact_times(x, y, R, asked, other, count)
+                    _exact_times(states, chosen, other, count)
                 else:
-                    _times(x, y, R, asked, tolerance, other, count)
-                _least(time, other, far, count)
-        _store(time, args[5], steps[5], start, count)
+                    _times(states, chosen, other, count)
+                _keep_least(time, other, far, count)
+        _store(time, args, steps, MIN_TIME, start, count)
     _clear_flags(FLAGS)
 
 
 @_inlined
-def _optima(x, y, R, asked, tolerance, word, t1, t2, t3, count):
+def _optima(states, entries, count):
+    """The optimum of each state on the side in `entries`."""
+    x, y, R, tolerance = states.x, states.y, states.R, states.tolerance
+    side, word, t1, t2, t3 = entries
     for i in range(count):
-        _, word[i], t1[i], t2[i], t3[i] = _one_sided(x[i], y[i], _held_radius(R[i]), int(asked[i]), tolerance[i])
+        _, word[i], t1[i], t2[i], t3[i] = _optimum_on_side(
+            x[i], y[i], _rounded_radius(R[i]), int(side[i]), tolerance[i]
+        )
 
 
 @_inlined
-def _exact_optima(x, y, R, asked, word, t1, t2, t3, count):
+def _exact_optima(states, entries, count):
     """`_optima` without a tolerance; see `_exact_times`."""
+    x, y, R = states.x, states.y, states.R
+    side, word, t1, t2, t3 = entries
     for i in range(count):
-        _, word[i], t1[i], t2[i], t3[i] = _one_sided(x[i], y[i], _held_radius(R[i]), int(asked[i]), 0.0)
+        _, word[i], t1[i], t2[i], t3[i] = _optimum_on_side(x[i], y[i], _rounded_radius(R[i]), int(side[i]), 0.0)
 
 
 @_inlined
-def _sooner_ones(x, y, R, held, word, t1, t2, t3, asked, word_, t1_, t2_, t3_, far, count):
-    """The maneuvers of the first pass, or those of the second that are sooner."""
+def _entry_at(entries, i):
+    return Entry(int(entries.side[i]), int(entries.word[i]), entries.t1[i], entries.t2[i], entries.t3[i])
+
+
+@_inlined
+def _keep_faster(states, entries, others, far, count):
+    """Keep the maneuvers of the first pass, or those of the second where they are faster."""
+    x, y, R = states.x, states.y, states.R
+    side, word, t1, t2, t3 = entries
+    side_, word_, t1_, t2_, t3_ = others
     for i in range(count):
-        maneuver = Entry(int(held[i]), int(word[i]), t1[i], t2[i], t3[i])
-        other = Entry(int(asked[i]), int(word_[i]), t1_[i], t2_[i], t3_[i])
-        better = not far or _sooner(other, maneuver, _rounding(x[i], y[i], R[i]))
-        held[i], word[i] = asked[i] if better else held[i], word_[i] if better else word[i]
+        faster = _is_faster(_entry_at(others, i), _entry_at(entries, i), _rounding(x[i], y[i], R[i]))
+        better = not far or faster
+        side[i], word[i] = side_[i] if better else side[i], word_[i] if better else word[i]
         t1[i], t2[i], t3[i] = t1_[i] if better else t1[i], t2_[i] if better else t2[i], t3_[i] if better else t3[i]
 
 
 @_inlined
-def _solved(args, steps, start, count, x, y, R, tolerance, held, word, t1, t2, t3):
-    """Load a block of states and solve it, both sides of *either* where a tolerance asks for it."""
-    side, asked = _buffer(), _buffer()
-    word_, t1_, t2_, t3_ = _buffer(), _buffer(), _buffer(), _buffer()
-    _inputs(args, steps, start, count, x, y, R, side, tolerance)
+def _load_and_solve(states, entries, args, steps, start, count):
+    """Load a block of states and solve it, both sides of *either* where a tolerance requires it."""
+    others = _entry_block()
+    _load_states(states, args, steps, start, count)
     for far in range(_passes(args, steps)):
-        _asked(y, side, tolerance, asked, far, count)
-        if _exact(args, steps):
-            _exact_optima(x, y, R, asked, word_, t1_, t2_, t3_, count)
+        _choose_sides(states, others.side, far, count)
+        if _is_exact(args, steps):
+            _exact_optima(states, others, count)
         else:
-            _optima(x, y, R, asked, tolerance, word_, t1_, t2_, t3_, count)
-        _sooner_ones(x, y, R, held, word, t1, t2, t3, asked, word_, t1_, t2_, t3_, far, count)
+            _optima(states, others, count)
+        _keep_faster(states, entries, others, far, count)
 
 
 @_inlined
-def _controls(x, y, R, tolerance, held, word, u, count):
+def _controls(states, entries, u, count):
+    x, y, R, tolerance = states.x, states.y, states.R, states.tolerance
+    side, word = entries.side, entries.word
     for i in range(count):
-        first = _first_control(_held_radius(R[i]), Entry(int(held[i]), int(word[i]), 0.0, 0.0, 0.0))
-        u[i] = first if _solvable(x[i], y[i], R[i], tolerance[i]) else nan
+        first = _first_control(_rounded_radius(R[i]), Entry(int(side[i]), int(word[i]), 0.0, 0.0, 0.0))
+        u[i] = first if _is_solvable(x[i], y[i], R[i], tolerance[i]) else nan
 
 
 def control(args, dimensions, steps, data):
     """The first control of the optimum, or nan where the status is not OK."""
-    x, y, R, tolerance = _buffer(), _buffer(), _buffer(), _buffer()
-    held, word, t1, t2, t3 = _buffer(), _buffer(), _buffer(), _buffer(), _buffer()
-    for start in range(0, dimensions[0], BLOCK):
-        count = min(BLOCK, dimensions[0] - start)
-        _solved(args, steps, start, count, x, y, R, tolerance, held, word, t1, t2, t3)
-        _controls(x, y, R, tolerance, held, word, t1, count)
-        _store(t1, args[5], steps[5], start, count)
+    states, entries, u = _state_block(), _entry_block(), _buffer()
+    n = _state_count(dimensions)
+    for start in range(0, n, BLOCK):
+        count = min(BLOCK, n - start)
+        _load_and_solve(states, entries, args, steps, start, count)
+        _controls(states, entries, u, count)
+        _store(u, args, steps, CONTROL, start, count)
     _clear_flags(FLAGS)
 
 
 @_inlined
-def _misses(x, y, R, held, word, t1, t2, t3, missed, count):
+def _misses(states, entries, distance, count):
+    x, y, R = states.x, states.y, states.R
     for i in range(count):
-        missed[i] = _miss(x[i], y[i], _held_radius(R[i]), Entry(int(held[i]), int(word[i]), t1[i], t2[i], t3[i]))
+        distance[i] = _miss(x[i], y[i], _rounded_radius(R[i]), _entry_at(entries, i))
 
 
 @_inlined
-def _checked(x, y, R, tolerance, time, word, t1, t2, t3, held, missed, status, count):
-    """Status, and the whole time; nan and 0 where it is not OK."""
+def _check(states, entries, time, distance, status, count):
+    """Set status and T; the results are nan and 0 where the status is not OK."""
+    x, y, R, tolerance = states.x, states.y, states.R, states.tolerance
+    side, word, t1, t2, t3 = entries
     for i in range(count):
         status[i] = _status_of(x[i], y[i], R[i], tolerance[i]) + 0
         good = status[i] == OK
         t1[i], t2[i], t3[i] = t1[i] if good else nan, t2[i] if good else nan, t3[i] if good else nan
-        time[i], missed[i] = t1[i] + t2[i] + t3[i], missed[i] if good else nan
-        word[i], held[i] = word[i] if good else 0.0, held[i] if good else 0.0
+        time[i], distance[i] = t1[i] + t2[i] + t3[i], distance[i] if good else nan
+        word[i], side[i] = word[i] if good else 0.0, side[i] if good else 0.0
 
 
 def solve(args, dimensions, steps, data):
-    """Time, word, the three durations, status, side held and miss; the sixth operand only gives the three their number.
-
-    After the strides of the twelve operands come those along that number, of the sixth operand and of the durations.
-    """
-    x, y, R, tolerance = _buffer(), _buffer(), _buffer(), _buffer()
-    held, word, t1, t2, t3 = _buffer(), _buffer(), _buffer(), _buffer(), _buffer()
-    time, status, missed = _buffer(), _buffer(), _buffer()
-    for start in range(0, dimensions[0], BLOCK):
-        count = min(BLOCK, dimensions[0] - start)
-        _solved(args, steps, start, count, x, y, R, tolerance, held, word, t1, t2, t3)
-        _misses(x, y, R, held, word, t1, t2, t3, missed, count)
-        _checked(x, y, R, tolerance, time, word, t1, t2, t3, held, missed, status, count)
-        _store(time, args[6], steps[6], start, count)
-        _store_bytes(word, args[7], steps[7], start, count)
-        _store_triples(t1, t2, t3, args[8], steps[8], steps[13], start, count)
-        _store_bytes(status, args[9], steps[9], start, count)
-        _store_bytes(held, args[10], steps[10], start, count)
-        _store(missed, args[11], steps[11], start, count)
+    """Time, word, the three durations, status, side and miss."""
+    states, entries = _state_block(), _entry_block()
+    time, status, distance = _buffer(), _buffer(), _buffer()
+    n = _state_count(dimensions)
+    for start in range(0, n, BLOCK):
+        count = min(BLOCK, n - start)
+        _load_and_solve(states, entries, args, steps, start, count)
+        _misses(states, entries, distance, count)
+        _check(states, entries, time, distance, status, count)
+        _store(time, args, steps, TIME, start, count)
+        _store_bytes(entries.word, args, steps, WORD, start, count)
+        _store_durations(entries, args, steps, start, count)
+        _store_bytes(status, args, steps, STATUS, start, count)
+        _store_bytes(entries.side, args, steps, SIDE_HELD, start, count)
+        _store(distance, args, steps, MISS, start, count)
     _clear_flags(FLAGS)
 
 
 @_inlined
-def _reduced(x, y, c, s, count):
+def _reduce_all(x, y, c, s, count):
     for i in range(count):
         x[i], y[i] = _reduce(x[i], y[i], c[i], s[i])
 
@@ -334,15 +406,16 @@ def _reduced(x, y, c, s, count):
 def reduce(args, dimensions, steps, data):
     """The reduced state (2)."""
     x, y, c, s = _buffer(), _buffer(), _buffer(), _buffer()
-    for start in range(0, dimensions[0], BLOCK):
-        count = min(BLOCK, dimensions[0] - start)
-        _load(x, args[0], steps[0], start, count)
-        _load(y, args[1], steps[1], start, count)
-        _load(c, args[2], steps[2], start, count)
-        _load(s, args[3], steps[3], start, count)
-        _reduced(x, y, c, s, count)
-        _store(x, args[4], steps[4], start, count)
-        _store(y, args[5], steps[5], start, count)
+    n = _state_count(dimensions)
+    for start in range(0, n, BLOCK):
+        count = min(BLOCK, n - start)
+        _load(x, args, steps, EAST, start, count)
+        _load(y, args, steps, NORTH, start, count)
+        _load(c, args, steps, COSINE, start, count)
+        _load(s, args, steps, SINE, start, count)
+        _reduce_all(x, y, c, s, count)
+        _store(x, args, steps, REDUCED_X, start, count)
+        _store(y, args, steps, REDUCED_Y, start, count)
 
 
 def build() -> Any:
@@ -357,20 +430,19 @@ def build() -> Any:
 
 
 def in_wind() -> Any:
-    """`wind_search.fastest` over the rows of arrays: eight numbers each in, and out what it gives.
+    """`wind_search.fastest` over the rows of arrays: the fields of a `WindProblem` in, those of a `WindEntry` out.
 
-    It keeps lists, whose memory Numba's own runtime manages, so that it cannot stand in an object file: every process
-    compiles it anew, which takes some ten seconds.
+    It uses lists, whose memory is managed by Numba's own runtime, so it cannot be stored in an object file: every
+    process compiles it anew, which takes about ten seconds.
     """
     compiled = _njit(nogil=True, error_model="numpy")
     fastest = rebound(wind_search.fastest, finish=compiled)
 
-    def each(states, answers):
-        for i in range(len(states)):
-            x, y, c, s, R, side, wx, wy = states[i]
-            answer = fastest(x, y, c, s, R, int(side), wx, wy)
-            answers[i, 0], answers[i, 1], answers[i, 2] = answer[0], answer[1], answer[2]
-            answers[i, 3], answers[i, 4], answers[i, 5] = answer[3], answer[4], answer[5]
-            answers[i, 6], answers[i, 7] = answer[6], answer[7]
+    def each(problems, answers):
+        for i in range(len(problems)):
+            x, y, c, s, R, side, wx, wy = problems[i]
+            entry = fastest(WindProblem(x, y, c, s, R, int(side), wx, wy))
+            status, side, word, t1, t2, t3, azimuth, miss = entry
+            answers[i] = float(status), float(side), float(word), t1, t2, t3, azimuth, miss
 
     return compiled(each)

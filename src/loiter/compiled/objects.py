@@ -1,8 +1,8 @@
-"""Compiled code on disk: one object file for each state of the sources, published whole, loaded without Numba.
+"""Compiled code on disk: one object file for each version of the sources, written atomically, loaded without Numba.
 
 Numba's own cache does not notice changed callees, and processes that fill it at the same time can leave an index and a
-data file that do not belong together, which ends in a segmentation fault (numba issues 4807 and 10128). Here the name
-of the file is a digest of everything that the code depends on, and the file appears by one rename.
+data file that do not match, which causes a segmentation fault (numba issues 4807 and 10128). Here the name of the file
+is a digest of everything that the code depends on, and the file appears by a single rename.
 """
 
 import hashlib
@@ -17,23 +17,23 @@ from typing import Any
 
 import llvmlite.binding as llvm
 
-# What compiled code may ask of the C library.
+# Functions of the C library that compiled code may call.
 C_LIBRARY = {"feclearexcept", "sqrt"}
 
 DIGEST = hashlib.sha256().digest_size
 
 
 def addresses(names: Sequence[str], sources: Iterable[Path], build: Callable[[], Any]) -> list[int]:
-    """Where the functions `names` lie in memory, loaded from the object file for `sources`.
+    """The addresses of the functions `names` in memory, loaded from the object file for `sources`.
 
-    If there is none, or it is damaged, it is made from `build()`, an LLVM module that has them all; if its folder
-    cannot be written, every process makes its own. The code stays loaded as long as the process lives.
+    If there is no such file, or it is damaged, it is made from `build()`, an LLVM module that contains all functions;
+    if its folder cannot be written, every process compiles for itself. The code stays loaded until the process ends.
     """
     _start()
     path = folder() / f"{_digest(sources)}.o"
     code = _read(path)
     if code is None:
-        code = _emitted(build(), names)
+        code = _emit(build(), names)
         _publish(path, code)
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine())
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))
@@ -43,12 +43,12 @@ def addresses(names: Sequence[str], sources: Iterable[Path], build: Callable[[],
 
 
 def folder() -> Path:
-    """Where object files are kept: `loiter` in the user's cache folder, $XDG_CACHE_HOME or ~/.cache."""
+    """The folder of object files: `loiter` in the user's cache folder, $XDG_CACHE_HOME or ~/.cache."""
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "loiter"
 
 
 def _digest(sources: Iterable[Path]) -> str:
-    """What the machine code depends on: the sources, the compilers and the processor."""
+    """A digest of what the machine code depends on: the sources, the compilers and the processor."""
     compilers = [f"{name} {version(name)}" for name in ("numba", "llvmlite")]
     machine = [platform.platform(), llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()]
     digest = hashlib.sha256("\n".join([sys.version, *compilers, *machine]).encode())
@@ -87,10 +87,11 @@ def _machine() -> Any:
     return target.create_target_machine(cpu=llvm.get_host_cpu_name(), features=features, opt=3, jit=True)
 
 
-def _emitted(module: Any, names: Sequence[str]) -> bytes:
-    """Machine code of the functions `names`, with all that they call folded into them.
+def _emit(module: Any, names: Sequence[str]) -> bytes:
+    """Machine code of the functions `names`, with everything that they call inlined.
 
-    What Numba adds to report errors of Python, which the functions cannot raise, goes with that: it would need Numba.
+    Numba's code for reporting Python exceptions, which these functions cannot raise, is thereby removed: it would need
+    Numba at run time.
     """
     for function in module.functions:
         if not function.is_declaration and function.name not in names:

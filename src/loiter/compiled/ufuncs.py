@@ -1,9 +1,9 @@
-"""The kernel's functions, unchanged, as NumPy ufuncs of float64; importing it loads them, compiled once a machine.
+"""The kernel's functions, unchanged, as NumPy ufuncs of float64. Importing this module loads or compiles them.
 
-`min_time(x, y, R, side, tolerance)` and `control(...)` give one array, `reduce(x, y, c, s)` two. `solve(x, y, R, side,
-tolerance, three)` gives time, word, durations (..., 3), status, side held and miss; `three`, any array of length 3,
-only tells their number. Words, statuses and sides are the int8 codes of `words` and `codes`. They broadcast, take
-`out=`, release the interpreter's lock, and ask for no memory beyond the results.
+`min_time(x, y, R, side, tolerance)` and `control(...)` return one array, `reduce(x, y, c, s)` two. `solve(x, y, R,
+side, tolerance, three)` returns time, word, durations (..., 3), status, side and miss; `three` is any array of length
+3, which NumPy needs to know the number of durations. Words, statuses and sides are the int8 codes of `words` and
+`codes`. The ufuncs broadcast, take `out=`, release the interpreter's lock, and allocate nothing beyond the results.
 """
 
 import ctypes
@@ -15,7 +15,7 @@ import numpy as np
 
 from loiter.compiled.objects import addresses
 
-# Place of PyUFunc_FromFuncAndDataAndSignature in NumPy's table of functions (numpy/__ufunc_api.h), part of its ABI.
+# Index of PyUFunc_FromFuncAndDataAndSignature in NumPy's table of functions (numpy/__ufunc_api.h), part of its ABI.
 FROM_FUNCTIONS = 31
 NO_IDENTITY = -1  # PyUFunc_None
 
@@ -29,12 +29,12 @@ TYPES = {
 
 
 def _sources() -> list[Path]:
-    """Everything that the machine code is made from: the formulas, and what compiles them."""
+    """The files that the machine code depends on: the formulas, and the code that compiles them."""
     compiled = Path(__file__).parent
     return sorted([*compiled.glob("*.py"), *compiled.with_name("kernel").glob("*.py")])
 
 
-def _built() -> Any:
+def _build() -> Any:
     from loiter.compiled.loops import build
 
     return build()
@@ -55,12 +55,12 @@ def _ufunc(name: str, address: int) -> Any:
     inputs, outputs, signature = TYPES[name]
     loops, data = (ctypes.c_void_p * 1)(address), (ctypes.c_void_p * 1)(None)
     types = bytes(np.dtype(code).num for code in inputs + outputs)
-    texts = name.encode(), signature.encode() if signature else None
-    # NumPy keeps no more than the pointers.
-    _KEPT.append((loops, data, types, texts))
-    return _constructor()(loops, data, types, 1, len(inputs), len(outputs), NO_IDENTITY, texts[0], None, 0, texts[1])
+    title, shapes = name.encode(), signature.encode() if signature else None
+    # NumPy stores pointers to these only.
+    _REFERENCED.append((loops, data, types, title, shapes))
+    return _constructor()(loops, data, types, 1, len(inputs), len(outputs), NO_IDENTITY, title, None, 0, shapes)
 
 
-_KEPT: list[Any] = []
+_REFERENCED: list[Any] = []
 
-min_time, control, reduce, solve = map(_ufunc, TYPES, addresses(tuple(TYPES), _sources(), _built))
+min_time, control, reduce, solve = map(_ufunc, TYPES, addresses(tuple(TYPES), _sources(), _build))

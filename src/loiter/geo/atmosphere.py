@@ -1,7 +1,8 @@
-"""The air at an altitude: how much faster than its airspeed indicator says an aircraft flies.
+"""The density of the air at an altitude, and true airspeed from indicated airspeed.
 
-The troposphere of the International Standard Atmosphere (ISO 2533:1975; ICAO Doc 7488): the temperature falls linearly
-with the altitude, and the pressure by the hydrostatic equation. Altitudes are pressure altitudes, in metres.
+The model is the troposphere of the International Standard Atmosphere (ISO 2533:1975; ICAO Doc 7488): the temperature
+falls linearly with altitude, and the pressure follows from the hydrostatic equation. Altitudes are pressure altitudes,
+in metres.
 """
 
 from __future__ import annotations
@@ -19,15 +20,15 @@ GAS_CONSTANT = 287.05287  # J/(kg K), of dry air
 # g / (R L): the hydrostatic equation in air that cools linearly.
 PRESSURE_EXPONENT = STANDARD_GRAVITY_M_S2 / (GAS_CONSTANT * LAPSE_K_PER_M)
 
-# From a little below the Dead Sea to the tropopause, where the temperature falls no further.
+# From below the Dead Sea to the tropopause, above which the temperature is constant.
 LOWEST_M, HIGHEST_M = -500.0, 11_000.0
 
 
 def density_ratio(altitude_m: float, temperature_c: float | None = None) -> float:
-    """Density of the air over that of the standard atmosphere at sea level.
+    """The density of the air over that of the standard atmosphere at sea level.
 
-    `temperature_c` is that of the air outside, degrees Celsius; the standard one if absent. Raises `InvalidArgument`
-    for an altitude outside -500 to 11,000 m and a temperature that is not above absolute zero.
+    `temperature_c` is the outside air temperature, degrees Celsius; by default that of the standard atmosphere. Raises
+    `InvalidArgument` for an altitude outside -500 to 11,000 m and a temperature that is not above absolute zero.
 
     >>> round(density_ratio(2000.0), 4), round(density_ratio(2000.0, temperature_c=30.0), 4)
     (0.8216, 0.7457)
@@ -41,10 +42,10 @@ def density_ratio(altitude_m: float, temperature_c: float | None = None) -> floa
 
 
 def true_airspeed(indicated_airspeed_m_s: float, altitude_m: float, temperature_c: float | None = None) -> float:
-    """True airspeed, metres per second: V / sqrt(density ratio).
+    """The true airspeed, metres per second: V / sqrt(density ratio).
 
-    What is indicated is taken as equivalent airspeed, as autopilots take it: below a third of the speed of sound they
-    differ by less than 1 %. Raises as `density_ratio`, and for an airspeed that is not positive.
+    Indicated airspeed is taken as equivalent airspeed, as autopilots do: below a third of the speed of sound they
+    differ by less than 1 %. Raises as `density_ratio`, and `InvalidArgument` for an airspeed that is not positive.
 
     >>> round(true_airspeed(18.0, 2000.0), 2)
     19.86
@@ -54,7 +55,7 @@ def true_airspeed(indicated_airspeed_m_s: float, altitude_m: float, temperature_
 
 
 def density_altitude_m(altitude_m: float, temperature_c: float | None = None) -> float:
-    """The altitude, metres, at which the standard atmosphere is as dense; the altitude itself in standard air."""
+    """The altitude, metres, at which the standard atmosphere has this density; the altitude itself in standard air."""
     ratio = density_ratio(altitude_m, temperature_c)
     return SEA_LEVEL_K / LAPSE_K_PER_M * (1.0 - pow(ratio, 1.0 / (PRESSURE_EXPONENT - 1.0)))
 

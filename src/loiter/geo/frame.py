@@ -1,8 +1,8 @@
 """WGS84 latitude and longitude to local metres and back, about a point: an azimuthal equidistant plane.
 
 The place at distance d along the geodesic of azimuth a from the origin has east = d sin(a), north = d cos(a). Distances
-from the origin are true; across, the plane stretches by c / sin(c) = 1 + c^2 / 6, with c the distance over the Earth's
-radius. Geodesics by pyproj (C. F. F. Karney, Algorithms for geodesics, J. Geodesy 87, 2013).
+from the origin are true; perpendicular to them, the plane stretches by c / sin(c) = 1 + c^2 / 6, with c the distance
+over the Earth's radius. Geodesics by pyproj (C. F. F. Karney, Algorithms for geodesics, J. Geodesy 87, 2013).
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import ArrayLike, NDArray
 
-# Here the plane stretches by 4.1e-5 across: a flight all the way in is off by less than 4 m, no more than satellite
-# navigation, and headings by less than 0.002 degrees.
+# At this distance the plane stretches by 4.1e-5: a flight from there to the origin is off by less than 4 m, which is
+# the accuracy of satellite navigation, and headings by less than 0.002 degrees.
 REACH_M = 100_000.0
 
 
@@ -50,12 +50,12 @@ class LocalFrame:
     longitude_deg: float
 
     def __post_init__(self) -> None:
-        place = checked_place("origin", self.latitude_deg, self.longitude_deg)
-        object.__setattr__(self, "latitude_deg", place[0])
-        object.__setattr__(self, "longitude_deg", place[1])
+        latitude_deg, longitude_deg = checked_place("origin", self.latitude_deg, self.longitude_deg)
+        object.__setattr__(self, "latitude_deg", latitude_deg)
+        object.__setattr__(self, "longitude_deg", longitude_deg)
 
     def to_local(self, latitude_deg: ArrayLike, longitude_deg: ArrayLike) -> tuple[NDArray[float64], NDArray[float64]]:
-        """East and north, metres, of places in degrees; they broadcast. nan beyond 100 km and for what is no place."""
+        """East and north, metres, of places in degrees; they broadcast. nan beyond 100 km and for invalid places."""
         east, north, _ = self._rays(latitude_deg, longitude_deg)
         return east, north
 
@@ -76,17 +76,18 @@ class LocalFrame:
         return np.where(near, latitude, np.nan), np.where(near, longitude, np.nan)
 
     def convergence_deg(self, latitude_deg: ArrayLike, longitude_deg: ArrayLike) -> NDArray[float64]:
-        """What to add to true headings at places in degrees, to count them from the plane's north; they broadcast.
+        """The angle to add to a true heading at each place to count it from the plane's north; places broadcast.
 
         The meridians of two places are not parallel: 20 km east at a latitude of 60 degrees makes 0.3 degrees. nan
         where `to_local` gives nan.
         """
-        return self._rays(latitude_deg, longitude_deg)[2]
+        _, _, convergence = self._rays(latitude_deg, longitude_deg)
+        return convergence
 
     def pose(self, latitude_deg: float, longitude_deg: float, heading_deg: float) -> Pose:
         """A pose from WGS84 degrees and a true heading.
 
-        Raises `InvalidArgument` for what is no place, `OutOfRange` for one more than 100 km from the origin.
+        Raises `InvalidArgument` for an invalid place, `OutOfRange` for one more than 100 km from the origin.
         """
         lat, lon = checked_place("pose", latitude_deg, longitude_deg)
         heading = number("pose true heading_deg", heading_deg, "degrees")
@@ -96,7 +97,7 @@ class LocalFrame:
         return Pose(east, north, heading % 360.0 + convergence)
 
     def place(self, pose: Pose) -> Place:
-        """Where a pose of the plane is on Earth, and its true heading.
+        """The place on Earth of a pose of the plane, and its true heading.
 
         Raises `OutOfRange` for one more than 100 km from the origin.
         """
@@ -113,17 +114,17 @@ class LocalFrame:
         )
 
     def _rays(self, latitude_deg: Any, longitude_deg: Any) -> tuple[NDArray[float64], ...]:
-        """East, north and convergence of places; nan where there is none within reach."""
+        """East, north and convergence of places; nan for invalid places and beyond 100 km."""
         import numpy as np
 
-        places = np.broadcast_arrays(np.asarray(latitude_deg, float), np.asarray(longitude_deg, float))
-        good = (np.abs(places[0]) <= 90.0) & np.isfinite(places[1])
-        lat, lon = np.where(good, places[0], self.latitude_deg), np.where(good, places[1], self.longitude_deg)
+        lat, lon = np.broadcast_arrays(np.asarray(latitude_deg, float), np.asarray(longitude_deg, float))
+        good = (np.abs(lat) <= 90.0) & np.isfinite(lon)
+        lat, lon = np.where(good, lat, self.latitude_deg), np.where(good, lon, self.longitude_deg)
         lat0, lon0 = np.full_like(lat, self.latitude_deg), np.full_like(lon, self.longitude_deg)
         out, back, distance = _geod().inv(lon0, lat0, lon, lat)
         angle = np.radians(out)
         good &= distance <= REACH_M
-        # The geodesic arrives with the azimuth back + 180 and is, in the plane, straight.
+        # The geodesic arrives with the azimuth back + 180; in the plane it is straight.
         convergence = (out - back) % 360.0 - 180.0
         return tuple(
             np.where(good, column, np.nan)
@@ -132,13 +133,13 @@ class LocalFrame:
 
 
 def degrees_of(latitude_deg: float, longitude_deg: float) -> str:
-    """A place as people write it, to a decimetre: "47.110000 N 8.230000 E"."""
+    """A place as text, to a decimetre: "47.110000 N 8.230000 E"."""
     north, east = "N" if latitude_deg >= 0.0 else "S", "E" if longitude_deg >= 0.0 else "W"
     return f"{abs(latitude_deg):.6f} {north} {abs(longitude_deg):.6f} {east}"
 
 
 def checked_place(argument: str, latitude_deg: object, longitude_deg: object) -> tuple[float, float]:
-    """Latitude and longitude as floats; raises `InvalidArgument` for what is no place on Earth."""
+    """Latitude and longitude as floats; raises `InvalidArgument` unless they are a place on Earth."""
     lat = number(f"{argument} latitude_deg", latitude_deg, "degrees")
     lon = number(f"{argument} longitude_deg", longitude_deg, "degrees")
     if abs(lat) > 90.0:

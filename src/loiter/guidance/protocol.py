@@ -9,6 +9,7 @@ from enum import StrEnum
 from typing import NamedTuple, Protocol
 
 from loiter.planning.model import Turn
+from loiter.planning.vocabulary import ACTIONS
 
 
 class State(NamedTuple):
@@ -31,9 +32,9 @@ class State(NamedTuple):
 class Phase(StrEnum):
     """What a law is doing."""
 
-    LEFT = "turn left"
-    STRAIGHT = "fly straight"
-    RIGHT = "turn right"
+    LEFT = ACTIONS["L"]
+    STRAIGHT = ACTIONS["S"]
+    RIGHT = ACTIONS["R"]
     HOLD = "hold"
     NO_DATA = "no data"
 

@@ -1,9 +1,9 @@
-"""A maneuver as files for maps, ground stations and autopilots; parameter files of autopilots read."""
+"""Maneuvers written as files for maps, ground stations and autopilots; missions and parameter files read."""
 
 from loiter.io.files import FORMATS, check_format, read_mission, save
 from loiter.io.mission import mission
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
-from loiter.io.missions.items import Autopilot, Command, Frame, Mission, MissionItem
+from loiter.io.missions.items import Autopilot, Command, Frame, MavCommand, Mission, MissionItem
 from loiter.io.missions.parameters import Preset, read_parameters
 
 __all__ = [
@@ -14,6 +14,7 @@ __all__ = [
     "Autopilot",
     "Command",
     "Frame",
+    "MavCommand",
     "Mission",
     "MissionItem",
     "Preset",

@@ -1,4 +1,4 @@
-"""Maneuvers as plain values: what becomes JSON."""
+"""Maneuvers as plain values, for JSON."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from loiter.planning.model import Pose
 
 
 def answer(best: Sequence[Maneuver], others: Sequence[Maneuver], frame: LocalFrame | None = None) -> dict[str, object]:
-    """The first of `best` as plain values; its `alternatives` are the rest of `best`, then `others`."""
+    """The first of `best` as plain values, with the rest of `best` and then `others` as its `alternatives`."""
     first, *rest = best
     alternatives = [described(m, frame) | {"later_s": m.duration_s - first.duration_s} for m in (*rest, *others)]
     return described(first, frame) | {"alternatives": alternatives}
 
 
 def described(maneuver: Maneuver, frame: LocalFrame | None = None) -> dict[str, object]:
-    """A maneuver as plain values, for JSON; with a frame its poses say where on Earth they are."""
+    """A maneuver as plain values; with a frame its poses have latitude, longitude and true heading too."""
     return {
         "duration_s": maneuver.duration_s,
         "length_m": maneuver.length_m,
@@ -56,7 +56,7 @@ def _pose(pose: Pose, frame: LocalFrame | None) -> dict[str, float]:
 
 
 def _join_over_ground(maneuver: Maneuver) -> dict[str, float]:
-    """Track and ground speed where the circle is joined, and where its centre is then."""
+    """Track and ground speed where the circle is joined, and the position of its centre then."""
     track_deg, speed = maneuver.over_ground(maneuver.join)
     centre = maneuver.orbit_at_join
     return {

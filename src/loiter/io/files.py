@@ -1,4 +1,4 @@
-"""Files of a maneuver, in the format of their ending, written whole or not at all; missions read."""
+"""Maneuvers written to files, in the format of the file's ending, whole or not at all; missions read."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from loiter.io.maps.geojson import geojson
 from loiter.io.maps.gpx import gpx
 from loiter.io.maps.kml import kml
 from loiter.io.maps.table import table
-from loiter.io.maps.track import steps, vertices
+from loiter.io.maps.track import step_counts, vertices
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
 from loiter.io.missions.items import Autopilot, Mission
 from loiter.io.missions.mission import mission
@@ -29,8 +29,8 @@ TABLES = (".csv",)
 FORMATS = (*MAPS, *TABLES, *MISSIONS)
 
 
-class Request(NamedTuple):
-    """What a file is to show, as `save` is asked for it."""
+class SaveArguments(NamedTuple):
+    """The arguments of `save` that determine what a file contains."""
 
     maneuver: Maneuver
     frame: LocalFrame | None
@@ -68,14 +68,14 @@ def save(
     """Write a maneuver to `path`, in the format of its ending.
 
     .geojson, .kml and .gpx are maps; .csv is the track with tangents and curvatures; .plan (QGroundControl) and
-    .waypoints or .txt (`QGC WPL 110`) are missions, `io.mission`. All is over the ground. `frame` says where on
-    Earth the maneuver is: without it only .csv can be written. Missions need `altitude_m`, which is above mean sea
-    level unless `datum` says otherwise; in maps and tables altitudes are above mean sea level. Points are at most
-    `spacing_m` metres apart, where it is given, and nowhere is the track further than `chord_error_m` metres from the
-    line between two. `autopilot` is that for which a mission is written.
+    .waypoints or .txt (`QGC WPL 110`) are missions as `io.mission` makes them. All positions and tracks are over the
+    ground. `frame` says where on Earth the maneuver is: without it only .csv can be written. Missions need
+    `altitude_m`, which is above mean sea level unless `datum` says otherwise; in maps and tables altitudes are above
+    mean sea level. Points are at most `spacing_m` metres apart, if it is given, and nowhere is the track further than
+    `chord_error_m` metres from the line between two of them. `autopilot` is the one for which a mission is written.
 
-    The file appears whole or not at all; an older one stays until then. Raises `InvalidArgument` for another ending,
-    for what is missing, for numbers that cannot be meant and a file that cannot be written, and as `mission`.
+    The file appears whole or not at all; an older file stays until then. Raises `InvalidArgument` for an unknown
+    ending, missing arguments, impossible numbers and a file that cannot be written, and otherwise like `mission`.
     """
     path = Path(path)
     check_format(path)
@@ -84,15 +84,16 @@ def save(
     if autopilot not in tuple(Autopilot):
         known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
         raise InvalidArgument("autopilot", f"is {autopilot!r}: it must be {known}")
-    request = Request(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path)
-    content = _content(path.suffix.lower(), request)
+    arguments = SaveArguments(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path)
+    content = _content(path.suffix.lower(), arguments)
     write_whole("save", path, lambda file: file.write(content))
 
 
 def read_mission(path: str | Path) -> Mission:
-    """The mission in a QGroundControl plan or a `QGC WPL 110` file, told apart by what is in them.
+    """The mission in a QGroundControl plan or a `QGC WPL 110` file; the content decides which of them it is.
 
-    Raises `InvalidArgument`, with the file and what is wrong where, for a file that is neither or cannot be read.
+    Raises `InvalidArgument`, which names the file and the place in it, for another format and for a file that cannot be
+    read.
     """
     source = Source("mission", Path(path))
     text = source.text()
@@ -103,40 +104,42 @@ def read_mission(path: str | Path) -> Mission:
     raise source.fault("it is neither a QGroundControl plan nor a QGC WPL 110 file")
 
 
-def _content(ending: str, request: Request) -> bytes:
-    maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, _, _ = request
-    above_sea_m = None if altitude_m is None or ending in MISSIONS else datum.above_sea_m(altitude_m)
+def _content(ending: str, arguments: SaveArguments) -> bytes:
+    maneuver, frame, altitude_m = arguments.maneuver, arguments.frame, arguments.altitude_m
+    above_sea_m = None if altitude_m is None or ending in MISSIONS else arguments.datum.above_sea_m(altitude_m)
     if ending in TABLES:
-        return table(vertices(maneuver, steps(maneuver, spacing_m, chord_error_m)), frame, above_sea_m)
+        counts = step_counts(maneuver, arguments.spacing_m, arguments.chord_error_m)
+        return table(vertices(maneuver, counts), frame, above_sea_m)
     if frame is None:
         raise InvalidArgument("frame", f"is missing: a {ending} file needs places on Earth; .csv does not")
     if ending in MAPS:
-        return MAPS[ending](chart(maneuver, frame, above_sea_m, spacing_m, chord_error_m))
-    return _mission_file(ending, frame, request)
+        return MAPS[ending](chart(maneuver, frame, above_sea_m, arguments.spacing_m, arguments.chord_error_m))
+    return _mission_file(ending, frame, arguments)
 
 
-def _with_home_aloft(plan: Mission, altitude_m: float) -> Mission:
-    """The mission with its home at the altitude of the flight: some programs fly the line of the home as a waypoint."""
+def _with_home_at(plan: Mission, altitude_m: float) -> Mission:
+    """The mission with its home at an altitude."""
     latitude_deg, longitude_deg, _ = plan.home
     return plan._replace(home=(latitude_deg, longitude_deg, altitude_m))
 
 
-def _mission_file(ending: str, frame: LocalFrame, request: Request) -> bytes:
-    maneuver, _, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path = request
+def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> bytes:
+    datum, altitude_m = arguments.datum, arguments.altitude_m
     if altitude_m is None:
         raise InvalidArgument("altitude_m", f"is missing: a {ending} file needs {datum.unit}")
     plan = mission(
-        maneuver,
+        arguments.maneuver,
         frame,
         altitude_m,
-        spacing_m=spacing_m,
-        chord_error_m=chord_error_m,
+        spacing_m=arguments.spacing_m,
+        chord_error_m=arguments.chord_error_m,
         datum=datum,
-        along_path=along_path,
-        autopilot=autopilot,
+        along_path=arguments.along_path,
+        autopilot=arguments.autopilot,
     )
     if ending != ".plan":
-        return wpl(plan if datum.home_altitude_m is not None else _with_home_aloft(plan, altitude_m))
-    if autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
+        # Some programs fly the line of the home as a waypoint: it is at the altitude of the flight unless given.
+        return wpl(plan if datum.home_altitude_m is not None else _with_home_at(plan, altitude_m))
+    if arguments.autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
         raise InvalidArgument("altitude_reference", "is ground: PX4 flies no missions with altitudes above the ground")
-    return qgcplan(plan, autopilot, maneuver.aircraft.airspeed_m_s)
+    return qgcplan(plan, arguments.autopilot, arguments.maneuver.aircraft.airspeed_m_s)

@@ -1,4 +1,4 @@
-"""Text files that others wrote: read within bounds, and refused in one sentence that names the file."""
+"""Text files of other programs, read up to a maximum size; errors name the file in one sentence."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from loiter.errors import InvalidArgument
 # MAVLink's largest mission, 65,535 items, takes some 26 MB as an indented plan.
 MAX_BYTES = 32_000_000
 
-# Digits of other scripts, underscores, nan and inf, all of which `float` takes, are none. Each digit can be matched in
-# one way only: a long number is refused as fast as it is read.
+# A decimal number. Digits of other scripts, underscores, nan and inf, which `float` accepts, do not match. Each digit
+# can be matched in one way only, so that a long number is refused in linear time.
 NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
+# The length to which values are cut in error messages.
 SHOWN = 40
 
 
@@ -26,11 +27,11 @@ class Source(NamedTuple):
     path: Path
 
     def fault(self, problem: str) -> InvalidArgument:
-        """What to raise; `problem` is what is wrong in the file."""
+        """The error to raise; `problem` says what is wrong in the file."""
         return InvalidArgument(self.argument, f"file {str(self.path)!r}: {problem}")
 
     def text(self) -> str:
-        """The whole file. Raises `InvalidArgument` where it cannot be read, is too large, or is not UTF-8."""
+        """The whole file. Raises `InvalidArgument` if it cannot be read, is too large, or is not UTF-8."""
         try:
             with self.path.open("rb") as file:
                 content = file.read(MAX_BYTES + 1)
@@ -45,22 +46,22 @@ class Source(NamedTuple):
             raise self.fault(f"it is not UTF-8 text, see byte {error.start}") from error
 
     def number(self, where: str, text: str) -> float:
-        """A finite number from its text; `where` says what and in which line or item."""
+        """A finite number read from text; `where` names it in errors, with its line or item."""
         value = float(text) if NUMBER.fullmatch(text) else inf
         if not isfinite(value):
             raise self.fault(f"{where} is {shown(text)}: it must be a finite number")
         return value
 
     def integer(self, where: str, text: str, largest: int) -> int:
-        """A whole number from 0 to `largest` from its text."""
-        # More digits than `largest` has would be a larger number, or one with leading noughts.
+        """A whole number from 0 to `largest` read from text."""
+        # More digits than those of `largest` mean a larger number, or leading zeros, which are refused.
         if not (text.isascii() and text.isdigit() and len(text) <= len(str(largest)) and int(text) <= largest):
             raise self.fault(f"{where} is {shown(text)}: it must be a whole number from 0 to {largest}")
         return int(text)
 
 
 def shown(value: object) -> str:
-    """A value as a sentence quotes it: on one line and short."""
+    """A value as error messages quote it: short, and on one line."""
     if isinstance(value, dict | list):
         return "a list" if isinstance(value, list) else "an object"
     text = repr(value)

@@ -4,7 +4,7 @@ from enum import IntEnum
 
 
 class Side(IntEnum):
-    """Which way round the circle is held: the sign of the target's ordinate in the reduced plane, (8)-(10)."""
+    """The direction in which the circle is held: the sign of the target's ordinate in the reduced plane, (8)-(10)."""
 
     CW = 1
     CCW = -1
@@ -12,7 +12,7 @@ class Side(IntEnum):
 
 
 class Status(IntEnum):
-    """What became of one state of an array call; anything but `OK` comes with nan."""
+    """The outcome for one state of an array call; the results are nan unless it is `OK`."""
 
     OK = 0
     NOT_FINITE = 1
@@ -31,7 +31,7 @@ class Status(IntEnum):
 
     @property
     def message(self) -> str:
-        """One sentence for a person."""
+        """One sentence for a human reader."""
         return _MESSAGES[self]
 
 

@@ -1,11 +1,11 @@
-"""Sums and products with their rounding errors (Dekker 1971, Knuth 1969), for what needs twice the digits."""
+"""Sums and products with their rounding errors (Dekker 1971, Knuth 1969), for results that need twice the digits."""
 
 # Dekker's splitting factor, 2^27 + 1, halves the 53 digits of a double.
 SPLITTER = 134217729.0
 
 
 def two_sum(a: float, b: float) -> tuple[float, float]:
-    """The sum a + b as rounded, and what the rounding left out, exactly."""
+    """The rounded sum a + b, and its rounding error, exactly."""
     s = a + b
     t = s - a
     return s, (a - (s - t)) + (b - t)
@@ -19,7 +19,7 @@ def split(a: float) -> tuple[float, float]:
 
 
 def two_product(a: float, b: float) -> tuple[float, float]:
-    """The product a b as rounded, and what the rounding left out, exactly for |a|, |b| < 2^480."""
+    """The rounded product a b, and its rounding error, exactly for |a|, |b| < 2^480."""
     p = a * b
     ah, al = split(a)
     bh, bl = split(b)
@@ -29,9 +29,9 @@ def two_product(a: float, b: float) -> tuple[float, float]:
 def beyond(x: float, y: float, R: float, k: float) -> float:
     """The difference of squares x^2 + (y - R) (y + R + k), to nearly full digits however near zero it is.
 
-    With k = 2 it is rp^2 - (R + 1)^2, by how much the square of the distance from (0, -1) exceeds that of the last
-    circle of L; with k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Where it is small it is a difference
-    of large numbers, and T moves with its square root: plain doubles would leave T with half of its digits there.
+    With k = 2 it is rp^2 - (R + 1)^2: the squared distance from (0, -1) less the squared radius of the last circle of
+    L. With k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Near zero it is a small difference of large
+    numbers, and T varies with its square root: in plain doubles T would lose half of its digits there.
     """
     s, es = two_sum(y, -R)
     t, et = two_sum(y, R)

@@ -1,26 +1,55 @@
 """All extremals that can be the fastest onto the clockwise circle, target (0, R), in closed form.
 
-docs/theory.md, section 3, derives them from the maximum principle (11)-(18). Each function takes the reduced state
-(x, y), the radius R >= 1 and `slack`, the arc length that a rotation may lack to a full turn and count as none
-(`angles.snapped`). It returns the word and its three pieces in flying order, arcs as rotations, the middle one with the
-length flown straight; that length is `inf` where the word does not reach the target. The counter-clockwise circle is
-the mirror image: pass -y, swap L and R.
+docs/theory.md, section 3, derives them from the maximum principle (11)-(18). Each function takes a `Start`: the reduced
+state (x, y), the radius R >= 1 and what follows from them. It returns the word and its three pieces in flying order,
+arcs as rotations, the middle piece with the length flown straight; that length is `inf` where the word does not reach
+the target. The counter-clockwise circle is the mirror image: pass -y, swap L and R.
 
 In the reduced plane L turns clockwise about (0, -1) at radius rp, R counter-clockwise about (0, 1) at radius rm.
 Differences of squares are written as products, (R - y) (R + y + 2) for (R + 1)^2 - (y + 1)^2, so that a state near a
-circle keeps its digits; those that tell on which side of a circle it lies come from `exact.beyond`.
+circle keeps its digits; those that decide on which side of a circle it lies come from `exact.beyond`.
 """
 
 from math import inf, sqrt
 from typing import NamedTuple
 
-from loiter.kernel.angles import NONE, Rotation, angle, rotation, snapped, total, up_to_half_a_turn
+from loiter.kernel.angles import (
+    NO_ROTATION,
+    Rotation,
+    angle,
+    is_at_most_half_turn,
+    rotation,
+    snap_full_turn,
+    total_angle,
+)
 from loiter.kernel.exact import beyond
 from loiter.kernel.words import Word
 
 
+class Start(NamedTuple):
+    """Reduced state, radius, arc tolerance, and on which side of three circles the state lies: positive outside them.
+
+    `arc_tolerance` is the arc length by which a rotation may be less than a full turn and count as none
+    (`angles.snap_full_turn`). `outer` is rp^2 - (R + 1)^2, `inner` rm^2 - (R - 1)^2, `fold` rp^2 - (R - 3)^2.
+    """
+
+    x: float
+    y: float
+    R: float
+    arc_tolerance: float
+    outer: float
+    inner: float
+    fold: float
+
+
+def start_at(x: float, y: float, R: float, arc_tolerance: float) -> Start:
+    """The start at a reduced state."""
+    outer, inner, fold = beyond(x, y, R, 2.0), beyond(x, y, R, -2.0), beyond(x, y, 2.0 - R, 2.0)
+    return Start(x, y, R, arc_tolerance, outer, inner, fold)
+
+
 class Extremal(NamedTuple):
-    """A word with its pieces in flying order: first arc, straight length, middle arc where there is none, last arc."""
+    """A word with its pieces in flying order: first arc, straight length, middle arc (or none), last arc."""
 
     word: int
     first: Rotation
@@ -31,7 +60,7 @@ class Extremal(NamedTuple):
 
 def duration(extremal: Extremal) -> float:
     """T, the whole time of an extremal; `inf` where it does not reach the target."""
-    return extremal.straight + total(extremal.first, extremal.middle, extremal.last)
+    return extremal.straight + total_angle(extremal.first, extremal.middle, extremal.last)
 
 
 def reaches(extremal: Extremal) -> bool:
@@ -44,7 +73,7 @@ def durations(extremal: Extremal) -> tuple[float, float, float]:
     return angle(extremal.first), extremal.straight + angle(extremal.middle), angle(extremal.last)
 
 
-def onto_axis(x: float, y: float, end: float, slack: float) -> tuple[Rotation, float]:
+def onto_axis(x: float, y: float, end: float, arc_tolerance: float) -> tuple[Rotation, float]:
     """Left turn from (x, y) until it meets the axis y = 0 at (end c, 0), end = -1 or +1: the rotation, and c.
 
     c = sqrt(rp^2 - 1), -1 where the turn never meets the axis (rp < 1). A right turn is the mirror image: pass -y.
@@ -55,51 +84,55 @@ def onto_axis(x: float, y: float, end: float, slack: float) -> tuple[Rotation, f
     c2 = x * x + rise
     c = sqrt(max(c2, 0.0))
     along = end * x
-    # Both products times c + along where that is safe, which spares a division.
+    # Both products times c + along where that is safe, which saves a division.
     scale = c + along if along > 0.0 else 1.0
     gap = rise if along > 0.0 else c - along
     products = end * (c * y * scale + gap), (c * along + y + 1.0) * scale
-    return snapped(products, c2 + 1.0, slack), c if c2 >= 0.0 else -1.0
+    return snap_full_turn(products, c2 + 1.0, arc_tolerance), c if c2 >= 0.0 else -1.0
 
 
-def external_join(word: Word, x: float, y: float, R: float, slack: float, joins: bool) -> Extremal:
+def external_join(word: Word, y: float, start: Start, joins: bool) -> Extremal:
     """LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
 
-    `joins` says that c >= X, from `exact.beyond` as where words are chosen; rounding may make c - X negative then.
+    `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, by `exact.beyond` as
+    where words are selected; rounding may nevertheless make c - X negative.
     """
-    first, c = onto_axis(x, y, -1.0, slack)
+    R = start.R
+    first, c = onto_axis(start.x, y, -1.0, start.arc_tolerance)
     X = sqrt(R * (R + 2.0))
-    return Extremal(word, first, max(c - X, 0.0) if joins else inf, NONE, (X, 1.0))
+    return Extremal(word, first, max(c - X, 0.0) if joins else inf, NO_ROTATION, (X, 1.0))
 
 
-def internal_join(word: Word, x: float, y: float, R: float, slack: float, joins: bool) -> Extremal:
+def internal_join(word: Word, y: float, start: Start, joins: bool) -> Extremal:
     """LSR, R >= 2: onto the axis at (c, 0), straight to (X, 0), X = sqrt(R (R - 2)), right for pi - acos(1/(R - 1)).
 
-    `joins` says that c <= X, as in `external_join`.
+    `y` as in `external_join`, with the opposite sign for RSR; `joins` says whether c <= X.
     """
-    first, c = onto_axis(x, y, 1.0, slack)
+    R = start.R
+    first, c = onto_axis(start.x, y, 1.0, start.arc_tolerance)
     X = sqrt(max(R * (R - 2.0), 0.0))
-    return Extremal(word, first, max(X - c, 0.0) if R >= 2.0 and c >= 0.0 and joins else inf, NONE, (X, -1.0))
+    straight = max(X - c, 0.0) if R >= 2.0 and c >= 0.0 and joins else inf
+    return Extremal(word, first, straight, NO_ROTATION, (X, -1.0))
 
 
-def lsl(x: float, y: float, R: float, slack: float, outer: float) -> Extremal:
+def lsl(start: Start) -> Extremal:
     """Left, straight along the line through the centre, left: rp >= R + 1."""
-    return external_join(Word.LSL, x, y, R, slack, outer >= 0.0)
+    return external_join(Word.LSL, start.y, start, start.outer >= 0.0)
 
 
-def rsl(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
+def rsl(start: Start) -> Extremal:
     """Right, straight, left, rm >= R + 1: the first arc is the mirror image of that of LSL."""
-    return external_join(Word.RSL, x, -y, R, slack, inner >= 4.0 * R)
+    return external_join(Word.RSL, -start.y, start, start.inner >= 4.0 * start.R)
 
 
-def lsr(x: float, y: float, R: float, slack: float) -> Extremal:
+def lsr(start: Start) -> Extremal:
     """Left, straight, right, from inside a circle of R >= 2: rp <= R - 1."""
-    return internal_join(Word.LSR, x, y, R, slack, beyond(x, y, -R, 2.0) <= 0.0)
+    return internal_join(Word.LSR, start.y, start, beyond(start.x, start.y, -start.R, 2.0) <= 0.0)
 
 
-def rsr(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
+def rsr(start: Start) -> Extremal:
     """Right, straight, right, rm <= R - 1: the first arc is the mirror image of that of LSR."""
-    return internal_join(Word.RSR, x, -y, R, slack, inner <= 0.0)
+    return internal_join(Word.RSR, -start.y, start, start.inner <= 0.0)
 
 
 def squared_distance(x: float, y: float, centre: float) -> float:
@@ -107,63 +140,67 @@ def squared_distance(x: float, y: float, centre: float) -> float:
     return x * x + (y - centre) * (y - centre)
 
 
-def near_circle(beyond2: float, radius: float, slack: float) -> bool:
-    """Whether a point is within `slack` of a circle, from the square of its distance from the centre less radius^2."""
-    inwards = min(slack, radius)
-    return -inwards * (2.0 * radius - inwards) <= beyond2 <= slack * (2.0 * radius + slack)
+def is_near_circle(beyond2: float, radius: float, distance: float) -> bool:
+    """Whether a point is within a distance of a circle; `beyond2`: squared distance from the centre less radius^2."""
+    inwards = min(distance, radius)
+    return -inwards * (2.0 * radius - inwards) <= beyond2 <= distance * (2.0 * radius + distance)
 
 
-def l(x: float, y: float, R: float, slack: float, outer: float) -> Extremal:
-    """Left along the last circle, radius R + 1 about (0, -1): the limit of RL, taken within `slack` of that circle.
-
-    `outer` is rp^2 - (R + 1)^2, `exact.beyond(x, y, R, 2)`.
-    """
-    beside = near_circle(outer, R + 1.0, slack)
-    return Extremal(Word.L, snapped((-x, y + 1.0), (R + 1.0) * (R + 1.0), slack), 0.0 if beside else inf, NONE, NONE)
-
-
-def r(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
-    """Right along the circle of radius R - 1 about (0, 1): the limit of LR, taken within `slack` of that circle.
-
-    `inner` is rm^2 - (R - 1)^2, `exact.beyond(x, y, R, -2)`.
-    """
-    beside = R > 1.0 and near_circle(inner, R - 1.0, slack)
-    return Extremal(Word.R, snapped((x, y - 1.0), (R - 1.0) * (R - 1.0), slack), 0.0 if beside else inf, NONE, NONE)
+def l(start: Start) -> Extremal:
+    """Left along the last circle, radius R + 1 about (0, -1), from within `arc_tolerance` of it: the limit of RL."""
+    x, y, R, arc_tolerance, outer, _, _ = start
+    first = snap_full_turn((-x, y + 1.0), (R + 1.0) * (R + 1.0), arc_tolerance)
+    straight = 0.0 if is_near_circle(outer, R + 1.0, arc_tolerance) else inf
+    return Extremal(Word.L, first, straight, NO_ROTATION, NO_ROTATION)
 
 
-def rl(x: float, y: float, R: float, slack: float, inner: float, branch: float) -> Extremal:
+def r(start: Start) -> Extremal:
+    """Right along the circle of radius R - 1 about (0, 1), from within `arc_tolerance` of it: the limit of LR."""
+    x, y, R, arc_tolerance, _, inner, _ = start
+    first = snap_full_turn((x, y - 1.0), (R - 1.0) * (R - 1.0), arc_tolerance)
+    straight = 0.0 if R > 1.0 and is_near_circle(inner, R - 1.0, arc_tolerance) else inf
+    return Extremal(Word.R, first, straight, NO_ROTATION, NO_ROTATION)
+
+
+def rl(start: Start, branch: float) -> Extremal:
     """Right to the last circle, of radius R + 1 about (0, -1), at its crossing with x1 of the sign of `branch`; left.
 
     The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = (R + 3)^2 - rm^2 =
     8 (R + 1) - q.
     """
+    x, y, R, arc_tolerance, _, inner, _ = start
     p = 8.0 * (R + 1.0) - inner
     x1 = branch * 0.25 * sqrt(max(p * inner, 0.0))
-    first = snapped(rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner), squared_distance(x, y, 1.0), slack)
-    last = snapped((-x1, R + 1.0 - 0.25 * inner), (R + 1.0) * (R + 1.0), slack)
-    return Extremal(Word.RL, first, 0.0 if inner >= 0.0 and p >= 0.0 else inf, last, NONE)
+    radius2 = squared_distance(x, y, 1.0)
+    first = snap_full_turn(rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner), radius2, arc_tolerance)
+    last = snap_full_turn((-x1, R + 1.0 - 0.25 * inner), (R + 1.0) * (R + 1.0), arc_tolerance)
+    return Extremal(Word.RL, first, 0.0 if inner >= 0.0 and p >= 0.0 else inf, last, NO_ROTATION)
 
 
-def lr(x: float, y: float, R: float, slack: float, outer: float, fold: float, branch: float) -> Extremal:
+def lr(start: Start, branch: float) -> Extremal:
     """Left to the circle of radius R - 1 about (0, 1), R > 1, at its crossing with x1 of the sign of `branch`; right.
 
     The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = -`outer` = (R + 1)^2 - rp^2, p = `fold` =
-    rp^2 - (R - 3)^2, `exact.beyond(x, y, 2 - R, 2)`.
+    rp^2 - (R - 3)^2.
     """
+    x, y, R, arc_tolerance, outer, _, fold = start
     x1 = branch * 0.25 * sqrt(max(-outer * fold, 0.0))
-    first = snapped(rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0), squared_distance(x, y, -1.0), slack)
-    last = snapped((x1, R - 1.0 + 0.25 * outer), (R - 1.0) * (R - 1.0), slack)
-    return Extremal(Word.LR, first, 0.0 if R > 1.0 and outer <= 0.0 and fold >= 0.0 else inf, last, NONE)
+    radius2 = squared_distance(x, y, -1.0)
+    first = snap_full_turn(rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0), radius2, arc_tolerance)
+    last = snap_full_turn((x1, R - 1.0 + 0.25 * outer), (R - 1.0) * (R - 1.0), arc_tolerance)
+    return Extremal(Word.LR, first, 0.0 if R > 1.0 and outer <= 0.0 and fold >= 0.0 else inf, last, NO_ROTATION)
 
 
-def lrl(x: float, y: float, R: float, slack: float, outer: float, fold: float) -> Extremal:
+def lrl(start: Start) -> Extremal:
     """Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
 
     With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K =
     R (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a, the larger root
-    of 3 s^2 - 2 h s + d^2 = 0. What vanishes in places is not left as a difference: ya comes from k, and w = 2 - s =
-    m^2 s is -`fold` v / (16 (6 - h + sqrt(D))), v = (R + 5)^2 - rp^2 = 8 (R + 3) - `outer`; so LRL takes rp <= 3 - R.
+    of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as differences: ya comes from k, and
+    w = 2 - s = m^2 s is -`fold` v / (16 (6 - h + sqrt(D))), v = (R + 5)^2 - rp^2 = 8 (R + 3) - `outer`; so LRL needs
+    rp <= 3 - R.
     """
+    x, y, R, arc_tolerance, outer, _, fold = start
     k, K, d = x * x + y * (y + 2.0), R * (R + 2.0), -0.25 * outer
     h = K + 0.5 * outer
     D = h * h - 3.0 * d * d
@@ -174,114 +211,114 @@ def lrl(x: float, y: float, R: float, slack: float, outer: float, fold: float) -
     w = -fold * (8.0 * (R + 3.0) - outer) * 0.0625 * above * share
     a = 6.0 * below * share
     m = sqrt(max(0.5 * a * w, 0.0))
-    # ya = k/q; every vector is taken q times.
+    # ya = k/q; every vector is multiplied by q.
     q = 1.0 + sqrt(max(1.0 + a * k, 0.0))
     ya, yb = k, k + d * q
     xa, xb = m * ya, -m * yb
-    first = snapped(rotation(xa, ya + q, x, y + 1.0), squared_distance(x, y, -1.0), slack)
-    # ya - 1 and yb - 1 from what they are small by: at R = 1 both vanish on the last arc.
+    first = snap_full_turn(rotation(xa, ya + q, x, y + 1.0), squared_distance(x, y, -1.0), arc_tolerance)
+    # ya - 1 and yb - 1 from the quantities that make them small: at R = 1 both vanish on the last arc.
     middle = rotation(xa, -0.5 * (w + d) * q, xb, -0.5 * (w - d) * q)
     last = -xb, yb + q
     return Extremal(Word.LRL, first, 0.0 if exists else inf, middle, last)
 
 
-def extremals(x: float, y: float, R: float, slack: float) -> tuple[Extremal, ...]:
+def extremals(x: float, y: float, R: float, arc_tolerance: float) -> tuple[Extremal, ...]:
     """Every extremal for the target (0, R), in the order in which ties are decided.
 
     Next to the end of a straight piece, words with and without it tie.
     """
-    outer, inner, fold = beyond(x, y, R, 2.0), beyond(x, y, R, -2.0), beyond(x, y, 2.0 - R, 2.0)
+    start = start_at(x, y, R, arc_tolerance)
     return (
-        l(x, y, R, slack, outer),
-        r(x, y, R, slack, inner),
-        lsl(x, y, R, slack, outer),
-        rsl(x, y, R, slack, inner),
-        lsr(x, y, R, slack),
-        rsr(x, y, R, slack, inner),
-        rl(x, y, R, slack, inner, -1.0),
-        rl(x, y, R, slack, inner, 1.0),
-        lr(x, y, R, slack, outer, fold, -1.0),
-        lr(x, y, R, slack, outer, fold, 1.0),
-        lrl(x, y, R, slack, outer, fold),
+        l(start),
+        r(start),
+        lsl(start),
+        rsl(start),
+        lsr(start),
+        rsr(start),
+        rl(start, -1.0),
+        rl(start, 1.0),
+        lr(start, -1.0),
+        lr(start, 1.0),
+        lrl(start),
     )
 
 
-def chosen(condition: bool, a: Extremal, b: Extremal) -> Extremal:
-    """Extremal a where the condition holds, else b: number by number, so that it compiles to selects, not branches."""
+def select(condition: bool, a: Extremal, b: Extremal) -> Extremal:
+    """Extremal a where the condition holds, otherwise b: number by number, which compiles to selects, not branches."""
     straight = a.straight if condition else b.straight
     word = a.word if condition else b.word
     first, middle, last = (
-        chosen_rotation(condition, a.first, b.first),
-        chosen_rotation(condition, a.middle, b.middle),
-        chosen_rotation(condition, a.last, b.last),
+        select_rotation(condition, a.first, b.first),
+        select_rotation(condition, a.middle, b.middle),
+        select_rotation(condition, a.last, b.last),
     )
     return Extremal(word, first, straight, middle, last)
 
 
-def chosen_rotation(condition: bool, a: Rotation, b: Rotation) -> Rotation:
-    """Rotation a where the condition holds, else b."""
+def select_rotation(condition: bool, a: Rotation, b: Rotation) -> Rotation:
+    """Rotation a where the condition holds, otherwise b."""
     (across_a, along_a), (across_b, along_b) = a, b
     return across_a if condition else across_b, along_a if condition else along_b
 
 
-def left_first(x: float, y: float, R: float, slack: float, outer: float, fold: float) -> Extremal:
+def left_first(start: Start) -> Extremal:
     """The extremal that can win among those of several pieces that begin with L (docs/theory.md, section 4).
 
-    It is determined by rp; see `detour` for the crossing that is not among them.
+    It is determined by rp; `detour` has the crossing that is not among them.
     """
-    best = lrl(x, y, R, slack, outer, fold)
-    if R > 1.0:
-        inside = lsr(x, y, R, slack)
-        inside = chosen(reaches(inside), inside, lr(x, y, R, slack, outer, fold, 1.0))
-        best = chosen(fold <= 0.0 and R <= 3.0, best, inside)
-    if y < 0.0:
-        best = chosen(outer >= 0.0, lsl(x, y, R, slack, outer), best)
+    best = lrl(start)
+    if start.R > 1.0:
+        inside = lsr(start)
+        inside = select(reaches(inside), inside, lr(start, 1.0))
+        best = select(start.fold <= 0.0 and start.R <= 3.0, best, inside)
+    if start.y < 0.0:
+        best = select(start.outer >= 0.0, lsl(start), best)
     return best
 
 
-def right_first(x: float, y: float, R: float, slack: float, inner: float) -> Extremal:
+def right_first(start: Start) -> Extremal:
     """The extremal that can win among those of several pieces that begin with R, determined by rm; see `left_first`."""
-    best = chosen(inner > 4.0 * R, rsl(x, y, R, slack, inner), rl(x, y, R, slack, inner, -1.0))
-    if y < 0.0:
-        best = chosen(inner < 0.0, rsr(x, y, R, slack, inner), best)
+    best = select(start.inner > 4.0 * start.R, rsl(start), rl(start, -1.0))
+    if start.y < 0.0:
+        best = select(start.inner < 0.0, rsr(start), best)
     return best
 
 
-def detour(x: float, y: float, R: float, slack: float, outer: float, inner: float, fold: float) -> Extremal:
-    """The one extremal with the other crossing that can win, from y < 0 alone: its first arc ends before the axis."""
-    return chosen(inner > 4.0 * R, rl(x, y, R, slack, inner, 1.0), lr(x, y, R, slack, outer, fold, -1.0))
+def detour(start: Start) -> Extremal:
+    """The one extremal with the other crossing that can win, from y < 0 only: its first arc ends before the axis."""
+    return select(start.inner > 4.0 * start.R, rl(start, 1.0), lr(start, -1.0))
 
 
-def fastest(x: float, y: float, R: float, slack: float, exact: bool) -> tuple[float, Extremal]:
+def fastest(x: float, y: float, R: float, arc_tolerance: float, exact: bool) -> tuple[float, Extremal]:
     """The least T and its extremal: of three words at most, one for each first turn and the detour.
 
     `exact` says that there is no tolerance. Then a start on a last circle is there up to rounding, and the single arc
-    takes the place of the words of which it is the limit; but not of LRL where it would cross the axis from y > 0,
-    which no optimal first arc does. Beside a circle by a tolerance, the single arcs compete with the other words,
-    so that a tolerance never makes T larger.
+    takes the place of the words of which it is the limit; but not of LRL where the arc would cross the axis from y > 0,
+    which no optimal first arc does. With a tolerance, where a start may lie beside a circle, the single arcs compete
+    with the other words, so that a tolerance never makes T larger.
 
     Without a tolerance R = 1, y >= 0 takes no comparison, by the paper's section 6: the word that begins with L wins
     where it exists and its first arc is no longer than half a turn, up to the switching curve.
     """
-    outer, inner, fold = beyond(x, y, R, 2.0), beyond(x, y, R, -2.0), beyond(x, y, 2.0 - R, 2.0)
-    right, only_right = right_first(x, y, R, slack, inner), r(x, y, R, slack, inner)
-    left, only_left = left_first(x, y, R, slack, outer, fold), l(x, y, R, slack, outer)
+    start = start_at(x, y, R, arc_tolerance)
+    right, only_right = right_first(start), r(start)
+    left, only_left = left_first(start), l(start)
     if exact:
-        left = chosen(reaches(only_left) and (up_to_half_a_turn(only_left.first) or y <= 0.0), only_left, left)
-        right = chosen(reaches(only_right), only_right, right)
+        left = select(reaches(only_left) and (is_at_most_half_turn(only_left.first) or y <= 0.0), only_left, left)
+        right = select(reaches(only_right), only_right, right)
     if exact and R == 1.0 and not y < 0.0:
-        best = chosen(reaches(left) and up_to_half_a_turn(left.first), left, right)
+        best = select(reaches(left) and is_at_most_half_turn(left.first), left, right)
         return duration(best), best
-    least, best = shorter(duration(right), right, left)
+    least, best = faster_of(duration(right), right, left)
     if y < 0.0:
-        least, best = shorter(least, best, detour(x, y, R, slack, outer, inner, fold))
+        least, best = faster_of(least, best, detour(start))
     if not exact:
-        least, best = shorter(least, best, only_left)
-        least, best = shorter(least, best, only_right)
+        least, best = faster_of(least, best, only_left)
+        least, best = faster_of(least, best, only_right)
     return least, best
 
 
-def shorter(least: float, best: Extremal, other: Extremal) -> tuple[float, Extremal]:
+def faster_of(least: float, best: Extremal, other: Extremal) -> tuple[float, Extremal]:
     """The least time so far and its extremal, or those of another extremal that takes less."""
     time = duration(other)
-    return (time if time < least else least), chosen(time < least, other, best)
+    return (time if time < least else least), select(time < least, other, best)

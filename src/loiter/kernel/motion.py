@@ -4,15 +4,15 @@ from math import cos, sin
 
 
 def reduce(x: float, y: float, c: float, s: float) -> tuple[float, float]:
-    """Reduced state (2) of a vehicle at (x, y) from the circle's centre that flies along the unit vector (c, s)."""
+    """The reduced state (2) of a vehicle at (x, y) from the circle's centre that heads along the unit vector (c, s)."""
     return x * c + y * s, y * c - x * s
 
 
 def fly(x: float, y: float, c: float, s: float, u: int, t: float) -> tuple[float, float, float, float]:
-    """Exact flow of (1) for a time t: position (x, y) and unit velocity (c, s) after flying with control u.
+    """Position (x, y) and unit velocity (c, s) after a time t with control u: the exact flow of (1).
 
-    The displacement is the chord of the arc, 2 sin(t/2) long, along the velocity at half time: no difference of
-    nearly equal sines for short arcs.
+    The displacement is the chord of the arc, 2 sin(t/2) long, along the velocity at half time. This avoids the
+    difference of two nearly equal sines for short arcs.
     """
     half = 0.5 * u * t
     ch, sh = cos(half), sin(half)
@@ -22,7 +22,7 @@ def fly(x: float, y: float, c: float, s: float, u: int, t: float) -> tuple[float
 
 
 def flow(x: float, y: float, u: int, t: float) -> tuple[float, float]:
-    """Exact flow of the reduced system (7) for a time t: a rotation about (0, -u), or a shift along x for u = 0."""
+    """The state after a time t with control u, by (7): turned about (0, -u), or shifted along x for u = 0."""
     if u == 0:
         return x + t, y
     w = u * y + 1.0

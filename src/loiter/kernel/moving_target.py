@@ -1,25 +1,30 @@
-"""When a Dubins vehicle can first be at a pose that drifts: the six words, every root of length(T) = T.
+"""When a Dubins vehicle can first be at a moving pose: the six words, and every root of length(T) = T.
 
-The pose keeps its heading and moves with the velocity -w, so that the vehicle flies through still air (docs/wind.md,
-section 4). A word leaves along the circle of its first arc and arrives along that of its last; at a time T the last
-centre is at d - w T from the first, and each word's length depends on T through that alone. For each word the roots
-are found in order, and none that can be first is missed: those of LSL and RSR are in closed form, those of LSR and RSL
-roots of convex decreasing functions, those of LRL and RLR lie where a function is convex, or concave, throughout.
+The pose keeps its heading and moves with the velocity -w, and the vehicle flies through still air (docs/wind.md,
+section 4). A word leaves along the circle of its first arc and arrives along the circle of its last; at a time T the
+last centre is at d - w T from the first, and the length of each word depends on T through this vector alone. For each
+word the roots are found in order, and no root that can be the first is missed: those of LSL and RSR are in closed form,
+those of LSR and RSL are roots of convex decreasing functions, those of LRL and RLR lie where a function is convex, or
+concave, throughout.
 
-`u` is the control of the first arc.
+In all functions `u` is the control of the first arc and (dx, dy) is d.
 """
 
 from math import acos, atan2, ceil, cos, hypot, inf, pi, sin, sqrt
 from typing import NamedTuple
 
-from loiter.kernel.angles import TWO_PI, angle, snapped, turned_by
+from loiter.kernel.angles import TWO_PI, Rotation, angle, arc_rotation, snap_full_turn
 from loiter.kernel.words import encode
+
+# Two times, the earlier one first.
+Interval = tuple[float, float]
 
 
 class Ends(NamedTuple):
-    """What all words share: the headings (c0, s0) at the start and (c, s) at the pose, the wind, the arc tolerance.
+    """What all words have in common: the headings (c0, s0) at the start and (c, s) at the pose, and the wind.
 
-    `slack` is the arc length that a rotation may lack to a full turn and count as none (`angles.snapped`).
+    `arc_tolerance` is the arc length by which a rotation may be less than a full turn and count as none
+    (`angles.snap_full_turn`).
     """
 
     c0: float
@@ -28,7 +33,7 @@ class Ends(NamedTuple):
     s: float
     wx: float
     wy: float
-    slack: float
+    arc_tolerance: float
 
 
 class Path(NamedTuple):
@@ -49,8 +54,8 @@ class Path(NamedTuple):
 
 NO_PATH = Path(inf, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0)
 
-# Newton's method approaches every root here from the side where it converges monotonically. It squares its error, or
-# near a double root halves it: 60 halvings leave nothing of a double.
+# Here Newton's method approaches every root from the side on which it converges monotonically. Each step squares the
+# error, or halves it near a double root; 60 halvings are more than the digits of a double.
 NEWTON_STEPS = 60
 
 # While the straight piece of LSR or RSL turns by up to pi, each of its two arcs passes a whole turn once at most.
@@ -60,7 +65,7 @@ WHOLE_TURNS = 2
 def interception(dx: float, dy: float, wx: float, wy: float) -> float:
     """When a straight flight at speed 1 meets a point that is at d and moves with -w: t = |d - w t|.
 
-    The positive root of (1 - w^2) t^2 + 2 (w . d) t = d^2, in the form that subtracts nothing.
+    The positive root of (1 - w^2) t^2 + 2 (w . d) t = d^2, in the form without cancellation.
     """
     along, spare, square = wx * dx + wy * dy, 1.0 - wx * wx - wy * wy, dx * dx + dy * dy
     root = sqrt(along * along + spare * square)
@@ -69,7 +74,7 @@ def interception(dx: float, dy: float, wx: float, wy: float) -> float:
     return square / (root + along) if square > 0.0 else 0.0
 
 
-def time_within(dx: float, dy: float, wx: float, wy: float, limit: float) -> tuple[float, float]:
+def time_within(dx: float, dy: float, wx: float, wy: float, limit: float) -> Interval:
     """The times from 0 on between which |d - w t| < limit; both `inf` where there are none."""
     along, square, gap = wx * dx + wy * dy, wx * wx + wy * wy, dx * dx + dy * dy - limit * limit
     discriminant = along * along - square * gap
@@ -83,24 +88,24 @@ def time_within(dx: float, dy: float, wx: float, wy: float, limit: float) -> tup
     return 0.0, -gap / (root - along) if root > along else inf
 
 
-def arc(u: int, ax: float, ay: float, bx: float, by: float, radius: float, slack: float) -> float:
-    """Duration of the arc of control u from heading (ax, ay) to (bx, by), none if a full turn but for the slack."""
-    return angle(snapped(turned_by(u, ax, ay, bx, by), radius * radius, slack))
+def arc_time(rotation: Rotation, radius: float, arc_tolerance: float) -> float:
+    """The duration of an arc; zero where it is less than a full turn by at most `arc_tolerance` at the given radius."""
+    return angle(snap_full_turn(rotation, radius * radius, arc_tolerance))
 
 
 def lsl_rsr(u: int, dx: float, dy: float, ends: Ends) -> Path:
-    """LSL (u = +1) or RSR: t1 + t3 is the rotation from start to pose, or a turn more, and the rest an interception."""
-    c0, s0, c, s, wx, wy, slack = ends
-    rotation = arc(u, c0, s0, c, s, 1.0, slack)
+    """LSL (u = +1) or RSR: t1 + t3 is the rotation from start to pose, or a turn more, and t2 an interception."""
+    c0, s0, c, s, wx, wy, arc_tolerance = ends
+    rotation = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, arc_tolerance)
     for arcs in (rotation, rotation + TWO_PI):
         ax, ay = dx - wx * arcs, dy - wy * arcs
         straight = interception(ax, ay, wx, wy)
         ex, ey = ax - wx * straight, ay - wy * straight
-        first = arc(u, c0, s0, ex, ey, 1.0 + straight, slack)
+        first = arc_time(arc_rotation(u, c0, s0, ex, ey), 1.0 + straight, arc_tolerance)
         last = max(arcs - first, 0.0)
-        if first <= arcs + slack and last < TWO_PI:
+        if first <= arcs + arc_tolerance and last < TWO_PI:
             length = hypot(ex, ey)
-            # Where the two circles are one, any direction will do.
+            # Where the two circles coincide, any direction of p is possible.
             p1, p2 = (ex / length, ey / length) if length > 0.0 else (1.0, 0.0)
             return Path(first + straight + last, encode(u, 0, u), first, straight, last, 1.0, p1, p2)
     return NO_PATH
@@ -114,46 +119,52 @@ def tangent(u: int, dx: float, dy: float) -> tuple[float, float, float]:
 
 
 def lsr_rsl(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
-    """LSR (u = +1) or RSL, the first of a time up to `until`; the centres must be two radii apart, or more."""
+    """LSR (u = +1) or RSL, the first whose time is at most `until`; the centres must be at least two radii apart."""
     # Circles that overlap by rounding touch: two arcs, without a straight piece.
-    enter, leave = time_within(dx, dy, ends.wx, ends.wy, 2.0 - ends.slack)
+    enter, leave = time_within(dx, dy, ends.wx, ends.wy, 2.0 - ends.arc_tolerance)
     path = NO_PATH
     if enter > 0.0:
-        path = first_lsr_rsl(u, dx, dy, ends, 0.0, min(enter, until))
+        path = first_lsr_rsl(u, dx, dy, ends, (0.0, min(enter, until)))
     if path.time == inf and leave < until:
-        path = first_lsr_rsl(u, dx, dy, ends, leave, until)
+        path = first_lsr_rsl(u, dx, dy, ends, (leave, until))
     return path
 
 
-def first_lsr_rsl(u: int, dx: float, dy: float, ends: Ends, begin: float, end: float) -> Path:
-    """The first root between two times throughout which the centres are two radii apart, or more.
+def first_lsr_rsl(u: int, dx: float, dy: float, ends: Ends, interval: Interval) -> Path:
+    """LSR or RSL of the first root in an interval throughout which the centres are at least two radii apart.
 
-    With its arcs continued beyond whole turns, length - T falls, with the slope -(1 + w . p), and is convex. So for
-    each number of turns it has at most one root, to which Newton's method rises from `begin`.
+    With its arcs continued beyond whole turns, length - T is convex and falls with the slope -(1 + w . p). So for each
+    number of turns it has at most one root, and Newton's method rises to it from the beginning of the interval.
     """
-    c0, s0, c, s, wx, wy, slack = ends
+    c0, s0, c, s, wx, wy, arc_tolerance = ends
+    begin, end = interval
     straight, e1, e2 = tangent(u, dx - wx * begin, dy - wy * begin)
-    arcs = angle(turned_by(u, c0, s0, e1, e2)) + angle(turned_by(u, c, s, e1, e2))
+    arcs = angle(arc_rotation(u, c0, s0, e1, e2)) + angle(arc_rotation(u, c, s, e1, e2))
     fewest = max(ceil((begin - arcs - straight) / TWO_PI), -WHOLE_TURNS)
     for turns in range(fewest, WHOLE_TURNS + 1):
-        time = first_root(u, dx, dy, wx, wy, arcs + TWO_PI * turns, begin, end)
+        time = lsr_rsl_root(u, dx, dy, ends, arcs + TWO_PI * turns, interval)
         if time > end:
             break
         straight, p1, p2 = tangent(u, dx - wx * time, dy - wy * time)
-        first = arc(u, c0, s0, p1, p2, 1.0 + straight, slack)
-        last = arc(u, c, s, p1, p2, 1.0, slack)
+        first = arc_time(arc_rotation(u, c0, s0, p1, p2), 1.0 + straight, arc_tolerance)
+        last = arc_time(arc_rotation(u, c, s, p1, p2), 1.0, arc_tolerance)
         if abs(first + straight + last - time) < pi:
             return Path(first + straight + last, encode(u, 0, -u), first, straight, last, 1.0, p1, p2)
     return NO_PATH
 
 
-def first_root(u: int, dx: float, dy: float, wx: float, wy: float, arcs: float, begin: float, end: float) -> float:
-    """The time >= `begin` at which LSR or RSL takes T when its arcs take `arcs` at `begin`; beyond `end`, any time."""
+def lsr_rsl_root(u: int, dx: float, dy: float, ends: Ends, arcs: float, interval: Interval) -> float:
+    """The time in an interval at which the length of LSR or RSL equals T; any later time where there is none.
+
+    `arcs` is the sum of the durations of its two arcs at the beginning of the interval.
+    """
+    wx, wy = ends.wx, ends.wy
+    begin, end = interval
     _, e1, e2 = tangent(u, dx - wx * begin, dy - wy * begin)
     time = begin
     for _ in range(NEWTON_STEPS):
         straight, p1, p2 = tangent(u, dx - wx * time, dy - wy * time)
-        # The direction turns one way, by no more than pi in all.
+        # The direction turns one way only, by no more than pi in all.
         turned = 2.0 * u * atan2(e1 * p2 - e2 * p1, e1 * p1 + e2 * p2)
         before, time = time, time + (arcs + turned + straight - time) / (1.0 + wx * p1 + wy * p2)
         if time <= before or time > end:
@@ -162,20 +173,20 @@ def first_root(u: int, dx: float, dy: float, wx: float, wy: float, arcs: float, 
 
 
 def lrl_rlr(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
-    """LRL (u = +1) or RLR, the first of a time up to `until`: T = 2 t2 + rotation from start to pose + whole turns.
+    """LRL (u = +1) or RLR, the first whose time T is at most `until`: T = 2 t2 + rotation from start to pose + turns.
 
-    Only a path with p . w + lambda >= 0 can be the first; for each number of turns that leaves one.
+    Only a path with p . w + lambda >= 0 can be the first; for each number of whole turns there is one such path.
     """
-    c0, s0, c, s, wx, wy, slack = ends
+    c0, s0, c, s, wx, wy, arc_tolerance = ends
     enter, leave = time_within(dx, dy, wx, wy, 4.0)
     best = NO_PATH
     if enter <= until:
-        rotation = arc(u, c0, s0, c, s, 1.0, slack)
+        rotation = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, arc_tolerance)
         for turns in (-1.0, 0.0, 1.0):
             outside = rotation + TWO_PI * turns
             middle = middle_arc(dx - wx * outside, dy - wy * outside, wx, wy)
             time = outside + 2.0 * middle
-            if inf > time and enter - slack <= time <= min(leave + slack, until, best.time):
+            if inf > time and enter - arc_tolerance <= time <= min(leave + arc_tolerance, until, best.time):
                 path = three_arcs(u, middle, dx - wx * time, dy - wy * time, ends)
                 if abs(path.time - time) < pi:
                     best = path
@@ -185,8 +196,9 @@ def lrl_rlr(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
 def middle_arc(dx: float, dy: float, wx: float, wy: float) -> float:
     """The m in (0, 2 pi) at which h(m) = |d - 2 w m|^2 - 8 (1 - cos m) rises through zero; `inf` where it does not.
 
-    h'' = 8 (w^2 - cos m) and h >= 0 at 0 and 2 pi. With i = acos(w^2), h is concave up to i and has no such root there;
-    it is convex up to 2 pi - i and may have one there; else it has one in the concave rest if it begins that negative.
+    h'' = 8 (w^2 - cos m), and h >= 0 at 0 and 2 pi. With i = acos(w^2), h is concave up to i and has no such root
+    there. It is convex up to 2 pi - i and may have one there; if it is negative at 2 pi - i, it has one beyond, where
+    it is concave.
     """
     inflection = acos(wx * wx + wy * wy)
     m, concave = TWO_PI - inflection, False
@@ -207,13 +219,14 @@ def middle_arc(dx: float, dy: float, wx: float, wy: float) -> float:
 
 def three_arcs(u: int, middle: float, dx: float, dy: float, ends: Ends) -> Path:
     """LRL or RLR with a given middle arc between circles whose centres are d = -4 sin(m/2) p apart."""
-    c0, s0, c, s, _, _, slack = ends
+    c0, s0, c, s, _, _, arc_tolerance = ends
     length = hypot(dx, dy)
     p1, p2 = (-dx / length, -dy / length) if length > 0.0 else (1.0, 0.0)
     lam, across = -cos(0.5 * middle), sin(0.5 * middle)
-    # The headings at the switches: p turned by the angle whose cosine is lambda, against the outer arcs and with them.
+    # The headings at the two switches: p turned by the angle whose cosine is lambda, against the sense of the outer
+    # arcs at the first switch and in their sense at the second.
     ax, ay = lam * p1 + u * across * p2, lam * p2 - u * across * p1
     bx, by = lam * p1 - u * across * p2, lam * p2 + u * across * p1
-    first = arc(u, c0, s0, ax, ay, 4.0, slack)
-    last = arc(u, bx, by, c, s, 1.0, slack)
+    first = arc_time(arc_rotation(u, c0, s0, ax, ay), 4.0, arc_tolerance)
+    last = arc_time(arc_rotation(u, bx, by, c, s), 1.0, arc_tolerance)
     return Path(first + middle + last, encode(u, -u, u), first, middle, last, lam, p1, p2)

@@ -1,11 +1,11 @@
-"""Switching curves, and the paper's synthesis at R = 1 by signed region predicates, without trying the other words."""
+"""Switching curves, and the paper's synthesis at R = 1 by signed region predicates, without comparing words."""
 
 from math import sqrt
 
 from loiter.kernel.exact import beyond
 from loiter.kernel.words import Word
 
-# Laws of the predicates, each a test: they depend on x^2 or |y| as the mirror law asks; zero counts as the boundary
+# Laws of the predicates, each with a test: they depend on x^2 or |y| as the mirror law requires; zero is the boundary
 # itself, which belongs to the region with the smaller T.
 
 
@@ -20,11 +20,11 @@ def beyond_first_circle(x: float, y: float, R: float) -> float:
 
 
 def switching_abscissa(y: float, R: float) -> float:
-    """X of the point of ordinate y where an optimal L may give way to R on the way to (0, R); nan outside the curve.
+    """The x of ordinate y where an optimal L may switch to R on the way to (0, R); nan outside the curve.
 
     Eliminating the second switch from a y^2 + 2 y = k, a yb^2 + 2 yb = K = R (R + 2), a (y + yb) = 2 (docs/theory.md,
     section 3) leaves a^2 y^2 - (6 y + K) a + 8 = 0 with x = y sqrt(a - 1). Its root is a = 8/(A + B), A = 3 y + K/2,
-    B^2 = y^2 + 3 K y + K^2/4, which keeps its digits near y = 0 where A - B does not. At R = 1, y >= 0 this is (22).
+    B^2 = y^2 + 3 K y + K^2/4, which keeps its digits near y = 0, where A - B loses them. At R = 1, y >= 0 this is (22).
     The curve ends on x = 0 at y = 2 - R; for y < 0, x < 0 it belongs to the clockwise circle alone.
     """
     K = R * (R + 2.0)
@@ -36,7 +36,7 @@ def switching_abscissa(y: float, R: float) -> float:
 
 
 def last_arc_abscissa(y: float) -> float:
-    """X of the last arc (27) at R = 1, y >= 0: the left half of the circle of radius 2 about (0, -1); nan above it."""
+    """The x of the last arc (27) at R = 1, y >= 0: left half of the circle of radius 2 about (0, -1); nan above it."""
     square = (1.0 - y) * (3.0 + y)
     return -sqrt(square) if square >= 0.0 else float("nan")
 
@@ -44,8 +44,8 @@ def last_arc_abscissa(y: float) -> float:
 def region(x: float, y: float) -> Word:
     """The word that wins at R = 1, *either*, y >= 0: the paper's section 6, corrected (docs/paper.md).
 
-    Letters as for the clockwise circle; mirror for y < 0. Zero-length pieces are kept out: on the axis SL, on the arc
-    (27) L, at the target the empty word.
+    The letters are those of the clockwise circle; for y < 0 take the mirror image. Pieces of zero length are left out:
+    the word is SL on the axis, L on the arc (27) and empty at the target.
     """
     if x == 0.0 and y == 1.0:
         return Word.EMPTY

@@ -1,4 +1,4 @@
-"""Which extremal wins: the optimum, every extremal in order, the feedback law."""
+"""Which extremal is the fastest: the optimum, every extremal in order, the feedback law."""
 
 from itertools import pairwise
 from math import cbrt, hypot, inf, isfinite
@@ -11,7 +11,7 @@ from loiter.kernel.words import ABSENT, controls, encode, mirrored, rest
 
 
 class Entry(NamedTuple):
-    """A maneuver: the side that it holds, its word as flown, the durations of its pieces (0 past the last)."""
+    """A maneuver: the side of its circle, its word as flown, and the durations of its pieces (0 past the last)."""
 
     side: int
     word: int
@@ -20,8 +20,8 @@ class Entry(NamedTuple):
     t3: float
 
 
-# Rounding of a length of order one: the reduction (2) costs 2 roundings a coordinate, a difference of squares 6, the
-# angle and the flight of each of three pieces some 10; 64 units of 2**-52 is the next power of two above their sum.
+# Rounding error of a length of order one: the reduction (2) costs 2 roundings a coordinate, a difference of squares 6,
+# the angle and the flight of each of three pieces about 10; 64 units of 2**-52 is the next power of two above the sum.
 ROUNDING = 64.0 * 2.0**-52
 
 # Beyond this many turn radii neighbouring doubles are a turn radius apart.
@@ -29,36 +29,38 @@ REACH = 2.0**52
 
 
 def rounding(x: float, y: float, R: float) -> float:
-    """Length below which a state and a circle of this size are equal up to rounding."""
+    """The length tolerance: the rounding error of lengths for a state and a circle of this size."""
     return ROUNDING * (1.0 + abs(x) + abs(y) + R)
 
 
-def held_radius(R: float) -> float:
-    """The radius, where one below 1 by no more than rounding is 1: a circle as tight as the aircraft turns."""
+def rounded_radius(R: float) -> float:
+    """R, or 1 where R is less than 1 by rounding only: a circle as tight as the aircraft can turn."""
     return 1.0 if 1.0 - ROUNDING <= R < 1.0 else R
 
 
-def solvable(x: float, y: float, R: float, tolerance: float) -> bool:
-    """Whether `status_of` is OK: a state and a circle within REACH, the circle one that can be held."""
+def is_solvable(x: float, y: float, R: float, tolerance: float) -> bool:
+    """Whether `status_of` is OK: state and circle are within REACH, and the circle can be held."""
     near = abs(x) <= REACH and abs(y) <= REACH and 0.0 <= tolerance <= REACH
     return near and 1.0 - ROUNDING <= R <= REACH
 
 
 def status_of(x: float, y: float, R: float, tolerance: float) -> Status:
     """`Status.OK`, or why there is nothing to solve."""
-    if solvable(x, y, R, tolerance):
+    if is_solvable(x, y, R, tolerance):
         return Status.OK
     if not (isfinite(x) and isfinite(y) and isfinite(R)):
         return Status.NOT_FINITE
-    if held_radius(R) < 1.0:
+    if rounded_radius(R) < 1.0:
         return Status.RADIUS_TOO_SMALL
     if abs(x) > REACH or abs(y) > REACH or R > REACH:
         return Status.OUT_OF_RANGE
     return Status.BAD_TOLERANCE
 
 
-def flown(word: int, t1: float, t2: float, t3: float, short: float, no_angle: float) -> tuple[int, float, float, float]:
-    """The word as flown: without a straight piece up to `short` and arcs up to `no_angle`; like arcs are joined."""
+def drop_short_pieces(
+    word: int, t1: float, t2: float, t3: float, short: float, no_angle: float
+) -> tuple[int, float, float, float]:
+    """The word as flown: without a straight piece up to `short` and arcs up to `no_angle`; equal arcs are joined."""
     first, _, last = controls(word)
     if last != ABSENT and t2 <= short:
         if first == last:
@@ -73,58 +75,59 @@ def flown(word: int, t1: float, t2: float, t3: float, short: float, no_angle: fl
     return word, t1, t2, t3
 
 
-def slack_of(x: float, y: float, R: float, tolerance: float) -> float:
+def arc_tolerance_of(x: float, y: float, R: float, tolerance: float) -> float:
     """The share of the end-point tolerance that each of at most three pieces may use up."""
     return max(tolerance, rounding(x, y, R)) / 3.0
 
 
-def as_flown(extremal: Extremal, dust: float, side: int) -> Entry:
+def flown_entry(extremal: Extremal, length_tolerance: float, side: int) -> Entry:
     """An extremal of the clockwise circle as the maneuver flown onto the circle of the given side.
 
-    Each piece left out moves the end by a third of `dust` at most, as a rotation snapped to none does: the radius of an
-    arc is no more than 1 + |x| + |y| + R. So three pieces together miss the target by no more than `dust`.
+    Each piece left out moves the end by at most a third of `length_tolerance`, as a full turn left out does: the radius
+    of an arc is no more than 1 + |x| + |y| + R. So three pieces together miss the target by no more than
+    `length_tolerance`.
     """
     t1, t2, t3 = durations(extremal)
-    word, t1, t2, t3 = flown(extremal.word + 0, t1, t2, t3, dust / 3.0, ROUNDING / 3.0)
+    word, t1, t2, t3 = drop_short_pieces(extremal.word + 0, t1, t2, t3, length_tolerance / 3.0, ROUNDING / 3.0)
     return Entry(side, mirrored(word) if side < 0 else word, t1, t2, t3)
 
 
 def near_side(y: float) -> int:
-    """The side that is never the slower one: T_either(x, y) = T_cw(x, |y|) (paper, section 5); clockwise on y = 0."""
+    """The side that is never slower: T_either(x, y) = T_cw(x, |y|) (paper, section 5); clockwise on y = 0."""
     return -1 if y < 0.0 else 1
 
 
 def optimum(x: float, y: float, R: float, side: int, tolerance: float) -> Entry:
-    """The fastest maneuver onto the circle from the reduced state (x, y); call it where `status_of` is OK.
+    """The fastest maneuver onto the circle from the reduced state (x, y); to be called only where `status_of` is OK.
 
-    For *either* the near side is as fast as the far one, but for what a tolerance lets pass; only then both are asked.
+    For *either*, the near side is never slower than the far one, except within a tolerance; only then both are solved.
     """
-    near = one_sided(x, y, R, asked_side(y, side), tolerance)
+    near = optimum_on_side(x, y, R, side_or_near(y, side), tolerance)
     if side != Side.EITHER or tolerance == 0.0:
         return near
-    far = one_sided(x, y, R, -near_side(y), tolerance)
-    return far if sooner(far, near, rounding(x, y, R)) else near
+    far = optimum_on_side(x, y, R, -near_side(y), tolerance)
+    return far if is_faster(far, near, rounding(x, y, R)) else near
 
 
-def asked_side(y: float, side: int) -> int:
-    """The side asked for, for *either* the near one."""
+def side_or_near(y: float, side: int) -> int:
+    """The side itself; for *either*, the near side."""
     return side + 0 if side != Side.EITHER else near_side(y)
 
 
-def sooner(maneuver: Entry, other: Entry, dust: float) -> bool:
+def is_faster(maneuver: Entry, other: Entry, length_tolerance: float) -> bool:
     """Whether a maneuver is faster than another by more than rounding."""
-    return duration(maneuver) < duration(other) - dust
+    return duration(maneuver) < duration(other) - length_tolerance
 
 
-def one_sided(x: float, y: float, R: float, side: int, tolerance: float) -> Entry:
+def optimum_on_side(x: float, y: float, R: float, side: int, tolerance: float) -> Entry:
     """The fastest maneuver onto the circle held on one side."""
-    _, best = fastest(x, side * y, R, slack_of(x, y, R, tolerance), tolerance == 0.0)
-    return as_flown(best, rounding(x, y, R), side)
+    _, best = fastest(x, side * y, R, arc_tolerance_of(x, y, R, tolerance), tolerance == 0.0)
+    return flown_entry(best, rounding(x, y, R), side)
 
 
 def least_time(x: float, y: float, R: float, side: int, tolerance: float) -> float:
-    """T of `one_sided`, without its pieces; it may count a piece that, shorter than rounding, is not flown."""
-    time, _ = fastest(x, side * y, R, slack_of(x, y, R, tolerance), tolerance == 0.0)
+    """T of `optimum_on_side`, without its pieces; a piece that is too short to be flown may be included."""
+    time, _ = fastest(x, side * y, R, arc_tolerance_of(x, y, R, tolerance), tolerance == 0.0)
     return time
 
 
@@ -136,59 +139,60 @@ def duration(maneuver: Entry) -> float:
 def ranked(x: float, y: float, R: float, side: int, tolerance: float) -> list[Entry]:
     """Every extremal that reaches the circle, each once, fastest first; for *either*, those of both sides.
 
-    Left out is what only a tolerance lets end sooner than the optimum: it ends beside the target, not on it.
+    Extremals that are faster than the optimum are left out: they end beside the target, within a tolerance.
     """
-    dust = rounding(x, y, R)
-    least = duration(optimum(x, y, R, side, tolerance)) - dust
+    length_tolerance = rounding(x, y, R)
+    least = duration(optimum(x, y, R, side, tolerance)) - length_tolerance
     sides = (near_side(y), -near_side(y)) if side == Side.EITHER else (side,)
     maneuvers: list[Entry] = []
     for s in sides:
-        for extremal in extremals(x, s * y, R, slack_of(x, y, R, tolerance)):
-            maneuver = as_flown(extremal, dust, s)
-            known = any(same(maneuver, other, dust) for other in maneuvers)
+        for extremal in extremals(x, s * y, R, arc_tolerance_of(x, y, R, tolerance)):
+            maneuver = flown_entry(extremal, length_tolerance, s)
+            known = any(is_same(maneuver, other, length_tolerance) for other in maneuvers)
             if least <= duration(maneuver) < inf and not known:
                 maneuvers.append(maneuver)
     return sorted(maneuvers, key=duration)
 
 
-def same(a: Entry, b: Entry, dust: float) -> bool:
-    """Whether two maneuvers are one, met as limits of two words."""
-    apart = max(abs(a.t1 - b.t1), abs(a.t2 - b.t2), abs(a.t3 - b.t3))
-    return a.side == b.side and a.word == b.word and apart <= dust
+def is_same(a: Entry, b: Entry, length_tolerance: float) -> bool:
+    """Whether two maneuvers, found as limits of two words, are the same."""
+    difference = max(abs(a.t1 - b.t1), abs(a.t2 - b.t2), abs(a.t3 - b.t3))
+    return a.side == b.side and a.word == b.word and difference <= length_tolerance
 
 
 def optima(x: float, y: float, R: float, side: int, tolerance: float) -> list[Entry]:
-    """Every optimal maneuver: those of `ranked` that tie with the first up to rounding, and differ by more than that.
+    """Every optimal maneuver: those of `ranked` that tie with the fastest up to rounding, and differ by more than that.
 
-    Where a straight piece of length s vanishes the words with and without it differ in T by s^3/24 only (an arc at a
-    switching curve: by s^2), so that both tie for s up to the cube root of rounding: they are one maneuver.
+    Where a straight piece of length s vanishes, the words with and without it differ in T by s^3/24 only (where an arc
+    vanishes at a switching curve: by s^2). So both tie for s up to the cube root of rounding: they count as one.
     """
     maneuvers = ranked(x, y, R, side, tolerance)
-    dust = rounding(x, y, R)
-    one = 2.0 * cbrt(24.0 * dust)
-    chosen: list[Entry] = []
+    length_tolerance = rounding(x, y, R)
+    least = min(map(duration, maneuvers), default=inf)
+    one_maneuver = 2.0 * cbrt(24.0 * length_tolerance)
+    distinct: list[Entry] = []
     for maneuver in maneuvers:
-        ties = duration(maneuver) <= duration(maneuvers[0]) + dust
-        if ties and all(maneuver.side != other.side or apart(maneuver, other) > one for other in chosen):
-            chosen.append(maneuver)
-    return chosen
+        ties = duration(maneuver) <= least + length_tolerance
+        if ties and all(maneuver.side != m.side or time_apart(maneuver, m) > one_maneuver for m in distinct):
+            distinct.append(maneuver)
+    return distinct
 
 
-def apart(a: Entry, b: Entry) -> float:
-    """How long two maneuvers fly different controls."""
-    instants = sorted({0.0, *switches(a), *switches(b)})
+def time_apart(a: Entry, b: Entry) -> float:
+    """The time during which two maneuvers fly different controls."""
+    instants = sorted({0.0, *piece_ends(a), *piece_ends(b)})
     return sum(end - begin for begin, end in pairwise(instants) if control_at(a, begin) != control_at(b, begin))
 
 
-def switches(maneuver: Entry) -> tuple[float, float, float]:
-    """When the pieces of a maneuver end."""
+def piece_ends(maneuver: Entry) -> tuple[float, float, float]:
+    """The times at which the pieces of a maneuver end."""
     _, _, t1, t2, t3 = maneuver
     return t1, t1 + t2, t1 + t2 + t3
 
 
 def control_at(maneuver: Entry, t: float) -> int:
-    """The control flown from the instant t on; `ABSENT` past the end."""
-    for u, end in zip(controls(maneuver.word), switches(maneuver)):
+    """The control flown from the time t on; `ABSENT` past the end."""
+    for u, end in zip(controls(maneuver.word), piece_ends(maneuver)):
         if t < end:
             return u
     return ABSENT
@@ -201,7 +205,7 @@ def first_control(R: float, maneuver: Entry) -> float:
 
 
 def miss(x: float, y: float, R: float, maneuver: Entry) -> float:
-    """Distance from the target, in the reduced plane, at which a maneuver from (x, y) ends when flown exactly."""
+    """The distance from the target, in the reduced plane, at which a maneuver from (x, y) ends when flown exactly."""
     side, word, t1, t2, t3 = maneuver
     for u, t in zip(controls(word), (t1, t2, t3)):
         if u != ABSENT:

@@ -1,8 +1,8 @@
-"""The fastest entry onto a circle past which the air moves: constant wind, or a circle that moves (docs/wind.md).
+"""The fastest entry onto a circle in wind, or onto a circle that moves (docs/wind.md).
 
-All is relative to the circle: the vehicle is at (x, y) from its centre, heads along the unit vector (c, s) and moves
-with (c, s) + w, |w| < 1. The point of joining is told by its phase (`hold`); for each the first path to it is known
-(`moving_target`), and the fastest of them is found by branch and bound.
+Everything is relative to the circle: the vehicle is at (x, y) from its centre, heads along the unit vector (c, s) and
+moves with (c, s) + w, |w| < 1. The point of joining is parametrised by its phase (`hold`). For each phase the first
+path to it is known (`moving_target`), and the fastest of them all is found by branch and bound.
 """
 
 from math import atan2, cbrt, hypot, inf, isfinite, nan
@@ -10,11 +10,24 @@ from typing import NamedTuple
 
 from loiter.kernel.angles import TWO_PI
 from loiter.kernel.codes import Status
-from loiter.kernel.hold import held, hold_rate, hold_time, phase_of, tightest_held
+from loiter.kernel.hold import hold_pose, hold_rate, hold_time, phase_of, tightest_radius
 from loiter.kernel.motion import fly
 from loiter.kernel.moving_target import NO_PATH, Ends, Path, interception, lrl_rlr, lsl_rsr, lsr_rsl
-from loiter.kernel.synthesis import REACH, ROUNDING, Entry, apart, duration, flown, rounding
+from loiter.kernel.synthesis import REACH, ROUNDING, Entry, drop_short_pieces, duration, rounding, time_apart
 from loiter.kernel.words import ABSENT, controls, encode
+
+
+class WindProblem(NamedTuple):
+    """An entry to find: start, heading as a unit vector, radius, `codes.Side`, velocity of the air past the circle."""
+
+    x: float
+    y: float
+    c: float
+    s: float
+    R: float
+    side: int
+    wx: float
+    wy: float
 
 
 class WindScene(NamedTuple):
@@ -27,7 +40,7 @@ class WindScene(NamedTuple):
     R: float
     wx: float
     wy: float
-    slack: float
+    arc_tolerance: float
 
 
 class WindCandidate(NamedTuple):
@@ -39,7 +52,11 @@ class WindCandidate(NamedTuple):
 
 
 class WindEntry(NamedTuple):
-    """A maneuver as flown: status, side held, word, durations, azimuth of the point of joining from x, and miss."""
+    """A maneuver as flown: status, side, word, durations, azimuth of the point of joining, and miss.
+
+    The azimuth is counted counter-clockwise from the x axis; the miss is the distance of the end from that point,
+    position and heading together.
+    """
 
     status: int
     side: int
@@ -51,8 +68,8 @@ class WindEntry(NamedTuple):
     miss: float
 
 
-# A slower wind moves nothing within REACH by a rounding, and its square would not be a normal number.
-CALM = 2.0**-400
+# A slower wind moves nothing within REACH by as much as a rounding, and its square would not be a normal number.
+NEGLIGIBLE_WIND = 2.0**-400
 
 # Points of joining that are tried first.
 JOINS = 32
@@ -61,34 +78,35 @@ JOINS = 32
 # the time to hold the circle through one cell, at most R/(1 - |w|) times its width.
 HALVINGS = 7
 
-# Every other step of `refined_minimum` bisects, so that 106 steps use up the digits of a double; 14 are to spare.
+# Every other step of `refined_minimum` bisects, so 106 steps exhaust the digits of a double; 14 are in reserve.
 REFINING_STEPS = 120
 
 # Where two arcs are the fastest, the search ends on a word whose third piece is short by rounding: a straight piece of
 # up to the square root of 4e-14, next to a phase that is exact to 1e-14.
 SHORT = 1e-4
 
-# Newton's method brings an error of 1e-4 down to rounding in three steps.
+# Newton's method reduces an error of 1e-4 to rounding in three steps.
 ARC_STEPS = 8
 
-# The path found next to two arcs may be too early by this many times its miss: both move with the adjoint, whose length
+# The path found next to two arcs may be too early by this many times its miss: both vary with the adjoint, whose length
 # over lambda + p . w stays below 10 where lambda = 1 and |w| < 0.9.
 TOO_EARLY = 10.0
 
 # Points of joining around the circle between which `ranked` looks for local minima.
 SAMPLES = 128
 
-# Maneuvers tie whose times agree to this share of 1 + R + T: what the comparison of docs/wind.md, section 6, found.
-TIED = 1e-12
+# Maneuvers tie if their times agree to this share of 1 + R + T: the accuracy that docs/wind.md, section 6, found.
+TIE_TOLERANCE = 1e-12
 
 
-def status_of(x: float, y: float, c: float, s: float, R: float, wx: float, wy: float) -> int:
+def status_of(problem: WindProblem) -> int:
     """`Status.OK`, or why there is nothing to solve."""
+    x, y, c, s, R, _, wx, wy = problem
     if not (isfinite(x + y) and isfinite(c + s) and isfinite(R) and isfinite(wx + wy)):
         return Status.NOT_FINITE + 0
     if hypot(wx, wy) >= 1.0:
         return Status.WIND_TOO_STRONG + 0
-    if tightest_held(wx, wy) * (1.0 - ROUNDING) > R:
+    if tightest_radius(wx, wy) * (1.0 - ROUNDING) > R:
         return (Status.NOT_HELD if R >= 1.0 else Status.RADIUS_TOO_SMALL) + 0
     if abs(x) > REACH or abs(y) > REACH or R > REACH:
         return Status.OUT_OF_RANGE + 0
@@ -96,33 +114,35 @@ def status_of(x: float, y: float, c: float, s: float, R: float, wx: float, wy: f
 
 
 def first_path(phase: float, side: int, scene: WindScene, until: float) -> Path:
-    """The first path to a point of joining, where it takes no longer than `until`: the best of the six words."""
-    x, y, c0, s0, R, wx, wy, slack = scene
-    px, py, c, s, _ = held(phase, side, R, wx, wy)
+    """The first path to a point of joining, the best of the six words; `NO_PATH` where it takes longer than `until`."""
+    x, y, c0, s0, R, wx, wy, arc_tolerance = scene
+    px, py, c, s, _ = hold_pose(phase, side, R, wx, wy)
     dx, dy = px - x, py - y
     best = NO_PATH
-    if interception(dx, dy, wx, wy) <= until + slack:
-        ends = Ends(c0, s0, c, s, wx, wy, slack)
+    if interception(dx, dy, wx, wy) <= until + arc_tolerance:
+        ends = Ends(c0, s0, c, s, wx, wy, arc_tolerance)
         for u in (1, -1):
             # From the centre of the first arc to that of the last, both of control u; then of u and -u.
             ax, ay = dx - u * (s - s0), dy + u * (c - c0)
-            best = sooner(best, lsl_rsr(u, ax, ay, ends), until)
-            best = sooner(best, lrl_rlr(u, ax, ay, ends, min(until, best.time)), until)
-            best = sooner(best, lsr_rsl(u, dx + u * (s + s0), dy - u * (c + c0), ends, min(until, best.time)), until)
+            best = sooner_path(best, lsl_rsr(u, ax, ay, ends), until)
+            best = sooner_path(best, lrl_rlr(u, ax, ay, ends, min(until, best.time)), until)
+            best = sooner_path(
+                best, lsr_rsl(u, dx + u * (s + s0), dy - u * (c + c0), ends, min(until, best.time)), until
+            )
     return best
 
 
-def sooner(a: Path, b: Path, until: float) -> Path:
+def sooner_path(a: Path, b: Path, until: float) -> Path:
     """The path that takes less time: a where they tie, or where b takes longer than `until`."""
     return b if b.time < a.time and b.time <= until else a
 
 
 def join_slope(path: Path, phase: float, side: int, scene: WindScene) -> float:
-    """The derivative of the time of the path by the point of joining, per unit of time along the hold, (6).
+    """The derivative of the time of the path with respect to the point of joining, in units of hold time, (6).
 
-    It vanishes where the adjoint is transversal to the circle, and is never above 1.
+    It is zero where the adjoint is transversal to the circle, and it never exceeds 1.
     """
-    _, _, c, s, _ = held(phase, side, scene.R, scene.wx, scene.wy)
+    _, _, c, s, _ = hold_pose(phase, side, scene.R, scene.wx, scene.wy)
     along, drift = path.p1 * c + path.p2 * s, path.p1 * scene.wx + path.p2 * scene.wy
     _, _, last = controls(path.word)
     rate = side * last * hold_rate(phase, side, scene.R, scene.wx, scene.wy)
@@ -132,19 +152,19 @@ def join_slope(path: Path, phase: float, side: int, scene: WindScene) -> float:
 def cell_end(
     phase: float, width: float, side: int, scene: WindScene, best: WindCandidate
 ) -> tuple[float, WindCandidate]:
-    """The time to the end of a cell, `inf` where it cannot matter, and the faster of that path and `best`.
+    """The time of the first path to the end of a cell, and the faster of that path and `best`.
 
-    A path that joins inside the cell can follow the circle to the cell's end. So no path into the cell is sooner than
-    the first path to its end less the time to hold the circle through the cell, and a time beyond `best` by more than
-    that does not matter.
+    The cell goes from `phase` - `width` to `phase`. A path that joins inside the cell can follow the circle to the
+    cell's end. So no path into the cell is faster than the first path to its end less the time to hold the circle
+    through the cell. Where this bound excludes the cell, the time may be `inf`.
     """
     until = best.path.time + hold_time(phase, width, side, scene.R, scene.wx, scene.wy)
     path = first_path(phase, side, scene, until)
     return path.time, WindCandidate(phase, side, path) if path.time < best.path.time else best
 
 
-def tried_all_round(side: int, scene: WindScene, best: WindCandidate) -> WindCandidate:
-    """The faster of `best` and the fastest path to `JOINS` points around the circle."""
+def best_of_joins(side: int, scene: WindScene, best: WindCandidate) -> WindCandidate:
+    """The fastest of `best` and the first paths to `JOINS` points around the circle."""
     for i in range(JOINS):
         _, best = cell_end(TWO_PI / JOINS * (i + 1.0), 0.0, side, scene, best)
     return best
@@ -159,7 +179,7 @@ def branch_and_bound(side: int, scene: WindScene, best: WindCandidate) -> WindCa
         end, _ = cells[i]
         time, best = cell_end(end, width, side, scene, best)
         cells[i] = (end, time)
-    best = refined_if_better(best, known, width, scene)
+    best = refine_if_better(best, known, width, scene)
     for _ in range(HALVINGS):
         known = best.path.time
         width *= 0.5
@@ -170,12 +190,12 @@ def branch_and_bound(side: int, scene: WindScene, best: WindCandidate) -> WindCa
                 halves.append((end - width, earlier))
                 halves.append((end, time))
         cells = halves
-        best = refined_if_better(best, known, width, scene)
+        best = refine_if_better(best, known, width, scene)
     return remaining_minima(cells, width, side, scene, best)
 
 
-def refined_if_better(best: WindCandidate, known: float, width: float, scene: WindScene) -> WindCandidate:
-    """The local minimum next to `best` where it is sooner than the time `known`, otherwise `best`."""
+def refine_if_better(best: WindCandidate, known: float, width: float, scene: WindScene) -> WindCandidate:
+    """The local minimum next to `best` where `best` is faster than the time `known`, otherwise `best`."""
     return refined_minimum(best, width, scene) if best.path.time < known else best
 
 
@@ -197,7 +217,7 @@ def remaining_minima(
 
 
 def time_beside(cells: list[tuple[float, float]], i: int, step: int, width: float) -> float:
-    """The time to the end of the cell before (`step` -1) or after cell i; `inf` where there is none next to it."""
+    """The time to the end of the cell before (`step` = -1) or after (+1) cell i; `inf` where no cell adjoins it."""
     if not 0 <= i + step < len(cells):
         return inf
     phase, _ = cells[i]
@@ -208,53 +228,56 @@ def time_beside(cells: list[tuple[float, float]], i: int, step: int, width: floa
 def refined_minimum(found: WindCandidate, width: float, scene: WindScene) -> WindCandidate:
     """The local minimum of the time next to a candidate, where the slope changes its sign or the time jumps.
 
-    From the best phase so far the time falls towards `other`; there it is higher, or falls in the other direction. So
-    there is a local minimum between them.
+    From the best phase so far, `here`, the time falls towards the phase `other`. There the time is higher, or it falls
+    in the opposite direction. So there is a local minimum between them.
     """
     here, side, path = found
-    rise, slack = join_slope(path, here, side, scene), scene.slack
-    other, other_word, other_rise = here + (width if rise < 0.0 else -width), 0, 0.0
+    slope = join_slope(path, here, side, scene)
+    other, other_word, other_slope = here + (width if slope < 0.0 else -width), 0, 0.0
     for step in range(REFINING_STEPS):
         there = 0.5 * (here + other)
-        if step & 1 and other_word == path.word and rise * other_rise < 0.0:
-            there = here + (other - here) * (rise / (rise - other_rise))
-        if there in (here, other) or rise == 0.0:
+        if step % 2 == 1 and other_word == path.word and slope * other_slope < 0.0:
+            there = here + (other - here) * (slope / (slope - other_slope))
+        if there in (here, other) or slope == 0.0:
             break
         tried = first_path(there, side, scene, inf)
-        tried_rise = join_slope(tried, there, side, scene)
-        if tried.time > path.time + slack:
-            other, other_word, other_rise = there, tried.word, tried_rise
+        tried_slope = join_slope(tried, there, side, scene)
+        if tried.time > path.time + scene.arc_tolerance:
+            other, other_word, other_slope = there, tried.word, tried_slope
         else:
-            if rise * tried_rise < 0.0:
-                other, other_word, other_rise = here, path.word, rise
-            here, path, rise = there, tried, tried_rise
+            if slope * tried_slope < 0.0:
+                other, other_word, other_slope = here, path.word, slope
+            here, path, slope = there, tried, tried_slope
     return WindCandidate(here, side, path)
 
 
-def without_short_piece(path: Path) -> tuple[int, int, float, float]:
-    """Controls and durations of the two arcs of a word whose other piece is `SHORT` or less; controls 0 for none."""
-    t1, t2, t3 = path.t1, path.t2, path.t3
+def two_arc_entry(found: WindCandidate) -> Entry:
+    """The two arcs left of a word whose third piece lasts `SHORT` or less; the empty word where there are none."""
+    _, side, path = found
     first, middle, last = controls(path.word)
     if middle == 0:
-        return (first, last, t1, t3) if t2 <= SHORT and first != last else (0, 0, 0.0, 0.0)
-    if t1 <= SHORT:
-        return middle, last, t2, t3
-    return (first, middle, t1, t2) if t3 <= SHORT else (0, 0, 0.0, 0.0)
+        if path.t2 <= SHORT and first != last:
+            return Entry(side, encode(first, last), path.t1, path.t3, 0.0)
+    elif path.t1 <= SHORT:
+        return Entry(side, encode(middle, last), path.t2, path.t3, 0.0)
+    elif path.t3 <= SHORT:
+        return Entry(side, encode(first, middle), path.t1, path.t2, 0.0)
+    return Entry(side, 0, 0.0, 0.0, 0.0)
 
 
-def two_arcs(
-    first: int, second: int, t1: float, t2: float, phase: float, side: int, scene: WindScene
-) -> tuple[float, float, float]:
-    """Newton's method for two arcs that meet the circle: their durations, and the phase.
+def fit_two_arcs(arcs: Entry, phase: float, scene: WindScene) -> tuple[Entry, float]:
+    """Two arcs that end on the circle, and their phase, from an approximation, by Newton's method.
 
-    Where the headings agree, joining later by s along the hold and flying the second arc for s longer move both ends
-    lsl_rsr: so the position fixes t1 and t2 - s, and then the heading s.
+    Where the headings agree, joining later by s along the circle and flying the second arc for s longer move both ends
+    alike. So the position determines t1 and t2 - s, and then the heading determines s.
     """
-    x, y, c, s, R, wx, wy, slack = scene
+    x, y, c, s, R, wx, wy, arc_tolerance = scene
+    side, word, t1, t2, _ = arcs
+    first, second, _ = controls(word)
     for _ in range(ARC_STEPS):
         x1, y1, c1, s1 = fly(x, y, c, s, first, t1)
         x2, y2, c2, s2 = fly(x1, y1, c1, s1, second, t2)
-        px, py, ce, se, g = held(phase, side, R, wx, wy)
+        px, py, ce, se, g = hold_pose(phase, side, R, wx, wy)
         rx, ry = px - x2 - wx * (t1 + t2), py - y2 - wy * (t1 + t2)
         # How the end moves with t1, which turns the second arc about its start, and with t2.
         ax, ay = c1 + wx - first * (y2 - y1), s1 + wy + first * (x2 - x1)
@@ -265,93 +288,97 @@ def two_arcs(
         d1, d2 = (rx * by - ry * bx) / across, (ax * ry - ay * rx) / across
         later = (atan2(c2 * se - s2 * ce, c2 * ce + s2 * se) - first * d1 - second * d2) / bend
         t1, t2, phase = t1 + d1, t2 + d2 + later, phase + later * g / R
-        if abs(d1) + abs(d2) + abs(later) <= slack:
+        if abs(d1) + abs(d2) + abs(later) <= arc_tolerance:
             break
-    return t1, t2, phase
+    return Entry(side, word, t1, t2, 0.0), phase
 
 
-def polished(found: WindCandidate, scene: WindScene) -> tuple[int, float, float, float, float]:
-    """Word, durations and phase of a candidate; those of two arcs where it is close to them and they are no slower."""
+def polish(found: WindCandidate, scene: WindScene) -> tuple[Entry, float]:
+    """The maneuver and phase of a candidate; those of two arcs where it is close to them and they are no slower."""
     phase, side, path = found
-    word, t1, t2, t3 = path.word, path.t1, path.t2, path.t3
-    first, second, a, b = without_short_piece(path)
-    if word != 0 and first != 0:
-        a, b, there = two_arcs(first, second, a, b, phase, side, scene)
-        pair, slack = encode(first, second), scene.slack
-        late = a + b - path.time - TOO_EARLY * end_miss(word, t1, t2, t3, phase, side, scene)
-        if min(a, b) >= 0.0 and max(late, end_miss(pair, a, b, 0.0, there, side, scene)) <= 3.0 * slack:
-            return pair, a, b, 0.0, there
-    return word, t1, t2, t3, phase
+    entry = Entry(side, path.word, path.t1, path.t2, path.t3)
+    arcs = two_arc_entry(found)
+    if arcs.word != 0:
+        arcs, arcs_phase = fit_two_arcs(arcs, phase, scene)
+        late = arcs.t1 + arcs.t2 - path.time - TOO_EARLY * end_miss(entry, phase, scene)
+        both_flown = min(arcs.t1, arcs.t2) >= 0.0
+        if both_flown and max(late, end_miss(arcs, arcs_phase, scene)) <= 3.0 * scene.arc_tolerance:
+            return arcs, arcs_phase
+    return entry, phase
 
 
-def end_miss(word: int, t1: float, t2: float, t3: float, phase: float, side: int, scene: WindScene) -> float:
+def end_miss(entry: Entry, phase: float, scene: WindScene) -> float:
     """The distance of the end of a maneuver, flown exactly, from a point of joining: position and heading together."""
     x, y, c, s, R, wx, wy, _ = scene
+    side, word, t1, t2, t3 = entry
     for u, t in zip(controls(word), (t1, t2, t3)):
         if u != ABSENT:
             x, y, c, s = fly(x, y, c, s, u, t)
             x, y = x + wx * t, y + wy * t
-    px, py, ce, se, _ = held(phase, side, R, wx, wy)
+    px, py, ce, se, _ = hold_pose(phase, side, R, wx, wy)
     return hypot(hypot(px - x, py - y), hypot(ce - c, se - s))
 
 
 def start_on_circle(side: int, scene: WindScene) -> WindCandidate:
-    """The candidate with nothing to fly: the point of the circle next to the start."""
+    """The candidate with nothing to fly: the point of the circle that is nearest to the start."""
     phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy)
     return WindCandidate(phase, side, Path(0.0, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0))
 
 
 def is_on_circle(side: int, scene: WindScene) -> bool:
-    """Whether the start is on the circle and along it, up to rounding."""
-    return end_miss(0, 0.0, 0.0, 0.0, start_on_circle(side, scene).phase, side, scene) <= 3.0 * scene.slack
+    """Whether the start is on the circle and moves along it, up to rounding."""
+    nothing, phase = Entry(side, 0, 0.0, 0.0, 0.0), start_on_circle(side, scene).phase
+    return end_miss(nothing, phase, scene) <= 3.0 * scene.arc_tolerance
 
 
-def scene_of(x: float, y: float, c: float, s: float, R: float, wx: float, wy: float) -> WindScene:
-    """A scene with the arc tolerance that rounding asks for; negligible wind is treated as zero."""
-    if hypot(wx, wy) < CALM:
+def scene_of(problem: WindProblem) -> WindScene:
+    """The scene of a problem, with the arc tolerance that rounding requires; negligible wind is treated as zero."""
+    x, y, c, s, R, _, wx, wy = problem
+    if hypot(wx, wy) < NEGLIGIBLE_WIND:
         wx, wy = 0.0, 0.0
     return WindScene(x, y, c, s, R, wx, wy, rounding(x, y, R) / 3.0)
 
 
-def fastest(x: float, y: float, c: float, s: float, R: float, side: int, wx: float, wy: float) -> WindEntry:
-    """The fastest maneuver onto the circle from (x, y), heading along the unit vector (c, s); nan where there is none.
+def fastest(problem: WindProblem) -> WindEntry:
+    """The fastest maneuver onto the circle; nan, with a status, where there is none.
 
-    docs/wind.md, section 5, says by how much another could be faster at most, how the answer itself is found and what
-    bears it out. `Status.NOT_CONVERGED` where it does not end on the circle when flown.
+    docs/wind.md, section 5, bounds by how much another maneuver could be faster, and says how the answer is found and
+    checked. The status is `Status.NOT_CONVERGED` where the maneuver, flown exactly, does not end on the circle.
     """
-    status = status_of(x, y, c, s, R, wx, wy)
+    status, side = status_of(problem), problem.side
     if status != 0:
         return WindEntry(status, 0, 0, nan, nan, nan, nan, nan)
-    scene = scene_of(x, y, c, s, R, wx, wy)
+    scene = scene_of(problem)
     best = WindCandidate(0.0, 0, NO_PATH)
     for one in (1, -1):
         if side != -one and is_on_circle(one, scene):
             best = start_on_circle(one, scene)
     if side == 0 and best.side == 0:
-        # The better side first: the other is then soon done with.
-        best = refined_minimum(tried_all_round(-1, scene, tried_all_round(1, scene, best)), TWO_PI / JOINS, scene)
+        # The better side first: the search on the other side is then soon over.
+        best = refined_minimum(best_of_joins(-1, scene, best_of_joins(1, scene, best)), TWO_PI / JOINS, scene)
     first = best.side if best.side != 0 else 1
     for one in (first, -first):
         if side != -one and best.path.time > 0.0:
             best = branch_and_bound(one, scene, best)
-    return as_entry(best, scene)
+    return wind_entry(best, scene)
 
 
-def as_entry(found: WindCandidate, scene: WindScene) -> WindEntry:
-    """A candidate as flown; `Status.NOT_CONVERGED` where its end is not on the circle."""
-    dust = rounding(scene.x, scene.y, scene.R)
-    word, t1, t2, t3, phase = polished(found, scene)
-    word, t1, t2, t3 = flown(word, t1, t2, t3, dust, ROUNDING)
-    miss = end_miss(word, t1, t2, t3, phase, found.side, scene)
-    # Each piece has its slack, which the wind may double, and rounds its duration. A miss that is nan is no better.
-    if not miss <= 2.0 * dust + ROUNDING * (t1 + t2 + t3):
+def wind_entry(found: WindCandidate, scene: WindScene) -> WindEntry:
+    """A candidate as the maneuver flown; `Status.NOT_CONVERGED` where it does not end on the circle."""
+    length_tolerance = rounding(scene.x, scene.y, scene.R)
+    (side, word, t1, t2, t3), phase = polish(found, scene)
+    word, t1, t2, t3 = drop_short_pieces(word, t1, t2, t3, length_tolerance, ROUNDING)
+    miss = end_miss(Entry(side, word, t1, t2, t3), phase, scene)
+    # Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The comparison is
+    # false for a miss that is nan too.
+    if not miss <= 2.0 * length_tolerance + ROUNDING * (t1 + t2 + t3):
         return WindEntry(Status.NOT_CONVERGED + 0, 0, 0, nan, nan, nan, nan, nan)
-    px, py, _, _, _ = held(phase, found.side, scene.R, scene.wx, scene.wy)
-    return WindEntry(Status.OK + 0, found.side, word, t1, t2, t3, atan2(py, px), miss)
+    px, py, _, _, _ = hold_pose(phase, side, scene.R, scene.wx, scene.wy)
+    return WindEntry(Status.OK + 0, side, word, t1, t2, t3, atan2(py, px), miss)
 
 
 def local_minima(side: int, scene: WindScene) -> list[WindCandidate]:
-    """The local minima of the time over the point of joining, as far as `SAMPLES` points resolve them."""
+    """The local minima of the time over the point of joining, as resolved by `SAMPLES` points."""
     width = TWO_PI / SAMPLES
     tried = [WindCandidate(width * i, side, first_path(width * i, side, scene, inf)) for i in range(SAMPLES)]
     times = [candidate.path.time for candidate in tried]
@@ -362,40 +389,42 @@ def local_minima(side: int, scene: WindScene) -> list[WindCandidate]:
     ]
 
 
-def ranked(x: float, y: float, c: float, s: float, R: float, side: int, wx: float, wy: float) -> list[WindEntry]:
+def ranked(problem: WindProblem) -> list[WindEntry]:
     """The maneuvers that are local minima over the point of joining, each once, fastest first.
 
-    The fastest of each side asked for is among them; the list is empty where `fastest` finds none. For *either*, those
-    of both sides. Call it where `status_of` is OK.
+    Those of both sides for *either*; the fastest of each side is among them. The list is empty where `fastest` finds
+    none. To be called only where `status_of` is OK.
     """
-    scene = scene_of(x, y, c, s, R, wx, wy)
-    sides = [one for one in (1, -1) if side != -one]
-    best = [fastest(x, y, c, s, R, one, wx, wy) for one in sides]
+    scene = scene_of(problem)
+    sides = [one for one in (1, -1) if problem.side != -one]
+    best = [fastest(problem._replace(side=one)) for one in sides]
     if any(maneuver.status != Status.OK for maneuver in best):
         return []
-    others = [as_entry(found, scene) for one in sides for found in local_minima(one, scene)]
-    # A valley is known to the root of rounding, a piece that vanishes in it to the cube root: `synthesis.optima`.
-    one_maneuver = 2.0 * cbrt(24.0 * rounding(x, y, R))
-    chosen: list[WindEntry] = []
+    others = [wind_entry(found, scene) for one in sides for found in local_minima(one, scene)]
+    # The phase of a local minimum is known to the square root of rounding, a piece that vanishes there to its cube
+    # root, as in `synthesis.optima`.
+    one_maneuver = 2.0 * cbrt(24.0 * rounding(scene.x, scene.y, scene.R))
+    distinct: list[WindEntry] = []
     for maneuver in sorted((m for m in (*best, *others) if m.status == Status.OK), key=time_of):
-        if all(maneuver.side != m.side or apart(entry_of(maneuver), entry_of(m)) > one_maneuver for m in chosen):
-            chosen.append(maneuver)
-    return chosen
+        if all(maneuver.side != m.side or time_apart(entry_of(maneuver), entry_of(m)) > one_maneuver for m in distinct):
+            distinct.append(maneuver)
+    return distinct
 
 
-def optima(x: float, y: float, c: float, s: float, R: float, side: int, wx: float, wy: float) -> list[WindEntry]:
-    """The maneuvers of `ranked` that tie with the first, up to what `fastest` resolves."""
-    maneuvers = ranked(x, y, c, s, R, side, wx, wy)
-    return [m for m in maneuvers if tied(time_of(m), time_of(maneuvers[0]), R)]
+def optima(problem: WindProblem) -> list[WindEntry]:
+    """The maneuvers of `ranked` that tie with the fastest, within the accuracy of `fastest`."""
+    maneuvers = ranked(problem)
+    least = min(map(time_of, maneuvers), default=inf)
+    return [m for m in maneuvers if is_tie(time_of(m), least, problem.R)]
 
 
-def tied(T: float, least: float, R: float) -> bool:
-    """Whether a time T equals the least time, up to what `fastest` resolves."""
-    return T - least <= TIED * (1.0 + R + least)
+def is_tie(T: float, least: float, R: float) -> bool:
+    """Whether a time T equals the least time, within the accuracy of `fastest`."""
+    return T - least <= TIE_TOLERANCE * (1.0 + R + least)
 
 
 def entry_of(maneuver: WindEntry) -> Entry:
-    """The side, word and durations of a maneuver, as in still air."""
+    """The side, word and durations of a maneuver, as for still air."""
     return Entry(maneuver.side, maneuver.word, maneuver.t1, maneuver.t2, maneuver.t3)
 
 

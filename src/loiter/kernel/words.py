@@ -1,12 +1,12 @@
 """Words: the controls of a maneuver in the order flown, as one integer. All arithmetic on words stands in this file.
 
 A word is a number in base 4 whose lowest digit is the first control plus 2: R = 1, S = 2, L = 3, and 0 where there is
-no piece. It fits into a byte of an array, and compiled code decodes it without a table.
+no piece. It fits into one byte, and compiled code decodes it without a table.
 """
 
 from enum import IntEnum
 
-# Stands for the control of a piece that a word does not have.
+# In place of the control of a piece that a word does not have.
 ABSENT = -2
 
 
@@ -39,7 +39,7 @@ def opposed(u: int) -> int:
 class Word(IntEnum):
     """The words that occur, in Dubins' letters: L (u = +1), S (u = 0), R (u = -1).
 
-    `EMPTY` is the word of a start that is on the circle already.
+    `EMPTY` is the word of a start that is already on the circle.
     """
 
     EMPTY = 0

@@ -1,1 +1,1 @@
-"""SI: what a person says about an aircraft and its circle, and the maneuver that comes back."""
+"""Planning in SI: the problem, its solution by the kernel, and the maneuver that answers it."""

@@ -5,9 +5,10 @@ from typing import NamedTuple
 
 from loiter.errors import RadiusTooSmall, WindTooStrong
 from loiter.kernel import wind_search
-from loiter.kernel.codes import Status
-from loiter.kernel.hold import tightest_held
+from loiter.kernel.codes import Side, Status
+from loiter.kernel.hold import tightest_radius
 from loiter.kernel.synthesis import ROUNDING
+from loiter.kernel.wind_search import WindProblem
 from loiter.planning.model import Aircraft, Orbit, Wind
 
 
@@ -33,7 +34,7 @@ def relative_velocity(air: tuple[float, float], circle: tuple[float, float], air
     """The velocity of the air less that of the circle, over the airspeed. Without branches: it serves arrays."""
     wx, wy = air[0] - circle[0], air[1] - circle[1]
     passes = hypot(wx, wy) > ROUNDING * (hypot(*air) + hypot(*circle))
-    # To 0.0, so that no component is -0.0.
+    # Adding 0.0 turns -0.0 into 0.0.
     return wx * passes / airspeed + 0.0, wy * passes / airspeed + 0.0
 
 
@@ -43,9 +44,9 @@ def radius_in_turns(orbit: Orbit, aircraft: Aircraft) -> float:
 
 
 def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:
-    """Raise where the aircraft cannot hold the circle all round: `WindTooStrong` or `RadiusTooSmall`."""
+    """Raise `WindTooStrong` or `RadiusTooSmall` where the aircraft cannot hold the circle at every azimuth."""
     air, R = relative_wind(orbit, aircraft, wind), radius_in_turns(orbit, aircraft)
-    status = wind_search.status_of(0.0, 0.0, 1.0, 0.0, R, *air)
+    status = wind_search.status_of(WindProblem(0.0, 0.0, 1.0, 0.0, R, Side.EITHER, *air))
     if status == Status.WIND_TOO_STRONG:
         V, speed = aircraft.airspeed_m_s, hypot(*air) * aircraft.airspeed_m_s
         raise WindTooStrong(
@@ -57,7 +58,7 @@ def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:
 
 
 def too_tight(orbit: Orbit, aircraft: Aircraft) -> str:
-    """The sentence for a circle that is tighter than the turn radius."""
+    """The error message for a circle that is tighter than the turn radius."""
     r, V, needed = aircraft.turn_radius_m, aircraft.airspeed_m_s, aircraft.bank_deg(orbit.radius_m)
     if aircraft.max_bank_deg is not None:
         limit, need = f" and {aircraft.max_bank_deg:.4g} deg of bank", f"{needed:.4g} deg"
@@ -77,8 +78,8 @@ def _air(orbit: Orbit, speed: float) -> str:
 
 
 def _not_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> str:
-    """The sentence for a circle that is too tight to be held in the wind."""
-    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_held(*air)
+    """The error message for a circle that is too tight to be held in the wind."""
+    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_radius(*air)
     bank = f"{aircraft.bank_deg(orbit.radius_m / tightest):.4g} deg"
     if aircraft.max_bank_deg is not None:
         limit, need = f"{aircraft.max_bank_deg:.4g} deg of bank", bank

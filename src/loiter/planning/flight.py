@@ -1,6 +1,6 @@
-"""A maneuver flown exactly: the pose after a piece, and samples along the way.
+"""The exact path of a maneuver: the pose at the end of a piece, and samples along it.
 
-A piece is an arc or a line through the air, which drifts: over the ground arcs are trochoids.
+A piece is an arc or a straight line through the air. In wind the air moves, and arcs are trochoids over the ground.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 def flown_from(start: Pose, u: int, length_m: float, aircraft: Aircraft, wind: Wind) -> Pose:
-    """The pose over the ground after `length_m` metres through the air with control u from `start`."""
+    """The pose over the ground after flying `length_m` metres through the air from `start` with control u."""
     return Pose(*_flown(start, u, length_m, aircraft, wind, motion.fly))
 
 
 def along(segment: Segment, length_m: NDArray[float64], aircraft: Aircraft, wind: Wind) -> tuple[NDArray[float64], ...]:
-    """East and north (metres, over the ground) and heading (degrees) `length_m` through the air into a segment."""
+    """East, north (metres, over the ground) and heading (degrees) at distances `length_m` (n,) flown into a segment."""
     import numpy as np
 
     u = CONTROLS[segment.letter]
@@ -35,7 +35,7 @@ def along(segment: Segment, length_m: NDArray[float64], aircraft: Aircraft, wind
 
 
 def over_ground(heading_deg: float, aircraft: Aircraft, wind: Wind) -> tuple[float, float]:
-    """Track (degrees) and ground speed (metres per second) of an aircraft on a heading."""
+    """Ground track (degrees) and ground speed (metres per second) on a given heading."""
     if wind.speed_m_s == 0.0:
         return wrapped(heading_deg), aircraft.airspeed_m_s
     east, north = _velocity(*heading_vector(heading_deg), aircraft, wind)
@@ -43,13 +43,13 @@ def over_ground(heading_deg: float, aircraft: Aircraft, wind: Wind) -> tuple[flo
 
 
 def sampled(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: Wind, step_s: float) -> Samples:
-    """The samples of `Maneuver.sample`, which documents and checks the arguments."""
+    """The samples of `Maneuver.sample`, where the arguments are documented and checked."""
     import numpy as np
 
     if not segments:
         return sampled_at(np.zeros(1), start, segments, aircraft, wind)
     ends_s = segments[-1].start_s + segments[-1].duration_s
-    # A last step that rounding alone leaves over is none.
+    # A last step that only rounding leaves is dropped.
     times = np.append(np.arange(0.0, ends_s * (1.0 - ROUNDING), step_s), ends_s)
     return sampled_at(times, start, segments, aircraft, wind)
 
@@ -57,12 +57,12 @@ def sampled(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: 
 def sampled_at(
     time_s: NDArray[float64], start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: Wind
 ) -> Samples:
-    """The samples at given times, seconds from the start in ascending order; without segments all are the start."""
+    """The samples at given times, in seconds from the start, ascending; without segments each is the start."""
     import numpy as np
 
     columns = np.empty((4, time_s.size))
     columns[:] = np.array([[start.east_m], [start.north_m], [wrapped(start.heading_deg)], [0.0]])
-    # The piece under way at each time: the last that has begun.
+    # The piece flown at each time: the last one that has begun.
     under_way = np.searchsorted([segment.start_s for segment in segments], time_s, side="right") - 1
     for i, segment in enumerate(segments):
         here = under_way == i
@@ -75,10 +75,10 @@ def sampled_at(
 def _over_ground(
     heading_deg: NDArray[float64], curvature_per_m: NDArray[float64], aircraft: Aircraft, wind: Wind
 ) -> tuple[NDArray[float64], ...]:
-    """Tracks and ground speeds, `over_ground` for arrays, and curvatures over the ground.
+    """Ground tracks, ground speeds and curvatures over the ground: `over_ground` for arrays.
 
-    A turn of curvature k at the airspeed v accelerates by a = v^2 k across the heading h, to the left. Over the ground
-    the velocity is V = v h + w and the acceleration the same, so the curvature V x a / |V|^3 is v^2 k (V.h) / |V|^3.
+    A turn of curvature k at airspeed v has the acceleration a = v^2 k to the left of the heading h. Over the ground the
+    velocity is V = v h + w and the acceleration is the same, so the curvature V x a / |V|^3 is v^2 k (V.h) / |V|^3.
     """
     import numpy as np
 
@@ -90,20 +90,20 @@ def _over_ground(
     east, north = _velocity(h_east, h_north, aircraft, wind)
     track_deg: Any = wrapped(np.degrees(np.arctan2(east, north)))
     speed = np.hypot(east, north)
-    # Where a wind as fast as the aircraft stops it the track has a cusp.
+    # Where the ground speed is zero, in a wind as fast as the aircraft, the track has a cusp.
     with np.errstate(divide="ignore", invalid="ignore"):
         ground_curvature = v * v * curvature_per_m * (east * h_east + north * h_north) / speed**3
     return track_deg, speed, ground_curvature
 
 
 def _velocity(east: Any, north: Any, aircraft: Aircraft, wind: Wind) -> tuple[Any, Any]:
-    """The velocity over the ground, metres per second, of an aircraft that heads along a unit vector."""
+    """Velocity over the ground, metres per second, of an aircraft whose heading is the unit vector (east, north)."""
     wind_east, wind_north = wind.velocity_m_s
     return aircraft.airspeed_m_s * east + wind_east, aircraft.airspeed_m_s * north + wind_north
 
 
 def _flown(start: Pose, u: int, length_m: Any, aircraft: Aircraft, wind: Wind, fly: Function) -> tuple[Any, Any, Any]:
-    """East, north and heading after `length_m` through the air (a number or an array) with control u."""
+    """East, north and heading after `length_m` (a number or an array) through the air with control u."""
     r = aircraft.turn_radius_m
     t, time_s = length_m / r, length_m / aircraft.airspeed_m_s
     east, north, _, _ = fly(0.0, 0.0, *heading_vector(start.heading_deg), u, t)

@@ -1,4 +1,4 @@
-"""The hold: what flying round the circle takes in wind, all the way round (docs/wind.md, section 2)."""
+"""Holding the circle in wind: bank, heading and ground speed at every azimuth (docs/wind.md, section 2)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from math import atan2, degrees, pi
 from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.errors import InvalidArgument, positive
-from loiter.kernel.hold import held, hold_rate, phase_of
+from loiter.kernel.hold import hold_pose, hold_rate, phase_of
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.feasibility import check_held, radius_in_turns, relative_wind
 from loiter.planning.flight import over_ground
@@ -18,15 +18,15 @@ if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import NDArray
 
-# A finer step all round would take seconds and tell nothing new.
+# A finer step round the circle would take seconds and add no information.
 FINEST_DEG = 1e-3
 
-# Phases of the hold (`kernel.hold`) at which it heads against the wind that passes the circle, and with it.
+# Phases (`kernel.hold`) at which the aircraft heads into the relative wind, and away from it.
 UPWIND, DOWNWIND = 0.0, pi
 
 
 class HoldPoint(NamedTuple):
-    """The hold at one azimuth: what it flies there. Angles in compass degrees, bank towards the centre."""
+    """The state of flight that holds the circle at one azimuth. Angles in compass degrees, bank towards the centre."""
 
     azimuth_deg: float
     heading_deg: float
@@ -36,7 +36,7 @@ class HoldPoint(NamedTuple):
 
 
 class Round(NamedTuple):
-    """The hold all the way round: five float64 arrays of one length, as `HoldPoint`; azimuths from 0, below 360."""
+    """`HoldPoint` round the whole circle: five float64 arrays of one length; azimuths from 0 to below 360."""
 
     azimuth_deg: NDArray[float64]
     heading_deg: NDArray[float64]
@@ -47,10 +47,10 @@ class Round(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Hold:
-    """A circle held in a wind. An azimuth is the compass direction from the centre, wherever that is then.
+    """A circle held in a wind. An azimuth is the compass direction from the circle's centre, which may move.
 
-    The bank is that of a coordinated, level turn, tan(bank) = airspeed times rate of turn over g, towards the centre
-    all round. Against the wind that passes the circle the aircraft turns slowest, with it fastest.
+    The bank is that of a coordinated, level turn, tan(bank) = airspeed times turn rate over g, always towards the
+    centre. The turn rate is least where the aircraft heads into the relative wind, and largest where it heads downwind.
     """
 
     orbit: Orbit
@@ -60,27 +60,27 @@ class Hold:
 
     @property
     def least_bank_deg(self) -> float:
-        """The least bank, where the aircraft heads against the wind."""
+        """The least bank, where the aircraft heads into the wind."""
         return self._at(UPWIND).bank_deg
 
     @property
     def largest_bank_deg(self) -> float:
-        """The largest bank, where it heads with the wind."""
+        """The largest bank, where the aircraft heads downwind."""
         return self._at(DOWNWIND).bank_deg
 
     @property
     def largest_bank_azimuth_deg(self) -> float:
-        """Where the bank is largest; in still air, where it is the same all round, any azimuth."""
+        """The azimuth of the largest bank; an arbitrary one in still air, where the bank is the same everywhere."""
         return self._at(DOWNWIND).azimuth_deg
 
     def at(self, azimuth_deg: float) -> HoldPoint:
-        """Heading, track, ground speed and bank at an azimuth."""
+        """Heading, ground track, ground speed and bank at an azimuth."""
         east, north = heading_vector(azimuth_deg)
         phase = phase_of(east, north, SIDES[self.turn], *relative_wind(self.orbit, self.aircraft, self.wind))
         return self._at(phase)._replace(azimuth_deg=wrapped(azimuth_deg))
 
     def sample(self, step_deg: float = 1.0) -> Round:
-        """The hold every `step_deg` degrees of azimuth from 0 on, below 360.
+        """The points every `step_deg` degrees of azimuth, from 0 to below 360.
 
         Raises `InvalidArgument` for a step below a thousandth of a degree.
         """
@@ -93,7 +93,7 @@ class Hold:
     def _at(self, phase: float) -> HoldPoint:
         r, side = self.aircraft.turn_radius_m, SIDES[self.turn]
         scene = radius_in_turns(self.orbit, self.aircraft), *relative_wind(self.orbit, self.aircraft, self.wind)
-        x, y, c, s, _ = held(phase, side, *scene)
+        x, y, c, s, _ = hold_pose(phase, side, *scene)
         heading_deg = wrapped(degrees(atan2(c, s)))
         track_deg, speed = over_ground(heading_deg, self.aircraft, self.wind)
         bank_deg = self.aircraft.bank_deg(r / hold_rate(phase, side, *scene))
@@ -101,7 +101,7 @@ class Hold:
 
 
 def hold(orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, turn: Turn | str | None = None) -> Hold:
-    """What holding a circle takes: heading, ground speed and bank against azimuth. `turn` is the orbit's if absent.
+    """Heading, ground speed and bank needed to hold a circle. `turn` replaces the direction of the orbit.
 
     Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held, `InvalidArgument` for a turn that is
     neither cw nor ccw.

@@ -1,4 +1,4 @@
-"""What comes back from a plan."""
+"""Maneuvers: the answers of `plan`."""
 
 from __future__ import annotations
 
@@ -15,14 +15,13 @@ MAX_SAMPLES = 10_000_000
 
 @dataclass(frozen=True, slots=True)
 class Maneuver:
-    """A way onto the circle, flown with at most three controls.
+    """A path onto the circle, flown with at most three controls.
 
-    Every pose is a place over the ground with a heading, not a track; in wind the arcs and lines of `segments` are
-    those through the air. `orbit` is the circle at the start; one that moves is joined where it is then,
-    `orbit_at_join`.
-    `turn` is the direction in which it holds the circle, never "either"; `orbit.turn` is what was asked for. A start
-    that is already on the circle has no segments and the word "". `miss_m` is the distance by which its end misses the
-    tangent point when the durations are flown exactly: rounding, or what the tolerance of `plan` let pass.
+    Every pose is a position over the ground with a heading, not a ground track; in wind the arcs and straight lines of
+    `segments` are those through the air. `orbit` is the circle at the start, `orbit_at_join` the same circle at the
+    time of joining. `turn` is the direction in which the circle is held, never "either"; `orbit.turn` is the direction
+    of the problem. A start that is already on the circle has no segments and the word "". `miss_m` is the distance
+    between the end of the path, flown exactly, and the tangent point: rounding, or within the tolerance of `plan`.
     """
 
     start: Pose
@@ -35,7 +34,7 @@ class Maneuver:
 
     @property
     def word(self) -> str:
-        """The letters of the segments as flown, in Dubins' notation: "RSL"."""
+        """The letters of the segments in flying order, in Dubins' notation: "RSL"."""
         return "".join(segment.letter for segment in self.segments)
 
     @property
@@ -45,34 +44,34 @@ class Maneuver:
 
     @property
     def length_m(self) -> float:
-        """Distance flown through the air to the point of joining, metres."""
+        """Length of the path through the air, metres."""
         return sum(segment.length_m for segment in self.segments)
 
     @property
     def join(self) -> Pose:
-        """Where the circle is joined over the ground, and the heading there."""
+        """Pose at which the circle is joined: position over the ground and heading."""
         return self.segments[-1].end if self.segments else self.start
 
     @property
     def orbit_at_join(self) -> Orbit:
-        """The circle when it is joined; it is `orbit` unless that moves."""
+        """The circle at the time of joining; `orbit` itself where that does not move."""
         return self.orbit.after(self.duration_s)
 
     @property
     def hold(self) -> Hold:
-        """What holding the circle takes from then on: bank, heading and ground speed against azimuth."""
+        """Bank, heading and ground speed needed to hold the circle afterwards, as functions of azimuth."""
         return Hold(self.orbit, self.aircraft, self.wind, self.turn)
 
     def over_ground(self, pose: Pose) -> tuple[float, float]:
-        """Track (compass degrees) and ground speed (metres per second) at a pose of this maneuver, by its heading."""
+        """Ground track (compass degrees) and ground speed (metres per second) at a pose of this maneuver."""
         return over_ground(pose.heading_deg, self.aircraft, self.wind)
 
     def sample(self, step_s: float) -> Samples:
         """The ground track: position, heading, track, ground speed and curvatures every `step_s` seconds from 0.
 
-        The last sample is the point of joining. In wind a turn, an arc through the air, is a trochoid over the ground.
-        At an instant of switching the curvatures are those of the piece that begins. Headings are in [0, 360).
-        Raises `InvalidArgument` for a step that is not positive or so small that memory would not hold the samples.
+        The last sample is the point of joining. In wind an arc through the air is a trochoid over the ground. At a
+        switching instant the curvatures are those of the piece that begins. Headings are in [0, 360).
+        Raises `InvalidArgument` for a step that is not positive, or so small that the samples would exceed the memory.
         """
         if self.duration_s / positive("step_s", step_s, "seconds") > MAX_SAMPLES:
             raise InvalidArgument("step_s", f"is {step_s}: it would take more than {MAX_SAMPLES} samples")

@@ -1,4 +1,4 @@
-"""Frozen values in SI: what goes into a plan and what comes out."""
+"""Frozen values in SI: aircraft, circle, wind, poses, and the segments and samples of a maneuver."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ def radius_at_rate(airspeed_m_s: float, turn_rate_deg_s: float) -> float:
 
 
 def wind_velocity(speed_m_s: float, from_deg: float) -> tuple[float, float]:
-    """How the air of a wind moves over the ground: metres per second towards the east and the north."""
+    """Velocity of the air over the ground, metres per second towards the east and the north."""
     east, north = heading_vector(from_deg)
-    # From 0.0, so that no component is -0.0.
+    # Subtracting from 0.0 leaves no component -0.0.
     return 0.0 - speed_m_s * east, 0.0 - speed_m_s * north
 
 
@@ -45,12 +45,12 @@ def moved(place: Any, velocity: Any, time_s: Any) -> Any:
     return place + velocity * time_s
 
 
-# The values of a `Turn`, which may be given in its place.
+# The values of `Turn`, which users may write instead of its members.
 TurnName = Literal["either", "cw", "ccw"]
 
 
 class Turn(StrEnum):
-    """Which way round the circle is held, as seen from above."""
+    """Direction in which the circle is held, seen from above."""
 
     CW = "cw"
     CCW = "ccw"
@@ -58,17 +58,17 @@ class Turn(StrEnum):
 
     @property
     def other(self) -> Turn:
-        """The opposite direction; `EITHER` is its own."""
+        """The opposite direction; that of `EITHER` is `EITHER`."""
         return {Turn.CW: Turn.CCW, Turn.CCW: Turn.CW}.get(self, self)
 
     @property
     def described(self) -> str:
-        """In words: "clockwise", "counter-clockwise", "either way"."""
+        """The direction in words: "clockwise", "counter-clockwise" or "either way"."""
         return {Turn.CW: "clockwise", Turn.CCW: "counter-clockwise"}.get(self, "either way")
 
 
 def _keep(value: object, **fields: float | Turn) -> None:
-    """Store checked fields of a frozen value: a float32 or an int8 must not decide how it is reckoned with."""
+    """Store checked fields of a frozen value as Python floats: a float32 would lower the precision of all results."""
     for name, field in fields.items():
         object.__setattr__(value, name, field)
 
@@ -77,9 +77,9 @@ def _keep(value: object, **fields: float | Turn) -> None:
 class Aircraft:
     """A fixed-wing aircraft in level flight: its airspeed and exactly one limit on how tightly it turns.
 
-    `airspeed_m_s` is the true airspeed; the limit is `max_bank_deg` (between 0 and 90; the turn radius is
-    V^2 / (g tan bank), a coordinated turn), `min_turn_radius_m` or `max_turn_rate_deg_s`.
-    Raises `InvalidArgument` for anything that is not a positive, finite number, and for no limit or several.
+    `airspeed_m_s` is the true airspeed. The limit is `max_bank_deg` (between 0 and 90; the turn radius is that of a
+    coordinated turn, V^2 / (g tan bank)), `min_turn_radius_m` or `max_turn_rate_deg_s`.
+    Raises `InvalidArgument` for a value that is not a positive, finite number, and for no limit or several.
 
     >>> round(Aircraft(airspeed_m_s=18.0, max_bank_deg=35.0).turn_radius_m, 2)
     47.18
@@ -113,18 +113,18 @@ class Aircraft:
             assert self.max_bank_deg is not None  # exactly one limit is given
             return radius_at_bank(self.airspeed_m_s, self.max_bank_deg)
         except ZeroDivisionError:
-            # A limit next to the least double is 0 in radians.
+            # The smallest doubles are 0 after conversion to radians.
             return inf
 
     def bank_deg(self, radius_m: float) -> float:
         """Bank of a coordinated turn of the given radius at this airspeed, degrees: atan(V^2 / (g radius)).
 
-        90 at a radius of 0, as one may be by rounding.
+        A radius of 0, which rounding may give, takes 90 degrees.
         """
         return degrees(atan2(self.airspeed_m_s * self.airspeed_m_s, STANDARD_GRAVITY_M_S2 * radius_m))
 
 
-# The three ways to give the limit, with their units.
+# The three possible limits and their units.
 TURN_LIMITS = {"max_bank_deg": "degrees", "min_turn_radius_m": "metres", "max_turn_rate_deg_s": "degrees per second"}
 
 
@@ -132,10 +132,10 @@ TURN_LIMITS = {"max_bank_deg": "degrees", "min_turn_radius_m": "metres", "max_tu
 class Orbit:
     """The holding circle: its centre (metres, local east and north), its radius and the direction asked for.
 
-    `turn` is a `Turn` or its value: "cw", "ccw" or "either" (whichever is sooner; the default). A circle that moves
-    (about a ship, a car, a thermal) has a constant velocity over the ground, metres per second; its centre is then
-    where it is at the start of the maneuver. Raises `InvalidArgument` for coordinates or velocities that are not
-    finite, a radius that is not positive, an unknown turn.
+    `turn` is a `Turn` or its value: "cw", "ccw" or "either" (whichever is sooner; the default). A moving circle (about
+    a ship, a car or a thermal) has a constant velocity over the ground, metres per second; `east_m` and `north_m` are
+    then the position of its centre at the start of the maneuver. Raises `InvalidArgument` for coordinates or velocities
+    that are not finite, a radius that is not positive, and an unknown turn.
     """
 
     east_m: float
@@ -146,7 +146,7 @@ class Orbit:
     velocity_north_m_s: float = 0.0
 
     if TYPE_CHECKING:
-        # The field is a `Turn`, and what may be given for it is more: a type checker is told so, in the fields' order.
+        # Type checkers read this signature: the argument may be a name, while the field is always a `Turn`.
         def __init__(
             self,
             east_m: float,
@@ -172,7 +172,7 @@ class Orbit:
         return self.velocity_east_m_s != 0.0 or self.velocity_north_m_s != 0.0
 
     def after(self, time_s: float) -> Orbit:
-        """The circle `time_s` seconds later: itself unless it moves."""
+        """The circle `time_s` seconds later; the same object where it does not move."""
         if not self.moves:
             return self
         east_m, north_m = self.centre_after(time_s)
@@ -190,7 +190,7 @@ class Orbit:
 
 @dataclass(frozen=True, slots=True)
 class Wind:
-    """A constant, level wind: its speed and the compass direction that it comes from (270 blows towards the east).
+    """A constant, horizontal wind: its speed and the compass direction from which it blows (270: from the west).
 
     Raises `InvalidArgument` for a speed that is negative or not finite and for a direction that is not finite.
 
@@ -207,7 +207,7 @@ class Wind:
 
     @property
     def velocity_m_s(self) -> tuple[float, float]:
-        """How the air moves over the ground: metres per second towards the east and the north."""
+        """Velocity of the air over the ground, metres per second towards the east and the north."""
         return wind_velocity(self.speed_m_s, self.from_deg)
 
 
@@ -216,9 +216,9 @@ CALM = Wind(0.0, 0.0)
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """Where the aircraft is (metres, local east and north) and its compass heading (degrees clockwise from north).
+    """Position (metres, local east and north) and compass heading (degrees clockwise from north) of the aircraft.
 
-    A heading of any size is understood. Raises `InvalidArgument` for a value that is not finite.
+    A heading may be any finite number. Raises `InvalidArgument` for a value that is not finite.
     """
 
     east_m: float
@@ -234,10 +234,10 @@ class Pose:
 class Segment:
     """One piece of a maneuver with constant control: an arc or a straight line through the air.
 
-    `letter` is "L" (left turn), "S" (straight) or "R" (right turn); `start_s` is when it begins, counted from the
-    start of the maneuver; `curvature_per_m` is positive to the left, 0 on a straight piece. `length_m` and
-    `curvature_per_m` are those through the air; `start` and `end` are places over the ground, with headings (where the
-    nose points), not tracks.
+    `letter` is "L" (left turn), "S" (straight) or "R" (right turn); `start_s` is the time from the start of the
+    maneuver at which the piece begins; `curvature_per_m` is positive to the left and 0 on a straight piece. `length_m`
+    and `curvature_per_m` are measured through the air; `start` and `end` are positions over the ground with headings
+    (where the nose points), not ground tracks.
     """
 
     letter: str
@@ -252,9 +252,9 @@ class Segment:
 class Samples(NamedTuple):
     """A maneuver at given times: eight float64 arrays of one length.
 
-    Places are over the ground. `heading_deg` is where the nose points, `track_deg` the course over the ground; in still
-    air they are equal. `curvature_per_m` is through the air, `ground_curvature_per_m` over the ground, both positive to
-    the left; the latter is nan where the aircraft stands still over the ground.
+    Positions are over the ground. `heading_deg` is where the nose points, `track_deg` the direction of motion over the
+    ground; in still air they are equal. `curvature_per_m` is that of the path through the air, `ground_curvature_per_m`
+    that of the ground track, both positive to the left; the latter is nan where the ground speed is zero.
     """
 
     time_s: NDArray[float64]

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, not_negative
 from loiter.kernel import motion, wind_search
 from loiter.kernel.codes import Side, Status
-from loiter.kernel.synthesis import REACH, ROUNDING, held_radius, status_of
+from loiter.kernel.synthesis import REACH, ROUNDING, rounded_radius, status_of
+from loiter.kernel.wind_search import WindProblem
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import RelativeWind, check_held, radius_in_turns, relative_wind, too_tight
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
@@ -27,22 +28,6 @@ class ReducedProblem(NamedTuple):
     R: float
     side: Side
     tolerance: float
-
-
-class WindProblem(NamedTuple):
-    """The kernel's arguments in wind, relative to the circle, x east and y north, in turn radii and airspeeds.
-
-    The start, its heading as a unit vector, the radius, the side, the velocity of the air past the circle.
-    """
-
-    x: float
-    y: float
-    c: float
-    s: float
-    R: float
-    side: Side
-    wx: float
-    wy: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +79,7 @@ class Problem:
         # Coordinates far from their origin carry the rounding of their own size into a small difference.
         size = abs(pose.east_m) + abs(orbit.east_m) + abs(pose.north_m) + abs(orbit.north_m)
         tolerance = max(self.tolerance_m, ROUNDING * size) / r
-        reduced = ReducedProblem(x, y, held_radius(self.radius), SIDES[orbit.turn], tolerance)
+        reduced = ReducedProblem(x, y, rounded_radius(self.radius), SIDES[orbit.turn], tolerance)
         status = status_of(reduced.x, reduced.y, reduced.R, reduced.tolerance)
         if status == Status.RADIUS_TOO_SMALL:
             raise RadiusTooSmall(too_tight(orbit, self.aircraft))
@@ -111,7 +96,7 @@ class Problem:
         (x, y), (c, s) = self._place(), heading_vector(self.pose.heading_deg)
         wx, wy = self.relative_wind
         found = WindProblem(x, y, c, s, self.radius, SIDES[self.orbit.turn], wx, wy)
-        if wind_search.status_of(x, y, c, s, self.radius, wx, wy) != Status.OK or not self._has_durations():
+        if wind_search.status_of(found) != Status.OK or not self._has_durations():
             raise self._too_large()
         return found
 

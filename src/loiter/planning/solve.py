@@ -8,7 +8,7 @@ from loiter.errors import NotConverged
 from loiter.kernel import wind_search
 from loiter.kernel.codes import Status
 from loiter.kernel.synthesis import Entry, duration, miss, optima, optimum, ranked
-from loiter.kernel.wind_search import WindEntry
+from loiter.kernel.wind_search import WindEntry, WindProblem
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.problem import Problem
@@ -133,7 +133,7 @@ def solved(
         return tuple(
             Solved(maneuver(problem, entry, miss(x, y, R, entry)), duration(entry)) for entry in in_still_air(*reduced)
         )
-    found = in_wind(*problem.in_wind())
+    found = in_wind(problem.in_wind())
     if not found or found[0].status != Status.OK:
         raise _not_converged(problem)
     return tuple(
@@ -160,12 +160,12 @@ def _tied(known: Sequence[Solved], problem: Problem) -> tuple[Maneuver, ...]:
     turn, R = problem.orbit.turn, problem.radius
     allowed = [_with_orbit(one, problem.orbit) for one in known if turn in (Turn.EITHER, one.maneuver.turn)]
     least = min(candidate.time for candidate in allowed)
-    return maneuvers(candidate for candidate in allowed if wind_search.tied(candidate.time, least, R))
+    return maneuvers(candidate for candidate in allowed if wind_search.is_tie(candidate.time, least, R))
 
 
 def _optimum_alone(*arguments: Any) -> list[Entry]:
     return [optimum(*arguments)]
 
 
-def _fastest_alone(*arguments: Any) -> list[WindEntry]:
-    return [wind_search.fastest(*arguments)]
+def _fastest_alone(problem: WindProblem) -> list[WindEntry]:
+    return [wind_search.fastest(problem)]

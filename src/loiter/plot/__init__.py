@@ -1,1 +1,1 @@
-"""Pictures of maneuvers. Matplotlib is imported here and nowhere else."""
+"""Pictures of maneuvers. Only this package imports matplotlib."""

@@ -19,8 +19,8 @@ CONTROL = {1: COLOURS["L"], 0: COLOURS["S"], -1: COLOURS["R"]}
 def draw(certificate: Certificate) -> Figure:
     """Draw u, phi, psi1 and psi2 over time (seconds), with lambda and the switching instants marked.
 
-    Where phi > 0 the control is +1, where phi < 0 it is -1; psi1 <= lambda, with equality where phi = 0. For a start on
-    the circle, which has nothing to decide, the panels are empty.
+    Where phi > 0 the control is +1, where phi < 0 it is -1; psi1 stays below lambda and equals it where phi = 0. The
+    panels are empty for a start on the circle, which has nothing to decide.
     """
     figure = Figure(figsize=(8.0, 6.4), layout="constrained")
     control, switching, adjoint = figure.subplots(3, sharex=True, height_ratios=(1.0, 2.0, 2.0))
@@ -45,8 +45,9 @@ def draw(certificate: Certificate) -> Figure:
 
 def _draw_control(axes: Axes, pieces: list[list[Instant]]) -> None:
     for piece in pieces:
-        times, controls = [instant.time_s for instant in piece], [instant.u for instant in piece]
-        axes.plot(times, controls, color=CONTROL[max(controls)], linewidth=2.6, gid="u")
+        times = [instant.time_s for instant in piece]
+        u, *_ = (instant.u for instant in piece)
+        axes.plot(times, [u] * len(times), color=CONTROL[u], linewidth=2.6, gid="u")
     axes.set_ylim(-1.4, 1.4)
     axes.set_yticks([-1, 0, 1], ["right", "straight", "left"])
     axes.set_ylabel("u")

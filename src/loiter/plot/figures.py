@@ -1,4 +1,4 @@
-"""The seven figures of the paper, drawn from the kernel at R = 1, *either*."""
+"""The seven figures of the paper, drawn by the kernel at R = 1, *either*."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 
 from loiter.arrays import control
 from loiter.compiled.rebinding import Function, rebound
-from loiter.kernel.adjoint import adjoint, turned
+from loiter.kernel.adjoint import adjoint, turn_adjoint
 from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow
 from loiter.kernel.switching import last_arc_abscissa, switching_abscissa
 from loiter.kernel.synthesis import Entry, duration, optima, ranked
-from loiter.kernel.words import Word
+from loiter.kernel.words import Word, controls
 from loiter.planning.model import CONTROLS
 from loiter.plot.picture import CHORD_RAD, COLOURS, MARKS
 
@@ -31,24 +31,25 @@ Floats = NDArray[np.float64]
 # Starts of the examples of section 7.
 EXAMPLE_1, EXAMPLE_2 = (4.0, 4.0), (-0.53, 0.31)
 
-# Fig. 1: radii of the circles drawn about each centre; 2 is that of the last arc.
+# Fig. 1: radii of the circles about each centre; 2 is the radius of the last arc.
 RADII = (0.5, 1.0, 1.5, 2.0)
 
-# Fig. 3: a start on the axis, one above and one below it, far enough out for a straight piece, (24).
+# Fig. 3: a start on the axis, one above and one below it, far enough from the centre for a straight piece, (24).
 SINGULAR_STARTS = ((-4.5, 0.0), (-3.5, 2.0), (-1.0, -3.5))
 
-# Fig. 4: half the side of the map, and its grid: even, so that no point lies on y = 0, where controls tie.
+# Fig. 4: half the side of the map, and the number of its cells: even, so that none lies on y = 0, where controls tie.
 REACH, CELLS = 3.0, 600
-# Where the map says what u is: one place in each region.
+# Positions of the labels of u: one in each region.
 PLACES = ((1.6, 1.6), (-0.75, 0.35), (-0.75, -0.35), (1.6, -1.6))
 WHITE, GREY = "#ffffff", "#b8b8b8"
 
 LETTERS = {u: letter for letter, u in CONTROLS.items()}
-NAMES = {1: "u = +1", 0: "u = 0", -1: "u = −1"}
+STRAIGHT = "u = 0"
+NAMES = {1: "u = +1", 0: STRAIGHT, -1: "u = −1"}
 AID: dict[str, Any] = {"color": "#909090", "linewidth": 1.0}
 
 
-class Piece(NamedTuple):
+class TrajectoryPiece(NamedTuple):
     """Points (n,) of a piece of a trajectory in the reduced plane, and the control flown along it."""
 
     u: int
@@ -57,14 +58,14 @@ class Piece(NamedTuple):
 
 
 class PaperFigure(NamedTuple):
-    """A figure of the paper: its number, its caption and what draws it."""
+    """A figure of the paper: its number, its caption and the function that draws it."""
 
     number: int
     caption: str
     draw: Callable[[], Figure]
 
 
-def trajectory(x: float, y: float, maneuver: Entry) -> list[Piece]:
+def trajectory(x: float, y: float, maneuver: Entry) -> list[TrajectoryPiece]:
     """The pieces of a maneuver flown exactly from the reduced state (x, y)."""
     pieces = []
     for letter, t in zip(Word(maneuver.word).letters, (maneuver.t1, maneuver.t2, maneuver.t3), strict=False):
@@ -74,10 +75,10 @@ def trajectory(x: float, y: float, maneuver: Entry) -> list[Piece]:
     return pieces
 
 
-def piece(x: float, y: float, u: int, t: float) -> Piece:
-    """A piece of duration t with control u from (x, y), by chords no longer than a line is wide."""
+def piece(x: float, y: float, u: int, t: float) -> TrajectoryPiece:
+    """A piece of duration t with control u from (x, y); its chords differ from it by less than the width of a line."""
     times = np.linspace(0.0, t, 3 + ceil(t / CHORD_RAD))
-    return Piece(u, *np.broadcast_arrays(*_flow_arrays()(x, y, u, times)))
+    return TrajectoryPiece(u, *np.broadcast_arrays(*_flow_arrays()(x, y, u, times)))
 
 
 @cache
@@ -91,7 +92,7 @@ def admissible() -> Entry:
 
 
 def figure_1() -> Figure:
-    """The circles on which the state turns, a panel for each sense."""
+    """Draw the circles on which the state turns, a panel for each sense."""
     figure = Figure(figsize=(9.0, 4.8), layout="constrained")
     for u, axes in zip((1, -1), figure.subplots(1, 2), strict=True):
         for radius in RADII:
@@ -104,26 +105,27 @@ def figure_1() -> Figure:
 
 
 def figure_2() -> Figure:
-    """The unit circle of the adjoint, and the arc that psi runs along between two switches, a panel for each sense."""
+    """Draw the unit circle of the adjoint, and the arc of psi between two switches, a panel for each sense."""
     figure = Figure(figsize=(9.0, 3.9), layout="constrained")
     x, y = EXAMPLE_2
     # The middle piece of example 2, and that of its mirror image.
     for side, axes in zip((1, -1), figure.subplots(1, 2), strict=True):
-        _draw_adjoint(axes, x, side * y, optima(x, side * y, 1.0, side, 0.0)[0])
+        best, *_ = optima(x, side * y, 1.0, side, 0.0)
+        _draw_adjoint(axes, x, side * y, best)
     return figure
 
 
 def _draw_adjoint(axes: Axes, x: float, y: float, maneuver: Entry) -> None:
-    side, word, first, middle, last = maneuver
-    lam, psi1, psi2 = adjoint(x, y, 1.0, side, word, first, middle, last)
-    u = CONTROLS[Word(word).letters[1]]
-    psi = turned(psi1, psi2, -u, first)
+    lam, psi1, psi2 = adjoint(x, y, 1.0, maneuver)
+    _, u, _ = controls(maneuver.word)
+    psi, middle = turn_adjoint(psi1, psi2, -u, maneuver.t1), maneuver.t2
     times = np.linspace(0.0, middle, 3 + ceil(middle / CHORD_RAD))
-    arc = np.array([turned(*psi, u, t) for t in times.tolist()]).T
-    axes.plot(*np.array([turned(1.0, 0.0, u, t) for t in np.linspace(0.0, 2.0 * pi, 181)]).T, **AID, gid="circle")
+    arc = [turn_adjoint(*psi, u, t) for t in times.tolist()]
+    first_switch, *_, second_switch = arc
+    axes.plot(*np.array([turn_adjoint(1.0, 0.0, u, t) for t in np.linspace(0.0, 2.0 * pi, 181)]).T, **AID, gid="circle")
     axes.axvline(lam, linestyle=(0, (4, 3)), **AID, gid="lambda")
-    _draw_piece(axes, Piece(u, *arc))
-    for name, (x1, x2) in (("first switch", arc[:, 0].tolist()), ("second switch", arc[:, -1].tolist())):
+    _draw_piece(axes, TrajectoryPiece(u, *np.array(arc).T))
+    for name, (x1, x2) in (("first switch", first_switch), ("second switch", second_switch)):
         _mark(axes, x1, x2, gid="switch", **MARKS["switch"])
         _note(axes, name, x1, x2, (8, 8 if x2 > 0.0 else -16))
     axes.set_title(f"{NAMES[u]}: {middle:.4f} between switches")
@@ -133,7 +135,7 @@ def _draw_adjoint(axes: Axes, x: float, y: float, maneuver: Entry) -> None:
 
 
 def figure_3() -> Figure:
-    """Entries with a straight piece: it lies on y = 0 and is flown to the right."""
+    """Draw entries with a straight piece: it lies on y = 0 and is flown to the right."""
     figure, axes = _single()
     axes.axhline(0.0, **AID, zorder=0)
     for start in SINGULAR_STARTS:
@@ -144,7 +146,7 @@ def figure_3() -> Figure:
 
 
 def figure_4() -> Figure:
-    """The optimal control as a function of the state."""
+    """Draw the optimal control as a function of the state."""
     figure, axes = _single()
     line = (np.arange(CELLS) + 0.5) / CELLS * 2.0 * REACH - REACH
     u = control(line[np.newaxis, :], line[:, np.newaxis])
@@ -164,35 +166,36 @@ def figure_4() -> Figure:
 
 
 def _draw_boundaries(axes: Axes) -> None:
-    """The ray of straight flight, the last arcs (27), the switching curve (23), the rest of the axis."""
+    """Draw the ray of straight flight, the last arcs (27), the switching curve (23), and the rest of the axis."""
     y = 0.5 - 0.5 * np.cos(np.linspace(0.0, pi, 181))  # dense at both ends, where the curves are steep
     y_both = np.concatenate([-y[::-1], y])
     corner = last_arc_abscissa(0.0)
     arc = [last_arc_abscissa(abs(v)) for v in y_both.tolist()]
     curve = [switching_abscissa(abs(v), 1.0) for v in y_both.tolist()]
-    axes.plot([-REACH, corner], [0.0, 0.0], color="black", linewidth=4.0, gid="straight", label=NAMES[0])
+    axes.plot([-REACH, corner], [0.0, 0.0], color="black", linewidth=4.0, gid="straight", label=STRAIGHT)
     axes.plot(arc, y_both, color="black", linewidth=1.8, gid="last arc", label="last arc (27), T jumps")
     axes.plot(curve, y_both, "--", color="black", linewidth=1.8, gid="switching curve", label="switching curve (23)")
     axes.plot([corner, REACH], [0.0, 0.0], ":", color="black", linewidth=1.4, gid="tie", label="either sign")
 
 
 def figure_5() -> Figure:
-    """The two optimal trajectories of example 1."""
+    """Draw the two optimal trajectories of example 1."""
     maneuvers = optima(*EXAMPLE_1, 1.0, Side.EITHER, 0.0)
+    best, *_ = maneuvers
     figure, axes = _single(5.8)
     _draw_flights(axes, EXAMPLE_1, maneuvers)
-    axes.set_title(f"Two optimal trajectories from {_point(EXAMPLE_1)}, T = {duration(maneuvers[0]):.4f}")
+    axes.set_title(f"Two optimal trajectories from {_point(EXAMPLE_1)}, T = {duration(best):.4f}")
     _legend(axes, (1, 0, -1))
     return figure
 
 
 def figure_6() -> Figure:
-    """The control (29) of example 2, which is admissible and not optimal."""
+    """Draw the trajectory of the control (29) of example 2, which is admissible but not optimal."""
     return _example_2(admissible(), "Admissible, not optimal")
 
 
 def figure_7() -> Figure:
-    """The optimal trajectory of example 2."""
+    """Draw the optimal trajectory of example 2."""
     [best] = optima(*EXAMPLE_2, 1.0, Side.EITHER, 0.0)
     return _example_2(best, "Optimal")
 
@@ -211,7 +214,8 @@ def _example_2(maneuver: Entry, what: str) -> Figure:
 
 
 def _point(state: tuple[float, float]) -> str:
-    return f"({state[0]:g}, {state[1]:g})".replace("-", "−")
+    x, y = state
+    return f"({x:g}, {y:g})".replace("-", "−")
 
 
 def _single(height: float = 6.4) -> tuple[Figure, Axes]:
@@ -231,14 +235,16 @@ def _frame(axes: Axes, x: str = "x", y: str = "y") -> None:
 
 
 def _draw_flights(axes: Axes, start: tuple[float, float], maneuvers: Sequence[Entry]) -> None:
-    """Trajectories that begin at one start: start, switches and ends marked."""
+    """Draw trajectories from one start, with start, switches and ends marked."""
     for maneuver in maneuvers:
-        pieces = trajectory(*start, maneuver)
-        for part in pieces:
+        x, y = start
+        for i, part in enumerate(trajectory(x, y, maneuver)):
+            if i > 0:
+                _mark(axes, x, y, gid="switch", **MARKS["switch"])
             _draw_piece(axes, part)
-        for part in pieces[1:]:
-            _mark(axes, part.x[0], part.y[0], gid="switch", **MARKS["switch"])
-        _mark(axes, pieces[-1].x[-1], pieces[-1].y[-1], gid="end", **MARKS["join"])
+            *_, x = part.x.tolist()
+            *_, y = part.y.tolist()
+        _mark(axes, x, y, gid="end", **MARKS["join"])
     _mark(axes, *start, gid="start", **START)
 
 
@@ -253,8 +259,8 @@ def _note(axes: Axes, text: str, x: float, y: float, offset: tuple[float, float]
     axes.annotate(text, (x, y), xytext=offset, textcoords="offset points", fontsize=9, **style)
 
 
-def _draw_piece(axes: Axes, part: Piece) -> None:
-    """A piece in the colour of its control, with an arrow in the middle."""
+def _draw_piece(axes: Axes, part: TrajectoryPiece) -> None:
+    """Draw a piece in the colour of its control, with an arrow in the middle."""
     colour, i = COLOURS[LETTERS[part.u]], len(part.x) // 2
     axes.plot(part.x, part.y, color=colour, linewidth=2.2, zorder=3, gid=f"piece {LETTERS[part.u]}")
     arrow = {"arrowstyle": "-|>", "color": colour, "mutation_scale": 15.0, "shrinkA": 0.0, "shrinkB": 0.0}
@@ -262,9 +268,9 @@ def _draw_piece(axes: Axes, part: Piece) -> None:
     axes.annotate("", xy=head, xytext=tail, arrowprops=arrow, zorder=4)
 
 
-def _legend(axes: Axes, flown: Sequence[int]) -> None:
-    """The controls flown, the marks, and whatever else has a label."""
-    handles = [Line2D([], [], color=COLOURS[LETTERS[u]], linewidth=2.2, label=NAMES[u]) for u in flown]
+def _legend(axes: Axes, controls_flown: Sequence[int]) -> None:
+    """Draw a legend of the controls flown, the marks, and everything with a label."""
+    handles = [Line2D([], [], color=COLOURS[LETTERS[u]], linewidth=2.2, label=NAMES[u]) for u in controls_flown]
     marks = {"start": START, "switch": MARKS["switch"], "end": MARKS["join"]}
     handles += [Line2D([], [], color="black", linestyle="none", label=name, **style) for name, style in marks.items()]
     _legend_below(axes, [*handles, *_labelled(axes)])
@@ -276,7 +282,7 @@ def _labelled(axes: Axes) -> list[Line2D]:
 
 
 def _legend_below(axes: Axes, handles: Sequence[Any]) -> None:
-    # Below the picture it hides no curve.
+    # Below the picture the legend hides no curve.
     axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3, fontsize="small")
 
 
@@ -289,9 +295,9 @@ FIGURES = (
     ),
     PaperFigure(
         2,
-        "The adjoint between two switches. It keeps to the unit circle and to the left of psi1 = lambda, so it takes "
-        "the longer arc from one switch to the other: more than pi. Shown is the middle piece of example 2, and beside "
-        "it that of its mirror image.",
+        "The adjoint between two switches. It stays on the unit circle and to the left of psi1 = lambda, so it takes "
+        "the longer arc from one switch to the other: more than pi. The arcs shown are those of "
+        "the middle piece of example 2 and, beside it, of its mirror image.",
         figure_2,
     ),
     PaperFigure(
@@ -309,14 +315,14 @@ FIGURES = (
     ),
     PaperFigure(
         5,
-        "Example 1. Two entries from one start, equally fast: they part where the straight piece ends, and hold the "
-        "circle in opposite directions.",
+        "Example 1. Two entries from one start, equally fast: they separate at the end of the straight piece, and "
+        "hold the circle in opposite directions.",
         figure_5,
     ),
     PaperFigure(
         6,
-        "Example 2 with one switch. The vehicle turns right nearly all the way round, then left along the last arc. It "
-        "arrives, but later than it could.",
+        "Example 2 with one switch. The vehicle turns right by almost a full turn, then left along the last arc. It "
+        "arrives, but later than possible.",
         figure_6,
     ),
     PaperFigure(

@@ -1,4 +1,4 @@
-"""Pictures on disk: PNG, SVG or PDF, written whole or not at all."""
+"""Pictures as files: PNG, SVG or PDF, written whole or not at all."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FORMATS = (".png", ".svg", ".pdf")
 
 
 def check_format(path: Path) -> None:
-    """Raise `InvalidArgument` unless the ending of `path` names a format that `save` writes."""
+    """Raise `InvalidArgument` unless `path` ends in one of `FORMATS`."""
     if path.suffix.lower() not in FORMATS:
         raise InvalidArgument("plot", f"is {str(path)!r}: the file name must end in {', '.join(FORMATS)}")
 
@@ -28,8 +28,8 @@ def save(
 ) -> None:
     """Write the picture of `picture.draw` to `path`, in the format of its ending: .png, .svg or .pdf.
 
-    The file appears whole or not at all; an older one stays until then. Raises `InvalidArgument` for another ending and
-    a file that cannot be written.
+    The file appears whole or not at all; until then an older file stays. Raises `InvalidArgument` for another ending
+    and for a file that cannot be written.
     """
     path = Path(path)
     check_format(path)
@@ -40,5 +40,5 @@ def save(
 
 def save_figure(argument: str, path: Path, figure: Figure) -> None:
     """Write a figure in the format of the ending of `path`; `argument` is the name of the option that gave it."""
-    ending = path.suffix[1:].lower()
+    ending = path.suffix.removeprefix(".").lower()
     write_whole(argument, path, lambda file: figure.savefig(file, format=ending, dpi=150))

@@ -1,4 +1,4 @@
-"""Flights in closed loop: the tracks over the circle, and bank and time to join against time."""
+"""Pictures of simulated flights: tracks over the circle, and bank and time to join over time."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
+from numpy.typing import NDArray
 
 from loiter.guidance.trials.flight import Flight
 from loiter.planning.maneuver import Maneuver
@@ -19,18 +20,17 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 
 
 def draw(ideal: Maneuver, flights: Mapping[str, Flight]) -> Figure:
-    """Tracks of laws from one start beside the fastest entry; below, bank and the reported time to join.
+    """Draw the tracks of laws from one start beside the fastest entry; below, bank and the reported time to join.
 
-    A dot on a track is where the aircraft was when the turn began that settled it. A circle that moves is drawn where
-    it is when the fastest entry joins it.
+    A dot on a track marks the position at the settling time. A moving circle is drawn where it is when the fastest
+    entry joins it.
     """
     figure = Figure(figsize=(8.0, 8.6), layout="constrained")
     layout: Any = [["tracks"], ["bank"], ["join"]]
     axes = figure.subplot_mosaic(layout, height_ratios=[6, 2, 2])
     _draw_tracks(axes["tracks"], ideal, flights)
     for (name, flight), colour in zip(flights.items(), COLOURS, strict=False):
-        track = flight.track
-        time_s = track.time_s - track.time_s[0]
+        track, time_s = flight.track, _elapsed_s(flight)
         axes["bank"].plot(time_s, track.bank_deg, color=colour, linewidth=1.2, gid=f"bank {name}")
         axes["join"].plot(time_s, track.time_to_join_s, color=colour, linewidth=1.2, gid=f"join {name}")
     axes["bank"].set_ylabel("bank (deg)")
@@ -53,12 +53,18 @@ def _draw_tracks(axes: Axes, ideal: Maneuver, flights: Mapping[str, Flight]) -> 
         east, north = flight.track.east_m, flight.track.north_m
         axes.plot(east, north, color=colour, linewidth=1.3, label=_label(name, flight), gid=f"track {name}")
         if flight.settled:
-            i = np.searchsorted(flight.track.time_s - flight.track.time_s[0], flight.settled_s)
+            i = np.searchsorted(_elapsed_s(flight), flight.settled_s)
             axes.plot([east[i]], [north[i]], color=colour, marker="o", linestyle="none", gid=f"settled {name}")
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("east (m)")
     axes.set_ylabel("north (m)")
     axes.legend(loc="best", fontsize="small", framealpha=0.9)
+
+
+def _elapsed_s(flight: Flight) -> NDArray[np.float64]:
+    """Seconds since the start of the track."""
+    times = flight.track.time_s
+    return times - times[:1]
 
 
 def _label(name: str, flight: Flight) -> str:

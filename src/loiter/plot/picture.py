@@ -22,7 +22,7 @@ from loiter.planning.flight import along
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Pose, Segment, Turn, Wind
 
-# Okabe and Ito's palette, told apart in all common forms of colour blindness.
+# Okabe and Ito's palette, which people with all common forms of colour blindness can distinguish.
 COLOURS = {"L": "#009E73", "S": "#0072B2", "R": "#D55E00"}
 MEANINGS = {"L": "left turn", "S": "straight", "R": "right turn"}
 FAINT = "#b0b0b0"
@@ -30,7 +30,7 @@ AT_THE_START: dict[str, Any] = {"color": FAINT, "linewidth": 1.2, "linestyle": "
 
 ARROW: dict[str, Any] = {"arrowstyle": "-|>", "shrinkA": 0.0, "shrinkB": 0.0}
 
-# The wind's arrow: points from the upper left corner of the axes to its middle, and its length.
+# The wind's arrow, in points: its middle from the upper left corner of the axes, and its length.
 WIND_COLOUR = "#505050"
 WIND_PLACE, WIND_LENGTH = np.array([14.0, 14.0]), 22.0
 MARKS: dict[str, dict[str, Any]] = {
@@ -38,23 +38,23 @@ MARKS: dict[str, dict[str, Any]] = {
     "join": {"marker": "o", "markersize": 9, "markerfacecolor": "black"},
 }
 
-# Chords of 2 degrees depart from an arc by 0.015 % of its radius, less than a line is wide.
+# Chords of 2 degrees differ from an arc by 0.015 % of its radius, less than the width of a line.
 CHORD_RAD = math.radians(2.0)
 
 
 def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: LocalFrame | None = None) -> Figure:
-    """Draw maneuvers of one scene: `best` coloured by segment, `others` faint, start, switches and join marked.
+    """Draw maneuvers from one start: `best` coloured by segment, `others` faint; start, switches and join marked.
 
-    East is to the right, north up, axes equal, in metres, with a scale bar; with a frame they say where their origin is
-    on Earth. The first of `best` gives the title. In wind tracks are those over the ground, and an arrow beside the
-    title shows where the air goes. A circle that moves is drawn where it is when it is joined, faint where it is at the
-    start; `others` end where it is for each of them.
+    East is to the right, north up, axes equal, in metres, with a scale bar; with a frame they give their origin on
+    Earth. The first of `best` gives the title. In wind, tracks are ground tracks, and an arrow beside the title shows
+    where the air moves to. A moving circle is drawn where it is when it is joined, and faint where it is at the start;
+    each of `others` ends on the circle at its own time of joining.
     """
-    first = best[0]
+    first, *_ = best
     figure = Figure(figsize=(8.0, 6.4), layout="constrained")
     axes = figure.add_subplot()
     axes.set_aspect("equal", adjustable="datalim")
-    # Coordinates of a national grid are read as they are, not as an offset and a difference.
+    # Coordinates of a national grid are shown in full, not as an offset and a difference.
     axes.ticklabel_format(useOffset=False, style="plain")
     axes.grid(color="#e6e6e6", linewidth=0.8)
     axes.set_axisbelow(True)
@@ -80,7 +80,7 @@ def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: Lo
 
 
 def _title(best: Sequence[Maneuver]) -> str:
-    first = best[0]
+    first, *_ = best
     words = " or ".join(f"{m.word} {m.turn.described}".strip() for m in best)
     if not first.segments:
         return f"on the circle already, {words}"
@@ -89,7 +89,7 @@ def _title(best: Sequence[Maneuver]) -> str:
 
 def _draw_path(axes: Axes, maneuver: Maneuver) -> None:
     for segment in maneuver.segments:
-        east, north = _piece(segment, maneuver)
+        east, north = _segment_track(segment, maneuver)
         axes.plot(east, north, color=COLOURS[segment.letter], linewidth=2.6, zorder=3, gid=f"segment {segment.letter}")
         _arrow(axes, east, north, COLOURS[segment.letter])
     for segment in maneuver.segments[1:]:
@@ -102,7 +102,7 @@ def _mark(axes: Axes, pose: Pose, **style: Any) -> None:
 
 
 def _draw_circle(axes: Axes, orbit: Orbit, turns: set[Turn]) -> None:
-    centre = (orbit.east_m, orbit.north_m)
+    centre = east_m, north_m = orbit.east_m, orbit.north_m
     axes.add_patch(Circle(centre, orbit.radius_m, fill=False, color="black", linewidth=1.4, zorder=2, gid="circle"))
     axes.plot(*centre, marker="+", color="black", markersize=8, linestyle="none", gid="centre")
     for turn in turns:
@@ -111,22 +111,22 @@ def _draw_circle(axes: Axes, orbit: Orbit, turns: set[Turn]) -> None:
         for quarter in range(4):
             angle = math.radians(45.0 + 90.0 * quarter - 8.0 * sense * (len(turns) - 1))
             arc = angle + sense * np.array([0.0, CHORD_RAD])
-            east, north = centre[0] + orbit.radius_m * np.cos(arc), centre[1] + orbit.radius_m * np.sin(arc)
+            east, north = east_m + orbit.radius_m * np.cos(arc), north_m + orbit.radius_m * np.sin(arc)
             _arrow(axes, east, north, "black", gid=f"held {turn}")
 
 
 def _draw_movement(axes: Axes, maneuver: Maneuver) -> None:
-    """The circle at the start, and the way of its centre until it is joined."""
+    """Draw the circle at the start, and the path of its centre until it is joined."""
     before, after = maneuver.orbit, maneuver.orbit_at_join
     centre = (before.east_m, before.north_m)
     axes.add_patch(Circle(centre, before.radius_m, fill=False, zorder=1, gid="circle at the start", **AT_THE_START))
-    way = np.linspace(centre, (after.east_m, after.north_m), 3).T
-    axes.plot(*way, color=FAINT, linewidth=1.0, linestyle=":", gid="way of the centre")
-    _arrow(axes, way[0], way[1], FAINT)
+    east, north = np.linspace(centre, (after.east_m, after.north_m), 3).T
+    axes.plot(east, north, color=FAINT, linewidth=1.0, linestyle=":", gid="way of the centre")
+    _arrow(axes, east, north, FAINT)
 
 
 def _draw_wind(axes: Axes, wind: Wind) -> None:
-    """An arrow that points where the air goes, in points beside the title, so that it hides nothing."""
+    """Draw an arrow in the direction of the moving air, beside the title, where it hides nothing."""
     towards = np.array(wind.velocity_m_s) / wind.speed_m_s
     tail, head = WIND_PLACE - 0.5 * WIND_LENGTH * towards, WIND_PLACE + 0.5 * WIND_LENGTH * towards
     corner: dict[str, Any] = {"xycoords": OffsetFrom(axes.patch, (0.0, 1.0)), "annotation_clip": False}
@@ -140,7 +140,7 @@ def _draw_wind(axes: Axes, wind: Wind) -> None:
 
 
 def _draw_north(axes: Axes) -> None:
-    """An arrow to the north, in points beside the title, on the right as the wind's is on the left."""
+    """Draw an arrow to the north, beside the title on the right; that of the wind is on the left."""
     corner: dict[str, Any] = {"xycoords": OffsetFrom(axes.patch, (1.0, 1.0)), "annotation_clip": False}
     ends: dict[str, Any] = {"xy": (-12.0, 27.0), "xytext": (-12.0, 5.0), "textcoords": corner["xycoords"]}
     style = ARROW | {"color": "black", "linewidth": 1.6, "mutation_scale": 13.0}
@@ -149,7 +149,7 @@ def _draw_north(axes: Axes) -> None:
 
 
 def _draw_scale(axes: Axes) -> None:
-    """A bar of a round length in the lower right corner, about a fifth of the axes wide."""
+    """Draw a bar of a round length in the lower right corner, about a fifth of the axes wide."""
     axes.apply_aspect()
     west, east = axes.get_xlim()
     length = round_length((east - west) / 5.0)
@@ -186,29 +186,30 @@ def _arrow(
 
 
 def _draw_aircraft(axes: Axes, pose: Pose) -> None:
-    # A dart that points along the heading, as wide as it needs to be to show it.
+    # A dart that points along the heading, wide enough to show it.
     e, n = heading_vector(pose.heading_deg)
     outline = np.array([[1.0, 0.0], [-0.7, 0.6], [-0.35, 0.0], [-0.7, -0.6]]) @ np.array([[e, n], [-n, e]])
     _mark(axes, pose, marker=outline, markersize=18, gid="start")
 
 
-def _piece(segment: Segment, maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _segment_track(segment: Segment, maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     turned = abs(segment.curvature_per_m) * segment.length_m
-    steps = 3 + math.ceil(turned / CHORD_RAD)  # a straight piece needs a middle, for its arrow
+    steps = 3 + math.ceil(turned / CHORD_RAD)  # a straight segment needs a point in the middle, for its arrow
     east, north, _ = along(segment, np.linspace(0.0, segment.length_m, steps), maneuver.aircraft, maneuver.wind)
     return east, north
 
 
 def _track(maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    pieces = [_piece(segment, maneuver) for segment in maneuver.segments]
-    return np.concatenate([east for east, _ in pieces]), np.concatenate([north for _, north in pieces])
+    tracks = [_segment_track(segment, maneuver) for segment in maneuver.segments]
+    return np.concatenate([east for east, _ in tracks]), np.concatenate([north for _, north in tracks])
 
 
 def _legend(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> list[Line2D]:
     letters = dict.fromkeys(segment.letter for maneuver in best for segment in maneuver.segments)
     handles = [Line2D([], [], color=COLOURS[letter], linewidth=2.6, label=MEANINGS[letter]) for letter in letters]
     handles.append(Line2D([], [], color="black", linewidth=1.4, label="holding circle"))
-    if best[0].orbit.moves:
+    fastest, *_ = best
+    if fastest.orbit.moves:
         handles.append(Line2D([], [], label="circle at the start", **AT_THE_START))
     handles += [Line2D([], [], color="black", linestyle="none", **style, label=label) for label, style in MARKS.items()]
     handles += [
@@ -221,6 +222,7 @@ def _legend(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> list[Line2D
 
 
 def _later(maneuver: Maneuver, best: Sequence[Maneuver]) -> str:
-    later = maneuver.duration_s - best[0].duration_s
-    # What a picture can show; the table and JSON tell smaller differences.
+    fastest, *_ = best
+    later = maneuver.duration_s - fastest.duration_s
+    # The resolution of a picture; the table and JSON show smaller differences.
     return f"{later:.3g} s later" if later > 1e-6 * maneuver.duration_s else "as fast"

@@ -16,7 +16,7 @@ from loiter.arrays.partition import Boundary, Partition, lines, worth
 from loiter.kernel.words import Word
 from loiter.planning.model import Turn
 
-# The hue of a region is its first control (as on the plan view), its shade tells words of one control apart.
+# The hue of a region is its first control (as in the plan view); shades distinguish words with the same one.
 SHADES = {
     Word.RSL: "#f6cfb4",
     Word.RL: "#f0ad83",
@@ -51,8 +51,8 @@ def draw(regions: Partition, curves: Sequence[Boundary], show: str = "words") ->
         _paint_values(figure, axes, regions, show)
     handles = [_draw_curve(axes, regions, kind, curves) for kind in LINES if any(c.kind == kind for c in curves)]
     _draw_targets(axes, regions)
-    axes.set_xlim(regions.x[0], regions.x[-1])
-    axes.set_ylim(regions.y[0], regions.y[-1])
+    axes.set_xlim(regions.x.min(), regions.x.max())
+    axes.set_ylim(regions.y.min(), regions.y.max())
     axes.set_xlabel("x: passed the centre by (turn radii)")
     axes.set_ylabel("y: to the left of the centre by (turn radii)")
     axes.set_title(f"{_TITLES[show]}, R = {regions.radius:g}, {regions.turn.described}")
@@ -82,7 +82,7 @@ def _paint_values(figure: Figure, axes: Axes, regions: Partition, show: str) -> 
 
 
 def _middles(regions: Partition, word: Word) -> list[tuple[float, float]]:
-    """A place for the label in each part of a region on its side of the axis: the cell farthest from its border."""
+    """The position of the label in a region, above and below the axis: the cell farthest from the border."""
     found = []
     for half in (regions.y > 0.0, regions.y < 0.0):
         depth = _depth((regions.word == word) & half[:, np.newaxis])
@@ -94,7 +94,7 @@ def _middles(regions: Partition, word: Word) -> list[tuple[float, float]]:
 
 
 def _depth(inside: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """How many times a region can be eroded by one cell before each of its cells is gone."""
+    """For each cell, how many times the region can be eroded by one cell before this cell disappears."""
     depth = np.zeros(inside.shape, dtype=np.int64)
     while inside.any():
         depth += inside
@@ -109,7 +109,7 @@ def _draw_curve(axes: Axes, regions: Partition, kind: str, curves: Sequence[Boun
     style = LINES[kind]
     for curve in curves:
         if curve.kind == kind:
-            # Between two lines nan lifts the pen.
+            # nan separates two lines.
             line = np.concatenate([np.vstack([line, [np.nan, np.nan]]) for line in lines(regions, curve)])
             axes.plot(*line.T, **style, solid_capstyle="round", gid=f"{kind} {' '.join(curve.words)}")
     return Line2D([], [], **style)

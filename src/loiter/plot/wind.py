@@ -1,4 +1,4 @@
-"""What wind does to the fastest entry; `python -m loiter.plot.wind docs/wind.png` draws the picture of docs/wind.md."""
+"""Wind and the fastest entry; `python -m loiter.plot.wind docs/wind.png` draws the picture of docs/wind.md."""
 
 from __future__ import annotations
 
@@ -20,23 +20,24 @@ from loiter.planning.solve import plan
 from loiter.plot.files import save_figure
 from loiter.plot.picture import MARKS
 
-# All in turn radii and airspeeds, so that the pictures hold for every aircraft. The circle can be held in all winds.
+# In turn radii and airspeeds, so that the pictures apply to every aircraft. The circle can be held in all these winds.
 AIRCRAFT, RADIUS = Aircraft(1.0, min_turn_radius_m=1.0), 2.7
-SPEEDS = (0.0, 0.15, 0.3, 0.45, 0.6)
+FASTEST_WIND = 0.6
+SPEEDS = (0.0, 0.15, 0.3, 0.45, FASTEST_WIND)
 START = Pose(-9.0, 2.5, 90.0)
 
-# The wind of the map blows north across the course; how far the map reaches.
+# The wind of the map blows north, across the course; the map covers |east|, |north| <= REACH.
 MAP_WIND, REACH = 0.4, 8.0
 
-# Colours for differences of a tenth to several; beneath TIED there are none but those of rounding.
-SCALE, TIED = SymLogNorm(0.1, vmin=-4.5, vmax=4.5), 1e-9
-TIED_COLOUR = ListedColormap(["#a6dcc8"])
+# Colours for differences from a tenth to several; differences below TIE_TOLERANCE are due to rounding.
+SCALE, TIE_TOLERANCE = SymLogNorm(0.1, vmin=-4.5, vmax=4.5), 1e-9
+TIE_COLOUR = ListedColormap(["#a6dcc8"])
 
 
 def draw(cells: int = 100) -> Figure:
-    """Entries from one start in winds of several speeds; where which direction is sooner, in still air and in wind.
+    """Draw entries from one start in winds of several speeds, and maps of the faster direction, without and with wind.
 
-    Lengths are in turn radii, times in turn radii over airspeed; `cells` points a side make the maps.
+    Lengths are in turn radii, times in turn radii over airspeed; the maps have `cells` points a side.
     """
     figure = Figure(figsize=(9.4, 8.0), layout="constrained")
     rows: list[Any] = [["tracks", "tracks"], ["still", "windy"]]
@@ -63,7 +64,7 @@ def _draw_tracks(axes: Axes) -> None:
     for speed in SPEEDS:
         m = plan(START, Orbit(0.0, 0.0, RADIUS), AIRCRAFT, Wind(speed, from_deg=180.0))
         track = m.sample(0.02)
-        colour = colormaps["viridis"](0.9 * speed / SPEEDS[-1])
+        colour = colormaps["viridis"](0.9 * speed / FASTEST_WIND)
         label = f"{speed:.2f}: {m.word} {m.turn.value}, T = {m.duration_s:.2f}"
         axes.plot(track.east_m, track.north_m, color=colour, linewidth=2.0, label=label, gid="track", zorder=3)
         axes.plot([m.join.east_m], [m.join.north_m], color=colour, linestyle="none", gid="join", **JOIN, zorder=4)
@@ -79,7 +80,7 @@ JOIN: dict[str, Any] = MARKS["join"] | {"markersize": 6, "markerfacecolor": "whi
 
 def differences(wind: float, cells: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The grid's coordinates and T clockwise less T counter-clockwise, heading east in a wind that blows north."""
-    # An even number of points keeps clear of the axes.
+    # An even number of points avoids the axes.
     line = np.linspace(-REACH, REACH, cells)
     east, north = np.meshgrid(line, line)
     cw, ccw = (min_time_in_wind(east, north, 0.0, RADIUS, turn, 0.0, wind) for turn in ("cw", "ccw"))
@@ -88,11 +89,11 @@ def differences(wind: float, cells: int) -> tuple[NDArray[np.float64], NDArray[n
 
 def _draw_worth(axes: Axes, wind: float, cells: int) -> Any:
     line, later = differences(wind, cells)
-    tied = np.abs(later) < TIED
+    tied = np.abs(later) < TIE_TOLERANCE
     mesh = axes.pcolormesh(line, line, later, cmap="PuOr", norm=SCALE, shading="nearest", rasterized=True, gid="later")
     if wind == 0.0:
         shown = np.ma.masked_where(~tied, tied)
-        axes.pcolormesh(line, line, shown, cmap=TIED_COLOUR, shading="nearest", rasterized=True, gid="tied")
+        axes.pcolormesh(line, line, shown, cmap=TIE_COLOUR, shading="nearest", rasterized=True, gid="tied")
         axes.text(-REACH + 0.4, -REACH + 0.4, "tied", fontsize="medium", color="black")
     else:
         axes.contour(line, line, later, levels=[0.0], colors="black", linewidths=1.8)
@@ -106,4 +107,5 @@ def _draw_circle(axes: Axes) -> None:
 
 
 if __name__ == "__main__":
-    save_figure("plot", Path(sys.argv[1]), draw())
+    _, file = sys.argv
+    save_figure("plot", Path(file), draw())

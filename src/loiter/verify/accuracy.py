@@ -149,7 +149,7 @@ def _in_wind(trajectory: Trajectory) -> Accuracy:
             transversality=choice,
         ),
         gradient=choice,
-        tie=wind_search.TIED * (1.0 + start.R + T) + 2.0 * length,
+        tie=wind_search.TIE_TOLERANCE * (1.0 + start.R + T) + 2.0 * length,
     )
 
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from loiter.kernel import wind_search
 from loiter.kernel.adjoint import adjoint, switching_function
 from loiter.kernel.motion import flow
-from loiter.kernel.synthesis import rounding
+from loiter.kernel.synthesis import Entry, rounding
 from loiter.kernel.words import encode
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS
@@ -87,7 +87,7 @@ def _with_closed_form(start: RelativeStart, controls: Sequence[int], durations: 
     """A word flown with the adjoint of `kernel.adjoint`."""
     x, y = start.q.real, start.q.imag
     t1, t2, t3 = [*durations, 0.0, 0.0][:3]
-    lam, psi1, psi2 = adjoint(x, y, start.R, start.side, encode(*controls), t1, t2, t3)
+    lam, psi1, psi2 = adjoint(x, y, start.R, Entry(start.side, encode(*controls), t1, t2, t3))
     return FlightPlan(
         start, controls, durations, Adjoint(complex(psi1, psi2), lam, switching_function(x, y, psi1, psi2))
     )

@@ -52,7 +52,7 @@ def _in_wind(trajectory: Trajectory) -> LeastTimes:
     def time(axis: int, step: float) -> float:
         e = complex(problem.c, problem.s) * (exp(1j * step) if axis == 2 else 1.0)
         x, y = problem.x + step * (axis == 0), problem.y + step * (axis == 1)
-        return wind_search.time_of(wind_search.fastest(*problem._replace(x=x, y=y, c=e.real, s=e.imag)))
+        return wind_search.time_of(wind_search.fastest(problem._replace(x=x, y=y, c=e.real, s=e.imag)))
 
     def by_heading(slopes: Sequence[float]) -> float:
         _, _, slope = slopes
@@ -62,7 +62,7 @@ def _in_wind(trajectory: Trajectory) -> LeastTimes:
         axes=3,
         steps=STEPS_IN_WIND,
         time=time,
-        error=lambda T, slope: 2.0 * wind_search.TIED * (1.0 + problem.R + T),
+        error=lambda T, slope: 2.0 * wind_search.TIE_TOLERANCE * (1.0 + problem.R + T),
         by_heading=by_heading,
         motion_size=4.0,
         not_smooth=lambda: "T has a corner here, or bends too sharply",

@@ -1,6 +1,6 @@
-"""The page and its service: the plan as one drags the aircraft.
+"""The HTTP service and its page, which shows the plan while the user drags the aircraft.
 
-Needs what `pip install "loiter[web]"` brings.
+It needs the packages that `pip install "loiter[web]"` installs.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ def serve(
     cors: str | None = None,
     announce: Callable[[str], object] = lambda line: None,
 ) -> None:
-    """Serve the page and the endpoints of docs/service.md over HTTP until the process is interrupted or told to end.
+    """Serve the page and the endpoints of docs/service.md over HTTP until the process gets SIGINT or SIGTERM.
 
-    `port` 0 takes a free one. `cors` is the one other origin, "http://host:port", whose pages may ask the service.
-    `announce` hears where it is, once it listens, and a warning where others can reach it. Raises `InvalidArgument`
-    for a host, a port or an origin that cannot be used, `MissingPackage`.
+    `port` 0 takes a free port. `cors` is the one other origin, "http://host:port", whose pages may use the service.
+    `announce` is called with the address once the service listens, and with a warning where other machines can reach
+    it. Raises `InvalidArgument` for a host, a port or an origin that cannot be used, and `MissingPackage`.
     """
     for name in ("fastapi", "uvicorn"):
         try:

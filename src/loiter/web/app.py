@@ -1,4 +1,4 @@
-"""The service assembled: endpoints, errors, limits and headers around the library's answers."""
+"""The service as an ASGI application: endpoints over the library, problem documents, limits and headers."""
 
 from __future__ import annotations
 
@@ -17,134 +17,149 @@ from loiter.planning.model import TurnName
 from loiter.version import __version__
 from loiter.web import models, openapi, problems
 from loiter.web.answers import exports, plans
-from loiter.web.answers.synthesis import FIRST_CELLS, MOST_CELLS, synthesis
-from loiter.web.headers import Headers
+from loiter.web.answers.synthesis import DEFAULT_CELLS, MAX_CELLS, synthesis
+from loiter.web.headers import SecurityHeaders
 from loiter.web.limits import Limits
-from loiter.web.workers import Workers
+from loiter.web.pool import BoundedPool
 
 STATIC = Path(__file__).with_name("static")
 
 Format = Literal["geojson", "kml", "gpx", "csv", "plan", "waypoints", "png", "svg"]
 
-# More threads would not be faster, and each lets one more request that takes long go on beside the others.
-THREADS, PLACES = 4, 128
+# More threads would not be faster; each one lets one more slow request run beside the others.
+THREADS, MAX_REQUESTS = 4, 128
 
 # Pictures are drawn one at a time, some 0.3 s each.
-PICTURES = 16
+MAX_PICTURES = 16
 
 
 def create_app(cors: str | None = None) -> ASGIApp:
-    """The service as an ASGI application; `cors` is the one other origin whose pages may ask it."""
+    """The service as an ASGI application; `cors` is the one other origin whose pages may use it."""
     api = FastAPI(title="loiter", version=__version__, docs_url=None, redoc_url=None, redirect_slashes=False)
     problems.install(api)
     openapi.install(api)
-    workers = Workers(THREADS, PLACES)
-    _plans(api, workers)
-    _maps(api, workers)
-    _files(api, workers, Workers(1, PICTURES))
-    _page(api)
+    pool = BoundedPool(THREADS, MAX_REQUESTS)
+    _add_plans(api, pool)
+    _add_maps(api, pool)
+    _add_exports(api, pool, BoundedPool(1, MAX_PICTURES))
+    _add_page(api)
     app: ASGIApp = Limits(api)
     if cors is not None:
         app = CORSMiddleware(app, [cors], allow_methods=["GET", "POST"], allow_headers=["content-type"])
-    return Headers(_whole(app))
+    return SecurityHeaders(_without_ranges(app))
 
 
-def _whole(app: ASGIApp) -> ASGIApp:
-    """Answers are given whole: of ranges the framework would refuse a bad one in plain text."""
+def _without_ranges(app: ASGIApp) -> ASGIApp:
+    """The app without Range headers, so that it answers with whole files: it would refuse a bad range in plain text."""
 
-    async def asked(scope: Scope, receive: Receive, send: Send) -> None:
+    async def serve_whole(scope: Scope, receive: Receive, send: Send) -> None:
         headers = [(name, value) for name, value in scope["headers"] if name != b"range"]
         await app({**scope, "headers": headers}, receive, send)
 
-    return asked
+    return serve_whole
 
 
-async def only_json(request: Request) -> None:
-    """Refuse a body that does not say it is JSON."""
-    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    if kind != "application/json":
+async def require_json(request: Request) -> None:
+    """Refuse a body whose content type is not JSON."""
+    content_type, _, _ = request.headers.get("content-type", "").partition(";")
+    if content_type.strip().lower() != "application/json":
         raise HTTPException(415, "the body must be of the type application/json")
 
 
-JSON = [Depends(only_json)]
+JSON_BODY = [Depends(require_json)]
 
 
-def _plans(api: FastAPI, workers: Workers) -> None:
-    @api.post("/api/plan", response_model=models.Plan, response_model_exclude_unset=True, dependencies=JSON)
+def _add_plans(api: FastAPI, pool: BoundedPool) -> None:
+    @api.post("/api/plan", response_model=models.Plan, response_model_exclude_unset=True, dependencies=JSON_BODY)
     async def plan(scene: models.Scene) -> Any:
-        """The fastest entry, and every other with what it costs: what `loiter plan --json` prints, with tracks."""
-        return await workers.run(plans.plan, scene.placed())
+        """The fastest entry and all alternatives with their cost: the JSON of `loiter plan --json`, with tracks."""
+        return await pool.run(plans.plan, scene.placed())
 
-    @api.post("/api/fastest", response_model=models.Plan, response_model_exclude_unset=True, dependencies=JSON)
+    @api.post("/api/fastest", response_model=models.Plan, response_model_exclude_unset=True, dependencies=JSON_BODY)
     async def fastest(scene: models.Scene) -> Any:
-        """The fastest entry, of the others only the best the other way round; in wind in half the time."""
-        return await workers.run(plans.fastest, scene.placed())
+        """The fastest entry, with the best in the other direction as its only alternative; in wind in half the time."""
+        return await pool.run(plans.fastest, scene.placed())
 
-    @api.post("/api/candidates", response_model=models.Candidates, response_model_exclude_unset=True, dependencies=JSON)
+    @api.post(
+        "/api/candidates", response_model=models.Candidates, response_model_exclude_unset=True, dependencies=JSON_BODY
+    )
     async def candidates(scene: models.Scene) -> Any:
-        """Every extremal for the turn asked for, fastest first."""
-        return await workers.run(plans.every, scene.placed())
+        """Every extremal for the requested turn direction, fastest first."""
+        return await pool.run(plans.all_candidates, scene.placed())
 
-    @api.post("/api/certificate", response_model=models.Proof, dependencies=JSON)
+    @api.post("/api/certificate", response_model=models.Proof, dependencies=JSON_BODY)
     async def certificate(scene: models.Scene) -> Any:
-        """The certificate of the first optimal maneuver: the maximum principle, condition by condition."""
-        return await workers.run(plans.proof, scene.placed())
+        """The certificate of the first optimal maneuver: each condition of the maximum principle, checked."""
+        return await pool.run(plans.certificate, scene.placed())
 
 
-def _maps(api: FastAPI, workers: Workers) -> None:
+def _add_maps(api: FastAPI, pool: BoundedPool) -> None:
     @api.get("/api/synthesis", response_model=models.Synthesis)
     async def map_(
-        radius: Annotated[float, Query(description="The circle's, turn radii.", json_schema_extra={"minimum": 1})] = 1,
+        radius: Annotated[
+            float, Query(description="Radius of the circle, turn radii.", json_schema_extra={"minimum": 1})
+        ] = 1,
         turn: TurnName = "either",
         reach: Annotated[
             float | None,
-            Query(description="How far the map reaches, turn radii; radius + 3 if absent."),
+            Query(description="Half the side of the map, turn radii; radius + 3 if absent."),
         ] = None,
-        cells: Annotated[int, Query(ge=8, le=MOST_CELLS, description="Along a side; made even.")] = FIRST_CELLS,
+        cells: Annotated[
+            int, Query(ge=8, le=MAX_CELLS, description="Grid points along a side; rounded up to an even number.")
+        ] = DEFAULT_CELLS,
     ) -> Response:
         """The optimal synthesis of the reduced plane: which word wins where, and the curves between the regions."""
-        encoded = await workers.run(lambda given: synthesis(*given), (radius, turn, reach, cells))
+        encoded = await pool.run(lambda query: synthesis(*query), (radius, turn, reach, cells))
         return Response(encoded, media_type="application/json")
 
     @api.get("/healthz", response_model=models.Health)
     async def health() -> Any:
-        """Whether the service is there."""
+        """Whether the service is running, and its version."""
         return {"status": "ok", "version": __version__}
 
 
-def _files(api: FastAPI, workers: Workers, artists: Workers) -> None:
-    media: dict[str, dict[str, Any]] = {
-        kind.partition(";")[0]: {} for kind in {**exports.FILES, **exports.PICTURES}.values()
+def _add_exports(api: FastAPI, pool: BoundedPool, picture_pool: BoundedPool) -> None:
+    media_types = exports.FILE_TYPES | exports.PICTURE_TYPES
+    content: dict[str, dict[str, Any]] = {_without_parameters(media_type): {} for media_type in media_types.values()}
+    described: dict[int | str, dict[str, Any]] = {
+        200: {"description": "The file, as an attachment.", "content": content}
     }
-    told: dict[int | str, dict[str, Any]] = {200: {"description": "The file, as an attachment.", "content": media}}
 
-    async def file(format_: str, options: models.ExportOptions) -> Response:
+    async def attachment(format_: str, options: models.ExportOptions) -> Response:
         options.placed()
-        crew = artists if format_ in exports.PICTURES else workers
-        content = await crew.run(exports.maker(format_), exports.Export(format_, options))
+        suitable_pool = picture_pool if format_ in exports.PICTURE_TYPES else pool
+        file = await suitable_pool.run(exports.export, exports.ExportRequest(format_, options))
         headers = {"content-disposition": f'attachment; filename="entry.{format_}"'}
-        return Response(content, media_type={**exports.FILES, **exports.PICTURES}[format_], headers=headers)
+        return Response(file, media_type=media_types[format_], headers=headers)
 
-    @api.post("/api/export/{format}", response_class=Response, responses=told, dependencies=JSON)
+    @api.post("/api/export/{format}", response_class=Response, responses=described, dependencies=JSON_BODY)
     async def export(format: Format, options: models.ExportOptions) -> Response:
         """The plan as a file."""
-        return await file(format, options)
+        return await attachment(format, options)
 
-    @api.get("/api/export/{format}", response_class=Response, responses=told)
+    @api.get("/api/export/{format}", response_class=Response, responses=described)
     async def export_link(
         format: Format,
-        scene: Annotated[str, Query(description="The body of the same request by POST, as JSON.")],
+        scene: Annotated[str, Query(description="The body of the POST request of the same path, as JSON.")],
     ) -> Response:
-        """The same for a link."""
-        try:
-            options = models.ExportOptions.model_validate_json(scene)
-        except ValidationError as error:
-            found = [one | {"loc": ("query", "scene", *one["loc"])} for one in error.errors(include_url=False)]
-            raise RequestValidationError(found) from error
-        return await file(format, options)
+        """The plan as a file, for links: the scene is a parameter of the address."""
+        return await attachment(format, _options_of_link(scene))
 
 
-def _page(api: FastAPI) -> None:
+def _without_parameters(media_type: str) -> str:
+    name, _, _ = media_type.partition(";")
+    return name
+
+
+def _options_of_link(scene: str) -> models.ExportOptions:
+    try:
+        return models.ExportOptions.model_validate_json(scene)
+    except ValidationError as error:
+        errors = [one | {"loc": ("query", "scene", *one["loc"])} for one in error.errors(include_url=False)]
+        raise RequestValidationError(errors) from error
+
+
+def _add_page(api: FastAPI) -> None:
     @api.api_route("/", methods=["GET", "HEAD"], include_in_schema=False)
     async def page() -> FileResponse:
         return FileResponse(STATIC / "index.html")

@@ -1,4 +1,4 @@
-"""The headers that every answer carries: a page that runs nothing but its own code and is framed by nobody."""
+"""Security headers of every answer: the page runs only its own code, and no other page can embed it in a frame."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ HEADERS = {
     "cross-origin-resource-policy": "same-origin",
     "permissions-policy": "camera=(), microphone=(), geolocation=(), payment=(), usb=()",
 }
-RAW = [(name.encode(), value.encode()) for name, value in HEADERS.items()]
+SECURITY_HEADERS = [(name.encode(), value.encode()) for name, value in HEADERS.items()]
 
-# Answers are made for one request; files of the page are asked for again, by their tag, after an update.
+# Answers are never cached. Browsers keep files of the page, and check by their tag whether they have changed.
 NO_STORE, NO_CACHE = (b"cache-control", b"no-store"), (b"cache-control", b"no-cache")
 
 
-class Headers:
-    """Adds the headers to every answer of an app."""
+class SecurityHeaders:
+    """Middleware that adds the security headers and a cache policy to every answer of an app."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -46,7 +46,7 @@ class Headers:
         async def with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 tagged = any(name == b"etag" for name, _ in message["headers"])
-                message["headers"] = [*message["headers"], *RAW, NO_CACHE if tagged else NO_STORE]
+                message["headers"] = [*message["headers"], *SECURITY_HEADERS, NO_CACHE if tagged else NO_STORE]
             await send(message)
 
         await self.app(scope, receive, with_headers)

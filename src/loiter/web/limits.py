@@ -1,4 +1,4 @@
-"""What a request may cost: its size, its depth, the time that it takes to arrive and to be answered."""
+"""Limits of a request: its size, its nesting depth, the time for it to arrive and the time for its answer."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from loiter.web.problems import problem
 
-# A scene is some 500 bytes, three levels deep.
-MOST_BYTES = 64 * 1024
-MOST_DEPTH = 32
+# A scene has some 500 bytes in three levels.
+MAX_BODY_BYTES = 64 * 1024
+MAX_DEPTH = 32
 
 # The head of a request: its address, which may hold a scene, and its headers.
-MOST_HEAD = 32 * 1024
-HEAD_TOO_LARGE = f"the head of the request is too large: more than {MOST_HEAD:,} bytes"
+MAX_HEAD_BYTES = 32 * 1024
+HEAD_TOO_LARGE = f"the head of the request is too large: more than {MAX_HEAD_BYTES:,} bytes"
 
-# Seconds for a body to arrive, and for its answer to be made.
-BODY_S = 10.0
-ANSWER_S = 60.0
+# Seconds for a body to arrive, and for its answer to be computed.
+BODY_TIMEOUT_S = 10.0
+ANSWER_TIMEOUT_S = 60.0
 
-STRINGS = re.compile(rb'"(?:[^"\\]|\\.)*"?', re.DOTALL)
+JSON_STRING = re.compile(rb'"(?:[^"\\]|\\.)*"?', re.DOTALL)
 
 
 class Limits:
-    """Reads the body of a request to an app, whole and within limits, and gives the app its time."""
+    """Middleware that reads the whole body of a request within the limits, and limits the time of its answer."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -37,14 +37,14 @@ class Limits:
         """Serve a request, or refuse it with a problem document."""
         started = False
 
-        async def told(message: Message) -> None:
+        async def send_and_record(message: Message) -> None:
             nonlocal started
             started = True
             await send(message)
 
         try:
-            body = await self._body(scope, receive)
-            await self._answered(scope, _replayed(body, receive), told)
+            body = await self._read_body(scope, receive)
+            await self._call_app(scope, _replay(body, receive), send_and_record)
         except ClientDisconnect:
             return
         except HTTPException as refusal:
@@ -53,74 +53,80 @@ class Limits:
             answer = problem(refusal.status_code, refusal.detail, instance=scope["path"], headers=refusal.headers)
             await answer(scope, receive, send)
 
-    async def _body(self, scope: Scope, receive: Receive) -> bytes:
+    async def _read_body(self, scope: Scope, receive: Receive) -> bytes:
+        """The body; raises `HTTPException` where it is too late, too large or too deeply nested."""
         try:
-            async with asyncio.timeout(BODY_S):
+            async with asyncio.timeout(BODY_TIMEOUT_S):
                 body = await _read(scope, receive)
         except TimeoutError:
-            late = f"the body did not arrive within {BODY_S:g} s"
-            raise HTTPException(HTTPStatus.REQUEST_TIMEOUT, late, {"connection": "close"}) from None
-        if depth(body) > MOST_DEPTH:
-            raise HTTPException(HTTPStatus.BAD_REQUEST, f"the body is nested more than {MOST_DEPTH} levels deep")
+            detail = f"the body did not arrive within {BODY_TIMEOUT_S:g} s"
+            raise HTTPException(HTTPStatus.REQUEST_TIMEOUT, detail, {"connection": "close"}) from None
+        if depth(body) > MAX_DEPTH:
+            raise HTTPException(HTTPStatus.BAD_REQUEST, f"the body is nested more than {MAX_DEPTH} levels deep")
         return body
 
-    async def _answered(self, scope: Scope, receive: Receive, send: Send) -> None:
+    async def _call_app(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Call the app; raises `HTTPException` where its answer takes too long."""
         try:
-            async with asyncio.timeout(ANSWER_S):
+            async with asyncio.timeout(ANSWER_TIMEOUT_S):
                 await self.app(scope, receive, send)
         except TimeoutError:
-            late = f"the answer took longer than {ANSWER_S:g} s"
-            raise HTTPException(HTTPStatus.SERVICE_UNAVAILABLE, late, {"retry-after": "10"}) from None
+            detail = f"the answer took longer than {ANSWER_TIMEOUT_S:g} s"
+            raise HTTPException(HTTPStatus.SERVICE_UNAVAILABLE, detail, {"retry-after": "10"}) from None
 
 
 async def _read(scope: Scope, receive: Receive) -> bytes:
-    """The body; raises for a head or a body that is too large, or says so."""
-    if _head_bytes(scope) > MOST_HEAD:
+    """The body; raises `HTTPException` where head or body is too large, or the declared length is."""
+    if _head_bytes(scope) > MAX_HEAD_BYTES:
         raise HTTPException(HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE, HEAD_TOO_LARGE)
-    said = next((value for name, value in scope["headers"] if name == b"content-length"), b"0")
+    declared_length = int(next((value for name, value in scope["headers"] if name == b"content-length"), b"0"))
     body = bytearray()
     more = True
     while more:
-        if int(said) > MOST_BYTES or len(body) > MOST_BYTES:
-            raise HTTPException(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"the body is larger than {MOST_BYTES:,} bytes")
+        if max(declared_length, len(body)) > MAX_BODY_BYTES:
+            raise _body_too_large()
         message = await receive()
         if message["type"] == "http.disconnect":
             raise ClientDisconnect
         body += message.get("body", b"")
         more = message.get("more_body", False)
-    if len(body) > MOST_BYTES:
-        raise HTTPException(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"the body is larger than {MOST_BYTES:,} bytes")
+    if len(body) > MAX_BODY_BYTES:
+        raise _body_too_large()
     return bytes(body)
 
 
+def _body_too_large() -> HTTPException:
+    return HTTPException(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"the body is larger than {MAX_BODY_BYTES:,} bytes")
+
+
 def _head_bytes(scope: Scope) -> int:
-    """The size of a head as it came, to a few bytes: `connections.Connection` counts those that come in pieces so."""
+    """The size of a head as received, to a few bytes; h11 itself limits only heads that arrive in several pieces."""
     line = b"%s %s?%s HTTP/1.1\r\n\r\n" % (scope["method"].encode(), scope["raw_path"], scope["query_string"])
     return len(line) + sum(len(b"%s: %s\r\n" % header) for header in scope["headers"])
 
 
-def _replayed(body: bytes, receive: Receive) -> Receive:
-    """A receiver that gives the body once, then what comes after it."""
-    given = False
+def _replay(body: bytes, receive: Receive) -> Receive:
+    """A receiver that returns the body once, and from then on what `receive` returns."""
+    replayed = False
 
     async def replay() -> Message:
-        nonlocal given
-        if given:
+        nonlocal replayed
+        if replayed:
             return await receive()
-        given = True
+        replayed = True
         return {"type": "http.request", "body": body, "more_body": False}
 
     return replay
 
 
 def depth(body: bytes) -> int:
-    """How deep arrays and objects of JSON are nested at most; what is no JSON has a depth too.
+    """The nesting depth of the arrays and objects of a JSON text; any other text has a depth too.
 
     >>> depth(b'{"a": [1, "[[["]}')
     2
     """
     deepest = level = 0
-    for byte in STRINGS.sub(b"", body):
+    for byte in JSON_STRING.sub(b"", body):
         if byte in b"[{":
             level += 1
             deepest = max(deepest, level)

@@ -1,7 +1,7 @@
-"""Requests and answers of the service, in SI and compass degrees, as `docs/service.md` and the OpenAPI tell them.
+"""Requests and answers of the service, in SI units and compass degrees; `docs/service.md` describes them.
 
-What a number may be the library checks, in its own sentences; the schema tells the same. Answers have the names of
-`loiter plan --json`.
+The library checks the ranges of numbers and words the errors; the schema states the same ranges. Fields of answers
+have the names of `loiter plan --json`.
 """
 
 from __future__ import annotations
@@ -13,11 +13,12 @@ from pydantic.json_schema import SkipJsonSchema
 
 from loiter.geo import LocalFrame
 from loiter.geo.placed import PlacedProblem
+from loiter.io.missions.items import AutopilotName
 from loiter.planning import model
 from loiter.planning.model import TurnName
 from loiter.planning.problem import Problem
 
-# A JSON number, never a string or a truth value.
+# A JSON number; strings, true and false are refused.
 Number = Annotated[float, Strict()]
 Positive = Annotated[Number, Field(json_schema_extra={"exclusiveMinimum": 0.0})]
 NotNegative = Annotated[Number, Field(json_schema_extra={"minimum": 0.0})]
@@ -25,18 +26,18 @@ Latitude = Annotated[Number, Field(json_schema_extra={"minimum": -90.0, "maximum
 Longitude = Annotated[Number, Field(json_schema_extra={"minimum": -360.0, "maximum": 360.0})]
 
 
-# Finer polylines would be no truer: autopilots fly to metres.
-LEAST_CHORD_ERROR_M = 0.01
+# A finer polyline would be of no use: autopilots fly to within metres.
+MIN_CHORD_ERROR_M = 0.01
 
 
 class Request(BaseModel):
-    """A part of a request; a field that is not known is refused."""
+    """A part of a request; unknown fields are refused."""
 
     model_config = ConfigDict(extra="forbid")
 
 
 class PoseIn(Request):
-    """Where the aircraft is and where its nose points."""
+    """Position and heading of the aircraft."""
 
     east_m: Number = Field(description="Metres east of the origin.")
     north_m: Number = Field(description="Metres north of the origin.")
@@ -44,18 +45,18 @@ class PoseIn(Request):
 
 
 class OrbitIn(Request):
-    """The circle, where it is at the start."""
+    """The circle at the start."""
 
     east_m: Number = Field(description="Centre: metres east of the origin.")
     north_m: Number = Field(description="Centre: metres north of the origin.")
-    radius_m: Positive = Field(description="Metres.")
-    turn: TurnName = Field("either", description="Direction in which it is held, seen from above.")
-    velocity_east_m_s: Number = Field(0.0, description="Over the ground, metres per second.")
-    velocity_north_m_s: Number = Field(0.0, description="Over the ground, metres per second.")
+    radius_m: Positive = Field(description="Radius, metres.")
+    turn: TurnName = Field("either", description="Direction of flight around the circle, seen from above.")
+    velocity_east_m_s: Number = Field(0.0, description="Velocity of the centre over the ground, metres per second.")
+    velocity_north_m_s: Number = Field(0.0, description="Velocity of the centre over the ground, metres per second.")
 
 
-def _one_limit(schema: dict[str, Any]) -> None:
-    """Exactly one of the limits on the turn is there, and is no null."""
+def _require_one_limit(schema: dict[str, Any]) -> None:
+    """Add to the schema that exactly one of the turn limits is given, and is not null."""
     null = {"type": "null"}
     schema["oneOf"] = [
         {"required": [name], "properties": {n: null if n != name else {"type": "number"} for n in model.TURN_LIMITS}}
@@ -64,9 +65,9 @@ def _one_limit(schema: dict[str, Any]) -> None:
 
 
 class AircraftIn(Request):
-    """The aircraft: its true airspeed and exactly one limit on how tightly it turns."""
+    """The aircraft: its true airspeed and exactly one turn limit."""
 
-    model_config = ConfigDict(json_schema_extra=_one_limit)
+    model_config = ConfigDict(json_schema_extra=_require_one_limit)
 
     airspeed_m_s: Positive = Field(description="True airspeed, metres per second.")
     max_bank_deg: (
@@ -77,14 +78,14 @@ class AircraftIn(Request):
 
 
 class WindIn(Request):
-    """A steady, level wind."""
+    """A steady, horizontal wind."""
 
-    speed_m_s: NotNegative = Field(description="Metres per second.")
-    from_deg: Number = Field(description="The compass direction that it comes from: 270 blows towards the east.")
+    speed_m_s: NotNegative = Field(description="Wind speed, metres per second.")
+    from_deg: Number = Field(description="The compass direction that the wind comes from: 270 blows towards the east.")
 
 
 class OriginIn(Request):
-    """Where the local (0, 0) lies on Earth, WGS84."""
+    """The position of the local (0, 0) on Earth, WGS84 degrees."""
 
     latitude_deg: Latitude
     longitude_deg: Longitude
@@ -103,7 +104,7 @@ IN_WIND = EXAMPLE | {
 
 
 class Scene(Request):
-    """What is to be planned."""
+    """The problem to solve."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE, IN_WIND]})
 
@@ -112,14 +113,14 @@ class Scene(Request):
     aircraft: AircraftIn
     wind: WindIn | None = Field(None, description="Still air if absent.")
     tolerance_m: NotNegative = Field(
-        0.0, description="In still air: metres by which a start may lie beyond the last arc and still count as on it."
+        0.0, description="In still air: a start up to this many metres beyond the last arc counts as on it."
     )
     origin: OriginIn | None = Field(
-        None, description="With it places of the answer are told in degrees too, headings from true north."
+        None, description="If given, places of the answer are in degrees too, and headings from true north too."
     )
 
     def placed(self) -> PlacedProblem:
-        """The problem in the library's values; raises `loiter.errors.InvalidArgument` for what they refuse."""
+        """The problem and its frame as values of the library; raises `loiter.errors.InvalidArgument` as they do."""
         orbit = self.orbit.model_dump() | {"turn": model.Turn(self.orbit.turn)}
         problem = Problem(
             model.Pose(**self.pose.model_dump()),
@@ -132,68 +133,68 @@ class Scene(Request):
 
 
 class ExportOptions(Scene):
-    """What is to be planned, and how it is to be written; numbers as for `loiter plan --save`."""
+    """The problem to solve, and how to write its solution to a file; numbers as for `loiter plan --save`."""
 
-    altitude_m: Number | None = Field(None, description="Above what altitude_reference says; missions need it.")
+    altitude_m: Number | None = Field(None, description="Altitude above altitude_reference, metres; missions need it.")
     altitude_reference: Literal["msl", "home", "ground"] = Field(
         "msl",
-        description="What altitude_m is measured from: mean sea level, home, or the ground (ArduPilot's missions).",
+        description="The reference of altitude_m: mean sea level, home, or the ground (missions of ArduPilot only).",
     )
     home_altitude_m: Number | None = Field(
-        None, description="Of home, above mean sea level; missions above home or ground need it."
+        None, description="Altitude of home above mean sea level, metres; missions above home or ground need it."
     )
-    spacing_m: Positive | None = Field(None, description="Points are at most so many metres apart.")
-    chord_error_m: Annotated[Number, Field(json_schema_extra={"minimum": LEAST_CHORD_ERROR_M})] = Field(
-        1.0, description="The track is nowhere further from the lines between points, metres."
+    spacing_m: Positive | None = Field(None, description="Largest distance between points of the track, metres.")
+    chord_error_m: Annotated[Number, Field(json_schema_extra={"minimum": MIN_CHORD_ERROR_M})] = Field(
+        1.0, description="Largest distance between the track and the straight lines through its points, metres."
     )
-    autopilot: Literal["ardupilot", "px4"] = Field("ardupilot", description="Whom a .plan is for.")
+    autopilot: AutopilotName = Field("ardupilot", description="The autopilot that a .plan file is for.")
 
     @field_validator("chord_error_m")
     @classmethod
-    def _coarse(cls, chord_error_m: float) -> float:
-        """Refuse what would make files too large."""
-        if not chord_error_m >= LEAST_CHORD_ERROR_M:
-            raise ValueError(f"it is {chord_error_m:g} and must be at least {LEAST_CHORD_ERROR_M:g}")
+    def _check_chord_error(cls, chord_error_m: float) -> float:
+        """Refuse chord errors so small that files would be too large."""
+        if not chord_error_m >= MIN_CHORD_ERROR_M:
+            raise ValueError(f"it is {chord_error_m:g} and must be at least {MIN_CHORD_ERROR_M:g}")
         return chord_error_m
 
 
 class Answer(BaseModel):
-    """A part of an answer: finite numbers only."""
+    """A part of an answer; its numbers are finite."""
 
     model_config = ConfigDict(allow_inf_nan=False)
 
 
-def _absent(schema: dict[str, Any]) -> None:
-    """What is not told has no value, not even null."""
+def _drop_default(schema: dict[str, Any]) -> None:
+    """Remove the default from the schema: the field is absent from an answer, never null."""
     del schema["default"]
 
 
 class Pose(Answer):
-    """A place over the ground and a heading; degrees where the request has an origin."""
+    """A position over the ground and a heading; also in degrees where the request has an origin."""
 
     east_m: float
     north_m: float
     heading_deg: float
     latitude_deg: float | SkipJsonSchema[None] = Field(
-        None, description="WGS84; with an origin only.", json_schema_extra=_absent
+        None, description="WGS84 degrees; only with an origin.", json_schema_extra=_drop_default
     )
     longitude_deg: float | SkipJsonSchema[None] = Field(
-        None, description="WGS84; with an origin only.", json_schema_extra=_absent
+        None, description="WGS84 degrees; only with an origin.", json_schema_extra=_drop_default
     )
     true_heading_deg: float | SkipJsonSchema[None] = Field(
-        None, description="From true north, as latitude_deg.", json_schema_extra=_absent
+        None, description="Degrees clockwise from true north; only with an origin.", json_schema_extra=_drop_default
     )
 
 
 class Wind(Answer):
-    """The wind as asked for."""
+    """The wind of the request."""
 
     speed_m_s: float
     from_deg: float
 
 
 class JoinOverGround(Answer):
-    """Track and ground speed where the circle is joined, and where its centre is then."""
+    """Track and ground speed of the aircraft, and the position of the centre, when it joins the circle."""
 
     track_deg: float
     ground_speed_m_s: float
@@ -202,7 +203,7 @@ class JoinOverGround(Answer):
 
 
 class Hold(Answer):
-    """The bank that the hold takes all the way round; the azimuth of the most, from the centre."""
+    """Least and largest bank on the circle, and the azimuth of the largest, seen from the centre."""
 
     least_bank_deg: float
     largest_bank_deg: float
@@ -210,7 +211,7 @@ class Hold(Answer):
 
 
 class Segment(Answer):
-    """One piece: "L" and "R" turn, "S" flies straight; length and curvature (left positive) through the air."""
+    """One segment: "L" and "R" turn, "S" flies straight; length and curvature (left positive) relative to the air."""
 
     letter: Literal["L", "S", "R"]
     start_s: float
@@ -222,7 +223,7 @@ class Segment(Answer):
 
 
 class FlownBy(Answer):
-    """The aircraft: its true airspeed and the turn radius of its limit."""
+    """The aircraft: its true airspeed and its minimum turn radius."""
 
     airspeed_m_s: float
     turn_radius_m: float
@@ -231,7 +232,7 @@ class FlownBy(Answer):
 class Track(Answer):
     """A polyline: over the ground (metres, headings in degrees), and x, y in the reduced plane (turn radii).
 
-    It has a point at each switch, and its chords are off by less than 0.002 turn radii.
+    It has a vertex at each switch, and it is nowhere further than 0.002 turn radii from the track.
     """
 
     time_s: list[float]
@@ -243,7 +244,7 @@ class Track(Answer):
 
 
 class Maneuver(Answer):
-    """A way onto the circle."""
+    """A maneuver onto the circle."""
 
     duration_s: float
     length_m: float
@@ -260,9 +261,9 @@ class Maneuver(Answer):
 
 
 class LaterManeuver(Maneuver):
-    """A maneuver beside a faster one."""
+    """A maneuver compared with the first one."""
 
-    later_s: float = Field(description="How much later it joins than the first.")
+    later_s: float = Field(description="Seconds by which it joins later than the first.")
 
 
 class ReducedState(Answer):
@@ -277,13 +278,13 @@ class Plan(Maneuver):
     """The first optimal maneuver, and others."""
 
     alternatives: list[LaterManeuver]
-    optimal: int = Field(description="How many maneuvers are optimal: this and the first of the alternatives.")
+    optimal: int = Field(description="The number of optimal maneuvers: this one and the first of the alternatives.")
     other_turn_later_s: float | None = Field(
-        description="How much later the best maneuver the other way round joins; 0 where they tie."
+        description="Seconds by which the best maneuver in the other direction joins later; 0 where they tie."
     )
-    instruction: str = Field(description="What to do now and next, for a person.")
+    instruction: str = Field(description="What the pilot should do now and next.")
     command: str = Field(description="The command line that gives this plan.")
-    python: str = Field(description="Lines of Python that give this plan.")
+    python: str = Field(description="Python code that gives this plan.")
     reduced: ReducedState
 
 
@@ -294,7 +295,7 @@ class Candidates(Answer):
 
 
 class Switch(Answer):
-    """An instant of switching: from and to which letter, the reduced state there, and psi."""
+    """A switch of the control: the letters before and after it, the reduced state and psi at that instant."""
 
     time_s: float
     letters: str
@@ -305,7 +306,7 @@ class Switch(Answer):
 
 
 class Residual(Answer):
-    """One condition of the maximum principle, and how far it is off; null where it could not be checked."""
+    """One condition of the maximum principle and its residual; null where it could not be checked."""
 
     name: str
     equation: str
@@ -316,7 +317,7 @@ class Residual(Answer):
 
 
 class Candidate(Answer):
-    """Another extremal, and how much later it joins."""
+    """Another extremal, and the seconds by which it joins later."""
 
     word: str
     turn: Literal["cw", "ccw"]
@@ -328,7 +329,7 @@ class Certificate(Answer):
     """The conditions of the maximum principle for a maneuver, checked.
 
     They are necessary. That they are also sufficient is proved for circles of the turn radius in still air alone (the
-    paper). `lambda` and `psi` are null where nothing is to be flown.
+    paper). `lambda` and `psi` are null where the aircraft is on the circle already.
     """
 
     valid: bool
@@ -346,7 +347,7 @@ class Certificate(Answer):
 
 
 class Series(Answer):
-    """Control, switching function and adjoint over time; pieces one after the other, both ends of each."""
+    """Control, switching function and adjoint over time, segment by segment, with both ends of each segment."""
 
     time_s: list[float]
     u: list[int]
@@ -357,14 +358,14 @@ class Series(Answer):
 
 
 class Proof(Answer):
-    """The certificate of the first optimal maneuver, and what a picture of it shows."""
+    """The certificate of the first optimal maneuver, and its curves over time."""
 
     certificate: Certificate
     series: Series
 
 
 class Curve(Answer):
-    """A line between two regions: what changes there, between which words, and its points."""
+    """A curve between two regions: what changes across it, the two words, and its points."""
 
     kind: Literal["jump", "same", "straight", "switch", "tie"]
     words: tuple[str, str]
@@ -380,12 +381,14 @@ class Synthesis(Answer):
     x: list[float]
     y: list[float]
     words: list[str]
-    region: list[list[int]] = Field(description="Rows of y: which of the words wins; -1 for none.")
+    region: list[list[int]] = Field(
+        description="For each y a row over x: the index of the winning word in words; -1 where none wins."
+    )
     curves: list[Curve]
 
 
 class Health(Answer):
-    """The service is there."""
+    """The service is running."""
 
     status: Literal["ok"]
     version: str

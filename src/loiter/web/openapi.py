@@ -1,4 +1,4 @@
-"""The OpenAPI of the service: FastAPI's, with the problem documents that it really answers."""
+"""The OpenAPI document of the service: FastAPI's own, with the service's problem documents as refusals."""
 
 from __future__ import annotations
 
@@ -8,40 +8,41 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
-from loiter.web.problems import MEDIA_TYPE, Problem
+from loiter.web.problems import MEDIA_TYPE, ProblemDocument
 
 SUMMARY = "The fastest way onto a holding circle for a fixed-wing aircraft."
 
 REFUSALS = {
-    HTTPStatus.BAD_REQUEST: "What came is no JSON, or no HTTP.",
-    HTTPStatus.REQUEST_TIMEOUT: "It came too slowly.",
+    HTTPStatus.BAD_REQUEST: "The request is not valid JSON or not valid HTTP.",
+    HTTPStatus.REQUEST_TIMEOUT: "The request arrived too slowly.",
     HTTPStatus.REQUEST_ENTITY_TOO_LARGE: "The body is too large.",
-    HTTPStatus.UNSUPPORTED_MEDIA_TYPE: "The body is not application/json.",
-    HTTPStatus.UNPROCESSABLE_ENTITY: "It does not fit the schema, or the library refuses it: the type says why.",
+    HTTPStatus.UNSUPPORTED_MEDIA_TYPE: "The content type of the body is not application/json.",
+    HTTPStatus.UNPROCESSABLE_ENTITY: "The request does not fit the schema, or the library refuses it; see the type.",
     HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE: "The address or the headers are too large.",
-    HTTPStatus.SERVICE_UNAVAILABLE: "Too many ask at once: come again.",
+    HTTPStatus.SERVICE_UNAVAILABLE: "Too many requests at once: try again later.",
 }
 
 
 def install(api: FastAPI) -> None:
-    """Let the app describe itself so."""
+    """Make the app serve this document at /openapi.json."""
 
     def openapi() -> dict[str, Any]:
         if not api.openapi_schema:
-            api.openapi_schema = _described(api)
+            api.openapi_schema = document(api)
         return api.openapi_schema
 
     api.openapi = openapi  # type: ignore[method-assign]
 
 
-def _described(api: FastAPI) -> dict[str, Any]:
+def document(api: FastAPI) -> dict[str, Any]:
+    """The OpenAPI document of an app; every operation lists the refusals."""
     schema = get_openapi(title=api.title, version=api.version, summary=SUMMARY, routes=api.routes)
     schemas = schema["components"]["schemas"]
     for unused in ("HTTPValidationError", "ValidationError"):
         schemas.pop(unused, None)
-    problem = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
+    problem = ProblemDocument.model_json_schema(ref_template="#/components/schemas/{model}")
     schemas |= problem.pop("$defs") | {"Problem": problem}
-    refusals = {str(int(status)): _refusal(said) for status, said in REFUSALS.items()}
+    refusals = {str(int(status)): _refusal(description) for status, description in REFUSALS.items()}
     for path in schema["paths"].values():
         for operation in path.values():
             operation["responses"] |= refusals

@@ -1,47 +1,67 @@
-"""What went wrong, as a problem document (RFC 9457): one table from exception to status and type."""
+"""Errors as problem documents (RFC 9457); one table gives status and type of each exception."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
 from http import HTTPStatus
-from typing import Any
+from typing import Any, NamedTuple
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
-from starlette.routing import Match
+from starlette.routing import BaseRoute, Match
 
 from loiter.errors import InvalidArgument, LoiterError, NotConverged, OutOfRange, RadiusTooSmall, WindTooStrong
 from loiter.planning.model import TURN_LIMITS
 
 MEDIA_TYPE = "application/problem+json"
-TYPES = "urn:problem-type:loiter:"
+TYPE_PREFIX = "urn:problem-type:loiter:"
 
-# Status, last part of the type, title. What HTTP itself refuses has the type about:blank.
-TABLE: dict[type[Exception], tuple[HTTPStatus, str, str]] = {
-    InvalidArgument: (HTTPStatus.UNPROCESSABLE_ENTITY, "invalid-argument", "A value cannot be used"),
-    RadiusTooSmall: (HTTPStatus.UNPROCESSABLE_ENTITY, "radius-too-small", "The circle cannot be held"),
-    WindTooStrong: (HTTPStatus.UNPROCESSABLE_ENTITY, "wind-too-strong", "The wind is too strong"),
-    OutOfRange: (HTTPStatus.UNPROCESSABLE_ENTITY, "out-of-range", "The scene is too large"),
-    NotConverged: (HTTPStatus.UNPROCESSABLE_ENTITY, "not-converged", "No maneuver was found"),
-    LoiterError: (HTTPStatus.UNPROCESSABLE_ENTITY, "refused", "The request cannot be met"),
-    RequestValidationError: (HTTPStatus.UNPROCESSABLE_ENTITY, "invalid-request", "The request does not fit the schema"),
+
+class ProblemType(NamedTuple):
+    """The status of an exception, the last part of its type, and its title."""
+
+    status: HTTPStatus
+    name: str
+    title: str
+
+
+# Errors of HTTP itself have the type about:blank.
+PROBLEM_TYPES: dict[type[Exception], ProblemType] = {
+    exception: ProblemType(HTTPStatus.UNPROCESSABLE_ENTITY, name, title)
+    for exception, name, title in [
+        (InvalidArgument, "invalid-argument", "A value cannot be used"),
+        (RadiusTooSmall, "radius-too-small", "The circle cannot be held"),
+        (WindTooStrong, "wind-too-strong", "The wind is too strong"),
+        (OutOfRange, "out-of-range", "The scene is too large"),
+        (NotConverged, "not-converged", "No maneuver was found"),
+        (LoiterError, "refused", "The request cannot be met"),
+        (RequestValidationError, "invalid-request", "The request does not fit the schema"),
+    ]
 }
 
-# What the JSON calls the library's arguments, and where they stand in it; "pose east_m" stands where it says.
-PLACES = {name: (f"aircraft.{name}", f"aircraft/{name}") for name in ("airspeed_m_s", *TURN_LIMITS)} | {
-    "turn": ("orbit.turn", "orbit/turn"),
-    "turn limit": ("the turn limit of the aircraft", "aircraft"),
-    "turn radius": ("the turn radius of the aircraft", "aircraft"),
-    "frame": ("origin", "origin"),
+
+class JsonField(NamedTuple):
+    """A field of the request: its name in sentences, and its path in the JSON, both in place of an argument's name."""
+
+    name: str
+    path: str
+
+
+# Arguments of the library that have another name in the JSON. An argument "pose east_m" is the field pose/east_m.
+JSON_FIELDS = {name: JsonField(f"aircraft.{name}", f"aircraft/{name}") for name in ("airspeed_m_s", *TURN_LIMITS)} | {
+    "turn": JsonField("orbit.turn", "orbit/turn"),
+    "turn limit": JsonField("the turn limit of the aircraft", "aircraft"),
+    "turn radius": JsonField("the turn radius of the aircraft", "aircraft"),
+    "frame": JsonField("origin", "origin"),
 }
 
 
-# What pydantic finds, by its kind, where its own sentence would speak of Python.
-SAID = {
+# Sentences for kinds of pydantic's errors whose own sentences speak of Python.
+VALIDATION_SENTENCES = {
     "missing": "is needed",
     "extra_forbidden": "is not known",
     "model_attributes_type": "must be an object",
@@ -50,22 +70,24 @@ SAID = {
 
 
 class Detail(BaseModel):
-    """One thing that is wrong, and where: a JSON pointer into the body, or the name of a parameter."""
+    """One error and its place: a JSON pointer into the body, or the name of a parameter."""
 
     detail: str
     pointer: str | None = None
     parameter: str | None = None
 
 
-class Problem(BaseModel):
+class ProblemDocument(BaseModel):
     """A problem document, RFC 9457."""
 
-    type: str = Field(description="What kind of problem; about:blank where the status says it all.")
+    model_config = ConfigDict(title="Problem")
+
+    type: str = Field(description="The kind of problem; about:blank where the status already says it.")
     title: str
     status: int = Field(ge=400, le=599)
     detail: str = Field(description="One sentence that says what is wrong with this request.")
-    instance: str | None = Field(None, description="The path that was asked for.")
-    errors: list[Detail] = Field(default=[], description="What is wrong, one by one.")
+    instance: str | None = Field(None, description="The path of the request.")
+    errors: list[Detail] = Field(default=[], description="Each error of the request with its place.")
 
 
 def problem(
@@ -78,91 +100,106 @@ def problem(
     errors: Sequence[Mapping[str, str]] = (),
     headers: Mapping[str, str] | None = None,
 ) -> Response:
-    """A problem document as an answer; without a kind its type is about:blank and its title the status's phrase."""
+    """A problem document as a response; without `kind` its type is about:blank and its title the status's phrase."""
     document: dict[str, Any] = {
-        "type": f"{TYPES}{kind}" if kind else "about:blank",
+        "type": f"{TYPE_PREFIX}{kind}" if kind else "about:blank",
         "title": title or HTTPStatus(status).phrase,
         "status": int(status),
         "detail": detail,
     }
     document |= {"instance": instance} if instance else {}
     document |= {"errors": list(errors)} if errors else {}
-    # In ASCII: what a request quotes may be no text that UTF-8 can hold.
+    # In ASCII: a request may quote characters that UTF-8 cannot encode.
     return Response(json.dumps(document).encode("ascii"), int(status), headers, media_type=MEDIA_TYPE)
 
 
 def install(app: FastAPI) -> None:
-    """Let the app answer every exception with a problem document."""
-    app.add_exception_handler(LoiterError, _refused)
-    app.add_exception_handler(RequestValidationError, _misfit)
-    app.add_exception_handler(HTTPException, _by_status)
-    app.add_exception_handler(Exception, _failed)
+    """Make the app answer every exception with a problem document."""
+    app.add_exception_handler(LoiterError, _library_error)
+    app.add_exception_handler(RequestValidationError, _validation_error)
+    app.add_exception_handler(HTTPException, _http_error)
+    app.add_exception_handler(Exception, _internal_error)
 
 
-def sentence(error: LoiterError) -> tuple[str, str]:
-    """The library's sentence in the names of the JSON, and where that stands which it is about, or ""."""
+def sentence_and_path(error: LoiterError) -> tuple[str, str]:
+    """The library's sentence with the names of the JSON, and the path of the wrong field, or ""."""
     if not isinstance(error, InvalidArgument):
         return str(error), ""
     argument = error.argument
-    name, place = PLACES.get(argument, (argument.replace(" ", "."), argument.replace(" ", "/")))
-    return f"{name} {error.problem}", place
+    default = JsonField(argument.replace(" ", "."), argument.replace(" ", "/"))
+    name, path = JSON_FIELDS.get(argument, default)
+    return f"{name} {error.problem}", path
 
 
-def _refused(request: Request, error: Exception) -> Response:
+def _library_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, LoiterError)
-    status, kind, title = next(TABLE[cls] for cls in type(error).__mro__ if cls in TABLE)
-    detail, place = sentence(error)
-    where = {"pointer": f"#/{place}"} if request.method == "POST" else {"parameter": _parameter(request, place)}
-    errors = [{"detail": detail, **where}] if place else []
+    status, kind, title = next(PROBLEM_TYPES[cls] for cls in type(error).__mro__ if cls in PROBLEM_TYPES)
+    detail, path = sentence_and_path(error)
+    place = {"pointer": f"#/{path}"} if request.method == "POST" else {"parameter": _parameter(request, path)}
+    errors = [{"detail": detail, **place}] if path else []
     return problem(status, detail, kind=kind, title=title, instance=request.url.path, errors=errors)
 
 
-def _parameter(request: Request, place: str) -> str:
-    """The parameter of a query that a place is in: the scene's, where there is one, has it all."""
-    return "scene" if "scene" in request.query_params else place
+def _parameter(request: Request, path: str) -> str:
+    """The parameter of a query that holds a field: the scene, where the query has one."""
+    return "scene" if "scene" in request.query_params else path
 
 
-def _misfit(request: Request, error: Exception) -> Response:
-    """What pydantic finds, in sentences."""
+def _validation_error(request: Request, error: Exception) -> Response:
+    """The problem document for what pydantic finds wrong with a request."""
     assert isinstance(error, RequestValidationError)
-    found = error.errors()
-    if found[0]["type"] == "json_invalid":
-        detail = f"what came is not JSON: {found[0]['ctx']['error']}"
+    first, *_ = found = error.errors()
+    if first["type"] == "json_invalid":
+        detail = f"the request is not valid JSON: {first['ctx']['error']}"
         return problem(HTTPStatus.BAD_REQUEST, detail, instance=request.url.path)
     errors = [_detail(one) for one in found]
-    status, kind, title = TABLE[RequestValidationError]
-    return problem(status, errors[0]["detail"], kind=kind, title=title, instance=request.url.path, errors=errors)
+    detail = next(one["detail"] for one in errors)
+    status, kind, title = PROBLEM_TYPES[RequestValidationError]
+    return problem(status, detail, kind=kind, title=title, instance=request.url.path, errors=errors)
 
 
 def _detail(error: Mapping[str, Any]) -> dict[str, str]:
-    where, *path = [str(part) for part in error["loc"]]
+    """An error of pydantic as the fields of a `Detail`."""
+    location, *path = [str(part) for part in error["loc"]]
     name = ".".join(path) or "the body"
     message = error["msg"].replace("Input should", "it should").removeprefix("Value error, ")
-    said = SAID.get(error["type"], f"is wrong: {message}")
-    place = (
-        {"parameter": path[0]} if where in ("query", "path") else {"pointer": "".join(["#", *("/" + p for p in path)])}
-    )
-    return {"detail": f"{name} {said}", **place}
+    detail = f"{name} {VALIDATION_SENTENCES.get(error['type'], f'is wrong: {message}')}"
+    if location in ("query", "path"):
+        parameter, *_ = path
+        return {"detail": detail, "parameter": parameter}
+    return {"detail": detail, "pointer": "/".join(["#", *path])}
 
 
-def _by_status(request: Request, error: Exception) -> Response:
+def _http_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
-    said = {
-        HTTPStatus.BAD_REQUEST: "what came is not JSON",
-        HTTPStatus.NOT_FOUND: f"nothing is at {request.url.path}",
-        HTTPStatus.METHOD_NOT_ALLOWED: f"{request.method} is not understood at {request.url.path}",
+    details = {
+        HTTPStatus.BAD_REQUEST: "the request is not valid JSON",
+        HTTPStatus.NOT_FOUND: f"there is nothing at {request.url.path}",
+        HTTPStatus.METHOD_NOT_ALLOWED: f"{request.method} is not allowed at {request.url.path}",
     }
-    detail = said.get(HTTPStatus(error.status_code), error.detail)
-    headers = {"Allow": _allowed(request)} if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED else error.headers
+    detail = details.get(HTTPStatus(error.status_code), error.detail)
+    headers = error.headers
+    if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED:
+        headers = {"Allow": _allowed_methods(request)}
     return problem(error.status_code, detail, instance=request.url.path, headers=headers)
 
 
-def _allowed(request: Request) -> str:
-    """The methods of all routes of a path, as the framework knows those of the first; files are read."""
-    routes = [route for route in request.app.routes if route.matches(request.scope)[0] != Match.NONE]
-    methods = {method for route in routes for method in getattr(route, "methods", None) or ()}
+def _allowed_methods(request: Request) -> str:
+    """The methods of all routes of the path (the framework lists those of the first); static files have none listed."""
+    methods = {
+        method
+        for route in request.app.routes
+        if _matches(route, request)
+        for method in getattr(route, "methods", None) or ()
+    }
     return ", ".join(sorted(methods or {"GET", "HEAD"}))
 
 
-def _failed(request: Request, error: Exception) -> Response:
-    return problem(HTTPStatus.INTERNAL_SERVER_ERROR, "the service failed; its log says why", instance=request.url.path)
+def _matches(route: BaseRoute, request: Request) -> bool:
+    match, _ = route.matches(request.scope)
+    return match != Match.NONE
+
+
+def _internal_error(request: Request, error: Exception) -> Response:
+    detail = "the service failed; its log gives the reason"
+    return problem(HTTPStatus.INTERNAL_SERVER_ERROR, detail, instance=request.url.path)

@@ -1,4 +1,4 @@
-"""The server around the application: where it listens, how it ends."""
+"""The server around the application: its socket, its start and its end."""
 
 from __future__ import annotations
 
@@ -15,26 +15,26 @@ from urllib.parse import urlsplit
 import uvicorn
 
 from loiter.errors import InvalidArgument
-from loiter.web.answers.synthesis import FIRST_CELLS, synthesis
+from loiter.web.answers.synthesis import DEFAULT_CELLS, synthesis
 from loiter.web.app import create_app
 from loiter.web.connections import Connection
-from loiter.web.limits import MOST_HEAD
+from loiter.web.limits import MAX_HEAD_BYTES
 
 # Connections that may wait to be accepted.
 BACKLOG = 2048
 
-# Seconds that answers under way have when the server is told to end.
-FAREWELL_S = 3
+# Seconds that running answers have to finish when the server ends.
+SHUTDOWN_TIMEOUT_S = 3
 
-# Seconds between two looks at what has been accepted while the server ends.
-CLOSING_S = 0.02
+# Seconds between two checks for newly accepted connections while the server ends.
+CLOSING_INTERVAL_S = 0.02
 
 
 def serve(host: str, port: int, cors: str | None, announce: Callable[[str], object]) -> None:
-    """What `loiter.web.serve` documents."""
+    """Serve the page and the endpoints; `loiter.web.serve` documents the arguments."""
     if cors is not None:
         _check_origin(cors)
-    with _listening(host, port) as listener, _ending_alike(), suppress(KeyboardInterrupt):
+    with listening_socket(host, port) as listener, _sigterm_as_interrupt(), suppress(KeyboardInterrupt):
         app = create_app(cors)
         config = uvicorn.Config(
             app,
@@ -42,59 +42,60 @@ def serve(host: str, port: int, cors: str | None, announce: Callable[[str], obje
             http=Connection,
             ws="none",
             lifespan="off",
-            h11_max_incomplete_event_size=MOST_HEAD,
+            h11_max_incomplete_event_size=MAX_HEAD_BYTES,
             proxy_headers=False,
             server_header=False,
             access_log=False,
             log_config=None,
             log_level="error",
-            timeout_graceful_shutdown=FAREWELL_S,
+            timeout_graceful_shutdown=SHUTDOWN_TIMEOUT_S,
         )
-        for line in _addresses(listener):
+        for line in _announcements(listener):
             announce(line)
         Server(config).run(sockets=[listener])
 
 
 class Server(uvicorn.Server):
-    """uvicorn's server, which ends whenever it is told to."""
+    """uvicorn's server, which ends even where connections are accepted while it ends."""
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Start, and draw the map that the page shows first.
+        """Start, and compute the map that the page shows first, in a thread.
 
-        It needs the compiled kernel, which takes ten seconds, once on a machine. It begins when uvicorn handles
-        signals: one that interrupts an import before would leave another thread's import waiting for ever.
+        The map needs the compiled kernel; compiling takes ten seconds, once on a machine. It begins only after uvicorn
+        has installed its signal handlers: a signal that interrupted an import before that would block the import of
+        another thread for ever.
         """
         await super().startup(sockets)
-        Thread(target=synthesis, args=(1.0, "either", None, FIRST_CELLS)).start()
+        Thread(target=synthesis, args=(1.0, "either", None, DEFAULT_CELLS)).start()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """End, and close connections too that are accepted meanwhile: uvicorn would wait for them in vain."""
+        """End, and close connections that are accepted meanwhile; uvicorn would wait for them until its time-out."""
         closing = asyncio.create_task(self._close_connections())
         await super().shutdown(sockets)
         closing.cancel()
 
     async def _close_connections(self) -> None:
         while True:
-            await asyncio.sleep(CLOSING_S)
+            await asyncio.sleep(CLOSING_INTERVAL_S)
             for connection in list(self.server_state.connections):
                 if not connection.transport.is_closing():
                     connection.shutdown()
 
 
 @contextmanager
-def _listening(host: str, port: int) -> Iterator[socket.socket]:
-    """A socket that listens; raises `InvalidArgument` where that cannot be."""
+def listening_socket(host: str, port: int) -> Iterator[socket.socket]:
+    """A socket that listens on the address; raises `InvalidArgument` where it cannot."""
     if not 0 <= port <= 65535:
         raise InvalidArgument("port", f"is {port}: it must be a whole number from 0 to 65535")
     try:
-        family, kind, protocol, _, address = socket.getaddrinfo(host, port, proto=socket.IPPROTO_TCP)[0]
+        (family, kind, protocol, _, address), *_ = socket.getaddrinfo(host, port, proto=socket.IPPROTO_TCP)
     except (OSError, UnicodeError) as error:
-        raise InvalidArgument("host", f"is {host!r}: it is no address of this machine") from error
-    # asyncio sends at once (TCP_NODELAY) only where the socket was made for TCP by name: else a short answer, head and
-    # body, waits 40 ms for the acknowledgement of its head.
+        raise InvalidArgument("host", f"is {host!r}: it is not an address of this machine") from error
+    # asyncio sets TCP_NODELAY (send at once) only where the socket was created with the protocol TCP. Without it a
+    # short answer, head and body, waits 40 ms for the acknowledgement of its head.
     with socket.socket(family, kind, protocol) as listener:
         try:
-            # The addresses of connections that have ended wait a minute; Windows takes the same for sharing a port.
+            # The addresses of ended connections stay in use for a minute. On Windows this option would share the port.
             if os.name == "posix":
                 listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             listener.bind(address)
@@ -105,8 +106,8 @@ def _listening(host: str, port: int) -> Iterator[socket.socket]:
 
 
 @contextmanager
-def _ending_alike() -> Iterator[None]:
-    """Let SIGTERM end the process as Ctrl-C does, before the server runs and after."""
+def _sigterm_as_interrupt() -> Iterator[None]:
+    """Let SIGTERM end the process as Ctrl-C does, before the server runs and after it."""
     before = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         yield
@@ -114,11 +115,13 @@ def _ending_alike() -> Iterator[None]:
         signal.signal(signal.SIGTERM, before)
 
 
-def _addresses(listener: socket.socket) -> Iterator[str]:
-    host, port = listener.getsockname()[:2]
+def _announcements(listener: socket.socket) -> Iterator[str]:
+    """The address of the page, and a warning where other machines can reach it."""
+    host, port, *_ = listener.getsockname()
     yield f"http://{f'[{host}]' if ':' in host else host}:{port}/"
-    if not ip_address(host.partition("%")[0]).is_loopback:
-        yield "Others on the network can reach it: it asks nobody for a name or a password."
+    address, _, _ = host.partition("%")
+    if not ip_address(address).is_loopback:
+        yield "Other machines on the network can reach it: it asks for no user name and no password."
 
 
 def _check_origin(cors: str) -> None:

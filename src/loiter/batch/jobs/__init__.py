@@ -1,1 +1,1 @@
-"""Batch jobs: divided into parts, solved by threads or a Dask cluster, resumed where they stopped."""
+"""Batch jobs: divided into parts, solved by threads or a Dask cluster, resumed after an interruption."""

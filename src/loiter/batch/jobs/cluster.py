@@ -1,4 +1,4 @@
-"""The same work on a Dask cluster, whose workers share a file system with this process."""
+"""Jobs on a Dask cluster, whose workers share a file system with this process."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from loiter.batch.jobs.folder import belongs
+from loiter.batch.jobs.folder import belongs_to
 from loiter.batch.jobs.parts import Job, solve_part
-from loiter.batch.jobs.runner import Crew, Meter, threads
+from loiter.batch.jobs.runner import Executors, RowCounter, thread_pool
 from loiter.batch.tables.files import Part, reason
 from loiter.errors import InvalidArgument
 from loiter.version import __version__
 
-# Seconds to wait for a scheduler, and for its first worker.
+# Seconds to wait for the scheduler, and for its first worker.
 CONNECT_S = 5
 WORKER_S = 10
 
-# Parts in the hands of the scheduler for each thread of the cluster: one under way, one to go on with.
+# Parts submitted to the scheduler for each thread of the cluster: one in progress, and the next.
 AHEAD = 2
 
 
 @contextmanager
-def connected(address: str) -> Iterator[Any]:
-    """A client of the scheduler at `address`; raises `InvalidArgument` where there is none, or it has no workers."""
+def open_client(address: str) -> Iterator[Any]:
+    """A client of the scheduler at `address`; raises `InvalidArgument` if there is none, or if it has no workers."""
     if not re.fullmatch(r"(tcp|tls)://[^/:]+(:\d+)", address):
         raise InvalidArgument("scheduler", f"is {address!r}: it must be an address such as tcp://host:8786")
     from distributed import Client
 
-    with _quiet("distributed", "distributed.client", "tornado", "asyncio"):
+    with _without_logs("distributed", "distributed.client", "tornado", "asyncio"):
         try:
             client: Any = Client(address, timeout=CONNECT_S, set_as_default=False)
         except (OSError, ValueError) as error:
@@ -47,12 +47,12 @@ def connected(address: str) -> Iterator[Any]:
 
 
 @contextmanager
-def _quiet(*names: str) -> Iterator[None]:
-    """What goes wrong meanwhile is said in one sentence, not in the lines that these log."""
+def _without_logs(*names: str) -> Iterator[None]:
+    """Silence some loggers in a context: failures are reported in one sentence instead."""
     loggers = [logging.getLogger(name) for name in names]
     levels = [logger.level for logger in loggers]
     for logger in loggers:
-        # Above every level there is.
+        # A level above all others.
         logger.setLevel(logging.CRITICAL + 1)
     try:
         yield
@@ -62,45 +62,45 @@ def _quiet(*names: str) -> Iterator[None]:
 
 
 @contextmanager
-def cluster_crew(client: Any, meter: Meter) -> Iterator[Crew]:
-    """The workers of a cluster solve; this process appends.
+def cluster_executors(client: Any, counter: RowCounter) -> Iterator[Executors]:
+    """Executors that solve on the workers of a cluster and append in this process.
 
-    A lost worker's parts are done again by others: the scheduler sees to that.
+    If a worker is lost, the scheduler gives its parts to others.
     """
-    held: set[Any] = set()
+    submitted: set[Any] = set()
 
     def solve(job: Job, part: Part) -> Future[None]:
         task = client.submit(solve_part, job, part, pure=False)
-        held.add(task)
-        solved = _watched(task)
-        solved.add_done_callback(lambda done: held.discard(task))
-        solved.add_done_callback(lambda done: meter.count(0 if done.exception() else part.rows))
+        submitted.add(task)
+        solved = _future_of(task)
+        solved.add_done_callback(lambda done: submitted.discard(task))
+        solved.add_done_callback(lambda done: counter.count(0 if done.exception() else part.rows))
         return solved
 
-    def room(solving: int, appending: int) -> bool:
+    def has_capacity(solving: int, appending: int) -> bool:
         return solving < max(1, AHEAD * sum(map(int, client.nthreads().values())))
 
     def check() -> None:
-        # The tasks of a client that has lost its scheduler for good may never be done.
+        # Tasks may never be done if the client has lost its scheduler.
         if client.status == "closed":
             raise OSError("the scheduler does not answer any more")
 
     try:
-        with threads(1, meter) as appender:
-            yield Crew(solve, appender, room, check)
+        with thread_pool(1, counter) as appender:
+            yield Executors(solve, appender, has_capacity, check)
     finally:
         if client.status == "running":
-            client.cancel(list(held))
+            client.cancel(list(submitted))
 
 
-def _watched(task: Any) -> Future[None]:
-    """A future of the standard library that is done when a task of Dask is.
+def _future_of(task: Any) -> Future[None]:
+    """A future of the standard library that is done when a Dask task is.
 
-    What a task gives is a file, so that nothing is fetched from a worker that may be lost by then.
+    The result of a task is a file, so that nothing must be fetched from its worker, which may be lost by then.
     """
     solved: Future[None] = Future()
 
-    def look(task: Any) -> None:
+    def on_done(task: Any) -> None:
         if task.status == "finished":
             solved.set_result(None)
         elif task.status == "error":
@@ -108,37 +108,37 @@ def _watched(task: Any) -> Future[None]:
         elif task.status == "cancelled":
             solved.set_exception(OSError("the cluster gave it up"))
         else:
-            # Finished and lost again, with its worker: it is done once more.
-            task.add_done_callback(look)
+            # The task was finished, but is run again because its worker was lost.
+            task.add_done_callback(on_done)
 
-    task.add_done_callback(look)
+    task.add_done_callback(on_done)
     return solved
 
 
 def _cause(error: BaseException) -> BaseException:
-    """What to raise for the error of a task; like that of a disk where it is the cluster's, as what is done is kept."""
+    """The error to raise for that of a task: an `OSError` for those of the cluster, after which finished parts stay."""
     from distributed import KilledWorker
 
-    return OSError("worker after worker died of the same part") if isinstance(error, KilledWorker) else error
+    return OSError("several workers died while solving the same part") if isinstance(error, KilledWorker) else error
 
 
 def check_workers(client: Any, job: Job, source: Path) -> None:
-    """Raise `InvalidArgument` where a worker does not see the input or the job's folder, or has another program."""
+    """Raise `InvalidArgument` if a worker cannot read the input or use the job's folder, or has another version."""
     size = source.stat().st_size
-    found = client.run(_sight, job, source.absolute(), size, __version__, on_error="return")
-    for worker, problem in found.items():
+    problems = client.run(_worker_problem, job, source.absolute(), size, __version__, on_error="return")
+    for worker, problem in problems.items():
         if problem:
-            said = problem if isinstance(problem, str) else reason(problem)
-            raise InvalidArgument("scheduler", f"has a worker {worker} that cannot take part: {said}")
+            text = problem if isinstance(problem, str) else reason(problem)
+            raise InvalidArgument("scheduler", f"has a worker {worker} that cannot take part: {text}")
 
 
-def _sight(job: Job, source: Path, size: int, version: str) -> str:
-    """What keeps the worker that runs this from taking part; "" if nothing does."""
+def _worker_problem(job: Job, source: Path, size: int, version: str) -> str:
+    """Why the worker that runs this cannot take part; "" if it can."""
     if __version__ != version:
         return f"it has loiter {__version__}, not {version}"
     if not source.exists() or source.stat().st_size != size:
         return f"it does not see {source}; workers need a file system in common with this machine"
-    if not belongs(job.folder, job.digest):
+    if not belongs_to(job.folder, job.digest):
         return f"it does not see {job.folder}; workers need a file system in common with this machine"
     if not os.access(job.folder, os.W_OK):
         return f"it cannot write to {job.folder}"

@@ -1,4 +1,4 @@
-"""The folder beside the output where a job keeps what it has finished: its lock, its description, its files."""
+"""The folder of a job beside its output: the lock, the description of the job, and the finished parts."""
 
 from __future__ import annotations
 
@@ -20,34 +20,34 @@ INGESTED = "input.parquet"
 LOCK = "lock"
 OUTPUT = "output.tmp"
 
-# What a job writes here. Nothing else is ever deleted.
+# The files that a job writes to its folder. No other files are deleted.
 _UNFINISHED = ("*.tmp", ".*.part")
 _FINISHED = ("part-*.arrow", INGESTED)
 
 
 def folder_of(target: Path) -> Path:
-    """OUT.parts, beside OUT: on the same file system, so that the output can be renamed into its place."""
+    """The folder OUT.parts beside OUT, on the same file system, so that the output can be renamed to OUT."""
     return target.absolute().with_name(f"{target.name}.parts")
 
 
 def part_path(folder: Path, number: int) -> Path:
-    """Where a finished part is."""
+    """The path of a finished part."""
     return folder / f"part-{number:05}.arrow"
 
 
 @contextmanager
-def held(target: Path) -> Iterator[Path]:
-    """The folder of the job that writes `target`, made and locked; gone afterwards where nothing in it is of use.
+def locked_folder(target: Path) -> Iterator[Path]:
+    """The folder of the job that writes `target`, created and locked; removed afterwards if it has no finished parts.
 
-    Raises `InvalidArgument` where it cannot be made or another process holds it.
+    Raises `InvalidArgument` if it cannot be created, and if another process has locked it.
     """
     folder = folder_of(target)
     try:
-        lock = _locked(folder)
+        lock = _lock(folder)
     except BlockingIOError as error:
-        raise InvalidArgument("target", f"is {str(target)!r}: another loiter batch is at work on it") from error
+        raise InvalidArgument("target", f"is {str(target)!r}: another loiter batch is writing it") from error
     except OSError as error:
-        problem = f"is {str(target)!r}: its working folder {folder.name} cannot be made, {error.strerror}"
+        problem = f"is {str(target)!r}: its working folder {folder.name} cannot be created, {error.strerror}"
         raise InvalidArgument("target", problem) from error
     try:
         _delete(folder, _UNFINISHED)
@@ -59,15 +59,15 @@ def held(target: Path) -> Iterator[Path]:
         os.close(lock)
 
 
-def _locked(folder: Path) -> int:
-    """The file descriptor of the lock of a folder, which is made where it is missing."""
+def _lock(folder: Path) -> int:
+    """Create a folder if it does not exist, and lock it; returns the file descriptor of the lock."""
     while True:
         folder.mkdir(exist_ok=True)
         with suppress(FileNotFoundError):
             lock = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                # Who held it until now may have removed it when it was done.
+                # A process that had locked the folder may have removed the file when it ended.
                 if os.path.samestat(os.fstat(lock), (folder / LOCK).stat()):
                     return lock
             except OSError:
@@ -76,49 +76,49 @@ def _locked(folder: Path) -> int:
             os.close(lock)
 
 
-def resumed(folder: Path, description: dict[str, Any]) -> bool | None:
-    """Take up what the folder holds: True where it is of the same job, False where it was of another and is deleted.
+def resume(folder: Path, description: dict[str, Any]) -> bool | None:
+    """Prepare the folder for a job with a description: keep the parts of the same job, delete those of another.
 
-    None where there was nothing.
+    Returns True for parts of the same job, False for deleted parts of another one, None if there were none.
     """
-    there = any(_matching(folder, _FINISHED))
-    if there and _read(folder) == description:
+    has_parts = any(_matching(folder, _FINISHED))
+    if has_parts and _read_description(folder) == description:
         return True
     _delete(folder, _FINISHED)
-    write_whole("target", folder / DESCRIPTION, lambda file: file.write(_written(description)))
-    return False if there else None
+    write_whole("target", folder / DESCRIPTION, lambda file: file.write(_description_bytes(description)))
+    return False if has_parts else None
 
 
 def digest(description: dict[str, Any]) -> str:
-    """What tells one job from another."""
-    return sha256(_written(description)).hexdigest()
+    """A digest of the description of a job, which identifies it."""
+    return sha256(_description_bytes(description)).hexdigest()
 
 
-def belongs(folder: Path, job: str) -> bool:
-    """Whether the folder is still that of the job with this digest."""
+def belongs_to(folder: Path, job_digest: str) -> bool:
+    """Whether the folder is still that of the job with a digest."""
     try:
-        return sha256((folder / DESCRIPTION).read_bytes()).hexdigest() == job
+        return sha256((folder / DESCRIPTION).read_bytes()).hexdigest() == job_digest
     except FileNotFoundError:
         return False
 
 
 def finish(folder: Path, target: Path, workers: int) -> None:
-    """Put the output in its place, and remove what led to it, which for large files is work for several threads."""
+    """Move the output to its place and delete the finished parts, with several threads, since large files take time."""
     (folder / OUTPUT).replace(target)
     with ThreadPoolExecutor(workers) as pool:
         list(pool.map(Path.unlink, list(_matching(folder, _FINISHED))))
 
 
 def finished_parts(folder: Path) -> list[Path]:
-    """The files of the parts that are finished."""
+    """The files of the finished parts."""
     return sorted(folder.glob("part-*.arrow"))
 
 
-def _written(description: dict[str, Any]) -> bytes:
+def _description_bytes(description: dict[str, Any]) -> bytes:
     return (json.dumps(description, indent=1, sort_keys=True) + "\n").encode()
 
 
-def _read(folder: Path) -> Any:
+def _read_description(folder: Path) -> Any:
     try:
         return json.loads((folder / DESCRIPTION).read_bytes())
     except (OSError, ValueError):
@@ -136,7 +136,7 @@ def _delete(folder: Path, patterns: tuple[str, ...]) -> None:
 
 
 def _remove(folder: Path) -> None:
-    """Remove the folder, where nobody else put a file into it."""
+    """Remove the folder, unless it has files of others."""
     _delete(folder, (DESCRIPTION, LOCK))
     with suppress(OSError):
         folder.rmdir()

@@ -1,4 +1,4 @@
-"""A job as it was asked for: checked, taken up where it was left, carried through, summed up."""
+"""A batch job from the request to the summary: checked, resumed, run."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ import pyarrow as pa
 from loiter.arrays.wind import COMPILED_FROM
 from loiter.batch.jobs import cluster, folder
 from loiter.batch.jobs.parts import Job, append_part, is_whole
-from loiter.batch.jobs.runner import Crew, Meter, local_crew, work
+from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_executors
 from loiter.batch.tables import files, ingest, outputs
-from loiter.batch.tables.columns import STATUSES, Columns, Shared, columns, drifting
+from loiter.batch.tables.columns import STATUSES, Columns, SharedValues, columns, may_drift
 from loiter.errors import InvalidArgument, Unfinished
 from loiter.version import __version__
 
 
-class Progress(NamedTuple):
-    """How far a job is: rows done, of `total`, which is None while a CSV file is read in; and at times a note.
+class JobProgress(NamedTuple):
+    """The progress of a job: the rows done of `total`, which is None while a CSV file is converted, or a note.
 
-    A row that is solved and not yet written counts half.
+    A row that is solved but not yet written counts half.
     """
 
     rows: int
@@ -33,11 +33,11 @@ class Progress(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Summary:
-    """What became of a job.
+class JobSummary:
+    """The result of a job.
 
-    `statuses` counts the rows of each status that occurs, "ok" among them. Of `parts` an earlier run had finished
-    `resumed_parts`; `solved_rows` is what was left for this one, which took `seconds`.
+    `statuses` has the number of rows of each status that occurs, including "ok". `resumed_parts` of the `parts` were
+    finished by an earlier run; `solved_rows` were solved by this one, which took `seconds`.
     """
 
     rows: int
@@ -48,11 +48,14 @@ class Summary:
     seconds: float
 
 
-Tell = Callable[[Progress], object]
+# The former names, which stay public.
+Progress, Summary = JobProgress, JobSummary
+
+ReportProgress = Callable[[JobProgress], object]
 
 
-class Request(NamedTuple):
-    """A job before anything is done: its files, what they are, and what the input's columns mean."""
+class JobRequest(NamedTuple):
+    """A job to do: its files and their kinds, the schema of the input and the meaning of its columns."""
 
     source: Path
     target: Path
@@ -62,134 +65,149 @@ class Request(NamedTuple):
     columns: Columns
 
 
-def request(source: Path, target: Path, options: Shared, tolerance_m: float) -> Request:
-    """The job, checked as far as it can be before any work; raises `InvalidArgument`."""
+def check_request(source: Path, target: Path, options: SharedValues, tolerance_m: float) -> JobRequest:
+    """The job to do, checked as far as possible before any work; raises `InvalidArgument`."""
     source_kind, target_kind = files.kind("source", source), files.kind("target", target)
     is_text = source_kind != ".parquet"
     schema = ingest.csv_schema("source", source) if is_text else files.parquet_schema("source", source)
     meaning = columns("source", schema, options, tolerance_m, text=is_text)
-    outputs.check(target_kind, outputs.output_schema(schema))
+    outputs.check_columns(target_kind, outputs.output_schema(schema))
     if target.is_dir():
         raise InvalidArgument("target", f"is {str(target)!r}: that is a folder")
     if target.exists() and target.samefile(source):
         raise InvalidArgument("target", f"is {str(target)!r}: that is the input")
-    return Request(source, target, source_kind, target_kind, schema, meaning)
+    return JobRequest(source, target, source_kind, target_kind, schema, meaning)
 
 
-def carry_out(asked: Request, workers: int, scheduler: str | None, tell: Tell) -> Summary:
-    """Do the job, or what is left of it, and put the output in its place."""
+def run_request(request: JobRequest, workers: int, scheduler: str | None, report: ReportProgress) -> JobSummary:
+    """Run the job, resuming it if possible, and move the output to its place."""
     started = time.monotonic()
-    with _connection(scheduler) as client, folder.held(asked.target) as here, _kept(here):
-        description = _description(asked)
-        known = folder.resumed(here, description)
-        # Absolute paths, since workers of a cluster stand elsewhere.
-        table = asked.source.absolute() if asked.source_kind == ".parquet" else here / folder.INGESTED
-        part_rows, batch_rows = _sizes(asked)
-        schema = outputs.part_schema(asked.schema)
-        job = Job(table, here, asked.columns, schema, folder.digest(description), batch_rows)
+    with _client(scheduler) as client, folder.locked_folder(request.target) as here, _report_finished_parts(here):
+        description = _description(request)
+        is_same_job = folder.resume(here, description)
+        # Absolute paths, since workers of a cluster have other working directories.
+        table = request.source.absolute() if request.source_kind == ".parquet" else here / folder.INGESTED
+        part_rows, batch_rows = _sizes(request)
+        schema = outputs.part_schema(request.schema)
+        job = Job(table, here, request.columns, schema, folder.digest(description), batch_rows)
         if client is not None:
-            cluster.check_workers(client, job, asked.source)
+            cluster.check_workers(client, job, request.source)
         if not table.exists():
-            _read_in(asked, table, tell)
-        parts = files.parts_of(table, part_rows, cut=drifting(asked.columns))
-        # Files that are there, not names that are asked for: a network's file system remembers what it did not find.
+            _convert_csv(request, table, report)
+        parts = files.parts_of(table, part_rows, cut=may_drift(request.columns))
+        # The folder is listed, since network file systems may cache that a name did not exist.
         whole = {path for path in folder.finished_parts(here) if is_whole(path)}
         finished = {part.number for part in parts if folder.part_path(here, part.number) in whole}
-        _tell_of_earlier(known, here, len(finished), len(parts), tell)
-        meter = Meter(sum(part.rows for part in parts if part.number in finished))
-        total, earlier, resumed = sum(part.rows for part in parts), meter.rows, len(finished)
-        job = replace(job, compiled=drifting(asked.columns) and total >= COMPILED_FROM)
-        crew = _crew(client, workers, meter, idle=resumed == len(parts), compiled=job.compiled)
-        counts = _written(asked, job, parts, finished, crew, meter, lambda: tell(Progress(meter.rows // 2, total)))
-        if _description(asked) != description:
-            raise InvalidArgument("source", f"is {str(asked.source)!r}: it changed while it was read")
-        folder.finish(here, asked.target, workers)
+        _report_start(is_same_job, here, len(finished), len(parts), report)
+        counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
+        total, earlier, resumed = sum(part.rows for part in parts), counter.rows, len(finished)
+        job = replace(job, compiled=may_drift(request.columns) and total >= COMPILED_FROM)
+        executors = _executors(client, workers, counter, append_only=resumed == len(parts), compiled=job.compiled)
+        counts = _write_output(
+            request, job, parts, finished, executors, counter, lambda: report(JobProgress(counter.rows // 2, total))
+        )
+        if _description(request) != description:
+            raise InvalidArgument("source", f"is {str(request.source)!r}: it changed while it was read")
+        folder.finish(here, request.target, workers)
     seconds = time.monotonic() - started
-    return Summary(total, counts, len(parts), resumed, total - earlier, seconds)
+    return JobSummary(total, counts, len(parts), resumed, total - earlier, seconds)
 
 
-def _connection(scheduler: str | None) -> AbstractContextManager[Any]:
-    return nullcontext() if scheduler is None else cluster.connected(scheduler)
+def _client(scheduler: str | None) -> AbstractContextManager[Any]:
+    return nullcontext() if scheduler is None else cluster.open_client(scheduler)
 
 
-def _crew(client: Any, workers: int, meter: Meter, *, idle: bool, compiled: bool) -> AbstractContextManager[Crew]:
+def _executors(
+    client: Any, workers: int, counter: RowCounter, *, append_only: bool, compiled: bool
+) -> AbstractContextManager[Executors]:
     if client is not None:
-        return cluster.cluster_crew(client, meter)
-    return local_crew(workers, meter, idle=idle, compiled=compiled)
+        return cluster.cluster_executors(client, counter)
+    return thread_executors(workers, counter, append_only=append_only, compiled=compiled)
 
 
-def _sizes(asked: Request) -> tuple[int, int]:
-    """How many rows a part and a batch have."""
-    if drifting(asked.columns):
+def _sizes(request: JobRequest) -> tuple[int, int]:
+    """The number of rows of a part and of a batch."""
+    if may_drift(request.columns):
         return files.PART_ROWS_IN_WIND, files.BATCH_ROWS_IN_WIND
     return files.PART_ROWS, files.BATCH_ROWS
 
 
-def _description(asked: Request) -> dict[str, Any]:
-    """What must be the same for one run of a job to go on from another's parts."""
-    stat, (part_rows, batch_rows) = asked.source.stat(), _sizes(asked)
+def _description(request: JobRequest) -> dict[str, Any]:
+    """The description of a job: a run resumes from the parts of an earlier one if theirs are equal."""
+    stat, (part_rows, batch_rows) = request.source.stat(), _sizes(request)
     return {
         "program": __version__,
-        "source": str(asked.source.resolve()),
+        "source": str(request.source.resolve()),
         "size": stat.st_size,
         "mtime_ns": stat.st_mtime_ns,
-        "schema": [f"{field.name}: {field.type}" for field in asked.schema],
-        "columns": asdict(asked.columns),
+        "schema": [f"{field.name}: {field.type}" for field in request.schema],
+        "columns": asdict(request.columns),
         "part_rows": part_rows,
         "batch_rows": batch_rows,
     }
 
 
-def _read_in(asked: Request, table: Path, tell: Tell) -> None:
-    """Make a CSV file a Parquet file."""
-    meter = Meter()
+def _convert_csv(request: JobRequest, table: Path, report: ReportProgress) -> None:
+    """Convert the CSV file to a Parquet file."""
+    counter = RowCounter()
 
-    def tick(rows: int) -> None:
-        meter.count(rows)
-        tell(Progress(meter.rows, None))
+    def count_rows(rows: int) -> None:
+        counter.count(rows)
+        report(JobProgress(counter.rows, None))
 
-    ingest.ingest("source", asked.source, asked.schema, table, tick)
+    ingest.ingest("source", request.source, request.schema, table, count_rows)
 
 
-def _tell_of_earlier(known: bool | None, here: Path, finished: int, parts: int, tell: Tell) -> None:
+def _report_start(is_same_job: bool | None, here: Path, finished: int, parts: int, report: ReportProgress) -> None:
     if finished:
-        tell(Progress(0, None, f"going on from {finished} of {parts} parts"))
-    elif known is False:
-        tell(Progress(0, None, f"starting over: the parts in {here.name} were of another input, option or program"))
+        report(JobProgress(0, None, f"resuming from {finished} of {parts} parts"))
+    elif is_same_job is False:
+        note = f"starting over: the parts in {here.name} were of another input, option or program"
+        report(JobProgress(0, None, note))
 
 
-def _written(
-    asked: Request,
+def _write_output(
+    request: JobRequest,
     job: Job,
     parts: list[files.Part],
     finished: set[int],
-    crew: AbstractContextManager[Crew],
-    meter: Meter,
-    look: Callable[[], object],
+    executors_context: AbstractContextManager[Executors],
+    counter: RowCounter,
+    on_poll: Callable[[], object],
 ) -> dict[str, int]:
-    """Solve what is to be solved and write the output; gives the number of rows of each status that occurs."""
-    dictionaries = outputs.dictionary_columns(asked.schema, job.table)
-    schema = outputs.output_schema(asked.schema)
+    """Solve the remaining parts and write the output; returns the number of rows of each status that occurs."""
+    dictionaries = outputs.dictionary_columns(request.schema, job.table)
+    schema = outputs.output_schema(request.schema)
     path = job.folder / folder.OUTPUT
-    with outputs.output(asked.target_kind, path, schema, dictionaries) as write, crew as hands:
-        counts = work(job, parts, finished, hands, lambda part: append_part(job, part, write, meter.tick), look)
+    with (
+        outputs.open_output(request.target_kind, path, schema, dictionaries) as write,
+        executors_context as executors,
+    ):
+        counts = run_parts(
+            job,
+            parts,
+            finished,
+            executors,
+            lambda part: append_part(job, part, write, counter.count_or_stop),
+            on_poll,
+        )
     return {name: count for code, name in enumerate(STATUSES) if (count := sum(int(c[code]) for c in counts))}
 
 
 @contextmanager
-def _kept(here: Path) -> Iterator[None]:
-    """Say of a job that stops half way what is kept of it."""
+def _report_finished_parts(here: Path) -> Iterator[None]:
+    """Add to the error of a job that stops which parts are finished."""
     try:
         yield
     except (OSError, pa.ArrowException) as error:
-        raise Unfinished(f"the job stopped: {files.reason(error)}; {_what_is_kept(here)}") from error
+        raise Unfinished(f"the job stopped: {files.reason(error)}; {_finished_parts(here)}") from error
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"interrupted; {_what_is_kept(here)}") from None
+        raise KeyboardInterrupt(f"interrupted; {_finished_parts(here)}") from None
 
 
-def _what_is_kept(here: Path) -> str:
+def _finished_parts(here: Path) -> str:
     count = len(folder.finished_parts(here))
     if not count:
         return "no part was finished"
-    parts = "1 part that is" if count == 1 else f"{count} parts that are"
-    return f"{parts} finished stay{'s' * (count == 1)} in {here}, and the same command goes on from there"
+    parts = "1 finished part stays" if count == 1 else f"{count} finished parts stay"
+    return f"{parts} in {here}, and the same command resumes from there"

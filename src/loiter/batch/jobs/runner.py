@@ -1,4 +1,4 @@
-"""A job from its first part to its output: what is solved when, by whom, and when it is appended."""
+"""Running a job: the order in which parts are solved and appended, and the threads that do it."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from loiter.arrays.entries import compile_kernel
 from loiter.batch.jobs.parts import Job, solve_part
 from loiter.batch.tables.files import Part
 
-# Seconds between two looks at how far the work is.
-LOOK_S = 0.1
+# Seconds between two checks of the progress.
+POLL_S = 0.1
 
 
-class Stopped(Exception):
-    """The job is given up; whoever works on it is to leave off."""
+class JobStopped(Exception):
+    """The job was stopped: its threads must end."""
 
 
-class Meter:
-    """Rows done, once when solved and once when appended, counted by several threads.
+class RowCounter:
+    """The number of rows done, counted once when solved and once when appended, by several threads.
 
-    Once stopped, it stops whoever counts.
+    When `stopped` is set, the next call of `count_or_stop` ends its thread.
     """
 
     def __init__(self, rows: int = 0) -> None:
@@ -32,71 +32,72 @@ class Meter:
         self.stopped = False
         self._lock = Lock()
 
-    def tick(self, rows: int) -> None:
-        """Count `rows`; raises `Stopped` where the job is given up."""
+    def count_or_stop(self, rows: int) -> None:
+        """Count rows; raises `JobStopped` if the job was stopped."""
         if self.stopped:
-            raise Stopped
+            raise JobStopped
         self.count(rows)
 
     def count(self, rows: int) -> None:
-        """Count `rows`, come what may."""
+        """Count rows."""
         with self._lock:
             self.rows += rows
 
 
-class Crew(NamedTuple):
-    """Who solves parts and who appends them, and whether another part may be begun besides those under way.
+class Executors(NamedTuple):
+    """The threads or processes that solve parts, and the executor that appends them.
 
-    `room` takes the number of parts being solved and being appended; `check` raises where the crew is lost.
+    `has_capacity` takes the numbers of parts that are being solved and appended, and says whether another one may be
+    started; `check` raises an error if the executors are lost.
     """
 
     solve: Callable[[Job, Part], Future[None]]
     append: Executor
-    room: Callable[[int, int], bool]
+    has_capacity: Callable[[int, int], bool]
     check: Callable[[], None] = lambda: None
 
 
 @contextmanager
-def local_crew(workers: int, meter: Meter, *, idle: bool, compiled: bool) -> Iterator[Crew]:
-    """Threads of this process: `workers` of them are busy, solving or appending; only appending where `idle`.
+def thread_executors(workers: int, counter: RowCounter, *, append_only: bool, compiled: bool) -> Iterator[Executors]:
+    """Executors in this process: `workers` threads that solve and append, or only append.
 
     `compiled` is that of `Job`.
     """
-    if not idle:
-        # Not in a thread, which an interrupt would not reach.
+    if not append_only:
+        # Compiling is done here, since an interrupt does not reach other threads.
         compile_kernel(in_wind=compiled)
-    with threads(workers, meter) as pool:
-        yield Crew(
-            lambda job, part: pool.submit(solve_part, job, part, meter.tick),
+    with thread_pool(workers, counter) as pool:
+        yield Executors(
+            lambda job, part: pool.submit(solve_part, job, part, counter.count_or_stop),
             pool,
             lambda solving, appending: solving + appending < workers,
         )
 
 
 @contextmanager
-def threads(count: int, meter: Meter) -> Iterator[ThreadPoolExecutor]:
-    """A pool whose threads leave off soon where what is done with it ends in an error or an interrupt."""
+def thread_pool(count: int, counter: RowCounter) -> Iterator[ThreadPoolExecutor]:
+    """A pool of threads, which are stopped when its context ends with an error or an interrupt."""
     pool = ThreadPoolExecutor(count)
     try:
         yield pool
     except BaseException:
-        meter.stopped = True
+        counter.stopped = True
         raise
     finally:
         pool.shutdown(cancel_futures=True)
 
 
-def work(
+def run_parts(
     job: Job,
     parts: list[Part],
     finished: set[int],
-    crew: Crew,
+    executors: Executors,
     append: Callable[[Part], Any],
-    look: Callable[[], object],
+    on_poll: Callable[[], object],
 ) -> list[Any]:
-    """Solve the parts that are not finished and append all, in order; gives what `append` gave for each.
+    """Solve the parts that are not finished and append all in order; returns the result of `append` for each.
 
-    Appending goes first, so that what is finished does not pile up. `look` is called every now and then.
+    Appending has priority, so that finished parts do not pile up. `on_poll` is called periodically.
     """
     waiting = deque(part for part in parts if part.number not in finished)
     solving: dict[Future[Any], Part] = {}
@@ -104,16 +105,16 @@ def work(
     appended: list[Any] = []
     while len(appended) < len(parts):
         if not appending and len(appended) in finished:
-            appending.add(crew.append.submit(append, parts[len(appended)]))
-        while waiting and crew.room(len(solving), len(appending)):
+            appending.add(executors.append.submit(append, parts[len(appended)]))
+        while waiting and executors.has_capacity(len(solving), len(appending)):
             part = waiting.popleft()
-            solving[crew.solve(job, part)] = part
-        done, _ = wait({*solving, *appending}, LOOK_S, FIRST_COMPLETED)
+            solving[executors.solve(job, part)] = part
+        done, _ = wait({*solving, *appending}, POLL_S, FIRST_COMPLETED)
         appended += [future.result() for future in done & appending]
         for future in done - appending:
             future.result()
             finished.add(solving.pop(future).number)
         appending -= done
-        crew.check()
-        look()
+        executors.check()
+        on_poll()
     return appended

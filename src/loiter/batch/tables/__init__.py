@@ -1,1 +1,1 @@
-"""Tables as files: columns, CSV and Parquet in, all formats out."""
+"""Tables as files: the meaning of their columns, reading and writing CSV and Parquet."""

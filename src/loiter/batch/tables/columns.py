@@ -1,4 +1,4 @@
-"""What each column means; what the options give instead; the checks that the two fit, before any work starts."""
+"""The meaning of the columns of a table, and the options that replace them, checked before any work."""
 
 from __future__ import annotations
 
@@ -18,13 +18,14 @@ POSE = ("east_m", "north_m", "heading_deg")
 ORBIT = ("orbit_east_m", "orbit_north_m", "orbit_radius_m")
 AIRSPEED = "airspeed_m_s"
 TURN = "turn"
-WIND = ("wind_speed_m_s", "wind_from_deg")
+WIND_SPEED = "wind_speed_m_s"
+WIND = (WIND_SPEED, "wind_from_deg")
 VELOCITY = ("orbit_velocity_east_m_s", "orbit_velocity_north_m_s")
 KNOWN = (*POSE, *ORBIT, AIRSPEED, *TURN_LIMITS, TURN, *WIND, *VELOCITY)
 
 _TEXT = pa.dictionary(pa.int8(), pa.string())
 
-# What is added to the input's columns, in this order.
+# The columns that the output has in addition to those of the input, in this order.
 ADDED = pa.schema(
     [
         ("duration_s", pa.float64()),
@@ -40,14 +41,14 @@ ADDED = pa.schema(
     ]
 )
 
-# The values of the added columns of text: by index for a word, by code + 1 for a side, by code for a status.
+# The values of the added text columns: words by index, turns by the code of the side plus 1, statuses by code.
 WORDS = tuple(Word)
 TURNS = ("ccw", "", "cw")
 STATUSES = tuple(status.name.lower() for status in Status)
 
 
-class Shared(NamedTuple):
-    """What all rows share, given by options: numbers by the names of the columns they stand for, and the turn."""
+class SharedValues(NamedTuple):
+    """The values that all rows share: numbers by the names of the columns that they replace, and the turn."""
 
     numbers: Mapping[str, float]
     turn: Turn | None
@@ -55,10 +56,10 @@ class Shared(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """Where each quantity comes from: `shared` where it is there by its column's name, from that column else.
+    """The source of each quantity: its value in `shared`, by the name of its column, or otherwise that column.
 
-    `limit` names the turn limit, `turn` is None where a column gives it. With `text` the numbers are text, and the
-    table's last column marks malformed lines.
+    `limit` is the name of the turn limit; `turn` is None if a column gives it. With `text` the numbers are text, and
+    the last column of the table marks malformed lines.
     """
 
     shared: Mapping[str, float]
@@ -68,40 +69,40 @@ class Columns:
     text: bool
 
 
-def shared(
+def shared_values(
     orbit: Orbit | None,
     turn: Turn | str | None,
     aircraft: Aircraft | Mapping[str, float] | None,
     wind: Wind | None = None,
     orbit_velocity_m_s: tuple[float, float] | None = None,
-) -> Shared:
-    """What the options give, checked. `aircraft` may be a part of one, by the names of `Aircraft`."""
+) -> SharedValues:
+    """The values of the options, checked. `aircraft` may be incomplete, with the names of `Aircraft`."""
     numbers = _velocity(orbit, orbit_velocity_m_s)
     if wind is not None:
         numbers |= zip(WIND, (wind.speed_m_s, wind.from_deg), strict=True)
     if orbit is not None:
         numbers |= zip(ORBIT, (orbit.east_m, orbit.north_m, orbit.radius_m), strict=True)
-        # Either way round is an orbit's default: it does not say that somebody asked for it.
+        # EITHER is the default of an orbit, so it does not exclude another turn.
         turn = turn if turn is not None or orbit.turn is Turn.EITHER else orbit.turn
     if turn is not None and turn not in tuple(Turn):
         raise InvalidArgument("turn", f"is {turn!r}: it must be cw, ccw or either")
-    return Shared(numbers | _aircraft(aircraft), None if turn is None else Turn(turn))
+    return SharedValues(numbers | _aircraft_numbers(aircraft), None if turn is None else Turn(turn))
 
 
-def _velocity(orbit: Orbit | None, alone: tuple[float, float] | None) -> dict[str, float]:
-    """How the circle moves: as told `alone`, or by itself; rest is an orbit's default, as either way round is."""
-    if alone is None:
-        return {} if orbit is None or not orbit.moves else _by_name(orbit)
+def _velocity(orbit: Orbit | None, velocity_m_s: tuple[float, float] | None) -> dict[str, float]:
+    """The velocity of the circle by its columns: `velocity_m_s`, or that of the orbit, if it moves."""
+    if velocity_m_s is None:
+        return {} if orbit is None or not orbit.moves else _velocity_columns(orbit)
     if orbit is not None and orbit.moves:
         raise InvalidArgument("orbit_velocity_m_s", "is given, and by the orbit too")
-    return _by_name(Orbit(0.0, 0.0, 1.0, Turn.EITHER, *alone))
+    return _velocity_columns(Orbit(0.0, 0.0, 1.0, Turn.EITHER, *velocity_m_s))
 
 
-def _by_name(orbit: Orbit) -> dict[str, float]:
+def _velocity_columns(orbit: Orbit) -> dict[str, float]:
     return dict(zip(VELOCITY, (orbit.velocity_east_m_s, orbit.velocity_north_m_s), strict=True))
 
 
-def _aircraft(aircraft: Aircraft | Mapping[str, float] | None) -> dict[str, float]:
+def _aircraft_numbers(aircraft: Aircraft | Mapping[str, float] | None) -> dict[str, float]:
     names = [field.name for field in fields(Aircraft)]
     if isinstance(aircraft, Aircraft):
         return {name: value for name in names if (value := getattr(aircraft, name)) is not None}
@@ -109,117 +110,131 @@ def _aircraft(aircraft: Aircraft | Mapping[str, float] | None) -> dict[str, floa
     for name in given:
         if name not in names:
             raise InvalidArgument("aircraft", f"has no {name!r}; it has {', '.join(names)}")
-    # What is given is checked as an aircraft is; what columns give is taken as 1 meanwhile.
+    # `Aircraft` checks the given values; 1 stands for those that columns give.
     limits = {name: value for name, value in given.items() if name != AIRSPEED} or {"min_turn_radius_m": 1.0}
     Aircraft(given.get(AIRSPEED, 1.0), **limits)
     return {name: float(value) for name, value in given.items()}
 
 
-def columns(argument: str, schema: pa.Schema, options: Shared, tolerance_m: float, *, text: bool = False) -> Columns:
-    """Where each quantity comes from, for a table of this schema.
+def columns(
+    argument: str, schema: pa.Schema, options: SharedValues, tolerance_m: float, *, text: bool = False
+) -> Columns:
+    """The source of each quantity, for a table with a schema; `argument` is the name of the table in errors.
 
-    Raises `InvalidArgument` where a quantity is given twice or not at all, a column is of the wrong type or would be
-    written over; `argument` is what the table is called.
+    Raises `InvalidArgument` if a quantity is given twice or not at all, and if a column has the wrong type or would be
+    overwritten.
     """
     names = schema.names
     _check_names(argument, names)
-    _need(argument, names, options.numbers, "orbit", ORBIT)
-    _need(argument, names, options.numbers, AIRSPEED, (AIRSPEED,))
-    limit = _limit(argument, names, options.numbers)
-    calm = _calm(argument, names, options.numbers, "wind", WIND)
-    resting = _calm(argument, names, options.numbers, "orbit_velocity_m_s", VELOCITY)
+    _require(argument, names, options.numbers, "orbit", ORBIT)
+    _require(argument, names, options.numbers, AIRSPEED, (AIRSPEED,))
+    limit = _turn_limit(argument, names, options.numbers)
+    still_air = _zeros_unless_given(argument, names, options.numbers, "wind", WIND)
+    at_rest = _zeros_unless_given(argument, names, options.numbers, "orbit_velocity_m_s", VELOCITY)
     turn = options.turn
     if TURN in names:
         if turn is not None:
             raise InvalidArgument(TURN, "is given, and by the table's column turn too")
     elif turn is None:
         turn = Turn.EITHER
-    numbers = {**options.numbers, **calm, **resting}
-    found = Columns(numbers, limit, turn, not_negative("tolerance_m", tolerance_m, "metres"), text)
+    numbers = {**options.numbers, **still_air, **at_rest}
+    meaning = Columns(numbers, limit, turn, not_negative("tolerance_m", tolerance_m, "metres"), text)
     if not text:
-        _check_types(argument, schema, found)
-    return found
+        _check_types(argument, schema, meaning)
+    return meaning
 
 
-def numbers_read(found: Columns) -> list[str]:
-    """The names of the columns of numbers that are read."""
-    return [name for name in (*POSE, *ORBIT, AIRSPEED, found.limit, *WIND, *VELOCITY) if name not in found.shared]
+def number_columns(meaning: Columns) -> list[str]:
+    """The names of the number columns that are read from the table."""
+    return [name for name in (*POSE, *ORBIT, AIRSPEED, meaning.limit, *WIND, *VELOCITY) if name not in meaning.shared]
 
 
-def drifting(found: Columns) -> bool:
-    """Whether the air may pass the circle of some row."""
-    return any(found.shared.get(name, 1.0) != 0.0 for name in (WIND[0], *VELOCITY))
+def may_drift(meaning: Columns) -> bool:
+    """Whether the air may move relative to the circle of some row."""
+    return any(meaning.shared.get(name, 1.0) != 0.0 for name in (WIND_SPEED, *VELOCITY))
 
 
-def carried(names: Iterable[str]) -> list[str]:
-    """The input columns that the output has too: all but `turn`, whose place the direction flown takes."""
+def carried_columns(names: Iterable[str]) -> list[str]:
+    """The input columns that the output has too: all but `turn`, which is replaced by the direction flown."""
     return [name for name in names if name != TURN]
 
 
 def _check_names(argument: str, names: list[str]) -> None:
-    missing = [name for name in POSE if name not in names]
-    if missing:
-        raise InvalidArgument(argument, f"has no column {missing[0]}: it needs {', '.join(POSE)}")
-    twice = [name for name, count in Counter(names).items() if count > 1]
-    if twice:
-        raise InvalidArgument(argument, f"has two columns named {twice[0]!r}")
-    taken = [name for name in carried(names) if name in ADDED.names]
-    if taken:
-        raise InvalidArgument(argument, f"has a column {taken[0]}, a name that the output needs: give it another")
+    for name in POSE:
+        if name not in names:
+            raise InvalidArgument(argument, f"has no column {name}: it needs {', '.join(POSE)}")
+    for name, count in Counter(names).items():
+        if count > 1:
+            raise InvalidArgument(argument, f"has two columns named {name!r}")
+    for name in carried_columns(names):
+        if name in ADDED.names:
+            raise InvalidArgument(argument, f"has a column {name}, a name that the output needs: rename it")
 
 
-def _need(argument: str, names: list[str], given: Mapping[str, float], option: str, wanted: tuple[str, ...]) -> None:
-    """Check that either the option or all its columns are there."""
-    if not _has(argument, names, given, option, wanted):
-        raise InvalidArgument(option, f"is needed: the table has no column {wanted[0]}")
+def _require(argument: str, names: list[str], given: Mapping[str, float], option: str, needed: tuple[str, ...]) -> None:
+    """Raise `InvalidArgument` if neither the option nor its columns are given."""
+    if not _is_given(argument, names, given, option, needed):
+        first, *_ = needed
+        raise InvalidArgument(option, f"is needed: the table has no column {first}")
 
 
-def _calm(
-    argument: str, names: list[str], given: Mapping[str, float], option: str, wanted: tuple[str, ...]
+def _zeros_unless_given(
+    argument: str, names: list[str], given: Mapping[str, float], option: str, needed: tuple[str, ...]
 ) -> dict[str, float]:
-    """Nought for each column where neither the option nor any of its columns is there."""
-    return {} if _has(argument, names, given, option, wanted) else dict.fromkeys(wanted, 0.0)
+    """Zero for each column if neither the option nor its columns are given."""
+    return {} if _is_given(argument, names, given, option, needed) else dict.fromkeys(needed, 0.0)
 
 
-def _has(argument: str, names: list[str], given: Mapping[str, float], option: str, wanted: tuple[str, ...]) -> bool:
-    """Whether the option or its columns are there, both and a part of them refused."""
-    there = [name for name in wanted if name in names]
-    absent = [name for name in wanted if name not in names]
-    if there and wanted[0] in given:
-        raise InvalidArgument(option, f"is given, and by the table's column {there[0]} too")
-    if there and absent:
-        raise InvalidArgument(argument, f"has a column {there[0]} but no {' and no '.join(absent)}")
-    return bool(there) or wanted[0] in given
+def _is_given(
+    argument: str, names: list[str], given: Mapping[str, float], option: str, needed: tuple[str, ...]
+) -> bool:
+    """Whether the option or all its columns are given; raises `InvalidArgument` for both, and for some columns only."""
+    present = [name for name in needed if name in names]
+    absent = [name for name in needed if name not in names]
+    by_option = any(name in given for name in needed)
+    if not present:
+        return by_option
+    first, *_ = present
+    if by_option:
+        raise InvalidArgument(option, f"is given, and by the table's column {first} too")
+    if absent:
+        raise InvalidArgument(argument, f"has a column {first} but no {' and no '.join(absent)}")
+    return True
 
 
-def _limit(argument: str, names: list[str], given: Mapping[str, float]) -> str:
-    there = [name for name in TURN_LIMITS if name in names]
-    options = [name for name in TURN_LIMITS if name in given]
-    if len(there) > 1:
-        raise InvalidArgument(argument, f"has the columns {' and '.join(there)}: one turn limit is needed")
-    if there and options:
-        raise InvalidArgument(options[0], f"is given, and the table's column {there[0]} limits the turn too")
-    if not there and not options:
-        wanted = ", ".join(TURN_LIMITS)
-        raise InvalidArgument("max_bank_deg", f"or another turn limit is needed: the table has no column of {wanted}")
-    return (there or options)[0]
+def _turn_limit(argument: str, names: list[str], given: Mapping[str, float]) -> str:
+    """The name of the turn limit, which must be given exactly once."""
+    present = [name for name in TURN_LIMITS if name in names]
+    match present, [name for name in TURN_LIMITS if name in given]:
+        case [], []:
+            limits = ", ".join(TURN_LIMITS)
+            raise InvalidArgument(
+                "max_bank_deg", f"or another turn limit is needed: the table has no column of {limits}"
+            )
+        case [name], []:
+            return name
+        case [], [option, *_]:
+            return option
+        case [name], [option, *_]:
+            raise InvalidArgument(option, f"is given, and the table's column {name} limits the turn too")
+    raise InvalidArgument(argument, f"has the columns {' and '.join(present)}: one turn limit is needed")
 
 
-def _check_types(argument: str, schema: pa.Schema, found: Columns) -> None:
-    for name in numbers_read(found):
+def _check_types(argument: str, schema: pa.Schema, meaning: Columns) -> None:
+    for name in number_columns(meaning):
         _check_type(argument, schema.field(name), _is_number, "numbers")
-    if found.turn is None:
+    if meaning.turn is None:
         _check_type(argument, schema.field(TURN), is_text, "text")
 
 
-def _check_type(argument: str, field: pa.Field, fits: Callable[[pa.DataType], bool], wanted: str) -> None:
-    # A column of nothing but nulls may have no type.
+def _check_type(argument: str, field: pa.Field, fits: Callable[[pa.DataType], bool], kind: str) -> None:
+    # A column that has only nulls may have no type.
     if not fits(values_type(field.type)) and not pa.types.is_null(field.type):
-        raise InvalidArgument(argument, f"has a column {field.name} of {field.type}: it must hold {wanted}")
+        raise InvalidArgument(argument, f"has a column {field.name} of {field.type}: it must hold {kind}")
 
 
 def values_type(type_: pa.DataType) -> pa.DataType:
-    """The type of the values, dictionary-encoded or not."""
+    """The type of the values of a column, without dictionary encoding."""
     return type_.value_type if pa.types.is_dictionary(type_) else type_
 
 

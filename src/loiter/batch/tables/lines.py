@@ -1,4 +1,4 @@
-"""The text of a CSV file with stray quotes defused: one that is never closed would swallow the lines that follow."""
+"""The text of a CSV file without unclosed quotes, which would make one field of all the lines that follow."""
 
 from __future__ import annotations
 
@@ -10,36 +10,39 @@ from typing import Any
 
 import numpy as np
 
-# Bytes of text looked at a time.
+# Bytes of text processed at a time.
 CHUNK_BYTES = 1 << 22
 
-# Lines that a quoted field may run over; a quote that is not closed within them is a stray one.
+# The largest number of lines of a quoted field; a quote that is not closed within them counts as unclosed.
 QUOTED_LINES = 100
 
 
-class Mended(io.RawIOBase):
-    """A stream of bytes for a reader: `stream` with each line that opens a quote in vain made a malformed one."""
+class RepairedLines(io.RawIOBase):
+    """The bytes of a stream as a readable stream, in which each line with an unclosed quote is made malformed."""
 
     def __init__(self, stream: Any, fields: int) -> None:
-        self._chunks = mended(stream, fields)
+        self._chunks = repaired_lines(stream, fields)
         self._left = memoryview(b"")
 
     def readable(self) -> bool:
-        """Whether it can be read."""
+        """Whether the stream can be read: True."""
         return True
 
     def readinto(self, buffer: Any) -> int:
-        """Fill `buffer`, a part of it only at the end: pyarrow takes a block of blank lines alone for an empty file."""
+        """Fill `buffer` and return the number of bytes, which is less than its length only at the end.
+
+        A block that consisted of blank lines alone would look like an empty file to pyarrow.
+        """
         count = 0
-        while count < len(buffer) and self._more():
+        while count < len(buffer) and self._load():
             taken = min(len(buffer) - count, len(self._left))
             buffer[count : count + taken] = self._left[:taken]
             self._left = self._left[taken:]
             count += taken
         return count
 
-    def _more(self) -> bool:
-        """Whether there are bytes left, which then are at hand."""
+    def _load(self) -> bool:
+        """Load the next chunk if none is loaded; returns whether there are bytes left."""
         while not self._left:
             chunk = next(self._chunks, None)
             if chunk is None:
@@ -48,10 +51,10 @@ class Mended(io.RawIOBase):
         return True
 
 
-def mended(stream: Any, fields: int) -> Iterator[bytes]:
-    """The bytes of `stream`, whole lines at a time; a line with a stray quote becomes one of `fields` + 1 fields.
+def repaired_lines(stream: Any, fields: int) -> Iterator[bytes]:
+    """The bytes of `stream` in whole lines; a line with an unclosed quote is replaced by one of `fields` + 1 fields.
 
-    A last line without an end gets one: pyarrow takes a header that no line end follows for an empty file.
+    A last line without a line end gets one, since pyarrow takes a header without a line end for an empty file.
     """
     rest, end = b"", b""
     while chunk := stream.read(CHUNK_BYTES):
@@ -59,29 +62,30 @@ def mended(stream: Any, fields: int) -> Iterator[bytes]:
         end = end or _line_end(rest)
         if end:
             whole = rest.rfind(end) + 1
-            kept, waiting = _mended(rest[:whole], end, fields, last=False)
-            rest = waiting + rest[whole:]
-            yield kept
+            repaired, open_quote = _repair(rest[:whole], end, fields, last=False)
+            rest = open_quote + rest[whole:]
+            yield repaired
     if rest:
         end = end or (b"\r" if rest.endswith(b"\r") else b"\n")
-        yield _mended(rest, end, fields, last=True)[0] + (b"" if rest.endswith(end) else end)
+        repaired, _ = _repair(rest, end, fields, last=True)
+        yield repaired + (b"" if rest.endswith(end) else end)
 
 
 def _line_end(text: bytes) -> bytes:
-    """What lines end with, or b"" where none has ended yet. A carriage return at the end of the text may be a half."""
+    """The line end of a text, or b"" if no line has ended; a final carriage return may be half of a line end."""
     if b"\n" in text:
         return b"\n"
     return b"\r" if b"\r" in text[:-1] else b""
 
 
-def _mended(text: bytes, end: bytes, fields: int, *, last: bool) -> tuple[bytes, bytes]:
-    """Whole lines mended, and those that must wait for more, as a quote is still open; none where they are the last."""
-    odd = _odd(text, end)
-    if not odd:
+def _repair(text: bytes, end: bytes, fields: int, *, last: bool) -> tuple[bytes, bytes]:
+    """The repaired lines of a text, and its lines from a quote that may be closed later; none if `last`."""
+    unbalanced = _unbalanced_lines(text, end)
+    if not unbalanced:
         return text, b""
     lines = text.split(end)
     done = 0
-    for i in odd:
+    for i in unbalanced:
         if i < done:
             continue
         record, used = _record(lines[i : i + QUOTED_LINES])
@@ -94,8 +98,8 @@ def _mended(text: bytes, end: bytes, fields: int, *, last: bool) -> tuple[bytes,
     return end.join(lines), b""
 
 
-def _odd(text: bytes, end: bytes) -> list[int]:
-    """The numbers of the lines with an odd number of quotes: others open none that they do not close."""
+def _unbalanced_lines(text: bytes, end: bytes) -> list[int]:
+    """The numbers of the lines with an odd number of quotes: only these can open a quote without closing it."""
     if b'"' not in text:
         return []
     characters = np.frombuffer(text, dtype=np.uint8)
@@ -105,8 +109,8 @@ def _odd(text: bytes, end: bytes) -> list[int]:
 
 
 def _record(lines: list[bytes]) -> tuple[int | None, int]:
-    """The number of fields of the record that begins with the first line, None where it does not end; its lines."""
-    # One more line shows whether the last one left a quote open. As single bytes, whatever the text's encoding.
+    """The number of fields of the record that begins with the first line, None if it does not end, and of its lines."""
+    # An additional line shows whether the last one leaves a quote open. latin-1 decodes any bytes.
     reader = csv.reader(chain((line.decode("latin-1") + "\n" for line in lines), ["\n"]))
     try:
         fields = len(next(reader))

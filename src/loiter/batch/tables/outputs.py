@@ -1,4 +1,4 @@
-"""The three kinds of output, each written a table at a time by one that appends; the same rows give the same bytes."""
+"""The three kinds of output files, to which tables are appended; the same rows give the same bytes."""
 
 from __future__ import annotations
 
@@ -12,54 +12,54 @@ import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
-from loiter.batch.answers import plain
-from loiter.batch.tables.columns import ADDED, carried, is_text, values_type
-from loiter.batch.tables.files import Kind, opened
+from loiter.batch.answers import without_dictionary
+from loiter.batch.tables.columns import ADDED, carried_columns, is_text, values_type
+from loiter.batch.tables.files import Kind, open_parquet
 from loiter.errors import InvalidArgument
 
 Write = Callable[[pa.Table], None]
 
-# Of gzip: a fifth of the time of the usual 6, for a fourteenth more bytes.
+# The level of gzip: a fifth of the time of the usual 6, for a fourteenth more bytes.
 LEVEL = 1
 
-# A column that its input's writer brought below this share of its plain size profits from a dictionary.
-PROFIT = 0.5
+# A column is written with a dictionary if the dictionary in the input made it smaller than this share.
+DICTIONARY_SHARE = 0.5
 
 _WIDTHS = {"BOOLEAN": 1, "INT32": 4, "FLOAT": 4, "INT64": 8, "DOUBLE": 8, "INT96": 12}
 
 
 def output_schema(schema: pa.Schema) -> pa.Schema:
-    """The columns of the output for an input of this schema, with the input's types."""
-    kept = [schema.field(name) for name in carried(schema.names)]
+    """The columns of the output for an input with a schema, with the types of the input."""
+    kept = [schema.field(name) for name in carried_columns(schema.names)]
     return pa.schema([*kept, *ADDED], metadata=schema.metadata)
 
 
 def part_schema(schema: pa.Schema) -> pa.Schema:
-    """The same where it is passed on: an Arrow file holds one dictionary a column, which an input may not."""
+    """The columns of a part: without dictionaries, since an Arrow file has one a column and the input may have more."""
     kept = [pa.field(field.name, values_type(field.type)) for field in output_schema(schema)]
     return pa.schema([*kept[: -len(ADDED)], *ADDED])
 
 
-def check(kind: Kind, schema: pa.Schema) -> None:
-    """Raise `InvalidArgument` where a column cannot be written to a file of this kind."""
+def check_columns(kind: Kind, schema: pa.Schema) -> None:
+    """Raise `InvalidArgument` if a column cannot be written to a file of a kind."""
     for field in schema:
         if kind != ".parquet" and not _is_printable(field.type):
             raise InvalidArgument("target", f"cannot hold the column {field.name} of {field.type}: Parquet can")
 
 
 def dictionary_columns(schema: pa.Schema, source: Path) -> list[str]:
-    """The columns that a dictionary makes smaller: text, and what it made smaller in the Parquet file at `source`."""
+    """The columns that a dictionary makes smaller: text, and those that it made smaller in the file at `source`."""
     columns = [field.name for field in schema if is_text(values_type(field.type))]
-    with opened(source) as file:
+    with open_parquet(source) as file:
         if file.metadata.num_row_groups:
             group = file.metadata.row_group(0)
             chunks = [group.column(i) for i in range(group.num_columns)]
-            columns += [chunk.path_in_schema for chunk in chunks if _profits(chunk)]
+            columns += [chunk.path_in_schema for chunk in chunks if _is_shrunk(chunk)]
     return [name for name in dict.fromkeys(columns) if name in schema.names]
 
 
-def output(kind: Kind, path: Path, schema: pa.Schema, dictionaries: list[str]) -> AbstractContextManager[Write]:
-    """A file of this kind, opened for the whole of the job; what comes out of the context appends a table to it."""
+def open_output(kind: Kind, path: Path, schema: pa.Schema, dictionaries: list[str]) -> AbstractContextManager[Write]:
+    """A context with an open file of a kind; its value is a function that appends a table to the file."""
     if kind == ".parquet":
         return _parquet(path, schema, dictionaries)
     return _csv(path, schema) if kind == ".csv" else _csv_gz(path, schema)
@@ -67,7 +67,7 @@ def output(kind: Kind, path: Path, schema: pa.Schema, dictionaries: list[str]) -
 
 @contextmanager
 def _parquet(path: Path, schema: pa.Schema, dictionaries: list[str]) -> Iterator[Write]:
-    # Random doubles as they are: a dictionary of them would take as long as all the rest, and grow them.
+    # A dictionary of arbitrary doubles would take as long as all the other work, and make the file larger.
     writer = pq.ParquetWriter(path, schema, compression="snappy", use_dictionary=dictionaries)
     try:
         yield lambda table: writer.write_table(table.cast(schema))
@@ -77,7 +77,7 @@ def _parquet(path: Path, schema: pa.Schema, dictionaries: list[str]) -> Iterator
 
 
 def _abandon(writer: Any) -> None:
-    """Close what is still open after an error, which may fail again; the file is thrown away."""
+    """Close a writer that is open after an error. Closing may fail again, and the file is deleted."""
     with suppress(OSError, pa.ArrowException):
         writer.close()
     writer.is_open = False
@@ -91,39 +91,40 @@ def _csv(path: Path, schema: pa.Schema) -> Iterator[Write]:
 
 @contextmanager
 def _csv_gz(path: Path, schema: pa.Schema) -> Iterator[Write]:
-    # Neither a name nor a time, so that the same rows give the same bytes.
-    with path.open("wb") as file, gzip.GzipFile("", "wb", LEVEL, file, mtime=0) as packed:
-        yield _writer(packed, schema)
+    # Without name and time, so that the same rows give the same bytes.
+    with path.open("wb") as file, gzip.GzipFile("", "wb", LEVEL, file, mtime=0) as compressed:
+        yield _writer(compressed, schema)
 
 
 def _writer(file: BinaryIO | gzip.GzipFile, schema: pa.Schema) -> Write:
     names = pa.array(schema.names)
-    file.write((",".join(_quoted(names).to_pylist()) + "\n").encode())
+    file.write((",".join(_quote(names).to_pylist()) + "\n").encode())
 
     def write(table: pa.Table) -> None:
         for batch in table.to_batches():
-            file.write(lines(batch))
+            file.write(csv_lines(batch))
 
     return write
 
 
-def lines(batch: pa.RecordBatch) -> pa.Buffer:
-    """A line of text for each row; an empty field for null and nan, quotes only where a value needs them."""
+def csv_lines(batch: pa.RecordBatch) -> pa.Buffer:
+    """A line of text for each row, with an empty field for null and nan, and quotes only if a value needs them."""
     fields = [_as_text(column) for column in batch.columns]
     rows = pc.binary_join_element_wise(*fields, ",", null_handling="replace", null_replacement="")
     text = pc.binary_join_element_wise(rows, "", "\n")
-    # The lines lie one after another in the array's buffer of values.
-    return text.buffers()[2]
+    # The buffers are validity, offsets and values; the values are the lines one after another.
+    _, _, values = text.buffers()
+    return values
 
 
 def _as_text(column: pa.Array) -> pa.Array:
-    column = plain(column)
+    column = without_dictionary(column)
     if pa.types.is_floating(column.type):
         column = pc.if_else(pc.is_nan(column), None, column)
-    return _quoted(column.cast(pa.string())) if is_text(column.type) else column.cast(pa.string())
+    return _quote(column.cast(pa.string())) if is_text(column.type) else column.cast(pa.string())
 
 
-def _quoted(column: pa.Array) -> pa.Array:
+def _quote(column: pa.Array) -> pa.Array:
     special = pc.match_substring_regex(column, '[",\r\n]')
     if not pc.any(special).as_py():
         return column
@@ -141,9 +142,9 @@ def _is_printable(type_: pa.DataType) -> bool:
     return True
 
 
-def _profits(chunk: Any) -> bool:
-    """Whether the dictionary that a column chunk was written with made it smaller."""
+def _is_shrunk(chunk: Any) -> bool:
+    """Whether a column chunk was written with a dictionary that made it smaller."""
     width = _WIDTHS.get(chunk.physical_type)
     if width is None or not any("DICTIONARY" in encoding for encoding in chunk.encodings):
         return False
-    return bool(chunk.total_uncompressed_size < PROFIT * width * chunk.num_values)
+    return bool(chunk.total_uncompressed_size < DICTIONARY_SHARE * width * chunk.num_values)

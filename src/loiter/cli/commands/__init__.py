@@ -1,1 +1,1 @@
-"""The subcommands, one module each."""
+"""The commands, one module each; `mavlink` has both `upload` and `watch`."""

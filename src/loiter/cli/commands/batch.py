@@ -1,4 +1,4 @@
-"""`loiter batch`: a table of states in, a table of entries out."""
+"""`loiter batch`: the entries for a table of states."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from loiter.kernel.codes import Status
 from loiter.planning.model import Orbit, Turn, TurnName, Wind
 
 if TYPE_CHECKING:
-    from loiter.batch import Progress, Summary
+    from loiter.batch import JobProgress, JobSummary
 
-shared = Group("Where the table has no column of it", sort_key=1)
+shared = Group("Values that replace columns of the table", sort_key=1)
 work = Group("Work", sort_key=2)
 
 
@@ -54,7 +54,7 @@ def batch(
         Parameter(
             group=shared,
             metavar="SPEED FROM",
-            help="Metres per second, and the compass direction the wind comes from; calm if absent.",
+            help="Metres per second, and the compass direction the wind comes from; still air if absent.",
         ),
     ] = None,
     orbit_velocity: Annotated[
@@ -70,26 +70,26 @@ def batch(
         Parameter(
             group=work,
             metavar="METRES",
-            help="As for loiter plan: by how much a start may miss the last arc in still air.",
+            help="As for loiter plan: distance by which a start may miss the last arc in still air.",
         ),
     ] = 0.0,
     workers: Annotated[
         int | None,
-        Parameter(group=work, metavar="N", converter=whole, help="Threads that work; as many as cores if absent."),
+        Parameter(group=work, metavar="N", converter=whole, help="Number of threads; that of the cores if absent."),
     ] = None,
     scheduler: Annotated[
         str | None,
         Parameter(
             group=work,
             metavar="tcp://HOST:PORT",
-            help="Work on the Dask cluster with this scheduler, whose workers see IN and OUT under the same paths.",
+            help="Use the Dask cluster with this scheduler; its workers must see IN and OUT under the same paths.",
         ),
     ] = None,
 ) -> None:
     """Plan the fastest entry of every row of a table."""
     limits = {"max_bank_deg": bank, "min_turn_radius_m": turn_radius, "max_turn_rate_deg_s": turn_rate}
     given = {name: value for name, value in {"airspeed_m_s": airspeed, **limits}.items() if value is not None}
-    with shown() as tell:
+    with shown_progress() as report:
         summary = loiter.batch.run(
             source,
             target,
@@ -101,43 +101,43 @@ def batch(
             tolerance_m=tolerance,
             workers=workers,
             scheduler=scheduler,
-            progress=tell,
+            progress=report,
         )
-    sys.stderr.write(closing(summary))
+    sys.stderr.write(summary_lines(summary))
 
 
 @contextmanager
-def shown() -> Iterator[Callable[[Progress], None]]:
-    """Shows progress on standard error: notes always, a bar on a terminal."""
+def shown_progress() -> Iterator[Callable[[JobProgress], None]]:
+    """A context whose value shows progress on standard error: notes always, and a bar on a terminal."""
     console = Console(stderr=True, highlight=False)
     columns = (TextColumn("{task.description}"), BarColumn(), Rows(), TimeRemainingColumn())
     with Bar(*columns, console=console, disable=not console.is_terminal) as bar:
         task = bar.add_task("", total=None)
 
-        def tell(progress: Progress) -> None:
+        def report(progress: JobProgress) -> None:
             if progress.note:
                 console.print(progress.note, soft_wrap=True)
-            doing = "solving" if progress.total else "reading"
-            bar.update(task, completed=progress.rows, total=progress.total, description=doing)
+            phase = "solving" if progress.total else "reading"
+            bar.update(task, completed=progress.rows, total=progress.total, description=phase)
 
-        yield tell
+        yield report
 
 
 class Rows(ProgressColumn):
-    """Rows done, and how many a second."""
+    """The number of rows done, and their rate."""
 
     def render(self, task: Task) -> Text:
-        """As text: "1,310,720 of 10,000,000 rows, 812,000 rows/s"."""
+        """The text of the column: "1,310,720 of 10,000,000 rows, 812,000 rows/s"."""
         whole = f" of {task.total:,.0f}" if task.total else ""
         speed = f", {float(f'{task.speed:.3g}'):,.0f} rows/s" if task.speed else ""
         return Text(f"{task.completed:,.0f}{whole} rows{speed}")
 
 
-def closing(summary: Summary) -> str:
-    """The closing lines: what was done, and the bad rows by status."""
+def summary_lines(summary: JobSummary) -> str:
+    """The closing lines: the number of rows and their rate, and the bad rows by status."""
     seconds, solved = summary.seconds, summary.solved_rows
-    these = "" if solved == summary.rows else f", {solved:,} of them in this run,"
-    lines = [f"{summary.rows:,} rows{these} in {seconds:.1f} s: {solved / seconds:,.0f} rows/s"]
+    in_this_run = "" if solved == summary.rows else f", {solved:,} of them in this run,"
+    lines = [f"{summary.rows:,} rows{in_this_run} in {seconds:.1f} s: {solved / seconds:,.0f} rows/s"]
     for status in Status:
         count = summary.statuses.get(status.name.lower(), 0)
         if count and status is not Status.OK:

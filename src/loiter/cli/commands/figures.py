@@ -1,10 +1,9 @@
-"""`loiter figures`: the paper's figures, drawn from the code, with their captions."""
+"""`loiter figures`: the figures of the paper, drawn by the code, with captions."""
 
 from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
-from rich.table import Table
 
 from loiter.cli import report
 from loiter.errors import InvalidArgument
@@ -14,32 +13,33 @@ from loiter.writing import write_whole
 
 def figures(
     *,
-    out: Annotated[Path, Parameter(metavar="DIR", help="Folder for the files; made where it is missing.")],
+    out: Annotated[Path, Parameter(metavar="DIR", help="Folder for the files; created if missing.")],
     format_: Annotated[
         Literal["png", "svg", "pdf"], Parameter(name="--format", help="Format of the pictures.")
     ] = "png",
 ) -> None:
-    """Draw the seven figures of the paper from the code, and write their captions beside them."""
+    """Draw the seven figures of the paper, and write their captions to a file beside them."""
     from loiter.plot.figures import FIGURES
 
-    # Everything is drawn before anything is written.
+    # All pictures are drawn before the first is written, so that an error leaves no files.
     pictures = {f"fig{number}.{format_}": (number, caption, draw()) for number, caption, draw in FIGURES}
     make_folder(out)
-    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    rows = report.new_table()
     rows.add_column("file", no_wrap=True)
     rows.add_column("shows")
     for name, (_, caption, figure) in pictures.items():
         files.save_figure("out", out / name, figure)
-        rows.add_row(name, caption.partition(". ")[0])
+        first_sentence, _, _ = caption.partition(". ")
+        rows.add_row(name, first_sentence)
     captions = "\n".join(f"![Fig. {n}]({name})\n\nFig. {n}. {text}\n" for name, (n, text, _) in pictures.items())
     write_whole("out", out / "captions.md", lambda file: file.write(captions.encode()))
-    rows.add_row("captions.md", "What each of them shows")
+    rows.add_row("captions.md", "What each figure shows")
     report.write(rows)
 
 
 def make_folder(out: Path) -> None:
-    """Make the folder and those above it where they are missing."""
+    """Create the folder and its parents where they are missing."""
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InvalidArgument("out", f"is {str(out)!r}: no folder can be made there, {error.strerror}") from error
+        raise InvalidArgument("out", f"is {str(out)!r}: no folder can be created there, {error.strerror}") from error

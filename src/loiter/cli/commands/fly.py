@@ -276,7 +276,7 @@ def _rows(starts: Sequence[Trial], outcomes: Mapping[str, Sequence[Outcome]]) ->
 
 
 def _table(*names: str) -> Table:
-    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    rows = report.new_table()
     for name in names:
         rows.add_column(name, justify="left" if name == "law" else "right")
     return rows

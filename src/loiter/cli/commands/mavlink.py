@@ -1,4 +1,4 @@
-"""`loiter upload` and `loiter watch`: the plan on its way to a vehicle, and beside one that flies."""
+"""`loiter upload` and `loiter watch`: sending the plan to a vehicle, and planning for a vehicle in flight."""
 
 from __future__ import annotations
 
@@ -29,12 +29,14 @@ from loiter.cli.options import (
 )
 from loiter.errors import InvalidArgument
 from loiter.io.missions.items import Mission
-from loiter.mavlink.connection.link import check
+from loiter.mavlink.connection.link import check_connection
 from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
 from loiter.planning.solve import fastest
+from loiter.planning.vocabulary import BRIEF_ACTIONS
 
 if TYPE_CHECKING:
     from loiter.mavlink import Report
+    from loiter.planning.maneuver import Maneuver
 
 connection = Group("Connection", sort_key=0)
 
@@ -52,25 +54,25 @@ System = Annotated[
         group=connection,
         metavar="N",
         converter=whole,
-        help="The vehicle's system number, where several are on the line.",
+        help="The vehicle's system number, needed if there are several vehicles.",
     ),
 ]
 Timeout = Annotated[
     float,
-    Parameter(group=connection, metavar="SECONDS", help="How long nothing may come forward before it is given up."),
+    Parameter(group=connection, metavar="SECONDS", help="Give up after this time without progress."),
 ]
 TrueRadius = Annotated[
     bool,
     Parameter(
         group=connection,
-        help="ArduPlane widens loiters with the altitude, where its NAVL1_LIM_BANK is 0: send the radius with which it flies the one asked for.",
+        help="ArduPlane widens loiters with the altitude if its NAVL1_LIM_BANK is 0: send the radius for which it flies the desired one.",
     ),
 ]
 
 
 def upload(
     mission: Annotated[
-        Path | None, Parameter(name="FILE", help="A mission to send: .plan or .waypoints; instead of a scene.")
+        Path | None, Parameter(name="FILE", help="A mission to send, .plan or .waypoints, instead of a scene.")
     ] = None,
     /,
     *,
@@ -82,7 +84,7 @@ def upload(
         bool,
         Parameter(
             group=connection,
-            help="Tell the vehicle to fly the mission, if it is in the air; nothing is armed and nothing takes off.",
+            help="Command the vehicle to fly the mission, if it is in the air; it is neither armed nor made to take off.",
         ),
     ] = False,
     pose: PlacedStartOptions = PlacedStartOptions(),
@@ -91,41 +93,42 @@ def upload(
     air: WindOptions = WindOptions(),
     waypoints: MissionOptions = MissionOptions(),
 ) -> None:
-    """Send the fastest entry to a vehicle as a mission, and read it back to see that it is there, item by item."""
+    """Send the fastest entry to a vehicle as a mission, and read it back, item by item, to verify it."""
     # Before anything is planned and printed.
-    check(connect)
+    check_connection(connect)
     check_target(system, 1, timeout)
     options = (pose, circle, uav, air, waypoints)
-    wanted: Mission | Callable[[int], Mission]
+    to_send: Mission | Callable[[int], Mission]
     if mission is None:
-        wanted = _planned(*options)
+        to_send = _plan_mission(*options)
     elif any(given != type(given)() for given in options):
-        raise InvalidArgument("mission", "FILE is sent as it is: options of a scene are of no use with it")
+        raise InvalidArgument("mission", "FILE is sent as it is: options of a scene have no effect with it")
     else:
-        wanted = loiter.io.read_mission(mission)
-    with _progress() as tell:
-        done = loiter.mavlink.upload(
-            wanted,
+        to_send = loiter.io.read_mission(mission)
+    with _progress_bars() as on_progress:
+        summary = loiter.mavlink.upload(
+            to_send,
             connect,
             system=system,
             timeout_s=timeout,
-            on_progress=tell,
+            on_progress=on_progress,
             true_radius=true_radius,
             start=start,
         )
-    kept = ", each as sent" if not done.cut else ""
+    kept = ", each as sent" if not summary.cut else ""
+    vehicle = f"Vehicle {summary.system} ({summary.autopilot})"
     lines = [
-        f"Vehicle {done.system} ({done.autopilot}) has the mission: {done.items} items sent and read back{kept}.",
-        f"It took the place of one of {done.replaced} items." if done.replaced else "It had none before.",
+        f"{vehicle} has the mission: {summary.items} items sent and read back{kept}.",
+        f"It replaced a mission of {summary.replaced} items." if summary.replaced else "It had none before.",
     ]
-    lines += ["It flies the mission."] if done.started else []
-    report.write(*lines, *done.cut, *done.remarks)
+    lines += ["It flies the mission."] if summary.started else []
+    report.write(*lines, *summary.cut, *summary.remarks)
 
 
-def _planned(
+def _plan_mission(
     pose: StartOptions, circle: OrbitOptions, uav: AircraftOptions, air: WindOptions, waypoints: MissionOptions
 ) -> Callable[[int], Mission]:
-    """What makes the scene's fastest entry a mission for an autopilot; the entry is printed on the way."""
+    """A function that makes the scene's fastest entry a mission for an autopilot; prints the entry."""
     if pose.pose_lla is None or not circle.orbit_lla:
         raise InvalidArgument("pose_lla", "and --orbit-lla are needed: a vehicle's mission is in degrees")
     if uav.altitude is None:
@@ -134,7 +137,7 @@ def _planned(
     (problem, frame), remark = read_options(pose, circle, uav, air, datum=waypoints.datum)
     assert frame is not None  # both places are in degrees
     best = fastest(problem)
-    made = partial(
+    to_mission = partial(
         loiter.io.mission,
         best,
         frame,
@@ -144,18 +147,18 @@ def _planned(
         datum=waypoints.datum,
         along_path=along_path,
     )
-    # What cannot be a mission is refused before anything is printed.
-    made()
+    # An entry that cannot become a mission is refused before anything is printed.
+    to_mission()
     report.write(*([remark] if remark else []), report.headline(best), *([report.ALONG_PATH] if along_path else []))
-    return lambda autopilot: made(autopilot=autopilot)
+    return lambda autopilot: to_mission(autopilot=autopilot)
 
 
-DOING = {"read": "Reading its mission", "send": "Sending", "check": "Reading back"}
+PHASES = {"read": "Reading its mission", "send": "Sending", "check": "Reading back"}
 
 
 @contextmanager
-def _progress() -> Iterator[Callable[[str, int, int], None]]:
-    """A bar for each part of a transfer, on standard error where that is a terminal."""
+def _progress_bars() -> Iterator[Callable[[str, int, int], None]]:
+    """A progress bar for each phase of a transfer, on standard error if that is a terminal."""
     console = Console(stderr=True)
     with Progress(
         TextColumn("{task.description}"),
@@ -165,12 +168,12 @@ def _progress() -> Iterator[Callable[[str, int, int], None]]:
         transient=True,
         disable=not sys.stderr.isatty(),
     ) as bars:
-        tasks = {doing: bars.add_task(text, total=None, visible=False) for doing, text in DOING.items()}
+        tasks = {phase: bars.add_task(text, total=None, visible=False) for phase, text in PHASES.items()}
 
-        def tell(doing: str, done: int, total: int) -> None:
-            bars.update(tasks[doing], completed=done, total=total, visible=True)
+        def on_progress(phase: str, done: int, total: int) -> None:
+            bars.update(tasks[phase], completed=done, total=total, visible=True)
 
-        yield tell
+        yield on_progress
 
 
 def watch(
@@ -178,16 +181,18 @@ def watch(
     connect: Connect,
     system: System = None,
     timeout: Timeout = TIMEOUT_S,
-    every: Annotated[float, Parameter(group=connection, metavar="SECONDS", help="How often a line is printed.")] = 1.0,
+    every: Annotated[float, Parameter(group=connection, metavar="SECONDS", help="Time between lines.")] = 1.0,
     reports: Annotated[
         int | None,
-        Parameter(group=connection, metavar="N", converter=whole, help="End after so many lines; at Ctrl-C if absent."),
+        Parameter(
+            group=connection, metavar="N", converter=whole, help="End after this many lines; at Ctrl-C if absent."
+        ),
     ] = None,
     send: Annotated[
         bool,
         Parameter(
             group=connection,
-            help="Tell the vehicle to hold the circle, in the direction that is sooner, as soon as there is a plan; it then flies there by its own law. Without it nothing is commanded.",
+            help="Command the vehicle to hold the circle, in the faster direction, as soon as there is a plan; it then flies there by its own guidance. Without this option nothing is commanded.",
         ),
     ] = False,
     true_radius: TrueRadius = False,
@@ -195,16 +200,16 @@ def watch(
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
 ) -> None:
-    """Listen to a vehicle and print, live, the fastest entry from where it is."""
+    """Receive the telemetry of a vehicle and print, live, the fastest entry from its position."""
     if not circle.orbit_lla:
-        raise InvalidArgument("orbit_lla", "is needed: a vehicle says where it is in degrees")
+        raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
     preset = uav.preset()
     orbit, frame = circle.circle(preset)
     assert frame is not None  # the circle is in degrees
     if reports is not None and reports < 1:
         raise InvalidArgument("reports", f"is {reports}: it must be at least 1")
     wind = None if air.wind is None else air.moving_air
-    heard = loiter.mavlink.watch(
+    vehicle_reports = loiter.mavlink.watch(
         connect,
         orbit,
         frame,
@@ -220,56 +225,58 @@ def watch(
     if remark := uav.remark(preset):
         report.write(remark)
     commanded = False
-    for seen in islice(heard, reports):
-        if seen.commanded and not commanded and seen.turn is not None:
-            report.write(f"The vehicle is to hold the circle {seen.turn.described}.")
-        commanded = seen.commanded
-        report.write(*seen.notices, line(seen))
+    for vehicle in islice(vehicle_reports, reports):
+        if vehicle.commanded and not commanded and vehicle.turn is not None:
+            report.write(f"The vehicle was commanded to hold the circle {vehicle.turn.described}.")
+        commanded = vehicle.commanded
+        report.write(*vehicle.notices, line(vehicle))
         sys.stdout.flush()
 
 
-# Less wind than this is shown as 0.0, and so is a difference between the directions that is less.
+# A wind below this, which would be shown as 0.0, is left out; directions whose times differ by less count as equal.
 LEAST_WIND_M_S, SAME_TIME_S = 0.05, 0.05
 
-ACTIONS = {"L": "left", "R": "right", "S": "straight"}
 
-
-def line(seen: Report) -> str:
+def line(vehicle: Report) -> str:
     """A report in a line: "12 s: joins clockwise in 19.8 s; right now, straight in 3.2 s, peel off left in 14.1 s; ..."."""
-    clock = f"{seen.time_s:6.1f} s"
-    if seen.plan is None:
-        return f"{clock}: {seen.problem}"
-    if seen.holding:
-        return f"{clock}: on the circle, {seen.plan.turn.described}{_off(seen.outside_m)}"
-    parts = [f"joins {seen.plan.turn.described} in {seen.time_to_join_s:.1f} s", *_todo(seen), _other(seen)]
-    if seen.wind_source != "still air" and seen.wind.speed_m_s >= LEAST_WIND_M_S:
-        parts.append(f"wind {seen.wind.speed_m_s:.1f} m/s from {seen.wind.from_deg % 360.0:03.0f}, {seen.wind_source}")
+    clock, wind = f"{vehicle.time_s:6.1f} s", vehicle.wind
+    if vehicle.plan is None:
+        return f"{clock}: {vehicle.problem}"
+    if vehicle.holding:
+        return f"{clock}: on the circle, {vehicle.plan.turn.described}{_outside(vehicle.outside_m)}"
+    parts = [
+        f"joins {vehicle.plan.turn.described} in {vehicle.time_to_join_s:.1f} s",
+        *_next_actions(vehicle, vehicle.plan),
+        _other_direction(vehicle, vehicle.plan),
+    ]
+    if vehicle.wind_source != "still air" and wind.speed_m_s >= LEAST_WIND_M_S:
+        parts.append(f"wind {wind.speed_m_s:.1f} m/s from {wind.from_deg % 360.0:03.0f}, {vehicle.wind_source}")
     return f"{clock}: {'; '.join(parts)}"
 
 
-def _off(outside_m: float) -> str:
-    """How far off the circle an aircraft holds it, where that is a metre and more."""
+def _outside(outside_m: float) -> str:
+    """The distance of an aircraft from the circle that it holds, if it is a metre or more."""
     side = "outside" if outside_m > 0.0 else "inside"
     return f", {abs(outside_m):.0f} m {side}" if abs(outside_m) >= 1.0 else ""
 
 
-def _todo(seen: Report) -> list[str]:
-    """What is to be done before the hold: one part of a line, none where all of it is too short to fly."""
-    assert seen.plan is not None  # asked for with a plan
-    *pieces, _ = seen.actions
-    peeling = len(seen.plan.segments) > 1
-    said = [
-        f"{'peel off ' * (peeling and piece is pieces[-1])}{ACTIONS[piece.letter]} "
-        + (f"in {piece.in_s:.1f} s" if piece.in_s else "now")
-        for piece in pieces
+def _next_actions(vehicle: Report, plan: Maneuver) -> list[str]:
+    """The actions before the hold as one part of a line; none if all are too short to fly."""
+    *before_hold, _ = vehicle.actions
+    texts = [
+        f"{BRIEF_ACTIONS[action.letter]} " + (f"in {action.in_s:.1f} s" if action.in_s else "now")
+        for action in before_hold
     ]
-    return [", ".join(said)] if said else []
+    if not texts:
+        return []
+    *others, last = texts
+    peel_off = "peel off " if len(plan.segments) > 1 else ""
+    return [", ".join([*others, peel_off + last])]
 
 
-def _other(seen: Report) -> str:
-    """What the other direction costs."""
-    assert seen.plan is not None  # asked for with a plan
-    other, later = seen.plan.turn.other.described, seen.other_costs_s
+def _other_direction(vehicle: Report, plan: Maneuver) -> str:
+    """How much later or sooner the other direction would join."""
+    other, later = plan.turn.other.described, vehicle.other_costs_s
     if later is None:
         return f"{other} cannot be held"
     if abs(later) < SAME_TIME_S:

@@ -1,9 +1,9 @@
-"""`loiter plan`: one entry, as a table, as JSON, as a picture, as a file for a map or an autopilot."""
+"""`loiter plan`: one entry as a table or JSON, and as a picture or a file for a map or an autopilot."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 from cyclopts import Parameter
 
@@ -21,14 +21,51 @@ from loiter.cli.options import (
     scene,
 )
 from loiter.cli.status import CHECK_FAILED
+from loiter.geo import LocalFrame
 from loiter.io.document import answer
 from loiter.io.files import is_mission
-from loiter.io.missions.items import Autopilot
+from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
+from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import best_and_others
 from loiter.plot import files
 
-AUTOPILOTS = {"ardupilot": Autopilot.ARDUPILOT, "px4": Autopilot.PX4}
+# The options of the command, in the order of its help.
+Tolerance = Annotated[
+    float,
+    Parameter(
+        group=scene,
+        metavar="METRES",
+        help="In still air: a start up to this many metres beyond the last arc counts as on it, so that noise does not send the aircraft round again.",
+    ),
+]
+All = Annotated[bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")]
+Json = Annotated[
+    bool,
+    Parameter(
+        group=output,
+        help="Print one JSON object; its alternatives hold the other optimal maneuvers and the slower extremals.",
+    ),
+]
+Plot = Annotated[
+    Path | None, Parameter(group=output, metavar="FILE", help="Draw the plan to a file: .png, .svg or .pdf.")
+]
+Certify = Annotated[
+    bool,
+    Parameter(
+        group=output,
+        help="Check each maneuver shown against every condition of the maximum principle, and against the other extremals. --json adds the certificate of the first maneuver; --plot FILE draws it to FILE-certificate.",
+    ),
+]
+Save = Annotated[
+    Path | None,
+    Parameter(
+        group=output,
+        metavar="FILE",
+        help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) or .waypoints (QGC WPL 110) for autopilots.",
+    ),
+]
+AutopilotChoice = Annotated[AutopilotName, Parameter(group=missions, help="The autopilot that a mission is for.")]
 
 
 def plan(
@@ -37,79 +74,64 @@ def plan(
     circle: OrbitOptions = OrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
-    tolerance: Annotated[
-        float,
-        Parameter(
-            group=scene,
-            metavar="METRES",
-            help="In still air: metres by which a start may lie beyond the last arc and still count as on it, so that noise does not send the aircraft round again.",
-        ),
-    ] = 0.0,
-    all_: Annotated[
-        bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")
-    ] = False,
-    json: Annotated[
-        bool,
-        Parameter(
-            group=output,
-            help="Print one JSON object, with the losing extremals among its alternatives.",
-        ),
-    ] = False,
-    plot: Annotated[
-        Path | None, Parameter(group=output, metavar="FILE", help="Draw the plan to a file: .png, .svg or .pdf.")
-    ] = None,
-    certify: Annotated[
-        bool,
-        Parameter(
-            group=output,
-            help="Check each maneuver shown by the maximum principle, condition by condition, and against the other extremals; JSON, and the picture that --plot then draws to FILE-certificate, hold the certificate of the first.",
-        ),
-    ] = False,
-    save: Annotated[
-        Path | None,
-        Parameter(
-            group=output,
-            metavar="FILE",
-            help="Write the maneuver: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) or .waypoints (QGC WPL 110) for autopilots.",
-        ),
-    ] = None,
+    tolerance: Tolerance = 0.0,
+    all_: All = False,
+    json: Json = False,
+    plot: Plot = None,
+    certify: Certify = False,
+    save: Save = None,
     waypoints: MissionOptions = MissionOptions(),
-    autopilot: Annotated[
-        Literal["ardupilot", "px4"], Parameter(group=missions, help="Whom a mission is for.")
-    ] = "ardupilot",
+    autopilot: AutopilotChoice = "ardupilot",
 ) -> int:
-    """Plan the fastest entry onto a holding circle: what to fly, for how long, where to peel off."""
+    """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off."""
     (problem, frame), remark = read_options(start, circle, uav, air, tolerance_m=tolerance, datum=waypoints.datum)
-    if plot is not None:
-        files.check_format(plot)
-    if save is not None:
-        loiter.io.check_format(save)
+    _check_formats(plot, save)
     along_path = save is not None and is_mission(save) and waypoints.along_path
     best, others = best_and_others(problem)
-    certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in (best if all_ else best[:1]) if certify]
-    # A file needs more than a picture: what it lacks is said before either is written.
+    first, *ties = best
+    shown = best if all_ else [first]
+    certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
+    # The file comes before the picture: it has more requirements, and an error leaves neither.
     if save is not None:
-        loiter.io.save(
-            best[0],
-            save,
-            frame=frame,
-            altitude_m=uav.altitude,
-            datum=waypoints.datum,
-            spacing_m=waypoints.spacing,
-            chord_error_m=waypoints.chord_error_m,
-            autopilot=AUTOPILOTS[autopilot],
-            along_path=along_path,
-        )
+        _save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot])
     if plot is not None:
-        losers = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
-        files.save(plot, best if all_ else best[:1], losers if all_ else [*best[1:], *losers], frame=frame)
-        if certified:
-            certificates.save_picture(plot, certified[0])
+        slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
+        files.save(plot, shown, slower if all_ else [*ties, *slower], frame=frame)
+        certificates.save_picture(plot, certified)
     if json:
-        certificate = {"certificate": certified[0].to_dict()} if certified else {}
-        report.print_json(answer(best, others, frame) | certificate)
+        report.print_json(answer(best, others, frame) | certificates.document(certified))
     else:
         report.print_tables(best, others, everything=all_, frame=frame, remark=remark)
         certificates.print_text(certified)
         report.write(*([report.ALONG_PATH] if along_path else []))
     return 0 if all(certificate.valid for certificate in certified) else CHECK_FAILED
+
+
+def _check_formats(plot: Path | None, save: Path | None) -> None:
+    """Raise `InvalidArgument` for a file name whose format cannot be written."""
+    if plot is not None:
+        files.check_format(plot)
+    if save is not None:
+        loiter.io.check_format(save)
+
+
+def _save(
+    path: Path,
+    maneuver: Maneuver,
+    frame: LocalFrame | None,
+    uav: AircraftOptions,
+    waypoints: MissionOptions,
+    autopilot: Autopilot,
+) -> None:
+    """Write the maneuver to a file for maps or autopilots."""
+    loiter.io.save(
+        maneuver,
+        path,
+        frame=frame,
+        altitude_m=uav.altitude,
+        datum=waypoints.datum,
+        spacing_m=waypoints.spacing,
+        chord_error_m=waypoints.chord_error_m,
+        autopilot=autopilot,
+        along_path=is_mission(path) and waypoints.along_path,
+    )

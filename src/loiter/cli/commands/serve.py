@@ -1,4 +1,4 @@
-"""`loiter serve`: the page and its service."""
+"""`loiter serve`: the page and the HTTP service."""
 
 import sys
 from typing import Annotated
@@ -12,18 +12,19 @@ from loiter.cli.numbers import whole
 def serve(
     *,
     host: Annotated[
-        str, Parameter(metavar="ADDRESS", help="Where to listen; beyond this machine only if you say so.")
+        str, Parameter(metavar="ADDRESS", help="Address to listen on; the default is reachable from this machine only.")
     ] = "127.0.0.1",
-    port: Annotated[int, Parameter(metavar="N", converter=whole, help="0 takes a free one.")] = 8300,
+    port: Annotated[int, Parameter(metavar="N", converter=whole, help="Port to listen on; 0 takes a free one.")] = 8300,
     cors: Annotated[
-        str | None, Parameter(metavar="ORIGIN", help="Another origin, http://HOST:PORT, whose pages may ask.")
+        str | None,
+        Parameter(metavar="ORIGIN", help="Another origin, http://HOST:PORT, whose pages may use the service."),
     ] = None,
 ) -> None:
-    """Serve the page, and plans to programs, over HTTP until Ctrl-C."""
-    loiter.web.serve(host, port, cors, say)
+    """Serve the page, and plans for programs, over HTTP until Ctrl-C."""
+    loiter.web.serve(host, port, cors, print_line)
 
 
-def say(line: str) -> None:
-    """Print a line at once, though nobody reads standard output on a terminal."""
+def print_line(line: str) -> None:
+    """Print a line and flush standard output, which a pipe would buffer."""
     sys.stdout.write(f"{line}\n")
     sys.stdout.flush()

@@ -16,7 +16,7 @@ from loiter.writing import write_whole
 
 MEANINGS = {
     "jump": "T jumps",
-    "same": "first control the same",
+    "same": "same first control",
     "straight": "straight flight",
     "switch": "switching curve",
     "tie": "two controls tie",
@@ -25,29 +25,28 @@ MEANINGS = {
 
 def synthesis(
     *,
-    radius: Annotated[float, Parameter(metavar="TURN_RADII", help="The circle's, at least 1.")] = 1.0,
-    turn: Annotated[TurnName, Parameter(help="Direction in which the circle is held, seen from above.")] = "either",
+    radius: Annotated[float, Parameter(metavar="TURN_RADII", help="Radius of the circle, at least 1.")] = 1.0,
+    turn: Annotated[TurnName, Parameter(help="Direction of flight around the circle, seen from above.")] = "either",
     reach: Annotated[
         float | None,
-        Parameter(metavar="TURN_RADII", help="How far the map reaches from the centre; radius + 3 if absent."),
+        Parameter(
+            metavar="TURN_RADII", help="Half the side of the map, which is centred on the circle; radius + 3 if absent."
+        ),
     ] = None,
     cells: Annotated[int, Parameter(metavar="N", converter=whole, help="Grid points along a side.")] = 400,
     show: Annotated[
         Literal["words", "time", "worth"],
-        Parameter(help="What the picture shows: the winning word, the time, or what a free direction is worth."),
+        Parameter(
+            help="What the picture shows: the optimal word, the least time, or what a free choice of direction saves."
+        ),
     ] = "words",
-    plot: Annotated[Path | None, Parameter(metavar="FILE", help="Draw it to a file: .png, .svg or .pdf.")] = None,
+    plot: Annotated[Path | None, Parameter(metavar="FILE", help="Draw the map to a file: .png, .svg or .pdf.")] = None,
     save: Annotated[
         Path | None, Parameter(metavar="FILE", help="Write the map and the curves as arrays: .npz.")
     ] = None,
 ) -> None:
     """Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions."""
-    if plot is not None:
-        files.check_format(plot)
-    if save is not None and save.suffix.lower() != ".npz":
-        raise InvalidArgument("save", f"is {str(save)!r}: the file name must end in .npz")
-    if show == "worth" and turn == "either":
-        raise InvalidArgument("show", "is 'worth': a free direction is worth something beside --turn cw or ccw alone")
+    _check_options(turn, show, plot, save)
     regions = partition(radius, turn, reach=reach, cells=cells)
     curves = boundaries(regions)
     if plot is not None:
@@ -59,9 +58,22 @@ def synthesis(
     report.write(table(curves))
 
 
+def _check_options(turn: TurnName, show: str, plot: Path | None, save: Path | None) -> None:
+    """Raise `InvalidArgument` for file names and options that cannot be used."""
+    if plot is not None:
+        files.check_format(plot)
+    if save is not None and save.suffix.lower() != ".npz":
+        raise InvalidArgument("save", f"is {str(save)!r}: the file name must end in .npz")
+    if show == "worth" and turn == "either":
+        raise InvalidArgument(
+            "show",
+            "is 'worth': it compares a free choice of direction with one direction, so give --turn cw or ccw",
+        )
+
+
 def table(curves: tuple[Boundary, ...]) -> Table:
-    """A row for each curve between two regions."""
-    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    """A table with a row for each curve between two regions."""
+    rows = report.new_table()
     rows.add_column("between")
     rows.add_column("and")
     rows.add_column("curve")
@@ -74,7 +86,7 @@ def table(curves: tuple[Boundary, ...]) -> Table:
 
 
 def write_arrays(path: Path, regions: Partition, curves: tuple[Boundary, ...]) -> None:
-    """Write a partition and its curves as named arrays; a curve's name is its kind and its words: "tie LRL RL"."""
+    """Write a partition and its curves as named arrays; the name of a curve is its kind and its words: "tie LRL RL"."""
     import numpy as np
 
     arrays: dict[str, Any] = {name: np.asarray(value) for name, value in regions._asdict().items()}

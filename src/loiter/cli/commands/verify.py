@@ -188,7 +188,7 @@ def _by_place(found: Sequence[tuple[str, Any]]) -> Iterator[tuple[str, list[Any]
 
 
 def _table(first: str, *headings: str) -> Table:
-    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    rows = report.new_table()
     rows.add_column(first)
     for heading in headings:
         rows.add_column(heading, justify="right")

@@ -15,8 +15,9 @@ from loiter.guidance.vehicle.rolling import AT_ONCE, Roll
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.kernel import motion, wind_search
 from loiter.kernel.codes import Side, Status
-from loiter.kernel.hold import tightest_held
-from loiter.kernel.synthesis import Entry, duration, held_radius, optimum, solvable
+from loiter.kernel.hold import tightest_radius
+from loiter.kernel.synthesis import Entry, duration, is_solvable, optimum, rounded_radius
+from loiter.kernel.wind_search import WindProblem
 from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind
 from loiter.planning.sides import SIDES, TURNS
@@ -98,11 +99,11 @@ class LoiterEntry:
         self._still = self._wind.still
         self._gain, self._recent = positive("gain", gain, "units"), Recent(not_negative("delay_s", delay_s, "seconds"))
         self._V, self._side = aircraft.airspeed_m_s, SIDES[orbit.turn]
-        tightest_m, widest_m = aircraft.turn_radius_m, orbit.radius_m / tightest_held(*self._wind)
+        tightest_m, widest_m = aircraft.turn_radius_m, orbit.radius_m / tightest_radius(*self._wind)
         # As wide as the reserve asks for and the circle allows.
         wide_m = tightest_m * (1.0 + not_negative("reserve", reserve, "one"))
         self._r = max(tightest_m, min(wide_m, widest_m))
-        self._R, self._unit_s = held_radius(orbit.radius_m / self._r), self._r / self._V
+        self._R, self._unit_s = rounded_radius(orbit.radius_m / self._r), self._r / self._V
         # What the reserve can make up for beside the last arc counts as on it.
         self._tolerance = 0.5 * (self._r / tightest_m - 1.0)
         self._limit_deg, self._hold_deg = aircraft.bank_deg(tightest_m), aircraft.bank_deg(orbit.radius_m)
@@ -240,9 +241,9 @@ class LoiterEntry:
         (wx, wy), R = self._wind, self._R
         c, s = unit(*forward(view.vx - wx, view.vy - wy, view.hx, view.hy))
         if self._still:
-            scene = *motion.reduce(view.x / scale, view.y / scale, c, s), held_radius(R / scale)
-            return optimum(*scene, self._side, self._tolerance) if solvable(*scene, self._tolerance) else None
-        found = wind_search.fastest(view.x, view.y, c, s, R, self._side, wx, wy)
+            scene = *motion.reduce(view.x / scale, view.y / scale, c, s), rounded_radius(R / scale)
+            return optimum(*scene, self._side, self._tolerance) if is_solvable(*scene, self._tolerance) else None
+        found = wind_search.fastest(WindProblem(view.x, view.y, c, s, R, self._side, wx, wy))
         return wind_search.entry_of(found) if found.status == Status.OK else None
 
     def _followed(self, route: Route, view: View, early_s: float, dt: float) -> Command:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from loiter.guidance.laws.holding import Arc, Line, Offset, circle, forward, offset
-from loiter.kernel.angles import TWO_PI, angle, turned_by
+from loiter.kernel.angles import TWO_PI, angle, arc_rotation
 from loiter.kernel.motion import fly
 from loiter.kernel.synthesis import Entry
 from loiter.kernel.words import ABSENT, controls
@@ -130,5 +130,5 @@ def _left(piece: Piece, x: float, y: float, about: float) -> float:
     path = piece.path
     if isinstance(path, Line):
         return (piece.x - x) * path.c + (piece.y - y) * path.s
-    left = angle(turned_by(piece.u, x - path.x, y - path.y, piece.x - path.x, piece.y - path.y))
+    left = angle(arc_rotation(piece.u, x - path.x, y - path.y, piece.x - path.x, piece.y - path.y))
     return left + TWO_PI * round((about - left) / TWO_PI)

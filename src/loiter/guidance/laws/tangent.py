@@ -20,9 +20,10 @@ from loiter.guidance.laws.l1 import DAMPING, L1, SHORTEST_PERIOD_S, circle_deman
 from loiter.guidance.laws.route import controls_of
 from loiter.guidance.protocol import PHASES, Phase, State
 from loiter.kernel import wind_search
-from loiter.kernel.hold import phase_of, tightest_held
+from loiter.kernel.hold import phase_of, tightest_radius
 from loiter.kernel.motion import fly
 from loiter.kernel.moving_target import Path
+from loiter.kernel.wind_search import WindProblem
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import relative_wind
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
@@ -83,7 +84,7 @@ class Tangent(L1):
         self._past = relative_wind(orbit, aircraft, self.wind)
         wider = aircraft.turn_radius_m * (1.0 + not_negative("reserve", reserve, "one"))
         # No wider than what holds the circle.
-        self._radius_m = min(wider, orbit.radius_m / tightest_held(*self._past))
+        self._radius_m = min(wider, orbit.radius_m / tightest_radius(*self._past))
         self._lead_m = not_negative("lead_s", lead_s, "seconds") * aircraft.airspeed_m_s
         # What is left of the path, and the state that it was planned from.
         self._pieces: list[Piece] = []
@@ -126,7 +127,8 @@ class Tangent(L1):
         """Dubins' path to the nearest point of the circle, in turn radii as planned."""
         r, seen, side = self._radius_m, self._around(state), SIDES[turn] + 0
         place = seen.distance_m / r * seen.out_east, seen.distance_m / r * seen.out_north
-        scene = wind_search.scene_of(*place, *heading_vector(state.heading_deg), self.orbit.radius_m / r, *self._past)
+        heading, R = heading_vector(state.heading_deg), self.orbit.radius_m / r
+        scene = wind_search.scene_of(WindProblem(*place, *heading, R, side, *self._past))
         return wind_search.first_path(phase_of(seen.out_east, seen.out_north, side, *self._past), side, scene, inf)
 
     def _progress(self, piece: Piece, state: State) -> Progress:

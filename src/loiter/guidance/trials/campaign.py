@@ -21,7 +21,7 @@ from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials.flight import LIMIT_S, STEP_S, fly
 from loiter.guidance.trials.settling import Band
 from loiter.guidance.vehicle.rolling import Roll
-from loiter.kernel.hold import tightest_held
+from loiter.kernel.hold import tightest_radius
 from loiter.planning.feasibility import relative_wind
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind
@@ -113,7 +113,7 @@ def _trial(seed: int, i: int, aircraft: Aircraft, wind: Wind | None, radii: tupl
     import numpy as np
 
     random = np.random.default_rng((seed, i))
-    tightest = tightest_held(*relative_wind(Orbit(0.0, 0.0, 1.0), aircraft, CALM if wind is None else wind))
+    tightest = tightest_radius(*relative_wind(Orbit(0.0, 0.0, 1.0), aircraft, CALM if wind is None else wind))
     radius_m = aircraft.turn_radius_m * tightest * random.uniform(*radii)
     distance_m, azimuth = reach * radius_m * sqrt(random.random()), 2.0 * pi * random.random()
     pose = Pose(distance_m * cos(azimuth), distance_m * sin(azimuth), 360.0 * random.random())

@@ -1,4 +1,4 @@
-"""What a map shows of a maneuver, in degrees: its pieces, the places where the controls switch, the circle."""
+"""A maneuver in degrees, as maps show it: its segments, the places where the control switches, the circle."""
 
 from __future__ import annotations
 
@@ -7,19 +7,18 @@ from typing import NamedTuple
 
 from loiter.geo.frame import LocalFrame
 from loiter.io.maps.places import degrees, true_headings
-from loiter.io.maps.track import ring, steps, vertices
+from loiter.io.maps.track import circle_polygon, step_counts, vertices
 from loiter.io.missions.mission import BEND_PER_M, LEAST_EARTH_RADIUS_M
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Samples, Segment
+from loiter.planning.vocabulary import ACTIONS
 
-ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
-
-# Next to a pole degrees draw no map: the bend grows without bound.
-POLEMOST_DEG = 89.99
+# The bend of map lines grows without bound towards a pole; it is bounded up to this latitude only.
+LARGEST_LATITUDE_DEG = 89.99
 
 
-class Leg(NamedTuple):
-    """One piece of the maneuver: its vertices, from the end of the one before to its own."""
+class SegmentLine(NamedTuple):
+    """A segment of the maneuver and its vertices, including both ends, in WGS84 degrees."""
 
     segment: Segment
     latitude_deg: list[float]
@@ -27,10 +26,10 @@ class Leg(NamedTuple):
 
 
 class Mark(NamedTuple):
-    """A place on the way: "start", "switch", "peel-off" (the last switch) or "join". Headings are true."""
+    """A place where an action begins: "start", "switch", "peel-off" (the last switch) or "join". Headings are true."""
 
     kind: str
-    does: str
+    action: str
     time_s: float
     latitude_deg: float
     longitude_deg: float
@@ -40,14 +39,19 @@ class Mark(NamedTuple):
 
 
 class Chart(NamedTuple):
-    """A maneuver on the Earth, WGS84 degrees; the circle, closed, counter-clockwise, is where it is when joined."""
+    """A maneuver on the Earth, in WGS84 degrees.
+
+    `circle` has the latitudes and longitudes of a closed polygon that runs counter-clockwise; a circle that moves is
+    shown where it is joined.
+    """
 
     maneuver: Maneuver
     altitude_m: float | None
-    legs: list[Leg]
+    lines: list[SegmentLine]
     marks: list[Mark]
     circle: tuple[list[float], list[float]]
-    centre: tuple[float, float]
+    centre_latitude_deg: float
+    centre_longitude_deg: float
 
 
 def chart(
@@ -57,21 +61,24 @@ def chart(
     spacing_m: float | None,
     chord_error_m: float,
 ) -> Chart:
-    """The maneuver on a map whose lines are straight in latitude and longitude; numbers as in `io.mission`."""
+    """The maneuver on a map whose lines are straight in latitude and longitude.
+
+    `spacing_m` and `chord_error_m` are those of `io.mission`.
+    """
     orbit = maneuver.orbit_at_join
     bend = _bend_per_m(maneuver, frame, orbit)
-    counts = steps(maneuver, spacing_m, chord_error_m, bend)
+    counts = step_counts(maneuver, spacing_m, chord_error_m, bend)
     track = vertices(maneuver, counts)
     latitude, longitude = degrees(frame, track.east_m, track.north_m)
     switches = [sum(counts[:i]) for i in range(len(counts) + 1)]
-    legs = [
-        Leg(segment, latitude[first : last + 1], longitude[first : last + 1])
+    lines = [
+        SegmentLine(segment, latitude[first : last + 1], longitude[first : last + 1])
         for segment, first, last in zip(maneuver.segments, switches, switches[1:], strict=False)
     ]
     marks = _marks(maneuver, frame, track, switches, latitude, longitude)
-    centre = degrees(frame, [orbit.east_m], [orbit.north_m])
-    round_it = degrees(frame, *ring(orbit, chord_error_m, bend))
-    return Chart(maneuver, altitude_m, legs, marks, round_it, (centre[0][0], centre[1][0]))
+    (centre_latitude,), (centre_longitude,) = degrees(frame, [orbit.east_m], [orbit.north_m])
+    polygon = degrees(frame, *circle_polygon(orbit, chord_error_m, bend))
+    return Chart(maneuver, altitude_m, lines, marks, polygon, centre_latitude, centre_longitude)
 
 
 def _marks(
@@ -82,14 +89,14 @@ def _marks(
     latitude: list[float],
     longitude: list[float],
 ) -> list[Mark]:
-    """The start, the switches and the join: where a piece begins and where the last one ends."""
+    """The start, the switches and the join; `at` has the index of each among the vertices."""
     lat, lon = [latitude[i] for i in at], [longitude[i] for i in at]
     headings = true_headings(frame, track.heading_deg[at], lat, lon)
     tracks = true_headings(frame, track.track_deg[at], lat, lon)
-    does = [ACTIONS[segment.letter] for segment in maneuver.segments]
+    actions = [ACTIONS[segment.letter] for segment in maneuver.segments]
     rows = zip(
         _kinds(len(maneuver.segments)),
-        [*does, f"hold {maneuver.turn.described}"],
+        [*actions, f"hold {maneuver.turn.described}"],
         track.time_s[at].tolist(),
         lat,
         lon,
@@ -108,15 +115,15 @@ def _kinds(segments: int) -> list[str]:
 
 
 def _bend_per_m(maneuver: Maneuver, frame: LocalFrame, orbit: Orbit) -> float:
-    """How much a line that is straight on the map bends on the ground, at most, against one straight in the plane.
+    """The largest curvature, per metre, in the plane of the frame of a line that is straight on the map.
 
     A line of constant d(latitude)/d(longitude) on the course c at the latitude f has the geodesic curvature
     sin(c) (1 + cos(c)^2) tan(f)/R, at most 1.09 tan(f)/R: tan(c) = cos(f) d(longitude)/d(latitude) gives
     c' = -sin(c) cos(c)^2 tan(f)/R along it, and a geodesic has c' = sin(c) tan(f)/R (Clairaut).
     """
     places = [maneuver.start, *(segment.end for segment in maneuver.segments)]
-    # An arc, drift included, strays from the line between its ends by no more than two diameters.
+    # An arc, including its drift in wind, is nowhere further than two diameters from the line between its ends.
     away_m = max(hypot(pose.east_m, pose.north_m) for pose in places) + 4.0 * maneuver.aircraft.turn_radius_m
     away_m = max(away_m, hypot(orbit.east_m, orbit.north_m) + orbit.radius_m)
-    utmost = min(radians(POLEMOST_DEG), radians(abs(frame.latitude_deg)) + away_m / LEAST_EARTH_RADIUS_M)
-    return 1.09 * tan(utmost) / LEAST_EARTH_RADIUS_M + BEND_PER_M
+    largest_latitude = radians(abs(frame.latitude_deg)) + away_m / LEAST_EARTH_RADIUS_M
+    return 1.09 * tan(min(radians(LARGEST_LATITUDE_DEG), largest_latitude)) / LEAST_EARTH_RADIUS_M + BEND_PER_M

@@ -1,15 +1,17 @@
 """A maneuver as GeoJSON (RFC 7946): WGS84, longitude first, cut at the antimeridian.
 
-A third coordinate would be the height above the ellipsoid, which an altitude above the sea is not: it is a property.
+A third coordinate would be a height above the ellipsoid, so the altitude above the sea is a property instead.
 """
 
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from typing import Any
 
 from loiter.io.maps.antimeridian import Position, cut_line, cut_ring
-from loiter.io.maps.chart import ACTIONS, Chart, Leg, Mark
+from loiter.io.maps.chart import Chart, Mark, SegmentLine
+from loiter.planning.vocabulary import ACTIONS
 
 # 1e-9 degrees are 0.1 mm.
 DECIMALS = 9
@@ -17,18 +19,18 @@ DECIMALS = 9
 
 def geojson(chart: Chart) -> bytes:
     """A feature collection: "segment" lines, "start", "switch", "peel-off" and "join" points, the "circle"."""
-    features = [*map(_segment, chart.legs), *map(_mark, chart.marks), _circle(chart)]
+    features = [*map(_segment, chart.lines), *map(_mark, chart.marks), _circle(chart)]
     if chart.altitude_m is not None:
         for feature in features:
             feature["properties"]["altitude_m"] = chart.altitude_m
-    # A line for each feature: indented, each number would take a line.
+    # One feature per line: `indent` would put every number on a line of its own.
     lines = ",\n".join(json.dumps(feature, allow_nan=False) for feature in features)
     return f'{{"type": "FeatureCollection", "features": [\n{lines}\n]}}\n'.encode()
 
 
-def segment_properties(leg: Leg) -> dict[str, Any]:
-    """What is told of a piece; curvature and length are those through the air, positive to the left."""
-    segment = leg.segment
+def segment_properties(line: SegmentLine) -> dict[str, Any]:
+    """The properties of a segment; length and curvature (positive to the left) are those through the air."""
+    segment = line.segment
     return {
         "kind": "segment",
         "letter": segment.letter,
@@ -41,10 +43,10 @@ def segment_properties(leg: Leg) -> dict[str, Any]:
 
 
 def mark_properties(mark: Mark) -> dict[str, Any]:
-    """What is told of a place on the way."""
+    """The properties of a mark."""
     return {
         "kind": mark.kind,
-        "does": mark.does,
+        "does": mark.action,
         "time_s": mark.time_s,
         "heading_deg": mark.heading_deg,
         "track_deg": mark.track_deg,
@@ -53,41 +55,45 @@ def mark_properties(mark: Mark) -> dict[str, Any]:
 
 
 def circle_properties(chart: Chart) -> dict[str, Any]:
-    """What is told of the circle, and of the whole maneuver."""
-    maneuver, (latitude, longitude) = chart.maneuver, chart.centre
+    """The properties of the circle, and of the whole maneuver."""
+    maneuver = chart.maneuver
     return {
         "kind": "circle",
         "turn": maneuver.turn.value,
         "radius_m": maneuver.orbit.radius_m,
-        "centre_latitude_deg": round(latitude, DECIMALS),
-        "centre_longitude_deg": round(longitude, DECIMALS),
+        "centre_latitude_deg": round(chart.centre_latitude_deg, DECIMALS),
+        "centre_longitude_deg": round(chart.centre_longitude_deg, DECIMALS),
         "word": maneuver.word,
         "duration_s": maneuver.duration_s,
         "length_m": maneuver.length_m,
     }
 
 
-def _segment(leg: Leg) -> dict[str, Any]:
-    parts = [_positions(part) for part in cut_line(leg.longitude_deg, leg.latitude_deg)]
-    if len(parts) == 1:
-        return _feature("LineString", parts[0], segment_properties(leg))
-    return _feature("MultiLineString", parts, segment_properties(leg))
+def _segment(line: SegmentLine) -> dict[str, Any]:
+    parts = [_coordinates(part) for part in cut_line(line.longitude_deg, line.latitude_deg)]
+    return _feature(*_geometry("LineString", parts), segment_properties(line))
 
 
 def _mark(mark: Mark) -> dict[str, Any]:
-    (position,) = _positions([(mark.longitude_deg, mark.latitude_deg)])
-    return _feature("Point", position, mark_properties(mark))
+    (coordinates,) = _coordinates([Position(mark.longitude_deg, mark.latitude_deg)])
+    return _feature("Point", coordinates, mark_properties(mark))
 
 
 def _circle(chart: Chart) -> dict[str, Any]:
     latitude, longitude = chart.circle
-    parts = [[_positions(part)] for part in cut_ring(longitude, latitude)]
-    if len(parts) == 1:
-        return _feature("Polygon", parts[0], circle_properties(chart))
-    return _feature("MultiPolygon", parts, circle_properties(chart))
+    parts = [[_coordinates(part)] for part in cut_ring(longitude, latitude)]
+    return _feature(*_geometry("Polygon", parts), circle_properties(chart))
 
 
-def _positions(part: list[Position]) -> list[list[float]]:
+def _geometry(kind: str, parts: Sequence[object]) -> tuple[str, object]:
+    """Type and coordinates of a geometry: a single part, or several as "Multi"."""
+    if len(parts) > 1:
+        return f"Multi{kind}", parts
+    (part,) = parts
+    return kind, part
+
+
+def _coordinates(part: list[Position]) -> list[list[float]]:
     return [[round(longitude, DECIMALS), round(latitude, DECIMALS)] for longitude, latitude in part]
 
 

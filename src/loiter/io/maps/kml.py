@@ -1,4 +1,4 @@
-"""A maneuver as KML 2.2 (OGC 07-147r2), for Google Earth and the like."""
+"""A maneuver as KML 2.2 (OGC 07-147r2), for Google Earth and similar programs."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from loiter.io.maps.chart import Chart
 from loiter.io.maps.geojson import circle_properties, mark_properties, segment_properties
 from loiter.io.maps.markup import DEGREES, child, document, root
 
-# Line colours, aabbggrr: those of the pictures, the green, blue and vermilion of Okabe and Ito, black for the circle.
+# Line colours, aabbggrr, as in the pictures: the green, blue and vermilion of Okabe and Ito, black for the circle.
 STYLES = {"L": "ff739e00", "S": "ffb27200", "R": "ff005ed5", "circle": "ff000000"}
 
-# The view stands back by so many radii of the circle or lengths of the way.
-BACK = 3.0
+# The distance of the viewer, in radii of the circle or in distances from the start to its centre.
+VIEW_DISTANCE = 3.0
 
 
 def kml(chart: Chart) -> bytes:
-    """A document with a view, a line for each piece and the circle, a placemark for each mark, what is told of each."""
+    """The file: a view, a line for each segment and the circle, a placemark for each mark, with their properties."""
     outermost = root("kml", "http://www.opengis.net/kml/2.2")
     top = child(outermost, "Document")
     maneuver = chart.maneuver
@@ -25,46 +25,46 @@ def kml(chart: Chart) -> bytes:
     child(top, "open", 1)
     _view(top, chart)
     for name, colour in STYLES.items():
-        line = child(child(top, "Style", id=name), "LineStyle")
-        child(line, "color", colour)
-        child(line, "width", 3)
-    for leg in chart.legs:
-        told = segment_properties(leg)
-        mark = _placemark(top, told["does"], leg.segment.letter, told, chart)
-        _line(mark, chart, zip(leg.longitude_deg, leg.latitude_deg, strict=True))
+        style = child(child(top, "Style", id=name), "LineStyle")
+        child(style, "color", colour)
+        child(style, "width", 3)
+    for line in chart.lines:
+        properties = segment_properties(line)
+        mark = _placemark(top, properties["does"], line.segment.letter, properties, chart)
+        _line(mark, chart, zip(line.longitude_deg, line.latitude_deg, strict=True))
     mark = _placemark(top, f"hold {maneuver.turn.described}", "circle", circle_properties(chart), chart)
     _line(mark, chart, zip(*reversed(chart.circle), strict=True))
     for place in chart.marks:
-        mark = _placemark(top, f"{place.kind}: {place.does}", None, mark_properties(place), chart)
+        mark = _placemark(top, f"{place.kind}: {place.action}", None, mark_properties(place), chart)
         _point(mark, chart, place.longitude_deg, place.latitude_deg)
     return document(outermost)
 
 
 def _view(parent: ET.Element, chart: Chart) -> None:
-    """From above the circle's centre, far enough to see the whole."""
+    """Add a view from above the circle's centre that shows the whole maneuver."""
     maneuver = chart.maneuver
     view = child(parent, "LookAt")
-    child(view, "longitude", format(chart.centre[1], DEGREES))
-    child(view, "latitude", format(chart.centre[0], DEGREES))
+    child(view, "longitude", format(chart.centre_longitude_deg, DEGREES))
+    child(view, "latitude", format(chart.centre_latitude_deg, DEGREES))
     child(view, "altitude", 0 if chart.altitude_m is None else chart.altitude_m)
     child(view, "heading", 0)
     child(view, "tilt", 0)
     away_m = max(maneuver.orbit.radius_m, maneuver.orbit_at_join.distance_m(maneuver.start))
-    child(view, "range", f"{BACK * away_m:.1f}")
+    child(view, "range", f"{VIEW_DISTANCE * away_m:.1f}")
     child(view, "altitudeMode", _mode(chart))
 
 
 def _placemark(
-    parent: ET.Element, name: str, style: str | None, told: Mapping[str, object], chart: Chart
+    parent: ET.Element, name: str, style: str | None, properties: Mapping[str, object], chart: Chart
 ) -> ET.Element:
-    """A placemark, its geometry still to come."""
+    """A new placemark at the end of `parent`, without a geometry."""
     mark = child(parent, "Placemark")
     child(mark, "name", name)
     if style is not None:
         child(mark, "styleUrl", f"#{style}")
     data = child(mark, "ExtendedData")
     altitude = {} if chart.altitude_m is None else {"altitude_m": chart.altitude_m}
-    for key, value in {**told, **altitude}.items():
+    for key, value in {**properties, **altitude}.items():
         child(child(data, "Data", name=key), "value", value)
     return mark
 
@@ -88,5 +88,5 @@ def _position(chart: Chart, longitude: float, latitude: float) -> str:
 
 
 def _mode(chart: Chart) -> str:
-    """KML's absolute altitudes are above the sea (EGM96)."""
+    """KML's altitude mode: absolute altitudes are above the sea (EGM96)."""
     return "clampToGround" if chart.altitude_m is None else "absolute"

@@ -1,4 +1,4 @@
-"""XML, written with the standard library."""
+"""XML files written with the standard library."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def child(parent: ET.Element, tag: str, text: object = None, **attributes: str) 
 
 
 def root(tag: str, namespace: str, attributes: Mapping[str, str] | None = None) -> ET.Element:
-    """The outermost element."""
+    """A new outermost element."""
     return ET.Element(tag, {"xmlns": namespace, **(attributes or {})})
 
 
 def document(element: ET.Element) -> bytes:
-    """The file: UTF-8, indented."""
+    """The file, indented, in UTF-8."""
     ET.indent(element)
     text: bytes = ET.tostring(element, encoding="UTF-8", xml_declaration=True)
     return text + b"\n"

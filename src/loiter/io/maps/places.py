@@ -1,4 +1,4 @@
-"""Local metres as degrees on the Earth, and headings of the plane as true ones."""
+"""Local metres as degrees on the Earth, and headings in the plane as true headings."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def degrees(frame: LocalFrame, east_m: ArrayLike, north_m: ArrayLike) -> tuple[list[float], list[float]]:
-    """Latitudes and longitudes, WGS84 degrees. Raises `OutOfRange` for places beyond the reach of the frame."""
+    """Latitudes and longitudes, WGS84 degrees. Raises `OutOfRange` for places too far from the frame's origin."""
     import numpy as np
 
     latitude, longitude = frame.to_geodetic(east_m, north_m)
@@ -27,8 +27,8 @@ def degrees(frame: LocalFrame, east_m: ArrayLike, north_m: ArrayLike) -> tuple[l
 
 
 def true_headings(frame: LocalFrame, heading_deg: ArrayLike, latitude: ArrayLike, longitude: ArrayLike) -> list[float]:
-    """Headings from true north, in [0, 360), of headings from the plane's north at places in degrees."""
+    """Headings from true north, in [0, 360), for headings from the plane's north at places in degrees."""
     import numpy as np
 
-    turned: NDArray[float64] = np.asarray(heading_deg, float) - frame.convergence_deg(latitude, longitude)
-    return [wrapped(heading) for heading in turned.tolist()]
+    true_deg: NDArray[float64] = np.asarray(heading_deg, float) - frame.convergence_deg(latitude, longitude)
+    return [wrapped(heading) for heading in true_deg.tolist()]

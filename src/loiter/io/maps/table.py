@@ -1,9 +1,9 @@
-"""A maneuver as CSV: its track with what path following takes, the unit tangent and the curvature over the ground.
+"""A maneuver as CSV: its track, with the unit tangent and the curvature over the ground for path following.
 
 PX4's guidance (NPFG, `navigatePathTangent`) and ArduPilot's (`update_path`, pull request 26328) follow a path that is
-given by its nearest point, its unit tangent towards north and east, and its curvature, which is positive for a right
-turn, as angles grow clockwise from north. So the curvature here has the other sign than everywhere else in this
-package, and says so in its name.
+given by its nearest point, its unit tangent towards north and east, and its curvature. That is positive for a right
+turn, since angles grow clockwise from north. So the curvature here has the opposite sign to that in the rest of this
+package, which its name says.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from loiter.planning.model import Samples
 
 
 def table(track: Samples, frame: LocalFrame | None, altitude_m: float | None) -> bytes:
-    """Columns of numbers with as many digits as it takes to read them back to the last bit.
+    """The file, its numbers with as many digits as it takes to read them back to the last bit.
 
-    With a frame there are latitude and longitude, and headings, tracks and tangents are from true north; without, from
-    the plane's.
+    With a frame there are latitude and longitude, and headings, tracks and tangents are relative to true north; without
+    one they are relative to the plane's north.
     """
     columns = _columns(track, frame)
     if altitude_m is not None:
@@ -52,6 +52,6 @@ def _columns(track: Samples, frame: LocalFrame | None) -> dict[str, list[float]]
         "ground_speed_m_s": track.ground_speed_m_s.tolist(),
         "tangent_north": [north for _, north in tangents],
         "tangent_east": [east for east, _ in tangents],
-        # From 0.0, so that no straight piece has -0.0.
+        # The difference from 0.0, not the negative, so that no straight segment has -0.0.
         "curvature_right_per_m": (0.0 - track.ground_curvature_per_m).tolist(),
     }

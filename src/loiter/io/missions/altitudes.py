@@ -1,4 +1,4 @@
-"""What the altitudes of files are measured from."""
+"""The reference from which altitudes in files are measured."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from loiter.io.missions.limits import HIGHEST_M
 
 
 class AltitudeReference(StrEnum):
-    """What an altitude is measured from: mean sea level, the home position, the ground below."""
+    """The reference of an altitude: mean sea level, the home position, or the ground below."""
 
     MSL = "msl"
     HOME = "home"
@@ -32,10 +32,10 @@ UNITS = {
 
 @dataclass(frozen=True)
 class AltitudeDatum:
-    """What altitudes are measured from, and home's own altitude: metres above mean sea level, None if it is not given.
+    """The reference of altitudes, and the altitude of the home position in metres above mean sea level, if given.
 
-    `reference` may be its name: "msl", "home", "ground". Raises `InvalidArgument` for another name, and for an altitude
-    of home that is not finite or that no mission may have.
+    `reference` may be given by name: "msl", "home", "ground". Raises `InvalidArgument` for another name, and for an
+    altitude of home that is not finite or outside the range of missions.
     """
 
     reference: AltitudeReference = AltitudeReference.MSL
@@ -47,54 +47,55 @@ class AltitudeDatum:
             raise InvalidArgument("altitude_reference", f"is {self.reference!r}: it must be one of {known}")
         object.__setattr__(self, "reference", AltitudeReference(self.reference))
         if self.home_altitude_m is not None:
-            home_m = _in_the_air(
-                "home_altitude_m", number("home_altitude_m", self.home_altitude_m, UNITS[AltitudeReference.MSL])
-            )
-            object.__setattr__(self, "home_altitude_m", home_m)
+            home_m = number("home_altitude_m", self.home_altitude_m, UNITS[AltitudeReference.MSL])
+            object.__setattr__(self, "home_altitude_m", _check_range("home_altitude_m", home_m))
 
     @property
     def frame(self) -> Frame:
-        """The frame of mission items with such altitudes."""
+        """The altitude frame of mission items."""
         return FRAMES[self.reference]
 
     @property
     def unit(self) -> str:
-        """What an altitude is a number of: "metres above home"."""
+        """The unit of an altitude in words: "metres above home"."""
         return UNITS[self.reference]
 
     def checked(self, altitude_m: object) -> float:
-        """The altitude as a float; raises `InvalidArgument` for one that is not finite or that no mission may have."""
+        """The altitude as a float; raises `InvalidArgument` if it is not finite or outside the range of missions."""
         check = positive if self.reference == AltitudeReference.GROUND else number
-        return _in_the_air("altitude_m", check("altitude_m", altitude_m, self.unit))
+        return _check_range("altitude_m", check("altitude_m", altitude_m, self.unit))
 
     def above_sea_m(self, altitude_m: float) -> float:
-        """An altitude in metres above mean sea level; raises `InvalidArgument` where that is not known."""
+        """The altitude in metres above mean sea level; raises `InvalidArgument` if that is not known."""
         if self.reference == AltitudeReference.MSL:
             return altitude_m
         if self.reference == AltitudeReference.HOME and self.home_altitude_m is not None:
             return self.home_altitude_m + altitude_m
         if self.reference == AltitudeReference.HOME:
-            raise InvalidArgument("home_altitude_m", "is missing: it takes altitudes above home to mean sea level")
+            raise InvalidArgument("home_altitude_m", "is missing: altitudes above home cannot be converted without it")
         raise InvalidArgument("altitude_reference", "is ground: how high that is above mean sea level is not known")
 
     def planned_home_m(self) -> float:
-        """The altitude of the planned home of a mission: metres above mean sea level, 0 where it does not matter.
+        """The altitude of the planned home of a mission, metres above mean sea level.
 
-        A mission above mean sea level does not depend on it; for others raises `InvalidArgument` where it is unknown.
+        If it is not given, it is 0 for missions above mean sea level, which do not depend on it; other missions raise
+        `InvalidArgument`.
         """
         if self.home_altitude_m is not None:
             return self.home_altitude_m
         if self.reference == AltitudeReference.MSL:
             return 0.0
         raise InvalidArgument(
-            "home_altitude_m", f"is missing: a mission in {self.unit} needs home's own, {UNITS[AltitudeReference.MSL]}"
+            "home_altitude_m",
+            f"is missing: a mission in {self.unit} needs that of home, {UNITS[AltitudeReference.MSL]}",
         )
 
 
 MEAN_SEA_LEVEL = AltitudeDatum()
 
 
-def _in_the_air(argument: str, altitude_m: float) -> float:
+def _check_range(argument: str, altitude_m: float) -> float:
+    """The altitude, if a mission may have it."""
     if abs(altitude_m) > HIGHEST_M:
         raise InvalidArgument(argument, f"is {altitude_m:g}: it must be from {-HIGHEST_M:g} to {HIGHEST_M:g} metres")
     return altitude_m

@@ -1,13 +1,13 @@
-"""Missions as autopilots keep them."""
+"""Missions as autopilots store them, and the autopilots."""
 
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 
 class Frame(IntEnum):
-    """What the altitude of an item is measured from: MAVLink's MAV_FRAME. An item of `NOWHERE` has no place."""
+    """The reference of an item's altitude: MAVLink's MAV_FRAME. An item with `NOWHERE` has no place."""
 
     ABOVE_SEA = 0
     NOWHERE = 2
@@ -16,13 +16,26 @@ class Frame(IntEnum):
 
 
 class Autopilot(IntEnum):
-    """Whose habits a mission follows: MAVLink's MAV_AUTOPILOT. ArduPilot keeps its home as item 0, PX4 does not."""
+    """The autopilots that missions are written for: MAVLink's MAV_AUTOPILOT.
+
+    ArduPilot keeps its home as item 0, PX4 does not.
+    """
 
     ARDUPILOT = 3
     PX4 = 12
 
+    @property
+    def described(self) -> str:
+        """The name in sentences: "ArduPilot", "PX4"."""
+        return {Autopilot.ARDUPILOT: "ArduPilot", Autopilot.PX4: "PX4"}[self]
 
-class Command(IntEnum):
+
+# The names by which options choose an autopilot.
+AutopilotName = Literal["ardupilot", "px4"]
+AUTOPILOTS: dict[AutopilotName, Autopilot] = {"ardupilot": Autopilot.ARDUPILOT, "px4": Autopilot.PX4}
+
+
+class MavCommand(IntEnum):
     """The commands that fly to a place or round it: MAVLink's MAV_CMD."""
 
     NAV_WAYPOINT = 16
@@ -34,11 +47,16 @@ class Command(IntEnum):
     DO_REPOSITION = 192
 
 
-class MissionItem(NamedTuple):
-    """One item, as MAVLink's MISSION_ITEM_INT holds it but in degrees: a MAV_CMD, its parameters, and where.
+# The public name.
+Command = MavCommand
 
-    Parameters 5 to 7 are the place: latitude and longitude (WGS84 degrees), altitude in metres, from what `frame` says.
-    In an item of the frame `NOWHERE` they are whatever the command takes. A parameter may be nan: the autopilot's own.
+
+class MissionItem(NamedTuple):
+    """A mission item: MAVLink's MISSION_ITEM_INT with latitude and longitude in degrees.
+
+    `command` is a MAV_CMD; `params` are its parameters 1 to 4. Parameters 5 to 7 are the place: latitude and longitude
+    (WGS84 degrees), and altitude in metres above the reference of `frame`. With the frame `NOWHERE` they mean what the
+    command says. A parameter that is nan leaves the choice to the autopilot.
     """
 
     command: int
@@ -51,7 +69,7 @@ class MissionItem(NamedTuple):
 
 
 class Mission(NamedTuple):
-    """The items to fly, home not among them, and the planned home: degrees, and metres above the sea."""
+    """The items to fly, without home, and the planned home: latitude and longitude, degrees, metres above the sea."""
 
     items: tuple[MissionItem, ...]
     home: tuple[float, float, float]

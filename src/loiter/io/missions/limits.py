@@ -1,11 +1,11 @@
-"""What every reader of missions checks of an item."""
+"""The checks of mission items that all file formats share."""
 
 from __future__ import annotations
 
 from loiter.io.missions.items import Frame, Mission, MissionItem
 from loiter.io.reading import Source
 
-# MAVLink counts items in 16 bits and numbers commands in 16.
+# MAVLink has 16 bits for the number of items, and 16 for a command.
 MAX_COUNT = 65535
 MAX_COMMAND = 65535
 
@@ -14,7 +14,7 @@ HIGHEST_M = 83_000.0
 
 
 def checked_item(source: Source, where: str, item: MissionItem) -> MissionItem:
-    """The item, if its frame is known and its place is one on Earth."""
+    """The item, if its frame is known and its place is on Earth."""
     if item.frame not in tuple(Frame):
         known = ", ".join(str(frame.value) for frame in Frame)
         raise source.fault(f"{where}: the frame is {item.frame}: only {known} are known")
@@ -24,7 +24,7 @@ def checked_item(source: Source, where: str, item: MissionItem) -> MissionItem:
 
 
 def check_place(source: Source, where: str, latitude_deg: float, longitude_deg: float, altitude_m: float) -> None:
-    """Raise `InvalidArgument` for what is no place on Earth or in its air."""
+    """Raise `InvalidArgument` for latitudes, longitudes and altitudes out of range."""
     for name, value, most, unit in (
         ("latitude", latitude_deg, 90.0, "degrees"),
         ("longitude", longitude_deg, 180.0, "degrees"),
@@ -35,7 +35,7 @@ def check_place(source: Source, where: str, latitude_deg: float, longitude_deg: 
 
 
 def checked_mission(source: Source, mission: Mission) -> Mission:
-    """The mission, if it has items, and no more than MAVLink can count."""
+    """The mission, if it has items, and no more than MAVLink allows."""
     if not mission.items:
         raise source.fault("the mission has no items")
     if len(mission.items) > MAX_COUNT:

@@ -1,4 +1,4 @@
-"""A maneuver as a mission: a loiter on the circle, and the waypoints that lead an autopilot to it."""
+"""A maneuver as a mission: a loiter on the circle, and the waypoints that lead to it."""
 
 from __future__ import annotations
 
@@ -7,40 +7,40 @@ from typing import NamedTuple
 from loiter.errors import InvalidArgument, positive
 from loiter.geo.frame import REACH_M, LocalFrame
 from loiter.io.maps.places import degrees
-from loiter.io.maps.track import steps, vertices
+from loiter.io.maps.track import step_counts, vertices
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
-from loiter.io.missions.items import Autopilot, Command, Mission, MissionItem
+from loiter.io.missions.items import Autopilot, MavCommand, Mission, MissionItem
 from loiter.io.missions.signs import with_circle
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit
 
-# ArduPlane holds 724 items, home included, on boards with 16 kB of storage (StorageManager.cpp), PX4 500 or 2000.
+# ArduPlane stores 724 items, including home, on boards with 16 kB of storage (StorageManager.cpp), PX4 500 or 2000.
 MAX_ITEMS = 700
 
-# What ArduPlane keeps of a loiter's radius: whole metres in 16 bits. 0 would be its own default.
+# ArduPlane stores the radius of a loiter in whole metres with 16 bits. 0 would mean its own default.
 LEAST_RADIUS_M, LARGEST_RADIUS_M = 1.0, 65535.0
 
 # The Earth's least radius of curvature, at the equator along the meridian, b^2/a of WGS84.
 LEAST_EARTH_RADIUS_M = 6_335_439.0
 
-# Autopilots fly from waypoint to waypoint along geodesics, which the plane bends: in normal coordinates, d from the
-# origin, by no more than (2/3) d over the Earth's radius squared.
+# Autopilots fly from waypoint to waypoint along geodesics, which are curved in the plane: in normal coordinates at the
+# distance d from the origin, the curvature is at most (2/3) d over the square of the Earth's radius.
 BEND_PER_M = 2.0 / 3.0 * REACH_M / LEAST_EARTH_RADIUS_M**2
 
 NO_PARAMS = (0.0, 0.0, 0.0, 0.0)
 
-# A straight piece that takes less than this, seconds, is too short for a waypoint to be of use.
+# A waypoint does not help if the straight segment takes less than this, seconds.
 LEAST_STRAIGHT_S = 2.0
 
-# How long before the point of joining, seconds, an autopilot's own loiter takes over from the line that leads there.
+# Seconds before the point of joining at which the autopilot's loiter takes over from the line that leads there.
 TAKE_OVER_S = 3.5
 
-# ArduPlane holds a waypoint's acceptance radius in a byte, in whole metres.
+# ArduPlane stores the acceptance radius of a waypoint in a byte, in whole metres.
 LARGEST_ACCEPTANCE_M = 255.0
 
 
 class Waypoint(NamedTuple):
-    """A place over the ground, local metres, and how near it counts as reached: 0 is the autopilot's own distance."""
+    """A place in local metres and its acceptance radius, metres; 0 leaves that to the autopilot."""
 
     east_m: float
     north_m: float
@@ -61,17 +61,18 @@ def mission(
     """The maneuver as a mission for an autopilot: at most one waypoint (`approach_waypoints`), then a loiter.
 
     `altitude_m` is that of all items, above mean sea level unless `datum` says otherwise. The loiter (NAV_LOITER_UNLIM)
-    is round the circle's centre, with its radius and direction. The planned home is the start; its altitude is home's
-    own where `datum` has it, otherwise 0.
+    has the centre, radius and direction of the circle. The planned home is below the start, at the altitude of home in
+    `datum`, or 0 if that is not given.
 
-    With `along_path`, or a `spacing_m`, there are waypoints all along the track, which autopilots fly worse
-    (docs/maps.md): at most `spacing_m` metres apart, where it is given, and the track over the ground, in wind too, is
-    nowhere further than `chord_error_m` metres from the lines between them; every switching point but the start is one
-    of them.
+    With `along_path` or `spacing_m` there are waypoints along the whole track, which autopilots fly less well
+    (docs/maps.md). They are at most `spacing_m` metres apart, if it is given, and the track over the ground, in wind
+    too, is nowhere further than `chord_error_m` metres from the lines between them. Every switching point except the
+    start is a waypoint.
 
-    Raises `InvalidArgument` for numbers that are not finite, altitudes above home or the ground without home's own, a
-    spacing or an error that is not positive, a circle that moves or whose radius autopilots do not hold, and for more
-    items than they hold; `OutOfRange` for places more than 100 km from the frame's origin.
+    Raises `InvalidArgument` for numbers that are not finite, for altitudes above home or the ground without the
+    altitude of home, for a spacing or an error that is not positive, for a circle that moves or whose radius autopilots
+    cannot store, and for more items than they can store; `OutOfRange` for places more than 100 km from the frame's
+    origin.
 
     >>> from loiter import Aircraft, Orbit, Pose, plan
     >>> from loiter.geo import LocalFrame
@@ -84,30 +85,30 @@ def mission(
     altitude_m = datum.checked(altitude_m)
     chord_error_m = positive("chord_error_m", chord_error_m, "metres")
     home_m = datum.planned_home_m()
-    orbit = _standing(maneuver.orbit)
+    orbit = _checked_orbit(maneuver.orbit)
     if along_path or spacing_m is not None:
         waypoints = path_waypoints(maneuver, spacing_m, chord_error_m)
     else:
         waypoints = approach_waypoints(maneuver, autopilot)
-    params = with_circle(Command.NAV_LOITER_UNLIM, NO_PARAMS, orbit.radius_m, maneuver.turn)
+    params = with_circle(MavCommand.NAV_LOITER_UNLIM, NO_PARAMS, orbit.radius_m, maneuver.turn)
     start, centre = Waypoint(maneuver.start.east_m, maneuver.start.north_m), Waypoint(orbit.east_m, orbit.north_m)
-    home, *flown, middle = _on_earth(frame, (start, *waypoints, centre))
+    home_place, *places, centre_place = _in_degrees(frame, (start, *waypoints, centre))
     items = [
-        MissionItem(Command.NAV_WAYPOINT, datum.frame, (0.0, w.acceptance_m, 0.0, 0.0), *place, altitude_m)
-        for w, place in zip(waypoints, flown, strict=True)
+        MissionItem(MavCommand.NAV_WAYPOINT, datum.frame, (0.0, w.acceptance_m, 0.0, 0.0), *place, altitude_m)
+        for w, place in zip(waypoints, places, strict=True)
     ]
-    loiter = MissionItem(Command.NAV_LOITER_UNLIM, datum.frame, params, *middle, altitude_m)
-    return Mission((*items, loiter), (*home, home_m))
+    loiter = MissionItem(MavCommand.NAV_LOITER_UNLIM, datum.frame, params, *centre_place, altitude_m)
+    return Mission((*items, loiter), (*home_place, home_m))
 
 
 def approach_waypoints(maneuver: Maneuver, autopilot: int) -> tuple[Waypoint, ...]:
-    """The waypoints after which an autopilot's own loiter joins the circle soonest: one or none.
+    """The waypoint, or none, with which the autopilot's loiter joins the circle soonest.
 
-    Outside a circle the loiter of ArduPlane steers at its centre, and turns onto it late. Where the entry has a
-    straight piece of some length a waypoint at the point of joining makes it fly there instead; the loiter has to take
-    over before, since the guidance needs room to bank: that is the waypoint's acceptance radius. Where the entry only
-    turns, any waypoint costs time; and on PX4 everywhere, whose loiter flies onto the circle as it is (docs/maps.md has
-    the figures).
+    Outside the circle ArduPlane's loiter steers towards its centre and turns onto it late. If the entry has a straight
+    segment that is long enough, a waypoint at the point of joining makes the aircraft fly there instead. The loiter
+    must take over before that point, because the guidance needs room to bank; the acceptance radius of the waypoint
+    provides it. If the entry only turns, any waypoint costs time; on PX4 it always does, because its loiter flies onto
+    the circle without help (figures in docs/maps.md).
     """
     straight = next((segment for segment in maneuver.segments if segment.letter == "S"), None)
     if autopilot != Autopilot.ARDUPILOT or straight is None or straight.duration_s < LEAST_STRAIGHT_S:
@@ -118,11 +119,11 @@ def approach_waypoints(maneuver: Maneuver, autopilot: int) -> tuple[Waypoint, ..
 
 
 def path_waypoints(maneuver: Maneuver, spacing_m: float | None, chord_error_m: float) -> tuple[Waypoint, ...]:
-    """The waypoints all along the track but for its start, which an aircraft in flight has left behind.
+    """The waypoints along the whole track, without its start, which an aircraft in flight has already passed.
 
-    Raises `InvalidArgument` as `steps` does, and where there are more than autopilots hold.
+    Raises `InvalidArgument` like `step_counts`, and for more waypoints than autopilots can store.
     """
-    track = vertices(maneuver, steps(maneuver, spacing_m, chord_error_m, BEND_PER_M))
+    track = vertices(maneuver, step_counts(maneuver, spacing_m, chord_error_m, BEND_PER_M))
     if track.time_s.size > MAX_ITEMS:
         raise InvalidArgument(
             "mission",
@@ -132,13 +133,13 @@ def path_waypoints(maneuver: Maneuver, spacing_m: float | None, chord_error_m: f
     return tuple(map(Waypoint, track.east_m[1:].tolist(), track.north_m[1:].tolist()))
 
 
-def _on_earth(frame: LocalFrame, places: tuple[Waypoint, ...]) -> list[tuple[float, float]]:
-    """Latitudes and longitudes, degrees, of places."""
+def _in_degrees(frame: LocalFrame, places: tuple[Waypoint, ...]) -> list[tuple[float, float]]:
+    """Latitude and longitude, degrees, of each place."""
     return list(zip(*degrees(frame, [p.east_m for p in places], [p.north_m for p in places]), strict=True))
 
 
-def _standing(orbit: Orbit) -> Orbit:
-    """The circle, if a loiter item can hold it."""
+def _checked_orbit(orbit: Orbit) -> Orbit:
+    """The circle, if a loiter item can describe it."""
     if orbit.moves:
         raise InvalidArgument("orbit", "moves over the ground: the loiter of a mission stays where it is")
     if not LEAST_RADIUS_M <= orbit.radius_m <= LARGEST_RADIUS_M:

@@ -1,7 +1,7 @@
-"""What an autopilot's parameter file says of the aircraft and of its loiter.
+"""Parameter files of autopilots: airspeed, bank limit and loiter circle.
 
-Two formats, told apart by their lines: `NAME,VALUE` or `NAME VALUE`, as Mission Planner and MAVProxy write them, and
-QGroundControl's five columns, vehicle, component, name, value and type. Whose autopilot it is the names tell.
+There are two formats: lines of `NAME,VALUE` or `NAME VALUE`, as Mission Planner and MAVProxy write them, and
+QGroundControl's five columns vehicle, component, name, value and type. The parameter names identify the autopilot.
 """
 
 from __future__ import annotations
@@ -19,35 +19,35 @@ from loiter.planning.model import Turn
 
 QUANTITIES = ("indicated_airspeed_m_s", "max_bank_deg", "loiter")
 
-# The names of autopilots' parameters, and of what PX4 sends with them: _HASH_CHECK, the hash of them all.
+# Names of autopilot parameters, and _HASH_CHECK, the hash of all parameters, which PX4 adds.
 NAME = re.compile(r"_?[A-Z][A-Z0-9_]{0,15}", re.ASCII)
 
-# What MAVLink allows. QGroundControl writes the parameters of every component: of a camera, a gimbal.
+# Names that MAVLink allows. QGroundControl writes the parameters of every component, such as a camera or a gimbal.
 MAVLINK_NAME = re.compile(r"[A-Za-z0-9_.-]{1,16}", re.ASCII)
 
 
-class Known(NamedTuple):
-    """A parameter: whose it is, what it says, and how many of its units make one of ours."""
+class Meaning(NamedTuple):
+    """The meaning of a parameter: its autopilot, the quantity, and how many of its units make one SI unit or degree."""
 
     autopilot: Autopilot
     quantity: str
     units: float = 1.0
 
 
-# ArduPlane's names since version 4.5 and before it, and PX4's; the radii, whose sign is the direction, are of `signs`.
+# ArduPlane's names since version 4.5 and before, and PX4's; `signs` lists the radii, whose sign gives the direction.
 PARAMETERS = {
-    "AIRSPEED_CRUISE": Known(Autopilot.ARDUPILOT, "indicated_airspeed_m_s"),
-    "TRIM_ARSPD_CM": Known(Autopilot.ARDUPILOT, "indicated_airspeed_m_s", 100.0),
-    "ROLL_LIMIT_DEG": Known(Autopilot.ARDUPILOT, "max_bank_deg"),
-    "LIM_ROLL_CD": Known(Autopilot.ARDUPILOT, "max_bank_deg", 100.0),
-    "FW_AIRSPD_TRIM": Known(Autopilot.PX4, "indicated_airspeed_m_s"),
-    "FW_R_LIM": Known(Autopilot.PX4, "max_bank_deg"),
-    **{name: Known(autopilot, "loiter") for name, autopilot in RADIUS_PARAMETERS.items()},
+    "AIRSPEED_CRUISE": Meaning(Autopilot.ARDUPILOT, "indicated_airspeed_m_s"),
+    "TRIM_ARSPD_CM": Meaning(Autopilot.ARDUPILOT, "indicated_airspeed_m_s", 100.0),
+    "ROLL_LIMIT_DEG": Meaning(Autopilot.ARDUPILOT, "max_bank_deg"),
+    "LIM_ROLL_CD": Meaning(Autopilot.ARDUPILOT, "max_bank_deg", 100.0),
+    "FW_AIRSPD_TRIM": Meaning(Autopilot.PX4, "indicated_airspeed_m_s"),
+    "FW_R_LIM": Meaning(Autopilot.PX4, "max_bank_deg"),
+    **{name: Meaning(autopilot, "loiter") for name, autopilot in RADIUS_PARAMETERS.items()},
 }
 
 
-class Entry(NamedTuple):
-    """A parameter of the file: the line where it stands, its name, its value as it is written and as a number."""
+class ParameterLine(NamedTuple):
+    """A parameter in the file: the number of its line, its name, its value as text and as a number."""
 
     line: int
     name: str
@@ -56,16 +56,16 @@ class Entry(NamedTuple):
 
     @property
     def described(self) -> str:
-        """As a sentence names it."""
+        """The parameter as error messages name it."""
         return f"line {self.line}: {self.name} is {shown(self.text)}"
 
 
 @dataclass(frozen=True, slots=True)
 class Preset:
-    """What a parameter file says; None where it says nothing.
+    """The values in a parameter file; None for those that it does not have.
 
-    `indicated_airspeed_m_s` is the cruise airspeed as the autopilot controls it, calibrated, not true;
-    `loiter_radius_m` and `turn` are the circle that it holds where none is given.
+    `indicated_airspeed_m_s` is the cruise airspeed that the autopilot controls: calibrated, not true airspeed.
+    `loiter_radius_m` and `turn` describe the circle that it holds by default.
     """
 
     autopilot: Autopilot
@@ -76,88 +76,98 @@ class Preset:
 
 
 def read_parameters(path: str | Path) -> Preset:
-    """What an ArduPlane or PX4 parameter file (.param, .parm, .params) says of airspeed, bank and loiter.
+    """Airspeed, bank limit and loiter in an ArduPlane or PX4 parameter file (.param, .parm, .params).
 
-    AIRSPEED_CRUISE (m/s) or TRIM_ARSPD_CM, ROLL_LIMIT_DEG or LIM_ROLL_CD, WP_LOITER_RAD; FW_AIRSPD_TRIM, FW_R_LIM,
-    NAV_LOITER_RAD. Raises `InvalidArgument`, with file, line and value, for a file that is neither format or cannot be
-    read, a value that is no number or cannot be meant, two that contradict each other, and a file without any of these.
+    The parameters read are AIRSPEED_CRUISE (m/s) or TRIM_ARSPD_CM, ROLL_LIMIT_DEG or LIM_ROLL_CD, and WP_LOITER_RAD;
+    for PX4 FW_AIRSPD_TRIM, FW_R_LIM and NAV_LOITER_RAD. Raises `InvalidArgument`, which names file, line and value, for
+    another format and a file that cannot be read, for a value that is not a number or is impossible, for values that
+    contradict each other, and for a file without any of these parameters.
     """
     source = Source("parameters", Path(path))
-    known = _entries(source, source.text())
-    if not known:
+    lines = _known_lines(source, source.text())
+    if not lines:
         raise source.fault(f"it has none of {', '.join(PARAMETERS)}")
-    first = known[0]
-    for other in known:
-        if PARAMETERS[other.name].autopilot != PARAMETERS[first.name].autopilot:
-            raise source.fault(f"line {other.line}: {other.name} is not of the autopilot of {first.name}")
-    said = {quantity: _said(source, known, quantity) for quantity in QUANTITIES}
-    radius_m, turn = (None, None) if said["loiter"] is None else radius_and_turn(said["loiter"])
+    first, *others = lines
     autopilot = PARAMETERS[first.name].autopilot
-    return Preset(autopilot, said["indicated_airspeed_m_s"], said["max_bank_deg"], radius_m, turn)
+    for other in others:
+        if PARAMETERS[other.name].autopilot != autopilot:
+            raise source.fault(f"line {other.line}: {other.name} is not of the autopilot of {first.name}")
+    values = {quantity: _value(source, lines, quantity) for quantity in QUANTITIES}
+    radius_m, turn = (None, None) if values["loiter"] is None else radius_and_turn(values["loiter"])
+    return Preset(autopilot, values["indicated_airspeed_m_s"], values["max_bank_deg"], radius_m, turn)
 
 
-def _entries(source: Source, text: str) -> list[Entry]:
-    """The parameters that are known; the first line that is more than a comment decides for the format."""
-    lines = [(number, line.split("#")[0].strip()) for number, line in enumerate(text.splitlines(), start=1)]
-    rows = [(number, line) for number, line in lines if line]
+def _known_lines(source: Source, text: str) -> list[ParameterLine]:
+    """The lines with known parameters; the first line that is not a comment determines the format."""
+    rows = [(number, line) for number, line in enumerate(map(_without_comment, text.splitlines()), start=1) if line]
     if not rows:
         raise source.fault("it has no parameters")
-    fields = _five_columns if len(rows[0][1].split("\t")) == 5 else _name_and_value
-    named = [(number, *_named(source, number, line, fields)) for number, line in rows]
-    # The values of others are their own business: PX4 has some that are nan.
-    entries = [
-        Entry(number, name, value, source.number(f"line {number}: {name}", value))
+    (_, header), *_ = rows
+    split = _five_columns if header.count("\t") == 4 else _name_and_value
+    named = [(number, *_name_and_text(source, number, line, split)) for number, line in rows]
+    # The values of unknown parameters are not checked: PX4 has some that are nan.
+    lines = [
+        ParameterLine(number, name, value, source.number(f"line {number}: {name}", value))
         for number, name, value in named
         if name in PARAMETERS
     ]
-    values: dict[str, Entry] = {}
-    for entry in entries:
-        other = values.setdefault(entry.name, entry)
-        if other.value != entry.value:
-            raise source.fault(f"{entry.described}, but {shown(other.text)} in line {other.line}")
-    return entries
+    known: dict[str, ParameterLine] = {}
+    for line in lines:
+        other = known.setdefault(line.name, line)
+        if other.value != line.value:
+            raise source.fault(f"{line.described}, but {shown(other.text)} in line {other.line}")
+    return lines
 
 
-def _named(source: Source, number: int, line: str, fields: Callable[[str], tuple[str, str] | None]) -> tuple[str, str]:
-    """Name and value of a line."""
-    found = fields(line)
+def _without_comment(line: str) -> str:
+    return line.partition("#")[0].strip()
+
+
+def _name_and_text(
+    source: Source, number: int, line: str, split: Callable[[str], tuple[str, str] | None]
+) -> tuple[str, str]:
+    """Name and value, as text, of a line."""
+    found = split(line)
     if found is None:
-        raise source.fault(f"line {number} is {shown(line)}: it is no parameter with a value")
+        raise source.fault(f"line {number} is {shown(line)}: it is not a parameter with a value")
     return found
 
 
 def _name_and_value(line: str) -> tuple[str, str] | None:
-    fields = line.replace(",", " ").split()
-    return (fields[0], fields[1]) if len(fields) == 2 and NAME.fullmatch(fields[0]) else None
+    match line.replace(",", " ").split():
+        case [name, value] if NAME.fullmatch(name):
+            return name, value
+    return None
 
 
 def _five_columns(line: str) -> tuple[str, str] | None:
-    fields = line.split("\t")
-    numbered = len(fields) == 5 and all(f.isascii() and f.isdigit() for f in (fields[0], fields[1], fields[4]))
-    return (fields[2], fields[3]) if numbered and MAVLINK_NAME.fullmatch(fields[2]) else None
+    match line.split("\t"):
+        case [vehicle, component, name, value, kind] if MAVLINK_NAME.fullmatch(name):
+            return (name, value) if all(f.isascii() and f.isdigit() for f in (vehicle, component, kind)) else None
+    return None
 
 
-def _said(source: Source, entries: list[Entry], quantity: str) -> float | None:
-    """What the file says of a quantity, in its unit here."""
-    said: float | None = None
-    for entry in entries:
-        known = PARAMETERS[entry.name]
-        if known.quantity != quantity:
+def _value(source: Source, lines: list[ParameterLine], quantity: str) -> float | None:
+    """The value of a quantity in the file, in its unit here; None if the file does not have it."""
+    found: float | None = None
+    for line in lines:
+        meaning = PARAMETERS[line.name]
+        if meaning.quantity != quantity:
             continue
-        value = _meant(source, entry, entry.value / known.units)
-        if said is not None and said != value:
-            raise source.fault(f"{entry.described}: that contradicts another parameter, which says {said:g}")
-        said = value
-    return said
+        value = _checked(source, line, line.value / meaning.units)
+        if found is not None and found != value:
+            raise source.fault(f"{line.described}: that contradicts another parameter, which says {found:g}")
+        found = value
+    return found
 
 
-def _meant(source: Source, entry: Entry, value: float) -> float:
-    """The value, if it can be meant."""
-    quantity = PARAMETERS[entry.name].quantity
+def _checked(source: Source, line: ParameterLine, value: float) -> float:
+    """The value of a line, if it is possible for its quantity."""
+    quantity = PARAMETERS[line.name].quantity
     if quantity == "loiter" and value == 0.0:
-        raise source.fault(f"{entry.described}: it tells no circle")
+        raise source.fault(f"{line.described}: it describes no circle")
     if quantity != "loiter" and value <= 0.0:
-        raise source.fault(f"{entry.described}: it must be positive")
+        raise source.fault(f"{line.described}: it must be positive")
     if quantity == "max_bank_deg" and value >= 90.0:
-        raise source.fault(f"{entry.described}: the bank must be below 90 degrees")
+        raise source.fault(f"{line.described}: the bank must be below 90 degrees")
     return value

@@ -1,7 +1,6 @@
 """Missions as QGroundControl's .plan files (docs.qgroundcontrol.com, Plan File Format): JSON, version 1.
 
-The numbers in DO_JUMP items, which name their goal by its `doJumpId`, are read as those of items counted from 1, home
-being 0.
+A DO_JUMP item of a plan names its target by `doJumpId`; it is read as the number of the item, where home is item 0.
 """
 
 from __future__ import annotations
@@ -20,12 +19,12 @@ DO_JUMP = 177  # MAV_CMD_DO_JUMP
 
 LONGEST_INTEGER = 20
 
-# QGroundControl's AltitudeMode of each frame; 0 is that of a plan whose items differ.
+# QGroundControl's AltitudeMode of each frame; 0 means that the items of a plan differ.
 ALTITUDE_MODES = {Frame.ABOVE_SEA: 2, Frame.ABOVE_HOME: 1, Frame.ABOVE_TERRAIN: 4}
 
 
 def qgcplan(mission: Mission, autopilot: Autopilot, airspeed_m_s: float) -> bytes:
-    """The file. `airspeed_m_s` is the cruise speed with which QGroundControl reckons how long the mission takes."""
+    """The file. `airspeed_m_s` is the cruise speed from which QGroundControl computes the duration of the mission."""
     document = {
         "fileType": "Plan",
         "version": 1,
@@ -54,18 +53,18 @@ def read_qgcplan(source: Source, text: str) -> Mission:
     _version(source, "version", document, 1)
     mission = _kind(source, "mission", document.get("mission"), dict, "an object")
     _version(source, "the version of mission", mission, 2)
-    home = _numbers(source, "plannedHomePosition", mission.get("plannedHomePosition"), 3)
-    check_place(source, "plannedHomePosition", *home)
-    read = [
+    latitude, longitude, altitude = _numbers(source, "plannedHomePosition", mission.get("plannedHomePosition"), 3)
+    check_place(source, "plannedHomePosition", latitude, longitude, altitude)
+    numbered_items = [
         _item(source, f"item {number}", item)
         for number, item in enumerate(_kind(source, "items", mission.get("items"), list, "a list"), start=1)
     ]
-    items = _jumps(source, read)
-    return checked_mission(source, Mission(items, (home[0], home[1], home[2])))
+    items = _with_jump_targets(source, numbered_items)
+    return checked_mission(source, Mission(items, (latitude, longitude, altitude)))
 
 
 def _common_mode(mission: Mission) -> int:
-    """The AltitudeMode of all items that have a place."""
+    """The AltitudeMode that all items with a place share, or 0."""
     frames = {item.frame for item in mission.items if item.frame != Frame.NOWHERE}
     return ALTITUDE_MODES[Frame(frames.pop())] if len(frames) == 1 else 0
 
@@ -86,28 +85,28 @@ def _written(number: int, item: MissionItem) -> dict[str, Any]:
 
 
 def _parsed(source: Source, text: str) -> dict[str, Any]:
-    """The JSON of a file: an object, no key twice, no nan and no infinity."""
+    """The JSON object in a file; repeated keys, nan and infinity are refused."""
 
-    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    def unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         keys = [key for key, _ in pairs]
         twice = next((key for key in keys if keys.count(key) > 1), None) if len(set(keys)) < len(keys) else None
         if twice is not None:
-            raise source.fault(f"the key {shown(twice)} stands twice in one object")
+            raise source.fault(f"the key {shown(twice)} occurs twice in one object")
         return dict(pairs)
 
-    def refused(word: str) -> float:
-        raise source.fault(f"{word} is no number in JSON")
+    def refuse(word: str) -> float:
+        raise source.fault(f"{word} is not a number in JSON")
 
-    def whole(digits: str) -> float:
-        # Python refuses to read integers of thousands of digits; as a float one that large is infinite.
+    def to_integer(digits: str) -> float:
+        # Python refuses to read integers of thousands of digits; as a float such a number is infinite.
         return int(digits) if len(digits) <= LONGEST_INTEGER else float(digits)
 
     try:
-        document = json.loads(text, object_pairs_hook=once, parse_constant=refused, parse_int=whole)
+        document = json.loads(text, object_pairs_hook=unique_keys, parse_constant=refuse, parse_int=to_integer)
     except json.JSONDecodeError as error:
         raise source.fault(f"it is not JSON, {error.msg.lower()} in line {error.lineno}") from error
     except RecursionError as error:
-        raise source.fault("its lists and objects are nested too deep") from error
+        raise source.fault("its lists and objects are nested too deeply") from error
     checked: dict[str, Any] = _kind(source, "its JSON", document, dict, "an object")
     return checked
 
@@ -151,33 +150,34 @@ def _item(source: Source, where: str, value: Any) -> tuple[int | None, MissionIt
         raise source.fault(f"{where} is {shown(what)}: only simple items are read; save the plan as waypoints")
     command = _integer(source, f"{where}: command", item.get("command"), MAX_COMMAND)
     frame = _integer(source, f"{where}: frame", item.get("frame"), 255)
-    going_on = _kind(source, f"{where}: autoContinue", item.get("autoContinue"), bool, "true or false")
+    autocontinue = _kind(source, f"{where}: autoContinue", item.get("autoContinue"), bool, "true or false")
     params = item.get("params")
     if not isinstance(params, list) or len(params) != 7:
         raise source.fault(f"{where}: params is not a list of 7 numbers")
-    # null is nan, the autopilot's own, but for a place.
-    own = [nan if value is None else _number(source, f"{where}: params", value) for value in params[:4]]
+    # null is nan, which leaves the choice to the autopilot; a place must have numbers.
+    p1, p2, p3, p4 = (nan if value is None else _number(source, f"{where}: params", value) for value in params[:4])
     latitude, longitude, altitude = (_number(source, f"{where}: params", value) for value in params[4:])
     jump = item.get("doJumpId")
-    number = None if jump is None else _integer(source, f"{where}: doJumpId", jump, MAX_COMMAND)
-    read = MissionItem(command, frame, (own[0], own[1], own[2], own[3]), latitude, longitude, altitude, going_on)
-    return number, checked_item(source, where, read)
+    jump_id = None if jump is None else _integer(source, f"{where}: doJumpId", jump, MAX_COMMAND)
+    read = MissionItem(command, frame, (p1, p2, p3, p4), latitude, longitude, altitude, autocontinue)
+    return jump_id, checked_item(source, where, read)
 
 
-def _jumps(source: Source, read: list[tuple[int | None, MissionItem]]) -> tuple[MissionItem, ...]:
-    """The items, the goal of each DO_JUMP told by its place instead of its `doJumpId`."""
-    places: dict[float, int] = {}
-    for place, (number, _) in enumerate(read, start=1):
-        if number is not None and places.setdefault(number, place) != place:
-            raise source.fault(f"item {place}: doJumpId is {number}, as of item {places[number]}")
+def _with_jump_targets(source: Source, items: list[tuple[int | None, MissionItem]]) -> tuple[MissionItem, ...]:
+    """The items, the `doJumpId` in each DO_JUMP replaced by the number of the item that has it."""
+    numbers: dict[float, int] = {}
+    for number, (jump_id, _) in enumerate(items, start=1):
+        if jump_id is not None and numbers.setdefault(jump_id, number) != number:
+            raise source.fault(f"item {number}: doJumpId is {jump_id}, as of item {numbers[jump_id]}")
     return tuple(
-        item if item.command != DO_JUMP else _jump(source, place, item, places)
-        for place, (_, item) in enumerate(read, start=1)
+        item if item.command != DO_JUMP else _with_jump_target(source, number, item, numbers)
+        for number, (_, item) in enumerate(items, start=1)
     )
 
 
-def _jump(source: Source, place: int, item: MissionItem, places: dict[float, int]) -> MissionItem:
-    goal = places.get(item.params[0])
-    if goal is None:
-        raise source.fault(f"item {place}: it jumps to doJumpId {item.params[0]:g}: no item has it")
-    return item._replace(params=(float(goal), *item.params[1:]))
+def _with_jump_target(source: Source, number: int, item: MissionItem, numbers: dict[float, int]) -> MissionItem:
+    jump_id, p2, p3, p4 = item.params
+    target = numbers.get(jump_id)
+    if target is None:
+        raise source.fault(f"item {number}: it jumps to doJumpId {jump_id:g}: no item has it")
+    return item._replace(params=(float(target), p2, p3, p4))

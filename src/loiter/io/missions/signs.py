@@ -1,25 +1,25 @@
-"""Which way round: how each command and each parameter of an autopilot tells it, in one place.
+"""How each MAVLink command and each autopilot parameter encodes the radius and the direction of a circle.
 
-MAVLink's commands as its definition says (message set common, MAV_CMD). ArduPlane's WP_LOITER_RAD as its description
-says; PX4's NAV_LOITER_RAD since PX4-Autopilot pull request 25265 (July 2025): before, PX4 took no negative value and
-held clockwise whatever it was.
+The commands follow the definition of MAVLink (message set common, MAV_CMD), WP_LOITER_RAD its description in ArduPlane,
+NAV_LOITER_RAD PX4 since PX4-Autopilot pull request 25265 (July 2025): before that PX4 refused negative values and
+always held clockwise.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
+from math import isfinite, isnan
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, positive
-from loiter.io.missions.items import Autopilot, Command
+from loiter.io.missions.items import Autopilot, MavCommand
 from loiter.planning.model import Turn
 
 
-class Place(NamedTuple):
-    """Where a command keeps its circle: the numbers of the parameters, from 1, of the radius and of the direction.
+class CircleParameters(NamedTuple):
+    """The numbers, from 1, of the command parameters that hold the radius and the direction of a circle.
 
-    Without a `direction` of its own the sign of the radius tells it, positive for clockwise. With one the radius has no
+    Without a `direction` the sign of the radius gives the direction: positive is clockwise. With one the radius has no
     sign, and the direction is 0 for clockwise and 1 for counter-clockwise.
     """
 
@@ -27,23 +27,23 @@ class Place(NamedTuple):
     direction: int | None = None
 
 
-COMMANDS: dict[Command, Place] = {
-    Command.NAV_LOITER_UNLIM: Place(radius=3),
-    Command.NAV_LOITER_TURNS: Place(radius=3),
-    Command.NAV_LOITER_TIME: Place(radius=3),
-    Command.NAV_LOITER_TO_ALT: Place(radius=2),
-    Command.DO_ORBIT: Place(radius=1),
-    Command.DO_REPOSITION: Place(radius=3, direction=4),
+COMMANDS: dict[MavCommand, CircleParameters] = {
+    MavCommand.NAV_LOITER_UNLIM: CircleParameters(radius=3),
+    MavCommand.NAV_LOITER_TURNS: CircleParameters(radius=3),
+    MavCommand.NAV_LOITER_TIME: CircleParameters(radius=3),
+    MavCommand.NAV_LOITER_TO_ALT: CircleParameters(radius=2),
+    MavCommand.DO_ORBIT: CircleParameters(radius=1),
+    MavCommand.DO_REPOSITION: CircleParameters(radius=3, direction=4),
 }
 
-# The parameters that hold the default radius of a loiter, metres; the sign tells the direction as in a command.
+# The autopilot parameters with the default radius of a loiter, metres; the sign gives the direction as in a command.
 RADIUS_PARAMETERS = {"WP_LOITER_RAD": Autopilot.ARDUPILOT, "NAV_LOITER_RAD": Autopilot.PX4}
 
 Params = tuple[float, float, float, float]
 
 
 def signed_radius_m(radius_m: float, turn: Turn) -> float:
-    """A radius whose sign tells the way round, as MAVLink, WP_LOITER_RAD and NAV_LOITER_RAD have it: + is clockwise.
+    """The radius, its sign giving the direction as in MAVLink, WP_LOITER_RAD and NAV_LOITER_RAD: + is clockwise.
 
     Raises `InvalidArgument` for a radius that is not positive and finite, and for a turn that is neither cw nor ccw.
 
@@ -55,49 +55,52 @@ def signed_radius_m(radius_m: float, turn: Turn) -> float:
 
 
 def radius_and_turn(signed_m: float) -> tuple[float, Turn]:
-    """Radius (metres) and direction of a radius with a sign.
+    """Radius (metres) and direction of a signed radius.
 
-    Raises `InvalidArgument` for 0 and nan, with which an autopilot takes a radius of its own.
+    Raises `InvalidArgument` for 0 and nan, for which an autopilot uses its own default.
     """
     if not isfinite(signed_m) or signed_m == 0.0:
-        raise InvalidArgument("radius", f"is {signed_m:g}: it tells no circle, the autopilot takes its own")
+        raise InvalidArgument("radius", f"is {signed_m:g}: it describes no circle, the autopilot uses its own radius")
     return abs(signed_m), Turn.CCW if signed_m < 0.0 else Turn.CW
 
 
 def with_circle(command: int, params: Sequence[float], radius_m: float, turn: Turn) -> Params:
-    """The parameters 1 to 4 of a command with a circle put in where it keeps it.
+    """The parameters 1 to 4 of a command, with those of the circle replaced.
 
-    Raises `InvalidArgument` for a command that flies no circle, and as `signed_radius_m`.
+    Raises `InvalidArgument` for a command that flies no circle, and otherwise like `signed_radius_m`.
 
-    >>> with_circle(Command.NAV_LOITER_UNLIM, (0.0, 0.0, 0.0, 0.0), 80.0, Turn.CCW)
+    >>> with_circle(MavCommand.NAV_LOITER_UNLIM, (0.0, 0.0, 0.0, 0.0), 80.0, Turn.CCW)
     (0.0, 0.0, -80.0, 0.0)
     """
-    place, new = _place(command), [float(value) for value in params]
+    numbers, new = _circle_parameters(command), [float(value) for value in params]
     signed_m = signed_radius_m(radius_m, turn)
-    new[place.radius - 1] = signed_m if place.direction is None else abs(signed_m)
-    if place.direction is not None:
-        new[place.direction - 1] = float(signed_m < 0.0)
-    return new[0], new[1], new[2], new[3]
+    new[numbers.radius - 1] = signed_m if numbers.direction is None else abs(signed_m)
+    if numbers.direction is not None:
+        new[numbers.direction - 1] = float(signed_m < 0.0)
+    first, second, third, fourth = new
+    return first, second, third, fourth
 
 
 def circle(command: int, params: Sequence[float]) -> tuple[float, Turn]:
     """Radius (metres) and direction of the circle in the parameters 1 to 4 of a command.
 
-    Raises `InvalidArgument` for a command that flies no circle, for a radius of 0 or nan, with which the autopilot
-    takes its own, and for a negative one where the command tells the direction elsewhere.
+    Raises `InvalidArgument` for a command that flies no circle, for a radius of 0 or nan, for which the autopilot uses
+    its own, and for a negative radius if the command has a parameter for the direction.
     """
-    place = _place(command)
-    radius_m, turn = radius_and_turn(float(params[place.radius - 1]))
-    if place.direction is None:
+    numbers = _circle_parameters(command)
+    radius_m, turn = radius_and_turn(float(params[numbers.radius - 1]))
+    if numbers.direction is None:
         return radius_m, turn
     if turn == Turn.CCW:
-        raise InvalidArgument("radius", f"is {-radius_m:g}: the command {Command(command).name} takes no negative one")
-    direction = float(params[place.direction - 1])
-    # As ArduPlane reads it: clockwise for 0 and nan.
-    return radius_m, Turn.CCW if direction == direction and direction != 0.0 else Turn.CW
+        raise InvalidArgument(
+            "radius", f"is {-radius_m:g}: the command {MavCommand(command).name} takes no negative one"
+        )
+    direction = float(params[numbers.direction - 1])
+    # ArduPlane reads both 0 and nan as clockwise.
+    return radius_m, Turn.CW if isnan(direction) or direction == 0.0 else Turn.CCW
 
 
-def _place(command: int) -> Place:
+def _circle_parameters(command: int) -> CircleParameters:
     known = next((known for known in COMMANDS if known == command), None)
     if known is None:
         raise InvalidArgument("command", f"is {command}: it flies no circle; {', '.join(c.name for c in COMMANDS)} do")

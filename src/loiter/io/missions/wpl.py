@@ -1,14 +1,14 @@
-"""Missions as `QGC WPL 110`, the text of Mission Planner, MAVProxy and QGroundControl.
+"""Missions as `QGC WPL 110`, the text format of Mission Planner, MAVProxy and QGroundControl.
 
-A line for each item, item 0 being the home: number, whether it is current, frame, command, four parameters, latitude,
-longitude, altitude, autocontinue; tabs between them.
+There is a line for each item, where item 0 is the home: number, whether it is the current item, frame, command, four
+parameters, latitude, longitude, altitude, autocontinue, separated by tabs.
 """
 
 from __future__ import annotations
 
 from math import nan
 
-from loiter.io.missions.items import Command, Frame, Mission, MissionItem
+from loiter.io.missions.items import Frame, MavCommand, Mission, MissionItem
 from loiter.io.missions.limits import MAX_COMMAND, MAX_COUNT, check_place, checked_item, checked_mission
 from loiter.io.reading import Source, shown
 
@@ -19,7 +19,7 @@ FIELDS = 12
 
 def wpl(mission: Mission) -> bytes:
     """The file. The numbers have nine decimals: 0.1 mm in degrees."""
-    home = MissionItem(Command.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
+    home = MissionItem(MavCommand.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
     lines = [_line(number, item) for number, item in enumerate((home, *mission.items))]
     return "\n".join([HEADER, *lines, ""]).encode()
 
@@ -29,14 +29,14 @@ def read_wpl(source: Source, text: str) -> Mission:
     header, *lines = text.splitlines()
     if header.split() != HEADER.split():
         raise source.fault(f"its first line is {shown(header)}: it must be {HEADER}")
-    rows = [(number, line.split()) for number, line in enumerate(lines, start=2) if line.strip()]
+    rows = [(f"line {number}", line.split()) for number, line in enumerate(lines, start=2) if line.strip()]
     if not rows:
         raise source.fault("it ends after its first line")
-    items = [_item(source, line, sequence, fields) for sequence, (line, fields) in enumerate(rows)]
-    home, *flown = items
-    check_place(source, f"line {rows[0][0]}", *home[3:6])
-    flown = [checked_item(source, f"line {row[0]}", item) for row, item in zip(rows[1:], flown, strict=True)]
-    return checked_mission(source, Mission(tuple(flown), home[3:6]))
+    items = [(where, _item(source, where, sequence, fields)) for sequence, (where, fields) in enumerate(rows)]
+    (home_line, home), *flown = items
+    home_place = home.latitude_deg, home.longitude_deg, home.altitude_m
+    check_place(source, home_line, *home_place)
+    return checked_mission(source, Mission(tuple(checked_item(source, *item) for item in flown), home_place))
 
 
 def _line(number: int, item: MissionItem) -> str:
@@ -45,18 +45,20 @@ def _line(number: int, item: MissionItem) -> str:
     return "\t".join(map(str, [*fields, int(item.autocontinue)]))
 
 
-def _item(source: Source, line: int, sequence: int, fields: list[str]) -> MissionItem:
-    where = f"line {line}"
+def _item(source: Source, where: str, sequence: int, fields: list[str]) -> MissionItem:
     if len(fields) != FIELDS:
         raise source.fault(f"{where}: there are {len(fields)} fields: an item has {FIELDS}")
-    number = source.integer(f"{where}: the item's number", fields[0], MAX_COUNT)
+    number_text, current, frame_text, command_text, *numbers, autocontinue_text = fields
+    number = source.integer(f"{where}: the item's number", number_text, MAX_COUNT)
     if number != sequence:
         raise source.fault(f"{where}: the item's number is {number}: it must be {sequence}, they count from 0")
-    source.integer(f"{where}: the mark of the current item", fields[1], 1)
-    frame = source.integer(f"{where}: the frame", fields[2], 255)
-    command = source.integer(f"{where}: the command", fields[3], MAX_COMMAND)
-    # MAVProxy and pymavlink write nan, the autopilot's own, so; a place has to be one.
-    a, b, c, d = (nan if text.lower() == "nan" else source.number(f"{where}: a number", text) for text in fields[4:8])
-    latitude, longitude, altitude = (source.number(f"{where}: a number", text) for text in fields[8:11])
-    autocontinue = source.integer(f"{where}: autocontinue", fields[11], 1)
-    return MissionItem(command, frame, (a, b, c, d), latitude, longitude, altitude, bool(autocontinue))
+    source.integer(f"{where}: the mark of the current item", current, 1)
+    frame = source.integer(f"{where}: the frame", frame_text, 255)
+    command = source.integer(f"{where}: the command", command_text, MAX_COMMAND)
+    # MAVProxy and pymavlink write "nan" for a parameter that is left to the autopilot; a place must have numbers.
+    p1, p2, p3, p4 = (
+        nan if text.lower() == "nan" else source.number(f"{where}: a number", text) for text in numbers[:4]
+    )
+    latitude, longitude, altitude = (source.number(f"{where}: a number", text) for text in numbers[4:])
+    autocontinue = source.integer(f"{where}: autocontinue", autocontinue_text, 1)
+    return MissionItem(command, frame, (p1, p2, p3, p4), latitude, longitude, altitude, bool(autocontinue))

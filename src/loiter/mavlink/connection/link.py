@@ -1,7 +1,7 @@
-"""A line to a vehicle: opened, the vehicle found by its heartbeat, messages out and in.
+"""A connection to a vehicle: opening it, finding the vehicle by its heartbeat, sending and receiving messages.
 
-Everything here needs no more of a port than what pymavlink's connections have: `recv_match`, `mav` and `close`.
-Deadlines are times of `time.monotonic`.
+A port is a pymavlink connection, of which only `recv_match`, `mav` and `close` are used. Deadlines are times of
+`time.monotonic`.
 """
 
 from __future__ import annotations
@@ -17,53 +17,54 @@ from typing import Any, NamedTuple
 from loiter.errors import InvalidArgument, LinkFailed, MissingPackage
 from loiter.mavlink.connection.enumerations import autopilot_name
 
-# Who we are: MAV_COMP_ID_MISSIONPLANNER of a system that is not 255. ArduPilot takes 255 for its ground station, and
-# would believe that it is still there for as long as our heartbeat is.
+# Our own ids: MAV_COMP_ID_MISSIONPLANNER, of a system that is not 255. ArduPilot takes 255 for its ground station, and
+# would assume that it is still there as long as we send heartbeats.
 OUR_SYSTEM, OUR_COMPONENT = 250, 190
 
-# MAV_TYPE_ONBOARD_CONTROLLER without an autopilot, MAV_AUTOPILOT_INVALID: PX4 counts heartbeats of the type
-# MAV_TYPE_GCS as those of its ground station.
+# MAV_TYPE_ONBOARD_CONTROLLER without an autopilot, MAV_AUTOPILOT_INVALID: PX4 takes heartbeats of the type MAV_TYPE_GCS
+# for those of its ground station.
 OUR_TYPE, NO_AUTOPILOT = 18, 8
 
-# Seconds between heartbeats, as all systems send them.
-BEAT_S = 1.0
+# Seconds between heartbeats, as usual in MAVLink.
+HEARTBEAT_S = 1.0
 
-# Seconds to listen for a second vehicle before the first is taken for the only one: time for its heartbeat.
-ALONE_S = 1.5
+# Seconds to listen for the heartbeat of a second vehicle before the first is taken for the only one.
+SECOND_VEHICLE_S = 1.5
 
-# The port from which `udpout` sends is this and the last four digits of the one that it sends to. It has to stay the
-# same: PX4 answers the first port that spoke to its own, until it restarts (mavlink_receiver.cpp).
+# The port from which `udpout` sends is this number plus the last four digits of the remote port. It must stay the same:
+# PX4 answers only the first port that has sent to it, until it restarts (mavlink_receiver.cpp).
 LOCAL_PORTS, LAST_DIGITS = 20000, 10000
 
-# Bits per second of a serial line where none are given: what radios and USB ports of autopilots are set to.
+# Default bits per second of a serial line, the usual setting of telemetry radios and USB ports of autopilots.
 BAUD = 57600
 
-_NETWORK = re.compile(r"(udpin|udpout|tcp):([^:\s\0]+):(\d{1,5})")
+_NETWORK = re.compile(r"(udpin|udpout|tcp):([^:\s\0]+):(?P<port>\d{1,5})")
 _SERIAL = re.compile(r"(/[^\s\0,]+|COM\d+)(,\d{1,7})?")
 
 
-class LineLost(LinkFailed):
-    """The line to a vehicle is gone: hung up, unplugged. It may be opened again."""
+class LinkLost(LinkFailed):
+    """The connection to a vehicle is lost: closed, unplugged. It may be opened again."""
 
 
 class Vehicle(NamedTuple):
-    """Whom we speak with: system and component, its MAV_AUTOPILOT, and whether it speaks MAVLink 1 only."""
+    """A vehicle: system and component id, its MAV_AUTOPILOT, and whether it understands MAVLink 1 only."""
 
     system: int
     component: int
     autopilot: int
-    old: bool = False
+    mavlink1: bool = False
 
     @property
     def named(self) -> str:
-        """For sentences: "system 1 (ArduPilot)"."""
+        """The name in sentences: "system 1 (ArduPilot)"."""
         return f"system {self.system} ({autopilot_name(self.autopilot)})"
 
 
 class Link:
-    """A port with a vehicle at its other end: only what that vehicle says to us or to all comes in.
+    """A port with a vehicle at its other end; only its messages to us or to all are received.
 
-    A heartbeat goes out every second where `beats`; `hear` is called with every message of the vehicle and the time.
+    With `heartbeats` a heartbeat is sent every second. `on_message` is called with every message of the vehicle and the
+    time.
     """
 
     def __init__(
@@ -71,107 +72,109 @@ class Link:
         port: Any,
         vehicle: Vehicle,
         *,
-        beats: bool = True,
-        hear: Callable[[Any, float], None] = lambda message, now: None,
+        heartbeats: bool = True,
+        on_message: Callable[[Any, float], None] = lambda message, now: None,
     ) -> None:
         self.vehicle = vehicle
-        self.hear = hear
+        self.on_message = on_message
         self._port = port
-        self._beats = beats
-        self._next_beat = monotonic()
+        self._heartbeats = heartbeats
+        self._next_heartbeat = monotonic()
 
     def close(self) -> None:
         """Close the port."""
         self._port.close()
 
     def reopen(self, connection: str, timeout_s: float) -> None:
-        """Open the connection anew, after the line was lost; raises `LinkFailed` where that cannot be done."""
+        """Open the connection again after it was lost; raises `LinkFailed` if that fails."""
         self.close()
-        self._port = opened(connection, timeout_s)
+        self._port = open_port(connection, timeout_s)
 
     @property
     def us(self) -> tuple[int, int]:
-        """Our system and component."""
+        """Our system and component id."""
         return self._port.mav.srcSystem, self._port.mav.srcComponent
 
     def send(self, message: Any) -> None:
-        """A message out; raises `LineLost` where the line is gone."""
-        _send(self._port, message, self.vehicle.old)
+        """Send a message; raises `LinkLost` if the connection is lost."""
+        _send(self._port, message, mavlink1=self.vehicle.mavlink1)
 
     def receive(self, types: set[str], deadline: float) -> Any | None:
-        """The next message of one of the types, or None at the deadline; raises `LineLost` where the line is gone."""
+        """The next message of one of the types, or None at the deadline; raises `LinkLost` like `send`."""
         while (now := monotonic()) < deadline:
-            if self._beats and now >= self._next_beat:
+            if self._heartbeats and now >= self._next_heartbeat:
                 self.send(heartbeat())
-                self._next_beat = now + BEAT_S
-            message = _receive(self._port, min(deadline - now, BEAT_S))
+                self._next_heartbeat = now + HEARTBEAT_S
+            message = _receive(self._port, min(deadline - now, HEARTBEAT_S))
             if message is not None and self._from_vehicle(message):
-                self.hear(message, monotonic())
+                self.on_message(message, monotonic())
                 if message.get_type() in types and self._to_us(message):
                     return message
         return None
 
-    def catch_up(self, deadline: float) -> None:
-        """Hear what has come and waits to be heard, until a time at the latest; raises `LineLost` as `receive`."""
+    def process_pending(self, deadline: float) -> None:
+        """Process the messages that have arrived, until a time at the latest; raises `LinkLost` like `receive`."""
         while monotonic() < deadline and (message := _receive(self._port, 0.0)) is not None:
             if self._from_vehicle(message):
-                self.hear(message, monotonic())
+                self.on_message(message, monotonic())
 
     def _from_vehicle(self, message: Any) -> bool:
         return _sender(message) == (self.vehicle.system, self.vehicle.component)
 
     def _to_us(self, message: Any) -> bool:
+        our_system, our_component = self.us
         system, component = getattr(message, "target_system", 0), getattr(message, "target_component", 0)
-        # A fence or a list of rally points is transferred by the same messages. MAVLink 1 knows missions only.
-        return system in (0, self.us[0]) and component in (0, self.us[1]) and getattr(message, "mission_type", 0) == 0
+        # Fences and rally points are transferred by the same messages as missions, except in MAVLink 1.
+        is_mission = getattr(message, "mission_type", 0) == 0
+        return system in (0, our_system) and component in (0, our_component) and is_mission
 
 
 @contextmanager
-def connected(
+def open_link(
     connection: str,
     system: int | None,
     component: int,
     timeout_s: float,
     *,
-    beats: bool = True,
-    hear: Callable[[Any, float], None] = lambda message, now: None,
+    heartbeats: bool = True,
+    on_message: Callable[[Any, float], None] = lambda message, now: None,
 ) -> Iterator[Link]:
-    """A link to the vehicle that answers on a connection; raises `LinkFailed` where none does. Options as of `Link`."""
-    port = opened(connection, timeout_s)
+    """A link to the vehicle that answers on a connection; raises `LinkFailed` if none does. Options as for `Link`."""
+    port = open_port(connection, timeout_s)
     try:
-        vehicle = found(port, connection, system, component, timeout_s, beats=beats)
+        vehicle = find_vehicle(port, connection, system, component, timeout_s, heartbeats=heartbeats)
     except BaseException:
         port.close()
         raise
-    with closing(Link(port, vehicle, beats=beats, hear=hear)) as link:
+    with closing(Link(port, vehicle, heartbeats=heartbeats, on_message=on_message)) as link:
         yield link
 
 
-def opened(connection: str, timeout_s: float) -> Any:
-    """A port of pymavlink that speaks MAVLink 2 and prints nothing.
+def open_port(connection: str, timeout_s: float) -> Any:
+    """A port of pymavlink that uses MAVLink 2 and prints nothing.
 
     `connection` is `udpin:HOST:PORT`, `udpout:HOST:PORT`, `tcp:HOST:PORT` or a serial device, `/dev/ttyUSB0,57600`.
-    Raises `InvalidArgument` for another string, `LinkFailed` where it cannot be opened, `MissingPackage`.
+    Raises `InvalidArgument` for another string, `LinkFailed` if it cannot be opened, `MissingPackage`.
     """
-    check(connection)
-    mavlink = packets()
+    check_connection(connection)
+    mavlink = dialect()
     try:
-        port = _opened(connection, timeout_s)
+        port = _open_port(connection, timeout_s)
     except ImportError as error:
         raise MissingPackage(f"a serial line needs {error.name}: pip install pyserial") from error
     except OSError as error:
         raise LinkFailed(f"{connection} cannot be opened: {_reason(error)}") from error
     port.mav = mavlink.MAVLink(port, srcSystem=OUR_SYSTEM, srcComponent=OUR_COMPONENT)
     port.mav.robust_parsing = True
-    # pymavlink would look at the first byte and, for MAVLink 2, exchange `mav` and set an environment variable.
+    # pymavlink would otherwise replace `mav` and set an environment variable when the first byte is that of MAVLink 2.
     port.first_byte = False
-    # A serial port that is dead prints so, unless that is known.
+    # pymavlink prints a message when a serial port fails, unless this is set.
     port.portdead = True
     return port
 
 
-def check(connection: object) -> None:
-    """Raise `InvalidArgument` for what names no connection."""
+def check_connection(connection: object) -> None:
+    """Raise `InvalidArgument` unless `connection` has one of the forms of `open_port`."""
     if not isinstance(connection, str) or not (_NETWORK.fullmatch(connection) or _SERIAL.fullmatch(connection)):
         raise InvalidArgument(
             "connection",
@@ -179,32 +182,32 @@ def check(connection: object) -> None:
             "as /dev/ttyUSB0,57600",
         )
     network = _NETWORK.fullmatch(connection)
-    if network and not 0 < int(network[3]) < 65536:
+    if network and not 0 < int(network["port"]) < 65536:
         raise InvalidArgument("connection", f"is {connection!r}: ports are numbers from 1 to 65535")
 
 
-def found(
-    port: Any, connection: str, system: int | None, component: int, timeout_s: float, *, beats: bool = True
+def find_vehicle(
+    port: Any, connection: str, system: int | None, component: int, timeout_s: float, *, heartbeats: bool = True
 ) -> Vehicle:
-    """The vehicle whose autopilot is heard on a port: the one with that system number, or else the only one.
+    """The vehicle whose heartbeat is received on a port: the one with that system id, or the only one.
 
-    Heartbeats of our own go out meanwhile where `beats`: the other end of `udpout` does not know of us before. Raises
-    `LinkFailed` where it is not heard in time, and where several are and none was asked for.
+    With `heartbeats` our own are sent meanwhile: the other end of `udpout` learns our address from them. Raises
+    `LinkFailed` if no heartbeat is received in time, and if there are several vehicles and `system` is None.
     """
     vehicles: dict[int, Vehicle] = {}
-    deadline, next_beat = monotonic() + timeout_s, -inf
+    deadline, next_heartbeat = monotonic() + timeout_s, -inf
     while (now := monotonic()) < deadline:
-        if beats and now >= next_beat:
-            _send(port, heartbeat(), old=False)
-            next_beat = now + BEAT_S
-        message = _receive(port, min(deadline - now, BEAT_S))
+        if heartbeats and now >= next_heartbeat:
+            _send(port, heartbeat(), mavlink1=False)
+            next_heartbeat = now + HEARTBEAT_S
+        message = _receive(port, min(deadline - now, HEARTBEAT_S))
         if message is None or message.get_type() != "HEARTBEAT" or message.autopilot == NO_AUTOPILOT:
             continue
         vehicle = _vehicle(message, component)
         if vehicle.system == system:
             return vehicle
         if system is None and not vehicles:
-            deadline = min(deadline, monotonic() + ALONE_S)
+            deadline = min(deadline, monotonic() + SECOND_VEHICLE_S)
         vehicles[vehicle.system] = vehicle
     if system is None and len(vehicles) == 1:
         return next(iter(vehicles.values()))
@@ -212,12 +215,12 @@ def found(
 
 
 def heartbeat() -> Any:
-    """Our heartbeat: no vehicle and no ground station."""
-    return packets().MAVLink_heartbeat_message(OUR_TYPE, NO_AUTOPILOT, 0, 0, 4, 3)
+    """Our heartbeat, which is neither that of a vehicle nor that of a ground station."""
+    return dialect().MAVLink_heartbeat_message(OUR_TYPE, NO_AUTOPILOT, 0, 0, 4, 3)
 
 
-def packets() -> Any:
-    """The messages of MAVLink 2, as pymavlink has them; raises `MissingPackage` where it is not installed."""
+def dialect() -> Any:
+    """The module of MAVLink 2 messages in pymavlink; raises `MissingPackage` if that is not installed."""
     try:
         from pymavlink.dialects.v20 import ardupilotmega
     except ImportError as error:
@@ -225,7 +228,7 @@ def packets() -> Any:
     return ardupilotmega
 
 
-def _opened(connection: str, timeout_s: float) -> Any:
+def _open_port(connection: str, timeout_s: float) -> Any:
     from pymavlink import mavutil
 
     network = _NETWORK.fullmatch(connection)
@@ -237,35 +240,35 @@ def _opened(connection: str, timeout_s: float) -> Any:
     if kind == "tcp":
         return _tcp(f"{address}:{port}", timeout_s)
     if kind == "udpin":
-        # pymavlink would share the port with whoever listens there already, so that one of the two hears nothing.
+        # pymavlink would share a port that is in use, and one of the two programs would receive nothing.
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             probe.bind((address, int(port)))
     udp = mavutil.mavudp(f"{address}:{port}", input=kind == "udpin")
     if kind == "udpout" and local_port(int(port)) != int(port):
-        # Where another program has the port the system gives one: only PX4 cares which.
+        # If the port is in use, the operating system chooses one; only PX4 needs the same port every time.
         with suppress(OSError):
             udp.port.bind(("", local_port(int(port))))
     return udp
 
 
 def local_port(port: int) -> int:
-    """The port from which `udpout` sends to a port, where it is free and another one."""
+    """The port from which `udpout` sends to a port, if it is free and differs from that port."""
     return LOCAL_PORTS + port % LAST_DIGITS
 
 
 def _address(connection: str, host: str) -> str:
     try:
         return socket.gethostbyname(host)
-    # Python encodes a name before it asks for it; one with an empty label, say, cannot be.
+    # Python encodes a host name before looking it up; a name with an empty label, for example, cannot be encoded.
     except UnicodeError as error:
-        raise InvalidArgument("connection", f"is {connection!r}: {host!r} is no name of a host") from error
+        raise InvalidArgument("connection", f"is {connection!r}: {host!r} is not a host name") from error
 
 
 def _tcp(address: str, timeout_s: float) -> Any:
     from pymavlink import mavutil
 
     class Tcp(mavutil.mavtcp):  # type: ignore[misc]
-        """pymavlink's, but that it waits no longer than asked, and raises what it would print."""
+        """pymavlink's TCP connection, with a time-out for connecting, and with errors raised instead of printed."""
 
         def do_connect(self) -> None:
             self.port = socket.create_connection(self.destination_addr, timeout_s)
@@ -273,7 +276,7 @@ def _tcp(address: str, timeout_s: float) -> Any:
             self.port.setsockopt(socket.SOL_TCP, socket.TCP_NODELAY, 1)
 
         def handle_eof(self) -> None:
-            raise ConnectionResetError("the other end hung up")
+            raise ConnectionResetError("the other end closed the connection")
 
         handle_disconnect = handle_eof
 
@@ -281,33 +284,33 @@ def _tcp(address: str, timeout_s: float) -> Any:
 
 
 def _vehicle(heartbeat: Any, component: int) -> Vehicle:
-    # 0xFE begins a packet of MAVLink 1.
-    old = heartbeat.get_msgbuf()[:1] == b"\xfe"
-    return Vehicle(heartbeat.get_srcSystem(), component, heartbeat.autopilot, old)
+    # A packet of MAVLink 1 begins with 0xFE.
+    mavlink1 = heartbeat.get_msgbuf()[:1] == b"\xfe"
+    return Vehicle(heartbeat.get_srcSystem(), component, heartbeat.autopilot, mavlink1)
 
 
 def _not_found(connection: str, system: int | None, vehicles: dict[int, Vehicle], timeout_s: float) -> str:
     heard = " and ".join(vehicle.named for _, vehicle in sorted(vehicles.items()))
     if system is None and vehicles:
-        return f"there are several vehicles on {connection}, {heard}: say which by its system number"
-    asked = "a vehicle" if system is None else f"system {system}"
-    said = f"no heartbeat of {asked} in {timeout_s:g} s on {connection}: heard {heard or 'no vehicle at all'}"
+        return f"there are several vehicles on {connection}, {heard}: choose one by its system number"
+    wanted = "a vehicle" if system is None else f"system {system}"
+    problem = f"no heartbeat of {wanted} in {timeout_s:g} s on {connection}: heard {heard or 'no vehicle at all'}"
     silent = connection.startswith("udpout") and not heard
-    return f"{said}; PX4 answers only the port that spoke to it first since it started" if silent else said
+    return f"{problem}; PX4 answers only the port that first sent to it since it started" if silent else problem
 
 
-def _send(port: Any, message: Any, old: bool) -> None:
+def _send(port: Any, message: Any, *, mavlink1: bool) -> None:
     try:
-        port.mav.send(message, force_mavlink1=old)
+        port.mav.send(message, force_mavlink1=mavlink1)
     except OSError as error:
-        raise LineLost(f"the line to the vehicle is gone: {_reason(error)}") from error
+        raise LinkLost(f"the connection to the vehicle is lost: {_reason(error)}") from error
 
 
 def _receive(port: Any, timeout_s: float) -> Any | None:
     try:
         return port.recv_match(blocking=timeout_s > 0.0, timeout=timeout_s)
     except OSError as error:
-        raise LineLost(f"the line to the vehicle is gone: {_reason(error)}") from error
+        raise LinkLost(f"the connection to the vehicle is lost: {_reason(error)}") from error
 
 
 def _sender(message: Any) -> tuple[int, int]:

@@ -1,4 +1,4 @@
-"""A vehicle listened to without end: asked for what comes too seldom, its line opened again where it is lost."""
+"""A link that stays open: telemetry streams are requested if they are too slow, and a lost connection is reopened."""
 
 from __future__ import annotations
 
@@ -9,54 +9,54 @@ from loiter.mavlink.connection.link import Link
 from loiter.mavlink.connection.streams import Streams
 from loiter.mavlink.watching.telemetry import Telemetry
 
-# Seconds that opening a line may take at a time.
+# Seconds that one attempt to reopen the connection may take.
 OPENING_S = 1.0
 
-# Seconds that hearing what has piled up may take, where the machine or the caller is slow.
-CATCH_UP_S = 1.0
+# Seconds to spend on messages that have piled up, if the machine or the caller is slow.
+PENDING_S = 1.0
 
 
-class Line:
-    """A link that outlives its port. `problem` says that it is gone at present; empty while it stands."""
+class PersistentLink:
+    """A link that is reopened when it is lost. `problem` says why it is lost at present; empty while it is open."""
 
     def __init__(self, connection: str, link: Link, telemetry: Telemetry, streams: Streams) -> None:
         self.problem = ""
         self._connection, self._link, self._telemetry, self._streams = connection, link, telemetry, streams
         self._lost = False
         self._restarts = telemetry.restarts
-        self._news: list[str] = []
+        self._notices: list[str] = []
 
     def listen(self, until: float, timeout_s: float) -> None:
-        """Hear the vehicle until a time; raises `LinkFailed` where it has been silent for `timeout_s` seconds."""
+        """Receive messages until a time; raises `LinkFailed` if the vehicle has been silent for `timeout_s` seconds."""
         try:
             if self.problem:
                 self._link.reopen(self._connection, OPENING_S)
                 self.problem = ""
-                self._streams.begin(monotonic())
-            self._streams.ask(self._link, self._telemetry, monotonic())
+                self._streams.restart(monotonic())
+            self._streams.request(self._link, self._telemetry, monotonic())
             self._link.receive(set(), until)
-            self._link.catch_up(monotonic() + CATCH_UP_S)
+            self._link.process_pending(monotonic() + PENDING_S)
         except LinkFailed as failure:
             self.problem = f"{failure}; opening it again"
             if not self._lost:
                 self._lost, self._lost_at = True, monotonic()
             sleep(max(0.0, until - monotonic()))
-        self._note()
-        if monotonic() - self._telemetry.heard > timeout_s:
+        self._note_changes()
+        if monotonic() - self._telemetry.last_message_time > timeout_s:
             why = f": {self.problem}" if self.problem else ""
             raise LinkFailed(f"{self._link.vehicle.named} has been silent for {timeout_s:g} s{why}")
 
-    def news(self) -> tuple[str, ...]:
-        """What has happened since this was asked last, a sentence each."""
-        news, self._news = self._news, []
-        return tuple(news)
+    def take_notices(self) -> tuple[str, ...]:
+        """The notices since the last call, a sentence each."""
+        notices, self._notices = self._notices, []
+        return tuple(notices)
 
-    def _note(self) -> None:
-        """Note that the vehicle is heard again, and that it has restarted."""
-        if self._lost and self._telemetry.heard > self._lost_at:
+    def _note_changes(self) -> None:
+        """Add notices when messages arrive again after a loss, and when the vehicle has restarted."""
+        if self._lost and self._telemetry.last_message_time > self._lost_at:
             self._lost = False
-            self._news.append("The line to the vehicle stands again.")
+            self._notices.append("The connection to the vehicle is restored.")
         if self._telemetry.restarts > self._restarts:
             self._restarts = self._telemetry.restarts
-            self._streams.begin(monotonic())
-            self._news.append("The vehicle has restarted.")
+            self._streams.restart(monotonic())
+            self._notices.append("The vehicle has restarted.")

@@ -1,36 +1,36 @@
-"""What a vehicle says in words: its STATUSTEXT messages."""
+"""The texts that a vehicle sends for people: its STATUSTEXT messages."""
 
 from __future__ import annotations
 
 from typing import Any
 
-# MAV_SEVERITY_WARNING; what is less severe has a higher number.
+# MAV_SEVERITY_WARNING; less severe messages have higher numbers.
 WARNING = 4
 
-# So many are worth telling: the last ones.
-TOLD = 3
+# The number of warnings that are quoted: the last ones.
+QUOTED = 3
 
 
-class Texts:
-    """The warnings that a vehicle has sent, put together where one took several messages."""
+class StatusTexts:
+    """The warnings that a vehicle has sent; a text that was sent in several messages is joined."""
 
     def __init__(self) -> None:
-        self._said: dict[tuple[int, int], str] = {}
+        self._texts: dict[tuple[int, int], str] = {}
         self._count = 0
 
-    def hear(self, message: Any) -> None:
-        """Keep a warning."""
+    def update(self, message: Any) -> None:
+        """Store the text of a message, if it is a warning."""
         if message.get_type() != "STATUSTEXT" or message.severity > WARNING:
             return
-        # A long text comes in chunks of one number; 0 is a text of its own. MAVLink 1 has neither.
+        # The chunks of a long text share an id; the id 0 means a text of one message. MAVLink 1 has no ids.
         number = getattr(message, "id", 0)
         self._count += 1
         key = (number, 0) if number else (0, self._count)
-        self._said[key] = self._said.get(key, "") + message.text
+        self._texts[key] = self._texts.get(key, "") + message.text
 
     @property
-    def told(self) -> str:
-        """The last of them for a sentence, each once: "; it says: Mission rejected"; empty where there is none."""
-        # PX4 ends with a tab what it sends as an event too.
-        texts = list(dict.fromkeys(text.strip(" \t.") for text in self._said.values()))
-        return f"; it says: {', '.join(texts[-TOLD:])}" if texts else ""
+    def quoted(self) -> str:
+        """The last warnings, without repetitions, as the end of a sentence: "; it says: Mission rejected", or empty."""
+        # PX4 ends a text with a tab if it sends the same as an event.
+        texts = list(dict.fromkeys(text.strip(" \t.") for text in self._texts.values()))
+        return f"; it says: {', '.join(texts[-QUOTED:])}" if texts else ""

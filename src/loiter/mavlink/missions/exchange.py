@@ -1,4 +1,4 @@
-"""A mission brought to a vehicle whole, or the one that it has left there; and read."""
+"""Missions uploaded to a vehicle, which has either the new or its old mission afterwards, and downloaded."""
 
 from __future__ import annotations
 
@@ -10,30 +10,39 @@ from typing import NamedTuple
 from loiter.errors import InvalidArgument, LinkFailed, positive
 from loiter.io.missions.items import Autopilot, Mission
 from loiter.mavlink.connection.enumerations import autopilot_name
-from loiter.mavlink.connection.link import Link, Vehicle, connected
+from loiter.mavlink.connection.link import Link, Vehicle, open_link
 from loiter.mavlink.connection.parameters import Parameters
-from loiter.mavlink.connection.status_text import Texts
-from loiter.mavlink.missions import requirements, transfer
-from loiter.mavlink.missions.flown_radius import Scaling, fitted, parameters_of, scaling_of
+from loiter.mavlink.connection.status_text import StatusTexts
+from loiter.mavlink.missions import transfer
+from loiter.mavlink.missions.flown_radius import LoiterScaling, fit_radii, query_scaling, scaling_parameters
+from loiter.mavlink.missions.requirements import REQUIREMENT, requirement_remark
 from loiter.mavlink.missions.start import flies_mission, start_mission
-from loiter.mavlink.missions.stored_items import StoredItem, compared, decoded, encoded, keeps_home, own_home, same
+from loiter.mavlink.missions.stored_items import (
+    StoredItem,
+    decode,
+    differences,
+    encode,
+    is_same,
+    keeps_home,
+    own_home,
+)
 
-# Seconds without progress after which a transfer is given up: ten times a message that calls for an answer. On a line
-# that loses one packet of five each way, all ten fail once in 27,000 times.
+# Seconds without progress after which a transfer is given up: time to repeat a request ten times. If one packet of five
+# is lost each way, all ten fail once in 27,000 times.
 TIMEOUT_S = 15.0
 
-# What is being done ("read", "send", "check"), how many items are done, and of how many.
-Progress = Callable[[str, int, int], None]
+# Called with the phase ("read", "send", "check"), the number of items done in it, and the number of all items.
+ReportProgress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Summary:
-    """What an upload did.
+class MissionSummary:
+    """The result of an upload.
 
-    `items` and `replaced` count the items of the new and of the old mission, home not among them. `cut` says, a
-    sentence each, what the autopilot keeps in its own way: ArduPilot a radius in whole metres, for instance. `remarks`
-    says, likewise, what the autopilot will make of the mission: fly another radius, or not fly it at all. `started`
-    is whether it flies the mission, where that was asked for.
+    `items` and `replaced` count the items of the new and of the old mission, without home. `cut` lists, a sentence
+    each, the values that the autopilot rounds, such as ArduPilot a radius to whole metres. `remarks` lists what the
+    autopilot will do differently from the mission: fly another radius, or not fly it at all. `started` says whether it
+    was commanded to fly the mission and does.
     """
 
     system: int
@@ -46,18 +55,23 @@ class Summary:
     started: bool = False
 
 
-class Habits(NamedTuple):
-    """How a vehicle flies missions: how it widens loiters, and whether to make up for that; what it requires of them.
+# The former name, which stays public.
+Summary = MissionSummary
 
-    `requirement` is the value of `requirements.REQUIREMENT`, 0 for nothing.
+
+class Behaviour(NamedTuple):
+    """How a vehicle flies missions.
+
+    `scaling` describes how it widens loiters, and `true_radius` says whether to compensate for that; `requirement` is
+    the value of its parameter `REQUIREMENT`, 0 for none.
     """
 
-    scaling: Scaling | None = None
+    scaling: LoiterScaling | None = None
     true_radius: bool = False
     requirement: float = 0.0
 
 
-NO_HABITS = Habits()
+PLAIN_BEHAVIOUR = Behaviour()
 
 
 def upload(
@@ -67,45 +81,47 @@ def upload(
     system: int | None = None,
     component: int = 1,
     timeout_s: float = TIMEOUT_S,
-    on_progress: Progress | None = None,
+    on_progress: ReportProgress | None = None,
     true_radius: bool = False,
     start: bool = False,
-) -> Summary:
-    """Send a mission to a vehicle, and read it back to see that it is there.
+) -> MissionSummary:
+    """Send a mission to a vehicle, and read it back to verify that the vehicle has it.
 
-    `mission` may be what makes one for an autopilot, a MAV_AUTOPILOT: which it is is known once the vehicle is found.
-    `connection` is `udpin:HOST:PORT`, `udpout:HOST:PORT`, `tcp:HOST:PORT` or a serial device, `/dev/ttyUSB0,57600`;
-    `system` the vehicle's system number where several are on the line. `timeout_s` (seconds) passes without progress
-    before anything is given up. ArduPilot keeps its home as item 0: it gets its own again, the mission's where it has
-    none; others get the items alone.
+    `mission` may also be a function that makes the mission for an autopilot, a MAV_AUTOPILOT; it is called when the
+    vehicle has been found. `connection` is `udpin:HOST:PORT`, `udpout:HOST:PORT`, `tcp:HOST:PORT` or a serial device,
+    `/dev/ttyUSB0,57600`; `system` is the system id of the vehicle, needed if there are several. A transfer without
+    progress for `timeout_s` seconds is given up. ArduPilot keeps its home as item 0: it is sent its own home again, or
+    that of the mission if it has none. Other autopilots are sent the items alone.
 
-    ArduPlane widens loiters with the altitude, unless its parameters say otherwise; PX4 does not fly a mission without
-    a landing, unless its parameters say otherwise. Both are looked up and told in `Summary.remarks`. With `true_radius`
-    ArduPlane is sent the radius with which it flies the one of the mission. With `start` a vehicle in flight is told to
-    fly the mission from its first item on; none is armed, none takes off.
+    ArduPlane widens loiters with the altitude, and PX4 does not fly a mission without a landing, unless their
+    parameters say otherwise; `remarks` of the result reports both. With `true_radius` each loiter is sent with the
+    radius for which ArduPlane flies that of the mission. With `start` a vehicle in flight is commanded to fly the
+    mission from its first item; it is neither armed nor made to take off.
 
-    The mission that the vehicle has is read first. Where anything goes wrong after that, Ctrl-C included, the transfer
-    is cancelled, and the old mission sent back unless it is still there. Raises `LinkFailed` where the vehicle is not
-    found, is silent, refuses, or keeps something else than it was sent, and says what became of the old mission, as
-    `KeyboardInterrupt` does; where it has the new one and does not start it; `InvalidArgument` for arguments and
-    missions that cannot be sent; `MissingPackage` without pymavlink.
+    The present mission of the vehicle is read first. If anything fails after that, or on Ctrl-C, the transfer is
+    cancelled, and the old mission is sent back unless the vehicle still has it. Raises `LinkFailed` if the vehicle is
+    not found, does not answer, refuses, or does not have what it was sent, or if it does not start the mission; the
+    error, and likewise `KeyboardInterrupt`, says which mission the vehicle has. Raises `InvalidArgument` for arguments
+    and missions that cannot be sent; `MissingPackage` without pymavlink.
     """
     check_target(system, component, timeout_s)
-    texts = Texts()
-    with connected(connection, system, component, timeout_s, hear=lambda message, now: texts.hear(message)) as link:
-        wanted = mission(link.vehicle.autopilot) if callable(mission) else mission
-        check_mission(wanted, link.vehicle)
-        scaling = scaling_of(link, parameters_of(link.vehicle), true_radius=true_radius)
-        habits = Habits(scaling, true_radius, _requirement(link))
-        summary = replace_mission(link, wanted, timeout_s, on_progress or (lambda doing, done, total: None), habits)
+    texts = StatusTexts()
+    with open_link(
+        connection, system, component, timeout_s, on_message=lambda message, now: texts.update(message)
+    ) as link:
+        new = mission(link.vehicle.autopilot) if callable(mission) else mission
+        check_mission(new, link.vehicle)
+        scaling = query_scaling(link, scaling_parameters(link.vehicle), true_radius=true_radius)
+        behaviour = Behaviour(scaling, true_radius, _requirement(link))
+        summary = replace_mission(link, new, timeout_s, on_progress or (lambda phase, done, total: None), behaviour)
         if not start:
             return summary
         try:
             start_mission(link, texts, timeout_s)
         except LinkFailed as failure:
-            if not habits.requirement:
+            if not behaviour.requirement:
                 raise
-            # What keeps PX4 from flying it is a parameter, which it does not always say.
+            # The cause is a parameter of PX4, which its answer does not always name.
             raise LinkFailed(
                 "; ".join([str(failure), *(remark.rstrip(".") for remark in summary.remarks)])
             ) from failure
@@ -118,111 +134,122 @@ def download(
     system: int | None = None,
     component: int = 1,
     timeout_s: float = TIMEOUT_S,
-    on_progress: Progress | None = None,
+    on_progress: ReportProgress | None = None,
 ) -> Mission:
-    """The mission that a vehicle holds; arguments and errors as for `upload`.
+    """The mission that a vehicle has; arguments and errors as for `upload`.
 
-    The home is that of ArduPilot's item 0. Other autopilots do not keep it with the mission: it is nan there.
+    The home is that of ArduPilot's item 0. Other autopilots do not store it with the mission, so it is nan.
     """
     check_target(system, component, timeout_s)
-    with connected(connection, system, component, timeout_s) as link:
-        progress = _progress("read", on_progress or (lambda doing, done, total: None))
-        return decoded(transfer.receive(link, timeout_s, progress), link.vehicle)
+    with open_link(connection, system, component, timeout_s) as link:
+        progress = _in_phase("read", on_progress or (lambda phase, done, total: None))
+        return decode(transfer.receive(link, timeout_s, progress), link.vehicle)
 
 
 def replace_mission(
-    link: Link, mission: Mission, timeout_s: float, on_progress: Progress, habits: Habits = NO_HABITS
-) -> Summary:
-    """What `upload` does once there is a link, up to the start."""
+    link: Link,
+    mission: Mission,
+    timeout_s: float,
+    on_progress: ReportProgress,
+    behaviour: Behaviour = PLAIN_BEHAVIOUR,
+) -> MissionSummary:
+    """The steps of `upload` with an open link, without the start."""
     vehicle = link.vehicle
     check_mission(mission, vehicle)
-    old = transfer.receive(link, timeout_s, _progress("read", on_progress))
-    items, remarks = _adapted(mission, vehicle, own_home(old, vehicle), habits)
+    old = transfer.receive(link, timeout_s, _in_phase("read", on_progress))
+    items, remarks = _adapt(mission, vehicle, own_home(old, vehicle), behaviour)
     try:
-        if vehicle.autopilot == Autopilot.PX4 and same(old, items, vehicle) and not flies_mission(link):
-            # It would not look again at the mission that it has, whatever has been set since it found it wanting.
+        if vehicle.autopilot == Autopilot.PX4 and is_same(old, items, vehicle) and not flies_mission(link):
+            # PX4 does not check a mission again that it has found invalid, even if its parameters have changed since.
             transfer.clear(link, timeout_s)
-        wrong, cut = _sent(link, items, timeout_s, on_progress)
+        wrong, cut = _send_and_check(link, items, timeout_s, on_progress)
         if wrong:
-            more = f", and {len(wrong) - 1} more" if len(wrong) > 1 else ""
-            raise LinkFailed(f"{vehicle.named} does not keep what it was sent: {wrong[0]}{more}")
+            first, *others = wrong
+            more = f", and {len(others)} more" if others else ""
+            raise LinkFailed(f"{vehicle.named} does not keep what it was sent: {first}{more}")
     except LinkFailed as failure:
-        raise LinkFailed(f"{failure}; {put_back(link, old, timeout_s)}") from failure
+        raise LinkFailed(f"{failure}; {restore(link, old, timeout_s)}") from failure
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"interrupted; {link.vehicle.named}: {put_back(link, old, timeout_s)}") from None
+        raise KeyboardInterrupt(f"interrupted; {link.vehicle.named}: {restore(link, old, timeout_s)}") from None
     except BaseException:
-        put_back(link, old, timeout_s)
+        restore(link, old, timeout_s)
         raise
     home = int(keeps_home(vehicle))
-    counts = len(items) - home, max(0, len(old) - home)
-    who = vehicle.system, vehicle.component, autopilot_name(vehicle.autopilot)
-    return Summary(*who, *counts, tuple(cut), tuple(remarks))
+    return MissionSummary(
+        system=vehicle.system,
+        component=vehicle.component,
+        autopilot=autopilot_name(vehicle.autopilot),
+        items=len(items) - home,
+        replaced=max(0, len(old) - home),
+        cut=tuple(cut),
+        remarks=tuple(remarks),
+    )
 
 
 def check_mission(mission: Mission, vehicle: Vehicle) -> None:
-    """Raise `InvalidArgument` for a mission whose items cannot be sent, before the vehicle is asked for anything."""
-    encoded(mission._replace(home=(0.0, 0.0, 0.0)), vehicle)
+    """Raise `InvalidArgument` for a mission whose items cannot be sent, before anything is requested of the vehicle."""
+    encode(mission._replace(home=(0.0, 0.0, 0.0)), vehicle)
 
 
-def _adapted(
-    mission: Mission, vehicle: Vehicle, home: StoredItem | None, habits: Habits
+def _adapt(
+    mission: Mission, vehicle: Vehicle, home: StoredItem | None, behaviour: Behaviour
 ) -> tuple[list[StoredItem], list[str]]:
-    """The items to send to a vehicle, which may have a home of its own, and what it will make of them."""
-    items = encoded(mission, vehicle, home)
-    if habits.scaling is not None:
+    """The items to send to a vehicle, whose own home may be given, and remarks on how it will fly them."""
+    items = encode(mission, vehicle, home)
+    if behaviour.scaling is not None:
         altitude_m = nan if home is None else home.z
-        return fitted(items, habits.scaling, vehicle, altitude_m, true_radius=habits.true_radius)
-    missing = requirements.remark(items, habits.requirement)
+        return fit_radii(items, behaviour.scaling, vehicle, altitude_m, true_radius=behaviour.true_radius)
+    missing = requirement_remark(items, behaviour.requirement)
     return items, [missing] if missing else []
 
 
 def _requirement(link: Link) -> float:
-    """What the vehicle requires of a mission; 0 where it requires nothing, or does not say."""
+    """The value of `REQUIREMENT` in a vehicle; 0 for other autopilots than PX4, and if it does not answer."""
     if link.vehicle.autopilot != Autopilot.PX4:
         return 0.0
-    known = Parameters([requirements.REQUIREMENT], link.vehicle.autopilot).wait(link, bool)
-    return known.get(requirements.REQUIREMENT, 0.0)
+    known = Parameters([REQUIREMENT], link.vehicle.autopilot).wait(link, bool)
+    return known.get(REQUIREMENT, 0.0)
 
 
-def _sent(
-    link: Link, items: Sequence[StoredItem], timeout_s: float, on_progress: Progress
+def _send_and_check(
+    link: Link, items: Sequence[StoredItem], timeout_s: float, on_progress: ReportProgress
 ) -> tuple[list[str], list[str]]:
-    """What a vehicle keeps otherwise than it was sent, as `compared` has it.
+    """Send the items and read them back; returns the result of `differences`.
 
-    Without an acknowledgement it may have given up before the last item came: then the items are sent again.
+    A vehicle that does not acknowledge may have given up before the last item: the items are then sent again.
     """
     for _ in range(transfer.ATTEMPTS):
-        accepted = transfer.send(link, items, timeout_s, _progress("send", on_progress))
-        kept = transfer.receive(link, timeout_s, _progress("check", on_progress))
-        wrong, cut = compared(items, kept, link.vehicle)
+        accepted = transfer.send(link, items, timeout_s, _in_phase("send", on_progress))
+        kept = transfer.receive(link, timeout_s, _in_phase("check", on_progress))
+        wrong, cut = differences(items, kept, link.vehicle)
         if accepted or not wrong:
             break
     return wrong, cut
 
 
-def put_back(link: Link, old: Sequence[StoredItem], timeout_s: float) -> str:
-    """See to it that a vehicle has its old mission; says how that went."""
+def restore(link: Link, old: Sequence[StoredItem], timeout_s: float) -> str:
+    """Send a vehicle its old mission unless it still has it; returns the result in words."""
     try:
-        if same(transfer.receive(link, timeout_s), old, link.vehicle):
+        if is_same(transfer.receive(link, timeout_s), old, link.vehicle):
             return "it still has its old mission"
         if old:
             transfer.send(link, old, timeout_s)
         else:
             transfer.clear(link, timeout_s)
-        if same(transfer.receive(link, timeout_s), old, link.vehicle):
+        if is_same(transfer.receive(link, timeout_s), old, link.vehicle):
             return "its old mission was sent back"
     except LinkFailed as failure:
         return f"whether it has its old mission is not known: {failure}"
-    return "its old mission could not be sent back: see what it has before it flies"
+    return "its old mission could not be sent back: check its mission before it flies"
 
 
 def check_target(system: int | None, component: int, timeout_s: float) -> None:
-    """Raise `InvalidArgument` for numbers that no vehicle has, and for no time."""
+    """Raise `InvalidArgument` for ids outside MAVLink's range, and for a time-out that is not positive."""
     for name, number in (("system", system), ("component", component)):
         if number is not None and (isinstance(number, bool) or not isinstance(number, int) or not 0 < number < 256):
             raise InvalidArgument(name, f"is {number!r}: it must be a whole number from 1 to 255")
     positive("timeout_s", timeout_s, "seconds")
 
 
-def _progress(doing: str, on_progress: Progress) -> transfer.Progress:
-    return lambda done, total: on_progress(doing, done, total)
+def _in_phase(phase: str, on_progress: ReportProgress) -> transfer.CountItems:
+    return lambda done, total: on_progress(phase, done, total)

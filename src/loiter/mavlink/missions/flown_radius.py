@@ -1,8 +1,9 @@
-"""The radius that a loiter is flown with, where that is not the radius of its item.
+"""The radius with which a loiter is flown, which may differ from the radius of its mission item.
 
-ArduPlane widens loiters with the altitude (AP_L1_Control::loiter_radius): by EAS2TAS squared, true over equivalent
-airspeed, where NAVL1_LIM_BANK is 0, its default. With a limit it flies the radius as it is, as far as a turn at that
-bank at sea level, widened, is no larger. PX4 flies the radius of the item (FixedWingModeManager::control_auto_loiter).
+ArduPlane increases loiter radii with the altitude (AP_L1_Control::loiter_radius): with NAVL1_LIM_BANK at 0, its
+default, by the square of EAS2TAS, the ratio of true to equivalent airspeed. With a bank limit it flies the radius
+unchanged, unless a turn at that bank, widened from sea level to the altitude, needs a larger one. PX4 flies the radius
+of the item (FixedWingModeManager::control_auto_loiter).
 """
 
 from __future__ import annotations
@@ -13,51 +14,51 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.geo.atmosphere import HIGHEST_M, LOWEST_M, density_ratio
-from loiter.io.missions.items import Autopilot, Command
+from loiter.io.missions.items import Autopilot, MavCommand
 from loiter.io.missions.signs import COMMANDS, circle, with_circle
 from loiter.mavlink.connection.link import Link, Vehicle
 from loiter.mavlink.connection.parameters import Parameters
-from loiter.mavlink.missions.stored_items import StoredItem, above_sea_m, called
+from loiter.mavlink.missions.stored_items import StoredItem, above_sea_m, item_name
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 
-# ArduPlane's names of the limit and of the airspeed that it keeps: since version 4.5 in metres per second, before in
-# centimetres.
+# ArduPlane's parameters for the bank limit and for the cruise airspeed: in metres per second since version 4.5, in
+# centimetres per second before.
 BANK_LIMIT, CRUISE, OLD_CRUISE = "NAVL1_LIM_BANK", "AIRSPEED_CRUISE", "TRIM_ARSPD_CM"
 
-# The loiters of a mission whose radius ArduPlane keeps: not NAV_LOITER_TIME.
-LOITERS = {int(c): c for c in (Command.NAV_LOITER_UNLIM, Command.NAV_LOITER_TURNS, Command.NAV_LOITER_TO_ALT)}
+# The loiters of a mission whose radius ArduPlane stores; it does not store that of NAV_LOITER_TIME.
+LOITERS = {int(c): c for c in (MavCommand.NAV_LOITER_UNLIM, MavCommand.NAV_LOITER_TURNS, MavCommand.NAV_LOITER_TO_ALT)}
 
-# A circle that is off by less than this, metres, is not worth a sentence: ArduPlane keeps whole metres.
-LEAST_TOLD_M = 1.0
+# The smallest difference of radii, metres, that is reported: ArduPlane stores whole metres.
+LEAST_REPORTED_M = 1.0
 
 
-class Scaling(NamedTuple):
-    """ArduPlane's NAVL1_LIM_BANK, degrees, and the airspeed that it keeps, metres per second; 0 where not known."""
+class LoiterScaling(NamedTuple):
+    """ArduPlane's NAVL1_LIM_BANK, degrees, and its cruise airspeed, metres per second; 0 if not known."""
 
     bank_limit_deg: float
     airspeed_m_s: float = 0.0
 
     def flown_m(self, radius_m: float, altitude_m: float) -> float:
-        """The radius, metres, that a loiter of a radius is flown with at an altitude above the sea."""
+        """The radius, metres, with which a loiter is flown at an altitude above the sea, for the radius of its item."""
         widened, least_m = eas2tas_squared(altitude_m), self._least_at_sea_level_m
         if least_m is None or least_m > radius_m:
             return radius_m * widened
         return max(least_m * widened, radius_m)
 
     def sent_m(self, radius_m: float, altitude_m: float) -> float:
-        """The radius of the item with which a radius is flown: the inverse of `flown_m`."""
+        """The radius of the item for which a radius is flown: the inverse of `flown_m`."""
         widened, least_m = eas2tas_squared(altitude_m), self._least_at_sea_level_m
         if least_m is not None and least_m * max(widened, 1.0) <= radius_m:
             return radius_m
         return radius_m / widened
 
     def sent_whole_m(self, radius_m: float, altitude_m: float) -> float:
-        """`sent_m` in the whole metres that ArduPlane keeps, and not the 0 that would be its own radius."""
+        """`sent_m` in whole metres, which ArduPlane stores, and at least 1, since 0 means its default radius."""
         return max(1.0, float(round(self.sent_m(radius_m, altitude_m))))
 
     @property
     def _least_at_sea_level_m(self) -> float | None:
-        """The radius of a turn at the limit at sea level, metres, where there is a limit."""
+        """The radius of a turn at the bank limit at sea level, metres; None without a limit."""
         if self.bank_limit_deg <= 0.0 or self.airspeed_m_s <= 0.0:
             return None
         return self.airspeed_m_s * self.airspeed_m_s / (STANDARD_GRAVITY_M_S2 * tan(radians(self.bank_limit_deg)))
@@ -68,51 +69,52 @@ def eas2tas_squared(altitude_m: float) -> float:
     return 1.0 / density_ratio(min(max(altitude_m, LOWEST_M), HIGHEST_M))
 
 
-def parameters_of(vehicle: Vehicle) -> Parameters:
-    """The parameters that say how a vehicle widens its loiters: none of one that flies radii as they are."""
+def scaling_parameters(vehicle: Vehicle) -> Parameters:
+    """The parameters that determine how a vehicle widens its loiters: none for a vehicle that does not."""
     widens = vehicle.autopilot == Autopilot.ARDUPILOT
     return Parameters([BANK_LIMIT, CRUISE, OLD_CRUISE] if widens else [], vehicle.autopilot)
 
 
-def scaling(known: dict[str, float]) -> Scaling | None:
-    """How a vehicle widens its loiters, by those parameters; None where it does not, or as long as it is not known."""
+def loiter_scaling(known: dict[str, float]) -> LoiterScaling | None:
+    """How a vehicle widens its loiters, from its parameters; None if it does not, or if they are not known yet."""
     limit_deg = known.get(BANK_LIMIT)
     airspeed = known.get(CRUISE, known.get(OLD_CRUISE, 0.0) / 100.0)
     if limit_deg is None or (limit_deg > 0.0 and airspeed <= 0.0):
         return None
-    return Scaling(max(0.0, limit_deg), airspeed)
+    return LoiterScaling(max(0.0, limit_deg), airspeed)
 
 
-def scaling_of(link: Link, parameters: Parameters, *, true_radius: bool) -> Scaling | None:
-    """`scaling` as soon as the vehicle has answered.
+def query_scaling(link: Link, parameters: Parameters, *, true_radius: bool) -> LoiterScaling | None:
+    """`loiter_scaling` from the parameters that the vehicle sends when they are requested.
 
-    Raises `LinkFailed` where the true radius is asked for and an ArduPilot does not answer.
+    Raises `LinkFailed` if the true radius is required and an ArduPilot does not answer.
     """
-    found = scaling(parameters.wait(link, lambda known: scaling(known) is not None))
+    found = loiter_scaling(parameters.wait(link, lambda known: loiter_scaling(known) is not None))
     if true_radius and found is None and link.vehicle.autopilot == Autopilot.ARDUPILOT:
-        raise LinkFailed(f"{link.vehicle.named} does not tell its {BANK_LIMIT}: which radius it flies is not known")
+        raise LinkFailed(f"{link.vehicle.named} does not report {BANK_LIMIT}: which radius it flies is not known")
     return found
 
 
-def remark(widened: Scaling, radius_m: float, altitude_m: float) -> str:
-    """A sentence where ArduPlane flies another radius than that of an item, with what would do; else empty."""
-    flown_m = widened.flown_m(radius_m, altitude_m)
-    if abs(flown_m - radius_m) < LEAST_TOLD_M:
+def radius_remark(scaling: LoiterScaling, radius_m: float, altitude_m: float) -> str:
+    """A sentence with the remedy if ArduPlane flies another radius than that of an item; otherwise empty."""
+    flown_m = scaling.flown_m(radius_m, altitude_m)
+    if abs(flown_m - radius_m) < LEAST_REPORTED_M:
         return ""
     return (
-        f"ArduPlane will hold {flown_m:.1f} m in place of {radius_m:g}, since it multiplies the radius by EAS2TAS "
+        f"ArduPlane will hold {flown_m:.1f} m instead of {radius_m:g}, because it multiplies the radius by EAS2TAS "
         f"squared, {eas2tas_squared(altitude_m):.3f} at {altitude_m:.0f} m, with {BANK_LIMIT} at "
-        f"{widened.bank_limit_deg:g}: set that to the bank limit of the aircraft, or ask for --true-radius."
+        f"{scaling.bank_limit_deg:g}: set that to the bank limit of the aircraft, or use --true-radius."
     )
 
 
-def fitted(
-    items: Sequence[StoredItem], widened: Scaling, vehicle: Vehicle, home_altitude_m: float, *, true_radius: bool
+def fit_radii(
+    items: Sequence[StoredItem], scaling: LoiterScaling, vehicle: Vehicle, home_altitude_m: float, *, true_radius: bool
 ) -> tuple[list[StoredItem], list[str]]:
-    """The items of a mission for ArduPlane, and what is to be said of their circles, a sentence each.
+    """The items of a mission for ArduPlane, and remarks on their circles, a sentence each.
 
-    With `true_radius` each loiter gets the radius with which it is flown as asked, in the whole metres that ArduPlane
-    keeps. Raises `InvalidArgument` where that cannot be known: above the terrain, above a home of no known altitude.
+    With `true_radius` each loiter gets the radius, in whole metres, with which its own radius is flown. Raises
+    `InvalidArgument` if the altitude above the sea is not known: above the terrain, or above a home of unknown
+    altitude.
     """
     fit, remarks = list(items), []
     for seq, item in enumerate(items):
@@ -120,26 +122,27 @@ def fitted(
         if radius_m == 0.0 or (isnan(altitude_m) and not true_radius):
             continue
         if isnan(altitude_m):
-            raise InvalidArgument("true_radius", f"needs altitudes above the sea: not known in {called(seq, vehicle)}")
+            name = item_name(seq, vehicle)
+            raise InvalidArgument("true_radius", f"needs altitudes above the sea: that of {name} is not known")
         if not true_radius:
-            remarks.append(remark(widened, radius_m, altitude_m))
+            remarks.append(radius_remark(scaling, radius_m, altitude_m))
             continue
-        sent_m = widened.sent_whole_m(radius_m, altitude_m)
-        turn = circle(item.command, item.params)[1]
+        sent_m = scaling.sent_whole_m(radius_m, altitude_m)
+        _, turn = circle(item.command, item.params)
         fit[seq] = item._replace(params=with_circle(item.command, item.params, sent_m, turn))
         if sent_m != radius_m:
-            remarks.append(sent_remark(widened, sent_m, altitude_m))
-    return fit, [said for said in remarks if said]
+            remarks.append(sent_remark(scaling, sent_m, altitude_m))
+    return fit, [remark for remark in remarks if remark]
 
 
-def sent_remark(widened: Scaling, sent_m: float, altitude_m: float) -> str:
-    """The sentence that tells of a radius that was sent in place of the one asked for."""
-    flown_m = widened.flown_m(sent_m, altitude_m)
+def sent_remark(scaling: LoiterScaling, sent_m: float, altitude_m: float) -> str:
+    """The sentence about a radius that was sent instead of the radius of the mission."""
+    flown_m = scaling.flown_m(sent_m, altitude_m)
     return f"The radius is sent as {sent_m:g} m, which ArduPlane flies as {flown_m:.1f} m at {altitude_m:.0f} m."
 
 
 def _radius_m(item: StoredItem) -> float:
-    """The radius of the circle that ArduPlane flies for an item of a mission; 0 where it has none or its own."""
+    """The radius of an item's circle, metres; 0 if it has no circle, or if ArduPlane uses a radius of its own."""
     if item.command not in LOITERS:
         return 0.0
     signed_m = item.params[COMMANDS[LOITERS[item.command]].radius - 1]

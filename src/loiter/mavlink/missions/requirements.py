@@ -1,6 +1,7 @@
-"""What PX4 requires of a mission before it flies it: a takeoff, a landing, by its parameter MIS_TKO_LAND_REQ.
+"""The takeoff and landing items that PX4 requires in a mission, according to its parameter MIS_TKO_LAND_REQ.
 
-FeasibilityChecker::checkTakeoffLandAvailable. PX4 takes any mission; what it will not fly it says when it is to.
+The rules follow FeasibilityChecker::checkTakeoffLandAvailable. PX4 stores a mission that does not meet them, but
+refuses to fly it.
 """
 
 from __future__ import annotations
@@ -11,15 +12,15 @@ from loiter.mavlink.missions.stored_items import StoredItem
 
 REQUIREMENT = "MIS_TKO_LAND_REQ"
 
-# MAV_CMD of takeoffs and landings, VTOL's among them.
+# MAV_CMD of takeoffs and landings, including those of VTOL aircraft.
 TAKEOFFS, LANDINGS = {22, 84}, {21, 85}
 
-# What each value requires. For 4 and 5 it is both or neither, for 5 in flight a landing.
+# The requirement of each value. 4 and 5 require both or neither; in flight 5 requires a landing.
 _TAKEOFF, _LANDING, _BOTH, _ALIKE, _ALIKE_OR_LANDING = 1, 2, 3, 4, 5
 
 
-def remark(items: Sequence[StoredItem], requirement: float) -> str:
-    """A sentence where PX4 will not fly a mission in flight, by the value of its parameter; else empty."""
+def requirement_remark(items: Sequence[StoredItem], requirement: float) -> str:
+    """A sentence if PX4 in flight will refuse a mission, for a value of its parameter; otherwise empty."""
     takeoff = any(item.command in TAKEOFFS for item in items)
     landing = any(item.command in LANDINGS for item in items)
     missing = {

@@ -1,21 +1,21 @@
-"""A vehicle in flight told to fly the mission that it holds, from its first item. Nothing here arms or takes off.
+"""Starting the mission of a vehicle that is in flight. Nothing here arms a vehicle or makes it take off.
 
-The mode is changed by DO_SET_MODE: MISSION_START would arm PX4 (Commander.cpp), and ArduPlane accepts that also where
-it does not change its mode.
+The mode is changed by DO_SET_MODE. MISSION_START would arm PX4 (Commander.cpp), and ArduPlane accepts it even if it
+does not change its mode.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from time import monotonic
-from typing import Any
+from typing import Any, NamedTuple
 
 from loiter.errors import LinkFailed
 from loiter.io.missions.items import Autopilot
-from loiter.mavlink.connection.command import long_command, obeyed
+from loiter.mavlink.connection.command import long_command, send_command
 from loiter.mavlink.connection.enumerations import ACCEPTED, command_result
-from loiter.mavlink.connection.link import Link, packets
-from loiter.mavlink.connection.status_text import Texts
+from loiter.mavlink.connection.link import Link, dialect
+from loiter.mavlink.connection.status_text import StatusTexts
 from loiter.mavlink.missions.stored_items import keeps_home
 from loiter.mavlink.watching.telemetry import AIRBORNE, EXTENDED_SYS_STATE, UNDEFINED
 
@@ -25,85 +25,99 @@ DO_SET_MODE, REQUEST_MESSAGE = 176, 512
 # MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.
 CUSTOM_MODE = 1
 
-# The mode in which each flies its mission, as DO_SET_MODE has it and as HEARTBEAT tells it: PX4's AUTO.MISSION, main
-# mode 4 and sub mode 4, and ArduPlane's AUTO.
-MODES = {Autopilot.PX4: ((4.0, 4.0), 4 << 16 | 4 << 24), Autopilot.ARDUPILOT: ((10.0, 0.0), 10)}
 
-# Seconds until a question is repeated, and how often it is asked.
+class Mode(NamedTuple):
+    """The mode in which an autopilot flies its mission: for DO_SET_MODE, and as HEARTBEAT reports it."""
+
+    main: float
+    sub: float
+    custom_mode: int
+
+
+# PX4's AUTO.MISSION, main mode 4 and sub mode 4, and ArduPlane's AUTO.
+MODES = {Autopilot.PX4: Mode(4.0, 4.0, 4 << 16 | 4 << 24), Autopilot.ARDUPILOT: Mode(10.0, 0.0, 10)}
+
+# Seconds until a request is repeated, and how often it is sent.
 REPEAT_S, TRIES = 1.0, 4
 
 _HAS_IT = "; it has the mission"
 
-# Seconds to listen for what a vehicle says of a refusal, which may come after it; and until its mode is believed: three
-# heartbeats. PX4 accepts to fly a mission that it does not find valid, and refuses, or goes back, after that.
+# Seconds to wait for the status texts of a refusal, which may follow it, and for three heartbeats that confirm the
+# mode: PX4 accepts the command for a mission that is not valid, and then refuses it or changes the mode back.
 WORDS_S, STAYS_S = 0.5, 3.0
 
 
-def start_mission(link: Link, texts: Texts, timeout_s: float) -> None:
-    """Have a vehicle in flight fly its mission; `texts` is what it has said.
+def start_mission(link: Link, texts: StatusTexts, timeout_s: float) -> None:
+    """Command a vehicle in flight to fly its mission from the first item; `texts` are its status texts.
 
-    Raises `LinkFailed` where it is not in the air, refuses, with what it says, or does not answer.
+    Raises `LinkFailed` if it is not in the air, does not answer, or refuses, with its status texts.
     """
-    mode = next((MODES[known] for known in MODES if known == link.vehicle.autopilot), None)
+    mode = _mission_mode(link)
     if mode is None:
-        raise LinkFailed(f"{link.vehicle.named} is told to fly missions in no way that is known here{_HAS_IT}")
-    (main, sub), wanted = mode
+        raise LinkFailed(f"{link.vehicle.named} has an autopilot whose mission mode is not known here{_HAS_IT}")
     _check_in_the_air(link)
     _go_to_first(link)
     try:
-        base = _heard(link, "HEARTBEAT", lambda heartbeat: True)
+        base = _await_message(link, "HEARTBEAT")
         flags = CUSTOM_MODE | (base.base_mode if base is not None else 0)
-        obeyed(link, long_command(link, DO_SET_MODE, flags, main, sub), "fly the mission", timeout_s)
-        _check_stays(link, wanted)
+        send_command(link, long_command(link, DO_SET_MODE, flags, mode.main, mode.sub), "fly the mission", timeout_s)
+        _check_mode_stays(link, mode)
     except LinkFailed as failure:
         link.receive(set(), monotonic() + WORDS_S)
-        raise LinkFailed(f"{failure}{texts.told}{_HAS_IT}") from failure
+        raise LinkFailed(f"{failure}{texts.quoted}{_HAS_IT}") from failure
 
 
 def flies_mission(link: Link) -> bool:
-    """Whether a vehicle of PX4 or ArduPilot is in the mode in which it flies its mission."""
-    heartbeat = _heard(link, "HEARTBEAT", lambda heartbeat: True)
-    modes = [wanted for known, (_, wanted) in MODES.items() if known == link.vehicle.autopilot]
-    return heartbeat is not None and heartbeat.custom_mode in modes
+    """Whether a vehicle with PX4 or ArduPilot is in the mode in which it flies its mission."""
+    heartbeat, mode = _await_message(link, "HEARTBEAT"), _mission_mode(link)
+    return heartbeat is not None and mode is not None and heartbeat.custom_mode == mode.custom_mode
+
+
+def _mission_mode(link: Link) -> Mode | None:
+    return next((mode for autopilot, mode in MODES.items() if autopilot == link.vehicle.autopilot), None)
 
 
 def _check_in_the_air(link: Link) -> None:
-    """Raise `LinkFailed` unless the vehicle says that it is in the air."""
-    question = long_command(link, REQUEST_MESSAGE, EXTENDED_SYS_STATE)
-    state = _heard(link, "EXTENDED_SYS_STATE", lambda told: told.landed_state != UNDEFINED, question)
+    """Raise `LinkFailed` unless the vehicle reports that it is in the air."""
+    request = long_command(link, REQUEST_MESSAGE, EXTENDED_SYS_STATE)
+    state = _await_message(link, "EXTENDED_SYS_STATE", lambda state: state.landed_state != UNDEFINED, request)
     if state is None:
-        raise LinkFailed(f"{link.vehicle.named} does not say whether it flies, and is not told to{_HAS_IT}")
+        raise LinkFailed(
+            f"{link.vehicle.named} does not report whether it is in the air: the mission is not started{_HAS_IT}"
+        )
     if state.landed_state not in AIRBORNE:
-        raise LinkFailed(f"{link.vehicle.named} is not in the air, and is not told to fly{_HAS_IT}")
+        raise LinkFailed(f"{link.vehicle.named} is not in the air: the mission is not started{_HAS_IT}")
 
 
 def _go_to_first(link: Link) -> None:
-    """Set the first item as the one to fly next. A vehicle that does not say that it is is not waited for long."""
+    """Make the first item the current one. It is not an error if the vehicle does not confirm that."""
     first = int(keeps_home(link.vehicle))
     target = link.vehicle.system, link.vehicle.component
-    wanted = packets().MAVLink_mission_set_current_message(*target, first)
-    _heard(link, "MISSION_CURRENT", lambda current: current.seq == first, wanted)
+    request = dialect().MAVLink_mission_set_current_message(*target, first)
+    _await_message(link, "MISSION_CURRENT", lambda current: current.seq == first, request)
 
 
-def _check_stays(link: Link, wanted: int) -> None:
-    """Raise `LinkFailed` unless the vehicle gets into a mode and stays there: PX4 may accept first and then refuse."""
-    until, there = monotonic() + STAYS_S, False
+def _check_mode_stays(link: Link, mode: Mode) -> None:
+    """Raise `LinkFailed` unless the vehicle changes to a mode and stays in it: PX4 may accept first and then refuse."""
+    until, in_mode = monotonic() + STAYS_S, False
     while (message := link.receive({"HEARTBEAT", "COMMAND_ACK"}, until)) is not None:
         if message.get_type() == "HEARTBEAT":
-            there = message.custom_mode == wanted
+            in_mode = message.custom_mode == mode.custom_mode
         elif message.command == DO_SET_MODE and message.result != ACCEPTED:
             raise LinkFailed(f"{link.vehicle.named} refused to fly the mission: {command_result(message.result)}")
-    if not there:
-        raise LinkFailed(f"{link.vehicle.named} accepted to fly the mission, and is in another mode")
+    if not in_mode:
+        raise LinkFailed(f"{link.vehicle.named} accepted to fly the mission, but is in another mode")
 
 
-def _heard(link: Link, kind: str, good: Callable[[Any], bool], question: Any = None) -> Any | None:
-    """The first message of a kind that is good; None where none comes. A question is asked again and again."""
+def _await_message(
+    link: Link, kind: str, fits: Callable[[Any], bool] = lambda message: True, request: Any = None
+) -> Any | None:
+    """The first message of a kind that fits, or None; a request for it is sent repeatedly."""
     for _ in range(TRIES):
-        if question is not None:
-            link.send(question)
-        again = monotonic() + REPEAT_S
-        while (message := link.receive({kind}, again)) is not None:
-            if good(message):
+        if request is not None:
+            link.send(request)
+        until = monotonic() + REPEAT_S
+        while (message := link.receive({kind}, until)) is not None:
+            if fits(message):
                 return message
     return None

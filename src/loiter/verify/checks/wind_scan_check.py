@@ -9,8 +9,8 @@ from random import Random
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.codes import Side
-from loiter.kernel.hold import tightest_held
-from loiter.kernel.wind_search import fastest
+from loiter.kernel.hold import tightest_radius
+from loiter.kernel.wind_search import WindProblem, fastest
 from loiter.verify.checks.oracle import Planar
 from loiter.verify.checks.wind_scan import DriftingCircle, Joining, earliest
 
@@ -64,7 +64,7 @@ def random_problems(states: int, seed: int) -> Iterator[WindCheckProblem]:
         place, draw = places[i % len(places)]
         wind, azimuth = random.choice((0.0, *[random.uniform(0.0, WINDIEST)] * 9)), random.uniform(0.0, 2.0 * pi)
         east, north = wind * cos(azimuth), wind * sin(azimuth)
-        R = tightest_held(east, north) * random.choice((1.0, random.uniform(1.0, 2.5)))
+        R = tightest_radius(east, north) * random.choice((1.0, random.uniform(1.0, 2.5)))
         yield WindCheckProblem(place, draw(random, R), R, random.choice(tuple(Side)), east, north)
 
 
@@ -103,7 +103,16 @@ def scan_difference(problem: WindCheckProblem) -> ScanDifference:
     """One problem solved and searched, with more effort while the search finds no time as early as the kernel's."""
     east, north, angle = problem.start
     _, _, _, *durations, _, missed = fastest(
-        east, north, cos(angle), sin(angle), problem.radius, problem.side, problem.wind_east, problem.wind_north
+        WindProblem(
+            east,
+            north,
+            cos(angle),
+            sin(angle),
+            problem.radius,
+            problem.side,
+            problem.wind_east,
+            problem.wind_north,
+        )
     )
     time = sum(durations)
     found = Joining(float("inf"), 0.0)

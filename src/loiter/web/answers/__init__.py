@@ -1,1 +1,1 @@
-"""The answers of the service, as plain values."""
+"""The answers of the service, as JSON values and files."""

@@ -1,26 +1,24 @@
-"""A plan as a file: what `loiter plan --save` and `--plot` write, as an attachment."""
+"""A plan as a file: what `loiter plan --save` and `--plot` write."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.io import AltitudeDatum, AltitudeReference, Autopilot, save
-from loiter.io.maps.track import steps
+from loiter.io import AltitudeDatum, AltitudeReference, save
+from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import all_fastest, best_and_others
 from loiter.web.models import ExportOptions
 
-# Points of the track that the service writes into one file: a second's work. `loiter plan --save` has no such limit.
-MOST_POINTS = 20_000
+# Points of a track that the service writes into one file, a second's work; `loiter plan --save` has no such limit.
+MAX_POINTS = 20_000
 
-AUTOPILOTS = {"ardupilot": Autopilot.ARDUPILOT, "px4": Autopilot.PX4}
-
-FILES = {
+# Media types of the formats.
+FILE_TYPES = {
     "geojson": "application/geo+json",
     "kml": "application/vnd.google-earth.kml+xml",
     "gpx": "application/gpx+xml",
@@ -28,35 +26,29 @@ FILES = {
     "plan": "application/json",
     "waypoints": "text/plain; charset=utf-8",
 }
-PICTURES = {"png": "image/png", "svg": "image/svg+xml"}
+PICTURE_TYPES = {"png": "image/png", "svg": "image/svg+xml"}
 
 
-class Export(NamedTuple):
-    """A file asked for: its format, a key of `FILES` or `PICTURES`, and of what."""
+class ExportRequest(NamedTuple):
+    """The format of a file, a key of `FILE_TYPES` or `PICTURE_TYPES`, and the options of the request."""
 
     format: str
     options: ExportOptions
 
 
-def maker(format_: str) -> Callable[[Export], bytes]:
-    """What makes a file of a format."""
-    return drawn if format_ in PICTURES else written
+def export(request: ExportRequest) -> bytes:
+    """The content of the file; errors as for `map_or_mission` and `picture`."""
+    return picture(request) if request.format in PICTURE_TYPES else map_or_mission(request)
 
 
-def written(export: Export) -> bytes:
-    """The file for the first optimal maneuver; raises as `loiter.io.save`, and where it would have too many points."""
-    (problem, frame), options = export.options.placed(), export.options
+def map_or_mission(request: ExportRequest) -> bytes:
+    """The first optimal maneuver as a file; errors as for `loiter.io.save`, and one for too many points."""
+    options = request.options
+    problem, frame = options.placed()
     first, *_ = all_fastest(problem)
-    count = sum(steps(first, options.spacing_m, options.chord_error_m))
-    if count > MOST_POINTS:
-        name = "chord_error_m" if options.spacing_m is None else "spacing_m"
-        raise InvalidArgument(
-            name,
-            f"is {getattr(options, name):g}: the file would have {count:,} points; here at most {MOST_POINTS:,} are "
-            "written, loiter plan --save writes more",
-        )
+    _check_points(first, options)
     with TemporaryDirectory(prefix="loiter-") as folder:
-        path = Path(folder, f"entry.{export.format}")
+        path = Path(folder, f"entry.{request.format}")
         save(
             first,
             path,
@@ -70,14 +62,26 @@ def written(export: Export) -> bytes:
         return path.read_bytes()
 
 
-def drawn(export: Export) -> bytes:
-    """The picture that `loiter plan --plot` draws. One at a time: matplotlib is not made for threads."""
+def _check_points(maneuver: Maneuver, options: ExportOptions) -> None:
+    """Raise `InvalidArgument` where the track would have more than `MAX_POINTS` points."""
+    count = sum(step_counts(maneuver, options.spacing_m, options.chord_error_m))
+    if count > MAX_POINTS:
+        name = "chord_error_m" if options.spacing_m is None else "spacing_m"
+        raise InvalidArgument(
+            name,
+            f"is {getattr(options, name):g}: the file would have {count:,} points; the service writes at most "
+            f"{MAX_POINTS:,}, loiter plan --save writes more",
+        )
+
+
+def picture(request: ExportRequest) -> bytes:
+    """The picture that `loiter plan --plot` draws; to be called in one thread only (matplotlib)."""
     from loiter.plot.picture import draw
 
-    problem, frame = export.options.placed()
+    problem, frame = request.options.placed()
     best, others = best_and_others(problem)
     losers = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
-    picture = BytesIO()
+    file = BytesIO()
     figure = draw(best[:1], [*best[1:], *losers], frame=frame)
-    figure.savefig(picture, format=export.format, dpi=150)
-    return picture.getvalue()
+    figure.savefig(file, format=request.format, dpi=150)
+    return file.getvalue()

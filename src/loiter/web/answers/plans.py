@@ -1,4 +1,4 @@
-"""What the service answers, as plain values: the library's answers with what a page draws."""
+"""Plans, candidates and certificates as the JSON values of `loiter.web.models`, with the tracks that the page draws."""
 
 from __future__ import annotations
 
@@ -13,29 +13,29 @@ from loiter.verify.certificate import Instant, certify
 from loiter.web.answers.texts import command, instruction, python
 from loiter.web.answers.tracks import track
 
-# Chords of a sine over a hundredth of a turn depart from it by 0.05 % of its height.
+# Steps of a curve over a segment; over a hundredth of a turn the chord of a sine is off by 0.05 % of its amplitude.
 STEPS = 100
 
 
 def plan(placed: PlacedProblem) -> dict[str, Any]:
     """`models.Plan`: the document of `loiter plan --json`, with tracks and texts."""
-    return _document(placed, *best_and_others(placed.problem))
+    return _plan_document(placed, *best_and_others(placed.problem))
 
 
 def fastest(placed: PlacedProblem) -> dict[str, Any]:
-    """`models.Plan` with one alternative only, the best in the other direction: fast enough while one drags in wind."""
-    return _document(placed, *best_each_way(placed.problem))
+    """`models.Plan` with the best in the other direction as the only alternative: fast enough for dragging in wind."""
+    return _plan_document(placed, *best_each_way(placed.problem))
 
 
-def _document(placed: PlacedProblem, best: Sequence[Maneuver], others: Sequence[Maneuver]) -> dict[str, Any]:
-    first, *_ = best
+def _plan_document(placed: PlacedProblem, best: Sequence[Maneuver], others: Sequence[Maneuver]) -> dict[str, Any]:
+    first, *_ = maneuvers = [*best, *others]
     document: dict[str, Any] = answer(best, others, placed.frame)
-    for described_maneuver, maneuver in zip([document, *document["alternatives"]], [*best, *others], strict=True):
-        described_maneuver["track"] = track(maneuver)
-    start_x, start_y = (document["track"][axis][0] for axis in "xy")
+    for entry, maneuver in zip([document, *document["alternatives"]], maneuvers, strict=True):
+        entry["track"] = track(maneuver)
+    (start_x, *_), (start_y, *_) = (document["track"][axis] for axis in "xy")
     return document | {
         "optimal": len(best),
-        "other_turn_later_s": _other_turn_later_s(first, [*best, *others]),
+        "other_turn_later_s": _other_turn_later_s(maneuvers),
         "instruction": instruction(first),
         "command": command(placed.problem),
         "python": python(placed.problem),
@@ -43,27 +43,29 @@ def _document(placed: PlacedProblem, best: Sequence[Maneuver], others: Sequence[
     }
 
 
-def every(placed: PlacedProblem) -> dict[str, Any]:
-    """`models.Candidates`."""
-    found = extremals(placed.problem)
-    least_s = min(m.duration_s for m in found)
+def _other_turn_later_s(maneuvers: Sequence[Maneuver]) -> float | None:
+    """How much later than the first the best maneuver of the other direction joins, seconds; None without one."""
+    first, *others = maneuvers
+    other = next((m for m in others if m.turn != first.turn), None)
+    return None if other is None else other.duration_s - first.duration_s
+
+
+def all_candidates(placed: PlacedProblem) -> dict[str, Any]:
+    """`models.Candidates`: every extremal."""
+    maneuvers = extremals(placed.problem)
+    least_s = min(m.duration_s for m in maneuvers)
     return {
         "candidates": [
-            described(m, placed.frame) | {"track": track(m), "later_s": m.duration_s - least_s} for m in found
+            described(m, placed.frame) | {"track": track(m), "later_s": m.duration_s - least_s} for m in maneuvers
         ]
     }
 
 
-def proof(placed: PlacedProblem) -> dict[str, Any]:
+def certificate(placed: PlacedProblem) -> dict[str, Any]:
     """`models.Proof`: the certificate of `loiter plan --certify --json`, and the curves of its picture."""
     first, *_ = all_fastest(placed.problem)
-    certificate = certify(first, tolerance_m=placed.problem.tolerance_m)
-    instants = [instant for piece in certificate.history(STEPS) for instant in piece]
+    checked = certify(first, tolerance_m=placed.problem.tolerance_m)
+    instants = [instant for piece in checked.history(STEPS) for instant in piece]
     series = {name: [getattr(instant, name) for instant in instants] for name in Instant._fields}
-    switches = [switch.time_s for switch in certificate.switches]
-    return {"certificate": certificate.to_dict(), "series": series | {"switches_s": switches}}
-
-
-def _other_turn_later_s(first: Maneuver, known: Sequence[Maneuver]) -> float | None:
-    other = next((m for m in known if m.turn != first.turn), None)
-    return None if other is None else other.duration_s - first.duration_s
+    switches = [switch.time_s for switch in checked.switches]
+    return {"certificate": checked.to_dict(), "series": series | {"switches_s": switches}}

@@ -1,4 +1,4 @@
-"""The synthesis of the reduced plane as JSON, kept for those who ask again."""
+"""The optimal synthesis of the reduced plane as JSON, cached."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ import numpy as np
 from loiter.arrays.partition import boundaries, lines, partition
 from loiter.kernel.words import Word
 
-# The page draws no more; a map of 400 cells is some 0.5 MB.
-MOST_CELLS = 400
+# Cells along a side, as many as the page can show; the JSON of 400 by 400 cells has some 0.5 MB.
+MAX_CELLS = 400
 
-# Along a side, where the request does not say.
-FIRST_CELLS = 160
+# Cells along a side where the request does not give them.
+DEFAULT_CELLS = 160
 
-# Maps kept: some 16 MB at the most.
-KEPT = 32
+# Maps in the cache: some 16 MB at most.
+CACHED_MAPS = 32
 
-# Where no word wins, as at coordinates beyond what doubles tell apart.
-NONE = -1
+# The index of a cell where no word wins, for example where coordinates are too large for double precision.
+NO_WORD = -1
 
 
-@lru_cache(KEPT)
+@lru_cache(CACHED_MAPS)
 def synthesis(radius: float, turn: str, reach: float | None, cells: int) -> bytes:
-    """`models.Synthesis`, encoded; raises as `arrays.partition.partition`."""
+    """`models.Synthesis` as encoded JSON; arguments and errors as for `arrays.partition.partition`."""
     regions = partition(radius, turn, reach=reach, cells=cells)
     solved = np.isfinite(regions.time)
     codes = np.unique(regions.word[solved])
-    index = np.where(solved, np.searchsorted(codes, regions.word), NONE)
+    index = np.where(solved, np.searchsorted(codes, regions.word), NO_WORD)
     document = {
         "radius": regions.radius,
         "turn": regions.turn.value,

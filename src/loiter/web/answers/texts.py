@@ -1,53 +1,48 @@
-"""A plan in words: what to do, the command line, the lines of Python."""
+"""A plan as texts: an instruction to the pilot, the command line and the Python code that give it."""
 
 from __future__ import annotations
 
-from loiter.io.maps.chart import ACTIONS
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, TURN_LIMITS, Aircraft, Orbit, Turn
 from loiter.planning.problem import Problem
-
-LIMIT_OPTIONS = {
-    "max_bank_deg": "--bank",
-    "min_turn_radius_m": "--turn-radius",
-    "max_turn_rate_deg_s": "--turn-rate",
-}
+from loiter.planning.vocabulary import ACTIONS, OPTIONS
 
 
 def instruction(maneuver: Maneuver) -> str:
-    """What to do now, and what next: "Turn right now, then fly straight in 1.7 s."."""
+    """What to do now and what next: "Turn right now, then fly straight in 1.7 s."."""
     hold = f"hold {maneuver.turn.described}"
     if not maneuver.segments:
         return f"{hold.capitalize()}: you are on the circle."
     first, *later = maneuver.segments
-    following = ACTIONS[later[0].letter] if later else hold
+    next_action = next((ACTIONS[segment.letter] for segment in later), hold)
     decimals = 1 if maneuver.orbit.radius_m >= 10.0 else 3
-    return f"{ACTIONS[first.letter].capitalize()} now, then {following} in {first.duration_s:.{decimals}f} s."
+    return f"{ACTIONS[first.letter].capitalize()} now, then {next_action} in {first.duration_s:.{decimals}f} s."
 
 
 def command(problem: Problem) -> str:
     """The command line that plans the scene, in local metres."""
     pose, orbit, wind = problem.pose, problem.orbit, problem.wind
-    limit = _limit(problem.aircraft)
+    limit = _given_limit(problem.aircraft)
     words = [
         "loiter plan",
-        _option("--pose", pose.east_m, pose.north_m, pose.heading_deg),
-        _option("--orbit", orbit.east_m, orbit.north_m, orbit.radius_m),
+        _option("pose", pose.east_m, pose.north_m, pose.heading_deg),
+        _option("orbit", orbit.east_m, orbit.north_m, orbit.radius_m),
     ]
-    words += [f"--turn {orbit.turn.value}"] if orbit.turn != Turn.EITHER else []
-    words.append(_option("--airspeed", problem.aircraft.airspeed_m_s))
-    words.append(_option(LIMIT_OPTIONS[limit], getattr(problem.aircraft, limit)))
-    words += [_option("--wind", wind.speed_m_s, wind.from_deg)] if wind != CALM else []
-    words += [_option("--orbit-velocity", orbit.velocity_east_m_s, orbit.velocity_north_m_s)] if orbit.moves else []
-    words += [_option("--tolerance", problem.tolerance_m)] if problem.tolerance_m else []
+    words += [f"{OPTIONS['turn']} {orbit.turn.value}"] if orbit.turn != Turn.EITHER else []
+    words.append(_option("airspeed_m_s", problem.aircraft.airspeed_m_s))
+    words.append(_option(limit, getattr(problem.aircraft, limit)))
+    words += [_option("wind", wind.speed_m_s, wind.from_deg)] if wind != CALM else []
+    velocity = orbit.velocity_east_m_s, orbit.velocity_north_m_s
+    words += [_option("orbit_velocity_m_s", *velocity)] if orbit.moves else []
+    words += [_option("tolerance_m", problem.tolerance_m)] if problem.tolerance_m else []
     return " ".join(words)
 
 
 def python(problem: Problem) -> str:
-    """Lines of Python after which `m` is the plan."""
+    """Python code that computes the plan as `m` and prints it."""
     wind = f", {problem.wind!r}" if problem.wind != CALM else ""
     tolerance = f", tolerance_m={problem.tolerance_m!r}" if problem.tolerance_m else ""
-    uav, limit = problem.aircraft, _limit(problem.aircraft)
+    uav, limit = problem.aircraft, _given_limit(problem.aircraft)
     names = ", ".join(["Aircraft", "Orbit", "Pose", *(["Wind"] if wind else []), "plan_all"])
     return "\n".join(
         [
@@ -69,10 +64,11 @@ def _orbit(orbit: Orbit) -> str:
     return f"Orbit({text})"
 
 
-def _limit(aircraft: Aircraft) -> str:
+def _given_limit(aircraft: Aircraft) -> str:
+    """The name of the turn limit that the aircraft was given."""
     return next(name for name in TURN_LIMITS if getattr(aircraft, name) is not None)
 
 
-def _option(name: str, *numbers: float) -> str:
-    """An option with its numbers, each with all the digits that it takes to read it back."""
-    return " ".join([name, *(repr(number).removesuffix(".0") for number in numbers)])
+def _option(argument: str, *numbers: float) -> str:
+    """An argument as an option of the command line, its numbers with all the digits that they need to be read back."""
+    return " ".join([OPTIONS[argument], *(repr(number).removesuffix(".0") for number in numbers)])

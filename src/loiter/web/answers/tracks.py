@@ -1,23 +1,23 @@
-"""Maneuvers as polylines, over the ground and in the reduced plane."""
+"""Maneuvers as polylines over the ground and in the reduced plane."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from loiter.arrays import reduce
-from loiter.io.maps.track import steps, vertices
+from loiter.io.maps.track import step_counts, vertices
 from loiter.planning.maneuver import Maneuver
 
-# In turn radii: a pixel of a screen that shows a turn 500 pixels wide.
+# Largest chord error, turn radii: a pixel on a screen that shows the turn radius as 500 pixels.
 CHORD_ERROR = 0.002
 
 
 def track(maneuver: Maneuver) -> dict[str, list[float]]:
-    """The maneuver as `models.Track` tells it: points that a line may join, each switch among them.
+    """`models.Track`: the vertices of a polyline along the maneuver, with a vertex at each switch.
 
-    The reduced state is that relative to the circle, where it is at the time if it moves.
+    The reduced state is relative to the circle, at its position at that time if it moves.
     """
-    flown = vertices(maneuver, steps(maneuver, None, CHORD_ERROR * maneuver.aircraft.turn_radius_m))
+    flown = vertices(maneuver, step_counts(maneuver, None, CHORD_ERROR * maneuver.aircraft.turn_radius_m))
     orbit, time = maneuver.orbit, flown.time_s
     centre_east, centre_north = orbit.centre_after(time)
     east, north = flown.east_m - centre_east, flown.north_m - centre_north

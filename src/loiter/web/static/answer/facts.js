@@ -1,0 +1,72 @@
+// @ts-check
+/**
+ * The headline and the numbers of the plan.
+ *
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/page_state.js").PageState} PageState
+ * @typedef {import("../shared/types.js").Answer} Answer
+ */
+import { byId, html } from "../shared/dom.js";
+import { DIRECTIONS, DIRECTION_ARROWS, splitAnswer, wordLabel } from "../shared/maneuver.js";
+import { decimalsFor, fixed, quantityText, signedTimeDifference } from "../shared/units.js";
+
+const TIE_S = 1e-9; // durations closer than this count as ties
+
+/** @param {Store} store */
+export function factsView(store) {
+  store.watch(({ answer, failure }) => [answer, failure], drawHeadline);
+  store.watch(({ answer, units }) => [answer, units], drawFacts);
+  // For screen readers, only when a drag pauses.
+  store.watch(
+    ({ announced }) => [announced],
+    ({ announced }) => announced && (byId("spoken", HTMLElement).textContent = announced.instruction),
+  );
+}
+
+/** @param {PageState} state */
+function drawHeadline({ answer, failure }) {
+  const headline = byId("instruction", HTMLElement);
+  headline.textContent = failure?.headline ?? answer?.instruction ?? "";
+  headline.classList.toggle("bad", failure !== null);
+}
+
+/** @param {PageState} state */
+function drawFacts({ answer, scene, units }) {
+  if (!answer) return;
+  const { radius_m } = scene.orbit;
+  const path = quantityText(answer.length_m, "length", units, decimalsFor(radius_m, units));
+  setFact("time", `${fixed(answer.duration_s, Math.max(2, decimalsFor(radius_m, "metric")))} s`);
+  setFact("path", path, answer.wind.speed_m_s > 0 ? "through the air" : "");
+  setFact("word", wordLabel(answer.word), DIRECTIONS[answer.turn]);
+  setFact("other", otherDirectionText(answer));
+  setFact("optimal", String(answer.optimal), optimalText(answer));
+  setFact("bank-on-circle", bankText(answer));
+}
+
+/**
+ * @param {string} id
+ * @param {string | Element} value
+ * @param {string} [note]
+ */
+function setFact(id, value, note = "") {
+  byId(id, HTMLElement).replaceChildren(value, ...(note ? [html("small", {}, [note])] : []));
+}
+
+/** What a hold in the other direction costs. @param {Answer} answer */
+function otherDirectionText({ other_turn_later_s }) {
+  if (other_turn_later_s === null) return "cannot be held";
+  if (Math.abs(other_turn_later_s) < TIE_S) return "the same time";
+  return signedTimeDifference(other_turn_later_s);
+}
+
+/** The optimal maneuvers. @param {Answer} answer */
+function optimalText(answer) {
+  const { best } = splitAnswer(answer);
+  return best.length > 1 ? best.map(({ word, turn }) => `${word} ${DIRECTION_ARROWS[turn]}`).join(", ") : "unique";
+}
+
+/** The bank angles of the hold. @param {Answer} answer */
+function bankText({ hold }) {
+  const [least, most] = [fixed(hold.least_bank_deg, 1), fixed(hold.largest_bank_deg, 1)];
+  return least === most ? `${most}°` : `${least} to ${most}°`;
+}

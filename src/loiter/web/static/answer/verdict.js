@@ -1,0 +1,54 @@
+// @ts-check
+/**
+ * The verdict of the certificate in words.
+ *
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/page_state.js").PageState} PageState
+ * @typedef {import("../shared/types.js").Certificate} Certificate
+ */
+import { isProved } from "../scene/scene.js";
+import { byId } from "../shared/dom.js";
+import { timeDifference } from "../shared/units.js";
+
+/** @param {Store} store */
+export function verdictView(store) {
+  const verdict = byId("verdict", HTMLElement);
+  store.watch(
+    ({ failure, faults, proof }) => [failure, faults.certificate, proof],
+    (state) => {
+      const { kind, text } = verdictOf(state);
+      // While the next verdict is on its way the last one stays, faint.
+      if (kind !== "waiting" || verdict.className === "unchecked") verdict.textContent = text;
+      if (kind === "waiting") verdict.classList.add(kind);
+      else verdict.className = kind;
+    },
+  );
+}
+
+/**
+ * @param {PageState} state
+ * @returns {{kind: "unchecked" | "waiting" | "valid" | "invalid", text: string}}
+ */
+function verdictOf({ failure, faults, proof, scene, answer }) {
+  if (failure) return { kind: "unchecked", text: "–" };
+  if (faults.certificate) return { kind: "unchecked", text: faults.certificate.sentence };
+  if (!proof || !answer) return { kind: "waiting", text: "…" };
+  const { certificate } = proof;
+  if (!certificate.valid)
+    return { kind: "invalid", text: "A condition of the maximum principle fails: see loiter plan --certify." };
+  return { kind: "valid", text: validText(certificate, isProved(scene, answer.reduced.radius)) };
+}
+
+/**
+ * @param {Certificate} certificate
+ * @param {boolean} isProvedByPaper  only for circles of the turn radius in still air
+ */
+function validText({ residuals, runner_up, margin_s }, isProvedByPaper) {
+  const count = residuals.filter(({ verdict }) => verdict === "holds").length;
+  const meaning = isProvedByPaper
+    ? "The paper proves that nothing is faster."
+    : "They are necessary conditions, not a proof of optimality.";
+  const hasRunnerUp = runner_up !== null && margin_s !== null;
+  const margin = hasRunnerUp ? ` Runner-up ${runner_up}, ${timeDifference(margin_s)} later.` : "";
+  return `All ${count} conditions hold. ${meaning}${margin}`;
+}

@@ -1,0 +1,117 @@
+// @ts-check
+/**
+ * The buttons that save the plan in a file, or copy its command line, its Python or its link.
+ *
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/actions.js").Actions} Actions
+ * @typedef {import("../fields/fields.js").Fields} Fields
+ * @typedef {import("../state/page_state.js").FieldErrors} FieldErrors
+ * @typedef {import("./formats.js").Format} Format
+ */
+import { refusalOf } from "../fields/field_names.js";
+import { Unreachable, getFile } from "../requests/api.js";
+import { linkOf } from "../scene/address.js";
+import { byId, html } from "../shared/dom.js";
+import { currentPlan } from "../state/page_state.js";
+import { FORMATS, altitudeFor, missingFor, savedText } from "./formats.js";
+
+const KEPT_MS = 60_000; // an address of a file is kept until the browser has surely read it
+
+/**
+ * @param {Store} store
+ * @param {Actions} actions
+ * @param {Fields} fields
+ */
+export function exportPanel(store, actions, fields) {
+  /** @param {FieldErrors} file */
+  const mark = (file) => store.update({ fieldErrors: { ...store.get().fieldErrors, file } });
+
+  /** Mark what is missing, and go to the first field. @param {FieldErrors} missing */
+  function askFor(missing) {
+    mark(missing);
+    const [[first, sentence]] = Object.entries(missing);
+    byId(first, HTMLElement).focus();
+    actions.say(sentence, true);
+  }
+
+  /** @param {Error} error */
+  function refuse(error) {
+    if (error instanceof Unreachable) return actions.say(`Not saved: ${error.headline}. ${error.message}`, true);
+    const refusal = refusalOf(error);
+    mark(refusal.fields);
+    actions.say(refusal.sentence, true);
+  }
+
+  for (const format of FORMATS) {
+    const button = formatButton(format);
+    button.addEventListener("click", () => {
+      const missing = missingFor(format.kind, store.get(), fields);
+      if (Object.keys(missing).length > 0) askFor(missing);
+      else saveFile(format, store, actions).catch(refuse);
+    });
+    byId("formats", HTMLElement).append(button);
+  }
+}
+
+/** @param {Format} format */
+function formatButton({ format, name, use }) {
+  const label = { title: use, "aria-label": `Save ${name}, ${use}` };
+  return html("button", { type: "button", ...label, "data-format": format, "data-needs-plan": "" }, [name]);
+}
+
+/**
+ * @param {Format} format
+ * @param {Store} store
+ * @param {Actions} actions
+ */
+async function saveFile({ format, kind }, store, actions) {
+  const state = store.get();
+  const options = { ...state.scene, ...altitudeFor(kind, state.altitude) };
+  const { content, name = `entry.${format}` } = await getFile(`/api/export/${format}`, options);
+  download(content, name);
+  actions.say(savedText(name, kind, state));
+}
+
+/**
+ * @param {Blob} content
+ * @param {string} name
+ */
+function download(content, name) {
+  const address = URL.createObjectURL(content);
+  html("a", { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), KEPT_MS);
+}
+
+/**
+ * @param {Store} store
+ * @param {Actions} actions
+ */
+export function copyButtons(store, actions) {
+  copyButton("copy-python", "Python", () => currentPlan(store.get())?.python, actions);
+  copyButton("copy-command", "Command", () => currentPlan(store.get())?.command, actions);
+  copyButton("copy-link", "Link", () => linkOf(store.get()), actions);
+  store.watch(
+    ({ announced }) => [announced],
+    ({ announced }) => {
+      byId("python", HTMLElement).textContent = announced?.python ?? "";
+      byId("command", HTMLElement).textContent = announced?.command ?? "";
+    },
+  );
+}
+
+/**
+ * @param {string} id
+ * @param {string} name
+ * @param {() => string | undefined} text  undefined while the scene has no plan
+ * @param {Actions} actions
+ */
+function copyButton(id, name, text, actions) {
+  byId(id, HTMLButtonElement).addEventListener("click", () => {
+    const copied = text();
+    if (copied === undefined) return actions.say("The plan of this scene is not ready yet.", true);
+    navigator.clipboard.writeText(copied).then(
+      () => actions.say(`${name} copied.`),
+      () => actions.say("The browser does not let this page copy; select the text instead.", true),
+    );
+  });
+}

@@ -1,0 +1,85 @@
+// @ts-check
+/**
+ * The file formats of the service, and what each file needs.
+ *
+ * @typedef {import("../shared/types.js").Altitude} Altitude
+ * @typedef {import("../state/page_state.js").FieldErrors} FieldErrors
+ * @typedef {import("../state/page_state.js").PageState} PageState
+ * @typedef {import("../fields/fields.js").Fields} Fields
+ *
+ * @typedef {"map" | "table" | "mission" | "picture"} Kind
+ * @typedef {{format: string, name: string, use: string, kind: Kind}} Format
+ */
+import { altitudeText, mapAltitude, missingForMission, missionAltitude } from "../fields/altitude.js";
+
+/** @type {Format[]} */
+export const FORMATS = [
+  { format: "geojson", name: "GeoJSON", use: "for maps", kind: "map" },
+  { format: "kml", name: "KML", use: "for Google Earth", kind: "map" },
+  { format: "gpx", name: "GPX", use: "for GPS receivers", kind: "map" },
+  { format: "csv", name: "CSV", use: "samples along the track", kind: "table" },
+  { format: "plan", name: "Plan", use: "mission for QGroundControl", kind: "mission" },
+  { format: "waypoints", name: "WPL", use: "waypoints for Mission Planner", kind: "mission" },
+  { format: "png", name: "PNG", use: "picture", kind: "picture" },
+  { format: "svg", name: "SVG", use: "picture", kind: "picture" },
+];
+
+/**
+ * Sentences for the fields that must be filled in or corrected before a file can be written.
+ *
+ * @param {Kind} kind
+ * @param {PageState} state
+ * @param {Fields} fields
+ * @returns {FieldErrors}
+ */
+export function missingFor(kind, { scene, place, altitude }, fields) {
+  const needsOrigin = kind === "map" || kind === "mission";
+  return {
+    ...(needsOrigin && !scene.origin ? missingPlace(place) : {}),
+    ...(kind === "mission" ? missingForMission(altitude) : {}),
+    ...(kind === "picture" ? {} : typos(fields)),
+  };
+}
+
+/** @param {PageState["place"]} place @returns {FieldErrors} */
+function missingPlace({ latitude_deg, longitude_deg }) {
+  const sentence = "This file needs the position of (0, 0) on Earth.";
+  return {
+    ...(latitude_deg === undefined ? { latitude: sentence } : {}),
+    ...(longitude_deg === undefined ? { longitude: sentence } : {}),
+  };
+}
+
+/** The errors in the texts of place and altitude. @param {Fields} fields @returns {FieldErrors} */
+const typos = (fields) =>
+  Object.fromEntries(
+    ["latitude", "longitude", "altitude", "home-altitude"]
+      .map((id) => [id, fields[id].typo()])
+      .filter(([, sentence]) => sentence !== ""),
+  );
+
+/**
+ * The altitude that is written into a file.
+ *
+ * @param {Kind} kind
+ * @param {Altitude} altitude
+ * @returns {Altitude}
+ */
+export function altitudeFor(kind, altitude) {
+  if (kind === "picture") return {};
+  return kind === "mission" ? missionAltitude(altitude) : mapAltitude(altitude);
+}
+
+/**
+ * The message after a file was saved.
+ *
+ * @param {string} name
+ * @param {Kind} kind
+ * @param {PageState} state
+ */
+export function savedText(name, kind, { altitude, units }) {
+  if (kind === "mission") return `${name} saved: ${altitudeText(missionAltitude(altitude), units)}.`;
+  const isLost = altitude.altitude_m !== undefined && altitudeFor(kind, altitude).altitude_m === undefined;
+  if (kind === "picture" || !isLost) return `${name} saved.`;
+  return `${name} saved without the altitude: it is not known above mean sea level.`;
+}

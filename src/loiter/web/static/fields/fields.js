@@ -1,0 +1,137 @@
+// @ts-check
+/**
+ * All fields of the page, and their error marks: those of the scene, of the position of (0, 0) on Earth, and of the
+ * altitude.
+ *
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/actions.js").Actions} Actions
+ * @typedef {import("../plan/camera.js").PlanCamera} PlanCamera
+ * @typedef {import("./input_fields.js").Field} Field
+ * @typedef {import("../shared/types.js").Origin} Origin
+ * @typedef {import("./input_fields.js").Source} Source
+ * @typedef {import("../shared/types.js").Altitude} Altitude
+ *
+ * @typedef {Record<string, Field>} Fields  by their ids
+ */
+import { REFERENCES } from "../scene/link.js";
+import { byId, show } from "../shared/dom.js";
+import { needsHome } from "./altitude.js";
+import { choiceField, numberField } from "./input_fields.js";
+import { sceneFields } from "./scene_fields.js";
+
+/**
+ * @param {Store} store
+ * @param {Actions} actions
+ * @param {PlanCamera} camera  follows a scene that is typed
+ * @returns {Fields}
+ */
+export function createFields(store, actions, camera) {
+  const fields = {
+    ...sceneFields(store, (scene, event) => {
+      actions.changeScene(scene, event);
+      camera.keepInView();
+    }),
+    ...originFields(store, actions),
+    ...altitudeFields(store),
+  };
+  unitsChoice(store);
+  markErrors(store, fields, "scene");
+  markErrors(store, fields, "file");
+  return fields;
+}
+
+/** @param {Store} store */
+function unitsChoice(store) {
+  const select = byId("units", HTMLSelectElement);
+  select.addEventListener("change", () => store.update({ units: select.value === "aviation" ? "aviation" : "metric" }));
+  store.watch(
+    ({ units }) => [units],
+    ({ units }) => (select.value = units),
+  );
+}
+
+/**
+ * Mark the fields that have errors, and open the section that hides them.
+ *
+ * @param {Store} store
+ * @param {Fields} fields
+ * @param {"scene" | "file"} subject
+ */
+function markErrors(store, fields, subject) {
+  /** @type {string[]} */
+  let marked = [];
+  store.watch(
+    ({ fieldErrors }) => [fieldErrors[subject]],
+    ({ fieldErrors }) => {
+      for (const id of marked) fields[id].refuse(null);
+      marked = Object.keys(fieldErrors[subject]).filter((id) => fields[id]);
+      for (const id of marked) {
+        fields[id].refuse(fieldErrors[subject][id]);
+        byId(id, HTMLElement).closest("details")?.setAttribute("open", "");
+      }
+    },
+  );
+}
+
+/**
+ * @param {Store} store
+ * @param {Actions} actions
+ */
+export function originFields(store, actions) {
+  /** @param {keyof Origin} name @returns {Source} */
+  const sourceOf = (name) => ({
+    quantity: () => "degrees",
+    units: () => store.get().units,
+    get: () => store.get().place[name],
+    set(value, event) {
+      const place = { ...store.get().place, [name]: value };
+      store.update({ place });
+      actions.changeScene({ ...store.get().scene, origin: originOf(place) }, event);
+    },
+    optional: true,
+  });
+  const fields = {
+    latitude: numberField(byId("latitude", HTMLInputElement), sourceOf("latitude_deg")),
+    longitude: numberField(byId("longitude", HTMLInputElement), sourceOf("longitude_deg")),
+  };
+  store.watch(
+    ({ place }) => [place],
+    () => Object.values(fields).forEach((field) => field.draw()),
+  );
+  return fields;
+}
+
+/** The origin, or null while a number is missing. @param {Partial<Origin>} place @returns {Origin | null} */
+const originOf = ({ latitude_deg, longitude_deg }) =>
+  latitude_deg !== undefined && longitude_deg !== undefined ? { latitude_deg, longitude_deg } : null;
+
+/** @param {Store} store */
+export function altitudeFields(store) {
+  /** @param {Altitude} changes */
+  const change = (changes) => store.update({ altitude: { ...store.get().altitude, ...changes } });
+  /** @param {"altitude_m" | "home_altitude_m"} name @returns {Source} */
+  const sourceOf = (name) => ({
+    quantity: () => "length",
+    units: () => store.get().units,
+    get: () => store.get().altitude[name],
+    set: (value) => change({ [name]: value }),
+    optional: true,
+  });
+  const fields = {
+    altitude: numberField(byId("altitude", HTMLInputElement), sourceOf("altitude_m")),
+    "altitude-reference": choiceField(
+      byId("altitude-reference", HTMLSelectElement),
+      () => store.get().altitude.altitude_reference ?? "",
+      (value) => change({ altitude_reference: REFERENCES.find((reference) => reference === value) }),
+    ),
+    "home-altitude": numberField(byId("home-altitude", HTMLInputElement), sourceOf("home_altitude_m")),
+  };
+  store.watch(
+    ({ altitude, units }) => [altitude, units],
+    ({ altitude }) => {
+      show(byId("home", HTMLElement), needsHome(altitude));
+      for (const field of Object.values(fields)) field.draw();
+    },
+  );
+  return fields;
+}

@@ -1,0 +1,156 @@
+// @ts-check
+/**
+ * Fields for numbers and choices. A text that is no number, or a number that the service refuses, is marked, with a
+ * sentence below the field. Until it is corrected the previous number stays in use.
+ *
+ * @typedef {import("../shared/types.js").Units} Units
+ * @typedef {import("../shared/units.js").Quantity} Quantity
+ *
+ * @typedef {object} Source  the number that a field shows and sets
+ * @property {() => Quantity} quantity
+ * @property {() => Units} units
+ * @property {() => number | undefined} get  in metres, metres per second or degrees; undefined if there is none
+ * @property {(value: number | undefined, event: Event) => void} set
+ * @property {boolean} [optional]  whether the field may be empty
+ *
+ * @typedef {object} Field
+ * @property {() => void} draw  show the present number
+ * @property {(sentence: string | null) => void} refuse  mark the number as wrong, or remove the mark
+ * @property {() => string} typo  the error in the text, or nothing
+ */
+import { html } from "../shared/dom.js";
+import { sixDigits, unitOf } from "../shared/units.js";
+import { nameOf } from "./field_names.js";
+import { parseNumber } from "./number_text.js";
+
+/**
+ * A new line below a field for the sentence that says what is wrong with it.
+ *
+ * @param {HTMLElement} field
+ */
+export function errorLine(field) {
+  const line = html("p", { id: `${field.id}-fault`, class: "fault", role: "alert" });
+  (field.closest("label, .pair") ?? field).after(line);
+  field.setAttribute("aria-describedby", line.id);
+  return line;
+}
+
+/**
+ * @param {HTMLElement} field
+ * @param {boolean} invalid
+ */
+export const markInvalid = (field, invalid) => field.setAttribute("aria-invalid", String(invalid));
+
+const TYPING_PAUSE_MS = 500; // an error is shown when the typing pauses: "12 k" may become "12 km"
+
+/** @type {Record<string, number>} */
+const ARROWS = { ArrowUp: 1, ArrowDown: -1 };
+
+/** @implements {Field} */
+class NumberField {
+  /**
+   * @param {HTMLInputElement} input
+   * @param {Source} source
+   */
+  constructor(input, source) {
+    this.input = input;
+    this.source = source;
+    this.line = errorLine(input);
+    this.timer = 0;
+    this.textError = "";
+    this.numberError = "";
+    /** @type {number | undefined} */
+    this.known = undefined; // the number of the text, or the one that stays in use while the text is wrong
+    input.addEventListener("input", (event) => this.read(event));
+    input.addEventListener("blur", () => this.draw());
+    input.addEventListener("keydown", (event) => this.step(event));
+  }
+
+  draw() {
+    const { input, source } = this;
+    const { name, size } = unitOf(source.quantity(), source.units());
+    const suffix = input.nextElementSibling;
+    if (suffix) suffix.textContent = name;
+    const value = source.get();
+    // A text that is being typed, or is wrong, stays until something else changes the number.
+    if (value === this.known && (this.textError !== "" || this.hasFocus())) return this.mark();
+    [this.textError, this.known] = ["", value];
+    this.mark();
+    input.value = value === undefined ? "" : String(sixDigits(value / size));
+  }
+
+  /** @param {string | null} sentence */
+  refuse(sentence) {
+    this.numberError = sentence ?? "";
+    this.mark();
+  }
+
+  typo() {
+    return this.textError;
+  }
+
+  hasFocus() {
+    return document.activeElement === this.input;
+  }
+
+  /** Take over what is typed. @param {Event} event */
+  read(event) {
+    const { input, source } = this;
+    const isEmpty = source.optional && input.value.trim() === "";
+    const entry = isEmpty ? { value: undefined } : parseNumber(input.value, source.quantity(), source.units());
+    this.textError = "problem" in entry ? `${nameOf(input)} ${entry.problem}` : "";
+    this.numberError = "";
+    this.known = "value" in entry ? entry.value : source.get();
+    this.mark();
+    if ("value" in entry) source.set(entry.value, event);
+  }
+
+  /** Change the number with the arrow keys. @param {KeyboardEvent} event */
+  step(event) {
+    const { input, source } = this;
+    const value = source.get();
+    const step = ARROWS[event.key];
+    if (!step || value === undefined || this.textError !== "") return;
+    const { size } = unitOf(source.quantity(), source.units());
+    input.value = String(sixDigits(value / size + step));
+    this.read(event);
+    event.preventDefault();
+  }
+
+  mark() {
+    const sentence = this.textError || this.numberError;
+    markInvalid(this.input, sentence !== "");
+    clearTimeout(this.timer);
+    const write = () => (this.line.textContent = sentence);
+    const isNew = this.textError !== "" && this.hasFocus() && this.line.textContent === "";
+    if (isNew) this.timer = window.setTimeout(write, TYPING_PAUSE_MS);
+    else write();
+  }
+}
+
+/**
+ * @param {HTMLInputElement} input
+ * @param {Source} source
+ * @returns {Field}
+ */
+export const numberField = (input, source) => new NumberField(input, source);
+
+/**
+ * @param {HTMLSelectElement} select
+ * @param {() => string} get
+ * @param {(value: string) => void} set
+ * @returns {Field}
+ */
+export function choiceField(select, get, set) {
+  const line = errorLine(select);
+  /** @param {string | null} sentence */
+  function refuse(sentence) {
+    line.textContent = sentence ?? "";
+    markInvalid(select, sentence !== null);
+  }
+  select.addEventListener("change", () => {
+    refuse(null);
+    set(select.value);
+  });
+  return { draw: () => (select.value = get()), refuse, typo: () => "" };
+}

@@ -1,0 +1,168 @@
+// @ts-check
+/**
+ * The fields for the numbers of a scene.
+ *
+ * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../shared/types.js").Limit} Limit
+ * @typedef {import("../shared/types.js").Turn} Turn
+ * @typedef {import("../shared/units.js").Quantity} Quantity
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("./input_fields.js").Source} Source
+ *
+ * @typedef {(scene: Scene, event: Event) => void} Change
+ *
+ * @typedef {object} Part  a number of a scene
+ * @property {Quantity} quantity
+ * @property {(scene: Scene) => number | undefined} get
+ * @property {(scene: Scene, value: number) => Scene} set
+ */
+import { LIMITS, limitFor, limitOf, turnRadiusOf, withOrbit, withPose, withWind } from "../scene/scene.js";
+import { byId } from "../shared/dom.js";
+import { tidy } from "../shared/units.js";
+import { numberField } from "./input_fields.js";
+
+/** @param {Quantity} quantity @param {keyof Scene["pose"]} name @returns {Part} */
+const posePart = (quantity, name) => ({
+  quantity,
+  get: ({ pose }) => pose[name],
+  set: (scene, value) => withPose(scene, { [name]: value }),
+});
+
+/** @param {Quantity} quantity @param {Exclude<keyof Scene["orbit"], "turn">} name @returns {Part} */
+const orbitPart = (quantity, name) => ({
+  quantity,
+  get: ({ orbit }) => orbit[name],
+  set: (scene, value) => withOrbit(scene, { [name]: value }),
+});
+
+/** @type {Record<string, Part>} */
+const PARTS = {
+  east: posePart("length", "east_m"),
+  north: posePart("length", "north_m"),
+  course: posePart("degrees", "heading_deg"),
+  airspeed: {
+    quantity: "speed",
+    get: ({ aircraft }) => aircraft.airspeed_m_s,
+    set: (scene, airspeed_m_s) => ({ ...scene, aircraft: { ...scene.aircraft, airspeed_m_s } }),
+  },
+  "centre-east": orbitPart("length", "east_m"),
+  "centre-north": orbitPart("length", "north_m"),
+  "circle-radius": orbitPart("length", "radius_m"),
+  "velocity-east": orbitPart("speed", "velocity_east_m_s"),
+  "velocity-north": orbitPart("speed", "velocity_north_m_s"),
+  "wind-speed": {
+    quantity: "speed",
+    get: ({ wind }) => wind?.speed_m_s ?? 0,
+    set: (scene, speed_m_s) => withWind(scene, { speed_m_s, from_deg: scene.wind?.from_deg ?? 270 }),
+  },
+  "wind-from": {
+    quantity: "degrees",
+    get: ({ wind }) => wind?.from_deg,
+    set: (scene, from_deg) => ({ ...scene, wind: scene.wind && { ...scene.wind, from_deg } }),
+  },
+};
+
+/** @type {Record<Limit, Quantity>} */
+const LIMIT_QUANTITIES = { max_bank_deg: "degrees", min_turn_radius_m: "length", max_turn_rate_deg_s: "rate" };
+
+/** The number of the limit that a scene gives. @param {Scene} scene @returns {Part} */
+const limitPart = ({ aircraft }) => ({
+  quantity: LIMIT_QUANTITIES[limitOf(aircraft)],
+  get: (scene) => scene.aircraft[limitOf(aircraft)],
+  set: (scene, value) => ({ ...scene, aircraft: { ...scene.aircraft, [limitOf(aircraft)]: value } }),
+});
+
+/**
+ * The number that a field shows.
+ *
+ * @param {string} id
+ * @param {Scene} scene
+ * @returns {Part}
+ */
+const partOf = (id, scene) => (id === "limit" ? limitPart(scene) : PARTS[id]);
+
+/**
+ * @param {Store} store
+ * @param {Change} change
+ */
+export function sceneFields(store, change) {
+  const ids = [...Object.keys(PARTS), "limit"];
+  const fields = Object.fromEntries(
+    ids.map((id) => [id, numberField(byId(id, HTMLInputElement), sourceOf(id, store, change))]),
+  );
+  limitChoice(store, change);
+  turnChoice(store, change);
+  store.watch(
+    ({ scene, units }) => [scene, units],
+    ({ scene }) => {
+      byId("wind-from", HTMLInputElement).disabled = scene.wind === null;
+      for (const field of Object.values(fields)) field.draw();
+    },
+  );
+  return fields;
+}
+
+/**
+ * The number of the scene that a field shows and sets.
+ *
+ * @param {string} id
+ * @param {Store} store
+ * @param {Change} change
+ * @returns {Source}
+ */
+function sourceOf(id, store, change) {
+  const part = () => partOf(id, store.get().scene);
+  return {
+    quantity: () => part().quantity,
+    units: () => store.get().units,
+    get: () => part().get(store.get().scene),
+    set(value, event) {
+      if (value !== undefined) change(part().set(store.get().scene, value), event);
+    },
+  };
+}
+
+/**
+ * The choice between bank, turn radius and turn rate. The new limit keeps the turn radius.
+ *
+ * @param {Store} store
+ * @param {Change} change
+ */
+function limitChoice(store, change) {
+  const select = byId("limit-kind", HTMLSelectElement);
+  select.addEventListener("change", (event) => {
+    const { scene } = store.get();
+    const limit = LIMITS.find((name) => name === select.value) ?? "max_bank_deg";
+    const { airspeed_m_s } = scene.aircraft;
+    const value = limitFor(limit, airspeed_m_s, turnRadiusOf(scene.aircraft));
+    change({ ...scene, aircraft: { airspeed_m_s, [limit]: tidy(value, value / 1000) } }, event);
+  });
+  store.watch(
+    ({ scene }) => [limitOf(scene.aircraft)],
+    ({ scene }) => {
+      select.value = limitOf(scene.aircraft);
+      byId("limit", HTMLInputElement).setAttribute("aria-label", select.selectedOptions[0].text);
+    },
+  );
+}
+
+/**
+ * The choice of the direction of the hold.
+ *
+ * @param {Store} store
+ * @param {Change} change
+ */
+function turnChoice(store, change) {
+  /** @type {NodeListOf<HTMLInputElement>} */
+  const inputs = document.querySelectorAll("input[name=turn]");
+  for (const input of inputs)
+    input.addEventListener("change", (event) =>
+      change(withOrbit(store.get().scene, { turn: /** @type {Turn} */ (input.value) }), event),
+    );
+  store.watch(
+    ({ scene }) => [scene.orbit.turn],
+    ({ scene }) => {
+      for (const input of inputs) input.checked = input.value === scene.orbit.turn;
+    },
+  );
+}

@@ -1,0 +1,113 @@
+// @ts-check
+/**
+ * The map of the reduced plane: the word that wins in each region, the curves between the regions, and the state of the
+ * aircraft (Fig. 4 of the paper).
+ *
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/actions.js").Actions} Actions
+ * @typedef {import("../shared/types.js").Synthesis} Synthesis
+ * @typedef {import("../shared/geometry.js").View} View
+ */
+import { byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
+import { toScreen } from "../shared/geometry.js";
+import { splitAnswer } from "../shared/maneuver.js";
+import { ghostOf } from "../state/page_state.js";
+import { drawAxes, drawCurve, drawReducedPath, drawTargets } from "./map_lines.js";
+import { drawRegionLabels, paintRegions } from "./regions.js";
+import { stateHandle } from "./state_handle.js";
+
+/**
+ * @param {Store} store
+ * @param {Actions} actions
+ */
+export function mapView(store, actions) {
+  const root = byId("reduced", SVGSVGElement);
+  const layers = svgLayers("axes", "curves", "way", "words", "targets");
+  const ghost = svg("circle", { r: 5, class: "ghostdot" });
+  const state = svg("g", { id: "state", "data-needs-plan": "" });
+  root.append(...Object.values(layers), ghost, state);
+
+  observeSize(byId("map", HTMLElement), (side) => {
+    setSize(root, side, side);
+    store.update({ mapSide: side });
+  });
+  drawSynthesis(layers, store);
+  drawPlan(layers, ghost, store);
+  stateHandle(state, root, store, actions);
+  drawNotes(store);
+}
+
+/**
+ * The view of the map: it reaches half a cell beyond the outer points of the grid, which are middles of cells.
+ *
+ * @param {{synthesis: Synthesis | null, mapSide: number}} state
+ * @returns {View}
+ */
+export function mapViewOf({ synthesis, mapSide }) {
+  const x = synthesis?.x ?? [-1, 1];
+  const reach = (x[x.length - 1] * x.length) / (x.length - 1);
+  return { scale: mapSide / (2 * reach), east: 0, north: 0, width: mapSide, height: mapSide };
+}
+
+/**
+ * @param {Record<string, SVGGElement>} layers
+ * @param {Store} store
+ */
+function drawSynthesis(layers, store) {
+  const canvas = byId("regions", HTMLCanvasElement);
+  store.watch(
+    ({ synthesis, theme }) => [synthesis, theme],
+    ({ synthesis }) => synthesis && paintRegions(canvas, synthesis),
+  );
+  store.watch(
+    ({ synthesis, mapSide }) => [synthesis, mapSide],
+    (state) => {
+      const { synthesis } = state;
+      if (!synthesis) return;
+      const view = mapViewOf(state);
+      layers.axes.replaceChildren(...drawAxes(view));
+      layers.curves.replaceChildren(...synthesis.curves.map((curve) => drawCurve(view, curve)));
+      layers.words.replaceChildren(...drawRegionLabels(view, synthesis));
+      layers.targets.replaceChildren(...drawTargets(view, synthesis));
+    },
+  );
+}
+
+/**
+ * @param {Record<string, SVGGElement>} layers
+ * @param {SVGCircleElement} ghost
+ * @param {Store} store
+ */
+function drawPlan(layers, ghost, store) {
+  store.watch(
+    ({ answer, synthesis, mapSide }) => [answer, synthesis, mapSide],
+    (state) => {
+      const best = state.answer ? splitAnswer(state.answer).best : [];
+      layers.way.replaceChildren(...best.flatMap((maneuver) => drawReducedPath(mapViewOf(state), maneuver)));
+    },
+  );
+  store.watch(
+    (state) => [state.playback, state.answer, state.synthesis, state.mapSide],
+    (state) => {
+      const instant = ghostOf(state);
+      show(ghost, instant !== null);
+      if (!instant) return;
+      const [cx, cy] = toScreen(mapViewOf(state), instant.x, instant.y);
+      setAttributes(ghost, { cx: cx.toFixed(2), cy: cy.toFixed(2) });
+    },
+  );
+}
+
+/** The title of the map, and the notes where it does not fit the scene. @param {Store} store */
+function drawNotes(store) {
+  const box = byId("map", HTMLElement);
+  store.watch(
+    ({ wantedMap, faults }) => [wantedMap, faults.map],
+    ({ wantedMap, faults }) => {
+      byId("map-title", HTMLElement).textContent = wantedMap?.title ?? "";
+      byId("map-fault", HTMLElement).textContent = faults.map?.sentence ?? "";
+      box.classList.toggle("drifts", wantedMap?.drifts === true);
+      box.classList.toggle("missing", faults.map !== null);
+    },
+  );
+}

@@ -1,0 +1,147 @@
+// @ts-check
+/**
+ * The camera of the plan view: which part of the plane the view shows.
+ *
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/page_state.js").Camera} Camera
+ * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../shared/types.js").Answer} Answer
+ * @typedef {import("../shared/geometry.js").View} View
+ * @typedef {import("../shared/geometry.js").Point} Point
+ * @typedef {ReturnType<typeof createCamera>} PlanCamera
+ */
+import { contains, fitted, unitVector, zoomed } from "../shared/geometry.js";
+import { splitAnswer } from "../shared/maneuver.js";
+import { tidy } from "../shared/units.js";
+import { HEADING_HANDLE_PX } from "./handles.js";
+
+// Pixels between the contents and the edges, for buttons, dial, labels and key; fewer on a small screen.
+const MARGINS = { left: 84, right: 64, top: 40, bottom: 64 };
+const FULL_MARGINS_PX = { width: 640, height: 420 };
+
+const KEPT_MARGIN_PX = 16;
+
+/**
+ * The view that the user has chosen, for a link: its middle and width in metres; null if the user has not moved it.
+ *
+ * @param {Camera} camera
+ */
+export function spanOf({ view, moved }) {
+  if (!moved) return null;
+  return [view.east, view.north, view.width / view.scale].map((metres) => tidy(metres, 0.1 / view.scale));
+}
+
+/** @param {Store} store */
+export function createCamera(store) {
+  const viewNow = () => store.get().camera.view;
+  const isInView = () => contains(viewNow(), contentsOf(store.get()), KEPT_MARGIN_PX);
+  /** @param {View} view */
+  const move = (view) => store.update({ camera: { view, moved: true } });
+  const fit = () => store.update(fitState(store.get()));
+
+  return {
+    view: viewNow,
+    /** Show a view that the user has chosen. */
+    move,
+    /** Show all of the scene. */
+    fit,
+    /** Show all of the scene, unless it is in view. */
+    keepInView: () => isInView() || fit(),
+    /** @param {number} factor */
+    zoom: (factor) => move(zoomed(viewNow(), middleOf(viewNow()), factor)),
+    /** @param {number[]} span middle east and north, width; metres */
+    showSpan: ([east, north, wide]) => move({ ...viewNow(), east, north, scale: viewNow().width / wide }),
+    /** A function that goes back to the present view. */
+    bookmark: () => {
+      const { camera } = store.get();
+      return () => store.update({ camera });
+    },
+    /** @param {number} width @param {number} height pixels */
+    resize: (width, height) => {
+      const { view, moved } = store.get().camera;
+      if (view.width === width && view.height === height) return;
+      store.update({ camera: { view: { ...view, width, height }, moved } });
+      if (!moved && !isInView()) fit();
+    },
+  };
+}
+
+/** The middle of a view, pixels. @param {View} view @returns {Point} */
+export const middleOf = ({ width, height }) => [width / 2, height / 2];
+
+/**
+ * Show all of the scene after its first answer, then the view of its link.
+ *
+ * @param {Store} store
+ * @param {PlanCamera} camera
+ */
+export function showOpenedScenes(store, camera) {
+  store.watch(
+    ({ answeredRevision }) => [answeredRevision],
+    ({ opening, answeredRevision, failure }) => {
+      if (!opening || answeredRevision < opening.revision) return;
+      camera.fit();
+      // The answer that comes later must be shown whole, too.
+      if (failure?.name === "unreachable") return;
+      if (opening.span) camera.showSpan(opening.span);
+      store.update({ opening: null });
+    },
+  );
+}
+
+/** @param {{camera: Camera, scene: Scene, answer: Answer | null}} state */
+function fitState({ camera, scene, answer }) {
+  const contents = contentsOf({ scene, answer });
+  const margins = marginsOf(camera.view);
+  const view = fitted(camera.view, contents, margins);
+  // The handle of the heading has the same length at every scale; a second step brings it into view.
+  const [east, north] = unitVector(scene.pose.heading_deg);
+  const reach = HEADING_HANDLE_PX / view.scale;
+  contents.push([scene.pose.east_m + reach * east, scene.pose.north_m + reach * north]);
+  return {
+    camera: { view: fitted(view, contents, margins), moved: false },
+    radiusBearing_deg: freeBearing(scene, contents.slice(0, -1)),
+  };
+}
+
+/** @param {View} view */
+function marginsOf({ width, height }) {
+  const share = Math.min(1, width / FULL_MARGINS_PX.width, height / FULL_MARGINS_PX.height);
+  const { left, right, top, bottom } = MARGINS;
+  return { left: left * share, right: right * share, top: top * share, bottom: bottom * share };
+}
+
+/**
+ * Points of all that a view should show: aircraft, circle, optimal paths.
+ *
+ * @param {{scene: Scene, answer: Answer | null}} state
+ * @returns {Point[]}
+ */
+function contentsOf({ scene: { pose, orbit }, answer }) {
+  const best = answer ? splitAnswer(answer).best : [];
+  const centres = best.map(({ join_over_ground: centre }) => [centre.centre_east_m, centre.centre_north_m]);
+  const r = Math.abs(orbit.radius_m);
+  return [
+    [pose.east_m, pose.north_m],
+    ...best.flatMap(({ track }) => track.east_m.map((east, i) => /** @type {Point} */ ([east, track.north_m[i]]))),
+    ...[[orbit.east_m, orbit.north_m], ...centres].flatMap(([east, north]) => [
+      /** @type {Point} */ ([east - r, north - r]),
+      /** @type {Point} */ ([east + r, north + r]),
+    ]),
+  ];
+}
+
+/**
+ * The bearing at which the circle is farthest from all other points: there is room for the handle of the radius.
+ *
+ * @param {Scene} scene
+ * @param {Point[]} points
+ */
+function freeBearing({ orbit }, points) {
+  const bearings = Array.from({ length: 24 }, (_, k) => 15 * k + 7);
+  const distances = bearings.map((bearing) => {
+    const [east, north] = unitVector(bearing).map((part) => part * orbit.radius_m);
+    return Math.min(...points.map(([x, y]) => Math.hypot(x - orbit.east_m - east, y - orbit.north_m - north)));
+  });
+  return bearings[distances.indexOf(Math.max(...distances))];
+}

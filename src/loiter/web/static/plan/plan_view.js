@@ -1,0 +1,137 @@
+// @ts-check
+/**
+ * The plan view: grid, circle, paths, ghost, and the handles that change the scene.
+ *
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/page_state.js").PageState} PageState
+ * @typedef {import("../state/actions.js").Actions} Actions
+ * @typedef {import("./camera.js").PlanCamera} PlanCamera
+ */
+import { byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
+import { positionToScreen } from "../shared/geometry.js";
+import { splitAnswer } from "../shared/maneuver.js";
+import { ghostOf, shownTime } from "../state/page_state.js";
+import { drawCircle, drawGrid } from "./background.js";
+import { showOpenedScenes } from "./camera.js";
+import { gestures } from "./gestures.js";
+import { createHandles } from "./handle_layer.js";
+import { AEROPLANE } from "./handles.js";
+import { drawMarks } from "./marks.js";
+import { drawBest, drawOther, placeCallout } from "./paths.js";
+
+/**
+ * @param {Store} store
+ * @param {Actions} actions
+ * @param {PlanCamera} camera
+ */
+export function planView(store, actions, camera) {
+  const root = byId("plan", SVGSVGElement);
+  const layers = svgLayers("grid", "circle", "others", "best", "marks", "wind", "handles");
+  const { handles, ...below } = layers;
+  const ghost = svg("g", { class: "ghost" }, [svg("path", { d: AEROPLANE })]);
+  const callout = svg("text", { class: "halo callout" });
+  root.append(...Object.values(below), ghost, callout, handles);
+
+  observeSize(byId("plan-box", HTMLElement), (width, height) => {
+    setSize(root, width, height);
+    camera.resize(width, height);
+  });
+  camera.fit();
+  gestures(root, camera);
+  zoomButtons(camera);
+  createHandles(root, handles, store, actions);
+  watchScene(root, layers, store, actions);
+  watchHighlight(root, layers.others, callout, store);
+  watchGhost(ghost, store);
+  showOpenedScenes(store, camera);
+}
+
+/** @param {PlanCamera} camera */
+function zoomButtons(camera) {
+  byId("fit", HTMLButtonElement).addEventListener("click", camera.fit);
+  byId("zoom-in", HTMLButtonElement).addEventListener("click", () => camera.zoom(1.4));
+  byId("zoom-out", HTMLButtonElement).addEventListener("click", () => camera.zoom(1 / 1.4));
+}
+
+/**
+ * @param {SVGSVGElement} root
+ * @param {Record<string, SVGGElement>} layers
+ * @param {Store} store
+ * @param {Actions} actions
+ */
+function watchScene(root, layers, store, actions) {
+  store.watch(
+    ({ camera, units }) => [camera, units],
+    ({ camera: { view }, units }) => {
+      setAttributes(root, { "data-scale": view.scale, "data-east": view.east, "data-north": view.north });
+      layers.grid.replaceChildren(...drawGrid(view, units));
+    },
+  );
+  store.watch(
+    ({ camera, scene, answer }) => [camera, scene, answer],
+    ({ camera, scene, answer }) => {
+      root.setAttribute("data-scene", JSON.stringify(scene));
+      layers.circle.replaceChildren(...drawCircle(camera.view, scene, answer));
+    },
+  );
+  // Not after a change of the scene: the paths wait for its answer.
+  store.watch(
+    ({ camera, answer }) => [camera, answer],
+    (state) => drawPaths(layers, state, actions.highlight),
+  );
+}
+
+/**
+ * @param {Record<string, SVGGElement>} layers
+ * @param {PageState} state
+ * @param {(index: number | null) => void} highlight
+ */
+function drawPaths(layers, { camera: { view }, scene, answer }, highlight) {
+  if (!answer) return;
+  const { best, others } = splitAnswer(answer);
+  layers.best.replaceChildren(...best.flatMap((maneuver) => drawBest(view, maneuver)));
+  layers.others.replaceChildren(...others.map((other, i) => drawOther(view, other, i, scene, highlight)));
+  layers.marks.replaceChildren(...best.flatMap((maneuver) => drawMarks(view, maneuver, scene)));
+}
+
+/**
+ * Show which of the other paths is under the pointer, and how much later it joins.
+ *
+ * @param {SVGSVGElement} root
+ * @param {SVGGElement} others
+ * @param {SVGTextElement} callout
+ * @param {Store} store
+ */
+function watchHighlight(root, others, callout, store) {
+  store.watch(
+    ({ highlighted, answer, camera }) => [highlighted, answer, camera],
+    ({ highlighted, answer, camera }) => {
+      const other = answer && highlighted !== null ? splitAnswer(answer).others[highlighted] : undefined;
+      Array.from(others.children).forEach((child, i) => child.classList.toggle("lit", i === highlighted));
+      root.classList.toggle("comparing", other !== undefined);
+      show(callout, other !== undefined);
+      if (other) placeCallout(callout, camera.view, other);
+    },
+  );
+}
+
+/**
+ * Move the ghost along the path.
+ *
+ * @param {SVGGElement} ghost
+ * @param {Store} store
+ */
+function watchGhost(ghost, store) {
+  store.watch(
+    (state) => [shownTime(state), state.playback.playing, state.answer, state.camera],
+    (state) => {
+      const { camera } = state;
+      const instant = ghostOf(state);
+      show(ghost, instant !== null);
+      if (!instant) return;
+      const [x, y] = positionToScreen(camera.view, instant);
+      const turned = `rotate(${instant.heading_deg.toFixed(2)})`;
+      ghost.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) ${turned}`);
+    },
+  );
+}

@@ -1,0 +1,169 @@
+// @ts-check
+/**
+ * Links to a scene: its numbers as the fragment of the address, named like the options of the command line.
+ *
+ * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../shared/types.js").Altitude} Altitude
+ * @typedef {import("../shared/types.js").Limit} Limit
+ * @typedef {import("../shared/types.js").Reference} Reference
+ * @typedef {import("../shared/types.js").Turn} Turn
+ * @typedef {import("../shared/types.js").Units} Units
+ *
+ * @typedef {object} Linked
+ * @property {Scene} scene
+ * @property {Units} units
+ * @property {Altitude} altitude
+ * @property {number[] | null} view  middle east and north, width: metres; null unless the user has moved the view
+ */
+import { LIMITS, limitOf, orbitMoves, withWind } from "./scene.js";
+
+/** @type {Record<Limit, string>} */
+const LIMIT_KEYS = { max_bank_deg: "bank", min_turn_radius_m: "turn-radius", max_turn_rate_deg_s: "turn-rate" };
+
+/** @type {Reference[]} */
+export const REFERENCES = ["msl", "home", "ground"];
+
+/**
+ * The fragment of a link. Altitudes that are not given are left out.
+ *
+ * @param {Linked} linked
+ * @returns {string}
+ */
+export function toLink({ scene, units, altitude, view }) {
+  const parts = [...sceneParts(scene), ...altitudeParts(altitude)];
+  if (view) parts.push(`view=${view}`);
+  if (units !== "metric") parts.push(`units=${units}`);
+  return `#${parts.join("&")}`;
+}
+
+/** @param {Scene} scene */
+function sceneParts(scene) {
+  const { pose, orbit, aircraft, wind, tolerance_m, origin } = scene;
+  const limit = limitOf(aircraft);
+  const parts = [
+    `pose=${pose.east_m},${pose.north_m},${pose.heading_deg}`,
+    `orbit=${orbit.east_m},${orbit.north_m},${orbit.radius_m}`,
+    `turn=${orbit.turn}`,
+    `airspeed=${aircraft.airspeed_m_s}`,
+    `${LIMIT_KEYS[limit]}=${aircraft[limit]}`,
+  ];
+  if (wind) parts.push(`wind=${wind.speed_m_s},${wind.from_deg}`);
+  if (orbitMoves(scene)) parts.push(`orbit-velocity=${orbit.velocity_east_m_s},${orbit.velocity_north_m_s}`);
+  if (tolerance_m !== 0) parts.push(`tolerance=${tolerance_m}`);
+  if (origin) parts.push(`origin=${origin.latitude_deg},${origin.longitude_deg}`);
+  return parts;
+}
+
+/** @param {Altitude} altitude */
+function altitudeParts({ altitude_m, altitude_reference, home_altitude_m }) {
+  const parts = [];
+  if (altitude_m !== undefined) parts.push(`altitude=${altitude_m}`);
+  if (altitude_reference) parts.push(`altitude-reference=${altitude_reference}`);
+  if (home_altitude_m !== undefined) parts.push(`home-altitude=${home_altitude_m}`);
+  return parts;
+}
+
+/**
+ * What a fragment written by `toLink` links to. Throws an Error with a sentence if the fragment has an error.
+ *
+ * @param {string} fragment
+ * @returns {Linked}
+ */
+export function fromLink(fragment) {
+  const parameters = new URLSearchParams(fragment.replace(/^#/, ""));
+  return {
+    scene: sceneOf(parameters),
+    units: parameters.get("units") === "aviation" ? "aviation" : "metric",
+    altitude: altitudeOf(parameters),
+    view: parameters.has("view") ? viewOf(numbers(parameters, "view", 3)) : null,
+  };
+}
+
+/**
+ * @param {URLSearchParams} parameters
+ * @returns {Scene}
+ */
+function sceneOf(parameters) {
+  const [east_m, north_m, heading_deg] = numbers(parameters, "pose", 3);
+  const scene = {
+    pose: { east_m, north_m, heading_deg },
+    orbit: orbitOf(parameters),
+    aircraft: aircraftOf(parameters),
+    wind: null,
+    tolerance_m: numbers(parameters, "tolerance", 1, [0])[0],
+    origin: parameters.has("origin") ? originOf(numbers(parameters, "origin", 2)) : null,
+  };
+  const [speed_m_s, from_deg] = numbers(parameters, "wind", 2, [0, 0]);
+  return withWind(scene, { speed_m_s, from_deg });
+}
+
+/** @param {URLSearchParams} parameters */
+function orbitOf(parameters) {
+  const [east_m, north_m, radius_m] = numbers(parameters, "orbit", 3);
+  const [velocity_east_m_s, velocity_north_m_s] = numbers(parameters, "orbit-velocity", 2, [0, 0]);
+  return { east_m, north_m, radius_m, turn: turnOf(parameters), velocity_east_m_s, velocity_north_m_s };
+}
+
+/** @param {URLSearchParams} parameters */
+function aircraftOf(parameters) {
+  const limit = LIMITS.find((name) => parameters.has(LIMIT_KEYS[name])) ?? "max_bank_deg";
+  const [airspeed_m_s] = numbers(parameters, "airspeed", 1);
+  return { airspeed_m_s, [limit]: numbers(parameters, LIMIT_KEYS[limit], 1)[0] };
+}
+
+/**
+ * Links of earlier versions have no altitude.
+ *
+ * @param {URLSearchParams} parameters
+ * @returns {Altitude}
+ */
+function altitudeOf(parameters) {
+  const [altitude_m, home_altitude_m] = ["altitude", "home-altitude"].map((name) =>
+    parameters.has(name) ? numbers(parameters, name, 1)[0] : undefined,
+  );
+  const text = parameters.get("altitude-reference");
+  const altitude_reference = REFERENCES.find((reference) => reference === text);
+  if (text !== null && !altitude_reference)
+    throw new Error(`The link's altitude-reference is ${text}: it must be msl, home or ground.`);
+  return { altitude_m, altitude_reference, home_altitude_m };
+}
+
+/** @param {number[]} values */
+const originOf = ([latitude_deg, longitude_deg]) => ({ latitude_deg, longitude_deg });
+
+/** @param {number[]} values */
+function viewOf([east, north, wide]) {
+  if (wide <= 0) throw new Error(`The link's view is ${wide} m wide: it must be wider than 0 m.`);
+  return [east, north, wide];
+}
+
+/**
+ * @param {URLSearchParams} parameters
+ * @returns {Turn}
+ */
+function turnOf(parameters) {
+  const turn = parameters.get("turn") ?? "either";
+  if (turn !== "either" && turn !== "cw" && turn !== "ccw")
+    throw new Error(`The link's turn is ${turn}: it must be cw, ccw or either.`);
+  return turn;
+}
+
+/**
+ * The numbers of a parameter. Throws an Error with a sentence if there are not `count` of them.
+ *
+ * @param {URLSearchParams} parameters
+ * @param {string} name
+ * @param {number} count
+ * @param {number[]} [fallback]
+ * @returns {number[]}
+ */
+function numbers(parameters, name, count, fallback) {
+  const text = parameters.get(name);
+  if (text === null && fallback) return fallback;
+  const values = (text ?? "").split(",").map((part) => (part.trim() === "" ? NaN : Number(part)));
+  if (values.length !== count || !values.every(Number.isFinite))
+    throw new Error(
+      `The link's ${name} is "${text ?? ""}": it needs ${count === 1 ? "a number" : `${count} numbers`}.`,
+    );
+  return values;
+}

@@ -1,0 +1,63 @@
+// @ts-check
+/**
+ * Example scenes.
+ *
+ * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/actions.js").Actions} Actions
+ */
+import { byId, html } from "../shared/dom.js";
+
+const UAV = { airspeed_m_s: 18, max_bank_deg: 35 };
+const UNIT = { airspeed_m_s: 1, min_turn_radius_m: 1 };
+
+/**
+ * @param {[number, number, number]} pose east, north, heading
+ * @param {number} radius_m
+ * @param {Scene["aircraft"]} aircraft
+ * @param {Scene["wind"]} wind
+ * @returns {Scene}
+ */
+function scene([east_m, north_m, heading_deg], radius_m, aircraft, wind = null) {
+  return {
+    pose: { east_m, north_m, heading_deg },
+    orbit: { east_m: 0, north_m: 0, radius_m, turn: "either", velocity_east_m_s: 0, velocity_north_m_s: 0 },
+    aircraft,
+    wind,
+    tolerance_m: 0,
+    origin: null,
+  };
+}
+
+/**
+ * In the examples of the paper the aircraft heads east, the circle is about (0, 0) and the turn radius is 1 m, so that
+ * the reduced state equals the position. In the last one the start is one hundredth of a turn radius inside the last
+ * arc of a circle of the turn radius; just outside it the minimum time is much longer.
+ *
+ * @type {{name: string, scene: Scene}[]}
+ */
+export const PRESETS = [
+  { name: "Beside the circle", scene: scene([90, 60, 100], 80, UAV) },
+  { name: "Far away", scene: scene([-1200, 500, 20], 80, UAV) },
+  { name: "Inside the circle", scene: scene([20, -60, 30], 120, UAV) },
+  { name: "In wind", scene: scene([-400, 120, 90], 120, UAV, { speed_m_s: 8, from_deg: 250 }) },
+  { name: "Paper, example 1", scene: scene([4, 4, 90], 1, UNIT) },
+  { name: "Paper, example 2", scene: scene([-0.53, 0.31, 90], 1, UNIT) },
+  { name: "Just inside the jump", scene: scene([-0.954, 0.746, 90], 1, UNIT) },
+];
+
+/**
+ * The buttons that open the examples. The place on Earth stays.
+ *
+ * @param {Store} store
+ * @param {Actions} actions
+ */
+export function presetButtons(store, actions) {
+  for (const { name, scene } of PRESETS) {
+    const button = html("button", { type: "button" }, [name]);
+    button.addEventListener("click", () =>
+      actions.openScene({ scene: { ...scene, origin: store.get().scene.origin } }),
+    );
+    byId("presets", HTMLElement).append(button);
+  }
+}

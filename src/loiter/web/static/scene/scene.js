@@ -1,0 +1,81 @@
+// @ts-check
+/**
+ * Properties of a scene and its aircraft, and scenes with one part changed.
+ *
+ * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../shared/types.js").Wind} Wind
+ * @typedef {import("../shared/types.js").Aircraft} Aircraft
+ * @typedef {import("../shared/types.js").Limit} Limit
+ */
+import { DEGREE } from "../shared/geometry.js";
+
+/** @param {Scene} scene @param {Partial<Scene["pose"]>} pose @returns {Scene} */
+export const withPose = (scene, pose) => ({ ...scene, pose: { ...scene.pose, ...pose } });
+
+/** @param {Scene} scene @param {Partial<Scene["orbit"]>} orbit @returns {Scene} */
+export const withOrbit = (scene, orbit) => ({ ...scene, orbit: { ...scene.orbit, ...orbit } });
+
+/** A scene with another wind; zero speed means still air. @param {Scene} scene @param {Wind} wind @returns {Scene} */
+export const withWind = (scene, wind) => ({ ...scene, wind: wind.speed_m_s === 0 ? null : wind });
+
+/** Whether the circle moves. @param {Scene} scene */
+export const orbitMoves = ({ orbit }) => orbit.velocity_east_m_s !== 0 || orbit.velocity_north_m_s !== 0;
+
+/**
+ * Whether the air or the circle moves. Then a plan takes a search, and the state does not reduce to a plane.
+ *
+ * @param {Scene} scene
+ */
+export const drifts = (scene) => scene.wind !== null || orbitMoves(scene);
+
+// The ratio of a circle of the turn radius is off 1 by rounding only.
+const ROUNDING = 1e-9;
+
+/**
+ * Whether the paper proves the optimum of a scene: still air, and a circle of the turn radius at rest.
+ *
+ * @param {Scene} scene
+ * @param {number} radius  of the circle, turn radii
+ */
+export function isProved(scene, radius) {
+  return !drifts(scene) && scene.tolerance_m === 0 && Math.abs(radius - 1) < ROUNDING;
+}
+
+const STANDARD_GRAVITY_M_S2 = 9.80665;
+
+/** @type {Limit[]} */
+export const LIMITS = ["max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s"];
+
+/**
+ * The limit that an aircraft gives.
+ *
+ * @param {Aircraft} aircraft
+ * @returns {Limit}
+ */
+export function limitOf(aircraft) {
+  return LIMITS.find((name) => aircraft[name] !== undefined) ?? "max_bank_deg";
+}
+
+/**
+ * The turn radius of an aircraft, metres.
+ *
+ * @param {Aircraft} aircraft
+ */
+export function turnRadiusOf({ airspeed_m_s, max_bank_deg, min_turn_radius_m, max_turn_rate_deg_s }) {
+  if (min_turn_radius_m !== undefined) return min_turn_radius_m;
+  if (max_turn_rate_deg_s !== undefined) return airspeed_m_s / (max_turn_rate_deg_s * DEGREE);
+  return airspeed_m_s ** 2 / (STANDARD_GRAVITY_M_S2 * Math.tan((max_bank_deg ?? 0) * DEGREE));
+}
+
+/**
+ * The value of a limit that gives this turn radius: tan(bank) = V^2 / (g r), rate = V / r.
+ *
+ * @param {Limit} kind
+ * @param {number} airspeed_m_s
+ * @param {number} turnRadius_m
+ */
+export function limitFor(kind, airspeed_m_s, turnRadius_m) {
+  if (kind === "min_turn_radius_m") return turnRadius_m;
+  if (kind === "max_turn_rate_deg_s") return airspeed_m_s / turnRadius_m / DEGREE;
+  return Math.atan(airspeed_m_s ** 2 / (STANDARD_GRAVITY_M_S2 * turnRadius_m)) / DEGREE;
+}

@@ -1,0 +1,137 @@
+// @ts-check
+/** Helpers for the browser: elements, sizes, timers. */
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** @typedef {Record<string, string | number>} Attributes */
+
+/**
+ * A new SVG element.
+ *
+ * @template {keyof SVGElementTagNameMap} K
+ * @param {K} name
+ * @param {Attributes} [attributes]
+ * @param {(Element | string)[]} [children]
+ * @returns {SVGElementTagNameMap[K]}
+ */
+export function svg(name, attributes = {}, children = []) {
+  const element = document.createElementNS(SVG, name);
+  setAttributes(element, attributes);
+  element.append(...children);
+  return element;
+}
+
+/**
+ * A new HTML element.
+ *
+ * @template {keyof HTMLElementTagNameMap} K
+ * @param {K} name
+ * @param {Attributes} [attributes]
+ * @param {(Element | string)[]} [children]
+ * @returns {HTMLElementTagNameMap[K]}
+ */
+export function html(name, attributes = {}, children = []) {
+  const element = document.createElement(name);
+  setAttributes(element, attributes);
+  element.append(...children);
+  return element;
+}
+
+/**
+ * @param {Element} element
+ * @param {Attributes} attributes
+ */
+export function setAttributes(element, attributes) {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+}
+
+/**
+ * SVG groups, one for each name, in drawing order.
+ *
+ * @template {string} K
+ * @param {K[]} names
+ * @returns {Record<K, SVGGElement>}
+ */
+export function svgLayers(...names) {
+  const layers = names.map((name) => [name, svg("g", { class: `layer ${name}` })]);
+  return /** @type {Record<K, SVGGElement>} */ (Object.fromEntries(layers));
+}
+
+/**
+ * Set the size of a drawing, in pixels.
+ *
+ * @param {SVGSVGElement} drawing
+ * @param {number} width
+ * @param {number} height
+ */
+export function setSize(drawing, width, height) {
+  setAttributes(drawing, { width, height, viewBox: `0 0 ${width} ${height}` });
+}
+
+/**
+ * The element of the page with this id and class.
+ *
+ * @template {Element} T
+ * @param {string} id
+ * @param {new () => T} kind
+ * @returns {T}
+ */
+export function byId(id, kind) {
+  const element = document.getElementById(id);
+  if (!(element instanceof kind)) throw new Error(`the page has no ${kind.name} #${id}`);
+  return element;
+}
+
+/**
+ * The `d` attribute of a polyline. Null starts a new piece. Hundredths of a pixel are finer than any screen.
+ *
+ * @param {([number, number] | null)[]} points
+ */
+export function polyline(points) {
+  return points
+    .map((point, i) => {
+      const command = i > 0 && points[i - 1] ? "L" : "M";
+      return point ? `${command}${point[0].toFixed(2)} ${point[1].toFixed(2)}` : "";
+    })
+    .join("");
+}
+
+/**
+ * Show or hide an element.
+ *
+ * @param {Element} element
+ * @param {boolean} shown
+ */
+export function show(element, shown) {
+  element.toggleAttribute("hidden", !shown);
+  if (element instanceof SVGElement) element.setAttribute("visibility", shown ? "visible" : "hidden");
+}
+
+/**
+ * Call a function with the size of a box in whole pixels: at once, and whenever the size changes.
+ *
+ * @param {HTMLElement} box
+ * @param {(width: number, height: number) => void} resized
+ */
+export function observeSize(box, resized) {
+  const measure = () => resized(Math.round(box.clientWidth), Math.round(box.clientHeight));
+  new ResizeObserver(measure).observe(box);
+  measure();
+}
+
+/** Milliseconds without a change after which a drag counts as paused. */
+export const PAUSE_MS = 140;
+
+/**
+ * A function that calls `act` once, when it has not been called for some time.
+ *
+ * @param {number} wait_ms
+ * @param {() => void} act
+ */
+export function debounced(wait_ms, act) {
+  let timer = 0;
+  return () => {
+    clearTimeout(timer);
+    timer = window.setTimeout(act, wait_ms);
+  };
+}

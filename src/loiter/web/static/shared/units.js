@@ -1,0 +1,151 @@
+// @ts-check
+/**
+ * Units and formats of the numbers that are shown and typed. Everywhere else are metres, seconds and degrees.
+ *
+ * @typedef {import("./types.js").Units} Units
+ * @typedef {"length" | "speed" | "degrees" | "rate"} Quantity
+ */
+
+// The international foot and the knot, exact by definition.
+const FOOT_M = 0.3048;
+const KNOT_M_S = 1852 / 3600;
+
+/** @type {Record<Units, Record<Quantity, {name: string, size: number}>>} */
+const SCALES = {
+  metric: {
+    length: { name: "m", size: 1 },
+    speed: { name: "m/s", size: 1 },
+    degrees: { name: "°", size: 1 },
+    rate: { name: "°/s", size: 1 },
+  },
+  aviation: {
+    length: { name: "ft", size: FOOT_M },
+    speed: { name: "kt", size: KNOT_M_S },
+    degrees: { name: "°", size: 1 },
+    rate: { name: "°/s", size: 1 },
+  },
+};
+
+/**
+ * The unit in which a quantity is shown: its name, and its size in metres, metres per second or degrees.
+ *
+ * @param {Quantity} quantity
+ * @param {Units} units
+ */
+export function unitOf(quantity, units) {
+  return SCALES[units][quantity];
+}
+
+/**
+ * The units that may be typed after a number, in lower case, with their sizes.
+ *
+ * @type {Record<Quantity, Map<string, number>>}
+ */
+const ACCEPTED = {
+  length: new Map([
+    ["m", 1],
+    ["km", 1000],
+    ["ft", FOOT_M],
+  ]),
+  speed: new Map([
+    ["m/s", 1],
+    ["km/h", 1 / 3.6],
+    ["kn", KNOT_M_S],
+    ["kt", KNOT_M_S],
+  ]),
+  degrees: new Map([
+    ["°", 1],
+    ["deg", 1],
+  ]),
+  rate: new Map([
+    ["°/s", 1],
+    ["deg/s", 1],
+  ]),
+};
+
+/** The units that may be typed for a quantity. @param {Quantity} quantity */
+export const acceptedUnits = (quantity) => ACCEPTED[quantity];
+
+/**
+ * A number with a minus sign (not a hyphen) and a fixed number of decimals.
+ *
+ * @param {number} value
+ * @param {number} decimals
+ */
+export function fixed(value, decimals) {
+  const text = value.toFixed(decimals);
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+}
+
+/**
+ * The number of decimals for a scene with a circle of this radius: as the command line has it, and none for feet.
+ *
+ * @param {number} radius_m
+ * @param {Units} units
+ */
+export function decimalsFor(radius_m, units) {
+  if (radius_m < 10) return 3;
+  return units === "metric" ? 1 : 0;
+}
+
+/** The number of decimals that multiples of a step need. @param {number} step */
+export const decimalsOfStep = (step) => Math.max(0, -Math.floor(Math.log10(step)));
+
+/**
+ * A quantity as text, in the unit in which it is shown: "12.5 m/s".
+ *
+ * @param {number} value
+ * @param {Quantity} quantity
+ * @param {Units} units
+ * @param {number} decimals
+ */
+export function quantityText(value, quantity, units, decimals) {
+  const { name, size } = unitOf(quantity, units);
+  return `${fixed(value / size, decimals)} ${name}`;
+}
+
+/**
+ * A number for a field, with at most six digits.
+ *
+ * @param {number} value
+ */
+export const sixDigits = (value) => Number(value.toPrecision(6));
+
+/**
+ * The size of a difference of times, with three digits as on the command line.
+ *
+ * @param {number} seconds
+ */
+export function timeDifference(seconds) {
+  const size = Math.abs(seconds);
+  if (size < 1e-3) return "< 1 ms";
+  return `${size >= 100 ? size.toFixed(0) : String(Number(size.toPrecision(3)))} s`;
+}
+
+/** A difference of times with its sign: "+4.91 s". @param {number} seconds */
+export const signedTimeDifference = (seconds) => `${seconds < 0 ? "−" : "+"}${timeDifference(seconds)}`;
+
+/**
+ * The value with the fewest decimals that is at most `resolution` away. Drags use it to keep links and commands short.
+ *
+ * @param {number} value
+ * @param {number} resolution
+ */
+export function tidy(value, resolution) {
+  const decimals = Math.min(12, Math.max(-12, -Math.floor(Math.log10(resolution))));
+  const unitSize = 10 ** -decimals;
+  // Division by a whole power of ten rounds once; multiplication by its inverse would leave 0.30000000000000004.
+  const whole =
+    decimals >= 0 ? Math.round(value * 10 ** decimals) / 10 ** decimals : Math.round(value / unitSize) * unitSize;
+  return whole + 0;
+}
+
+/**
+ * The smallest number of the form 1, 2 or 5 times a power of ten that is not below `least`.
+ *
+ * @param {number} least
+ */
+export function roundStep(least) {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return /** @type {number} */ ([1, 2, 5, 10].find((step) => step * power >= least * (1 - 1e-12))) * power;
+}

@@ -1,0 +1,65 @@
+// @ts-check
+/**
+ * What the user does, as changes of the state.
+ *
+ * @typedef {import("./store.js").Store} Store
+ * @typedef {import("./page_state.js").PageState} PageState
+ * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../requests/requests.js").Requests} Requests
+ * @typedef {import("../requests/progress.js").Latency} Latency
+ * @typedef {ReturnType<typeof createActions>} Actions
+ */
+import { NO_MESSAGE, durationOf } from "./page_state.js";
+
+/**
+ * @param {Store} store
+ * @param {Requests} requests
+ * @param {Latency} latency
+ */
+export function createActions(store, requests, latency) {
+  /** @param {Partial<PageState["playback"]>} changes */
+  const setPlayback = (changes) => store.update({ playback: { ...store.get().playback, ...changes } });
+
+  return {
+    /**
+     * Change the scene, and request its plan.
+     *
+     * @param {Scene} scene
+     * @param {Event} [event] that changed it
+     */
+    changeScene(scene, event) {
+      requests.askPlan({ scene, message: NO_MESSAGE });
+      if (event instanceof PointerEvent) latency.moved(store.get().revision, event);
+    },
+
+    /**
+     * Open a scene from a link or a preset: show all of it, with the time at its start.
+     *
+     * @param {Partial<PageState> & {scene: Scene}} changes
+     * @param {number[] | null} [span] the view in the link
+     */
+    openScene(changes, span = null) {
+      const { revision, playback } = store.get();
+      requests.askPlan({
+        ...changes,
+        message: NO_MESSAGE,
+        opening: { revision: revision + 1, span },
+        playback: { ...playback, playing: false, time_s: 0 },
+      });
+    },
+
+    /** @param {boolean} playing */
+    play(playing) {
+      const { time_s } = store.get().playback;
+      setPlayback({ playing, time_s: playing && time_s >= durationOf(store.get()) ? 0 : time_s });
+    },
+    /** @param {number} time_s */
+    seek: (time_s) => setPlayback({ time_s: Math.min(durationOf(store.get()), Math.max(0, time_s)) }),
+    /** @param {number} speed times real time */
+    setSpeed: (speed) => setPlayback({ speed }),
+    /** @param {number | null} highlighted */
+    highlight: (highlighted) => store.update({ highlighted }),
+    /** @param {string} text @param {boolean} [bad] */
+    say: (text, bad = false) => store.update({ message: { text, bad } }),
+  };
+}

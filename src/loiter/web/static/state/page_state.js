@@ -1,0 +1,142 @@
+// @ts-check
+/**
+ * The state of the page. A plan, its certificate and the map are requested from the service, each in one of four
+ * states: `idle` (answered), `stale` (the scene has changed; requested again when the drag pauses), `asking` (a request
+ * is under way) and `failed`.
+ *
+ * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../shared/types.js").Answer} Answer
+ * @typedef {import("../shared/types.js").Proof} Proof
+ * @typedef {import("../shared/types.js").Units} Units
+ * @typedef {import("../shared/types.js").Altitude} Altitude
+ * @typedef {import("../shared/types.js").Origin} Origin
+ * @typedef {import("../shared/types.js").Synthesis} Synthesis
+ * @typedef {import("../shared/geometry.js").View} View
+ * @typedef {import("../requests/retry.js").Attempt} Attempt
+ *
+ * @typedef {"idle" | "stale" | "asking" | "failed"} Status
+ * @typedef {"light" | "dark"} Theme
+ * @typedef {{text: string, bad: boolean}} Message
+ * @typedef {Record<string, string>} FieldErrors  sentences by the ids of the fields
+ *
+ * @typedef {object} Camera
+ * @property {View} view
+ * @property {boolean} moved  whether the user has panned or zoomed
+ *
+ * @typedef {object} Opening  a scene that was opened and has no answer yet
+ * @property {number} revision
+ * @property {number[] | null} span  the view in its link: middle east and north, width; metres
+ *
+ * @typedef {object} Failure  the reason why the scene has no plan
+ * @property {"refused" | "unreachable"} name
+ * @property {string} headline
+ * @property {string} sentence
+ * @property {Attempt | null} attempt  the next one, if the service is asked again
+ *
+ * @typedef {object} Fault  the reason why a certificate or a map is missing
+ * @property {string} sentence
+ * @property {boolean} temporary  whether the service may answer later
+ *
+ * @typedef {object} MapOptions  the map that belongs to a plan
+ * @property {string} title
+ * @property {string} query
+ * @property {boolean} drifts  whether the map, which is for still air, only resembles the scene
+ *
+ * @typedef {object} Playback
+ * @property {boolean} playing
+ * @property {number} time_s
+ * @property {number} speed  times real time
+ *
+ * @typedef {object} PageState
+ * @property {Scene} scene
+ * @property {Units} units
+ * @property {Theme} theme
+ * @property {Altitude} altitude
+ * @property {Partial<Origin>} place  latitude and longitude as far as they are typed
+ * @property {Camera} camera  of the plan view
+ * @property {number} mapSide  of the map, pixels
+ * @property {number} timelineWidth  pixels
+ * @property {number} radiusBearing_deg  the position on the circle of the handle for its radius
+ * @property {Opening | null} opening
+ * @property {number} revision  number of the newest request for a plan
+ * @property {number} answeredRevision  number of the newest one that was answered or has failed
+ * @property {number} pausedRevision  number of the newest one after which a drag has paused
+ * @property {Record<"plan" | "certificate" | "map", Status>} requests
+ * @property {Answer | null} answer  the newest plan
+ * @property {boolean} complete  whether it has every candidate, or only the best of each direction
+ * @property {Failure | null} failure
+ * @property {Answer | null} announced  the plan of the last pause: its text is read out and can be copied
+ * @property {Proof | null} proof  the certificate of the plan
+ * @property {Record<"certificate" | "map", Fault | null>} faults
+ * @property {MapOptions | null} wantedMap
+ * @property {string} shownMap  query of the map that is shown
+ * @property {Synthesis | null} synthesis
+ * @property {number | null} highlighted  index of the candidate under the pointer
+ * @property {Playback} playback
+ * @property {Record<"scene" | "file", FieldErrors>} fieldErrors  for the scene, and for a file to save
+ * @property {Message} message
+ */
+import { PRESETS } from "../scene/presets.js";
+import { stateAt } from "../shared/maneuver.js";
+
+/** @type {Message} */
+export const NO_MESSAGE = { text: "", bad: false };
+
+/** @type {PageState} */
+export const INITIAL_STATE = {
+  scene: PRESETS[0].scene,
+  units: "metric",
+  theme: "light",
+  altitude: {},
+  place: {},
+  camera: { view: { scale: 1, east: 0, north: 0, width: 800, height: 600 }, moved: false },
+  mapSide: 380,
+  timelineWidth: 700,
+  radiusBearing_deg: 150,
+  opening: null,
+  revision: 0,
+  answeredRevision: 0,
+  pausedRevision: 0,
+  requests: { plan: "idle", certificate: "idle", map: "idle" },
+  answer: null,
+  complete: true,
+  failure: null,
+  announced: null,
+  proof: null,
+  faults: { certificate: null, map: null },
+  wantedMap: null,
+  shownMap: "",
+  synthesis: null,
+  highlighted: null,
+  playback: { playing: false, time_s: 0, speed: 1 },
+  fieldErrors: { scene: {}, file: {} },
+  message: NO_MESSAGE,
+};
+
+/** The plan of the present scene, or null while there is none. @param {PageState} state */
+export const currentPlan = ({ requests, answer }) => (requests.plan === "idle" ? answer : null);
+
+/** The duration of the newest plan, seconds. @param {PageState} state */
+export const durationOf = ({ answer }) => answer?.duration_s ?? 0;
+
+/** The time on the path that is shown, seconds. @param {PageState} state */
+export const shownTime = (state) => Math.min(state.playback.time_s, durationOf(state));
+
+/**
+ * Whether no request is waiting or under way.
+ *
+ * @param {PageState} state
+ */
+export function isSettled({ revision, pausedRevision, failure, requests }) {
+  if (pausedRevision !== revision || requests.plan === "asking") return false;
+  const done = (/** @type {Status} */ status) => status === "idle" || status === "failed";
+  return failure !== null || (done(requests.certificate) && done(requests.map));
+}
+
+/** The state of the ghost; null while it rests at the start. @param {PageState} state */
+export function ghostOf(state) {
+  const { answer, playback } = state;
+  const time = shownTime(state);
+  if (!answer || answer.segments.length === 0 || !(playback.playing || time > 0)) return null;
+  return stateAt(answer.track, time);
+}

@@ -1,0 +1,101 @@
+// @ts-check
+/**
+ * The time line: control, switching function and costate of the optimal maneuver, with the switching times. It shows
+ * what the certificate checks: phi > 0 turns left, phi < 0 turns right, phi = 0 allows straight flight, and psi1 equals
+ * lambda where phi vanishes.
+ *
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/actions.js").Actions} Actions
+ */
+import { byId, observeSize, setSize, show, svg, svgLayers } from "../shared/dom.js";
+import { pointOf } from "../shared/draggable.js";
+import { durationOf, shownTime } from "../state/page_state.js";
+import { BOTTOM, HEIGHT, drawAxis, drawControls, drawReadings, drawSeries, drawSwitches, timeScale } from "./bands.js";
+
+const LEAST_WIDTH_PX = 260;
+
+/**
+ * @param {Store} store
+ * @param {Actions} actions
+ */
+export function timelineView(store, actions) {
+  const root = byId("timeline", SVGSVGElement);
+  const { reads, ...below } = svgLayers("back", "strip", "lines", "ticks", "reads");
+  const cursor = svg("path", { class: "cursor" });
+  root.append(...Object.values(below), cursor, reads);
+  observeSize(byId("line-box", HTMLElement), (boxWidth) => {
+    const width = Math.max(LEAST_WIDTH_PX, boxWidth);
+    setSize(root, width, HEIGHT);
+    store.update({ timelineWidth: width });
+  });
+  watchPlan(root, below, store);
+  watchTime(cursor, reads, store);
+  seekWithPointer(root, store, actions);
+}
+
+/** @param {Store} store */
+const scaleNow = (store) => timeScale(store.get().timelineWidth, durationOf(store.get()));
+
+/**
+ * @param {SVGSVGElement} root
+ * @param {Record<"back" | "strip" | "lines" | "ticks", SVGGElement>} layers
+ * @param {Store} store
+ */
+function watchPlan(root, { back, strip, lines, ticks }, store) {
+  store.watch(
+    ({ answer, timelineWidth }) => [answer, timelineWidth],
+    ({ answer }) => {
+      if (!answer) return;
+      strip.replaceChildren(...drawControls(answer.segments, scaleNow(store)));
+      ticks.replaceChildren(...drawAxis(scaleNow(store)), ...drawSwitches(answer.segments, scaleNow(store)));
+    },
+  );
+  store.watch(
+    ({ proof, timelineWidth }) => [proof, timelineWidth],
+    ({ proof }) => {
+      // The lines of the previous certificate stay, faint.
+      root.classList.toggle("unproved", proof === null);
+      if (!proof) return;
+      const drawn = drawSeries(proof, scaleNow(store));
+      back.replaceChildren(...drawn.back);
+      lines.replaceChildren(...drawn.lines);
+    },
+  );
+}
+
+/**
+ * @param {SVGPathElement} cursor
+ * @param {SVGGElement} reads
+ * @param {Store} store
+ */
+function watchTime(cursor, reads, store) {
+  store.watch(
+    (state) => [shownTime(state), state.answer, state.proof, state.timelineWidth],
+    (state) => {
+      const time = shownTime(state);
+      cursor.setAttribute("d", `M${scaleNow(store).x(time).toFixed(1)} 0V${BOTTOM}`);
+      show(reads, state.proof !== null);
+      if (state.proof) reads.replaceChildren(...drawReadings(state.proof, time, scaleNow(store)));
+    },
+  );
+}
+
+/**
+ * @param {SVGSVGElement} root
+ * @param {Store} store
+ * @param {Actions} actions
+ */
+function seekWithPointer(root, store, actions) {
+  /** @param {PointerEvent} event */
+  function seek(event) {
+    if (!store.get().failure) actions.seek(scaleNow(store).time(pointOf(root, event)[0]));
+  }
+  root.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    root.setPointerCapture(event.pointerId);
+    seek(event);
+  });
+  root.addEventListener("pointermove", (event) => {
+    if (root.hasPointerCapture(event.pointerId)) seek(event);
+  });
+}
