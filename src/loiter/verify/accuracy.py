@@ -1,24 +1,24 @@
-"""What rounding and the tolerance explain of each residual, in turn radii and turn radii over airspeed.
+"""Bounds of the residuals: how large rounding and the tolerance can make them, in turn radii and airspeeds.
 
-A maneuver's residuals are the largest over `trajectory.SAMPLES` instants of each piece and those where psi1 and phi are
-extreme. The bounds follow from four accuracies:
+A residual is the largest over `trajectory.SAMPLES` instants of each piece and over those where psi1 and phi are
+extreme. Its bound follows from four accuracies:
 
-- `end`: how far the maneuver may end from the circle. In still air that is the tolerance or rounding
-  (`synthesis.rounding`); a flow is a motion of the plane, so no state on the way is further off, and phi = psi x state
-  is as accurate, |psi| being 1. In wind it is what the kernel accepts. Durations are converted to seconds and back, 4
-  roundings, which adds one rounding of a length;
-- `length`: rounding of a length in this scene, 64 units of 2^-52 times its size, some 20 operations for each piece;
-- `angle`: the direction of p. In still air psi of a single arc is parallel to its start, which may lie `end` beside its
-  circle; psi at the first of two switches has turned with a middle arc whose angle is an accuracy of `end` over that
-  arc's radius. In wind p is the direction of the straight piece, or lies between the headings at two switches: an error
-  `end` turns it by that over the length of the piece, or of the chord of the middle arc;
-- `choice`: next to where two maneuvers tie, rounding of T may choose the slower. In still air its phi is of the wrong
-  sign by up to v somewhere, and it loses some 2/lambda times the integral of that. A v in the middle of a piece lasts
-  2 sqrt(2 v) at least, since |phi''| = |psi1| <= 1, and costs 3.7 v^(3/2); at the start, where a first piece is
-  missing, it lasts v at least, since |phi'| <= 1, and costs v^2. So v is below rounding^(2/3), and below rounding^(1/2)
-  where another candidate ties or the start counts as on a single arc. In wind the fastest point of joining is known to
-  where T differs by a rounding. As it moves p turns, by some 2 over that piece or chord a unit of time; a condition
-  that is off by v and changes at the rate r costs v^2/(2 r) of T.
+- `length`: the rounding of a length in this problem, 64 units of 2^-52 times its size: some 20 operations a piece.
+- `end`: the distance from the circle at which the maneuver may end. In still air it is the tolerance or `length`. The
+  flow moves the plane rigidly, so no state on the way is further off, and phi = psi x state is as accurate, since
+  |psi| = 1. In wind it is the error that the kernel accepts. The conversion of durations to seconds and back, 4
+  roundings, adds one `length`.
+- `angle`: the accuracy of the direction of p. In still air psi of a single arc is parallel to its start, which may lie
+  `end` beside its circle. At the first of two switches psi has turned by the angle of the middle arc, whose accuracy is
+  `end` over that arc's radius. In wind p is the direction of the straight piece, or lies between the headings at two
+  switches: an error `end` turns it by `end` over the length of the piece, or of the chord of the middle arc.
+- `choice`: where two maneuvers nearly tie, rounding of T may choose the slower one. In still air its phi then has the
+  wrong sign by up to v somewhere, and T is too long by 2/lambda times the integral of that. In the middle of a piece
+  such a v lasts at least 2 sqrt(2 v), since |phi''| = |psi1| <= 1, and costs 3.7 v^(3/2). At the start, where a first
+  piece is missing, it lasts at least v, since |phi'| <= 1, and costs v^2. So v is below rounding^(2/3), and below
+  rounding^(1/2) where another candidate ties or the start counts as on a single arc. In wind the fastest point of
+  joining is known up to where T differs by a rounding. As that point moves by a unit of time, p turns by some 2 over
+  the length above; a condition that is violated by v and changes at the rate r costs v^2/(2 r) of T.
 """
 
 from __future__ import annotations
@@ -39,7 +39,11 @@ STEP = 2.0**-15
 
 
 class Accuracy(NamedTuple):
-    """`end`, `length` and `angle` (above), and the bounds of those residuals whose bound depends on the case."""
+    """The accuracies above, and the bounds of residuals: of the equations of motion in the order of the formulation.
+
+    `join` bounds the pose at the end of the last segment, `gradient` the direction of the adjoint against that of the
+    gradient of T. Durations closer than `tie` count as equal.
+    """
 
     end: float
     length: float
@@ -57,7 +61,7 @@ def accuracy_of(trajectory: Trajectory, others: Sequence[Candidate]) -> Accuracy
 
 
 def _of_difference(third_derivative: float, rounding: float) -> float:
-    """The accuracy of a central difference."""
+    """The accuracy of a central difference, from the size of the third derivative and the rounding of the function."""
     return STEP * STEP / 6.0 * third_derivative + rounding / STEP
 
 
@@ -99,7 +103,7 @@ def _in_still_air(trajectory: Trajectory, others: Sequence[Candidate]) -> Accura
 def _angle_of_psi(trajectory: Trajectory, end: float, length: float) -> float:
     pieces, reduced = trajectory.pieces, trajectory.problem.reduced()
     if len(pieces) == 1:
-        # psi of a lone arc is parallel to its start, which may lie `end` beside its circle; phi is read R + 1 away.
+        # psi is parallel to the start, which may lie `end` beside its circle; phi is evaluated up to R + 1 away.
         return end * (1.0 + (1.0 + reduced.R) / max(hypot(reduced.x, reduced.y), length))
     middle = 1.0
     if len(pieces) == 3:
@@ -109,11 +113,12 @@ def _angle_of_psi(trajectory: Trajectory, end: float, length: float) -> float:
 
 
 def _turned_by_last_switch(trajectory: Trajectory, end: float, length: float) -> float:
-    """By how much an error `end` of the last switch between L and R turns psi; 0 without such a switch.
+    """The angle by which an error `end` of the last switch between L and R turns psi; 0 without such a switch.
 
-    It is where two circles about (0, 1) and (0, -1) of radii r1, r2 cross, under the angle whose sine is 2 |x|/(r1 r2):
-    an error `end` of one radius moves it by end r1 r2/(2 |x|), but no more than to where they touch, by the root of
-    end r1 r2. Seen from the centre, at a distance r, that turns psi.
+    The switch is the crossing of two circles about (0, 1) and (0, -1) with radii r1 and r2, at an angle whose sine is 2
+    |x|/(r1 r2). An error `end` of one radius moves it by end r1 r2/(2 |x|), but at most to where the circles touch, by
+    the root of end r1 r2. psi is parallel to the state, so it turns by that distance over the state's distance from the
+    centre.
     """
     if not trajectory.opposed:
         return 0.0
@@ -128,10 +133,10 @@ def _in_wind(trajectory: Trajectory) -> Accuracy:
     start, maneuver, T = trajectory.start, trajectory.maneuver, trajectory.duration
     length = rounding(start.q.real, start.q.imag, start.R)
     end = 3.0 * length + 2.0 * ROUNDING * T
-    turning = 1.0 + 1.0 / max(_definite(trajectory), end)
+    turning = 1.0 + 1.0 / max(_length_of_direction(trajectory), end)
     angle = end * turning
     choice = angle + sqrt(4.0 * end * turning)
-    # Positions over the ground are rounded by their size.
+    # Rounding of positions over the ground.
     metres = _size_over_ground_m(maneuver)
     join = end + _heading_rounding(maneuver) * (1.0 + T) + ROUNDING * metres / maneuver.aircraft.turn_radius_m
     return Accuracy(
@@ -153,8 +158,8 @@ def _in_wind(trajectory: Trajectory) -> Accuracy:
     )
 
 
-def _definite(trajectory: Trajectory) -> float:
-    """The length of the piece whose direction p is, of the chord of the arc between two switches, or 1; at most 1."""
+def _length_of_direction(trajectory: Trajectory) -> float:
+    """The length of the straight piece or of the chord of the middle arc that fixes the direction of p; at most 1."""
     pieces = trajectory.pieces
     if trajectory.lam == 1.0:
         return min(1.0, max((piece.t for piece in pieces if piece.u == 0), default=1.0))
@@ -165,12 +170,12 @@ def _definite(trajectory: Trajectory) -> float:
 
 
 def _heading_rounding(maneuver: Maneuver) -> float:
-    """Rounding of a heading, radians, and 360 degrees more, at each of three pieces, twice."""
+    """The rounding of a heading, radians: of the start's and two turns more, twice at each of three pieces."""
     return 6.0 * 2.0**-52 * radians(abs(maneuver.start.heading_deg) + 720.0)
 
 
 def _size_over_ground_m(maneuver: Maneuver) -> float:
-    """The size of the coordinates over the ground, and of how far aircraft, air and circle move, metres."""
+    """The sum of the coordinates over the ground and the distances that aircraft, air and circle move, metres."""
     start, centre = maneuver.start, maneuver.orbit
     coordinates = sum(map(abs, (start.east_m, start.north_m, centre.east_m, centre.north_m)))
     speeds = maneuver.wind.speed_m_s + hypot(centre.velocity_east_m_s, centre.velocity_north_m_s)

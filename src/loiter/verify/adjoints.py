@@ -1,4 +1,4 @@
-"""The adjoint of a maneuver, and the maneuver flown with it.
+"""The adjoint of a maneuver, and the trajectory with it.
 
 In still air the adjoint is the closed form of `kernel.adjoint`. In wind it is read off the straight piece or the two
 switches, or off the condition (5) at the circle where there is one switch; where a piece may be there by rounding alone
@@ -34,7 +34,7 @@ from loiter.verify.trajectory import (
     word_of,
 )
 
-# A piece as short as this may be there by rounding alone: the adjoint is then looked for without it too.
+# A piece of at most this duration may be due to rounding alone: adjoints are then tried without it too.
 SHORT = wind_search.SHORT
 
 # Directions of p tried for a single arc, for which many p may meet the conditions.
@@ -42,7 +42,7 @@ DIRECTIONS = 720
 
 
 class FlightPlan(NamedTuple):
-    """What is flown: from where, the controls, their durations, and the adjoint."""
+    """The arguments of `flown_pieces`: the start, the controls, their durations, and the adjoint."""
 
     start: RelativeStart
     controls: Sequence[int]
@@ -53,8 +53,8 @@ class FlightPlan(NamedTuple):
 def trajectory_of(maneuver: Maneuver, problem: Problem) -> Trajectory:
     """The maneuver flown from its start, its letters and its durations alone, with its adjoint.
 
-    Raises `InvalidArgument` for a turn that is neither cw nor ccw, letters that are no word, and durations that cannot
-    be flown.
+    Raises `InvalidArgument` for a turn that is neither cw nor ccw, letters that are not a word, and durations that
+    cannot be flown.
     """
     start = _start(problem, int(SIDES[held_turn(maneuver)]))
     controls, durations = [CONTROLS[letter] for letter in word_of(maneuver).letters], durations_of(maneuver)
@@ -94,11 +94,11 @@ def _with_closed_form(start: RelativeStart, controls: Sequence[int], durations: 
 
 
 def _one_arc(plan: FlightPlan) -> FlightPlan | None:
-    """Two arcs of which one is there by rounding alone, as the single arc whose many psi they share; otherwise None.
+    """The single arc that two arcs amount to where one of them is due to rounding alone; otherwise None.
 
-    A start a rounding beside the circle of the last arc begins with a piece so short that no control there loses more
-    than a rounding: 2/lambda times |phi|, which changes by its duration at most. Where the circles touch at the target,
-    the last piece is so short that the first arc, flown on, ends there too.
+    A start beside the circle of the last arc by a rounding begins with a piece so short that its control costs no more
+    than a rounding of T: 2/lambda times the integral of |phi|, which changes by at most the duration. Where the circles
+    touch at the target, the last piece is so short that the first arc, continued, ends there too.
     """
     start, (u, v), (first, last), _ = plan
     x, y = start.q.real, start.q.imag
@@ -121,7 +121,7 @@ def _in_wind(start: RelativeStart, controls: Sequence[int], durations: Sequence[
 
 
 def _adjoints_in_wind(start: RelativeStart, controls: Sequence[int], durations: Sequence[float]) -> Iterator[Adjoint]:
-    """Every adjoint that the pieces may have."""
+    """All adjoints that the pieces may have."""
     pieces = list(flown_pieces(start, controls, durations, Adjoint(1.0 + 0.0j, 1.0, 0.0)))
     before = None
     for piece in pieces:

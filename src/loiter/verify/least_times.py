@@ -100,11 +100,11 @@ def _in_still_air(trajectory: Trajectory) -> LeastTimes:
 
 
 def _widest_step(trajectory: Trajectory, problem: ReducedProblem) -> float:
-    """A step that is small beside two distances over which T and psi change their form.
+    """A step that is small compared with two distances over which T and psi change.
 
-    One is that of the start from the curves where words change, beside which T may move with the square root of a
-    distance. The other is the distance from the centre of the state that psi is parallel to: over it the direction of
-    psi turns by a radian.
+    One is the distance of the start from the curves where words change: next to them T may change with the square root
+    of a distance. The other is the distance from the centre of the state to which psi is parallel: over that distance
+    the direction of psi turns by a radian.
     """
     turning = inf
     if trajectory.opposed or len(trajectory.pieces) == 1:
@@ -114,11 +114,11 @@ def _widest_step(trajectory: Trajectory, problem: ReducedProblem) -> float:
 
 
 def clearance(problem: ReducedProblem) -> float:
-    """The distance of a state from the nearest curve beside it that bounds the regions of docs/theory.md, section 4.
+    """The distance of a state from the nearest curve that bounds the regions of docs/theory.md, section 4.
 
-    They are circles about (0, -1) for words that begin with L, about (0, 1) for those that begin with R, and the axis;
-    for both directions of holding, since *either* may compare them. A curve on which the state lies, up to rounding, is
-    not counted: quotients of every step show whether T has a corner there.
+    The curves are circles about (0, -1) for words that begin with L, about (0, 1) for those that begin with R, and the
+    axis; those of both directions count, since *either* may compare them. A curve on which the state lies, up to
+    rounding, does not count: quotients at every step show whether T has a corner there.
     """
     x, y, R, _, _ = problem
     distances = [abs(y)]

@@ -37,24 +37,24 @@ def join(trajectory: Trajectory, accuracy: Accuracy) -> Violation:
 
 
 def switch(trajectory: Trajectory, accuracy: Accuracy) -> Violation | None:
-    """How far phi and psi1 - lambda are from 0 at the switches between L and R."""
+    """The largest distance of (phi, psi1 - lambda) from 0 at the switches between L and R."""
     starts = [piece.start for piece in trajectory.opposed]
     off = max((hypot(start.phi, start.psi1 - trajectory.lam) for start in starts), default=None)
     return None if off is None else Violation(off, accuracy.angle)
 
 
 def middle_arc(trajectory: Trajectory, accuracy: Accuracy) -> Violation | None:
-    """How far the arc between two switches is from its duration, and from lasting longer than pi."""
+    """The error of the duration of the arc between two switches, or what it lacks to pi if that is more."""
     if len(trajectory.opposed) != 2:
         return None
     middle, last = trajectory.opposed
-    # Between two switches psi goes round from (lambda, +-psi2) to (lambda, -+psi2) the long way, through psi1 < 0.
+    # Between the switches psi turns from (lambda, +-psi2) to (lambda, -+psi2) the long way, through psi1 < 0.
     lasts = 2.0 * (pi - atan2(abs(last.start.psi2), last.start.psi1))
     return Violation(max(abs(middle.t - lasts), pi - middle.t), 2.0 * accuracy.angle)
 
 
 def slopes(trajectory: Trajectory, accuracy: Accuracy) -> Violation | None:
-    """How far two consecutive switching points are from opposite slopes, times their abscissa and ordinate."""
+    """The violation of (19) by two consecutive switching points, multiplied by y1 y."""
     if len(trajectory.opposed) != 2:
         return None
     a, b = (piece.start for piece in trajectory.opposed)
@@ -69,14 +69,14 @@ def line(trajectory: Trajectory, accuracy: Accuracy) -> Violation | None:
     return None if off is None else Violation(off, accuracy.end)
 
 
-# Either direction: (x, |y|) is a trajectory as fast, so it is optimal too, and where y changes sign it switches:
-# phi = -psi2 x = 0. On an arc that holds where psi = (1, 0) alone, on the last circle of a single arc. With a switch
-# before it the last arc therefore begins on the target's side of the axis, and takes acos(1/(1 + R)) at most: pi/3 at
+# Either direction: (x, |y|) is a trajectory of the same duration, so it is optimal too, and it switches where y changes
+# sign: there phi = -psi2 x = 0. On an arc that is possible only where psi = (1, 0), on the last circle of a single arc.
+# So after a switch the last arc begins on the target's side of the axis, and lasts acos(1/(1 + R)) at most, pi/3 at
 # R = 1 (docs/theory.md, section 1).
 
 
 def axis(trajectory: Trajectory, accuracy: Accuracy) -> Violation | None:
-    """|psi2| where y changes sign, times |y| beyond."""
+    """|psi2| where y changes sign, times |y| beyond; for either direction."""
     if trajectory.problem.orbit.turn != Turn.EITHER:
         return None
     arcs = (piece for piece in trajectory.pieces if piece.u)
@@ -86,9 +86,9 @@ def axis(trajectory: Trajectory, accuracy: Accuracy) -> Violation | None:
 
 
 def _crossings(arc: FlownPiece) -> Iterator[float]:
-    """For each time that an arc crosses the axis, |psi2| there times the least of the heights before and after.
+    """For each crossing of the axis by an arc, |psi2| there times the smaller of the heights before and after.
 
-    That is half the time, times lambda, that a start at this height loses by crossing, so rounding bounds it.
+    It is lambda/2 times the time that a start at this height loses by crossing, so rounding bounds it.
     """
     crossings = (onto_axis(arc.start.x, arc.u * arc.start.y, end, 0.0) for end in (-1.0, 1.0))
     ends = sorted(angle(rotated) for rotated, c in crossings if c >= 0.0)
@@ -99,13 +99,13 @@ def _crossings(arc: FlownPiece) -> Iterator[float]:
 
 
 def last_arc(trajectory: Trajectory, accuracy: Accuracy, *, tight: bool) -> Violation | None:
-    """How much longer than acos(1/(1 + R)) the last arc takes after a switch; `tight`: where R = 1, or elsewhere."""
+    """How much longer than acos(1/(1 + R)) the last arc is after a switch; None unless `tight` is whether R = 1."""
     last, (_, _, _, R, side) = trajectory.last, trajectory.start
     free = trajectory.problem.orbit.turn == Turn.EITHER and tight == (R == 1.0)
     if not free or len(trajectory.pieces) == 1 or last.u != side:
         return None
     longest = atan2(sqrt(R * (R + 2.0)), 1.0)
-    # Begun t too early, psi is off (1, 0) by t or less and phi is wrong by t^2/2 in the middle of the arc.
+    # If the arc begins t too early, psi differs from (1, 0) by at most t, and phi from 0 by t^2/2 in mid-arc.
     early = sqrt(2.0 * accuracy.length ** (2.0 / 3.0))
     return Violation(max(0.0, last.t - longest), accuracy.end + early)
 

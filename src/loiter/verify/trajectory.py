@@ -1,11 +1,11 @@
 """A maneuver flown exactly from its start, with its adjoint, in still air and in wind.
 
-All is relative to the circle; vectors are complex numbers. q is the position, e the heading (a unit vector), w the
-velocity of the air past the circle, p the constant adjoint of the position (|p| = 1), f the adjoint of the heading,
+Everything is relative to the circle; vectors are complex numbers. q is the position, e the heading (a unit vector), w
+the velocity of the air past the circle, p the constant adjoint of the position (|p| = 1), f the adjoint of the heading,
 lambda the multiplier (docs/wind.md, section 3). Lengths are in turn radii, times in turn radii over airspeed.
 
-Seen along the heading, q is the reduced state (2), p is the paper's psi = (p.e, p.Je), and f is its switching function
-phi. In still air, w = 0, the plane is turned so that the start heads along the x axis.
+In the frame of the heading q is the reduced state (2) and p is the paper's psi = (p.e, p.Je); f is its switching
+function phi. In still air, w = 0, the plane is rotated so that the heading at the start is along the x axis.
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ class Adjoint(NamedTuple):
 
 
 class MaximumPrinciple(NamedTuple):
-    """A number for each condition of the maximum principle: by how much it is violated, or the bound of that."""
+    """One number for each condition of the maximum principle: by how much it is violated, or the bound of that."""
 
     norm: float
     multiplier: float
@@ -142,7 +142,7 @@ class MaximumPrinciple(NamedTuple):
 
 @dataclass(frozen=True)
 class Trajectory:
-    """A maneuver flown from its start, with its adjoint, and the problem it answers; no pieces on the circle."""
+    """A maneuver flown from its start, with its adjoint, and its problem; a start on the circle has no pieces."""
 
     maneuver: Maneuver
     problem: Problem
@@ -193,7 +193,7 @@ class Trajectory:
 
     @cached_property
     def violations(self) -> MaximumPrinciple:
-        """By how much (4) and (5) of docs/wind.md are violated; in still air they are (13), (14), (16) and (18)."""
+        """By how much (4) and (5) of docs/wind.md are violated: in still air the paper's (13), (14), (16) and (18)."""
         lam, norm, sign, hamiltonian, psi1 = self.lam, 0.0, 0.0, 0.0, 0.0
         for piece in self.pieces:
             for now in map(piece.at, piece.instants):
@@ -204,7 +204,7 @@ class Trajectory:
                 psi1 = max(psi1, now.psi1 - lam)
         last, (q, e) = self.last, self.end
         off = inner(last.p, e + last.w) + end_rate(self.start, q, e, last.u) * (lam - inner(last.p, e))
-        # In still air (5) is shown over its factor k = 1/R.
+        # In still air (5) is divided by k = 1/R, as the paper writes it.
         off *= self.start.R if self.problem.still else 1.0
         return MaximumPrinciple(norm, max(0.0, -lam - inner(last.p, last.w)), sign, hamiltonian, psi1, abs(off))
 
@@ -218,7 +218,7 @@ class Trajectory:
 def end_rate(start: RelativeStart, q: complex, e: complex, u: int) -> float:
     """The turn rate (3) that holds the circle, positive in the direction of the last control u.
 
-    In wind it is that of the circle through the end q, which is the circle to be held where the maneuver arrives.
+    In wind the radius is that of the end q, which equals R where the maneuver ends on the circle.
     """
     radius = start.R if start.w == 0.0 else abs(q) or start.R
     over_ground = e + start.w
@@ -245,7 +245,7 @@ def held_turn(maneuver: Maneuver) -> Turn:
 
 
 def word_of(maneuver: Maneuver) -> Word:
-    """The word of a maneuver; raises `InvalidArgument` for letters that are none."""
+    """The word of a maneuver; raises `InvalidArgument` for letters that are not a word."""
     if not maneuver.segments:
         return Word.EMPTY
     if maneuver.word not in Word.__members__ or maneuver.word == Word.EMPTY.name:
