@@ -1,4 +1,4 @@
-"""A real Dask scheduler and real workers: the same bytes as on one machine, whoever is lost on the way."""
+"""A real Dask scheduler and real workers: the same bytes as on one machine, also if workers are lost."""
 
 import os
 import re
@@ -124,7 +124,7 @@ def test_without_a_scheduler_one_sentence_says_so(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["in.parquet"]
 
 
-def test_a_scheduler_without_workers_is_told(cluster_here, place):
+def test_a_scheduler_without_workers_is_reported(cluster_here, place):
     write(poses(5), place / "in.parquet")
     process = cluster_here.batch("in.parquet", "out.parquet")
     _, err = process.communicate()
@@ -204,7 +204,7 @@ def test_when_every_worker_is_lost_another_may_join(cluster_here, place):
     assert (place / "out.parquet").read_bytes() == bytes_here
 
 
-def test_a_scheduler_that_goes_is_told_and_what_is_finished_is_kept(cluster_here, place):
+def test_a_scheduler_that_goes_is_reported_and_what_is_finished_is_kept(cluster_here, place):
     write(poses(20_000), place / "in.parquet", 500)
     cluster_here.work()
     process = cluster_here.batch("in.parquet", "out.parquet")

@@ -1,4 +1,4 @@
-"""Comma-separated tables: what people and programs write, and what is wrong with it."""
+"""CSV tables as people and programs write them, also with errors."""
 
 import csv
 import gzip
@@ -42,7 +42,7 @@ def test_numbers_as_people_write_them(solved):
     assert len({row["duration_s"] for row in rows}) == 1
 
 
-def test_what_is_no_number_spoils_its_own_row_alone(solved):
+def test_what_is_no_number_affects_only_its_own_row(solved):
     written = ["", "x", "nan", "inf", "-Infinity", "1e999", "1_0", "0x10", "1,5", "90m", "--1", "90 60", "١", "NULL"]
     lines = [f'{i},"{text}",60,100\n{i},90,60,100\n' for i, text in enumerate(written)]
     rows, summary = solved(HEADER + "".join(lines))
@@ -152,7 +152,7 @@ def test_every_quantity_may_be_a_column_of_text(solved):
     assert [rows[0]["turn"], rows[-1]["turn"]] == ["cw", "ccw"]
 
 
-def test_a_quote_that_is_never_closed_spoils_its_own_line_alone(solved, monkeypatch):
+def test_a_quote_that_is_never_closed_affects_only_its_own_line(solved, monkeypatch):
     monkeypatch.setattr(lines, "CHUNK_BYTES", 5000)
     good, stray = (
         [f"{i},90,60,100" for i in range(3000)],
@@ -168,7 +168,7 @@ def test_a_quote_that_is_never_closed_spoils_its_own_line_alone(solved, monkeypa
 
 
 @pytest.mark.parametrize("chunk", [1, 7, 64, 4096])
-def test_mended_text_is_the_same_in_pieces_of_any_size(monkeypatch, chunk):
+def test_repaired_text_is_the_same_in_pieces_of_any_size(monkeypatch, chunk):
     text = (HEADER + '0,1,2,3\n"a\n\n,b",1,2,3\r\n' * 20 + '0,"1,2,3\n' + "1,2,3,4\n" * 150 + '"q"",1,2,3').encode()
     expected = b"".join(lines.repaired_lines(io.BytesIO(text), 4))
     monkeypatch.setattr(lines, "CHUNK_BYTES", chunk)
@@ -177,7 +177,7 @@ def test_mended_text_is_the_same_in_pieces_of_any_size(monkeypatch, chunk):
     assert expected == text.replace(b'0,"1,2,3', b",,,,").replace(b'"q"",1,2,3', b",,,,") + b"\n"
 
 
-def test_bytes_that_are_not_utf_8_spoil_their_own_line_alone(solved):
+def test_bytes_that_are_not_utf_8_affect_only_their_own_line(solved):
     lines = [b"0,90,60,100", b"caf\xe9,90,60,100", "Grüße,90,60,100".encode(), b"3,90,\xff,100"]
     rows, _ = solved(HEADER.encode() + b"\n".join(lines))
     assert statuses(rows) == ["ok", "malformed", "ok", "malformed"]
@@ -214,7 +214,7 @@ PACKED = gzip.compress(("id,east_m,north_m,heading_deg\n" + "0,90,60,100\n" * 50
         (b"id,east_m\n", ".parquet", "Parquet"),
     ],
 )
-def test_what_cannot_be_read_is_told_and_leaves_nothing(solved, tmp_path, content, suffix, why):
+def test_what_cannot_be_read_is_reported_and_leaves_nothing(solved, tmp_path, content, suffix, why):
     with pytest.raises(InvalidArgument, match=why) as raised:
         solved(content, suffix)
     assert raised.value.argument == "source"

@@ -1,4 +1,4 @@
-"""A job that is stopped, by whatever means, goes on from its finished parts and gives the same bytes."""
+"""A job that was stopped by any means resumes from its finished parts and gives the same bytes."""
 
 import errno
 import json
@@ -70,12 +70,12 @@ def script(*arguments):
     ("source", "target", "times"),
     [("in.parquet", "out.parquet", 20), ("in.csv", "out.csv.gz", 4)],
 )
-def test_killed_at_any_moment_it_goes_on_to_the_same_bytes(tmp_path, source, target, times):
+def test_killed_at_any_moment_it_resumes_to_the_same_bytes(tmp_path, source, target, times):
     write(poses(10_000), tmp_path / source, 250)
     script("kill", tmp_path / source, tmp_path / target, SystemRandom().randrange(10**6), times, *OPTIONS)
 
 
-def test_processes_that_race_for_one_output_do_not_spoil_it(tmp_path):
+def test_processes_that_race_for_one_output_do_not_damage_it(tmp_path):
     write(poses(5000), tmp_path / "in.parquet", 250)
     script("race", tmp_path / "in.parquet", tmp_path / "out.parquet", 0, 8, *OPTIONS)
 
@@ -120,8 +120,8 @@ sys.exit(main({arguments!r}))
     ("source", "target"),
     [("in.parquet", "out.parquet"), ("in.parquet", "out.csv"), ("in.parquet", "out.csv.gz"), ("in.csv", "out.parquet")],
 )
-@pytest.mark.parametrize(("limit", "kept"), [(20_000, "no part was"), (100_000, r"\d+ parts? that")])
-def test_files_that_may_grow_no_further_are_told(tmp_path, source, target, limit, kept):
+@pytest.mark.parametrize(("limit", "kept"), [(20_000, "no part was"), (100_000, r"\d+ finished parts?")])
+def test_files_that_may_grow_no_further_are_reported(tmp_path, source, target, limit, kept):
     # A part of 500 rows takes some 50 kB, the output 500 kB, a CSV file as Parquet 300 kB.
     write(poses(5000), tmp_path / source, 500)
     arguments = ["batch", source, target, *OPTIONS]
@@ -150,7 +150,7 @@ sys.exit(main({arguments!r}))
 
 
 @pytest.mark.parametrize("workers", ["1", "3"])
-def test_an_interrupt_is_told_and_what_is_finished_is_kept(tmp_path, workers):
+def test_an_interrupt_is_reported_and_what_is_finished_is_kept(tmp_path, workers):
     write(poses(50_000), tmp_path / "in.parquet", 500)
     arguments = ["batch", "in.parquet", "out.parquet", *OPTIONS]
     code = INTERRUPTED.format(arguments=[*arguments, "--workers", workers])
@@ -249,7 +249,7 @@ def test_a_part_that_lost_its_end_is_done_again(job, monkeypatch):
     assert Path("out.parquet").read_bytes() == expected
 
 
-def test_an_input_that_changes_meanwhile_is_told(job, monkeypatch):
+def test_an_input_that_changes_meanwhile_is_reported(job, monkeypatch):
     solve = parts.solve_part
 
     def solve_part(job, part, *tick):
@@ -292,7 +292,7 @@ def test_limits_of_this_process_are_as_they_were():
     assert resource.getrlimit(resource.RLIMIT_FSIZE)[0] == resource.RLIM_INFINITY
 
 
-def test_a_table_that_is_damaged_further_on_is_told(job, capsys):
+def test_a_table_that_is_damaged_further_on_is_reported(job, capsys):
     arguments, _ = job
     content = bytearray(Path("in.parquet").read_bytes())
     content[len(content) // 2 : len(content) // 2 + 400] = bytes(400)

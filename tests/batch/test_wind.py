@@ -125,7 +125,7 @@ def test_a_circle_that_drifts_with_the_air_is_joined_where_it_is_then(tmp_path):
         }
 
 
-def test_bad_rows_get_a_status_and_spoil_no_neighbour(tmp_path):
+def test_bad_rows_get_a_status_and_affect_no_others(tmp_path):
     lines = ["east_m,north_m,heading_deg,wind_speed_m_s,wind_from_deg,orbit_velocity_east_m_s,orbit_velocity_north_m_s"]
     pose, rest, good = "-400,120,90", "0,0", "-400,120,90,6,250,0,0"
     bad = {

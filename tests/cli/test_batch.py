@@ -183,7 +183,7 @@ def test_a_csv_table_is_checked_by_its_header(refused):
     assert "IN has two columns named 'east_m'" in refused("in.csv", "out.csv", *OPTIONS)
 
 
-def test_a_missing_package_is_told(refused, monkeypatch):
+def test_a_missing_package_is_reported(refused, monkeypatch):
     write(poses(5), Path("in.parquet"))
     monkeypatch.setitem(sys.modules, "distributed", None)
     line = refused("in.parquet", "out.parquet", *OPTIONS, "--scheduler", "tcp://127.0.0.1:1")

@@ -56,14 +56,14 @@ def test_the_mission_is_the_one_that_the_autopilot_flies_best(shown, vehicle, co
 
 
 @pytest.mark.parametrize("options", ["--path", "--spacing 50", "--path --chord-error 0.1"])
-def test_waypoints_all_along_the_path_are_sent_where_they_are_asked_for_and_what_they_cost_is_told(shown, options):
+def test_waypoints_all_along_the_path_are_sent_if_they_are_requested_and_what_they_cost_is_reported(shown, options):
     with flying(Vehicle([])) as vehicle:
         text = shown(f"upload --connect {vehicle.connection} {PLACED} --turn ccw {options}")
     assert len(vehicle.mission) > 5
     assert ALONG_PATH in text.splitlines()
 
 
-def test_what_the_autopilot_makes_of_the_mission_is_told(shown):
+def test_what_the_autopilot_makes_of_the_mission_is_reported(shown):
     class Requires(Vehicle):
         parameters = {"MIS_TKO_LAND_REQ": (2, 6)}  # noqa: RUF012
 
@@ -89,7 +89,7 @@ def test_what_the_autopilot_makes_of_the_mission_is_told(shown):
 
 
 @pytest.mark.parametrize("vehicle", [Vehicle([]), Plane([Plane.home, *OLD[1:]])])
-def test_a_vehicle_in_flight_is_told_to_fly_the_mission(shown, vehicle):
+def test_a_vehicle_in_flight_is_commanded_to_fly_the_mission(shown, vehicle):
     with flying(vehicle):
         text = shown(f"upload --connect {vehicle.connection} {PLACED} --start")
     assert text.splitlines()[-1] == "It flies the mission."
@@ -184,7 +184,7 @@ def test_watching_prints_a_line_for_each_report(shown):
     assert vehicle.commands == []
 
 
-def test_what_is_to_be_done_is_told_piece_by_piece(shown):
+def test_what_is_to_be_done_is_reported_piece_by_piece(shown):
     flight = Flight(Pose(-250.0, -170.0, 290.0))
     flight.haste = 1.0
     with flying(flight) as vehicle:
@@ -193,7 +193,7 @@ def test_what_is_to_be_done_is_told_piece_by_piece(shown):
     assert re.search(rf"^ +0\.\d s: joins clockwise in \d+\.\d s; {todo}; counter-clockwise ", lines[-1])
 
 
-def test_an_aircraft_on_the_circle_is_told_how_far_off_it_is(shown):
+def test_an_aircraft_on_the_circle_is_reported_how_far_off_it_is(shown):
     scene = f"--orbit-lla {degrees_of_the_circle()} 80 --airspeed 18 --bank 35"
     with flying(Circles(12.0)) as vehicle:
         lines = shown(f"watch --connect {vehicle.connection} {scene} --every 0.5 --reports 10").splitlines()
@@ -211,7 +211,7 @@ def degrees_of_the_circle():
     return f"{float(lat):.9f} {float(lon):.9f}"
 
 
-def test_a_vehicle_that_is_parked_is_told_not_to_fly(shown):
+def test_a_vehicle_that_is_parked_is_reported_as_not_flying(shown):
     with flying(Parked()) as vehicle:
         lines = shown(f"watch --connect {vehicle.connection} {SCENE} --every 0.3 --reports 3").splitlines()
     assert lines[-1].endswith(" s: not flying: it reports that it is on the ground")

@@ -154,7 +154,7 @@ def test_an_indicated_airspeed_is_one_at_the_altitude_above_the_sea(planned):
 
 
 @pytest.mark.parametrize("ending", ["plan", "waypoints", "txt", "kml", "csv"])
-def test_what_a_path_costs_is_told_where_it_is_a_mission(shown, tmp_path, ending):
+def test_what_a_path_costs_is_reported_where_it_is_a_mission(shown, tmp_path, ending):
     path = tmp_path / f"entry.{ending}"
     told = "Waypoints all along the path: autopilots cut its turns, and joined 2 to 4 s later than without --path."
     for options, tells in (("", False), ("--path", True), ("--spacing 50", True), ("--path --chord-error 0.1", True)):

@@ -41,7 +41,7 @@ def test_the_items_of_a_mission_have_the_frame_and_home_its_own_altitude(datum, 
 
 
 def home_in_lines(home):
-    """Where nobody told home's altitude its line has that of the flight: some programs fly it as a waypoint."""
+    """If the altitude of home is not given, its line has that of the flight: some programs fly it as a waypoint."""
     return home or 120.0
 
 

@@ -57,7 +57,7 @@ def test_a_smaller_error_and_a_spacing_make_more_points(tmp_path, ending):
 
 
 @pytest.mark.parametrize("ending", MISSIONS)
-def test_a_mission_has_waypoints_along_the_path_where_that_or_a_spacing_is_asked_for(tmp_path, ending):
+def test_a_mission_has_waypoints_along_the_path_if_that_or_a_spacing_is_requested(tmp_path, ending):
     counts = []
     for options in ({}, {"chord_error_m": 0.1}, {"along_path": True}, {"spacing_m": 50.0}):
         save(M, tmp_path / f"a{ending}", frame=FRAME, altitude_m=600.0, **options)

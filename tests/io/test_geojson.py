@@ -171,7 +171,7 @@ def test_the_last_switch_is_where_to_peel_off(tmp_path, names, expected):
 
 
 @given(placed(0.3), st.sampled_from([0.1, 1.0, 5.0]))
-def test_lines_of_degrees_are_no_further_off_the_track_than_asked(scene, error):
+def test_lines_of_degrees_are_no_further_off_the_track_than_requested(scene, error):
     """A line straight in latitude and longitude is neither straight in the plane nor on the Earth."""
     m, frame = scene
     drawn = chart(m, frame, None, None, error)

@@ -59,7 +59,7 @@ def read(tmp_path, text, name="uav.param"):
         (PX4.replace("RAD\t80", "RAD\t-80"), Preset(Autopilot.PX4, 15.0, 50.0, 80.0, Turn.CCW)),
     ],
 )
-def test_formats_are_told_apart_by_what_is_in_them(tmp_path, text, expected, name):
+def test_formats_are_distinguished_by_their_content(tmp_path, text, expected, name):
     assert read(tmp_path, text, name) == expected
 
 
@@ -109,7 +109,7 @@ def test_a_parameter_that_stands_twice_and_says_the_same_is_one(tmp_path):
     turn=st.sampled_from([Turn.CW, Turn.CCW]),
 )
 def test_what_pymavlink_writes_is_read(tmp_path_factory, cruise, bank, radius, turn):
-    """With the six decimals that it writes, beside the parameters that it leaves to others."""
+    """With the six decimals that it writes, and with parameters of other components."""
     parameters = mavparm.MAVParmDict()
     for name, value in [
         ("AIRSPEED_CRUISE", cruise),

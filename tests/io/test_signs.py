@@ -1,4 +1,4 @@
-"""The sign table beside MAVLink's own definition, as pymavlink carries it."""
+"""The sign table compared with the definition of MAVLink in pymavlink."""
 
 import re
 from math import inf, nan

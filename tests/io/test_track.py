@@ -29,7 +29,7 @@ def between(m, track, parts=20):
 
 
 @given(placed(), ERRORS)
-def test_no_chord_is_further_off_than_asked(scene, error):
+def test_no_chord_is_further_off_than_requested(scene, error):
     m, _ = scene
     track = vertices(m, step_counts(m, None, error))
     if m.segments:
@@ -37,7 +37,7 @@ def test_no_chord_is_further_off_than_asked(scene, error):
 
 
 @given(placed(0.3), st.floats(1e-4, 1e-2))
-def test_chords_are_not_much_closer_than_asked(scene, share):
+def test_chords_are_not_much_closer_than_requested(scene, share):
     """Cut into three steps or more, rounded up, an arc has steps of 2/3 the length that would do, and chords off by 4/9
     of what is asked; less what of the acceleration is along the track, a crab angle's sine of at most 0.3."""
     m, _ = scene
@@ -53,7 +53,7 @@ def test_chords_are_not_much_closer_than_asked(scene, share):
 
 
 @given(placed(), st.floats(1.0, 200.0))
-def test_neighbours_are_no_further_apart_than_asked(scene, spacing):
+def test_neighbours_are_no_further_apart_than_requested(scene, spacing):
     m, _ = scene
     track = vertices(m, step_counts(m, max(spacing, m.length_m / 1e4), 1.0))
     apart = np.hypot(np.diff(track.east_m), np.diff(track.north_m))

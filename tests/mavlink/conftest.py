@@ -1,4 +1,4 @@
-"""Everything waits a tenth of what it does for real vehicles, but where a test asks for real time."""
+"""All time-outs are a tenth of those for real vehicles, unless a test needs real time."""
 
 import signal
 

@@ -1,4 +1,4 @@
-"""What a pilot is told: pieces worth flying, words that do not go to and fro, the circle held a few metres off."""
+"""Advice for a pilot: segments long enough to fly, advice that does not alternate, circles held a few metres off."""
 
 from dataclasses import replace
 from math import cos, radians, sin
@@ -16,7 +16,7 @@ FAR = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), UAV)
 
 
 def lasting(*seconds):
-    """The pieces of an entry, right, straight and left, so many seconds long each."""
+    """The segments of an entry, right, straight and left, with their durations in seconds."""
     starts = [sum(seconds[:i]) for i in range(3)]
     pieces = [
         replace(piece, start_s=start, duration_s=duration)
@@ -50,7 +50,7 @@ def test_on_the_circle_there_is_the_hold_alone():
 
 
 def at(outside_m, azimuth_deg, off_deg=0.0, turn=Turn.CW, orbit=ORBIT, wind=None):
-    """A plan from beside the circle, heading so many degrees outside its tangent in still air."""
+    """A plan from near the circle, heading `off_deg` degrees outside its tangent in still air."""
     distance, side = orbit.radius_m + outside_m, 1.0 if turn == Turn.CW else -1.0
     east, north = (distance * f(radians(azimuth_deg)) for f in (sin, cos))
     heading = azimuth_deg + side * (90.0 - off_deg)
@@ -86,7 +86,7 @@ def held(seen, turns=(Turn.CW,), radius_m=80.0, step_s=0.5):
 
 
 def test_who_keeps_along_twelve_metres_outside_holds_the_circle():
-    """ "Joins clockwise in 3.5 s" for ever, it said."""
+    """Formerly every report said "joins clockwise in 3.5 s"."""
     assert held([CircleOffset(12.0, 4.0)] * 10) == [None] * 6 + [Turn.CW] * 4
 
 

@@ -1,4 +1,4 @@
-"""Connections: opened, refused, lost; what goes out over them."""
+"""Connections: opened, refused, lost; the messages sent over them."""
 
 import os
 import pty
@@ -57,7 +57,7 @@ class Stream:
 
 @contextmanager
 def answering(vehicle, packets=10**9):
-    """A TCP port with a vehicle behind it for one caller, who is hung up on after so many packets of the vehicle."""
+    """A TCP port with a vehicle for one caller; the connection is closed after some packets of the vehicle."""
     server = socket.create_server(("127.0.0.1", 0))
 
     def serve():
@@ -135,7 +135,7 @@ def test_a_line_that_is_hung_up_fails_and_prints_nothing(packets, capfd):
 
 
 def test_a_px4_that_answers_its_first_partner_only_is_reached_again():
-    """Each connection spoke from a port of its own, so that the second heard nothing until PX4 restarted."""
+    """Formerly each connection had a port of its own, and the second received nothing until PX4 restarted."""
     with flying(Faithful()) as vehicle:
         upload(NEW, vehicle.connection, system=1, timeout_s=1.0)
         assert len(download(vehicle.connection, system=1, timeout_s=1.0).items) == len(NEW.items)
@@ -144,7 +144,7 @@ def test_a_px4_that_answers_its_first_partner_only_is_reached_again():
 
 @pytest.mark.parametrize(("port", "local"), [(14550, 24550), (18570, 28570), (14580, 24580), (50001, 20001)])
 def test_the_port_that_udpout_speaks_from_is_none_that_systems_give_away(port, local):
-    """Linux gives ports from 32768 on to whoever asks for any."""
+    """Linux assigns ports from 32768 on to programs that do not choose one."""
     assert link.local_port(port) == local
 
 
@@ -155,7 +155,7 @@ def test_where_another_program_has_that_port_another_is_taken():
         assert vehicle.peer[1] != link.local_port(vehicle.port)
 
 
-def test_where_nothing_answers_px4s_habit_is_told():
+def test_where_nothing_answers_px4s_behaviour_is_reported():
     hint = "; PX4 answers only the port that first sent to it since it started"
     port = free_port()
     with pytest.raises(LinkFailed, match=rf"no vehicle at all{hint}$"):

@@ -1,4 +1,4 @@
-"""How ArduPlane widens loiters, beside AP_L1_Control::loiter_radius and what its simulator flew."""
+"""How ArduPlane widens loiters, compared with AP_L1_Control::loiter_radius and its simulator."""
 
 from math import radians, tan
 
@@ -48,7 +48,7 @@ def test_the_radius_is_ardupilots(radius, altitude, limit, airspeed):
 
 
 @given(radius=st.floats(10.0, 3000.0), altitude=st.floats(0.0, 9000.0), limit=limits, airspeed=st.floats(8.0, 40.0))
-def test_what_is_sent_is_flown_as_asked(radius, altitude, limit, airspeed):
+def test_what_is_sent_is_flown_as_requested(radius, altitude, limit, airspeed):
     widened = LoiterScaling(limit, airspeed)
     assert widened.flown_m(widened.sent_m(radius, altitude), altitude) == pytest.approx(radius, rel=1e-12)
     assert widened.sent_whole_m(radius, altitude) == pytest.approx(widened.sent_m(radius, altitude), abs=0.5)
@@ -66,5 +66,5 @@ def test_what_is_sent_is_flown_as_asked(radius, altitude, limit, airspeed):
         ({"NAVL1_LIM_BANK": -1.0}, LoiterScaling(0.0, 0.0)),
     ],
 )
-def test_how_loiters_are_widened_is_known_once_the_vehicle_has_told_enough(known, expected):
+def test_how_loiters_are_widened_is_known_once_the_vehicle_has_answered(known, expected):
     assert loiter_scaling(known) == expected

@@ -1,4 +1,4 @@
-"""Items on the wire: they come back as they went, and only what an autopilot has to cut may differ."""
+"""Items sent and read back: they are unchanged, except for what an autopilot must round."""
 
 from dataclasses import dataclass
 from math import copysign, inf, nan
@@ -9,6 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
+import loiter
 from loiter import Turn
 from loiter.io.missions.items import Autopilot, Command, Frame, Mission, MissionItem
 from loiter.io.missions.signs import circle, with_circle
@@ -180,3 +181,8 @@ def test_nan_is_nan_and_not_a_number():
     assert differences(sent, sent, OTHER) == ([], [])
     for other in (0.0, inf):
         assert differences(sent, [sent[0]._replace(params=(0.0, 0.0, 0.0, other))], OTHER)[0]
+
+
+def test_former_names_are_the_same_classes():
+    assert loiter.mavlink.Summary is loiter.mavlink.MissionSummary
+    assert loiter.io.Command is loiter.io.MavCommand

@@ -1,4 +1,4 @@
-"""The protocol without sockets and without time: whatever is lost or doubled, the new mission or the old one."""
+"""The protocol without sockets, in simulated time: with losses and duplicates the vehicle has one whole mission."""
 
 from itertools import chain, repeat
 from random import Random
@@ -64,7 +64,7 @@ def test_a_line_that_dies_is_given_up_in_time(last):
 
 
 class Tires(Vehicle):
-    """Gives up halfway, and gives no item until it is asked for the whole mission again, as mavsdk's vehicle."""
+    """Gives up halfway, and sends no item until the whole mission is requested again, like mavsdk's vehicle."""
 
     tired = False
 
@@ -84,8 +84,8 @@ class Tires(Vehicle):
 
 
 @pytest.mark.parametrize("times", [1, 2, 4])
-def test_a_vehicle_that_gives_up_giving_its_mission_is_asked_anew(times):
-    """Some way into reading a mission back it was asked for the same item until the time was up."""
+def test_a_vehicle_that_gives_up_giving_its_mission_is_asked_again(times):
+    """Formerly the same item was requested until the time was up, after the vehicle had given up."""
     vehicle = Tires(times)
     done, seconds = simulated(vehicle, mission("cw"))
     assert not isinstance(done, LinkFailed), done

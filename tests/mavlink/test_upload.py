@@ -1,4 +1,4 @@
-"""Missions sent to vehicles that keep to the protocol, and to such as do not: the new mission, or the old one."""
+"""Missions sent to vehicles that follow the protocol or do not: afterwards they have the new mission or the old one."""
 
 import os
 import re
@@ -212,7 +212,7 @@ def test_a_vehicle_that_takes_part_of_a_mission_again_and_again(kind):
 
 @pytest.mark.parametrize("at", [0, 3, 4])
 @pytest.mark.parametrize("result", [*range(1, 13), 14, 15])
-def test_a_refusal_is_told_in_words_and_at_its_item(result, at):
+def test_a_refusal_is_reported_in_words_and_at_its_item(result, at):
     class Refuses(Vehicle):
         def on_mission_item_int(self, message):
             if message.seq == at:
@@ -456,7 +456,7 @@ def test_a_caller_that_fails_halfway_leaves_the_old_mission():
 
 
 def test_a_vehicle_that_gives_up_by_itself_begins_anew():
-    """As mavsdk's does after it has asked for an item five times."""
+    """Like mavsdk's vehicle after it has requested an item five times."""
 
     class Tires(Vehicle):
         tired = 0
@@ -594,7 +594,7 @@ WIDENED = (
     ("command", "params"),
     [(17, (0.0, 0.0, -80.0, 0.0)), (18, (3.0, 0.0, 80.0, 1.0)), (31, (0.0, -80.0, 0.0, 0.0))],
 )
-def test_that_ardupilot_widens_loiters_is_told_in_one_sentence(command, params):
+def test_that_ardupilot_widens_loiters_is_reported_in_one_sentence(command, params):
     with flying(Widens()) as vehicle:
         summary = upload(circling(command, params), vehicle.connection, system=1)
     assert summary.remarks == (WIDENED,)
@@ -715,7 +715,7 @@ ALIKE = "both a takeoff and a landing, or neither"
         (5, [16, 21], ""),
     ],
 )
-def test_that_px4_requires_more_of_a_mission_is_told_in_one_sentence(requirement, commands, missing):
+def test_that_px4_requires_more_of_a_mission_is_reported_in_one_sentence(requirement, commands, missing):
     """FeasibilityChecker::checkTakeoffLandAvailable; the value is an integer, whose bytes come in a float."""
     items = tuple(MissionItem(c, Frame.ABOVE_SEA, (0.0,) * 4, 47.0, 8.0, 500.0) for c in commands)
     with flying(Requires(requirement)) as vehicle:
@@ -751,7 +751,7 @@ def test_px4_keeps_the_mission_that_it_flies():
     assert vehicle.heard["MISSION_CLEAR_ALL"] == 0
 
 
-def test_a_refusal_to_fly_is_told_with_what_the_vehicle_says():
+def test_a_refusal_to_fly_is_reported_with_what_the_vehicle_says():
     refused = (
         r"^system 1 \(PX4\) refused to fly the mission: not now \(MAV_RESULT_TEMPORARILY_REJECTED\); it says: No valid "
         r"mission available, loitering; it has the mission; PX4 will not fly this mission: MIS_TKO_LAND_REQ is 2, which"

@@ -1,4 +1,4 @@
-"""Flights that say where they are, watched: the plan from there, the direction kept, a command only where asked for."""
+"""Simulated flights, watched: the plan from their position, a stable direction, a command only if requested."""
 
 import socket
 import threading
@@ -181,7 +181,7 @@ def test_the_wind_is_the_one_given_or_the_one_reported(autopilot):
 
 @pytest.mark.parametrize(("start", "turn"), [(START, Turn.CW), (MIRRORED, Turn.CCW)])
 @pytest.mark.parametrize(("autopilot", "command", "frame"), [(3, 192, 0), (0, 192, 0), (12, 34, 5)])
-def test_the_vehicle_is_told_to_hold_the_circle_where_that_is_asked_for(start, turn, autopilot, command, frame):
+def test_the_vehicle_is_commanded_to_hold_the_circle_if_that_is_requested(start, turn, autopilot, command, frame):
     """DO_REPOSITION (192) in general; PX4 takes a direction from DO_ORBIT (34) only, in MAV_FRAME_GLOBAL_INT (5)."""
     flight = Flight(start)
     flight.autopilot = autopilot
@@ -197,7 +197,7 @@ def test_the_vehicle_is_told_to_hold_the_circle_where_that_is_asked_for(start, t
     assert (told.x, told.y, told.z) == (round(float(lat) * 1e7), round(float(lon) * 1e7), 612.5)
 
 
-def test_the_altitude_may_be_asked_for():
+def test_the_altitude_may_be_requested():
     flight = Flight()
     watched(flight, 1, send=True, altitude_m=700.0)
     assert flight.commands[0].z == 700.0
@@ -207,7 +207,7 @@ def test_the_altitude_may_be_asked_for():
 
 
 class Parked(Flight):
-    """Stands at the start, as ArduPlane and PX4 stand: speeds next to nothing, and on the ground where that is told."""
+    """Parked at the start like ArduPlane and PX4: speeds near zero, and on the ground if it reports that."""
 
     landed_state = 1
 
@@ -230,7 +230,7 @@ class Parked(Flight):
     ],
 )
 def test_a_vehicle_that_is_parked_is_not_flying(state, why):
-    """It was told "joins in 12.0 s"."""
+    """Formerly the report said "joins in 12.0 s"."""
     parked = Parked()
     parked.landed_state = state
     reports = watched(parked, 3, send=True)
@@ -263,7 +263,7 @@ def test_a_vehicle_that_says_it_is_on_the_ground_is_believed_at_any_speed():
 
 
 class Circles(Flight):
-    """Holds the circle so many metres outside, as autopilots do, one way round or the other; 18 m/s."""
+    """Holds the circle some metres outside, as autopilots do, in either direction, at 18 m/s."""
 
     haste = 1.0
 
@@ -286,8 +286,8 @@ class Circles(Flight):
 
 @pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
 @pytest.mark.parametrize(("asked", "outside"), [(Turn.EITHER, 12.0), (None, 12.0), (None, -9.0), (None, 2.0)])
-def test_an_aircraft_that_circles_beside_the_circle_holds_it(turn, asked, outside):
-    """12 m outside it was told "joins clockwise in 3.5 s" for ever."""
+def test_an_aircraft_that_circles_next_to_the_circle_holds_it(turn, asked, outside):
+    """Formerly every report 12 m outside the circle said "joins clockwise in 3.5 s"."""
     orbit = replace(ORBIT, turn=asked or turn)
     reports = watched(Circles(outside, turn), 38, orbit=orbit)
     last = reports[-1]
@@ -299,7 +299,7 @@ def test_an_aircraft_that_circles_beside_the_circle_holds_it(turn, asked, outsid
     assert len(changes) <= 1, "once it holds the circle it does"
 
 
-def test_an_aircraft_that_holds_the_circle_the_wrong_way_round_is_told_to_turn():
+def test_an_aircraft_that_holds_the_circle_the_wrong_way_round_is_advised_to_turn():
     reports = watched(Circles(4.0, Turn.CCW), 38, orbit=replace(ORBIT, turn=Turn.CW))
     assert not any(report.holding for report in reports)
     assert {report.turn for report in reports} == {Turn.CW}
@@ -347,7 +347,7 @@ def test_a_straight_run_in_is_straight_and_the_peel_off_shows():
 
 
 class Seldom(Circles):
-    """Streams once a second until it is asked for more, by the command or by the older request."""
+    """Streams once a second until more is requested, by the command or by the older request."""
 
     every_s, knows = 1.0, True
 
@@ -401,7 +401,7 @@ def test_between_two_positions_the_time_to_join_passes():
 
 
 @pytest.mark.parametrize("knows", [True, False])
-def test_what_comes_too_seldom_is_asked_for(knows, monkeypatch):
+def test_what_comes_too_rarely_is_requested(knows, monkeypatch):
     module = import_module("loiter.mavlink.connection.streams")
     monkeypatch.setattr(module, "REPEAT_S", 0.5)
     vehicle = Seldom()
@@ -547,14 +547,14 @@ def notices(reports):
     return [notice for report in reports for notice in report.notices]
 
 
-def test_that_ardupilot_widens_circles_is_told_once():
+def test_that_ardupilot_widens_circles_is_reported_once():
     told = notices(watched(Widens(), 12))
     assert [notice.partition(",")[0] for notice in told] == ["ArduPlane will hold 84.9 m instead of 80"]
     assert notices(watched(Circles(), 12)) == []
 
 
 @pytest.mark.parametrize(("true_radius", "sent"), [(False, 80.0), (True, 75.0)])
-def test_the_true_radius_is_commanded_where_it_is_asked_for(true_radius, sent):
+def test_the_true_radius_is_commanded_if_it_is_requested(true_radius, sent):
     vehicle = Widens()
     told = notices(watched(vehicle, 5, send=True, true_radius=true_radius))
     assert [command.param3 for command in vehicle.commands] == [sent]
@@ -593,7 +593,7 @@ def test_a_command_under_way_is_waited_for():
 
 
 @pytest.mark.parametrize("result", [1, 2, 3, 4, 7, 8, 77])
-def test_a_refused_command_is_told_in_words(result):
+def test_a_refused_command_is_reported_in_words(result):
     name = mavlink.enums["MAV_RESULT"][result].name if result < 9 else "MAV_RESULT 77"
     with pytest.raises(LinkFailed, match=rf"system 1 \(ArduPilot\) refused to hold the circle: .*{name}"):
         watched(Answers(result), 1, send=True)

@@ -270,7 +270,7 @@ class Vehicle:
 
 
 class Faithful(Vehicle):
-    """PX4's UDP port: answers whoever spoke to it first, and nobody else until it restarts (mavlink_receiver.cpp)."""
+    """PX4's UDP port: answers only the first port that sent to it, until it restarts (mavlink_receiver.cpp)."""
 
     partner_port = None
 

@@ -13,7 +13,7 @@ from loiter.arrays.partition import boundaries, partition
 from loiter.cli.app import main
 from loiter.geo import LocalFrame
 from loiter.io import Autopilot
-from loiter.io.document import answer, described
+from loiter.io.document import answer, maneuver_values
 from loiter.verify import certify
 
 STILL = {
@@ -242,7 +242,7 @@ def test_the_reduced_track_is_that_of_the_library(post):
 def test_candidates_are_all_extremals_for_the_requested_turn(post, scene):
     document = post("/api/candidates", scene)["candidates"]
     known = loiter.candidates(*arguments(scene), tolerance_m=scene.get("tolerance_m", 0.0))
-    later = [as_json(described(m) | {"later_s": m.duration_s - known[0].duration_s}) for m in known]
+    later = [as_json(maneuver_values(m) | {"later_s": m.duration_s - known[0].duration_s}) for m in known]
     assert [without(m, {"track"}) for m in document] == later
 
 

@@ -13,11 +13,11 @@ from loiter.planning.model import Pose
 def answer(best: Sequence[Maneuver], others: Sequence[Maneuver], frame: LocalFrame | None = None) -> dict[str, object]:
     """The first of `best` as plain values, with the rest of `best` and then `others` as its `alternatives`."""
     first, *rest = best
-    alternatives = [described(m, frame) | {"later_s": m.duration_s - first.duration_s} for m in (*rest, *others)]
-    return described(first, frame) | {"alternatives": alternatives}
+    alternatives = [maneuver_values(m, frame) | {"later_s": m.duration_s - first.duration_s} for m in (*rest, *others)]
+    return maneuver_values(first, frame) | {"alternatives": alternatives}
 
 
-def described(maneuver: Maneuver, frame: LocalFrame | None = None) -> dict[str, object]:
+def maneuver_values(maneuver: Maneuver, frame: LocalFrame | None = None) -> dict[str, object]:
     """A maneuver as plain values; with a frame its poses have latitude, longitude and true heading too."""
     return {
         "duration_s": maneuver.duration_s,

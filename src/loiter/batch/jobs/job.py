@@ -49,7 +49,8 @@ class JobSummary:
 
 
 # The former names, which stay public.
-Progress, Summary = JobProgress, JobSummary
+Progress = JobProgress
+Summary = JobSummary
 
 ReportProgress = Callable[[JobProgress], object]
 

@@ -1,1 +1,1 @@
-"""A vehicle in flight, watched: telemetry, dead reckoning and the plan from where it is."""
+"""Watching a vehicle in flight: telemetry, dead reckoning, and advice from the plan."""

@@ -15,14 +15,13 @@ from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 
-# Segments shorter than this, seconds, are not advised: banking takes about as long. The current action is advised until
-# less than the second value is left of it, so that noise does not make the advice alternate.
+# Segments shorter than SHORT_S seconds are not advised: banking takes about as long. The current action is advised
+# until less than LEFT_S is left of it, so that noise does not make the advice alternate.
 SHORT_S, LEFT_S = 1.0, 0.4
 
-# An aircraft flies along the circle if its track is within this angle of the tangent, degrees, and it is within the
-# band of this share of the radius, or this many metres if that is more. An aircraft that joins crosses the band at a
-# steeper angle. It holds the circle once it has flown along it for this many seconds, until it leaves the angle or the
-# band multiplied by the last value.
+# An aircraft flies along the circle if its track is within ALONG_DEG of the tangent, and its distance from the circle
+# within BAND_SHARE of the radius, or BAND_M if that is more; one that joins crosses this band at a steeper angle.
+# It holds the circle once it has flown along it for HOLD_S seconds, until it exceeds LEAVING times these limits.
 ALONG_DEG, BAND_SHARE, BAND_M, HOLD_S, LEAVING = 15.0, 0.15, 15.0, 3.0, 2.0
 
 

@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
 from loiter.io import AltitudeDatum, AltitudeReference, save
+from loiter.io.maps.track import step_counts
+from loiter.io.missions.items import AUTOPILOTS
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import all_fastest, best_and_others

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from loiter.geo.placed import PlacedProblem
-from loiter.io.document import answer, described
+from loiter.io.document import answer, maneuver_values
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.solve import all_fastest, best_and_others, best_each_way, extremals
 from loiter.verify.certificate import Instant, certify
@@ -56,7 +56,7 @@ def all_candidates(placed: PlacedProblem) -> dict[str, Any]:
     least_s = min(m.duration_s for m in maneuvers)
     return {
         "candidates": [
-            described(m, placed.frame) | {"track": track(m), "later_s": m.duration_s - least_s} for m in maneuvers
+            maneuver_values(m, placed.frame) | {"track": track(m), "later_s": m.duration_s - least_s} for m in maneuvers
         ]
     }
 
