@@ -75,7 +75,7 @@ def any_circle() -> list[Row]:
 
 def wind() -> list[Row]:
     """Rows for wind, |w| up to 0.6, R from 1 to 2.5 times (1 + |w|)^2: compiled, plain Python, search over words."""
-    scenes = list(wind_scan_check.scenes(3000, 0))
+    scenes = list(wind_scan_check.random_problems(3000, 0))
     columns = [
         (s.start.east, s.start.north, s.start.angle, s.radius, int(s.side), s.wind_east, s.wind_north) for s in scenes
     ]
@@ -86,7 +86,7 @@ def wind() -> list[Row]:
         {"plain Python": lambda: loiter.solve_in_wind(*few), "compiled": lambda: loiter.solve_in_wind(*all_)}, 3
     )
     begin = perf_counter()
-    differences = [wind_scan_check.difference(scene) for scene in scenes[:20]]
+    differences = [wind_scan_check.scan_difference(scene) for scene in scenes[:20]]
     search = (perf_counter() - begin) / 20
     errors = [max(d.later, d.earlier) for d in differences]
     rows = [("search over points, words and times, NumPy", search, max(errors), float(np.mean(errors)))]

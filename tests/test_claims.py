@@ -29,9 +29,8 @@ TRUE = [
     "That nothing is faster is proved for a circle of the turn radius in still",
     "the conditions alone are no proof of the optimum",
     "The page says where the paper proves the optimum, for a circle of the turn radius in still air",
-    # What the service describes, and files of the code, by name.
+    # What the service describes.
     "That they are also sufficient is proved for circles of the turn radius in still air alone",
-    "`verify/proof.py`",
 ]
 CLAIM = re.compile(r"\b(proofs?|prov(?:e|es|ed|en|ing)|witness\w*)\b", re.IGNORECASE)
 # The option keeps its name.

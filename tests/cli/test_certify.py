@@ -6,7 +6,7 @@ import shlex
 import pytest
 
 from loiter.cli.app import main
-from loiter.verify import conditions as module
+from loiter.verify import accuracy as module
 
 UNIT = "--orbit 0 0 1 --airspeed 1 --turn-radius 1"
 EXAMPLE_1 = f"plan --pose 4 4 90 {UNIT} --certify"
@@ -78,7 +78,7 @@ def test_the_tolerance_of_the_plan_is_that_of_the_certificate(ran):
 
 
 def test_a_failed_condition_is_printed_and_sets_the_exit_status(ran, monkeypatch):
-    monkeypatch.setattr(module, "ROUNDING", -1.0)  # a bound that nothing meets
+    monkeypatch.setattr(module, "ROUNDING", -1.0)  # a bound that no value meets
     status, out, _ = ran(EXAMPLE_2)
     assert status == 1
     assert "NOT VALID" in out

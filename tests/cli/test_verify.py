@@ -1,4 +1,4 @@
-"""`loiter verify`: the comparison with independent witnesses, as a command."""
+"""`loiter verify`: the comparison with independent methods, as a command."""
 
 import re
 
@@ -71,7 +71,7 @@ def test_without_ompl_it_says_what_to_install(capsys, monkeypatch):
     assert "pip install ompl" in line
 
 
-def test_digits_are_a_witness_of_their_own(capsys):
+def test_the_digits_are_compared_alone(capsys):
     assert main(["verify", "--witness", "digits", "--states", "16"]) == 0
     out = capsys.readouterr().out
     assert out.startswith("digits: agrees\n")
@@ -79,30 +79,30 @@ def test_digits_are_a_witness_of_their_own(capsys):
 
 
 @pytest.mark.parametrize(
-    ("package", "module", "witness"),
+    ("package", "module", "method"),
     [
         ("mpmath", "precision", "digits"),
         ("casadi", "collocation", "collocation"),
         ("hj-reachability", "reachability", "reachability"),
     ],
 )
-def test_a_witness_that_cannot_come_says_so_before_the_first_begins(capsys, monkeypatch, package, module, witness):
+def test_a_missing_package_is_named_before_the_first_method_starts(capsys, monkeypatch, package, module, method):
     import importlib
 
     monkeypatch.setattr(importlib.import_module(f"loiter.verify.checks.{module}"), "find_spec", lambda _: None)
-    assert main(["verify", "--witness", "search", "--witness", witness, "--states", "8"]) == 2
+    assert main(["verify", "--witness", "search", "--witness", method, "--states", "8"]) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert package in err
     assert "pip install" in err
 
 
-def test_an_unknown_witness_is_refused(capsys):
+def test_an_unknown_method_is_refused(capsys):
     assert main(["verify", "--witness", "oracle"]) == 2
     assert "--witness" in capsys.readouterr().err
 
 
-def test_the_wind_is_a_witness_that_comes_when_it_is_named(capsys):
+def test_the_search_in_wind_runs_when_it_is_named(capsys):
     assert main(["verify", "--witness", "wind", "--states", "6", "--seed", "2"]) == 0
     first, *rows = [line for line in capsys.readouterr().out.splitlines() if line]
     assert first == "wind: agrees"
@@ -110,9 +110,9 @@ def test_the_wind_is_a_witness_that_comes_when_it_is_named(capsys):
     assert [row.split()[4] for row in rows[1:5]] == ["0"] * 4
 
 
-def test_a_plan_in_wind_that_is_late_is_told(capsys, monkeypatch):
-    late = wind_scan_check.Difference(next(wind_scan_check.scenes(1, 0)), 1.0, 1e-3, 0.0, 0.0)
-    monkeypatch.setattr(wind_scan_check, "compare", lambda states, seed: iter([late] * states))
+def test_a_plan_in_wind_that_is_late_is_reported(capsys, monkeypatch):
+    late = wind_scan_check.ScanDifference(next(wind_scan_check.random_problems(1, 0)), 1.0, 1e-3, 0.0, 0.0)
+    monkeypatch.setattr(wind_scan_check, "compare_with_scan", lambda states, seed: iter([late] * states))
     assert main(["verify", "--witness", "wind"]) == 1
     out = capsys.readouterr().out
     assert out.startswith("wind: DISAGREES")

@@ -43,7 +43,7 @@ HEAVY = [
 ]
 WIND = (
     [*tests("kernel", "wind_search"), *tests("planning", "hold wind"), *(f"--deselect={test}" for test in HEAVY)],
-    [*tests("verify", "drifting wind_scan"), *HEAVY],
+    [*tests("verify", "certificate_in_wind wind_scan"), *HEAVY],
 )
 
 # The tests of a file: those of the first name here that its path begins with, in stages, fast ones first.
@@ -67,7 +67,7 @@ STAGES = {
         ["tests/planning"],
         [
             *tests("cli", "plan wind"),
-            *tests("verify", "certificate drifting"),
+            *tests("verify", "certificate certificate_in_wind"),
             *tests("guidance", "loiter_entry"),
             *tests("plot", "picture"),
             "docs/wind.md",
@@ -79,7 +79,7 @@ STAGES = {
         ["tests/io", *tests("mavlink", "watch"), "docs/maps.md"],
     ),
     "verify/": (
-        tests("verify", "precision drifting certificate wind_scan oracle_check"),
+        tests("verify", "precision certificate_in_wind certificate wind_scan oracle_check"),
         [
             *tests("cli", "verify certify"),
             *tests("verify", "reachability collocation"),

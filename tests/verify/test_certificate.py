@@ -16,7 +16,7 @@ from kernel.worst import states as worst_states
 from loiter import Aircraft, Orbit, Pose, Turn, candidates, plan, plan_all
 from loiter.errors import InvalidArgument
 from loiter.verify import Certificate, certify
-from loiter.verify.checks.oracle_check import scenes as hard_scenes
+from loiter.verify.checks.oracle_check import random_problems as hard_problems
 from strategies import coordinates, radii, scenes, turns
 
 UNIT = Aircraft(1.0, min_turn_radius_m=1.0)
@@ -59,8 +59,8 @@ def test_every_optimum_of_the_reduced_plane_has_a_valid_certificate(x, y, R, tur
 
 @pytest.mark.parametrize("seed", [7, 8])
 def test_hard_places_have_valid_certificates(seed):
-    for scene in hard_scenes(150, seed):
-        certificate = certify(plan(scene.pose, scene.orbit, scene.aircraft))
+    for problem in hard_problems(150, seed):
+        certificate = certify(plan(problem.pose, problem.orbit, problem.aircraft))
         assert certificate.valid, shown(certificate)
 
 
@@ -249,7 +249,7 @@ def test_a_start_on_the_circle_has_the_target_to_check(R, turn):
     assert certify(beside).residual("target").failed
 
 
-def test_a_tolerance_is_told_or_missed():
+def test_a_plan_with_a_tolerance_needs_it_for_its_certificate():
     """A start 0.2 m beyond the last arc: planned with a tolerance, certified with it, refused without."""
     uav = Aircraft(18.0, min_turn_radius_m=50.0)
     pose = Pose(-50.0 * sqrt(1.75) + 0.2, 25.0, 90.0)
@@ -320,7 +320,7 @@ def test_a_certificate_is_frozen_and_reads_as_a_table():
         ({"segments": float("nan")}, "they must be zero or positive, finite seconds"),
     ],
 )
-def test_what_is_no_maneuver_is_refused_in_a_sentence(change, problem):
+def test_an_impossible_maneuver_is_refused_in_a_sentence(change, problem):
     m = plan(*unit_scene(4.0, 4.0))
     value = change.get("segments")
     if isinstance(value, str):

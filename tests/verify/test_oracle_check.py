@@ -1,4 +1,4 @@
-"""The plan beside an independent search, which shares no code with the kernel."""
+"""Plans compared with an independent search, which shares no code with the kernel."""
 
 from dataclasses import replace
 
@@ -7,24 +7,30 @@ import pytest
 from loiter import Aircraft, Orbit, Pose, Turn, candidates
 from loiter.verify.checks import oracle_check as module
 from loiter.verify.checks.oracle import Circle, Search, from_compass
-from loiter.verify.checks.oracle_check import PLACES, RESOLUTION, compare, difference, scenes
+from loiter.verify.checks.oracle_check import (
+    PLACES,
+    RESOLUTION,
+    compare_with_oracle,
+    oracle_difference,
+    random_problems,
+)
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3, 4])
 def test_no_difference_beyond_what_the_search_resolves(seed):
-    differences = list(compare(600, seed))
+    differences = list(compare_with_oracle(600, seed))
     assert len(differences) == 600
     assert max(d.later for d in differences) <= RESOLUTION
     assert max(d.earlier for d in differences) <= RESOLUTION
 
 
-def test_scenes_are_reproducible_and_cover_every_place_turn_and_radius():
-    drawn = list(scenes(600, 1))
-    assert drawn == list(scenes(600, 1))
-    assert drawn != list(scenes(600, 2))
-    assert {scene.place for scene in drawn} == set(PLACES)
-    assert {scene.orbit.turn for scene in drawn} == set(Turn)
-    ratios = [scene.orbit.radius_m / scene.aircraft.turn_radius_m for scene in drawn]
+def test_problems_are_reproducible_and_cover_every_place_turn_and_radius():
+    drawn = list(random_problems(600, 1))
+    assert drawn == list(random_problems(600, 1))
+    assert drawn != list(random_problems(600, 2))
+    assert {problem.place for problem in drawn} == set(PLACES)
+    assert {problem.orbit.turn for problem in drawn} == set(Turn)
+    ratios = [problem.orbit.radius_m / problem.aircraft.turn_radius_m for problem in drawn]
     assert min(ratios) == 1.0
     assert max(ratios) == pytest.approx(30.0)
 
@@ -45,15 +51,15 @@ def test_a_plan_that_is_a_little_late_is_caught(monkeypatch, slower):
         return replace(m, segments=(longer, *m.segments[1:]))
 
     monkeypatch.setattr(module, "plan", late)
-    scene = module.Scene(
+    problem = module.CheckProblem(
         "here", Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=50.0)
     )
-    assert difference(scene).later > RESOLUTION
+    assert oracle_difference(problem).later > RESOLUTION
 
 
 def test_a_plan_that_takes_the_runner_up_is_caught(monkeypatch):
     monkeypatch.setattr(module, "plan", lambda *scene: candidates(*scene)[-1])
-    assert max(d.later for d in compare(20, 1)) > 0.01
+    assert max(d.later for d in compare_with_oracle(20, 1)) > 0.01
 
 
 def test_a_plan_that_claims_too_much_is_caught(monkeypatch):
@@ -65,4 +71,4 @@ def test_a_plan_that_claims_too_much_is_caught(monkeypatch):
 
     monkeypatch.setattr(module, "plan", early)
     monkeypatch.setattr(module, "MOST_JOINS", 90)
-    assert max(d.earlier for d in compare(20, 1)) > 0.01
+    assert max(d.earlier for d in compare_with_oracle(20, 1)) > 0.01

@@ -1,4 +1,4 @@
-"""`loiter.min_time` beside a Hamilton-Jacobi reachability map, which shares no code with the kernel."""
+"""`loiter.min_time` compared with a Hamilton-Jacobi reachability map, which shares no code with the kernel."""
 
 from itertools import pairwise
 
@@ -9,7 +9,7 @@ from loiter import Turn, min_time
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.verify.checks import reachability_check as module
 from loiter.verify.checks.reachability import distances, reach
-from loiter.verify.checks.reachability_check import SCENES, beside, compare
+from loiter.verify.checks.reachability_check import MAPS, compare_with_reachability, reachability_difference
 
 # Cells of the coarse grid of the pair that the tests use: 0.1 turn radii between nodes of the finer one at R = 1.
 CELLS = 40
@@ -19,9 +19,9 @@ CELLS = 40
 HALVED = 2.0**-0.5
 
 
-@pytest.mark.parametrize(("radius", "turn"), SCENES)
+@pytest.mark.parametrize(("radius", "turn"), MAPS)
 def test_every_node_of_the_map_lies_between_its_bounds(radius, turn):
-    result = beside(radius, turn, CELLS)
+    result = reachability_difference(radius, turn, CELLS)
     assert result.passed
     assert result.nodes > 1000
     # The bounds say something: half of the nodes and more have them within a quarter turn of each other.
@@ -29,7 +29,7 @@ def test_every_node_of_the_map_lies_between_its_bounds(radius, turn):
 
 
 def test_the_error_falls_with_the_spacing():
-    results = list(compare([20, 40, 80], [(1.0, Turn.CW)]))
+    results = list(compare_with_reachability([20, 40, 80], [(1.0, Turn.CW)]))
     assert all(r.passed for r in results)
     for coarse, fine in pairwise(results):
         assert fine.error < HALVED * coarse.error
@@ -67,11 +67,11 @@ def faster(x, y, radius, turn, *tolerance):
     return 0.9 * min_time(x, y, radius, turn, *tolerance)
 
 
-def the_other_way_round(x, y, radius, turn, *tolerance):
+def the_other_direction(x, y, radius, turn, *tolerance):
     return min_time(x, y, radius, turn.other, *tolerance)
 
 
-def either_way_round(x, y, radius, turn, *tolerance):
+def either_direction(x, y, radius, turn, *tolerance):
     return min_time(x, y, radius, "either", *tolerance)
 
 
@@ -79,15 +79,15 @@ def another_circle(x, y, radius, turn, *tolerance):
     return min_time(x, y, radius + 0.5, turn, *tolerance)
 
 
-@pytest.mark.parametrize("wrong", [slower, faster, the_other_way_round, either_way_round, another_circle])
+@pytest.mark.parametrize("wrong", [slower, faster, the_other_direction, either_direction, another_circle])
 def test_a_wrong_map_is_caught(monkeypatch, wrong):
     monkeypatch.setattr(module, "min_time", wrong)
-    assert not beside(1.0, Turn.CW, CELLS).passed
+    assert not reachability_difference(1.0, Turn.CW, CELLS).passed
 
 
-def test_bad_input_is_told_at_once(monkeypatch):
+def test_bad_input_is_refused_at_once(monkeypatch):
     with pytest.raises(InvalidArgument, match="cells is 5"):
-        compare([40, 5])
+        compare_with_reachability([40, 5])
     monkeypatch.setattr("loiter.verify.checks.reachability.find_spec", lambda name: None)
     with pytest.raises(MissingPackage, match="pip install hj-reachability"):
-        compare([40])
+        compare_with_reachability([40])

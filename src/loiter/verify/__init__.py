@@ -9,7 +9,7 @@ __all__ = ["Certificate", "certify"]
 
 
 def __getattr__(name: str) -> Any:
-    # The certificate needs the kernel, which the oracle beside it must not load.
+    # Imported on first use: the certificate needs the kernel, which the oracle must not load.
     if name in __all__:
         from loiter.verify import certificate
 

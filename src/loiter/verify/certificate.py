@@ -1,7 +1,7 @@
-"""A certificate: the maximum principle (11)-(18) checked equation by equation, and the extremals compared with.
+"""A certificate: the conditions of the maximum principle checked one by one, and a comparison with other extremals.
 
-What it shows: that the maneuver is an extremal, with lambda and psi to check it by, and that none of the candidates
-is faster; the Hamilton-Jacobi-Bellman equation looks at its neighbours. A fastest maneuver exists (Filippov, paper
+It shows that the maneuver is an extremal, with lambda and psi to check it by, and that none of the candidates is
+faster; the Hamilton-Jacobi-Bellman equation compares it with its neighbours. A fastest maneuver exists (Filippov, paper
 section 1) and is an extremal. That the candidates hold every extremal that can win is proved in the paper for R = 1;
 for R > 1 the words left out, RLR above all, have never been seen to win (docs/theory.md, section 3; `loiter verify`).
 Distances, curvatures and start times of segments are not checked: letters, durations and the join are.
@@ -11,20 +11,32 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
+from itertools import pairwise
 from math import isfinite
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.kernel.words import Word
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Turn
-from loiter.planning.problem import problem_of
-from loiter.planning.solve import candidates
-from loiter.verify import drifting
-from loiter.verify.conditions import residuals
-from loiter.verify.proof import Candidate, Flight, Piece, Residual, flight_of
+from loiter.planning.model import CONTROLS, Turn
+from loiter.planning.problem import Problem, problem_of
+from loiter.planning.solve import extremals
+from loiter.verify.accuracy import accuracy_of
+from loiter.verify.adjoints import trajectory_of
+from loiter.verify.conditions import IN_WIND, residuals
+from loiter.verify.paper_conditions import IN_STILL_AIR
+from loiter.verify.residual import Candidate, Residual
+from loiter.verify.trajectory import FlownPiece, Trajectory
 
+LETTERS = {u: letter for letter, u in CONTROLS.items()}
+
+# Whether the adjoint is unique, and which one is given where it is not.
 ON_THE_CIRCLE = "the start is on the circle: there is nothing to decide, and the target is all there is to check"
+UNIQUE = "psi is unique: phi = 0 at a switch fixes it"
+ARC_BY_ROUNDING = "a single arc (the other is there by rounding alone)"
+STRAIGHT_ENTRY = "that of a straight entry that ends in it, (1, 0) on the axis"
+SWITCH_AT_START = "that of a switch at its start, parallel to the state there"
+UNIQUE_IN_WIND = "the adjoint is unique: the pieces and the condition at the circle fix it"
+ARC_IN_WIND = "a single arc has many adjoints: this is the one that violates the conditions least"
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +76,7 @@ class Certificate:
     switches: tuple[Switch, ...]
     residuals: tuple[Residual, ...]
     others: tuple[Candidate, ...]
-    pieces: tuple[Piece | drifting.Leg, ...]
+    pieces: tuple[FlownPiece, ...]
     tie_s: float
 
     @property
@@ -85,7 +97,7 @@ class Certificate:
     @property
     def runner_up(self) -> Candidate | None:
         """The fastest candidate that is slower; None where there is none, or where another is faster than this."""
-        if self.others and self.others[0].later_s < -self.tie_s:
+        if any(other.later_s < -self.tie_s for other in self.others):
             return None
         return next((other for other in self.others if other.later_s > self.tie_s), None)
 
@@ -107,11 +119,8 @@ class Certificate:
         unit_s = problem_of(self.maneuver).time_unit_s
         began = 0.0
         for piece in self.pieces:
-            yield [
-                Instant((began + s) * unit_s, piece.u, phi, psi1, psi2)
-                for s in (piece.t * i / steps for i in range(steps + 1))
-                for _, _, psi1, psi2, phi in [piece.at(s)]
-            ]
+            times = [piece.t * i / steps for i in range(steps + 1)]
+            yield [_instant(piece, began, s, unit_s) for s in times]
             began += piece.t
 
     def to_dict(self) -> dict[str, object]:
@@ -138,94 +147,73 @@ class Certificate:
 def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
     """The certificate of a maneuver, optimal or not; `tolerance_m` (metres) is that with which it was planned.
 
-    Everything is worked out anew from the start, the letters and the durations. In wind, and for a circle that moves,
-    the conditions are those of docs/wind.md, section 3. Raises `InvalidArgument` for letters
-    that are no word of at most three pieces, durations that are negative or not finite, or a turn that is neither cw
-    nor ccw, else as `plan`.
+    The maneuver is flown again from its start, its letters and its durations. In still air the conditions are the
+    paper's, (7)-(19); in wind, and for a moving circle, those of docs/wind.md, section 3. Raises `InvalidArgument` for
+    letters that are not a word of at most three pieces, durations that are negative or not finite, or a turn that is
+    neither cw nor ccw; otherwise like `plan`.
 
     >>> pose, orbit = loiter.Pose(-400.0, 120.0, 90.0), loiter.Orbit(0.0, 0.0, 80.0)
     >>> c = certify(loiter.plan(pose, orbit, loiter.Aircraft(18.0, max_bank_deg=35.0)))
     >>> c.valid, c.lam, c.runner_up.word, round(c.margin_s, 2)
     (True, 1.0, 'LSL', 16.45)
     """
-    others = _others(maneuver, tolerance_m)
-    if not problem_of(maneuver).still:
-        return _in_wind(maneuver, tolerance_m, others)
-    flight = flight_of(maneuver, tolerance_m, others)
-    unit_s = problem_of(maneuver).time_unit_s
-    certain = bool(flight.pieces)
-    psi = (flight.pieces[0].psi1, flight.pieces[0].psi2) if certain else None
+    problem = problem_of(maneuver, tolerance_m)
+    others = _others(maneuver, problem)
+    trajectory = trajectory_of(maneuver, problem)
+    accuracy = accuracy_of(trajectory, others)
+    formulation = IN_STILL_AIR if problem.still else IN_WIND
+    lam: float | None = None
+    psi: tuple[float, float] | None = None
+    if trajectory.pieces:
+        start = trajectory.first.start
+        lam, psi = trajectory.lam, (start.psi1, start.psi2)
     return Certificate(
         maneuver,
-        flight.lam if certain else None,
+        lam,
         psi,
-        _choice(flight, maneuver.word),
-        _switches(flight, unit_s),
-        tuple(residuals(flight, maneuver, tolerance_m, others)),
+        _choice(trajectory),
+        tuple(_switches(trajectory)),
+        tuple(residuals(formulation, trajectory, accuracy, others)),
         others,
-        tuple(flight.pieces),
-        flight.accuracy.tie * unit_s,
+        trajectory.pieces,
+        accuracy.tie * problem.time_unit_s,
     )
 
 
-def _in_wind(maneuver: Maneuver, tolerance_m: float, others: tuple[Candidate, ...]) -> Certificate:
-    """The certificate in wind, whose adjoint is docs/wind.md's: psi is (p.e, p.Je), phi is f."""
-    flight = drifting.flight_of(maneuver, tolerance_m)
-    legs, unit_s = flight.legs, problem_of(maneuver).time_unit_s
-    start = legs[0].at(0.0) if legs else None
-    ends = [sum(leg.t for leg in legs[:i]) * unit_s for i in range(1, len(legs))]
-    switches = (
-        Switch(time, maneuver.word[i : i + 2], there.x, there.y, there.psi1, there.psi2)
-        for i, (time, there) in enumerate(zip(ends, (leg.at(0.0) for leg in legs[1:]), strict=True))
-    )
-    return Certificate(
-        maneuver,
-        flight.lam if legs else None,
-        None if start is None else (start.psi1, start.psi2),
-        _choice_in_wind(len(legs)),
-        tuple(switches),
-        tuple(drifting.residuals(flight, maneuver, others)),
-        others,
-        tuple(legs),
-        flight.tie * unit_s,
-    )
+def _instant(piece: FlownPiece, began: float, s: float, unit_s: float) -> Instant:
+    now = piece.at(s)
+    return Instant((began + s) * unit_s, piece.u, now.phi, now.psi1, now.psi2)
 
 
-def _choice_in_wind(pieces: int) -> str:
-    if pieces == 0:
-        return ON_THE_CIRCLE
-    if pieces == 1:
-        return "a single arc has many adjoints: this is the one that violates the conditions least"
-    return "the adjoint is unique: the pieces and the condition at the circle fix it"
-
-
-def _switches(flight: Flight, unit_s: float) -> tuple[Switch, ...]:
-    times = [sum(piece.t for piece in flight.pieces[:i]) * unit_s for i in range(1, len(flight.pieces))]
-    return tuple(
-        Switch(time, Word(flight.word).letters[i : i + 2], *piece[2:])
-        for i, (time, piece) in enumerate(zip(times, flight.pieces[1:], strict=True))
-    )
-
-
-def _others(maneuver: Maneuver, tolerance_m: float) -> tuple[Candidate, ...]:
+def _others(maneuver: Maneuver, problem: Problem) -> tuple[Candidate, ...]:
     """Every candidate but the maneuver itself."""
-    found = candidates(maneuver.start, maneuver.orbit, maneuver.aircraft, maneuver.wind, tolerance_m=tolerance_m)
     return tuple(
         Candidate(other.word, other.turn, other.duration_s, other.duration_s - maneuver.duration_s)
-        for other in found
+        for other in extremals(problem)
         if (other.turn, other.segments) != (maneuver.turn, maneuver.segments)
     )
 
 
-def _choice(flight: Flight, letters: str) -> str:
-    if not flight.pieces:
+def _switches(trajectory: Trajectory) -> Iterator[Switch]:
+    time = 0.0
+    for before, after in pairwise(trajectory.pieces):
+        time += before.t
+        there = after.start
+        letters = LETTERS[before.u] + LETTERS[after.u]
+        yield Switch(time * trajectory.problem.time_unit_s, letters, there.x, there.y, there.psi1, there.psi2)
+
+
+def _choice(trajectory: Trajectory) -> str:
+    """Whether psi is unique, and which one this is where it is not."""
+    if not trajectory.pieces:
         return ON_THE_CIRCLE
-    if len(flight.pieces) > 1:
-        return "psi is unique: phi = 0 at a switch fixes it"
-    arc = "a single arc" if len(letters) == 1 else "a single arc (the other is there by rounding alone)"
-    if flight.lam == 1.0:
-        return f"{arc} has many psi: this is that of a straight entry that ends in it, (1, 0) on the axis"
-    return f"{arc} has many psi: this is that of a switch at its start, parallel to the state there"
+    single = len(trajectory.pieces) == 1
+    if not trajectory.problem.still:
+        return ARC_IN_WIND if single else UNIQUE_IN_WIND
+    if not single:
+        return UNIQUE
+    arc = "a single arc" if len(trajectory.maneuver.segments) == 1 else ARC_BY_ROUNDING
+    return f"{arc} has many psi: this is {STRAIGHT_ENTRY if trajectory.lam == 1.0 else SWITCH_AT_START}"
 
 
 # Text
@@ -244,7 +232,7 @@ def _head(certificate: Certificate) -> list[str]:
     if certificate.lam is not None and certificate.psi is not None:
         psi1, psi2 = certificate.psi
         lines.append(f"lambda = {certificate.lam:.6f}, psi = ({psi1:.6f}, {psi2:.6f}) at the start.")
-    lines.append(certificate.choice[0].upper() + certificate.choice[1:] + ".")
+    lines.append(certificate.choice[:1].upper() + certificate.choice[1:] + ".")
     lines += [
         f"{s.letters} at {s.time_s:.6g} s: (x, y) = ({s.x:.6f}, {s.y:.6f}), psi = ({s.psi1:.6f}, {s.psi2:.6f})."
         for s in certificate.switches

@@ -1,4 +1,4 @@
-"""`loiter verify`: the answers beside those of independent methods, four in still air and one in wind."""
+"""`loiter verify`: the answers compared with independent methods, four in still air and one in wind."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Annotated, Any, Literal, NamedTuple
@@ -12,20 +12,20 @@ from loiter.cli import report
 from loiter.cli.numbers import whole
 from loiter.cli.status import CHECK_FAILED
 
-# Grids of the reachability map: the finer one shows that the difference shrinks with the spacing.
+# Grids of the reachability map: the finer one shows that the difference falls with the spacing.
 CELLS = (40, 80)
 
-Witness = Literal["search", "digits", "collocation", "reachability", "wind"]
+Method = Literal["search", "digits", "collocation", "reachability", "wind"]
 
-# What runs where none is named: a scene in wind takes the search half a second, so that one runs when it is named.
-USUAL: tuple[Witness, ...] = ("search", "digits", "collocation", "reachability")
+# The methods that run where none is named. The search in wind takes half a second for a problem, so it must be named.
+DEFAULTS: tuple[Method, ...] = ("search", "digits", "collocation", "reachability")
 
-# Random scenes where no number is given.
+# Random problems where no number is given, in still air and in wind.
 STATES, WINDY_STATES = 2000, 20
 
 
 class Findings(NamedTuple):
-    """What one method found: a table for people, and whether it agrees throughout."""
+    """The result of one method: a table with a note, and whether all answers agree."""
 
     table: Table
     note: str
@@ -39,53 +39,53 @@ def verify(
         Parameter(
             metavar="N",
             converter=whole,
-            help=f"Random scenes of the search, and states of the digits ({STATES} if absent); scenes in wind "
+            help=f"Random problems of the search, and states of the digits ({STATES} if absent); problems in wind "
             f"({WINDY_STATES} if absent).",
         ),
     ] = None,
-    cases: Annotated[int, Parameter(metavar="N", converter=whole, help="Random cases of the collocation.")] = 50,
-    seed: Annotated[int, Parameter(metavar="N", converter=whole, help="The same seed draws the same scenes.")] = 0,
+    cases: Annotated[int, Parameter(metavar="N", converter=whole, help="Random problems of the collocation.")] = 50,
+    seed: Annotated[int, Parameter(metavar="N", converter=whole, help="The same seed draws the same problems.")] = 0,
     witness: Annotated[
-        list[Witness] | None, Parameter(metavar="NAME", help="Compare with this method alone; may be repeated.")
+        list[Method] | None, Parameter(metavar="NAME", help="Compare with this method only; may be repeated.")
     ] = None,
 ) -> int:
     """Compare plans with independent methods; exit status 1 where one of them disagrees.
 
     search: OMPL's Dubins distance, minimised over the point of joining. digits: the kernel's own functions in 50 digits
-    (mpmath). collocation: time-optimal control as a nonlinear program (CasADi, IPOPT), the paper's examples and random
-    cases. reachability: the Hamilton-Jacobi equation on a grid of the reduced plane (hj-reachability). wind: a search
-    over points of joining and times in wind; it takes long, and runs only when it is named.
+    (mpmath). collocation: time-optimal control as a nonlinear program (CasADi, IPOPT), for the paper's examples and
+    random problems. reachability: the Hamilton-Jacobi equation on a grid of the reduced plane (hj-reachability). wind:
+    a search over points of joining and times in wind; it is slow, and runs only where it is named.
     """
-    asked = witness or USUAL
-    # Each method shows whether its packages are there before the first begins.
-    hearings = [(name, _HEARINGS[name](_states(name, states), cases, seed)) for name in asked]
-    findings = [hearing() for _, hearing in hearings]
-    for (name, _), found in zip(hearings, findings, strict=True):
+    names = witness or DEFAULTS
+    # Each method raises where its packages are not installed, before the first one starts.
+    comparisons = [_METHODS[name](_states(name, states), cases, seed) for name in names]
+    findings = [compare() for compare in comparisons]
+    for name, found in zip(names, findings, strict=True):
         report.write(f"{name}: {'agrees' if found.passed else 'DISAGREES'}", found.table, found.note, "")
     return 0 if all(found.passed for found in findings) else CHECK_FAILED
 
 
-def _states(witness: Witness, states: int | None) -> int:
-    """The number of scenes asked for, or what is usual."""
+def _states(method: Method, states: int | None) -> int:
+    """The number of problems: as given, or the method's default."""
     if states is not None:
         return states
-    return WINDY_STATES if witness == "wind" else STATES
+    return WINDY_STATES if method == "wind" else STATES
 
 
 def _tracked(name: str, results: Iterable[Any], total: int) -> Iterator[Any]:
-    # On standard error, so that standard output holds the result alone.
+    # The progress goes to standard error, so that standard output contains the result only.
     return iter(track(results, description=name, total=total, console=Console(stderr=True)))
 
 
 def _search(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.oracle_check import RESOLUTION, Difference, compare
+    from loiter.verify.checks.oracle_check import RESOLUTION, OracleDifference, compare_with_oracle
 
-    results = compare(states, seed)
+    results = compare_with_oracle(states, seed)
 
-    def hear() -> Findings:
-        found: list[Difference] = list(_tracked("search", results, states))
+    def compare() -> Findings:
+        found: list[OracleDifference] = list(_tracked("search", results, states))
         rows = _table("place", "scenes", "plan later by", "search later by", "beyond")
-        for place, here in _by_place([(d.scene.place, d) for d in found]):
+        for place, here in _by_place([(d.problem.place, d) for d in found]):
             later, earlier = max(d.later for d in here), max(d.earlier for d in here)
             beyond = sum(max(d.later, d.earlier) > RESOLUTION for d in here)
             rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", str(beyond))
@@ -93,16 +93,16 @@ def _search(states: int, cases: int, seed: int) -> Callable[[], Findings]:
         note = f"Largest differences, over turn radius plus length; the search resolves {RESOLUTION:.0e}."
         return Findings(rows, note, passed)
 
-    return hear
+    return compare
 
 
 def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.precision import WORST, Rounding, precision
+    from loiter.verify.checks.precision import WORST, RoundingError, precision
 
     results = precision(states, seed)
 
-    def hear() -> Findings:
-        found: list[Rounding] = list(_tracked("digits", results, states))
+    def compare() -> Findings:
+        found: list[RoundingError] = list(_tracked("digits", results, states))
         rows = _table("next to", "states", "largest error", "beyond")
         for place, here in _by_place([(r.place, r) for r in found]):
             beyond = sum(not r.passed for r in here)
@@ -110,34 +110,34 @@ def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
         note = f"Rounding of T, relative, within 1e-12 to 1e-7 of each boundary; {WORST:.0e} is allowed."
         return Findings(rows, note, all(r.passed for r in found))
 
-    return hear
+    return compare
 
 
 def _collocation(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.collocation_check import Collocated, compare
+    from loiter.verify.checks.collocation_check import CollocationDifference, compare_with_collocation
 
-    results = compare(cases, seed)
+    results = compare_with_collocation(cases, seed)
 
-    def hear() -> Findings:
-        found: list[Collocated] = list(_tracked("collocation", results, cases + 2))
+    def compare() -> Findings:
+        found: list[CollocationDifference] = list(_tracked("collocation", results, cases + 2))
         rows = _table("scene", "solves", "plan later by", "program later by", "same structure")
-        for place, here in _by_place([(c.scene.place, c) for c in found]):
+        for place, here in _by_place([(c.problem.place, c) for c in found]):
             later, earlier = max(0.0, *(c.later for c in here)), max(0.0, *(-c.later for c in here))
             same = sum(c.same_structure for c in here)
             rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", f"{same} of {len(here)}")
         note = "Largest differences in turn radii over airspeed, each within the program's own error bound."
         return Findings(rows, note, all(c.passed for c in found))
 
-    return hear
+    return compare
 
 
 def _reachability(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.reachability_check import SCENES, Reached, compare
+    from loiter.verify.checks.reachability_check import MAPS, ReachabilityDifference, compare_with_reachability
 
-    results = compare(CELLS)
+    results = compare_with_reachability(CELLS)
 
-    def hear() -> Findings:
-        found: list[Reached] = list(_tracked("reachability", results, len(CELLS) * len(SCENES)))
+    def compare() -> Findings:
+        found: list[ReachabilityDifference] = list(_tracked("reachability", results, len(CELLS) * len(MAPS)))
         rows = _table("map", "spacing", "nodes", "where T is steep", "mean difference", "within bounds")
         for m in found:
             bounds = "yes" if m.passed else "NO"
@@ -146,18 +146,18 @@ def _reachability(states: int, cases: int, seed: int) -> Callable[[], Findings]:
         note = "Mean difference of T from the grid's, whose error falls with the spacing to the power 5/6 at kinks."
         return Findings(rows, note, all(m.passed for m in found))
 
-    return hear
+    return compare
 
 
 def _wind(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.wind_scan_check import RESOLUTION, WINDIEST, Difference, compare
+    from loiter.verify.checks.wind_scan_check import RESOLUTION, WINDIEST, ScanDifference, compare_with_scan
 
-    results = compare(states, seed)
+    results = compare_with_scan(states, seed)
 
-    def hear() -> Findings:
-        found: list[Difference] = list(_tracked("wind", results, states))
+    def compare() -> Findings:
+        found: list[ScanDifference] = list(_tracked("wind", results, states))
         rows = _table("place", "scenes", "plan later by", "search later by", "beyond", "ends off by")
-        for place, here in _by_place([(d.scene.place, d) for d in found]):
+        for place, here in _by_place([(d.problem.place, d) for d in found]):
             later, earlier = max(d.later for d in here), max(d.earlier for d in here)
             beyond = sum(max(d.later, d.earlier) > RESOLUTION for d in here)
             missed = f"{max(d.missed for d in here):.1e}"
@@ -166,10 +166,10 @@ def _wind(states: int, cases: int, seed: int) -> Callable[[], Findings]:
         note = f"Largest differences of T over 1 + T in wind up to {WINDIEST:g} of the airspeed;"
         return Findings(rows, f"{note} the search resolves {RESOLUTION:.0e}.", passed)
 
-    return hear
+    return compare
 
 
-_HEARINGS: dict[str, Callable[[int, int, int], Callable[[], Findings]]] = {
+_METHODS: dict[str, Callable[[int, int, int], Callable[[], Findings]]] = {
     "search": _search,
     "digits": _digits,
     "collocation": _collocation,

@@ -1,1 +1,1 @@
-"""Independent verification methods, and the checks that compare the kernel's answers with theirs."""
+"""Independent verification methods, and the checks that compare the kernel's answers with their results."""

@@ -1,4 +1,4 @@
-"""The plan beside a direct collocation: the paper's two examples and random scenes."""
+"""Plans compared with a direct collocation, for the paper's two examples and random problems."""
 
 from __future__ import annotations
 
@@ -11,47 +11,48 @@ from loiter.errors import InvalidArgument
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn
 from loiter.planning.solve import plan_all
-from loiter.verify.checks.collocation import Flight, check_installed, collocate, letter
+from loiter.verify.checks.collocation import CollocatedPath, check_installed, collocate, letter
 from loiter.verify.checks.oracle import Circle, from_compass
-from loiter.verify.checks.oracle_check import Scene
+from loiter.verify.checks.oracle_check import CheckProblem
 
 AIRCRAFT = Aircraft(18.0, min_turn_radius_m=50.0)
 
-# What rounding may do to a plan's time, relative to one turn radius plus its length.
-ROUNDING = 1e-12
+# Rounding of a plan's time, relative to one turn radius plus its length.
+PLAN_ROUNDING = 1e-12
 
-# A piece: its letter and its duration.
-Piece = tuple[str, float]
+# A letter and a duration.
+LetterPiece = tuple[str, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Collocated:
-    """One scene: the plan's time, and the flight that the collocation found; times in turn radii over airspeed.
+class CollocationDifference:
+    """The plan's time and the collocated path for one problem; times in turn radii over airspeed.
 
-    `apart` is for how long the controls of the flight and of the plan differ: of the optimal plan nearest to it.
+    `words` are those of all optimal plans. `apart` is how long the controls of the path and of the plan differ, for the
+    optimal plan that is nearest to the path.
     """
 
-    scene: Scene
+    problem: CheckProblem
     planned: float
     words: tuple[str, ...]
-    flight: Flight
+    path: CollocatedPath
     apart: float
 
     @property
     def later(self) -> float:
-        """By how much the plan takes longer than the flight; negative where the flight does."""
-        return self.planned - self.flight.time
+        """By how much the plan takes longer than the path; negative where the path takes longer."""
+        return self.planned - self.path.time
 
     @property
     def same_time(self) -> bool:
-        """Whether the plan is no later than the flight, nor the flight than the plan, beyond the flight's own error."""
-        blur = self.flight.error + ROUNDING * (1.0 + self.planned)
-        return -blur - self.flight.gap <= self.later <= blur
+        """Whether the times of plan and path agree up to the path's own error."""
+        error = self.path.error + PLAN_ROUNDING * (1.0 + self.planned)
+        return -error - self.path.gap <= self.later <= error
 
     @property
     def same_structure(self) -> bool:
-        """Whether the flight switches as the plan does, to an interval's length at each switch and at the end."""
-        return self.apart <= max(map(len, self.words)) * self.flight.width
+        """Whether the path switches where the plan does, up to an interval's length at each switch and at the end."""
+        return self.apart <= max(map(len, self.words)) * self.path.width
 
     @property
     def passed(self) -> bool:
@@ -59,60 +60,62 @@ class Collocated:
         return self.same_time and self.same_structure
 
 
-def compare(cases: int, seed: int) -> Iterator[Collocated]:
-    """Plan and collocate the paper's two examples and then `cases` random scenes, one by one.
+def compare_with_collocation(cases: int, seed: int) -> Iterator[CollocationDifference]:
+    """Plan and collocate the paper's two examples and then `cases` random problems, one by one.
 
-    Raises `InvalidArgument` for a negative number of cases, `MissingPackage` where CasADi is not installed; both at
-    once.
+    Raises at the call, not at the first result: `InvalidArgument` for a negative number of cases, `MissingPackage`
+    where CasADi is not installed.
     """
     if cases < 0:
         raise InvalidArgument("cases", f"is {cases}: it must be at least 0")
     check_installed()
-    return map(beside, chain(examples(), scenes(cases, seed)))
+    return map(collocation_difference, chain(examples(), random_problems(cases, seed)))
 
 
-def examples() -> Iterator[Scene]:
-    """The two examples of the paper's section 7: a start that heads due east is its own reduced state."""
+def examples() -> Iterator[CheckProblem]:
+    """The two examples of the paper's section 7: the position of a start that heads due east is its reduced state."""
     r = AIRCRAFT.turn_radius_m
     for name, x, y in (("example 1", 4.0, 4.0), ("example 2", -0.53, 0.31)):
-        yield Scene(name, Pose(r * x, r * y, 90.0), Orbit(0.0, 0.0, r), AIRCRAFT)
+        yield CheckProblem(name, Pose(r * x, r * y, 90.0), Orbit(0.0, 0.0, r), AIRCRAFT)
 
 
-def scenes(cases: int, seed: int) -> Iterator[Scene]:
-    """Random starts around circles of 1 to 5 turn radii, each turn in its turn; the same for the same seed."""
+def random_problems(cases: int, seed: int) -> Iterator[CheckProblem]:
+    """Random starts around circles of 1 to 5 turn radii, all three turns in rotation; the same for the same seed."""
     random, r, turns = Random(seed), AIRCRAFT.turn_radius_m, tuple(Turn)
     for i in range(cases):
         R = random.uniform(1.0, 5.0)
         east, north = (r * random.uniform(-R - 3.0, R + 3.0) for _ in range(2))
         pose = Pose(east, north, random.uniform(0.0, 360.0))
-        yield Scene("anywhere", pose, Orbit(0.0, 0.0, R * r, turns[i % len(turns)]), AIRCRAFT)
+        yield CheckProblem("anywhere", pose, Orbit(0.0, 0.0, R * r, turns[i % len(turns)]), AIRCRAFT)
 
 
-def beside(scene: Scene) -> Collocated:
-    """One scene planned and collocated."""
-    r, orbit, pose = scene.aircraft.turn_radius_m, scene.orbit, scene.pose
-    plans = plan_all(pose, orbit, scene.aircraft)
+def collocation_difference(problem: CheckProblem) -> CollocationDifference:
+    """One problem planned and collocated."""
+    r, orbit, pose = problem.aircraft.turn_radius_m, problem.orbit, problem.pose
+    plans = plan_all(pose, orbit, problem.aircraft)
     start = from_compass((pose.east_m - orbit.east_m) / r, (pose.north_m - orbit.north_m) / r, pose.heading_deg)
     turns = (Turn.CW, Turn.CCW) if orbit.turn == Turn.EITHER else (orbit.turn,)
-    flight = collocate(start, [Circle(orbit.radius_m / r, turn == Turn.CW) for turn in turns])
-    flown = [(letter(u), h) for u, h in zip(flight.controls, flight.lengths, strict=True)]
+    path = collocate(start, [Circle(orbit.radius_m / r, turn == Turn.CW) for turn in turns])
+    flown = [(letter(u), h) for u, h in zip(path.controls, path.lengths, strict=True)]
     apart = min(differing(flown, pieces(m)) for m in plans)
-    return Collocated(scene, plans[0].length_m / r, tuple(m.word for m in plans), flight, apart)
+    first, *_ = plans
+    return CollocationDifference(problem, first.length_m / r, tuple(m.word for m in plans), path, apart)
 
 
-def pieces(m: Maneuver) -> list[Piece]:
+def pieces(m: Maneuver) -> list[LetterPiece]:
     """The plan's letters and durations, in turn radii over airspeed."""
     return [(segment.letter, segment.length_m / m.aircraft.turn_radius_m) for segment in m.segments]
 
 
-def differing(a: Sequence[Piece], b: Sequence[Piece]) -> float:
-    """For how long two controls differ; past the end of one they do."""
+def differing(a: Sequence[LetterPiece], b: Sequence[LetterPiece]) -> float:
+    """How long two controls differ; past the end of one of them they do."""
     edges = sorted({0.0, *accumulate(t for _, t in a), *accumulate(t for _, t in b)})
-    return sum(end - begin for begin, end in pairwise(edges) if at(a, begin, end) != at(b, begin, end))
+    spans = pairwise(edges)
+    return sum(end - begin for begin, end in spans if letter_at(a, begin, end) != letter_at(b, begin, end))
 
 
-def at(control: Sequence[Piece], begin: float, end: float) -> str:
-    """The letter flown between two times with no switch in between; "" past the end."""
+def letter_at(control: Sequence[LetterPiece], begin: float, end: float) -> str:
+    """The letter flown between two times without a switch in between; "" past the end."""
     ends = accumulate(t for _, t in control)
     middle = 0.5 * (begin + end)
     return next((name for (name, _), until in zip(control, ends, strict=True) if middle < until), "")

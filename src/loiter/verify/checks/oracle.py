@@ -1,7 +1,7 @@
 """An independent search: OMPL's Dubins distance to a pose, minimised over the point where the circle is joined.
 
-It shares no code with the kernel: positions, headings and circle stay as they are, the path between two poses is
-OMPL's, and the least over the point of joining is found by trying points all round and refining. OMPL is needed for
+It shares no code with the kernel: positions and headings are not reduced, the path between two poses is OMPL's, and the
+minimum over the point of joining is found by trying points all round the circle and refining. OMPL is needed for
 development only.
 """
 
@@ -9,20 +9,20 @@ from collections.abc import Callable
 from math import atan2, cos, hypot, inf, pi, radians, remainder, sin, sqrt
 from typing import Any, NamedTuple
 
-# OMPL counts arcs within 1e-6 of a full turn as none (`DUBINS_EPS` in its DubinsStateSpace.cpp), so a path of its may
-# miss the pose by a few 1e-6 turn radii. A path that misses by more is an error of its, not a tolerance.
+# OMPL treats arcs within 1e-6 of a full turn as zero (`DUBINS_EPS` in its DubinsStateSpace.cpp), so its path may miss
+# the pose by a few 1e-6 turn radii. A path that misses by more is an error of OMPL, not a tolerance.
 OMPL_MISS = 1e-5
 
 # Evaluations of a golden-section search that shrink a bracket to 1e-15 of its width: 0.618^72.
 GOLDEN_STEPS = 72
 GOLDEN = (sqrt(5.0) - 1.0) / 2.0
 
-# How far before the end OMPL's path is read, as a fraction of its length: OMPL answers the goal itself at the end.
+# Where the end of OMPL's path is read, as a fraction of its length: exactly at the end OMPL returns the goal itself.
 ALMOST = 1.0 - 1e-13
 
 
 class Planar(NamedTuple):
-    """A pose in the plane: east and north of the circle's centre, and the mathematical angle of its course, radians."""
+    """A pose: east and north of the circle's centre, and the mathematical angle of its heading, radians."""
 
     east: float
     north: float
@@ -41,15 +41,15 @@ class Circle(NamedTuple):
         return Planar(self.radius * cos(azimuth), self.radius * sin(azimuth), remainder(course, 2.0 * pi))
 
 
-class Found(NamedTuple):
-    """The shortest path that the search found: its length and where, as an azimuth, it joins the circle."""
+class OraclePath(NamedTuple):
+    """The shortest path that the search found: its length, and the azimuth at which it joins the circle."""
 
     length: float
     azimuth: float
 
 
 def from_compass(east: float, north: float, heading_deg: float) -> Planar:
-    """A pose with a compass heading, in the oracle's own terms."""
+    """The planar pose of a compass heading."""
     return Planar(east, north, radians(90.0 - remainder(heading_deg, 360.0)))
 
 
@@ -62,8 +62,8 @@ class Search:
         self.space = base.DubinsStateSpace(turn_radius)
         self.turn_radius = turn_radius
 
-    def shortest(self, start: Planar, circle: Circle, joins: int) -> Found:
-        """The shortest of OMPL's paths to `joins` points all round the circle and more near the start's own azimuth.
+    def shortest(self, start: Planar, circle: Circle, joins: int) -> OraclePath:
+        """The shortest of OMPL's paths to `joins` points all round the circle, and more near the azimuth of the start.
 
         Each local minimum is refined.
         """
@@ -75,20 +75,20 @@ class Search:
 
         azimuths = all_round(start, joins)
         lengths = [length(azimuth) for azimuth in azimuths]
-        best = Found(inf, 0.0)
+        best = OraclePath(inf, 0.0)
         for i, here in enumerate(lengths):
             before, after = i - 1, (i + 1) % len(lengths)
             if here <= lengths[before] and here <= lengths[after]:
                 left = azimuths[before] - (2.0 * pi if before < 0 else 0.0)
                 right = azimuths[after] + (2.0 * pi if after == 0 else 0.0)
-                best = min(best, golden_section(length, left, Found(here, azimuths[i]), right))
+                best = min(best, golden_section(length, left, OraclePath(here, azimuths[i]), right))
         return best
 
-    def exact_start(self, start: Planar, circle: Circle, found: Found) -> tuple[Planar, float]:
-        """The start from which OMPL's path does end on the circle, and how far it lies from `start`.
+    def exact_start(self, start: Planar, circle: Circle, found: OraclePath) -> tuple[Planar, float]:
+        """The start from which OMPL's path ends exactly on the circle, and its distance from `start`.
 
-        OMPL's path is moved as a whole until its end is the point of joining. Raises `ArithmeticError` where that takes
-        more than OMPL's own tolerance.
+        OMPL's path is moved as a whole until its end is the point of joining. Raises `ArithmeticError` where the
+        distance is more than OMPL's own tolerance.
         """
         goal = circle.join(found.azimuth)
         last = self.space.allocState()
@@ -121,25 +121,25 @@ class Search:
 
 
 def all_round(start: Planar, joins: int) -> list[float]:
-    """`joins` azimuths evenly round the circle and, for starts next to it, as many ever closer to the start's own."""
+    """`joins` azimuths evenly round the circle, and twice as many that approach the azimuth of the start."""
     own = atan2(start.north, start.east)
     closer = [own + sign * pi * 10.0 ** (-16.0 * i / joins) for i in range(joins) for sign in (-1.0, 1.0)]
     even = [2.0 * pi * i / joins for i in range(joins)]
     return sorted(azimuth % (2.0 * pi) for azimuth in [*even, *closer, own])
 
 
-def golden_section(length: Callable[[float], float], left: float, best: Found, right: float) -> Found:
-    """A local minimum of `length` between `left` and `right`, from a point `best` inside that is no worse than both.
+def golden_section(length: Callable[[float], float], left: float, best: OraclePath, right: float) -> OraclePath:
+    """A local minimum of `length` between `left` and `right`, from a point `best` between them that is no longer.
 
-    The best point stays inside the bracket, so the search also closes in on a minimum at the edge of a jump, as the
-    length of the shortest path has them.
+    The best point stays inside the bracket, so the search also converges to a minimum at the edge of a jump, which the
+    length of the shortest path has.
     """
     for _ in range(GOLDEN_STEPS):
         wide, sign = (
             (right - best.azimuth, 1.0) if right - best.azimuth > best.azimuth - left else (best.azimuth - left, -1.0)
         )
         azimuth = best.azimuth + sign * (1.0 - GOLDEN) * wide
-        tried = Found(length(azimuth), azimuth)
+        tried = OraclePath(length(azimuth), azimuth)
         if tried.length < best.length:
             outer, best = best.azimuth, tried
             left, right = (outer, right) if sign > 0.0 else (left, outer)

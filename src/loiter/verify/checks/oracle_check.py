@@ -1,4 +1,4 @@
-"""The answer beside the oracle's, over random scenes that seek out the hard places."""
+"""Plans compared with the oracle's paths, over random problems, many of them in hard places."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from random import Random
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn
 from loiter.planning.solve import plan
-from loiter.verify.checks.oracle import Circle, Found, Planar, Search, from_compass
+from loiter.verify.checks.oracle import Circle, OraclePath, Planar, Search, from_compass
 
-# What the search resolves, over turn radius plus length. OMPL's path is read, and its start moved, to some 1e-15 turn
-# radii. Next to the circle the least time moves with the root of such a displacement e, by e / sqrt(d) at a distance d:
-# for the nearest scenes (d = 1e-9) and a few roundings of R = 30 some 1e-10. 1e-9 leaves them room.
+# The resolution of the search, over turn radius plus length. OMPL's path is read, and its start moved, to some 1e-15
+# turn radii. Next to the circle the least time moves with the root of such a displacement e, by e / sqrt(d) at a
+# distance d: some 1e-10 for the nearest starts (d = 1e-9) and a few roundings of R = 30. 1e-9 is a safe bound.
 RESOLUTION = 1e-9
 
-# The points of joining tried at first, and at most, where the search has not yet found a path as short.
+# The points of joining tried at first, and at most while the search has not found a path as short as the plan.
 JOINS, MOST_JOINS = 90, 90_000
 
 RADII = (1.0, 1.0 + 1e-6, 1.05, 1.3, 2.0 - 1e-6, 2.0, 2.0 + 1e-6, 3.0, 5.0, 10.0, 30.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
-    """One comparison: what is planned."""
+class CheckProblem:
+    """A problem to compare; `place` says where its start lies."""
 
     place: str
     pose: Pose
@@ -35,20 +35,20 @@ class Scene:
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
-    """What came of one scene: lengths over (turn radius + length), 0 where the two agree or the other is worse.
+class OracleDifference:
+    """By how much plan and search differ for one problem, in lengths over (turn radius + length).
 
-    `later`: by how much the plan is longer than a path that the search found. `earlier`: by how much the search's best
-    path stays longer than the plan, which the search has to make up by refining.
+    `later` is by how much the plan is longer than a path that the search found, `earlier` by how much the search's best
+    path stays longer than the plan after refining; each is 0 where it would be negative.
     """
 
-    scene: Scene
+    problem: CheckProblem
     later: float
     earlier: float
 
 
-def scenes(states: int, seed: int) -> Iterator[Scene]:
-    """Random scenes, the same for the same seed: each place, radius and turn in its turn."""
+def random_problems(states: int, seed: int) -> Iterator[CheckProblem]:
+    """Random problems, the same for the same seed: the places in rotation, radius and turn at random."""
     random = Random(seed)
     places = tuple(PLACES.items())
     for i in range(states):
@@ -59,7 +59,7 @@ def scenes(states: int, seed: int) -> Iterator[Scene]:
         x, y, heading = draw(random, R)
         east, north = random.choice(((0.0, 0.0), (-120.0, 35.0)))
         pose = Pose(east + r * x, north + r * y, heading)
-        yield Scene(place, pose, Orbit(east, north, R * r, turn), Aircraft(18.0, min_turn_radius_m=r))
+        yield CheckProblem(place, pose, Orbit(east, north, R * r, turn), Aircraft(18.0, min_turn_radius_m=r))
 
 
 def anywhere(random: Random, R: float) -> tuple[float, float, float]:
@@ -75,7 +75,7 @@ def on_axes(random: Random, R: float) -> tuple[float, float, float]:
 
 
 def next_to_target(random: Random, R: float) -> tuple[float, float, float]:
-    """Next to the circle and nearly tangent, the right way or the wrong: from 1e-9 turn radii to a tenth."""
+    """Next to the circle and nearly tangent, in either direction: from 1e-9 turn radii to a tenth."""
     azimuth, off = random.uniform(0.0, 2.0 * pi), 10.0 ** random.uniform(-9.0, -1.0)
     distance = R + random.gauss(0.0, off)
     heading = random.choice((0.0, 180.0)) - degrees(azimuth + random.gauss(0.0, off))
@@ -91,24 +91,24 @@ def far_away(random: Random, R: float) -> tuple[float, float, float]:
 PLACES = {"anywhere": anywhere, "on the axes": on_axes, "next to the target": next_to_target, "far away": far_away}
 
 
-def compare(states: int, seed: int) -> Iterator[Difference]:
-    """Plan and search `states` random scenes, one by one.
+def compare_with_oracle(states: int, seed: int) -> Iterator[OracleDifference]:
+    """Plan and search `states` random problems, one by one.
 
-    Raises `InvalidArgument` for fewer than one state, `MissingPackage` where OMPL is not installed; both at once.
+    Raises at the call, not at the first result: `InvalidArgument` for fewer than one state, `MissingPackage` where OMPL
+    is not installed.
     """
     if states < 1:
         raise InvalidArgument("states", f"is {states}: it must be at least 1")
     if find_spec("ompl") is None:
         raise MissingPackage("the search needs OMPL, which is not installed: pip install ompl")
-    return map(difference, scenes(states, seed))
+    return map(oracle_difference, random_problems(states, seed))
 
 
-def difference(scene: Scene) -> Difference:
-    """One scene planned and searched. An earlier plan makes the search try ten times as many points of joining."""
-    r = scene.aircraft.turn_radius_m
-    planned = plan(scene.pose, scene.orbit, scene.aircraft).length_m
-    orbit = scene.orbit
-    start = from_compass(scene.pose.east_m - orbit.east_m, scene.pose.north_m - orbit.north_m, scene.pose.heading_deg)
+def oracle_difference(problem: CheckProblem) -> OracleDifference:
+    """One problem planned and searched; while the plan is shorter, the search tries ten times as many points."""
+    r, pose, orbit = problem.aircraft.turn_radius_m, problem.pose, problem.orbit
+    planned = plan(pose, orbit, problem.aircraft).length_m
+    start = from_compass(pose.east_m - orbit.east_m, pose.north_m - orbit.north_m, pose.heading_deg)
     search, joins = Search(r), JOINS
     circle, found = shortest(search, start, orbit, joins)
     while found.length - planned > RESOLUTION * (r + planned) and joins < MOST_JOINS:
@@ -117,17 +117,17 @@ def difference(scene: Scene) -> Difference:
     earlier = (found.length - planned) / (r + planned)
     later = 0.0
     if found.length < planned:
-        # OMPL's path may profit from its tolerance: compare from the start from which it really ends on the circle,
+        # OMPL's path may profit from its tolerance: compare from the start from which it ends exactly on the circle,
         # about the origin, where no offset rounds the distance from the circle.
         exact, _ = search.exact_start(start, circle, found)
         pose = Pose(exact.east, exact.north, 90.0 - degrees(exact.angle))
         centred = Orbit(0.0, 0.0, orbit.radius_m, orbit.turn)
-        later = (plan(pose, centred, scene.aircraft).length_m - found.length) / (r + planned)
-    return Difference(scene, max(later, 0.0), max(earlier, 0.0))
+        later = (plan(pose, centred, problem.aircraft).length_m - found.length) / (r + planned)
+    return OracleDifference(problem, max(later, 0.0), max(earlier, 0.0))
 
 
-def shortest(search: Search, start: Planar, orbit: Orbit, joins: int) -> tuple[Circle, Found]:
-    """The search's best path onto the circle, for *either* over both directions."""
+def shortest(search: Search, start: Planar, orbit: Orbit, joins: int) -> tuple[Circle, OraclePath]:
+    """The search's best path onto the circle, and the circle with the direction; for *either* the best of both."""
     turns = (Turn.CW, Turn.CCW) if orbit.turn == Turn.EITHER else (orbit.turn,)
     circles = [Circle(orbit.radius_m, turn == Turn.CW) for turn in turns]
     found = [(circle, search.shortest(start, circle, joins)) for circle in circles]

@@ -1,4 +1,4 @@
-"""The kernel in 50 digits: the same functions, rebound to mpmath, give the true rounding error of the doubles."""
+"""The rounding error of the kernel: its functions in doubles compared with the same functions in 50 digits (mpmath)."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from loiter.kernel.synthesis import duration, optimum, rounding
 DIGITS = 50
 
 # The largest relative error of T allowed: the worst conditioned of the boundary states below loses two of the sixteen
-# digits, and this leaves one more to spare.
+# digits; one more is a margin.
 WORST = 1e-13
 
 # How near to a boundary states are drawn: 1e-12 to 1e-7 turn radii, on either side.
@@ -30,8 +30,8 @@ RADII = (1.0, 1.0 + 1e-6, 1.3, 2.0, 2.0 + 1e-6, 3.0, 10.0, 30.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Rounding:
-    """The rounding of one state: T in doubles against T in 50 digits, relative to T."""
+class RoundingError:
+    """The rounding error of one state: T in doubles less T in 50 digits, relative to T."""
 
     place: str
     x: float
@@ -46,13 +46,14 @@ class Rounding:
         return self.error <= WORST
 
 
-def precision(states: int, seed: int) -> Iterator[Rounding]:
+def precision(states: int, seed: int) -> Iterator[RoundingError]:
     """Measure the rounding error of T at `states` random states, most of them next to a boundary of the synthesis.
 
-    Left out are states within rounding of a last circle: there the tolerance decides, on purpose, which side of a jump
-    they are on (docs/theory.md, section 6).
+    States within rounding of a last circle are left out: there the tolerance decides, on purpose, on which side of a
+    jump they are (docs/theory.md, section 6).
 
-    Raises `InvalidArgument` for fewer than one state, `MissingPackage` where mpmath is not installed; both at once.
+    Raises at the call, not at the first result: `InvalidArgument` for fewer than one state, `MissingPackage` where
+    mpmath is not installed.
     """
     if states < 1:
         raise InvalidArgument("states", f"is {states}: it must be at least 1")
@@ -61,7 +62,7 @@ def precision(states: int, seed: int) -> Iterator[Rounding]:
     return (rounded(*state) for state in drawn(states, seed))
 
 
-def rounded(place: str, x: float, y: float, R: float, side: Side) -> Rounding:
+def rounded(place: str, x: float, y: float, R: float, side: Side) -> RoundingError:
     """The rounding error of T at one state."""
     from mpmath import mp, mpf
 
@@ -69,12 +70,12 @@ def rounded(place: str, x: float, y: float, R: float, side: Side) -> Rounding:
         true = duration(_exact_optimum()(mpf(x), mpf(y), mpf(R), side, mpf(0)))
         _, _, *pieces = optimum(x, y, R, side, 0.0)
         error = abs(sum(map(mpf, pieces)) - true)
-        return Rounding(place, x, y, R, side, float(error / true if true > 0 else error))
+        return RoundingError(place, x, y, R, side, float(error / true if true > 0 else error))
 
 
 @cache
 def _exact_optimum() -> Function:
-    """`optimum` in mpmath's arithmetic, without the tolerance that rounding asks for."""
+    """`optimum` in mpmath's arithmetic, without the tolerance that doubles need."""
     import mpmath
 
     with mpmath.mp.workdps(DIGITS):
@@ -85,7 +86,7 @@ def _exact_optimum() -> Function:
 
 
 def drawn(states: int, seed: int) -> Iterator[tuple[str, float, float, float, Side]]:
-    """Random states, each place in its turn, the same for the same seed."""
+    """Random states, the places in rotation, the same for the same seed."""
     random = Random(seed)
     places = tuple(PLACES.items())
     count = 0

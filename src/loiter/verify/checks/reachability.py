@@ -1,16 +1,16 @@
 """Hamilton-Jacobi reachability: least times on a grid of the reduced plane, by hj-reachability (JAX).
 
-It shares no code with the kernel: only the reduced system (7) of docs/theory.md and the end points (8), (9) go in, and
-a general solver of Hamilton-Jacobi equations marches backward in time. All lengths are in turn radii, times in turn
+It shares no code with the kernel: it uses only the reduced system (7) of docs/theory.md and the end points (8), (9),
+and a general solver of Hamilton-Jacobi equations marches backward in time. Lengths are in turn radii, times in turn
 radii over airspeed. hj-reachability is needed for development only.
 
-What is solved is V(x, t): how close to an end point the state x can come within a time t. With one control the plane
-moves as a rigid body, so a flight that ends at a distance d from the end point, begun at a distance d from x and flown
-with the same control, ends at the end point itself. Hence
+It solves for V(x, t), the least distance from an end point that the state x can reach within a time t. Under one
+control history the plane moves as a rigid body. So if a trajectory from x ends at a distance d from the end point, some
+state at the distance d from x reaches the end point itself with the same control. Hence
 
     V(x, t) = distance from x to {T <= t},
 
-which has slope 1 even where T jumps: no place need be left out.
+which has slope 1 even where T jumps: no state has to be left out.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import NDArray
 
-# Optimal flights stay this close to where they start and to the circle: every arc goes about (0, 1) or (0, -1), so the
-# first one keeps within two of the start's distance from the centre, and the others within R + 2.
+# Optimal trajectories stay this close to their start and to the circle: every arc is about (0, 1) or (0, -1), so the
+# first one stays within the start's distance from the centre plus 2, and the others within R + 2.
 MARGIN = 2.0
 
-# The map covers the starts up to this far outside the circle.
+# The map covers starts up to this distance outside the circle.
 OUTSIDE = 1.0
 
-# From these starts every time is below this (just above a whole turn); what is not reached by then counts as infinite.
+# From these starts every time is below this (just above a whole turn); states that have not arrived then count as inf.
 HORIZON = 7.0
 
 # V has kinks, which an upwind scheme of order r smears over h^(r/(r+1)); here r = 5, and halving h leaves 0.56 of it.
@@ -47,8 +47,8 @@ OWN_ERROR = 1.0 / (sqrt(2.0) - 1.0)
 class Reach:
     """Least times on a grid: from (x[i], y[j]) `time[i, j]` to come within `error` of an end point.
 
-    `error` is the grid's own error in V; `time` is the first of the instants `step` apart, inf past the horizon.
-    `x` and `y` are (n,), `spacing` apart, `time` is (n, n). `within` says how far from the centre the map holds.
+    `error` is the grid's own error in V; `time` is the first of the instants `step` apart, inf past the horizon. `x`
+    and `y` are (n,), `spacing` apart, `time` is (n, n). The map is valid up to the distance `within` from the centre.
     """
 
     x: NDArray[float64]
@@ -61,12 +61,12 @@ class Reach:
 
 
 class ReducedPlane:
-    """The system (7), x' = 1 + u y, y' = -u x, |u| <= 1, as hj-reachability asks for it."""
+    """The system (7), x' = 1 + u y, y' = -u x, |u| <= 1, with the interface of hj-reachability."""
 
     def hamiltonian(self, state: Any, time: Any, value: Any, gradient: Any) -> Any:
         """The least of gradient . f over u."""
-        x, y = state
-        return gradient[0] - abs(gradient[0] * y - gradient[1] * x)
+        (x, y), (by_x, by_y) = state, gradient
+        return by_x - abs(by_x * y - by_y * x)
 
     def partial_max_magnitudes(self, state: Any, time: Any, value: Any, gradients: Any) -> Any:
         """The largest |x'| and |y'| at a state."""
@@ -91,8 +91,8 @@ def check_installed() -> None:
 def reach(R: float, sides: Sequence[int], cells: int) -> Reach:
     """The map for a circle of radius R, with end points (0, R) for side 1 and (0, -R) for side -1, either or both.
 
-    It has twice `cells` cells in x and in y; a grid of `cells` tells its error. Raises `MissingPackage` without
-    hj-reachability.
+    It has twice `cells` cells in x and in y; its error is estimated from a grid of `cells`. Raises `MissingPackage`
+    without hj-reachability.
     """
     import numpy as np
 
@@ -100,18 +100,18 @@ def reach(R: float, sides: Sequence[int], cells: int) -> Reach:
     within = R + OUTSIDE
     half = within + MARGIN
     spacing = half / cells
-    instants = np.linspace(0.0, HORIZON, round(HORIZON / spacing) + 1)
+    instants, step = np.linspace(0.0, HORIZON, round(HORIZON / spacing) + 1, retstep=True)
     coarse, fine = (distances(R, sides, half, n, instants) for n in (cells, 2 * cells))
     axis = np.linspace(-half, half, 2 * cells + 1)
     inside = np.hypot(axis[::2, np.newaxis], axis[::2]) <= within
     error = OWN_ERROR * float(np.abs(fine[:, ::2, ::2] - coarse)[:, inside].max())
     reached = fine <= error
     time = np.where(reached.any(axis=0), instants[reached.argmax(axis=0)], np.inf)
-    return Reach(axis, axis, time, within, spacing, float(instants[1]), error)
+    return Reach(axis, axis, time, within, spacing, float(step), error)
 
 
 def distances(R: float, sides: Sequence[int], half: float, cells: int, instants: NDArray[float64]) -> NDArray[float64]:
-    """V at each instant and node, (instants, cells + 1, cells + 1), on the square up to `half` from the centre."""
+    """V at each instant and node, (instants, cells + 1, cells + 1), on the square from -`half` to `half`."""
     import hj_reachability as hj
     import jax.numpy as jnp
     import numpy as np

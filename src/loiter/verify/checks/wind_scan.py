@@ -1,9 +1,9 @@
 """An independent search in wind: every root of every word to points of joining all round, by scanning and bisection.
 
-It shares no code with the kernel and knows no adjoint and no transversality: only the lengths of Dubins' words from
-pose to pose, as Shkel and Lumelsky (2001) write them, with both middle arcs of RLR and LRL. The circle drifts with -w
-through still air; a word meets it at an azimuth and a time T where its length to the pose there is T. The least T is
-found by trying azimuths all round, and then closer and closer ones.
+It shares no code with the kernel and uses neither an adjoint nor transversality: only the lengths of Dubins' words from
+pose to pose (Shkel and Lumelsky, 2001), with both middle arcs of RLR and LRL. The circle moves with -w through still
+air. A word joins it at an azimuth at the time T if its length to the pose there at T is T. The least T is found by
+trying azimuths all round, and then on ever finer scales.
 """
 
 from __future__ import annotations
@@ -18,32 +18,32 @@ from numpy.typing import NDArray
 
 from loiter.verify.checks.oracle import Planar
 
-# Lengths that differ by more from one step to the next have jumped by a whole turn.
+# Lengths that differ by more than this from one step to the next have jumped by a whole turn.
 JUMP = 0.5 * pi
 
-# A bracket of one step is down to rounding after as many bisections.
+# This many bisections shrink a bracket of one step to rounding.
 BISECTIONS = 50
 
-# What the bisection leaves of length less time, at the steepest: near an edge it moves with the root of 1e-16. More, or
-# nan on one side, is left where it has closed in on a jump, or on an edge.
-MISSED = 1e-6
+# The largest length less time left by the bisection of a root: near an edge it moves with the root of 1e-16. More, or
+# nan on one side, is left where the bisection has converged to a jump, or to an edge.
+ROOT_ERROR = 1e-6
 
-# Points tried either side of a least time, to how much of their range the range shrinks, and how often: 0.1 turn radii
-# become 1e-11.
+# Points tried on either side of a least time, the factor by which their range shrinks, and how often: a range of 0.1
+# turn radii becomes 1e-11.
 CLOSER, SHRINK, ROUNDS = 20, 0.1, 11
 
-# Local minima that are refined, the best first: a scan shows a valley as too high by up to a step or two.
-VALLEYS = 6
+# Local minima that are refined, the best first: the scan finds a minimum too high by up to a step or two.
+MINIMA = 6
 
-# The time scanned at once.
+# The span of time that is scanned at once.
 BLOCK = 2.0 * pi
 
-# What the arcs of the earliest meeting take together, at most, with turns to spare: how far the scan has to look.
+# A bound, with a margin of whole turns, on the time that the arcs of the earliest path take: the end of the scan.
 LONGEST_ARCS = 10.0 * pi
 
 
-class Drifting(NamedTuple):
-    """A circle about the origin, to be joined and held in a direction, and the air's velocity relative to it."""
+class DriftingCircle(NamedTuple):
+    """A circle about the origin, to be joined and held in a direction, and the velocity of the air relative to it."""
 
     radius: float
     clockwise: bool
@@ -51,8 +51,8 @@ class Drifting(NamedTuple):
     north: float
 
 
-class Met(NamedTuple):
-    """The earliest meeting that the search found: when, and at which mathematical azimuth from the centre."""
+class Joining(NamedTuple):
+    """When the circle is joined, and at which mathematical azimuth from its centre."""
 
     time: float
     azimuth: float
@@ -61,21 +61,23 @@ class Met(NamedTuple):
 Array = NDArray[float64]
 
 
-def earliest(start: Planar, circle: Drifting, joins: int, step: float) -> Met:
-    """The earliest meeting found from `joins` azimuths all round and times a `step` apart; `inf` where there is none.
+def earliest(start: Planar, circle: DriftingCircle, joins: int, step: float) -> Joining:
+    """The earliest joining found from `joins` azimuths all round and times a `step` apart; `inf` where there is none.
 
-    Two roots within a step are seen as none, and a valley between two azimuths as higher than it is.
+    Two roots within a step are missed, and a minimum between two azimuths is found too high.
     """
     azimuths = 2.0 * pi * np.arange(joins) / joins
-    first = scanned(start, circle, azimuths, step)
+    first = first_times(start, circle, azimuths, step)
     lowest = np.flatnonzero((first <= np.roll(first, 1)) & (first <= np.roll(first, -1)) & (first < inf))
-    valleys = lowest[np.argsort(first[lowest])][:VALLEYS]
-    found = [refined(start, circle, Met(float(first[i]), float(azimuths[i])), 2.0 * pi / joins) for i in valleys]
-    return min(found, default=Met(inf, 0.0))
+    minima = lowest[np.argsort(first[lowest])][:MINIMA]
+    found = [
+        refined_joining(start, circle, Joining(float(first[i]), float(azimuths[i])), 2.0 * pi / joins) for i in minima
+    ]
+    return min(found, default=Joining(inf, 0.0))
 
 
-def scanned(start: Planar, circle: Drifting, azimuths: Array, step: float) -> Array:
-    """The first meeting at each azimuth, from when a straight flight could be at the circle until one is found."""
+def first_times(start: Planar, circle: DriftingCircle, azimuths: Array, step: float) -> Array:
+    """The first time at which each azimuth can be joined; `inf` where it is later than the span of the earliest."""
     wind, apart = hypot(circle.east, circle.north), hypot(start.east, start.north)
     begin = abs(apart - circle.radius) / (1.0 + wind)
     end = (apart + circle.radius + LONGEST_ARCS) / (1.0 - wind)
@@ -83,30 +85,30 @@ def scanned(start: Planar, circle: Drifting, azimuths: Array, step: float) -> Ar
     while begin < end and not (first < inf).any():
         times: Array = np.linspace(begin, begin + BLOCK, ceil(BLOCK / step) + 1)
         first = roots(start, circle, azimuths, times)
-        begin = float(times[-1])
+        begin = float(times.max())
     return first
 
 
-def refined(start: Planar, circle: Drifting, met: Met, width: float) -> Met:
-    """The local minimum near a meeting, between the azimuths a width before and behind it."""
+def refined_joining(start: Planar, circle: DriftingCircle, join: Joining, width: float) -> Joining:
+    """The local minimum near a joining, between the azimuths a width to either side."""
     for _ in range(ROUNDS):
-        azimuths = met.azimuth + width * np.linspace(-1.0, 1.0, 2 * CLOSER + 1)
-        # Joining a width later costs, or saves, at most some such widths' worth of flight.
+        azimuths = join.azimuth + width * np.linspace(-1.0, 1.0, 2 * CLOSER + 1)
+        # Joining a width further along changes the time by at most a few such widths of flight.
         span = 2.0 * width * (1.0 + circle.radius) / (1.0 - hypot(circle.east, circle.north))
         ahead: Array = span * np.linspace(0.0, 1.0 + 1.0 / CLOSER, 2 * CLOSER + 1)
-        times = max(met.time - span, 0.0) + ahead
+        times = max(join.time - span, 0.0) + ahead
         first = roots(start, circle, azimuths, times)
         best = int(np.argmin(first))
-        met = min(met, Met(float(first[best]), float(azimuths[best])))
+        join = min(join, Joining(float(first[best]), float(azimuths[best])))
         width *= SHRINK
-    return met
+    return join
 
 
-def roots(start: Planar, circle: Drifting, azimuths: Array, times: Array) -> Array:
-    """For each azimuth the first time within `times` at which some word is as long; `inf` where there is none."""
+def roots(start: Planar, circle: DriftingCircle, azimuths: Array, times: Array) -> Array:
+    """For each azimuth the first time within `times` that equals the length of some word; `inf` where there is none."""
     excess = excesses(start, circle, azimuths[:, np.newaxis], times[np.newaxis, :])
     before, after = excess[..., :-1], excess[..., 1:]
-    # A word begins or ceases to reach the pose within a step: its root may lie between.
+    # Where a word begins or ceases to reach the pose within a step, its root may lie inside the step.
     edge = np.isnan(before) != np.isnan(after)
     word, place, step = np.nonzero(edge | ((before * after <= 0.0) & (np.abs(after - before) < JUMP)))
     forward = np.isnan(before)[word, place, step]
@@ -117,31 +119,31 @@ def roots(start: Planar, circle: Drifting, azimuths: Array, times: Array) -> Arr
         same = sign * excess_of(start, circle, azimuths[place], middle, word) > 0.0
         known, sought = np.where(same, middle, known), np.where(same, sought, middle)
     last, next_ = (excess_of(start, circle, azimuths[place], t, word) for t in (known, sought))
-    good = (last * next_ <= 0.0) & (np.abs(last - next_) < MISSED)
+    good = (last * next_ <= 0.0) & (np.abs(last - next_) < ROOT_ERROR)
     first = np.full(azimuths.shape, inf)
     np.minimum.at(first, place[good], known[good])
     return first
 
 
-def excesses(start: Planar, circle: Drifting, azimuths: Array, times: Array) -> Array:
+def excesses(start: Planar, circle: DriftingCircle, azimuths: Array, times: Array) -> Array:
     """Length less time of each word, for azimuths and times that broadcast: nan where a word does not reach."""
     return np.stack(list(lengths(*relative(start, circle, azimuths, times)))) - times
 
 
-def excess_of(start: Planar, circle: Drifting, azimuths: Array, times: Array, word: NDArray[np.intp]) -> Array:
-    """Length less time, of one word for each place."""
+def excess_of(start: Planar, circle: DriftingCircle, azimuths: Array, times: Array, word: NDArray[np.intp]) -> Array:
+    """Length less time of the given word at each place."""
     every = excesses(start, circle, azimuths, times)
-    one: Array = np.take_along_axis(every, word[np.newaxis, :], axis=0)[0]
-    return one
+    (one,) = np.take_along_axis(every, word[np.newaxis, :], axis=0)
+    return np.asarray(one)
 
 
-def relative(start: Planar, circle: Drifting, azimuths: Array, times: Array) -> tuple[Array, Array, Array]:
-    """The pose on the circle, as it has drifted through the air, seen from the start along the line to it.
+def relative(start: Planar, circle: DriftingCircle, azimuths: Array, times: Array) -> tuple[Array, Array, Array]:
+    """The pose on the circle, displaced by the moving air, relative to the start.
 
-    Its distance, and the courses at the start and at the pose relative to that line.
+    Its distance, and the headings at the start and at the pose relative to the line between them.
     """
     along = azimuths - 0.5 * pi if circle.clockwise else azimuths + 0.5 * pi
-    # The wind triangle: the heading is crabbed so that the wind across the circle is made up for.
+    # The wind triangle: the crab angle of the heading cancels the wind across the circle.
     across = circle.north * np.cos(along) - circle.east * np.sin(along)
     course = along - np.arcsin(across)
     east = circle.radius * np.cos(azimuths) - circle.east * times - start.east

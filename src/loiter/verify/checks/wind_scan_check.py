@@ -1,4 +1,4 @@
-"""The kernel's answers in wind beside the search's, over random scenes."""
+"""The kernel's answers in wind compared with those of `wind_scan`, over random problems."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from loiter.kernel.codes import Side
 from loiter.kernel.hold import tightest_radius
 from loiter.kernel.wind_search import WindProblem, fastest
 from loiter.verify.checks.oracle import Planar
-from loiter.verify.checks.wind_scan import Drifting, Met, earliest
+from loiter.verify.checks.wind_scan import DriftingCircle, Joining, earliest
 
-# What the search resolves of T, over 1 + T. Where two arcs are the fastest, T has a corner next to which two roots of a
-# word run together, and the search loses it when they fall within one of its steps: some 1e-7 off, seldom more.
+# The resolution of the search in T, over 1 + T. Where two arcs are the fastest, T has a corner next to which two roots
+# of a word merge, and the search misses them when both fall within one step: an error of some 1e-7, seldom more.
 RESOLUTION = 1e-6
 
-# Points of joining and steps of time that are tried in turn, until the search has found what the kernel has.
+# Points of joining and steps of time that are tried one after the other until the search is as early as the kernel.
 EFFORTS = ((180, 0.05), (720, 0.02), (2880, 0.005))
 
 WINDIEST = 0.6
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
-    """One comparison, in turn radii, relative to the circle's centre."""
+class WindCheckProblem:
+    """A problem to compare, in turn radii, relative to the circle's centre; `place` says where its start lies."""
 
     place: str
     start: Planar
@@ -35,29 +35,29 @@ class Scene:
     wind_east: float
     wind_north: float
 
-    def circles(self) -> list[Drifting]:
-        """The circle, as the search takes it: held one way or, for *either*, each way."""
-        ways = (True, False) if self.side == Side.EITHER else (self.side == Side.CW,)
-        return [Drifting(self.radius, clockwise, self.wind_east, self.wind_north) for clockwise in ways]
+    def circles(self) -> list[DriftingCircle]:
+        """The circle as an argument of the search: in one direction or, for *either*, in both."""
+        directions = (True, False) if self.side == Side.EITHER else (self.side == Side.CW,)
+        return [DriftingCircle(self.radius, clockwise, self.wind_east, self.wind_north) for clockwise in directions]
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
-    """What came of one scene: times over 1 + T, 0 where the two agree or the other is worse.
+class ScanDifference:
+    """By how much kernel and search differ for one problem, in times over 1 + T.
 
-    `later`: by how much the kernel's answer is later than a meeting that the search found. `earlier`: by how much the
-    search's best stays later than the kernel's. `missed` is by how much the kernel's end misses the circle.
+    `later` is by how much the kernel's answer is later than the search's, `earlier` by how much it is sooner; each is 0
+    where it would be negative. `missed` is the distance by which the end of the kernel's answer misses the circle.
     """
 
-    scene: Scene
+    problem: WindCheckProblem
     time: float
     later: float
     earlier: float
     missed: float
 
 
-def scenes(states: int, seed: int) -> Iterator[Scene]:
-    """Random scenes, the same for the same seed: each place and side in its turn, calm air once in ten."""
+def random_problems(states: int, seed: int) -> Iterator[WindCheckProblem]:
+    """Random problems, the same for the same seed: the places in rotation, still air in one of ten."""
     random = Random(seed)
     places = tuple(PLACES.items())
     for i in range(states):
@@ -65,7 +65,7 @@ def scenes(states: int, seed: int) -> Iterator[Scene]:
         wind, azimuth = random.choice((0.0, *[random.uniform(0.0, WINDIEST)] * 9)), random.uniform(0.0, 2.0 * pi)
         east, north = wind * cos(azimuth), wind * sin(azimuth)
         R = tightest_radius(east, north) * random.choice((1.0, random.uniform(1.0, 2.5)))
-        yield Scene(place, draw(random, R), R, random.choice(tuple(Side)), east, north)
+        yield WindCheckProblem(place, draw(random, R), R, random.choice(tuple(Side)), east, north)
 
 
 def inside(random: Random, R: float) -> Planar:
@@ -84,7 +84,7 @@ def far(random: Random, R: float) -> Planar:
 
 
 def placed(random: Random, distance: float) -> Planar:
-    """At a distance from the centre, in any direction, on any heading."""
+    """A start at a distance from the centre, in any direction, on any heading."""
     azimuth = random.uniform(0.0, 2.0 * pi)
     return Planar(distance * cos(azimuth), distance * sin(azimuth), random.uniform(0.0, 2.0 * pi))
 
@@ -92,24 +92,33 @@ def placed(random: Random, distance: float) -> Planar:
 PLACES = {"inside": inside, "near": near, "far": far}
 
 
-def compare(states: int, seed: int) -> Iterator[Difference]:
-    """Solve and search `states` random scenes, one by one; raises `InvalidArgument` for fewer than one."""
+def compare_with_scan(states: int, seed: int) -> Iterator[ScanDifference]:
+    """Solve and search `states` random problems, one by one; raises `InvalidArgument` for fewer than one."""
     if states < 1:
         raise InvalidArgument("states", f"is {states}: it must be at least 1")
-    return map(difference, scenes(states, seed))
+    return map(scan_difference, random_problems(states, seed))
 
 
-def difference(scene: Scene) -> Difference:
-    """One scene solved and searched, with more effort as long as the search finds nothing as early."""
-    east, north, angle = scene.start
+def scan_difference(problem: WindCheckProblem) -> ScanDifference:
+    """One problem solved and searched, with more effort while the search finds no time as early as the kernel's."""
+    east, north, angle = problem.start
     _, _, _, *durations, _, missed = fastest(
-        WindProblem(east, north, cos(angle), sin(angle), scene.radius, scene.side, scene.wind_east, scene.wind_north)
+        WindProblem(
+            east,
+            north,
+            cos(angle),
+            sin(angle),
+            problem.radius,
+            problem.side,
+            problem.wind_east,
+            problem.wind_north,
+        )
     )
     time = sum(durations)
-    found = Met(float("inf"), 0.0)
+    found = Joining(float("inf"), 0.0)
     for joins, step in EFFORTS:
-        found = min(found, *(earliest(scene.start, circle, joins, step) for circle in scene.circles()))
+        found = min(found, *(earliest(problem.start, circle, joins, step) for circle in problem.circles()))
         if found.time <= time + RESOLUTION * (1.0 + time):
             break
     apart = (time - found.time) / (1.0 + time)
-    return Difference(scene, time, max(apart, 0.0), max(-apart, 0.0), missed)
+    return ScanDifference(problem, time, max(apart, 0.0), max(-apart, 0.0), missed)

@@ -15,7 +15,7 @@ from loiter.kernel.synthesis import Entry
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
 from loiter.verify import certify
-from loiter.verify.checks.wind_scan_check import scenes
+from loiter.verify.checks.wind_scan_check import random_problems
 from strategies import windy_scenes
 
 settings.register_profile("certificate in wind", deadline=None, max_examples=12)
@@ -29,21 +29,21 @@ NAMES += ["transversality", "gradient", "bellman", "fastest"]
 
 
 @given(windy_scenes())
-def test_plans_are_proved(scene):
+def test_plans_have_valid_certificates(scene):
     for m in plan_all(*scene):
         certificate = certify(m)
         assert certificate.valid, str(certificate)
 
 
-def test_plans_of_the_comparison_are_proved_and_most_gradients_known():
-    """Random scenes as the search has them: inside, near and far, circles of the least radius that can be held."""
+def test_plans_of_random_problems_have_valid_certificates_and_most_gradients_converge():
+    """Random problems of the search: inside, near and far, circles of the least radius that can be held."""
     skipped = 0
-    for scene in list(scenes(30, 17)):
-        if scene.wind_east == scene.wind_north == 0.0:
+    for problem in random_problems(30, 17):
+        if problem.wind_east == problem.wind_north == 0.0:
             continue
-        east, north, angle = scene.start
-        velocity = -scene.wind_east, -scene.wind_north
-        orbit = Orbit(0.0, 0.0, scene.radius, {1: "cw", -1: "ccw", 0: "either"}[int(scene.side)], *velocity)
+        east, north, angle = problem.start
+        velocity = -problem.wind_east, -problem.wind_north
+        orbit = Orbit(0.0, 0.0, problem.radius, {1: "cw", -1: "ccw", 0: "either"}[int(problem.side)], *velocity)
         certificate = certify(plan(Pose(east, north, 90.0 - degrees(angle)), orbit, UNIT))
         assert certificate.valid, str(certificate)
         assert [residual.name for residual in certificate.residuals] == NAMES
@@ -62,7 +62,7 @@ def test_a_loser_is_an_extremal_that_is_not_the_fastest():
 
 
 def joined_at(phase, side):
-    """The first way to another point of the circle: flown right, but not the fastest."""
+    """The first path to another point of the circle: it arrives there, but is not the fastest."""
     pose, orbit, uav, wind = SCENE
     problem = Problem(pose, orbit, uav, wind)
     scene = problem.in_wind()
@@ -72,7 +72,7 @@ def joined_at(phase, side):
 
 
 @pytest.mark.parametrize("phase", [0.5, 2.0, 4.5])
-def test_a_way_to_another_point_of_the_circle_is_not_transversal(phase):
+def test_a_path_to_another_point_of_the_circle_is_not_transversal(phase):
     certificate = certify(joined_at(phase, 1))
     failed = {residual.name for residual in certificate.failed}
     assert failed >= {"transversality", "fastest"}
@@ -89,7 +89,7 @@ def test_a_maneuver_that_ends_beside_the_circle_is_caught(piece, longer, name):
     assert certify(replace(m, segments=tuple(segments))).residual(name).failed
 
 
-def test_a_join_that_is_told_wrongly_is_caught():
+def test_a_wrong_join_is_caught():
     m = plan(*SCENE)
     end = replace(m.segments[-1], end=replace(m.join, east_m=m.join.east_m + 1e-6))
     assert certify(replace(m, segments=(*m.segments[:-1], end))).residual("join").failed
@@ -107,7 +107,7 @@ def test_the_maneuver_of_another_wind_is_caught():
 
 @pytest.mark.parametrize("azimuth", [20.0, 200.0])
 @pytest.mark.parametrize("turn", ["cw", "ccw"])
-def test_on_the_circle_there_is_nothing_to_prove_but_that(azimuth, turn):
+def test_a_start_on_the_circle_has_only_the_arrival_to_check(azimuth, turn):
     heading = hold(ORBIT, UAV, WIND, turn=turn).at(azimuth).heading_deg
     here = Pose(120.0 * sin(azimuth * pi / 180.0), 120.0 * cos(azimuth * pi / 180.0), heading)
     certificate = certify(plan(here, ORBIT, UAV, WIND))
@@ -118,7 +118,7 @@ def test_on_the_circle_there_is_nothing_to_prove_but_that(azimuth, turn):
 
 @pytest.mark.parametrize("u", ["L", "R"])
 @pytest.mark.parametrize("azimuth", [20.0, 200.0])
-def test_a_single_arc_is_proved(u, azimuth):
+def test_a_single_arc_has_a_valid_certificate(u, azimuth):
     """Flown backwards from the circle: on the last arc already."""
     scene = Problem(SCENE[0], ORBIT, UAV, WIND).in_wind()
     point = hold(ORBIT, UAV, WIND, turn="cw").at(azimuth)
@@ -142,7 +142,7 @@ def test_a_circle_that_drifts_with_the_air_has_the_certificate_of_still_air(scen
     assert certificate.residual("join").equation == "the last pose, reduced by (2), is the target"
 
 
-def test_it_goes_into_print_json_and_history():
+def test_text_json_and_history():
     certificate = certify(plan(*SCENE))
     text, plain = str(certificate), json.loads(json.dumps(certificate.to_dict(), allow_nan=False))
     assert text.startswith("Certificate of RSL, clockwise: valid.")
@@ -155,7 +155,7 @@ def test_it_goes_into_print_json_and_history():
             assert instant.u * instant.phi >= -1e-9
 
 
-def test_what_is_no_maneuver_is_refused():
+def test_an_impossible_maneuver_is_refused():
     m = plan(*SCENE)
     with pytest.raises(InvalidArgument, match="it must be cw or ccw"):
         certify(replace(m, turn=loiter.Turn.EITHER))

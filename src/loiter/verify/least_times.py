@@ -1,0 +1,135 @@
+"""The kernel's T around the start of a maneuver, for its gradient: of the reduced state, or of the pose in wind."""
+
+from __future__ import annotations
+
+from cmath import exp
+from collections.abc import Callable, Sequence
+from math import hypot, inf
+from typing import NamedTuple
+
+from loiter.kernel import wind_search
+from loiter.kernel.codes import Side
+from loiter.kernel.exact import beyond
+from loiter.kernel.synthesis import Entry, duration, optimum, rounding
+from loiter.kernel.words import Word
+from loiter.planning.problem import ReducedProblem
+from loiter.verify.trajectory import Trajectory
+
+# Steps of difference quotients of T in still air, each half the one before: from a sixteenth of a turn radius, over
+# which few T are straight, to where rounding, 64 units of 2^-52 over the step, is all that `gradient.RESOLVED` leaves.
+STEPS_IN_STILL_AIR = tuple(2.0**-k for k in range(4, 34))
+
+# In wind each T takes a search, so there are few.
+STEPS_IN_WIND = (2.0**-6, 2.0**-9, 2.0**-12, 2.0**-15)
+
+
+class LeastTimes(NamedTuple):
+    """T as a function of displacements of the start by a step along an axis: east, north and, in wind, heading.
+
+    `time(axis, step)` is T at a displacement; `error(T, slope)` is the error of a difference of two T, where T changes
+    at the rate `slope`; `steps` are those of difference quotients, coarse to fine. `by_heading` is the derivative by
+    the heading, to the left, from the derivatives along the axes. `motion_size` bounds how fast position and heading
+    change. `not_smooth` says why quotients do not converge.
+    """
+
+    axes: int
+    steps: Sequence[float]
+    time: Callable[[int, float], float]
+    error: Callable[[float, float], float]
+    by_heading: Callable[[Sequence[float]], float]
+    motion_size: float
+    not_smooth: Callable[[], str]
+
+
+def least_times(trajectory: Trajectory) -> LeastTimes:
+    """T around the start of a trajectory."""
+    return _in_still_air(trajectory) if trajectory.problem.still else _in_wind(trajectory)
+
+
+def _in_wind(trajectory: Trajectory) -> LeastTimes:
+    problem = trajectory.problem.in_wind()
+
+    def time(axis: int, step: float) -> float:
+        e = complex(problem.c, problem.s) * (exp(1j * step) if axis == 2 else 1.0)
+        x, y = problem.x + step * (axis == 0), problem.y + step * (axis == 1)
+        return wind_search.time_of(wind_search.fastest(problem._replace(x=x, y=y, c=e.real, s=e.imag)))
+
+    def by_heading(slopes: Sequence[float]) -> float:
+        _, _, slope = slopes
+        return slope
+
+    return LeastTimes(
+        axes=3,
+        steps=STEPS_IN_WIND,
+        time=time,
+        error=lambda T, slope: 2.0 * wind_search.TIE_TOLERANCE * (1.0 + problem.R + T),
+        by_heading=by_heading,
+        motion_size=4.0,
+        not_smooth=lambda: "T has a corner here, or bends too sharply",
+    )
+
+
+def _in_still_air(trajectory: Trajectory) -> LeastTimes:
+    problem = trajectory.problem.reduced()
+    x, y, R, side, tolerance = problem
+
+    def fastest(axis: int, step: float) -> Entry:
+        return optimum(x + step * (axis == 0), y + step * (axis == 1), R, side, tolerance)
+
+    def by_heading(slopes: Sequence[float]) -> float:
+        # A turn to the left turns the reduced state to the right.
+        by_x, by_y = slopes
+        return by_x * y - by_y * x
+
+    def not_smooth() -> str:
+        h = min(STEPS_IN_STILL_AIR)
+        around = [fastest(axis, step) for axis, step in ((0, 0.0), (0, h), (0, -h), (1, h), (1, -h))]
+        words = dict.fromkeys(f"{Word(m.word).letters} {Side(m.side).name.lower()}" for m in around)
+        return f"T has a corner or a jump here, or bends too sharply: {', '.join(words)}"
+
+    return LeastTimes(
+        axes=2,
+        steps=[h for h in STEPS_IN_STILL_AIR if h <= _widest_step(trajectory, problem)],
+        time=lambda axis, step: duration(fastest(axis, step)),
+        # The kernel's T is that of a state off by its rounding, and rounded itself.
+        error=lambda T, slope: 2.0 * rounding(x, y, R) * (1.0 + slope),
+        by_heading=by_heading,
+        motion_size=1.0 + hypot(x, y),
+        not_smooth=not_smooth,
+    )
+
+
+def _widest_step(trajectory: Trajectory, problem: ReducedProblem) -> float:
+    """A step that is small compared with two distances over which T and psi change.
+
+    One is the distance of the start from the curves where words change: next to them T may change with the square root
+    of a distance. The other is the distance from the centre of the state to which psi is parallel: over that distance
+    the direction of psi turns by a radian.
+    """
+    turning = inf
+    if trajectory.opposed or len(trajectory.pieces) == 1:
+        *_, parallel = trajectory.opposed or trajectory.pieces
+        turning = abs(parallel.q)
+    return 0.25 * min(turning, clearance(problem))
+
+
+def clearance(problem: ReducedProblem) -> float:
+    """The distance of a state from the nearest curve that bounds the regions of docs/theory.md, section 4.
+
+    The curves are circles about (0, -1) for words that begin with L, about (0, 1) for those that begin with R, and the
+    axis; those of both directions count, since *either* may compare them. A curve on which the state lies, up to
+    rounding, does not count: quotients at every step show whether T has a corner there.
+    """
+    x, y, R, _, _ = problem
+    distances = [abs(y)]
+    for ordinate in (y, -y):
+        rp, rm = hypot(x, ordinate + 1.0), hypot(x, ordinate - 1.0)
+        squares = (
+            (beyond(x, ordinate, R, 2.0), rp + R + 1.0),
+            (beyond(x, ordinate, -R, 2.0), rp + abs(R - 1.0)),
+            (beyond(x, ordinate, 2.0 - R, 2.0), rp + abs(R - 3.0)),
+            (beyond(x, ordinate, R, -2.0), rm + abs(R - 1.0)),
+            (beyond(x, ordinate, -R, -2.0), rm + R + 1.0),
+        )
+        distances += [abs(square) / total for square, total in squares if total > 0.0]
+    return min((distance for distance in distances if distance > rounding(x, y, R)), default=inf)
