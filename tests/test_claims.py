@@ -26,8 +26,8 @@ TRUE = [
     "That they never help is not proved; it is cross-checked",
     "**Proven**, up to rounding and to section 3's whole turns",
     "proved to be the optimum for a circle of the minimum turn radius, cross-checked by independent methods",
-    "That nothing is faster is proved for a circle of the turn radius in still",
-    "the conditions alone are no proof of the optimum",
+    "That nothing is faster is proved only for a circle of the turn radius in still air",
+    "it says that the conditions are no proof of optimality",
     "The page says where the paper proves the optimum, for a circle of the turn radius in still air",
     # What the service describes.
     "That they are also sufficient is proved for circles of the turn radius in still air alone",
