@@ -1,10 +1,14 @@
-"""Arctangent, sine and cosine without branches: a compiler can vectorise them, unlike those of the C library.
+"""Arctangent, sine, cosine and choices without branches, which a compiler can vectorise, unlike the C library's.
 
-`rebinding` puts them in place of those of `math`. They differ from the true values by one or two roundings. The
-polynomials in q^2 come from tests/golden/build_branchless.py, which prints their remaining errors: below 6e-18.
+`rebinding` puts them in place of those of `math` and of the kernel. The angles differ from the true values by one or
+two roundings. The polynomials in q^2 come from tests/golden/build_branchless.py, which prints their remaining errors:
+below 6e-18.
 """
 
 from math import floor, pi, sqrt
+
+from loiter.kernel.angles import Rotation
+from loiter.kernel.extremals import Extremal
 
 TAN_EIGHTH = sqrt(2.0) - 1.0  # tan(pi/8)
 
@@ -82,3 +86,21 @@ def _cos(z: float) -> float:
     low = 0.041666666666666664 + -0.0013888888888887398 * z
     middle = 2.480158729876569e-05 + -2.7557317271729793e-07 * z
     return low + middle * z2 + (2.08761462684032e-09 + -1.1382632425521717e-11 * z) * (z2 * z2)
+
+
+def select(condition: bool, a: Extremal, b: Extremal) -> Extremal:
+    """`extremals.select` number by number, which compiles to selects: a branch would be copied for every path."""
+    straight = a.straight if condition else b.straight
+    word = a.word if condition else b.word
+    first, middle, last = (
+        select_rotation(condition, a.first, b.first),
+        select_rotation(condition, a.middle, b.middle),
+        select_rotation(condition, a.last, b.last),
+    )
+    return Extremal(word, first, straight, middle, last)
+
+
+def select_rotation(condition: bool, a: Rotation, b: Rotation) -> Rotation:
+    """Rotation a where the condition holds, otherwise b."""
+    (across_a, along_a), (across_b, along_b) = a, b
+    return across_a if condition else across_b, along_a if condition else along_b

@@ -102,7 +102,9 @@ def _two_product(a, b):
     return p, _fma(a, b, -p)
 
 
-_NAMES = {name: rebound(getattr(branchless, name), finish=_inlined) for name in ("atan2", "sin", "cos", "hypot")}
+_NAMES = {
+    name: rebound(getattr(branchless, name), finish=_inlined) for name in ("atan2", "sin", "cos", "hypot", "select")
+}
 _NAMES["two_product"] = _inlined(_two_product)
 
 

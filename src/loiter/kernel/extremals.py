@@ -244,21 +244,8 @@ def extremals(x: float, y: float, R: float, arc_tolerance: float) -> tuple[Extre
 
 
 def select(condition: bool, a: Extremal, b: Extremal) -> Extremal:
-    """Extremal a where the condition holds, otherwise b: number by number, which compiles to selects, not branches."""
-    straight = a.straight if condition else b.straight
-    word = a.word if condition else b.word
-    first, middle, last = (
-        select_rotation(condition, a.first, b.first),
-        select_rotation(condition, a.middle, b.middle),
-        select_rotation(condition, a.last, b.last),
-    )
-    return Extremal(word, first, straight, middle, last)
-
-
-def select_rotation(condition: bool, a: Rotation, b: Rotation) -> Rotation:
-    """Rotation a where the condition holds, otherwise b."""
-    (across_a, along_a), (across_b, along_b) = a, b
-    return across_a if condition else across_b, along_a if condition else along_b
+    """Extremal a where the condition holds, otherwise b; compiled code has `compiled.branchless.select` instead."""
+    return a if condition else b
 
 
 def left_first(start: Start) -> Extremal:

@@ -22,8 +22,8 @@ from loiter.planning.model import CONTROLS
 from loiter.planning.problem import Problem
 from loiter.planning.sides import SIDES
 from loiter.verify.trajectory import (
-    Adjoint,
     FlownPiece,
+    InitialAdjoint,
     RelativeStart,
     Trajectory,
     durations_of,
@@ -47,7 +47,7 @@ class FlightPlan(NamedTuple):
     start: RelativeStart
     controls: Sequence[int]
     durations: Sequence[float]
-    adjoint: Adjoint
+    adjoint: InitialAdjoint
 
 
 def trajectory_of(maneuver: Maneuver, problem: Problem) -> Trajectory:
@@ -89,7 +89,7 @@ def _with_closed_form(start: RelativeStart, controls: Sequence[int], durations: 
     t1, t2, t3 = [*durations, 0.0, 0.0][:3]
     lam, psi1, psi2 = adjoint(x, y, start.R, Entry(start.side, encode(*controls), t1, t2, t3))
     return FlightPlan(
-        start, controls, durations, Adjoint(complex(psi1, psi2), lam, switching_function(x, y, psi1, psi2))
+        start, controls, durations, InitialAdjoint(complex(psi1, psi2), lam, switching_function(x, y, psi1, psi2))
     )
 
 
@@ -120,9 +120,11 @@ def _in_wind(start: RelativeStart, controls: Sequence[int], durations: Sequence[
     return [FlightPlan(start, controls, durations, adjoint) for adjoint in adjoints]
 
 
-def _adjoints_in_wind(start: RelativeStart, controls: Sequence[int], durations: Sequence[float]) -> Iterator[Adjoint]:
+def _adjoints_in_wind(
+    start: RelativeStart, controls: Sequence[int], durations: Sequence[float]
+) -> Iterator[InitialAdjoint]:
     """All adjoints that the pieces may have."""
-    pieces = list(flown_pieces(start, controls, durations, Adjoint(1.0 + 0.0j, 1.0, 0.0)))
+    pieces = list(flown_pieces(start, controls, durations, InitialAdjoint(1.0 + 0.0j, 1.0, 0.0)))
     before = None
     for piece in pieces:
         if piece.u == 0:
@@ -139,7 +141,7 @@ def _adjoints_in_wind(start: RelativeStart, controls: Sequence[int], durations: 
         yield from _of_single_arc(start, pieces)
 
 
-def _transversal(start: RelativeStart, pieces: list[FlownPiece], switched: FlownPiece) -> Iterator[Adjoint]:
+def _transversal(start: RelativeStart, pieces: list[FlownPiece], switched: FlownPiece) -> Iterator[InitialAdjoint]:
     """The adjoints that meet (5) with a switch at the start of a piece."""
     # (5) is linear in the cosine and the sine of the angle from the heading at the switch to p.
     turned, (e, k) = switched.e, _end(start, pieces)
@@ -149,13 +151,13 @@ def _transversal(start: RelativeStart, pieces: list[FlownPiece], switched: Flown
         yield _vanishing_at(start, pieces, switched, turned * exp(1j * angle), cos(angle))
 
 
-def _of_single_arc(start: RelativeStart, pieces: list[FlownPiece]) -> Iterator[Adjoint]:
+def _of_single_arc(start: RelativeStart, pieces: list[FlownPiece]) -> Iterator[InitialAdjoint]:
     """The adjoints that meet (5) without a switch: one for each of `DIRECTIONS` directions of p."""
     longest, (e, k) = max(pieces, key=lambda piece: piece.t), _end(start, pieces)
     for i in range(DIRECTIONS):
         p = exp(2j * pi * i / DIRECTIONS)
         lam = inner(p, e) - inner(p, e + start.w) / k
-        yield Adjoint(p, lam, longest.u * (lam - inner(p, start.e)))
+        yield InitialAdjoint(p, lam, longest.u * (lam - inner(p, start.e)))
 
 
 def _end(start: RelativeStart, pieces: list[FlownPiece]) -> tuple[complex, float]:
@@ -164,7 +166,9 @@ def _end(start: RelativeStart, pieces: list[FlownPiece]) -> tuple[complex, float
     return last.end.e, end_rate(start, last.end.q, last.end.e, last.u)
 
 
-def _vanishing_at(start: RelativeStart, pieces: list[FlownPiece], piece: FlownPiece, p: complex, lam: float) -> Adjoint:
+def _vanishing_at(
+    start: RelativeStart, pieces: list[FlownPiece], piece: FlownPiece, p: complex, lam: float
+) -> InitialAdjoint:
     """The adjoint whose switching function vanishes at the start of a piece."""
     elapsed = sum(before.t for before in pieces[: pieces.index(piece)])
-    return Adjoint(p, lam, inner(p, 1j * (piece.q - start.q - start.w * elapsed)))
+    return InitialAdjoint(p, lam, inner(p, 1j * (piece.q - start.q - start.w * elapsed)))

@@ -121,7 +121,7 @@ class RelativeStart(NamedTuple):
     side: int
 
 
-class Adjoint(NamedTuple):
+class InitialAdjoint(NamedTuple):
     """The adjoint p of the position, lambda, and the switching function at the start."""
 
     p: complex
@@ -227,7 +227,7 @@ def end_rate(start: RelativeStart, q: complex, e: complex, u: int) -> float:
 
 
 def flown_pieces(
-    start: RelativeStart, controls: Sequence[int], durations: Sequence[float], adjoint: Adjoint
+    start: RelativeStart, controls: Sequence[int], durations: Sequence[float], adjoint: InitialAdjoint
 ) -> Iterator[FlownPiece]:
     """The pieces flown one after the other."""
     q, e, phi = start.q, start.e, adjoint.phi
