@@ -273,7 +273,7 @@ def _positive(value: Any) -> Any:
 
 def _explained(s: States, status: Any, refused: Any) -> Any:
     """The statuses of the rows, from those of the kernel."""
-    # Finite coordinates whose difference is not are too large.
+    # Finite coordinates whose difference is infinite are out of range.
     finite = np.isfinite(s.east_m) & np.isfinite(s.north_m) & np.isfinite(s.heading_deg)
     why = np.where(finite, Status.OUT_OF_RANGE, Status.BAD_POSE)
     status = np.where(status == Status.NOT_FINITE, why, status)

@@ -124,15 +124,15 @@ def first_path(phase: float, side: int, scene: WindScene, until: float) -> Path:
         for u in (1, -1):
             # From the centre of the first arc to that of the last, both of control u; then of u and -u.
             ax, ay = dx - u * (s - s0), dy + u * (c - c0)
-            best = sooner_path(best, lsl_rsr(u, ax, ay, ends), until)
-            best = sooner_path(best, lrl_rlr(u, ax, ay, ends, min(until, best.time)), until)
-            best = sooner_path(
+            best = faster_path(best, lsl_rsr(u, ax, ay, ends), until)
+            best = faster_path(best, lrl_rlr(u, ax, ay, ends, min(until, best.time)), until)
+            best = faster_path(
                 best, lsr_rsl(u, dx + u * (s + s0), dy - u * (c + c0), ends, min(until, best.time)), until
             )
     return best
 
 
-def sooner_path(a: Path, b: Path, until: float) -> Path:
+def faster_path(a: Path, b: Path, until: float) -> Path:
     """The path that takes less time: a where they tie, or where b takes longer than `until`."""
     return b if b.time < a.time and b.time <= until else a
 
