@@ -15,7 +15,7 @@ from loiter.guidance.laws.path_tracking import (
     holding_circle,
     path_offset,
 )
-from loiter.kernel.hold import held, hold_rate, tightest_held
+from loiter.kernel.hold import hold_pose, hold_rate, tightest_radius
 from loiter.kernel.motion import fly
 from strategies import one_way
 
@@ -52,8 +52,8 @@ def test_a_mirror_turns_left_into_right(x, y, course, R):
 def test_on_the_circle_in_wind_the_rate_is_that_of_the_hold(phase, side, wind, blows, wider):
     """(3) of docs/wind.md: there are no corrections, only the feedforward of the path's turn rate."""
     wx, wy = wind * cos(blows), wind * sin(blows)
-    R = wider * tightest_held(wx, wy)
-    x, y, c, s, g = held(phase, side, R, wx, wy)
+    R = wider * tightest_radius(wx, wy)
+    x, y, c, s, g = hold_pose(phase, side, R, wx, wy)
     vx, vy = c + wx, s + wy
     offset = path_offset(holding_circle(side, R), x, y, vx, vy)
     assert offset.crosstrack == pytest.approx(0.0, abs=1e-9)

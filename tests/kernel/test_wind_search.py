@@ -74,6 +74,12 @@ def moved(scene, time):
     return 4.0 * blur(abs(x) + time, y, R) / (1.0 - hypot(wx, wy))
 
 
+@pytest.mark.parametrize("wind", [(5e-324, 0.0), (5e-324, 5e-324), (0.0, -1e-310), (1e-200, 1e-200)])
+def test_in_the_lightest_winds_the_hold_is_on_the_circle(wind):
+    x, y, c, s, speed = hold_pose(0.7, 1, 3.0, *wind)
+    assert (hypot(x, y), hypot(c, s), speed) == pytest.approx((3.0, 1.0, 1.0), rel=1e-15)
+
+
 @given(scenes(), sides)
 def test_the_end_is_on_the_circle_and_along_it(scene, side):
     status, held_side, *_, angle, miss = maneuver = solved(scene, side)

@@ -14,15 +14,19 @@ from loiter.kernel.angles import angle, arc_rotation
 HoldPose = tuple[float, float, float, float, float]
 
 
+# A slower wind moves nothing within REACH by as much as a rounding, and its square would not be a normal number.
+NEGLIGIBLE_WIND = 2.0**-400
+
+
 def tightest_radius(wx: float, wy: float) -> float:
     """The least R of a circle that can be held all round: the rate of turn is largest downwind, (1 + |w|)^2 / R."""
     return (1.0 + hypot(wx, wy)) ** 2
 
 
 def downwind(wx: float, wy: float) -> tuple[float, float]:
-    """The direction of the wind as a unit vector; (1, 0) in still air."""
+    """The direction of the wind as a unit vector; (1, 0) in still air, and in a wind too light to have one."""
     wind = hypot(wx, wy)
-    return (wx / wind, wy / wind) if wind > 0.0 else (1.0, 0.0)
+    return (wx / wind, wy / wind) if wind >= NEGLIGIBLE_WIND else (1.0, 0.0)
 
 
 def hold_pose(phase: float, side: int, R: float, wx: float, wy: float) -> HoldPose:

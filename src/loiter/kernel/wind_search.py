@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from loiter.kernel.angles import TWO_PI
 from loiter.kernel.codes import Status
-from loiter.kernel.hold import hold_pose, hold_rate, hold_time, phase_of, tightest_radius
+from loiter.kernel.hold import NEGLIGIBLE_WIND, hold_pose, hold_rate, hold_time, phase_of, tightest_radius
 from loiter.kernel.motion import fly
 from loiter.kernel.moving_target import NO_PATH, Ends, Path, interception, lrl_rlr, lsl_rsr, lsr_rsl
 from loiter.kernel.synthesis import REACH, ROUNDING, Entry, drop_short_pieces, duration, rounding, time_apart
@@ -67,9 +67,6 @@ class WindEntry(NamedTuple):
     azimuth: float
     miss: float
 
-
-# A slower wind moves nothing within REACH by as much as a rounding, and its square would not be a normal number.
-NEGLIGIBLE_WIND = 2.0**-400
 
 # Points of joining that are tried first.
 JOINS = 32
