@@ -1,4 +1,4 @@
-"""One entry to plan, in SI, and its scale: the one place where SI is divided by turn radius and airspeed."""
+"""One entry to plan, in SI, and its scale: here a single plan is divided by turn radius and airspeed, once."""
 
 from __future__ import annotations
 
