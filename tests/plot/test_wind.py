@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from loiter import Orbit, Wind, plan
-from loiter.plot.wind import AIRCRAFT, MAP_WIND, RADIUS, SPEEDS, START, TIE_TOLERANCE, differences, draw
+from loiter.plot.wind import AIRCRAFT, CIRCLE_RADIUS, MAP_WIND, SAME_TIME, SPEEDS, START, differences, draw
 
 
 def artists(axes, gid):
@@ -20,7 +20,7 @@ def test_a_track_for_each_wind_ends_where_the_circle_is_joined(panels):
     tracks, joins = artists(panels[0], "track"), artists(panels[0], "join")
     assert len(tracks) == len(joins) == len(SPEEDS)
     for track, join, speed in zip(tracks, joins, SPEEDS, strict=True):
-        m = plan(START, Orbit(0.0, 0.0, RADIUS), AIRCRAFT, Wind(speed, from_deg=180.0))
+        m = plan(START, Orbit(0.0, 0.0, CIRCLE_RADIUS), AIRCRAFT, Wind(speed, from_deg=180.0))
         ends = np.column_stack(track.get_data())[[0, -1]]
         wanted = [[START.east_m, START.north_m], [m.join.east_m, m.join.north_m]]
         assert ends == pytest.approx(np.array(wanted), abs=1e-9)
@@ -33,7 +33,7 @@ def test_the_maps_show_the_differences(panels):
         [mesh] = artists(axes, "later")
         assert np.allclose(mesh.get_array().reshape(8, 8), differences(wind, 8)[1], rtol=0.0, atol=1e-12)
     [tied] = artists(panels[1], "tied")
-    assert tied.get_array().count() == np.count_nonzero(np.abs(differences(0.0, 8)[1]) < TIE_TOLERANCE) > 30
+    assert tied.get_array().count() == np.count_nonzero(np.abs(differences(0.0, 8)[1]) < SAME_TIME) > 30
     assert artists(panels[2], "tied") == []
 
 
@@ -41,6 +41,6 @@ def test_in_wind_the_ties_of_still_air_are_gone():
     """On a grid that keeps clear of the curves where they remain."""
     line, still = differences(0.0, 8)
     _, windy = differences(MAP_WIND, 8)
-    assert np.count_nonzero(np.abs(still) < TIE_TOLERANCE) > 30
+    assert np.count_nonzero(np.abs(still) < SAME_TIME) > 30
     assert np.count_nonzero(np.abs(windy) < 1e-3) == 0
     assert np.allclose(line, -line[::-1])

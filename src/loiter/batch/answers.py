@@ -18,7 +18,7 @@ from loiter.batch.tables.columns import (
     POSE,
     STATUSES,
     TURN,
-    TURNS,
+    TURN_NAMES,
     VELOCITY,
     WIND,
     WORDS,
@@ -39,7 +39,7 @@ NUMBER = r"^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$"
 _WORD_INDEX = np.zeros(64, dtype=np.int8)
 _WORD_INDEX[list(WORDS)] = range(len(WORDS))
 _WORDS = views.text_column([word.letters for word in WORDS])
-_TURNS, _STATUSES = views.text_column(TURNS), views.text_column(STATUSES)
+_TURNS, _STATUSES = views.text_column(TURN_NAMES), views.text_column(STATUSES)
 
 
 def solve_batch(batch: pa.RecordBatch, columns: Columns, compiled: bool | None = None) -> pa.RecordBatch:

@@ -45,7 +45,7 @@ EXAMPLES = {
   loiter completion fish > ~/.config/fish/completions/loiter.fish""",
 }
 
-STATUSES = """
+EXIT_STATUSES = """
 
 Exit status
   0  done
@@ -59,4 +59,4 @@ Exit status
 
 def epilogue(*commands: str) -> str:
     """The end of a help text: the examples of the commands, and the exit statuses."""
-    return f"Examples{''.join(EXAMPLES[command] for command in commands)}{STATUSES}"
+    return f"Examples{''.join(EXAMPLES[command] for command in commands)}{EXIT_STATUSES}"

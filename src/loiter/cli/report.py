@@ -16,7 +16,7 @@ from loiter.planning.model import Orbit, Pose
 from loiter.planning.vocabulary import ACTIONS
 
 # Two durations that are equal in theory differ by rounding, near 1e-15 of themselves in near and 1e-14 in far scenes.
-TIE_TOLERANCE = 1e-12
+SAME_DURATION = 1e-12
 
 # A miss is printed from this share of the radius on: a metre on a kilometre.
 SMALLEST_MISS = 1e-3
@@ -190,7 +190,7 @@ def other_direction(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> str
     other = next(m for m in rest if m.turn != first.turn)
     later = other.duration_s - first.duration_s
     subject = other.turn.described.capitalize()
-    if other in best or abs(later) <= TIE_TOLERANCE * other.duration_s:
+    if other in best or abs(later) <= SAME_DURATION * other.duration_s:
         return f"{subject} takes the same time."
     return f"{subject} would join {_difference(abs(later))} {'later' if later > 0.0 else 'sooner'}."
 

@@ -13,7 +13,7 @@ STEPS = 100
 
 LINES = {"phi": "#000000", "psi1": "#0072B2", "psi2": "#D55E00"}
 LABELS = {"phi": "φ", "psi1": "ψ1", "psi2": "ψ2"}
-CONTROL = {1: COLOURS["L"], 0: COLOURS["S"], -1: COLOURS["R"]}
+CONTROL_COLOURS = {1: COLOURS["L"], 0: COLOURS["S"], -1: COLOURS["R"]}
 
 
 def draw(certificate: Certificate) -> Figure:
@@ -47,7 +47,7 @@ def _draw_control(axes: Axes, pieces: list[list[Instant]]) -> None:
     for piece in pieces:
         times = [instant.time_s for instant in piece]
         u, *_ = (instant.u for instant in piece)
-        axes.plot(times, [u] * len(times), color=CONTROL[u], linewidth=2.6, gid="u")
+        axes.plot(times, [u] * len(times), color=CONTROL_COLOURS[u], linewidth=2.6, gid="u")
     axes.set_ylim(-1.4, 1.4)
     axes.set_yticks([-1, 0, 1], ["right", "straight", "left"])
     axes.set_ylabel("u")

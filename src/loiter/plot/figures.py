@@ -38,7 +38,7 @@ RADII = (0.5, 1.0, 1.5, 2.0)
 SINGULAR_STARTS = ((-4.5, 0.0), (-3.5, 2.0), (-1.0, -3.5))
 
 # Fig. 4: half the side of the map, and the number of its cells: even, so that none lies on y = 0, where controls tie.
-REACH, CELLS = 3.0, 600
+MAP_REACH, MAP_CELLS = 3.0, 600
 # Positions of the labels of u: one in each region.
 PLACES = ((1.6, 1.6), (-0.75, 0.35), (-0.75, -0.35), (1.6, -1.6))
 WHITE, GREY = "#ffffff", "#b8b8b8"
@@ -148,7 +148,7 @@ def figure_3() -> Figure:
 def figure_4() -> Figure:
     """Draw the optimal control as a function of the state."""
     figure, axes = _single()
-    line = (np.arange(CELLS) + 0.5) / CELLS * 2.0 * REACH - REACH
+    line = (np.arange(MAP_CELLS) + 0.5) / MAP_CELLS * 2.0 * MAP_REACH - MAP_REACH
     u = control(line[np.newaxis, :], line[:, np.newaxis])
     colours = ListedColormap([WHITE, GREY])
     axes.pcolormesh(line, line, u, cmap=colours, vmin=-1.0, vmax=1.0, rasterized=True, gid="control")
@@ -159,7 +159,7 @@ def figure_4() -> Figure:
         _mark(axes, 0.0, end, gid="end", **MARKS["join"])
     _frame(axes)
     axes.grid(visible=False)
-    axes.set(xlim=(-REACH, REACH), ylim=(-REACH, REACH), title="Optimal synthesis")
+    axes.set(xlim=(-MAP_REACH, MAP_REACH), ylim=(-MAP_REACH, MAP_REACH), title="Optimal synthesis")
     patches = [Patch(facecolor=colour, edgecolor="black", label=NAMES[u]) for u, colour in ((1, GREY), (-1, WHITE))]
     _legend_below(axes, [*patches, *_labelled(axes)])
     return figure
@@ -172,10 +172,10 @@ def _draw_boundaries(axes: Axes) -> None:
     corner = last_arc_abscissa(0.0)
     arc = [last_arc_abscissa(abs(v)) for v in y_both.tolist()]
     curve = [switching_abscissa(abs(v), 1.0) for v in y_both.tolist()]
-    axes.plot([-REACH, corner], [0.0, 0.0], color="black", linewidth=4.0, gid="straight", label=STRAIGHT)
+    axes.plot([-MAP_REACH, corner], [0.0, 0.0], color="black", linewidth=4.0, gid="straight", label=STRAIGHT)
     axes.plot(arc, y_both, color="black", linewidth=1.8, gid="last arc", label="last arc (27), T jumps")
     axes.plot(curve, y_both, "--", color="black", linewidth=1.8, gid="switching curve", label="switching curve (23)")
-    axes.plot([corner, REACH], [0.0, 0.0], ":", color="black", linewidth=1.4, gid="tie", label="either sign")
+    axes.plot([corner, MAP_REACH], [0.0, 0.0], ":", color="black", linewidth=1.4, gid="tie", label="either sign")
 
 
 def figure_5() -> Figure:

@@ -21,16 +21,16 @@ from loiter.plot.files import save_figure
 from loiter.plot.picture import MARKS
 
 # In turn radii and airspeeds, so that the pictures apply to every aircraft. The circle can be held in all these winds.
-AIRCRAFT, RADIUS = Aircraft(1.0, min_turn_radius_m=1.0), 2.7
+AIRCRAFT, CIRCLE_RADIUS = Aircraft(1.0, min_turn_radius_m=1.0), 2.7
 FASTEST_WIND = 0.6
 SPEEDS = (0.0, 0.15, 0.3, 0.45, FASTEST_WIND)
 START = Pose(-9.0, 2.5, 90.0)
 
-# The wind of the map blows north, across the course; the map covers |east|, |north| <= REACH.
-MAP_WIND, REACH = 0.4, 8.0
+# The wind of the map blows north, across the course; the map covers |east|, |north| <= MAP_REACH.
+MAP_WIND, MAP_REACH = 0.4, 8.0
 
-# Colours for differences from a tenth to several; differences below TIE_TOLERANCE are due to rounding.
-SCALE, TIE_TOLERANCE = SymLogNorm(0.1, vmin=-4.5, vmax=4.5), 1e-9
+# Colours for differences from a tenth to several; differences below SAME_TIME are due to rounding.
+SCALE, SAME_TIME = SymLogNorm(0.1, vmin=-4.5, vmax=4.5), 1e-9
 TIE_COLOUR = ListedColormap(["#a6dcc8"])
 
 
@@ -62,7 +62,7 @@ def draw(cells: int = 100) -> Figure:
 def _draw_tracks(axes: Axes) -> None:
     _draw_circle(axes)
     for speed in SPEEDS:
-        m = plan(START, Orbit(0.0, 0.0, RADIUS), AIRCRAFT, Wind(speed, from_deg=180.0))
+        m = plan(START, Orbit(0.0, 0.0, CIRCLE_RADIUS), AIRCRAFT, Wind(speed, from_deg=180.0))
         track = m.sample(0.02)
         colour = colormaps["viridis"](0.9 * speed / FASTEST_WIND)
         label = f"{speed:.2f}: {m.word} {m.turn.value}, T = {m.duration_s:.2f}"
@@ -72,7 +72,7 @@ def _draw_tracks(axes: Axes) -> None:
     axes.set_title("The fastest entry bends with the wind")
     axes.legend(title="wind from the south, in airspeeds", loc="center right", fontsize="small", title_fontsize="small")
     axes.set_xlim(START.east_m - 1.0, 9.5)
-    axes.set_ylim(-RADIUS - 0.6, RADIUS + 0.9)
+    axes.set_ylim(-CIRCLE_RADIUS - 0.6, CIRCLE_RADIUS + 0.9)
 
 
 JOIN: dict[str, Any] = MARKS["join"] | {"markersize": 6, "markerfacecolor": "white"}
@@ -81,20 +81,20 @@ JOIN: dict[str, Any] = MARKS["join"] | {"markersize": 6, "markerfacecolor": "whi
 def differences(wind: float, cells: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The grid's coordinates and T clockwise less T counter-clockwise, heading east in a wind that blows north."""
     # An even number of points avoids the axes.
-    line = np.linspace(-REACH, REACH, cells)
+    line = np.linspace(-MAP_REACH, MAP_REACH, cells)
     east, north = np.meshgrid(line, line)
-    cw, ccw = (min_time_in_wind(east, north, 0.0, RADIUS, turn, 0.0, wind) for turn in ("cw", "ccw"))
+    cw, ccw = (min_time_in_wind(east, north, 0.0, CIRCLE_RADIUS, turn, 0.0, wind) for turn in ("cw", "ccw"))
     return line, cw - ccw
 
 
 def _draw_worth(axes: Axes, wind: float, cells: int) -> Any:
     line, later = differences(wind, cells)
-    tied = np.abs(later) < TIE_TOLERANCE
+    tied = np.abs(later) < SAME_TIME
     mesh = axes.pcolormesh(line, line, later, cmap="PuOr", norm=SCALE, shading="nearest", rasterized=True, gid="later")
     if wind == 0.0:
         shown = np.ma.masked_where(~tied, tied)
         axes.pcolormesh(line, line, shown, cmap=TIE_COLOUR, shading="nearest", rasterized=True, gid="tied")
-        axes.text(-REACH + 0.4, -REACH + 0.4, "tied", fontsize="medium", color="black")
+        axes.text(-MAP_REACH + 0.4, -MAP_REACH + 0.4, "tied", fontsize="medium", color="black")
     else:
         axes.contour(line, line, later, levels=[0.0], colors="black", linewidths=1.8)
     _draw_circle(axes)
@@ -102,7 +102,7 @@ def _draw_worth(axes: Axes, wind: float, cells: int) -> Any:
 
 
 def _draw_circle(axes: Axes) -> None:
-    axes.add_patch(Circle((0.0, 0.0), RADIUS, fill=False, color="black", linewidth=1.4, gid="circle"))
+    axes.add_patch(Circle((0.0, 0.0), CIRCLE_RADIUS, fill=False, color="black", linewidth=1.4, gid="circle"))
     axes.plot([0.0], [0.0], marker="+", color="black", markersize=8, linestyle="none", gid="centre")
 
 

@@ -38,7 +38,7 @@ from loiter.verify.trajectory import (
 SHORT = wind_search.SHORT
 
 # Directions of p tried for a single arc, for which many p may meet the conditions.
-DIRECTIONS = 720
+SCANNED_DIRECTIONS = 720
 
 
 class FlightPlan(NamedTuple):
@@ -152,10 +152,10 @@ def _transversal(start: RelativeStart, pieces: list[FlownPiece], switched: Flown
 
 
 def _of_single_arc(start: RelativeStart, pieces: list[FlownPiece]) -> Iterator[InitialAdjoint]:
-    """The adjoints that meet (5) without a switch: one for each of `DIRECTIONS` directions of p."""
+    """The adjoints that meet (5) without a switch: one for each of `SCANNED_DIRECTIONS` directions of p."""
     longest, (e, k) = max(pieces, key=lambda piece: piece.t), _end(start, pieces)
-    for i in range(DIRECTIONS):
-        p = exp(2j * pi * i / DIRECTIONS)
+    for i in range(SCANNED_DIRECTIONS):
+        p = exp(2j * pi * i / SCANNED_DIRECTIONS)
         lam = inner(p, e) - inner(p, e + start.w) / k
         yield InitialAdjoint(p, lam, longest.u * (lam - inner(p, start.e)))
 

@@ -43,7 +43,7 @@ ADDED = pa.schema(
 
 # The values of the added text columns: words by index, turns by the code of the side plus 1, statuses by code.
 WORDS = tuple(Word)
-TURNS = ("ccw", "", "cw")
+TURN_NAMES = ("ccw", "", "cw")
 STATUSES = tuple(status.name.lower() for status in Status)
 
 

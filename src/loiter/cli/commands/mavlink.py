@@ -153,7 +153,7 @@ def _plan_mission(
     return lambda autopilot: to_mission(autopilot=autopilot)
 
 
-PHASES = {"read": "Reading its mission", "send": "Sending", "check": "Reading back"}
+TRANSFER_STEPS = {"read": "Reading its mission", "send": "Sending", "check": "Reading back"}
 
 
 @contextmanager
@@ -168,7 +168,7 @@ def _progress_bars() -> Iterator[Callable[[str, int, int], None]]:
         transient=True,
         disable=not sys.stderr.isatty(),
     ) as bars:
-        tasks = {phase: bars.add_task(text, total=None, visible=False) for phase, text in PHASES.items()}
+        tasks = {phase: bars.add_task(text, total=None, visible=False) for phase, text in TRANSFER_STEPS.items()}
 
         def on_progress(phase: str, done: int, total: int) -> None:
             bars.update(tasks[phase], completed=done, total=total, visible=True)

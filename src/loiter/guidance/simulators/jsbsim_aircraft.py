@@ -17,14 +17,13 @@ from typing import Any
 from loiter.errors import LoiterError, MissingPackage, not_negative
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.simulators.airframes import Airframe
+from loiter.guidance.simulators.gusts import FOOT_M
 from loiter.guidance.simulators.inner_loops import InnerLoops, LoopInputs, Surfaces
 from loiter.guidance.simulators.sensors import Noise, Sensors
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.model import CALM, Pose, Turn, Wind
-
-FOOT_M = 0.3048  # exact by definition
 
 # The longest step of JSBSim and of the inner loops, seconds.
 STEP_S = 1.0 / 120.0

@@ -7,7 +7,7 @@ from enum import StrEnum
 
 from loiter.errors import InvalidArgument, number, positive
 from loiter.io.missions.items import Frame
-from loiter.io.missions.limits import HIGHEST_M
+from loiter.io.missions.limits import HIGHEST_ITEM_M
 
 
 class AltitudeReference(StrEnum):
@@ -96,6 +96,8 @@ MEAN_SEA_LEVEL = AltitudeDatum()
 
 def _check_range(argument: str, altitude_m: float) -> float:
     """The altitude, if a mission may have it."""
-    if abs(altitude_m) > HIGHEST_M:
-        raise InvalidArgument(argument, f"is {altitude_m:g}: it must be from {-HIGHEST_M:g} to {HIGHEST_M:g} metres")
+    if abs(altitude_m) > HIGHEST_ITEM_M:
+        raise InvalidArgument(
+            argument, f"is {altitude_m:g}: it must be from {-HIGHEST_ITEM_M:g} to {HIGHEST_ITEM_M:g} metres"
+        )
     return altitude_m

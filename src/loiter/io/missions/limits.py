@@ -10,7 +10,7 @@ MAX_COUNT = 65535
 MAX_COMMAND = 65535
 
 # ArduPilot refuses altitudes beyond 83 km (LOCATION_ALT_MAX_M).
-HIGHEST_M = 83_000.0
+HIGHEST_ITEM_M = 83_000.0
 
 
 def checked_item(source: Source, where: str, item: MissionItem) -> MissionItem:
@@ -28,7 +28,7 @@ def check_place(source: Source, where: str, latitude_deg: float, longitude_deg: 
     for name, value, most, unit in (
         ("latitude", latitude_deg, 90.0, "degrees"),
         ("longitude", longitude_deg, 180.0, "degrees"),
-        ("altitude", altitude_m, HIGHEST_M, "metres"),
+        ("altitude", altitude_m, HIGHEST_ITEM_M, "metres"),
     ):
         if abs(value) > most:
             raise source.fault(f"{where}: the {name} is {value:g}: it must be from {-most:g} to {most:g} {unit}")
