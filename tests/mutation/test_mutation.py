@@ -133,3 +133,10 @@ def test_equivalents_say_why():
     tables = command.tomllib.loads(command.EQUIVALENTS.read_text("utf-8"))["equivalent"]
     assert all(set(one) == {"file", "before", "after", "why"} and one["why"].endswith(".") for one in tables)
     assert len(command.listed(command.EQUIVALENTS)) == len(tables)
+
+
+def test_equivalents_are_of_lines_that_there_are():
+    tables = command.tomllib.loads(command.EQUIVALENTS.read_text("utf-8"))["equivalent"]
+    for one in tables:
+        source = ast.unparse(ast.parse((command.PACKAGE / one["file"]).read_text("utf-8")))
+        assert all(line.strip() in source for line in one["before"].splitlines())
