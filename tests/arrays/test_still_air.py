@@ -199,9 +199,9 @@ def test_a_result_that_cannot_be_shared_among_threads_is_filled_all_the_same():
 def test_lazy_results_fill_nothing():
     x = pytest.importorskip("dask.array").from_array(X, chunks=700)
     out = np.zeros(3000), np.zeros(3000)
-    with pytest.raises(InvalidArgument, match="out is given, and an argument is a lazy array"):
+    with pytest.raises(InvalidArgument, match="out cannot be filled: an argument is a lazy array"):
         loiter.solve(x, Y, out=loiter.solve(X, Y))
-    with pytest.raises(InvalidArgument, match="out is given, and an argument is a lazy array"):
+    with pytest.raises(InvalidArgument, match="out cannot be filled: an argument is a lazy array"):
         loiter.reduce(x, Y, 90.0, Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=1.0), out=out)
     with pytest.raises(InvalidArgument, match="workers"):
         loiter.min_time(x, Y, workers=0)
