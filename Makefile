@@ -1,5 +1,6 @@
 # make demo   plan a real entry: the table on the screen, the picture in demo.png
-# make test   format, lint, types, import contract, tests, examples in the docs
+# make check  format, lint, types, import contracts and the quick tests, in two minutes: for every day
+# make test   the same with all tests, and the page in a browser: ten to fifteen minutes
 # make bench  what answers cost, beside other methods: table and plot in benchmarks/results; ROWS=0 spares the tables
 # make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
 # make pins   write the requirement files anew from pyproject.toml
@@ -34,16 +35,21 @@ $(BIN)/python:
 /usr/bin/chromium:
 	@requirements/apt-install chromium
 
-.PHONY: demo test bench verify pins
+.PHONY: demo check test bench verify pins lint
 demo: .venv/base.stamp
 	$(BIN)/loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 --plot demo.png
 
-test: .venv/dev.stamp .venv/node.stamp /usr/bin/chromium
+lint: .venv/dev.stamp .venv/node.stamp
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check --no-cache .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/node .venv/node/node_modules/typescript/bin/tsc -p tests/web/tsconfig.json
+
+check: lint
+	$(BIN)/pytest -n 2 --quick
+
+test: lint /usr/bin/chromium
 	$(BIN)/pytest -n 2
 
 bench: .venv/dev.stamp

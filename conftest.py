@@ -15,6 +15,35 @@ from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
 import loiter
 from loiter.cli.app import main
 
+# Files of tests that take more than some six seconds, by folder: `make check` leaves them to `make test`.
+SLOW = {
+    "arrays": "entries wind",
+    "batch": "cluster files memory resume wind",
+    "cli": "errors mavlink",
+    "compiled": "ufuncs",
+    "guidance": "campaign following jsbsim_aircraft loiter_entry",
+    "kernel": "wind_search",
+    "mavlink": "peers upload watch",
+    "mutation": "mutation",
+    "planning": "wind",
+    "plot": "picture",
+    "": "make types",
+    "verify": "certificate certificate_in_wind collocation oracle_check reachability wind_scan",
+    "web": "api failure fields limits load missions page schema serve touch",
+}
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the option of `make check`."""
+    parser.addoption("--quick", action="store_true", help="leave out the files of tests that take long")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out slow files where that is wanted; otherwise pytest decides."""
+    folder = collection_path.parent.name if collection_path.parent.name != "tests" else ""
+    slow = collection_path.stem in [f"test_{name}" for name in SLOW.get(folder, "").split()]
+    return True if slow and config.getoption("--quick") else None
+
 
 @pytest.fixture(autouse=True)
 def _names_of_docstrings(doctest_namespace: dict[str, object]) -> None:

@@ -101,6 +101,7 @@ def test_no_straight_piece_inside_two_turn_radii():
 @example(0.0, -1.0, 3.0)  # the centre of L, where the last LRL begins
 @example(0.0, 1.0, 1.0)
 @example(-3e-289, -3.0, 1.0)
+@example(2.2250738585e-313, 0.0, 2.000000001)  # a subnormal coordinate, whose products have few digits
 def test_the_three_words_that_are_tried_are_as_fast_as_all_eleven(x, y, R):
     """docs/theory.md, section 4: for each first turn one word, and from y < 0 one more."""
     arc_tolerance = rounding(x, y, R) / 3.0

@@ -73,6 +73,11 @@ def durations(extremal: Extremal) -> tuple[float, float, float]:
     return angle(extremal.first), extremal.straight + angle(extremal.middle), angle(extremal.last)
 
 
+# A rotation times less than this could have subnormal components, whose last digits are lost; what c - end x loses of a
+# distance below it is far below every rounding.
+SMALLEST_SCALE = 2.0**-300
+
+
 def onto_axis(x: float, y: float, end: float, arc_tolerance: float) -> tuple[Rotation, float]:
     """Left turn from (x, y) until it meets the axis y = 0 at (end c, 0), end = -1 or +1: the rotation, and c.
 
@@ -85,8 +90,8 @@ def onto_axis(x: float, y: float, end: float, arc_tolerance: float) -> tuple[Rot
     c = sqrt(max(c2, 0.0))
     along = end * x
     # Both products times c + along where that is safe, which saves a division.
-    scale = c + along if along > 0.0 else 1.0
-    gap = rise if along > 0.0 else c - along
+    scale = c + along if along > SMALLEST_SCALE else 1.0
+    gap = rise if along > SMALLEST_SCALE else c - along
     products = end * (c * y * scale + gap), (c * along + y + 1.0) * scale
     return snap_full_turn(products, c2 + 1.0, arc_tolerance), c if c2 >= 0.0 else -1.0
 
