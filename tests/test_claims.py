@@ -18,8 +18,8 @@ DOCUMENTS = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").
 TRUE = [
     "circle of the minimum turn radius a paper proves that this is the optimum",
     "For wider circles there is no proof that the list of extremals is complete",
-    "with a proven bound on what it can miss there",
-    "That nothing else is faster either is proved for a circle of the minimum turn radius in still air",
+    "with a proven bound on how much later than the optimum its answer may be",
+    "That nothing else is faster is proved only for a circle of the minimum turn radius in still air",
     "what is proved of it and what is checked",
     "For R = 1 the paper proves that they lose. For R > 1 that is not proved",
     "what is proved of the answer and what is cross-checked",

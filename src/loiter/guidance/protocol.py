@@ -44,7 +44,7 @@ PHASES = {1: Phase.LEFT, 0: Phase.STRAIGHT, -1: Phase.RIGHT}
 
 
 def phase_of_control(control: int | None) -> Phase:
-    """The phase in which a control is flown; `HOLD` where there is none, since the circle comes after the last."""
+    """The phase in which a control is flown; `HOLD` if it is None, since the circle follows the last control."""
     return Phase.HOLD if control is None else PHASES[control]
 
 
@@ -73,7 +73,7 @@ class Law(Protocol):
 
 
 class Simulator(Protocol):
-    """A simulated aircraft in moving air. It keeps its state; `advance` moves time on."""
+    """A simulated aircraft in moving air. It keeps its state between calls; `advance` advances the time."""
 
     def true_state(self) -> State:
         """The true state."""

@@ -1,4 +1,4 @@
-"""Maneuvers written as files for maps, ground stations and autopilots; missions and parameter files read."""
+"""Write maneuvers as files for maps, ground stations and autopilots; read missions and parameter files."""
 
 from loiter.io.files import FORMATS, check_format, read_mission, save
 from loiter.io.mission import mission

@@ -1,4 +1,4 @@
-"""Maneuvers written to files, in the format of the file's ending, whole or not at all; missions read."""
+"""Write maneuvers to files, whole or not at all, in the format that the ending names; read missions."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def save(
     .waypoints or .txt (`QGC WPL 110`) are missions as `io.mission` makes them. All positions and tracks are over the
     ground. `frame` says where on Earth the maneuver is: without it only .csv can be written. Missions need
     `altitude_m`, which is above mean sea level unless `datum` says otherwise; in maps and tables altitudes are above
-    mean sea level. Points are at most `spacing_m` metres apart, if it is given, and nowhere is the track further than
+    mean sea level. Points are at most `spacing_m` metres apart, if it is given, and the track is nowhere further than
     `chord_error_m` metres from the line between two of them. `autopilot` is the one for which a mission is written.
 
     The file appears whole or not at all; an older file stays until then. Raises `InvalidArgument` for an unknown
@@ -138,7 +138,7 @@ def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> b
         autopilot=arguments.autopilot,
     )
     if ending != ".plan":
-        # Some programs fly the line of the home as a waypoint: it is at the altitude of the flight unless given.
+        # Some programs fly to the home as a waypoint: unless its altitude is given, it has that of the flight.
         return wpl(plan if datum.home_altitude_m is not None else _with_home_at(plan, altitude_m))
     if arguments.autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
         raise InvalidArgument("altitude_reference", "is ground: PX4 flies no missions with altitudes above the ground")

@@ -1,4 +1,4 @@
-"""`loiter.io.missions.mission` under its former name, which earlier documentation gave."""
+"""Former import path of `loiter.io.missions.mission`, given in earlier documentation."""
 
 from loiter.io.missions.mission import mission
 

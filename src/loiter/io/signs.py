@@ -1,4 +1,4 @@
-"""`loiter.io.missions.signs` under its former name, which earlier documentation gave."""
+"""Former import path of `loiter.io.missions.signs`, given in earlier documentation."""
 
 from loiter.io.missions.signs import circle, radius_and_turn, signed_radius_m, with_circle
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import inf, nan
 
-# A stamp is accepted at once up to this much later than the last one plus the time that has passed since, seconds: a
-# law that was not called for an hour continues at once.
+# A stamp is accepted at once unless it is later by more than this, seconds, than the last one plus the time that has
+# passed since. So a law that was not called for an hour continues at once.
 LARGEST_GAP_S = 3600.0
 
 # A clock that has jumped back, or further ahead, is accepted once its stamps have advanced by this, seconds. No single
@@ -16,8 +16,8 @@ CONFIRMATION_S = 1.0
 class Clock:
     """The time stamp of the last accepted measurement, `time_s`, -inf before the first.
 
-    `since_s` is the time that has passed since, summed over the steps. Of the last accepted measurement, `gap_s` is the
-    time from the one before it, and `jump_s` how far the clock had jumped: 0 unless a new clock was accepted with it.
+    `since_s` is the time that has passed since then, summed over the steps. `gap_s` is the time between the last two
+    accepted measurements, and `jump_s` how far the clock jumped between them: 0 unless a new clock was accepted.
     """
 
     def __init__(self) -> None:

@@ -1,4 +1,4 @@
-"""The common part of the circle-following laws: the state in polar coordinates, and a demand as a command.
+"""The common part of the circle-following laws: the state in polar coordinates, and the command for a demand.
 
 These laws represent what autopilots fly today. Each is written from its publication: `l1`, `vector_field`, `tangent`.
 """
@@ -23,8 +23,8 @@ from loiter.planning.solve import plan
 # Within this distance of the centre, metres, the heading is taken as the direction outward, as in ArduPilot's L1.
 AT_CENTRE_M = 0.1
 
-# These laws count as holding within this share of the radius from the circle, with a radial velocity of at most this
-# share of the speed (5 degrees).
+# These laws report `HOLD` if the distance from the circle is within the first share of the radius, and the radial
+# velocity within the second share of the speed (5 degrees).
 HOLD_RADIAL_SHARE, HOLD_COURSE_SINE = 0.05, sin(radians(5.0))
 
 # A demand for less bank than this, degrees, is reported as straight flight. It does not affect the command.
@@ -50,7 +50,7 @@ class PolarState(NamedTuple):
 
 
 class Demand(NamedTuple):
-    """The demand of a law: the acceleration to the right, and what it reports of the flight."""
+    """The demand of a law: the acceleration to the right, and what the law reports about the flight."""
 
     right_m_s2: float
     phase: Phase

@@ -1,10 +1,10 @@
 """The L1 loiter law: flown by ArduPilot, and for years by PX4.
 
-S. Park, J. Deyst and J. P. How, "A New Nonlinear Guidance Logic for Trajectory Tracking", AIAA 2004-4900, steers at a
-point of the path a distance L1 ahead by the lateral acceleration 2 V^2 sin(eta)/L1. The autopilots' form (ArduPilot,
-AP_L1_Control, `update_loiter`; PX4, ECL_L1_Pos_Controller, `navigate_loiter`) sets that loop by a period and a damping:
-outside the circle it steers at the centre, and switches to a proportional-derivative law about the circle where both
-demand the same acceleration.
+S. Park, J. Deyst and J. P. How, "A New Nonlinear Guidance Logic for Trajectory Tracking", AIAA 2004-4900, steers
+towards a point of the path at the distance L1 ahead, with the lateral acceleration 2 V^2 sin(eta)/L1. The autopilots'
+form (ArduPilot, AP_L1_Control, `update_loiter`; PX4, ECL_L1_Pos_Controller, `navigate_loiter`) tunes that loop by a
+period and a damping: outside the circle it steers towards the centre, and switches to a proportional-derivative law
+about the circle where both demand the same acceleration.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ PERIOD_S, DAMPING = 17.0, 0.75
 # The shortest period of ArduPilot's guide, for very agile aircraft.
 SHORTEST_PERIOD_S = 10.0
 
-# The loop of period T, with w = 2 pi/T and a roll time constant tau, is stable for w tau < 2 damping, and has the
-# damping that is set for w tau << 1. Near this w tau it settles fastest, by a search over T for three aircraft
+# The loop of period T, with w = 2 pi/T and a roll time constant tau, is stable for w tau < 2 damping, and reaches the
+# chosen damping for w tau << 1. Near this w tau it settles fastest, by a search over T for three aircraft
 # (docs/jsbsim.md).
 FREQUENCY_TIMES_LAG = 0.2
 
@@ -41,7 +41,7 @@ def advised_period_s(roll_time_s: float) -> float:
     """The advised period, seconds, for a roll time constant.
 
     ArduPilot's guide advises 17 to 20 for most aircraft, 10 for very agile ones, more for slow ones. This is the
-    shortest period at which the roll lag leaves the loop its damping, and not shorter than in that guide.
+    shortest period at which the roll lag does not reduce the damping, but at least the shortest of that guide.
     """
     return max(SHORTEST_PERIOD_S, 2.0 * pi * roll_time_s / FREQUENCY_TIMES_LAG)
 
@@ -52,7 +52,7 @@ def centre_angle(polar: PolarState) -> float:
 
 
 def capture_demand(polar: PolarState, nu: float, period_s: float, damping: float) -> float:
-    """Acceleration to the right that steers at the centre: K V^2 sin(nu)/L1, K = 4 damping^2, L1 = damping T V/pi."""
+    """Acceleration to the right, towards the centre: K V^2 sin(nu)/L1, K = 4 damping^2, L1 = damping T V/pi."""
     speed = max(polar.speed_m_s, LEAST_SPEED_M_S)
     return 4.0 * damping * damping * speed * speed / (damping * period_s * speed / pi) * sin(clip(nu, 0.5 * pi))
 
@@ -101,7 +101,7 @@ class L1(Follower):
         return Demand(right, demand_phase(right, polar, side, R))
 
     def _steady_angle(self, nu: float, polar: PolarState, state: State) -> float:
-        """nu, or the last one where its sign has changed while the aircraft flies away from the centre."""
+        """nu, or its last value if its sign has changed while the aircraft flies away from the centre."""
         east, north = heading_vector(state.heading_deg)
         away = east * polar.out_east + north * polar.out_north > AWAY_HEADING_COS
         return self._nu if away and min(abs(nu), abs(self._nu)) > AWAY_ANGLE and nu * self._nu < 0.0 else nu

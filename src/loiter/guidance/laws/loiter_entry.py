@@ -1,4 +1,4 @@
-"""The law that flies the fastest entry: it keeps a plan while that is good, and a reserve of turn rate to follow it."""
+"""The law that flies the fastest entry: it keeps a plan until a better one is found, and a reserve of turn rate."""
 
 from __future__ import annotations
 
@@ -31,30 +31,30 @@ RESERVE = 0.1
 SMOOTHING_S, DELAY_S = 0.5, 0.1
 
 # Turns begin early by this many roll time constants. 0.12 of them compensate the turn rate, g tan(bank)/V, which lags
-# the bank on the way into 35 deg. The rest allows for gusts: a turn begun late ends inside the circle, a turn begun
+# the bank while it grows to 35 deg. The rest allows for gusts: a turn begun late ends inside the circle, a turn begun
 # early can be flown wider.
 TURN_LAG = 0.6
 
-# Course errors are corrected this many times as fast as the aircraft banks and its sensors are averaged. Crosstrack
-# errors are corrected at this fraction of that gain: a faster correction would need an intercept angle of several
-# degrees.
+# The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank plus
+# the averaging time. A faster correction of crosstrack errors would need an intercept angle of several degrees.
 GAIN, PLACE_GAIN = 4.0, 0.25
 
-# On the circle crosstrack errors are corrected over 1/HOLD_GAIN radians of it: the intercept angle depends on the error
-# as a share of the radius, whatever the radius.
+# On the circle crosstrack errors are corrected over an arc of 1/HOLD_GAIN radians, so that the intercept angle depends
+# only on the ratio of the error to the radius.
 HOLD_GAIN = 0.8
 
 # In turn radii over airspeed: a different plan replaces the present one if it is faster by the first margin, the same
-# plan from the present state if it is slower by no more than the second. Sensor noise changes T by less than this
-# except at a jump of T, where the present plan is the fastest.
+# plan from the present state if it is slower by no more than the second. Sensor noise changes the least time by less
+# than this, except where that jumps; there the present plan is the fastest.
 SWITCH_MARGIN, UPDATE_MARGIN = 0.25, 0.25
 
-# The interval between searches for another plan, seconds. In wind, where a search takes milliseconds, it is also
-# required that the aircraft has deviated from the last plan.
+# The interval between searches for another plan, seconds. In wind, where a search takes milliseconds, the aircraft must
+# also have deviated from the last plan.
 STILL_AIR_INTERVAL_S, WIND_INTERVAL_S = 0.1, 1.0
 
-# In wind a plan has deviated if the crosstrack error or the change of the time to join exceeds this, in turn radii. A
-# new plan counts as the same one if it differs only by a first bend back to the path, no longer than `LONGEST_BEND`.
+# In wind the aircraft has deviated from a plan if the crosstrack error or the change of the time to join exceeds this,
+# in turn radii. A new plan counts as the same one if it differs only by a first turn back to the path, no longer than
+# `LONGEST_BEND`.
 DEVIATION, LONGEST_BEND = 0.1, 0.1
 
 # Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is accepted.
@@ -118,7 +118,8 @@ class LoiterEntry:
         self._observer = Observer(not_negative("smoothing_s", smoothing_s, "seconds"))
         self._response_s = self._lead_s(0.0, self._limit_deg) + smoothing_s
         self._route: Route | None = None
-        # The predicted time of joining in the units of a `RelativeState`, and the one that the present plan began with.
+        # The predicted time of joining in the units of a `RelativeState`, and its value at the beginning of the present
+        # plan.
         self._join_time = self._planned_join_time = inf
         self._clock, self._last_search_s = Clock(), -inf
         self._last_command = Command(0.0, 0.0, Phase.NO_DATA, nan, orbit.turn, Phase.NO_DATA, nan)
@@ -129,7 +130,7 @@ class LoiterEntry:
         # Wider by the reserve, as far as the circle allows.
         self._r = max(tightest_m, min(tightest_m * (1.0 + reserve), widest_m))
         self._R, self._unit_s = rounded_radius(orbit.radius_m / self._r), self._r / self._V
-        # A start beside the last arc counts as on it, as far as half of the reserve can correct it.
+        # A start beside the last arc counts as on it if half of the reserve can correct its distance.
         self._tolerance = 0.5 * (self._r / tightest_m - 1.0)
         self._limit_deg, self._hold_deg = aircraft.bank_deg(tightest_m), aircraft.bank_deg(orbit.radius_m)
         self._planned_deg = aircraft.bank_deg(self._r)
@@ -167,7 +168,7 @@ class LoiterEntry:
         return self._observer.update(state, self._history.delayed_deg).at_present(self._history)
 
     def _shift_clock(self, jump_s: float) -> None:
-        """Convert all times that are kept to a clock that has jumped."""
+        """Convert all stored times to a clock that has jumped by `jump_s`."""
         jump = jump_s / self._unit_s
         self._join_time, self._planned_join_time = self._join_time + jump, self._planned_join_time + jump
         self._last_search_s += jump_s
@@ -199,7 +200,7 @@ class LoiterEntry:
         )
 
     def _advance(self, route: Route, estimate: Estimate) -> ResponsePoint:
-        """Drop the pieces that are complete when a command takes effect; the predicted state then.
+        """Drop the pieces that are complete when a command takes effect; return the predicted state then.
 
         A change of bank takes effect with a delay; from then on the aircraft turns like one that banks instantly.
         """
@@ -209,7 +210,8 @@ class LoiterEntry:
             remaining = route.update_remaining(state)
             if route.is_holding:
                 return ResponsePoint(state, 0.0)
-            # The hold itself begins without `TURN_LAG`: turning longer brings the course to the circle sooner.
+            # The hold itself begins without `TURN_LAG`: continuing the last arc aligns the course with the circle
+            # sooner.
             lag_s = TURN_LAG * self._roll.time_s if route.next_control is not None else 0.0
             next_bank_deg = self._piece_bank_deg(route, route.next_control)
             early_s = max(self._lead_s(estimate.bank_deg, next_bank_deg) + lag_s - lead_s, 0.0)
@@ -222,11 +224,11 @@ class LoiterEntry:
         return self._roll.lead_s(bank_deg, target_deg, self._limit_deg)
 
     def _piece_bank_deg(self, route: Route, control: int | None) -> float:
-        """The planned bank, positive to the right, of a piece with this control, or of the circle where it is none."""
+        """The planned bank, positive to the right, of a piece with this control, or of the circle if it is None."""
         return route.side * self._hold_deg if control is None else -control * self._planned_deg
 
     def _reconsider(self, route: Route, state: RelativeState) -> bool:
-        """Search for another plan if that is due; whether one was adopted."""
+        """Search for another plan if that is due; return whether one was adopted."""
         offset = route.offset(state)
         lost = abs(offset.crosstrack) > LOST_OFFSET or abs(offset.course_error) > LOST_COURSE
         deviated = max(abs(offset.crosstrack), abs(self._join_time - self._planned_join_time)) > DEVIATION
@@ -234,7 +236,7 @@ class LoiterEntry:
         return due and self._search(state, None if lost else route)
 
     def _search(self, state: RelativeState, route: Route | None = None) -> bool:
-        """Adopt the fastest entry from a state, but replace `route` only by a better one; whether it was adopted."""
+        """Adopt the fastest entry from a state if it is better than `route`; return whether it was adopted."""
         interval_s = STILL_AIR_INTERVAL_S if self._in_still_air else WIND_INTERVAL_S
         if self._clock.time_s - self._last_search_s < interval_s - ROUNDING_S:
             return False
@@ -251,14 +253,14 @@ class LoiterEntry:
     def _scale(self, state: RelativeState) -> float:
         """The factor by which turns are wider in the present gust: at a given turn rate the radius grows with speed.
 
-        It is at most the radius of the circle, which is then as tight as the turns.
+        It is at most R: the circle is then as tight as the turns.
         """
         if not self._in_still_air:
             return 1.0
         return min(hypot(*flight_velocity(state.vx, state.vy, state.hx, state.hy)), self._R)
 
     def _fastest_entry(self, state: RelativeState, scale: float) -> Entry | None:
-        """The kernel's entry from a state, if there is one. Its heading is the course through the air of the plan."""
+        """The kernel's entry from a state, if there is one. It starts on the course relative to the steady wind."""
         (wx, wy), R = self._wind, self._R
         c, s = unit(*flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy))
         if self._in_still_air:
@@ -302,9 +304,9 @@ class LoiterEntry:
 
 
 def _is_better(entry: Entry, route: Route, bend: float) -> bool:
-    """Whether an entry should replace a route: it is the same one, up to a small margin, or faster by a margin.
+    """Whether an entry should replace a route: it is the same one, and not much slower, or faster by a margin.
 
-    It counts as the same where it only begins with more pieces, which together are no longer than `bend`.
+    It also counts as the same with additional pieces at its beginning that together are no longer than `bend`.
     """
     controls = controls_of(entry.word)
     extra = max(len(controls) - len(route.controls), 0)

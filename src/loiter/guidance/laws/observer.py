@@ -1,4 +1,4 @@
-"""State estimation for the law: measurements smoothed without lag, and flown on to the present."""
+"""State estimation for the law: measurements smoothed without lag, and extrapolated to the present."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from loiter.guidance.vehicle.turning import PlanarPose, constant_turn, rate_at_b
 from loiter.planning.compass import heading_vector
 
 # The averaging time of the air's velocity is the smoothing time divided by this, in calm and in rough air. In rough air
-# a gust must be corrected before the aircraft has drifted far; in calm air noise would only roll it left and right.
+# a gust must be corrected before the aircraft has drifted far; in calm air so short an average would only let noise
+# roll the aircraft left and right.
 CALM_AIR_DIVISOR, ROUGH_AIR_DIVISOR = 2.0, 8.0
 
-# Air is rough where that average differs from one over `SLOW_AVERAGE_S` seconds by this root mean square, taken over
-# `ROUGHNESS_AVERAGE_S` seconds.
+# Air is rough if the difference of that average from one over `SLOW_AVERAGE_S` seconds has at least this root mean
+# square, taken over `ROUGHNESS_AVERAGE_S` seconds.
 ROUGH_M_S, SLOW_AVERAGE_S, ROUGHNESS_AVERAGE_S = 1.2, 2.0, 10.0
 
 # Bounds of a plausible measurement: the largest value in metres, degrees or metres per second, the least airspeed.
@@ -83,7 +84,7 @@ class Estimate(NamedTuple):
         return self._replace(time_s=self.time_s + time_s, pose=pose)
 
     def at_present(self, history: BankHistory) -> Estimate:
-        """The estimate flown on through the measurement delay, with the banks modelled since."""
+        """The estimate extrapolated over the measurement delay, with the banks modelled since then."""
         bias_deg, V = self.bank_deg - history.delayed_deg, self.airspeed_m_s
         moved = self._replace(turn_rate=-rate_at_bank(history.mean_deg + bias_deg, V)).after(history.delay_s)
         bank_deg = history.current_deg + bias_deg
@@ -134,7 +135,7 @@ class AirVelocityFilter:
 
 
 class Observer:
-    """Smooths measurements by dead reckoning: each step flies the last estimate on and corrects it by a small share.
+    """Smooths measurements by dead reckoning: a step extrapolates the last estimate and corrects it by a small share.
 
     Position and heading are thus averages over about `smoothing_s` seconds that do not lag in a turn. The velocity of
     the air, which is the measured velocity less the airspeed along the heading, is averaged over a shorter time

@@ -79,11 +79,11 @@ def flight_velocity(vx: float, vy: float, hx: float, hy: float) -> tuple[float, 
 
 
 def air_rate(rate: float, vx: float, vy: float, hx: float, hy: float) -> float:
-    """The turn rate through the air, heading along (hx, hy), at which the velocity (vx, vy) turns at `rate`.
+    """The turn rate through the air, for the heading (hx, hy), that turns the velocity (vx, vy) at `rate`.
 
     A turn at the rate w with the airspeed a accelerates the vehicle by a w across its heading. The component
-    a w cos(crab) turns a velocity of the size v at the rate a w cos(crab)/v. On the circle this is (3) of docs/wind.md,
-    `hold.hold_rate`.
+    a w cos(crab) turns a velocity of the size v at the rate a w cos(crab)/v. On the circle this is equation (3) of
+    docs/wind.md, `hold.hold_rate`.
     """
     return rate * (vx * vx + vy * vy) / (hx * vx + hy * vy)
 

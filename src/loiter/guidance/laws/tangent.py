@@ -2,8 +2,8 @@
 
 L. E. Dubins, "On Curves of Minimal Length with a Constraint on Average Curvature, and with Prescribed Initial and
 Terminal Positions and Tangents", American Journal of Mathematics 79(3), 1957. The target pose is the nearest point of
-the circle, heading along the circle: a guess where no point of joining is given. In wind the target pose drifts through
-the air, and the six words are those of docs/wind.md, section 4.
+the circle, heading along the circle: a guess, since such a planner does not compute the point of joining. In wind the
+target pose drifts through the air, and the six words are those of docs/wind.md, section 4.
 
 The path is planned once. Its arcs and straight lines are then followed through the air one by one, each with L1's law
 for circles. Where the aircraft leaves the path by too much, a new one is planned. At the end of the path L1 holds the
@@ -30,7 +30,7 @@ from loiter.planning.feasibility import relative_wind
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
 from loiter.planning.sides import SIDES
 
-# Arcs are planned wider than the tightest turn by this share, to leave turn rate for corrections.
+# Planned arcs are wider than the tightest turn by this share, to leave turn rate for corrections.
 RESERVE = 0.1
 
 # At a crosstrack error beyond this share of the turn radius the path is given up, and a new one is planned.
@@ -104,7 +104,7 @@ class Tangent(L1):
         return super()._demand(state) if progress is None else self._follow(progress)
 
     def _advance(self, start: State, state: State) -> PieceProgress | None:
-        """Drop the pieces that are complete; the progress along the current one, none at the end of the path."""
+        """Drop the pieces that are complete; return the progress along the current one, None at the end of the path."""
         while self._pieces:
             current, *later = self._pieces
             progress = self._progress(current, start, state)
@@ -156,7 +156,10 @@ class Tangent(L1):
         return PieceProgress(east * piece.c + north * piece.s, left, right_m_s2)
 
     def _arc_progress(self, piece: DubinsPiece, polar: PolarState) -> PieceProgress:
-        """The progress along an arc. The angle flown is known up to whole turns: the one nearest to half the arc."""
+        """The progress along an arc.
+
+        The angle flown is known up to whole turns: the value nearest to half the arc is taken.
+        """
         r, c, s = self._radius_m, piece.c, piece.s
         half = 0.5 * piece.length_m / r
         # At the start the outward direction points to the outside of the turn: (s, -c) in a left turn.

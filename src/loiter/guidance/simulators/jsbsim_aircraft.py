@@ -28,8 +28,8 @@ from loiter.planning.model import CALM, Pose, Turn, Wind
 # The longest step of JSBSim and of the inner loops, seconds.
 STEP_S = 1.0 / 120.0
 
-# For JSBSim's `FGWinds`: Dryden spectra of MIL-F-8785C, and a severity, which has no effect below 1000 feet except that
-# 0 turns turbulence off.
+# For JSBSim's `FGWinds`: Dryden spectra of MIL-F-8785C, and a severity: below 1000 feet its only effect is that 0 turns
+# turbulence off.
 MILSPEC, SEVERITY = 3, 1
 
 # The step of a roll identification and the time allowed for each change of bank, seconds.

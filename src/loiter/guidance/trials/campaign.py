@@ -47,7 +47,7 @@ class Trial:
         return replace(self.ideal.orbit, turn=self.ideal.turn)
 
 
-# A flight that turns by this much more off the circle than the fastest entry counts as a go-around. A go-around is a
+# A flight counts as a go-around if it turns, off the circle, by this much more than the fastest entry. A go-around is a
 # whole turn that leaves the circle and returns to it. Up to 20 degrees at each end lie within twice the band and do not
 # count; the rest is margin.
 GO_AROUND_DEG = 270.0
@@ -68,8 +68,8 @@ class Outcome(NamedTuple):
     """The result of one flight of a campaign; times in seconds, nan for events that did not happen.
 
     `ideal_s` is the duration of the fastest entry. `settled_s`, `joined_s`, `overshoot_m`, `bank_rate_deg_s`,
-    `distance_m` and `join_error_s` are those of `Flight`. `round_again` marks a go-around: the heading turned, off the
-    circle and before the aircraft joined, by `GO_AROUND_DEG` more than in the arcs of the fastest entry.
+    `distance_m` and `join_error_s` are those of `Flight`. `round_again` marks a go-around: before joining and off the
+    circle, the heading turned by `GO_AROUND_DEG` more than in the arcs of the fastest entry.
     """
 
     trial: int
@@ -200,9 +200,9 @@ def campaign(
 ) -> dict[str, list[Outcome]]:
     """Fly each law from each start; the outcomes of each law, in the order of the starts.
 
-    The outcomes do not depend on `workers`, the number of processes: by default the number of cores; 1 uses this
-    process. `progress` is called with the number of completed starts and the number of all. Raises `InvalidArgument`
-    for fewer than one worker.
+    The outcomes do not depend on `workers`, the number of processes: by default the number of cores; with 1 no other
+    process is used. `progress` is called with the number of completed starts and the number of all. Raises
+    `InvalidArgument` for fewer than one worker.
     """
     if workers is not None:
         _at_least(1, "workers", workers)

@@ -87,9 +87,9 @@ class Flight:
 
     @property
     def join_error_s(self) -> float:
-        """The root mean square deviation of the reported time to join from a fall of 1 s per second, up to the hold.
+        """The root mean square error of the reported time to join, which should fall by 1 s per second, until the hold.
 
-        Over steps of `REPORT_S` with a time to join at both ends; 0 where there are none.
+        It is taken over the steps of `REPORT_S` with a time to join at both ends; 0 if there are none.
         """
         import numpy as np
 

@@ -20,8 +20,8 @@ from loiter.guidance.trials.campaign import (
 )
 from loiter.guidance.trials.settling import Band
 
-# From this share of the airspeed on gusts count as heavy, and the settling band is wider: in such gusts no law stays
-# within the standard band.
+# Gusts of at least this share of the airspeed count as heavy, and the settling band is wider: in such gusts no law
+# stays within the standard band.
 HEAVY_GUST = 0.1
 STANDARD_BAND, HEAVY_GUST_BAND = Band(0.05, 5.0), Band(0.1, 10.0)
 

@@ -29,7 +29,7 @@ class Band:
         positive("course_deg", self.course_deg, "degrees")
 
 
-# An aircraft that has joined may leave the band in gusts, but stays for a full turn in one this many times as wide.
+# An aircraft that has joined may leave the band in gusts, but stays for a full turn in a band this many times as wide.
 WIDE_BAND = 2.0
 
 # Turns are counted in steps of at least this angle, degrees: a smaller one is a disturbance by gusts.
@@ -50,8 +50,8 @@ class SettlingMonitor:
     The direction must be that of the orbit; if that is "either", it must not change. The orbit is given at the time 0.
 
     `entered_s` is when the present stay in the band began: the settling time once `settled`, nan outside the band.
-    `joined_s` is when the aircraft first entered the band and then stayed for a full turn within one `WIDE_BAND` times
-    as wide. A gust that moves the aircraft off the circle later does not change it. It is nan before the aircraft
+    `joined_s` is when the aircraft first entered the band and then stayed for a full turn in the wide band, `WIDE_BAND`
+    times as wide. A gust that moves the aircraft off the circle later does not change it. It is nan before the aircraft
     enters, and again if it leaves the wide band within that turn.
     `turned_deg` is how much the heading turned until then outside the wide band, in both directions, counted in steps
     of at least `COUNTED_DEG`.

@@ -78,7 +78,7 @@ def _band(longitude: float) -> int:
 
 def _shifted(part: list[Position], band: int) -> list[Position]:
     """The part of a line or ring in a band, shifted to band 0."""
-    # The sum in `_band` is rounded, so the last float below 180 may be counted to the next band.
+    # The sum in `_band` is rounded, so the last float below 180 may fall into the next band.
     return [Position(min(180.0, max(-180.0, longitude - 360.0 * band)), latitude) for longitude, latitude in part]
 
 

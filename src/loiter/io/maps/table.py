@@ -1,9 +1,9 @@
 """A maneuver as CSV: its track, with the unit tangent and the curvature over the ground for path following.
 
 PX4's guidance (NPFG, `navigatePathTangent`) and ArduPilot's (`update_path`, pull request 26328) follow a path that is
-given by its nearest point, its unit tangent towards north and east, and its curvature. That is positive for a right
-turn, since angles grow clockwise from north. So the curvature here has the opposite sign to that in the rest of this
-package, which its name says.
+given by its nearest point, its unit tangent towards north and east, and its curvature. This curvature is positive in a
+right turn, since angles grow clockwise from north; it is named `curvature_right_per_m`, because in the rest of this
+package curvature is positive to the left.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from loiter.planning.model import Samples
 
 
 def table(track: Samples, frame: LocalFrame | None, altitude_m: float | None) -> bytes:
-    """The file, its numbers with as many digits as it takes to read them back to the last bit.
+    """The file. Its numbers have enough digits to be read back exactly.
 
     With a frame there are latitude and longitude, and headings, tracks and tangents are relative to true north; without
     one they are relative to the plane's north.

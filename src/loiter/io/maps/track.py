@@ -1,8 +1,8 @@
 """The track of a maneuver over the ground as a polyline, with a vertex at every switching point.
 
-A curve that is flown with an acceleration of at most a is, over a time dt, nowhere further than a dt^2/8 from its chord
-(the remainder of linear interpolation). On an arc through the air the acceleration is v^2/r, in wind too, since the
-wind is constant. Where a straight line is drawn with a curvature b, V^2 b is added at the ground speed V.
+Over a time dt, a curve flown with an acceleration of at most `a` is nowhere further than `a` dt^2/8 from its chord (the
+remainder of linear interpolation). On an arc through the air the acceleration is v^2/r, in wind too, since the wind is
+constant. Where a straight line is drawn with a curvature b, V^2 b is added at the ground speed V.
 """
 
 from __future__ import annotations

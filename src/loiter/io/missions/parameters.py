@@ -148,7 +148,7 @@ def _five_columns(line: str) -> tuple[str, str] | None:
 
 
 def _value(source: Source, lines: list[ParameterLine], quantity: str) -> float | None:
-    """The value of a quantity in the file, in its unit here; None if the file does not have it."""
+    """The value of a quantity in the file, in the unit of `Preset`; None if the file does not have it."""
     found: float | None = None
     for line in lines:
         meaning = PARAMETERS[line.name]

@@ -1,6 +1,6 @@
 """Missions as QGroundControl's .plan files (docs.qgroundcontrol.com, Plan File Format): JSON, version 1.
 
-A DO_JUMP item of a plan names its target by `doJumpId`; it is read as the number of the item, where home is item 0.
+A DO_JUMP item of a plan names its target by `doJumpId`; that is converted to an item number, where home is item 0.
 """
 
 from __future__ import annotations

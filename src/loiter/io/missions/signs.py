@@ -17,10 +17,10 @@ from loiter.planning.model import Turn
 
 
 class CircleParameters(NamedTuple):
-    """The numbers, from 1, of the command parameters that hold the radius and the direction of a circle.
+    """The numbers, from 1, of the command parameters with the radius and the direction of a circle.
 
-    Without a `direction` the sign of the radius gives the direction: positive is clockwise. With one the radius has no
-    sign, and the direction is 0 for clockwise and 1 for counter-clockwise.
+    Without a `direction` the sign of the radius gives the direction: positive is clockwise. With a `direction` the
+    radius has no sign, and the direction is 0 for clockwise and 1 for counter-clockwise.
     """
 
     radius: int
@@ -43,7 +43,7 @@ Params = tuple[float, float, float, float]
 
 
 def signed_radius_m(radius_m: float, turn: Turn) -> float:
-    """The radius, its sign giving the direction as in MAVLink, WP_LOITER_RAD and NAV_LOITER_RAD: + is clockwise.
+    """The radius with the sign of its direction in MAVLink, WP_LOITER_RAD and NAV_LOITER_RAD: + is clockwise.
 
     Raises `InvalidArgument` for a radius that is not positive and finite, and for a turn that is neither cw nor ccw.
 

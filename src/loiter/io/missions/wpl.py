@@ -1,7 +1,7 @@
 """Missions as `QGC WPL 110`, the text format of Mission Planner, MAVProxy and QGroundControl.
 
-There is a line for each item, where item 0 is the home: number, whether it is the current item, frame, command, four
-parameters, latitude, longitude, altitude, autocontinue, separated by tabs.
+Each item has a line; item 0 is the home. Its fields, separated by tabs: number, whether it is the current item, frame,
+command, four parameters, latitude, longitude, altitude, autocontinue.
 """
 
 from __future__ import annotations

@@ -68,7 +68,7 @@ def long_command(link: Link, command: int, *params: float) -> Any:
 
 
 def _is_accepted(link: Link, command: int, action: str, until: float, deadline: float) -> bool:
-    """Whether the vehicle accepts the command; False if it does not answer until a time.
+    """Whether the vehicle accepts the command; False if it does not answer by the time `until`.
 
     Once it reports that the command is in progress, its answer may take until the deadline.
     """

@@ -18,7 +18,7 @@ from loiter.errors import InvalidArgument, LinkFailed, MissingPackage
 from loiter.mavlink.connection.enumerations import autopilot_name
 
 # Our own ids: MAV_COMP_ID_MISSIONPLANNER, of a system that is not 255. ArduPilot takes 255 for its ground station, and
-# would assume that it is still there as long as we send heartbeats.
+# would assume that the station is still there as long as we send heartbeats.
 OUR_SYSTEM, OUR_COMPONENT = 250, 190
 
 # MAV_TYPE_ONBOARD_CONTROLLER without an autopilot, MAV_AUTOPILOT_INVALID: PX4 takes heartbeats of the type MAV_TYPE_GCS
@@ -31,8 +31,8 @@ HEARTBEAT_S = 1.0
 # Seconds to listen for the heartbeat of a second vehicle before the first is taken for the only one.
 SECOND_VEHICLE_S = 1.5
 
-# The port from which `udpout` sends is this number plus the last four digits of the remote port. It must stay the same:
-# PX4 answers only the first port that has sent to it, until it restarts (mavlink_receiver.cpp).
+# The port from which `udpout` sends is `LOCAL_PORTS` plus the last four digits of the remote port. It must stay the
+# same: PX4 answers only the first port that has sent to it, until it restarts (mavlink_receiver.cpp).
 LOCAL_PORTS, LAST_DIGITS = 20000, 10000
 
 # Default bits per second of a serial line, the usual setting of telemetry radios and USB ports of autopilots.

@@ -49,7 +49,7 @@ class Streams:
         self.restart(now)
 
     def restart(self, now: float) -> None:
-        """Start again, as after a restart of the vehicle: gaps are measured anew before anything is requested."""
+        """Start again, as after a restart of the vehicle: gaps are measured again before anything is requested."""
         self._started = self._next = now
         self._tries = 0
 

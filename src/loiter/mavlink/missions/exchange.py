@@ -1,4 +1,4 @@
-"""Missions uploaded to a vehicle, which has either the new or its old mission afterwards, and downloaded."""
+"""Upload of a mission, after which a vehicle has either the new or its old mission, and download."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ ReportProgress = Callable[[str, int, int], None]
 class MissionSummary:
     """The result of an upload.
 
-    `items` and `replaced` count the items of the new and of the old mission, without home. `cut` lists, a sentence
-    each, the values that the autopilot rounds, such as ArduPilot a radius to whole metres. `remarks` lists what the
-    autopilot will do differently from the mission: fly another radius, or not fly it at all. `started` says whether it
-    was commanded to fly the mission and does.
+    `items` and `replaced` count the items of the new and of the old mission, without home. `cut` lists, one sentence
+    each, the values that the autopilot rounds, such as a radius that ArduPilot stores in whole metres. `remarks` lists
+    what the autopilot will do differently from the mission: fly another radius, or not fly the mission at all.
+    `started` says whether the vehicle was commanded to fly the mission and flies it.
     """
 
     system: int
@@ -90,8 +90,8 @@ def upload(
     `mission` may also be a function that makes the mission for an autopilot, a MAV_AUTOPILOT; it is called when the
     vehicle has been found. `connection` is `udpin:HOST:PORT`, `udpout:HOST:PORT`, `tcp:HOST:PORT` or a serial device,
     `/dev/ttyUSB0,57600`; `system` is the system id of the vehicle, needed if there are several. A transfer without
-    progress for `timeout_s` seconds is given up. ArduPilot keeps its home as item 0: it is sent its own home again, or
-    that of the mission if it has none. Other autopilots are sent the items alone.
+    progress for `timeout_s` seconds is given up. ArduPilot keeps its home as item 0: its own home is sent again, or
+    that of the mission if it has none. To other autopilots only the items are sent.
 
     ArduPlane widens loiters with the altitude, and PX4 does not fly a mission without a landing, unless their
     parameters say otherwise; `remarks` of the result reports both. With `true_radius` each loiter is sent with the
@@ -121,7 +121,7 @@ def upload(
         except LinkFailed as failure:
             if not behaviour.requirement:
                 raise
-            # The cause is a parameter of PX4, which its answer does not always name.
+            # The cause is a parameter of PX4; its answer does not always name it.
             raise LinkFailed(
                 "; ".join([str(failure), *(remark.rstrip(".") for remark in summary.remarks)])
             ) from failure
@@ -160,7 +160,7 @@ def replace_mission(
     items, remarks = _adapt(mission, vehicle, own_home(old, vehicle), behaviour)
     try:
         if vehicle.autopilot == Autopilot.PX4 and is_same(old, items, vehicle) and not flies_mission(link):
-            # PX4 does not check a mission again that it has found invalid, even if its parameters have changed since.
+            # PX4 does not check again a mission that it has found invalid, even if its parameters have changed since.
             transfer.clear(link, timeout_s)
         wrong, cut = _send_and_check(link, items, timeout_s, on_progress)
         if wrong:

@@ -46,7 +46,7 @@ class LoiterScaling(NamedTuple):
         return max(least_m * widened, radius_m)
 
     def sent_m(self, radius_m: float, altitude_m: float) -> float:
-        """The radius of the item for which a radius is flown: the inverse of `flown_m`."""
+        """The radius of the item with which ArduPlane flies `radius_m`: the inverse of `flown_m`."""
         widened, least_m = eas2tas_squared(altitude_m), self._least_at_sea_level_m
         if least_m is not None and least_m * max(widened, 1.0) <= radius_m:
             return radius_m
@@ -112,8 +112,8 @@ def fit_radii(
 ) -> tuple[list[StoredItem], list[str]]:
     """The items of a mission for ArduPlane, and remarks on their circles, a sentence each.
 
-    With `true_radius` each loiter gets the radius, in whole metres, with which its own radius is flown. Raises
-    `InvalidArgument` if the altitude above the sea is not known: above the terrain, or above a home of unknown
+    With `true_radius` each loiter gets the radius, in whole metres, with which ArduPlane flies that of the mission.
+    Raises `InvalidArgument` if the altitude above the sea is not known: above the terrain, or above a home of unknown
     altitude.
     """
     fit, remarks = list(items), []

@@ -19,15 +19,15 @@ from loiter.io.missions.signs import Params
 from loiter.mavlink.connection.link import Vehicle, dialect
 
 # The MAV_FRAMEs in which x and y are latitude and longitude, and the equivalent frame whose name does not end in INT:
-# PX4 answers with the others.
+# PX4 returns those that do.
 _EQUIVALENT_FRAMES = {0: 0, 3: 3, 10: 10, 5: 0, 6: 3, 11: 10}
 PER_DEGREE = 1e7
 
 # MISSION_COUNT has 16 bits.
 MOST_ITEMS = 65535
 
-# Tolerances of what comes back: ArduPilot truncates an altitude to centimetres after float32 rounding; PX4 converts a
-# heading to radians and back.
+# Tolerances of the values read back: ArduPilot truncates an altitude to centimetres after float32 rounding; PX4
+# converts a heading to radians and back.
 _ALTITUDE_M, _HEADING_DEG = 0.015, 1e-4
 
 
@@ -61,7 +61,7 @@ def encode(mission: Mission, vehicle: Vehicle, own_home: StoredItem | None = Non
 
 
 def own_home(items: Sequence[StoredItem], vehicle: Vehicle) -> StoredItem | None:
-    """The home among the items that a vehicle has; None if there is none, or it is not set, which is 0 N 0 E."""
+    """The home among the items that a vehicle has; None if there is none, or it is not set (0 N 0 E)."""
     if not keeps_home(vehicle) or not items:
         return None
     home, *_ = items

@@ -27,8 +27,8 @@ SILENCE_S, ATTEMPTS = 4.0, 5
 # How often the last item is sent again to a vehicle that neither accepts the mission nor requests more.
 REPEATS = 3
 
-# A repeated request that arrives within this time, seconds, was duplicated on the way, and its item has been sent. No
-# vehicle repeats a request before 0.25 s.
+# A repeated request that arrives within this time, seconds, was duplicated on the way, and its item has already been
+# sent. No vehicle repeats a request before 0.25 s.
 DUPLICATE_S = 0.1
 
 # Seconds to wait for a vehicle that is busy with another transfer: ArduPilot gives one up after 8 s, PX4 after 5 s.
@@ -77,8 +77,8 @@ def send(
 ) -> bool:
     """Send all items to a vehicle, as it requests them; returns whether it has acknowledged the mission.
 
-    False means that it has requested all items but not acknowledged them, so that they must be read back to know.
-    Raises `LinkFailed` if it refuses, or makes no progress for `timeout_s`.
+    False means that it has requested all items but not acknowledged them: only reading them back shows whether it has
+    them. Raises `LinkFailed` if it refuses, or makes no progress for `timeout_s`.
     """
     with _cancel_on_error(link):
         last_progress = monotonic()
@@ -195,7 +195,7 @@ class _SendAttempt:
             self.accepted = self._is_complete
             return self.accepted or None
         self.refusal = mission_result(result)
-        # ArduPilot sends this for an item that arrived twice, and goes on; a busy vehicle is asked again.
+        # ArduPilot sends this for an item that arrived twice, and goes on; to a busy vehicle the request is repeated.
         if result == INVALID_SEQUENCE or (self.last_requested < 0 and result in BUSY):
             return None
         if self._is_complete and self.repeats:
@@ -220,8 +220,7 @@ def _answer(
 ) -> Any:
     """The answer of one kind to a request, which is repeated until it arrives; `action` is the request in words.
 
-    A refusal may be a late answer to another request, or that of a vehicle that is busy: it counts only when the time
-    is up.
+    A refusal may be a late answer to another request, or come from a busy vehicle: it counts only when the time is up.
     """
     started = monotonic()
     deadline, refusal = started + timeout_s, ""

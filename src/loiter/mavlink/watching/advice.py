@@ -20,7 +20,7 @@ from loiter.planning.model import Turn
 SHORT_S, LEFT_S = 1.0, 0.4
 
 # An aircraft flies along the circle if its track is within ALONG_DEG of the tangent, and its distance from the circle
-# within BAND_SHARE of the radius, or BAND_M if that is more; one that joins crosses this band at a steeper angle.
+# within BAND_SHARE of the radius, or BAND_M if that is more; while joining, it crosses this band at a steeper angle.
 # It holds the circle once it has flown along it for HOLD_S seconds, until it exceeds LEAVING times these limits.
 ALONG_DEG, BAND_SHARE, BAND_M, HOLD_S, LEAVING = 15.0, 0.15, 15.0, 3.0, 2.0
 

@@ -16,7 +16,7 @@ NO_HEADING = 65535
 # Seconds for which a heading, a wind and a landed state, which is sent rarely, count as current.
 HEADING_S, WIND_S, LANDED_S = 3.0, 30.0, 10.0
 
-# Without ATTITUDE the rate of turn is computed from headings over this time, seconds, or at least over the second one.
+# Without ATTITUDE the rate of turn is computed from headings over the first time, seconds, or at least over the second.
 RATE_S, LEAST_RATE_S = 0.2, 0.05
 
 # A vehicle whose clock, milliseconds since its start, goes back by more than this has restarted.
@@ -96,7 +96,7 @@ class Telemetry:
         self._last[kind] = Received(now, message)
         if kind == "GLOBAL_POSITION_INT" and message.hdg != NO_HEADING:
             self._headings.append(Heading(now, message.hdg / 100.0))
-            # The second heading is enough to cover the time of the rate.
+            # If the second heading is old enough to compute the rate, the first is not needed.
             while len(self._headings) > 2 and now - self._headings[1].time >= RATE_S:
                 self._headings.popleft()
 

@@ -33,7 +33,7 @@ from loiter.planning.solve import plan
 # Seconds after which a position is too old for a plan: autopilots send several a second.
 STALE_S = 3.0
 
-# The error of satellite navigation, metres: a start that is beyond the circle by less must not go round again.
+# The error of satellite navigation, metres: a start that is beyond the circle by less must not lead to a go-around.
 NOISE_M = 5.0
 
 
@@ -42,16 +42,16 @@ class Report:
     """A vehicle at an instant, and the plan from its position.
 
     `time_s` counts from the start of the watch. The position, in WGS84 degrees and metres above mean sea level, is the
-    one that the vehicle reported `age_s` seconds ago; the heading, in degrees from true north, is that of now; the
-    airspeed is the indicated one; values that are not known are nan. `wind` is the one given, or that reported by the
-    vehicle, relative to true north at its position.
+    one that the vehicle reported `age_s` seconds ago; the heading, in degrees from true north, is the present one; the
+    airspeed is the indicated one; unknown values are nan. `wind` is the one given, or that reported by the vehicle,
+    relative to true north at its position.
     `plan` is the fastest entry, in the direction that the watch has chosen, from the extrapolated present position; it
     and its wind are in the local metres of the frame. It is None if `problem` says why there is none. `other_costs_s`
     is how much later the other direction would join, None if it cannot be held. `actions` are the present and the next
     actions, without those that are too short to fly. `holding` says whether the vehicle holds the circle, and
     `outside_m` how far outside it is. `commanded` says whether the vehicle was commanded to hold the circle. `notices`
-    are sentences that occur once: that the vehicle will hold another radius, that it has restarted, that the connection
-    is restored.
+    are sentences that are reported once: that the vehicle will hold another radius, that it has restarted, that the
+    connection is restored.
     """
 
     time_s: float
@@ -125,16 +125,16 @@ def watch(
 ) -> Generator[Report, None, None]:
     """Reports of a vehicle with the fastest entry from its position, one every `period_s` seconds, without end.
 
-    `connection`, `system` and `component` are those of `upload`. `orbit` is in the local metres of `frame`, as it is
-    when the watch begins. Without `wind` the wind is that reported by the vehicle, or still air. If the orbit leaves
-    the direction open, it is that of the first plan and does not change with every position. `tolerance_m` is that of
-    `plan`.
+    `connection`, `system` and `component` are those of `upload`. `orbit` is the circle when the watch begins, in the
+    local metres of `frame`. Without `wind` the wind is that reported by the vehicle, or still air. If the orbit leaves
+    the direction open, it is that of the first plan, and does not change with every new position. `tolerance_m` is that
+    of `plan`.
 
     On `udpout` heartbeats are sent, from which the other end learns our address, and telemetry streams that are too
     slow are requested. With `send` the vehicle is commanded to hold the circle (DO_REPOSITION; DO_ORBIT for PX4) as
     soon as there is a plan, at `altitude_m` above mean sea level or at its present altitude; the autopilot then flies
     there by its own guidance. ArduPlane widens circles with the altitude, unless its parameters say otherwise: a notice
-    says by how much, and with `true_radius` it is sent the radius for which it flies that of the orbit.
+    says by how much, and with `true_radius` the radius sent is the one with which it flies that of the orbit.
 
     Temporary problems (no position yet, an old one, a vehicle that is not flying or more than 100 km away, a wind in
     which the circle cannot be held, a lost connection) are the `problem` of a report; a lost connection is opened
@@ -187,7 +187,8 @@ def _watch(
             now = monotonic()
             report = commander.command_once(planner.report(telemetry, now, now - started, persistent.problem))
             yield replace(report, notices=(*persistent.take_notices(), *report.notices))
-            # After a slow caller the next report comes a period later, when the pending messages have been received.
+            # If the caller was slow, the next report comes a period later, when the pending messages have been
+            # received.
             due = due + period_s if due + period_s > monotonic() else monotonic() + period_s
 
 
@@ -202,7 +203,7 @@ def _to_all(*receivers: Callable[[Any, float], None]) -> Callable[[Any, float], 
 
 
 class _HoldCommander:
-    """Commands the vehicle to hold the circle, if that is an option, and reports the radius that it will fly."""
+    """Commands the vehicle to hold the circle, if `send` is set, and reports the radius that it will fly."""
 
     def __init__(self, link: Link, planner: _Planner, options: _HoldOptions, timeout_s: float) -> None:
         self._link, self._planner, self._options, self._timeout_s = link, planner, options, timeout_s
@@ -214,7 +215,7 @@ class _HoldCommander:
         self._parameters.update(message)
 
     def command_once(self, report: Report) -> Report:
-        """Command the hold when the first plan comes, if that is an option; returns the report with what was done."""
+        """Command the hold when there is a first plan, if `send` is set; returns the report with what was done."""
         if report.plan is None or report.turn is None:
             return replace(report, commanded=self._commanded)
         altitude_m = report.altitude_m if self._options.altitude_m is None else self._options.altitude_m
@@ -340,7 +341,7 @@ class _Planner:
 
 
 def _missing(report: Report) -> str:
-    """What a plan needs and the telemetry lacks, in words; "" if nothing."""
+    """The data that a plan needs and the telemetry lacks, in words; "" if none is missing."""
     if isnan(report.latitude_deg):
         return "no position yet: the vehicle sends no GLOBAL_POSITION_INT, or has no fix"
     if report.age_s > STALE_S:
