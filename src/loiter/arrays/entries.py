@@ -1,4 +1,4 @@
-"""The fastest entries for columns of states in SI: the answers of `plan`, and status codes where there is none."""
+"""The fastest entries for columns of states in SI: the answers of `plan`, or status codes where there is no answer."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ class States(NamedTuple):
     """Rows to solve: float64 arrays of one length n or, except for the pose, one number that all rows share.
 
     `side` holds `loiter.kernel.codes.Side` codes (int8), `UNKNOWN` among them. `limit` names the kind of `turn_limit`:
-    "max_bank_deg", "min_turn_radius_m" or "max_turn_rate_deg_s". The position of the circle is that at the start.
-    Values that all rows share must have been checked.
+    "max_bank_deg", "min_turn_radius_m" or "max_turn_rate_deg_s". The position of the circle is that at the start. The
+    caller has checked the values that all rows share.
     """
 
     east_m: Floats
@@ -83,8 +83,8 @@ class Entries(NamedTuple):
 def entries(states: States, *, compiled: bool | None = None) -> Entries:
     """The fastest entry of each row, as `plan` returns it; the first call loads the kernel, which may take seconds.
 
-    `compiled` says whether rows in wind are solved by compiled code, which differs by rounding. None means: if they are
-    many.
+    `compiled` says whether rows in wind are solved by compiled code, whose results differ by rounding; None chooses it
+    for many rows.
     """
     n = len(states.east_m)
     found: list[Any] = [np.empty(n, dtype=np.int8 if name in _CODES else np.float64) for name in Entries._fields]
@@ -141,7 +141,7 @@ def _in_still_air(s: States) -> Entries:
     time_s, (first_s, second_s, third_s) = time * seconds, durations.T * seconds
     heading = _joining_heading(s, word, durations)
     c, v = heading_vectors()(heading)
-    # Clockwise, the centre is to the right: the aircraft joins at a radius to the left of it, along (-v, c).
+    # On a clockwise circle the centre is to the right: the aircraft joins one radius to the left of it, along (-v, c).
     left = side * s.orbit_radius_m
     east, north = _centre_after(s, time_s)
     return Entries(
@@ -234,10 +234,10 @@ def _radius(limit: str) -> Function:
 
 
 def _tolerance(s: States, r: Any) -> Any:
-    """The tolerance as a normalised length, not below the rounding of the coordinates: as `Problem.reduced`.
+    """The tolerance as a normalised length, at least the rounding of the coordinates, as in `Problem.reduced`.
 
-    The kernel itself allows for the rounding of x, y and R. Where the centre is near the origin, within the radius and
-    the turn radius, the rounding of the coordinates is at most twice as large, |e| + |n| <= sqrt(2) (|x| + |y|) r +
+    The kernel itself allows for the rounding of x, y and R. Where the centre is within a radius plus a turn radius of
+    the origin, the rounding of the coordinates is at most twice as large, since |e| + |n| <= sqrt(2) (|x| + |y|) r +
     centre, and is left out: the kernel is fastest without a tolerance.
     """
     centre = np.abs(s.orbit_east_m) + np.abs(s.orbit_north_m)
@@ -272,7 +272,7 @@ def _positive(value: Any) -> Any:
 
 
 def _explained(s: States, status: Any, refused: Any) -> Any:
-    """The statuses of the rows, from those of the kernel."""
+    """The final statuses of the rows, from `refused` and the statuses of the kernel."""
     # Finite coordinates whose difference is infinite are out of range.
     finite = np.isfinite(s.east_m) & np.isfinite(s.north_m) & np.isfinite(s.heading_deg)
     why = np.where(finite, Status.OUT_OF_RANGE, Status.BAD_POSE)

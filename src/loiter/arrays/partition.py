@@ -27,8 +27,8 @@ NARROW = 1e-6
 # bisection on a symmetric grid would hit.
 SHARE = 0.437
 
-# T jumps at R = 1 only (docs/theory.md, section 6). There it differs by less than this across a boundary where it is
-# continuous: by NARROW, or its square root.
+# T jumps at R = 1 only (docs/theory.md, section 6). Across a boundary where T is continuous it differs by less than
+# this: by NARROW, or its square root.
 JUMP = 1e-3
 
 # Neighbours on a boundary are at most a cell's diagonal apart. A gap of this many grid steps is bridged, for corners.
@@ -53,7 +53,8 @@ class Partition(NamedTuple):
 class Boundary(NamedTuple):
     """Points where one region borders on another, (n, 2), unordered, each within 1e-6 grid steps of the boundary.
 
-    Where a later piece vanishes ("same"), T distinguishes the two words only beyond the cube root of rounding: 1e-4.
+    Where a later piece vanishes ("same"), T distinguishes the two words only at distances above the cube root of
+    rounding, 1e-4.
 
     `kind` is "jump" (T jumps; by how much is in `rise`, (n,)), "switch" (the trajectory changes its control there: the
     first piece of one side vanishes), "straight" (the axis, along which the optimum flies), "tie" (two different
@@ -67,7 +68,7 @@ class Boundary(NamedTuple):
 
 
 def partition(radius: float = 1.0, turn: str = "either", *, reach: float | None = None, cells: int = 400) -> Partition:
-    """The optimum on a square grid of `cells` points a side, made even; |x|, |y| <= `reach` (default radius + 3).
+    """The optimum on a square grid, |x|, |y| <= `reach` (default radius + 3), of `cells` (made even) points a side.
 
     The grid has no point on the axes, where words tie. Raises `InvalidArgument` for a radius below 1, an unknown turn,
     a reach that is not positive, or fewer than 8 cells.
@@ -120,7 +121,7 @@ def _boundary(kind: str, words: tuple[str, str], rows: list[tuple[float, float, 
 def lines(regions: Partition, curve: Boundary) -> list[Floats]:
     """The points of a curve as lines (n, 2): each point is followed by the nearest of the remaining ones.
 
-    Another line begins where that one is too far away.
+    A new line begins where the nearest one is too far away.
     """
     gap = LARGEST_GAP * _grid_step(regions)
     remaining = curve.points[np.argsort(curve.points[:, 0])]
@@ -144,13 +145,13 @@ def _take(points: Floats, i: int) -> tuple[Floats, Floats]:
 
 
 def _grid_step(regions: Partition) -> float:
-    """The distance of neighbouring points of the grid."""
+    """The distance between neighbouring points of the grid."""
     first, second = regions.x[:2].tolist()
     return float(second - first)
 
 
 def _kind(word: str, other: str, vanishes: bool) -> str:
-    """The kind of a boundary between two words, where T does not jump; `vanishes`: the first piece of one of them."""
+    """The kind of a boundary between two words, where T does not jump; `vanishes`: whether one's first piece does."""
     if vanishes:
         return "straight" if "S" in word[:2] and "S" in other[:2] else "switch"
     return "same" if word[:1] == other[:1] else "tie"

@@ -40,7 +40,7 @@ def reduce(
     if lazy:
         refuse_lazy_out(out)
     if lazy or (out is None and max(np.size(east), np.size(north), np.size(c)) < KERNEL_FROM):
-        # The formula is plain arithmetic, and Dask does not apply a ufunc of two results.
+        # The formula is plain arithmetic, and Dask cannot apply a ufunc with two results.
         return motion.reduce(east, north, c, s)
     reduced: tuple[Any, Any] = ufunc("reduce")(east, north, c, s, **({} if out is None else {"out": out}))
     return reduced

@@ -43,12 +43,12 @@ def min_time(
     """Least time T to the circle from reduced states (x, y), in units of turn radius over airspeed.
 
     `x`, `y` are the coordinates (2) of docs/theory.md and `radius` the circle's, all in turn radii; `turn` is "cw",
-    "ccw" or "either", or a `Side` code; `tolerance` is that of `plan`, in turn radii. It behaves as a ufunc: arguments
-    broadcast, the result is float64, `out` is an array to fill, which may overlap an argument; Dask arrays, pandas
-    columns and xarray's arrays give results of the same kind. A state that cannot be solved (nan, infinite, radius < 1)
-    gives nan; the status of `solve` gives the reason. `workers` threads share NumPy arrays; -1 means one per core.
-    Raises `InvalidArgument` for an unknown turn or number of workers. The first call on a machine compiles the kernel,
-    which takes about ten seconds; the code is kept in the user's cache folder.
+    "ccw" or "either", or a `Side` code; `tolerance` is that of `plan`, in turn radii. It behaves like a ufunc:
+    arguments broadcast, the result is float64, `out` is an array to fill, which may overlap an argument; Dask arrays,
+    pandas columns and xarray's arrays give results of the same kind. A state that cannot be solved (nan, infinite,
+    radius < 1) gives nan; the status of `solve` gives the reason. `workers` threads share NumPy arrays; -1 means one
+    per core. Raises `InvalidArgument` for an unknown turn or number of workers. The first call on a machine compiles
+    the kernel, which takes about ten seconds; the code is kept in the user's cache folder.
 
     >>> round(float(loiter.min_time(4.0, 4.0)), 4)
     6.9136
@@ -70,8 +70,8 @@ def control(
 ) -> Any:
     """The feedback law: first control of the optimum at (x, y), -1 (right), 0 or +1 (left), as float64.
 
-    At the target itself, where nothing is left to decide, it is the turn rate that holds the circle: -1/radius
-    clockwise, +1/radius counter-clockwise. Arguments, nan and errors as for `min_time`.
+    At the target itself it is the turn rate that holds the circle: -1/radius clockwise, +1/radius counter-clockwise.
+    Arguments, nan and errors as for `min_time`.
 
     >>> loiter.control([4.0, -0.53, -3.0], [4.0, 0.31, 0.0])
     array([-1.,  1.,  0.])
@@ -91,8 +91,8 @@ def solve(
 ) -> Solution:
     """Optimal maneuvers from reduced states (x, y): time, word, durations, status. Arguments as for `min_time`.
 
-    Dask arrays give Dask arrays, all other columns NumPy arrays; `out` is a `Solution` to fill. Raises as `min_time`,
-    and `InvalidArgument` for an `out` with Dask arrays.
+    Dask arrays give Dask arrays, all other arguments NumPy arrays; `out` is a `Solution` to fill. Raises the errors of
+    `min_time`, and `InvalidArgument` for an `out` with Dask arrays.
 
     >>> loiter.solve(4.0, 4.0).durations.round(4)
     array([2.6994, 3.1669, 1.0472])
@@ -115,7 +115,7 @@ _DTYPES = {"word": np.int8, "status": np.int8, "side": np.int8}
 
 
 def _broadcast(name: str, arguments: tuple[Any, ...], out: Any, workers: int) -> Any:
-    """Apply a ufunc of one result, by threads where there are several workers and all arguments are NumPy's."""
+    """Apply a ufunc with one result, in threads where there are several workers and only NumPy arguments."""
     function, count = ufunc(name), thread_count(workers)
     arrays = [a if hasattr(a, "__array_ufunc__") else np.asarray(a, dtype=np.float64) for a in arguments]
     shareable = all(isinstance(a, (np.ndarray, np.generic)) for a in arrays)

@@ -14,7 +14,7 @@ from loiter.errors import InvalidArgument
 
 
 def share_work(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[Any, ...], workers: int) -> None:
-    """Do the work by threads, on slices of the longest axis; the ufuncs hold no lock and share no memory.
+    """Apply `work` in threads to slices of the longest axis; the ufuncs hold no lock and share no memory.
 
     An argument that overlaps a result is copied first, as NumPy's ufuncs do.
     """
@@ -25,7 +25,7 @@ def share_work(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[
     if count == 1 or not shape or shape[axis] < count:
         work(*arrays, out=out)
         return
-    # A single number stays one: the loops are faster with it.
+    # A single number is not broadcast: the loops are faster with it.
     views = [np.broadcast_to(a, shape) if np.ndim(a) else a for a in (without_overlap(a, out) for a in arrays)]
     # Several slices per thread, so that the other threads take over work from one that is delayed.
     edges = np.linspace(0, shape[axis], min(4 * count, shape[axis]) + 1).astype(int)

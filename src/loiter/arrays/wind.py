@@ -68,11 +68,11 @@ def solve_in_wind(
 
     `x`, `y` are the position from the circle's centre and `radius` its radius, in turn radii; `angle` is the direction
     of the heading in radians, counter-clockwise from x; `wind_x`, `wind_y` the velocity of the air past the circle (the
-    wind less the circle's own) over the airspeed; `turn` as for `min_time`. Arguments broadcast; the results are NumPy
-    arrays. Where the status is not `OK` (nan, a wind as fast as the aircraft, a circle too tight to be held in it, a
-    search that did not converge) the floats are nan. From 1500 states on the search runs compiled, in a third of a
-    millisecond per state; compiling takes about ten seconds, once per process. `workers` threads share the work; -1
-    means one per core. Raises `InvalidArgument` for an unknown turn or number of workers.
+    wind less the circle's own velocity) over the airspeed; `turn` as for `min_time`. Arguments broadcast; the results
+    are NumPy arrays. Where the status is not `OK` (nan, a wind as fast as the aircraft, a circle too tight to be held
+    in it, a search that did not converge) the floats are nan. From 1500 states on the search runs compiled, in a third
+    of a millisecond per state; compiling takes about ten seconds, once per process. `workers` threads share the work;
+    -1 means one per core. Raises `InvalidArgument` for an unknown turn or number of workers.
     """
     angles = np.asarray(angle, dtype=np.float64)
     with np.errstate(invalid="ignore"):
@@ -81,7 +81,7 @@ def solve_in_wind(
     shape = np.broadcast_shapes(*(column.shape for column in columns))
     states = np.stack([np.asarray(column, dtype=np.float64).ravel() for column in columns], axis=1)
     answers = np.empty_like(states)
-    # A few states are not worth a thread, and threads share the longest axis, which must be that of the states.
+    # A few states do not justify threads, and threads divide the longest axis, which must be that of the states.
     rows, fields = states.shape
     count = thread_count(workers) if rows > fields else min(1, thread_count(workers))
     solve_rows = rows_in_wind(rows >= COMPILED_FROM)
@@ -97,7 +97,7 @@ COMPILED_FROM = 1500
 
 
 def rows_in_wind(compiled: bool) -> Function:
-    """The function that solves the rows of an array, the fields of a `WindProblem`, into rows of a `WindEntry`."""
+    """The function that solves each row of an array, a `WindProblem`, and writes a row of another, a `WindEntry`."""
     return _compiled_in_wind() if compiled else _plain_in_wind
 
 

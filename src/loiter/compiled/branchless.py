@@ -89,7 +89,7 @@ def _cos(z: float) -> float:
 
 
 def select(condition: bool, a: Extremal, b: Extremal) -> Extremal:
-    """`extremals.select` number by number, which compiles to selects: a branch would be copied for every path."""
+    """`extremals.select` field by field, compiled to select instructions; a branch would be copied for every path."""
     straight = a.straight if condition else b.straight
     word = a.word if condition else b.word
     first, middle, last = (

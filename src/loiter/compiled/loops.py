@@ -1,9 +1,9 @@
-"""The kernel's functions, unchanged, compiled by Numba into the inner loops of NumPy ufuncs. The only file with Numba.
+"""The kernel's functions, unchanged, compiled into the inner loops of NumPy ufuncs. The only file that imports Numba.
 
 NumPy calls an inner loop (PyUFuncGenericFunction) with pointers to the operands and their strides. The loop copies a
 block of states into buffers on the stack, works on these with loops that LLVM vectorises, and copies the results out:
-it allocates no other memory, and any strides run at the same speed. `branchless` and a fused multiply-add replace what
-would not vectorise.
+it allocates no other memory, and its speed does not depend on the strides. `branchless` and a fused multiply-add
+replace what would not vectorise.
 """
 
 from math import nan
@@ -47,7 +47,7 @@ LOOP = types.void(types.CPointer(types.voidptr), types.CPointer(types.intp), typ
 OK = int(Status.OK)
 CW, CCW, EITHER = int(Side.CW), int(Side.CCW), int(Side.EITHER)
 
-# All flags of <fenv.h>. Compiled code evaluates both sides of a branch; NumPy must not warn of the unused one.
+# All flags of <fenv.h>. Compiled code evaluates both sides of a branch; NumPy must not warn about the unused one.
 FLAGS = 0x3F
 _clear_flags = types.ExternalFunction("feclearexcept", types.int32(types.int32))
 
@@ -121,8 +121,8 @@ _reduce = _compiled(motion.reduce)
 # The operands of `min_time`, `control` and `solve` by number: five inputs, and the results of each.
 X, Y, RADIUS, SIDE, TOLERANCE = range(5)
 MIN_TIME = CONTROL = 5
-# `solve` has a sixth input, whose only purpose is the number 3 of durations. The strides of all operands are followed
-# by those along the three: of the sixth input, and of the durations.
+# `solve` has a sixth input, only for the number 3 of durations. After the strides of all operands come those along the
+# axis of length 3, of the sixth input and of the durations.
 _, TIME, WORD, DURATIONS, STATUS, SIDE_HELD, MISS, _, NEXT_DURATION = range(5, 14)
 # The operands of `reduce`.
 EAST, NORTH, COSINE, SINE, REDUCED_X, REDUCED_Y = range(6)
@@ -207,7 +207,7 @@ def _is_exact(args, steps):
 
 @_inlined
 def _passes(args, steps):
-    """2 where a tolerance may make the far side of *either* the faster one, otherwise 1."""
+    """The number of passes: 2 where a tolerance may make the far side of *either* the faster one, otherwise 1."""
     one_side = _is_constant(args, steps, SIDE, CW) or _is_constant(args, steps, SIDE, CCW)
     return 1 if _is_exact(args, steps) or one_side else 2
 
@@ -232,7 +232,7 @@ def _choose_sides(states, chosen, far, count):
 
 @_inlined
 def _tight_times(states, time, count):
-    """T for R = 1, *either*, no tolerance: the compiler evaluates all that depends on these alone."""
+    """T for R = 1, *either*, no tolerance: the compiler precomputes whatever depends only on these."""
     x, y = states.x, states.y
     for i in range(count):
         T = _least_time(x[i], abs(y[i]), 1.0, CW, 0.0)

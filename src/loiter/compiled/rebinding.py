@@ -1,4 +1,4 @@
-"""Another arithmetic for the same source: copies of the kernel's functions with other globals."""
+"""Copies of the kernel's functions with other globals: the same source with another arithmetic."""
 
 from collections.abc import Callable, Mapping
 from types import FunctionType
@@ -6,7 +6,7 @@ from typing import Any
 
 Function = Callable[..., Any]
 
-# Packages of scalar functions: functions of these that are called are copied too.
+# Packages of scalar functions: their functions are copied too where they are called.
 SCALAR = ("loiter.kernel.", "loiter.compiled.")
 
 
@@ -18,7 +18,7 @@ def rebound(
     """A copy of a kernel function, and of the kernel functions it calls, with `names` in place of its globals.
 
     `rebound(fly, {"sin": numpy.sin, "cos": numpy.cos})` takes arrays. `finish` is applied to each copy, so
-    `rebound(optimum, finish=numba.njit)` compiles. The formula is still written only once, in the source.
+    `rebound(optimum, finish=numba.njit)` compiles. So each formula is written only once.
     """
     copies: dict[Function, Function] = {}
 

@@ -45,7 +45,8 @@ def true_airspeed(indicated_airspeed_m_s: float, altitude_m: float, temperature_
     """The true airspeed, metres per second: V / sqrt(density ratio).
 
     Indicated airspeed is taken as equivalent airspeed, as autopilots do: below a third of the speed of sound they
-    differ by less than 1 %. Raises as `density_ratio`, and `InvalidArgument` for an airspeed that is not positive.
+    differ by less than 1 %. Raises the errors of `density_ratio`, and `InvalidArgument` for an airspeed that is not
+    positive.
 
     >>> round(true_airspeed(18.0, 2000.0), 2)
     19.86

@@ -2,7 +2,7 @@
 
 The place at distance d along the geodesic of azimuth a from the origin has east = d sin(a), north = d cos(a). Distances
 from the origin are true; perpendicular to them, the plane stretches by c / sin(c) = 1 + c^2 / 6, with c the distance
-over the Earth's radius. Geodesics by pyproj (C. F. F. Karney, Algorithms for geodesics, J. Geodesy 87, 2013).
+over the Earth's radius. pyproj computes the geodesics (C. F. F. Karney, Algorithms for geodesics, J. Geodesy 87, 2013).
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class LocalFrame:
-    """A plane of metres east and north of an origin on the WGS84 ellipsoid, good within 100 km of it.
+    """A plane of metres east and north of an origin on the WGS84 ellipsoid, accurate within 100 km of it.
 
-    Take the circle's centre as the origin. Longitudes may be counted from -180 or from 0. Raises `InvalidArgument` for
-    a latitude that is not between -90 and 90 degrees and for values that are not finite.
+    Take the circle's centre as the origin. Longitudes may start from -180 or from 0. Raises `InvalidArgument` for a
+    latitude that is not between -90 and 90 degrees and for values that are not finite.
 
     >>> from loiter.geo import LocalFrame
     >>> frame = LocalFrame(47.0, 8.0)
@@ -76,7 +76,7 @@ class LocalFrame:
         return np.where(near, latitude, np.nan), np.where(near, longitude, np.nan)
 
     def convergence_deg(self, latitude_deg: ArrayLike, longitude_deg: ArrayLike) -> NDArray[float64]:
-        """The angle to add to a true heading at each place to count it from the plane's north; places broadcast.
+        """The angle to add to a true heading at each place to measure it from the plane's north; places broadcast.
 
         The meridians of two places are not parallel: 20 km east at a latitude of 60 degrees makes 0.3 degrees. nan
         where `to_local` gives nan.

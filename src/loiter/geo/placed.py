@@ -1,4 +1,4 @@
-"""A problem and where its local metres lie on the Earth."""
+"""A problem, and the place on Earth of its local coordinates."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from loiter.planning.problem import Problem
 
 
 class PlacedProblem(NamedTuple):
-    """A problem in local metres, and the frame of those metres; None where no place was given in degrees."""
+    """A problem in local metres, and their frame, which is None where no place was given in degrees."""
 
     problem: Problem
     frame: LocalFrame | None

@@ -8,18 +8,18 @@ from math import atan2, pi
 
 TWO_PI = 2.0 * pi
 
-# The products (a x b, a . b) of the vectors that a rotation takes from a to b, counter-clockwise; any common factor.
+# The products (a x b, a . b) for the counter-clockwise rotation from a to b, times any common positive factor.
 Rotation = tuple[float, float]
 
 NO_ROTATION = (0.0, 1.0)
 
-# Added to inner products, so that a vector without length gives no rotation. It is negligible for vectors longer than
+# Added to inner products, so that a zero vector gives the rotation by zero. It is negligible for vectors longer than
 # 1e-37, and a product of three of them does not underflow.
 TINY = 2.0**-300
 
 
 def rotation(ax: float, ay: float, bx: float, by: float) -> Rotation:
-    """The counter-clockwise rotation from direction (ax, ay) to (bx, by); none where one of them has no length."""
+    """The counter-clockwise rotation from direction (ax, ay) to (bx, by); by zero where one of them is zero."""
     return ax * by - ay * bx, ax * bx + ay * by + TINY
 
 
@@ -70,7 +70,7 @@ def fold_half_turn(rotated: Rotation, halves: float) -> tuple[float, float, floa
 def total_angle(first: Rotation, second: Rotation, third: Rotation) -> float:
     """The sum of the angles of three rotations, in [0, 6 pi], with one arctangent.
 
-    The vectors multiply as complex numbers, and their angles add up. Each is first folded below pi, so that two of them
+    Multiplying the vectors as complex numbers adds their angles. Each is first folded below pi, so that two of them
     make less than a full turn and no whole turn is lost.
     """
     c1, d1, halves = fold_half_turn(first, 0.0)

@@ -27,7 +27,7 @@ def two_product(a: float, b: float) -> tuple[float, float]:
 
 
 def beyond(x: float, y: float, R: float, k: float) -> float:
-    """The difference of squares x^2 + (y - R) (y + R + k), to nearly full digits however near zero it is.
+    """The difference of squares x^2 + (y - R) (y + R + k), with nearly full relative accuracy even near zero.
 
     With k = 2 it is rp^2 - (R + 1)^2: the squared distance from (0, -1) less the squared radius of the last circle of
     L. With k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Near zero it is a small difference of large

@@ -1,9 +1,9 @@
 """All extremals that can be the fastest onto the clockwise circle, target (0, R), in closed form.
 
 docs/theory.md, section 3, derives them from the maximum principle (11)-(18). Each function takes a `Start`: the reduced
-state (x, y), the radius R >= 1 and what follows from them. It returns the word and its three pieces in flying order,
-arcs as rotations, the middle piece with the length flown straight; that length is `inf` where the word does not reach
-the target. The counter-clockwise circle is the mirror image: pass -y, swap L and R.
+state (x, y), the radius R >= 1 and what follows from them. It returns the word and its pieces in flying order: the arcs
+as rotations, and the straight length, which is `inf` where the word does not reach the target. The counter-clockwise
+circle is the mirror image: pass -y, swap L and R.
 
 In the reduced plane L turns clockwise about (0, -1) at radius rp, R counter-clockwise about (0, 1) at radius rm.
 Differences of squares are written as products, (R - y) (R + y + 2) for (R + 1)^2 - (y + 1)^2, so that a state near a
@@ -29,7 +29,7 @@ from loiter.kernel.words import Word
 class Start(NamedTuple):
     """Reduced state, radius, arc tolerance, and on which side of three circles the state lies: positive outside them.
 
-    `arc_tolerance` is the arc length by which a rotation may be less than a full turn and count as none
+    `arc_tolerance` is the arc length by which a rotation may fall short of a full turn and count as none
     (`angles.snap_full_turn`). `outer` is rp^2 - (R + 1)^2, `inner` rm^2 - (R - 1)^2, `fold` rp^2 - (R - 3)^2.
     """
 
@@ -73,23 +73,23 @@ def durations(extremal: Extremal) -> tuple[float, float, float]:
     return angle(extremal.first), extremal.straight + angle(extremal.middle), angle(extremal.last)
 
 
-# A rotation times less than this could have subnormal components, whose last digits are lost; what c - end x loses of a
-# distance below it is far below every rounding.
+# A rotation multiplied by less could have subnormal components, which have lost digits. Below this distance the rounding
+# error of c - end x itself is negligible.
 SMALLEST_SCALE = 2.0**-300
 
 
 def onto_axis(x: float, y: float, end: float, arc_tolerance: float) -> tuple[Rotation, float]:
-    """Left turn from (x, y) until it meets the axis y = 0 at (end c, 0), end = -1 or +1: the rotation, and c.
+    """The rotation of a left turn from (x, y) to the point (end c, 0) of the axis y = 0, end = -1 or +1; and c.
 
-    c = sqrt(rp^2 - 1), -1 where the turn never meets the axis (rp < 1). A right turn is the mirror image: pass -y.
+    c is sqrt(rp^2 - 1), or -1 where the turn never meets the axis (rp < 1). A right turn is the mirror image: pass -y.
     The cross product is end (c y + c - end x); where end x > 0, c - end x = y (y + 2) / (c + end x), so the rotation
-    keeps the sign of y down to its last bit.
+    has exactly the sign of y.
     """
     rise = y * (y + 2.0)
     c2 = x * x + rise
     c = sqrt(max(c2, 0.0))
     along = end * x
-    # Both products times c + along where that is safe, which saves a division.
+    # Both products are multiplied by c + along where that is safe, which saves a division.
     scale = c + along if along > SMALLEST_SCALE else 1.0
     gap = rise if along > SMALLEST_SCALE else c - along
     products = end * (c * y * scale + gap), (c * along + y + 1.0) * scale
@@ -99,8 +99,8 @@ def onto_axis(x: float, y: float, end: float, arc_tolerance: float) -> tuple[Rot
 def external_join(word: Word, y: float, start: Start, joins: bool) -> Extremal:
     """LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
 
-    `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, by `exact.beyond` as
-    where words are selected; rounding may nevertheless make c - X negative.
+    `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided by
+    `exact.beyond` as in the selection of words; rounding may still make c - X negative.
     """
     R = start.R
     first, c = onto_axis(start.x, y, -1.0, start.arc_tolerance)
@@ -141,7 +141,7 @@ def rsr(start: Start) -> Extremal:
 
 
 def squared_distance(x: float, y: float, centre: float) -> float:
-    """The squared distance from (0, centre), to full digits however small; taken from `beyond` it would lose them."""
+    """The squared distance from (0, centre), accurate even near zero; computed from `beyond` it would lose digits."""
     return x * x + (y - centre) * (y - centre)
 
 
@@ -168,7 +168,7 @@ def r(start: Start) -> Extremal:
 
 
 def rl(start: Start, branch: float) -> Extremal:
-    """Right to the last circle, of radius R + 1 about (0, -1), at its crossing with x1 of the sign of `branch`; left.
+    """RL: right to the last circle, of radius R + 1 about (0, -1), met where x1 has the sign of `branch`; then left.
 
     The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = (R + 3)^2 - rm^2 =
     8 (R + 1) - q.
@@ -183,7 +183,7 @@ def rl(start: Start, branch: float) -> Extremal:
 
 
 def lr(start: Start, branch: float) -> Extremal:
-    """Left to the circle of radius R - 1 about (0, 1), R > 1, at its crossing with x1 of the sign of `branch`; right.
+    """LR, R > 1: left to the circle of radius R - 1 about (0, 1), met where x1 has the sign of `branch`; then right.
 
     The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = -`outer` = (R + 1)^2 - rp^2, p = `fold` =
     rp^2 - (R - 3)^2.
@@ -228,9 +228,9 @@ def lrl(start: Start) -> Extremal:
 
 
 def extremals(x: float, y: float, R: float, arc_tolerance: float) -> tuple[Extremal, ...]:
-    """Every extremal for the target (0, R), in the order in which ties are decided.
+    """Every extremal for the target (0, R); of several that tie, the first is preferred.
 
-    Next to the end of a straight piece, words with and without it tie.
+    Where a straight piece is about to vanish, the words with and without it tie.
     """
     start = start_at(x, y, R, arc_tolerance)
     return (
@@ -254,9 +254,9 @@ def select(condition: bool, a: Extremal, b: Extremal) -> Extremal:
 
 
 def left_first(start: Start) -> Extremal:
-    """The extremal that can win among those of several pieces that begin with L (docs/theory.md, section 4).
+    """Of the extremals of several pieces that begin with L, the one that can win (docs/theory.md, section 4).
 
-    It is determined by rp; `detour` has the crossing that is not among them.
+    It is determined by rp. `detour` gives the other crossing of LR, which is not considered here.
     """
     best = lrl(start)
     if start.R > 1.0:
@@ -269,7 +269,7 @@ def left_first(start: Start) -> Extremal:
 
 
 def right_first(start: Start) -> Extremal:
-    """The extremal that can win among those of several pieces that begin with R, determined by rm; see `left_first`."""
+    """Of the extremals of several pieces that begin with R, the one that can win, by rm; see `left_first`."""
     best = select(start.inner > 4.0 * start.R, rsl(start), rl(start, -1.0))
     if start.y < 0.0:
         best = select(start.inner < 0.0, rsr(start), best)
@@ -277,19 +277,19 @@ def right_first(start: Start) -> Extremal:
 
 
 def detour(start: Start) -> Extremal:
-    """The one extremal with the other crossing that can win, from y < 0 only: its first arc ends before the axis."""
+    """The only RL or LR with the other crossing that can win, for y < 0: its first arc ends before the axis."""
     return select(start.inner > 4.0 * start.R, rl(start, 1.0), lr(start, -1.0))
 
 
 def fastest(x: float, y: float, R: float, arc_tolerance: float, exact: bool) -> tuple[float, Extremal]:
-    """The least T and its extremal: of three words at most, one for each first turn and the detour.
+    """The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
 
-    `exact` says that there is no tolerance. Then a start on a last circle is there up to rounding, and the single arc
-    takes the place of the words of which it is the limit; but not of LRL where the arc would cross the axis from y > 0,
-    which no optimal first arc does. With a tolerance, where a start may lie beside a circle, the single arcs compete
-    with the other words, so that a tolerance never makes T larger.
+    `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to rounding,
+    and the single arc replaces the words of which it is the limit, except LRL where the arc would cross the axis from
+    y > 0, which no optimal first arc does. With a tolerance, where a start may lie beside a circle, the single arcs
+    compete with the other words, so that a tolerance never makes T larger.
 
-    Without a tolerance R = 1, y >= 0 takes no comparison, by the paper's section 6: the word that begins with L wins
+    Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
     where it exists and its first arc is no longer than half a turn, up to the switching curve.
     """
     start = start_at(x, y, R, arc_tolerance)

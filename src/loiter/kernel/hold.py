@@ -14,7 +14,7 @@ from loiter.kernel.angles import angle, arc_rotation
 HoldPose = tuple[float, float, float, float, float]
 
 
-# A slower wind moves nothing within REACH by as much as a rounding, and its square would not be a normal number.
+# A slower wind displaces no point within REACH by as much as rounding, and its square would be subnormal.
 NEGLIGIBLE_WIND = 2.0**-400
 
 
@@ -53,7 +53,7 @@ def hold_rate(phase: float, side: int, R: float, wx: float, wy: float) -> float:
 
 
 def hold_time(phase: float, width: float, side: int, R: float, wx: float, wy: float) -> float:
-    """A bound on the time to hold the circle from `phase` - `width` (zero or more) to `phase`.
+    """An upper bound on the time to hold the circle from `phase` - `width` (zero or more) to `phase`.
 
     The ground speed rises from the headwind to the tailwind and then falls: it is least at one of the two ends.
     """

@@ -4,7 +4,7 @@ from math import cos, sin
 
 
 def reduce(x: float, y: float, c: float, s: float) -> tuple[float, float]:
-    """The reduced state (2) of a vehicle at (x, y) from the circle's centre that heads along the unit vector (c, s)."""
+    """The reduced state (2) of a vehicle at (x, y), relative to the circle's centre, with the unit heading (c, s)."""
     return x * c + y * s, y * c - x * s
 
 

@@ -1,11 +1,10 @@
-"""When a Dubins vehicle can first be at a moving pose: the six words, and every root of length(T) = T.
+"""The first time at which a Dubins vehicle can be at a moving pose: the six words, and the roots of length(T) = T.
 
 The pose keeps its heading and moves with the velocity -w, and the vehicle flies through still air (docs/wind.md,
-section 4). A word leaves along the circle of its first arc and arrives along the circle of its last; at a time T the
-last centre is at d - w T from the first, and the length of each word depends on T through this vector alone. For each
-word the roots are found in order, and no root that can be the first is missed: those of LSL and RSR are in closed form,
-those of LSR and RSL are roots of convex decreasing functions, those of LRL and RLR lie where a function is convex, or
-concave, throughout.
+section 4). At a time T the vector from the centre of a word's first arc to that of its last is d - w T, and the length
+of the word depends on T through this vector alone. For each word the roots are found in order, and no root that can be
+the first is missed: those of LSL and RSR are in closed form, those of LSR and RSL are roots of convex decreasing
+functions, those of LRL and RLR lie where a function is convex, or concave, throughout.
 
 In all functions `u` is the control of the first arc and (dx, dy) is d.
 """
@@ -21,9 +20,9 @@ Interval = tuple[float, float]
 
 
 class Ends(NamedTuple):
-    """What all words have in common: the headings (c0, s0) at the start and (c, s) at the pose, and the wind.
+    """The data common to all words: the headings (c0, s0) at the start and (c, s) at the pose, and the wind.
 
-    `arc_tolerance` is the arc length by which a rotation may be less than a full turn and count as none
+    `arc_tolerance` is the arc length by which a rotation may fall short of a full turn and count as none
     (`angles.snap_full_turn`).
     """
 
@@ -58,12 +57,12 @@ NO_PATH = Path(inf, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0)
 # error, or halves it near a double root; 60 halvings are more than the digits of a double.
 NEWTON_STEPS = 60
 
-# While the straight piece of LSR or RSL turns by up to pi, each of its two arcs passes a whole turn once at most.
+# While the straight piece of LSR or RSL turns by up to pi, each of the two arcs passes a whole turn at most once.
 WHOLE_TURNS = 2
 
 
 def interception(dx: float, dy: float, wx: float, wy: float) -> float:
-    """When a straight flight at speed 1 meets a point that is at d and moves with -w: t = |d - w t|.
+    """The time at which a straight flight at speed 1 meets a point that starts at d and moves with -w: t = |d - w t|.
 
     The positive root of (1 - w^2) t^2 + 2 (w . d) t = d^2, in the form without cancellation.
     """
@@ -75,7 +74,7 @@ def interception(dx: float, dy: float, wx: float, wy: float) -> float:
 
 
 def time_within(dx: float, dy: float, wx: float, wy: float, limit: float) -> Interval:
-    """The times from 0 on between which |d - w t| < limit; both `inf` where there are none."""
+    """The interval of times t >= 0 in which |d - w t| < limit; both ends are `inf` where there is none."""
     along, square, gap = wx * dx + wy * dy, wx * wx + wy * wy, dx * dx + dy * dy - limit * limit
     discriminant = along * along - square * gap
     if gap >= 0.0 and (along <= 0.0 or discriminant <= 0.0):
@@ -120,7 +119,7 @@ def tangent(u: int, dx: float, dy: float) -> tuple[float, float, float]:
 
 def lsr_rsl(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
     """LSR (u = +1) or RSL, the first whose time is at most `until`; the centres must be at least two radii apart."""
-    # Circles that overlap by rounding touch: two arcs, without a straight piece.
+    # Circles that overlap by rounding count as touching: two arcs without a straight piece.
     enter, leave = time_within(dx, dy, ends.wx, ends.wy, 2.0 - ends.arc_tolerance)
     path = NO_PATH
     if enter > 0.0:
@@ -134,7 +133,7 @@ def first_lsr_rsl(u: int, dx: float, dy: float, ends: Ends, interval: Interval) 
     """LSR or RSL of the first root in an interval throughout which the centres are at least two radii apart.
 
     With its arcs continued beyond whole turns, length - T is convex and falls with the slope -(1 + w . p). So for each
-    number of turns it has at most one root, and Newton's method rises to it from the beginning of the interval.
+    number of turns it has at most one root, and Newton's method converges to it from the beginning of the interval.
     """
     c0, s0, c, s, wx, wy, arc_tolerance = ends
     begin, end = interval
@@ -175,7 +174,8 @@ def lsr_rsl_root(u: int, dx: float, dy: float, ends: Ends, arcs: float, interval
 def lrl_rlr(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
     """LRL (u = +1) or RLR, the first whose time T is at most `until`: T = 2 t2 + rotation from start to pose + turns.
 
-    Only a path with p . w + lambda >= 0 can be the first; for each number of whole turns there is one such path.
+    Only a path with p . w + lambda >= 0 can be the first; for each number of whole turns there is at most one such
+    path.
     """
     c0, s0, c, s, wx, wy, arc_tolerance = ends
     enter, leave = time_within(dx, dy, wx, wy, 4.0)

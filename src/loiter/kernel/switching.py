@@ -5,8 +5,8 @@ from math import sqrt
 from loiter.kernel.exact import beyond
 from loiter.kernel.words import Word
 
-# Laws of the predicates, each with a test: they depend on x^2 or |y| as the mirror law requires; zero is the boundary
-# itself, which belongs to the region with the smaller T.
+# Properties of the predicates, each tested: they depend on x^2 or |y|, as the reflection requires; they are zero on the
+# boundary, which belongs to the region with the smaller T.
 
 
 def beyond_last_circle(x: float, y: float, R: float) -> float:
@@ -15,12 +15,12 @@ def beyond_last_circle(x: float, y: float, R: float) -> float:
 
 
 def beyond_first_circle(x: float, y: float, R: float) -> float:
-    """Positive where R from (x, y) meets the axis left of the last circle: (24) at R = 1, its boundary (25)."""
+    """Positive where a right turn from (x, y) meets the axis left of the last circle: (24) at R = 1; zero at (25)."""
     return beyond_last_circle(x, -y, R)
 
 
 def switching_abscissa(y: float, R: float) -> float:
-    """The x of ordinate y where an optimal L may switch to R on the way to (0, R); nan outside the curve.
+    """The x at ordinate y where an optimal left turn may switch to a right one on the way to (0, R); nan off the curve.
 
     Eliminating the second switch from a y^2 + 2 y = k, a yb^2 + 2 yb = K = R (R + 2), a (y + yb) = 2 (docs/theory.md,
     section 3) leaves a^2 y^2 - (6 y + K) a + 8 = 0 with x = y sqrt(a - 1). Its root is a = 8/(A + B), A = 3 y + K/2,

@@ -83,8 +83,8 @@ def arc_tolerance_of(x: float, y: float, R: float, tolerance: float) -> float:
 def flown_entry(extremal: Extremal, length_tolerance: float, side: int) -> Entry:
     """An extremal of the clockwise circle as the maneuver flown onto the circle of the given side.
 
-    Each piece left out moves the end by at most a third of `length_tolerance`, as a full turn left out does: the radius
-    of an arc is no more than 1 + |x| + |y| + R. So three pieces together miss the target by no more than
+    Leaving out a piece, or an almost full turn, moves the end by at most a third of `length_tolerance`, since the
+    radius of an arc is no more than 1 + |x| + |y| + R. So three pieces together miss the target by no more than
     `length_tolerance`.
     """
     t1, t2, t3 = durations(extremal)
@@ -100,7 +100,7 @@ def near_side(y: float) -> int:
 def optimum(x: float, y: float, R: float, side: int, tolerance: float) -> Entry:
     """The fastest maneuver onto the circle from the reduced state (x, y); to be called only where `status_of` is OK.
 
-    For *either*, the near side is never slower than the far one, except within a tolerance; only then both are solved.
+    For *either*, the far side can be faster than the near one only within a tolerance; only then are both solved.
     """
     near = optimum_on_side(x, y, R, side_or_near(y, side), tolerance)
     if side != Side.EITHER or tolerance == 0.0:

@@ -1,8 +1,8 @@
 """The fastest entry onto a circle in wind, or onto a circle that moves (docs/wind.md).
 
 Everything is relative to the circle: the vehicle is at (x, y) from its centre, heads along the unit vector (c, s) and
-moves with (c, s) + w, |w| < 1. The point of joining is parametrised by its phase (`hold`). For each phase the first
-path to it is known (`moving_target`), and the fastest of them all is found by branch and bound.
+moves with (c, s) + w, |w| < 1. The point of joining is parametrised by its phase (`hold`). For each phase
+`moving_target` gives the first path to it, and the fastest of these paths is found by branch and bound.
 """
 
 from math import atan2, cbrt, hypot, inf, isfinite, nan
@@ -78,8 +78,8 @@ HALVINGS = 7
 # Every other step of `refined_minimum` bisects, so 106 steps exhaust the digits of a double; 14 are in reserve.
 REFINING_STEPS = 120
 
-# Where two arcs are the fastest, the search ends on a word whose third piece is short by rounding: a straight piece of
-# up to the square root of 4e-14, next to a phase that is exact to 1e-14.
+# Where two arcs are the fastest, the search ends on a word with a short third piece that is due to rounding: a straight
+# piece of up to the square root of 4e-14 where the phase is accurate to 1e-14.
 SHORT = 1e-4
 
 # Newton's method reduces an error of 1e-4 to rounding in three steps.
@@ -92,7 +92,7 @@ TOO_EARLY = 10.0
 # Points of joining around the circle between which `ranked` looks for local minima.
 SAMPLES = 128
 
-# Maneuvers tie if their times agree to this share of 1 + R + T: the accuracy that docs/wind.md, section 6, found.
+# Maneuvers tie if their times agree to this share of 1 + R + T: the accuracy measured in docs/wind.md, section 6.
 TIE_TOLERANCE = 1e-12
 
 
@@ -265,8 +265,9 @@ def two_arc_entry(found: WindCandidate) -> Entry:
 def fit_two_arcs(arcs: Entry, phase: float, scene: WindScene) -> tuple[Entry, float]:
     """Two arcs that end on the circle, and their phase, from an approximation, by Newton's method.
 
-    Where the headings agree, joining later by s along the circle and flying the second arc for s longer move both ends
-    alike. So the position determines t1 and t2 - s, and then the heading determines s.
+    Where the headings agree, joining later by s along the circle moves the point of joining just as flying the second
+    arc for s longer moves the end of the path. So the position determines t1 and t2 - s, and then the heading
+    determines s.
     """
     x, y, c, s, R, wx, wy, arc_tolerance = scene
     side, word, t1, t2, _ = arcs
@@ -291,7 +292,7 @@ def fit_two_arcs(arcs: Entry, phase: float, scene: WindScene) -> tuple[Entry, fl
 
 
 def polish(found: WindCandidate, scene: WindScene) -> tuple[Entry, float]:
-    """The maneuver and phase of a candidate; those of two arcs where it is close to them and they are no slower."""
+    """The maneuver and phase of a candidate, or those of its two arcs alone where these are close and no slower."""
     phase, side, path = found
     entry = Entry(side, path.word, path.t1, path.t2, path.t3)
     arcs = two_arc_entry(found)
@@ -317,7 +318,7 @@ def end_miss(entry: Entry, phase: float, scene: WindScene) -> float:
 
 
 def start_on_circle(side: int, scene: WindScene) -> WindCandidate:
-    """The candidate with nothing to fly: the point of the circle that is nearest to the start."""
+    """The candidate without pieces, which joins at the point of the circle that is nearest to the start."""
     phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy)
     return WindCandidate(phase, side, Path(0.0, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0))
 
@@ -351,7 +352,7 @@ def fastest(problem: WindProblem) -> WindEntry:
         if side != -one and is_on_circle(one, scene):
             best = start_on_circle(one, scene)
     if side == 0 and best.side == 0:
-        # The better side first: the search on the other side is then soon over.
+        # The better side is searched first, which shortens the search on the other side.
         best = refined_minimum(best_of_joins(-1, scene, best_of_joins(1, scene, best)), TWO_PI / JOINS, scene)
     first = best.side if best.side != 0 else 1
     for one in (first, -first):
@@ -366,8 +367,8 @@ def wind_entry(found: WindCandidate, scene: WindScene) -> WindEntry:
     (side, word, t1, t2, t3), phase = polish(found, scene)
     word, t1, t2, t3 = drop_short_pieces(word, t1, t2, t3, length_tolerance, ROUNDING)
     miss = end_miss(Entry(side, word, t1, t2, t3), phase, scene)
-    # Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The comparison is
-    # false for a miss that is nan too.
+    # Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The negated
+    # comparison also rejects a miss that is nan.
     if not miss <= 2.0 * length_tolerance + ROUNDING * (t1 + t2 + t3):
         return WindEntry(Status.NOT_CONVERGED + 0, 0, 0, nan, nan, nan, nan, nan)
     px, py, _, _, _ = hold_pose(phase, side, scene.R, scene.wx, scene.wy)
@@ -398,8 +399,8 @@ def ranked(problem: WindProblem) -> list[WindEntry]:
     if any(maneuver.status != Status.OK for maneuver in best):
         return []
     others = [wind_entry(found, scene) for one in sides for found in local_minima(one, scene)]
-    # The phase of a local minimum is known to the square root of rounding, a piece that vanishes there to its cube
-    # root, as in `synthesis.optima`.
+    # The phase of a local minimum is known to the square root of rounding, the length of a piece that vanishes there to
+    # the cube root, as in `synthesis.optima`.
     one_maneuver = 2.0 * cbrt(24.0 * rounding(scene.x, scene.y, scene.R))
     distinct: list[WindEntry] = []
     for maneuver in sorted((m for m in (*best, *others) if m.status == Status.OK), key=time_of):

@@ -1,4 +1,4 @@
-"""Words: the controls of a maneuver in the order flown, as one integer. All arithmetic on words stands in this file.
+"""Words: the controls of a maneuver in the order flown, as one integer. All arithmetic on words is in this file.
 
 A word is a number in base 4 whose lowest digit is the first control plus 2: R = 1, S = 2, L = 3, and 0 where there is
 no piece. It fits into one byte, and compiled code decodes it without a table.
@@ -6,7 +6,7 @@ no piece. It fits into one byte, and compiled code decodes it without a table.
 
 from enum import IntEnum
 
-# In place of the control of a piece that a word does not have.
+# The control of a piece that the word does not have.
 ABSENT = -2
 
 

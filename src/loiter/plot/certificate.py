@@ -20,7 +20,7 @@ def draw(certificate: Certificate) -> Figure:
     """Draw u, phi, psi1 and psi2 over time (seconds), with lambda and the switching instants marked.
 
     Where phi > 0 the control is +1, where phi < 0 it is -1; psi1 stays below lambda and equals it where phi = 0. The
-    panels are empty for a start on the circle, which has nothing to decide.
+    panels are empty for a start on the circle, which has no pieces.
     """
     figure = Figure(figsize=(8.0, 6.4), layout="constrained")
     control, switching, adjoint = figure.subplots(3, sharex=True, height_ratios=(1.0, 2.0, 2.0))

@@ -1,4 +1,4 @@
-"""The seven figures of the paper, drawn by the kernel at R = 1, *either*."""
+"""The seven figures of the paper, computed by the kernel at R = 1, *either*."""
 
 from __future__ import annotations
 

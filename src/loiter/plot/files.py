@@ -1,4 +1,4 @@
-"""Pictures as files: PNG, SVG or PDF, written whole or not at all."""
+"""Pictures as files: PNG, SVG or PDF, each written atomically."""
 
 from __future__ import annotations
 
@@ -28,8 +28,7 @@ def save(
 ) -> None:
     """Write the picture of `picture.draw` to `path`, in the format of its ending: .png, .svg or .pdf.
 
-    The file appears whole or not at all; until then an older file stays. Raises `InvalidArgument` for another ending
-    and for a file that cannot be written.
+    The file is replaced atomically. Raises `InvalidArgument` for another ending and for a file that cannot be written.
     """
     path = Path(path)
     check_format(path)

@@ -22,8 +22,8 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 def draw(ideal: Maneuver, flights: Mapping[str, Flight]) -> Figure:
     """A figure with the tracks of laws from one start and the fastest entry; below, bank and reported time to join.
 
-    A dot marks where the full turn began in which the aircraft settled. A circle that moves is drawn where it is when
-    the fastest entry joins it.
+    A dot marks the beginning of the full turn in which the aircraft settled. A moving circle is drawn where the fastest
+    entry joins it.
     """
     figure = Figure(figsize=(8.0, 8.6), layout="constrained")
     layout: Any = [["tracks"], ["bank"], ["join"]]

@@ -45,10 +45,10 @@ CHORD_RAD = math.radians(2.0)
 def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: LocalFrame | None = None) -> Figure:
     """Draw maneuvers from one start: `best` coloured by segment, `others` faint; start, switches and join marked.
 
-    East is to the right, north up, axes equal, in metres, with a scale bar; with a frame they give their origin on
-    Earth. The first of `best` gives the title. In wind, tracks are ground tracks, and an arrow beside the title shows
-    where the air moves to. A moving circle is drawn where it is when it is joined, and faint where it is at the start;
-    each of `others` ends on the circle at its own time of joining.
+    East is to the right, north up, axes equal, in metres, with a scale bar; with a frame the axes are labelled with its
+    origin on Earth. The first of `best` gives the title. In wind, tracks are ground tracks, and an arrow beside the
+    title shows the direction in which the air moves. A moving circle is drawn where it is when it is joined, and faint
+    where it is at the start; each of `others` ends on the circle at its own time of joining.
     """
     first, *_ = best
     figure = Figure(figsize=(8.0, 6.4), layout="constrained")
@@ -107,7 +107,7 @@ def _draw_circle(axes: Axes, orbit: Orbit, turns: set[Turn]) -> None:
     axes.plot(*centre, marker="+", color="black", markersize=8, linestyle="none", gid="centre")
     for turn in turns:
         sense = -1.0 if turn == Turn.CW else 1.0
-        # Where both directions tie, their arrows stand apart.
+        # Where both directions tie, their arrows are drawn apart.
         for quarter in range(4):
             angle = math.radians(45.0 + 90.0 * quarter - 8.0 * sense * (len(turns) - 1))
             arc = angle + sense * np.array([0.0, CHORD_RAD])
@@ -140,7 +140,7 @@ def _draw_wind(axes: Axes, wind: Wind) -> None:
 
 
 def _draw_north(axes: Axes) -> None:
-    """Draw an arrow to the north, beside the title on the right; that of the wind is on the left."""
+    """Draw an arrow to the north, to the right of the title; the arrow of the wind is on the left."""
     corner: dict[str, Any] = {"xycoords": OffsetFrom(axes.patch, (1.0, 1.0)), "annotation_clip": False}
     ends: dict[str, Any] = {"xy": (-12.0, 27.0), "xytext": (-12.0, 5.0), "textcoords": corner["xycoords"]}
     style = ARROW | {"color": "black", "linewidth": 1.6, "mutation_scale": 13.0}

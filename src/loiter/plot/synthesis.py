@@ -16,7 +16,8 @@ from loiter.arrays.partition import Boundary, Partition, lines, worth
 from loiter.kernel.words import Word
 from loiter.planning.model import Turn
 
-# The hue of a region is its first control (as in the plan view); shades distinguish words with the same one.
+# The hue of a region shows its first control (as in the plan view); shades distinguish words with the same first
+# control.
 SHADES = {
     Word.RSL: "#f6cfb4",
     Word.RL: "#f0ad83",

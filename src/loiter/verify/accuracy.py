@@ -1,11 +1,11 @@
 """Bounds of the residuals: how large rounding and the tolerance can make them, in turn radii and airspeeds.
 
-A residual is the largest over `trajectory.SAMPLES` instants of each piece and over those where psi1 and phi are
+A residual is the largest violation at `trajectory.SAMPLES` instants of each piece and at those where psi1 and phi are
 extreme. Its bound follows from four accuracies:
 
 - `length`: the rounding of a length in this problem, 64 units of 2^-52 times its size: some 20 operations a piece.
 - `end`: the distance from the circle at which the maneuver may end. In still air it is the tolerance or `length`. The
-  flow moves the plane rigidly, so no state on the way is further off, and phi = psi x state is as accurate, since
+  flow moves the plane rigidly, so no state on the way has a larger error, and phi = psi x state is as accurate, since
   |psi| = 1. In wind it is the error that the kernel accepts. The conversion of durations to seconds and back, 4
   roundings, adds one `length`.
 - `angle`: the accuracy of the direction of p. In still air psi of a single arc is parallel to its start, which may lie
@@ -13,12 +13,13 @@ extreme. Its bound follows from four accuracies:
   `end` over that arc's radius. In wind p is the direction of the straight piece, or lies between the headings at two
   switches: an error `end` turns it by `end` over the length of the piece, or of the chord of the middle arc.
 - `choice`: where two maneuvers nearly tie, rounding of T may choose the slower one. In still air its phi then has the
-  wrong sign by up to v somewhere, and T is too long by 2/lambda times the integral of that. In the middle of a piece
-  such a v lasts at least 2 sqrt(2 v), since |phi''| = |psi1| <= 1, and costs 3.7 v^(3/2). At the start, where a first
-  piece is missing, it lasts at least v, since |phi'| <= 1, and costs v^2. So v is below rounding^(2/3), and below
-  rounding^(1/2) where another candidate ties or the start counts as on a single arc. In wind the fastest point of
-  joining is known up to where T differs by a rounding. As that point moves by a unit of time, p turns by some 2 over
-  the length above; a condition that is violated by v and changes at the rate r costs v^2/(2 r) of T.
+  wrong sign somewhere, by up to v, and T is too long by 2/lambda times the integral of this error. In the middle of a
+  piece such an error lasts at least 2 sqrt(2 v), since |phi''| = |psi1| <= 1, and lengthens T by 3.7 v^(3/2). At the
+  start, where a first piece is missing, it lasts at least v, since |phi'| <= 1, and lengthens T by v^2. So v is below
+  rounding^(2/3), and below rounding^(1/2) where another candidate ties or the start counts as on a single arc. In wind,
+  rounding of T limits how accurately the fastest point of joining is known. As that point moves by a unit of time, p
+  turns by some 2 over the length above; a violation v of a condition that changes at the rate r lengthens T by v^2/(2
+  r).
 """
 
 from __future__ import annotations
@@ -41,8 +42,8 @@ STEP = 2.0**-15
 class Accuracy(NamedTuple):
     """The accuracies above, and the bounds of residuals: of the equations of motion in the order of the formulation.
 
-    `join` bounds the pose at the end of the last segment, `gradient` the direction of the adjoint against that of the
-    gradient of T. Durations closer than `tie` count as equal.
+    `join` bounds the error of the pose at the end of the last segment, `gradient` the deviation of the adjoint's
+    direction from that given by the gradient of T. Durations closer than `tie` count as equal.
     """
 
     end: float
@@ -92,7 +93,8 @@ def _in_still_air(trajectory: Trajectory, others: Sequence[Candidate]) -> Accura
             sign=angle + choice,
             hamiltonian=angle + 2.0 * choice,
             psi1=angle + choice,
-            # The last switch is found from the target, off by rounding alone; a single arc may begin beside its circle.
+            # The last switch, found from the target, has rounding errors only; a single arc may begin beside its
+            # circle.
             transversality=angle if len(pieces) == 1 else length,
         ),
         gradient=angle + _turned_by_last_switch(trajectory, end, length),
@@ -116,9 +118,9 @@ def _turned_by_last_switch(trajectory: Trajectory, end: float, length: float) ->
     """The angle by which an error `end` of the last switch between L and R turns psi; 0 without such a switch.
 
     The switch is the crossing of two circles about (0, 1) and (0, -1) with radii r1 and r2, at an angle whose sine is 2
-    |x|/(r1 r2). An error `end` of one radius moves it by end r1 r2/(2 |x|), but at most to where the circles touch, by
-    the root of end r1 r2. psi is parallel to the state, so it turns by that distance over the state's distance from the
-    centre.
+    |x|/(r1 r2). An error `end` of one radius moves the crossing by end r1 r2/(2 |x|), but at most to where the circles
+    touch, by the square root of end r1 r2. psi is parallel to the state, so it turns by that distance over the state's
+    distance from the centre.
     """
     if not trajectory.opposed:
         return 0.0
@@ -170,7 +172,7 @@ def _length_of_direction(trajectory: Trajectory) -> float:
 
 
 def _heading_rounding(maneuver: Maneuver) -> float:
-    """The rounding of a heading, radians: of the start's and two turns more, twice at each of three pieces."""
+    """The rounding of a heading, radians: of the start's plus two turns, rounded twice at each of three pieces."""
     return 6.0 * 2.0**-52 * radians(abs(maneuver.start.heading_deg) + 720.0)
 
 

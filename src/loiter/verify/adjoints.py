@@ -1,7 +1,7 @@
 """The adjoint of a maneuver, and the trajectory with it.
 
 In still air the adjoint is the closed form of `kernel.adjoint`. In wind it is read off the straight piece or the two
-switches, or off the condition (5) at the circle where there is one switch; where a piece may be there by rounding alone
+switches, or off the condition (5) at the circle where there is one switch; where a piece may be due to rounding alone,
 several adjoints are possible, and the one that violates the conditions least is taken.
 """
 
@@ -96,9 +96,9 @@ def _with_closed_form(start: RelativeStart, controls: Sequence[int], durations: 
 def _one_arc(plan: FlightPlan) -> FlightPlan | None:
     """The single arc that two arcs amount to where one of them is due to rounding alone; otherwise None.
 
-    A start beside the circle of the last arc by a rounding begins with a piece so short that its control costs no more
-    than a rounding of T: 2/lambda times the integral of |phi|, which changes by at most the duration. Where the circles
-    touch at the target, the last piece is so short that the first arc, continued, ends there too.
+    A start that is off the circle of the last arc by rounding begins with a piece so short that its control changes T
+    by no more than rounding: by 2/lambda times the integral of |phi|, which changes by at most the duration. Where the
+    circles touch at the target, the last piece is so short that the first arc, continued, ends there too.
     """
     start, (u, v), (first, last), _ = plan
     x, y = start.q.real, start.q.imag

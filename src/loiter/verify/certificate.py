@@ -1,10 +1,11 @@
 """A certificate: the conditions of the maximum principle checked one by one, and a comparison with other extremals.
 
-It shows that the maneuver is an extremal, with lambda and psi to check it by, and that none of the candidates is
-faster; the Hamilton-Jacobi-Bellman equation compares it with its neighbours. A fastest maneuver exists (Filippov, paper
-section 1) and is an extremal. That the candidates hold every extremal that can win is proved in the paper for R = 1;
-for R > 1 the words left out, RLR above all, have never been seen to win (docs/theory.md, section 3; `loiter verify`).
-Distances, curvatures and start times of segments are not checked: letters, durations and the join are.
+It shows that the maneuver is an extremal, gives lambda and psi for checking this, and shows that no candidate is
+faster; the Hamilton-Jacobi-Bellman equation compares it with the least times of neighbouring starts. A fastest maneuver
+exists (Filippov, paper section 1) and is an extremal. That the candidates include every extremal that can win is proved
+in the paper for R = 1; for R > 1 the words left out, above all RLR, have never been found to win (docs/theory.md,
+section 3; `loiter verify`). Distances, curvatures and start times of segments are not checked: letters, durations and
+the join are.
 """
 
 from __future__ import annotations
@@ -65,8 +66,8 @@ class Instant(NamedTuple):
 class Certificate:
     """The conditions of the maximum principle for a maneuver, and the extremals it was compared with; see `certify`.
 
-    `lam` is the multiplier lambda and `psi` the adjoint at the start, None for a start on the circle, which has nothing
-    to decide; `choice` says whether psi is unique. `others` are the candidates it was compared with, soonest first.
+    `lam` is the multiplier lambda and `psi` the adjoint at the start, None for a start on the circle, which has no
+    pieces; `choice` says whether psi is unique. `others` are the candidates it was compared with, fastest first.
     """
 
     maneuver: Maneuver
@@ -96,7 +97,7 @@ class Certificate:
 
     @property
     def runner_up(self) -> Candidate | None:
-        """The fastest candidate that is slower; None where there is none, or where another is faster than this."""
+        """The fastest candidate that is slower; None where there is none, or where one beats the maneuver."""
         if any(other.later_s < -self.tie_s for other in self.others):
             return None
         return next((other for other in self.others if other.later_s > self.tie_s), None)
@@ -107,7 +108,7 @@ class Certificate:
         return None if self.runner_up is None else self.runner_up.later_s
 
     def residual(self, name: str) -> Residual:
-        """The residual of a name; raises `InvalidArgument` where this maneuver has no such condition."""
+        """The residual with a given name; raises `InvalidArgument` where this maneuver has no such condition."""
         for residual in self.residuals:
             if residual.name == name:
                 return residual
@@ -147,7 +148,7 @@ class Certificate:
 def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
     """The certificate of a maneuver, optimal or not; `tolerance_m` (metres) is that with which it was planned.
 
-    The maneuver is flown again from its start, its letters and its durations. In still air the conditions are the
+    The maneuver is recomputed from its start, its letters and its durations. In still air the conditions are the
     paper's, (7)-(19); in wind, and for a moving circle, those of docs/wind.md, section 3. Raises `InvalidArgument` for
     letters that are not a word of at most three pieces, durations that are negative or not finite, or a turn that is
     neither cw nor ccw; otherwise like `plan`.

@@ -1,7 +1,7 @@
 """The conditions that every maneuver has to meet, in still air and in wind, one function each.
 
 They are those of docs/wind.md, sections 2 and 3, of which still air is the case w = 0. Certificates in still air show
-them as the paper writes them, with what it adds: `paper_conditions`.
+them as the paper writes them, with its further conditions: `paper_conditions`.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class EquationOfMotion(NamedTuple):
 class Formulation(NamedTuple):
     """The conditions with their names and equations, in the order of a certificate.
 
-    `maximum_principle` has equations of conditions in `MaximumPrinciple`; `further` are conditions beside them.
+    `maximum_principle` maps the fields of `MaximumPrinciple` to equations; `further` holds additional conditions.
     """
 
     arrival: tuple[Condition, ...]
@@ -56,7 +56,7 @@ class Formulation(NamedTuple):
 def residuals(
     formulation: Formulation, trajectory: Trajectory, accuracy: Accuracy, others: Sequence[Candidate]
 ) -> Iterator[Residual]:
-    """The residual of every condition; those of the adjoint only where there is something to decide."""
+    """The residual of every condition; those of the adjoint only where the maneuver has pieces."""
     yield from _checked(formulation.arrival, trajectory, accuracy)
     if trajectory.pieces:
         yield from _motions(formulation.motion, trajectory, accuracy)
@@ -87,7 +87,7 @@ def _motions(motions: Sequence[EquationOfMotion], trajectory: Trajectory, accura
 
 
 def _comparison(trajectory: Trajectory, accuracy: Accuracy, others: Sequence[Candidate]) -> Residual:
-    """No candidate is faster: what makes an extremal an optimum."""
+    """The condition that no candidate is faster, which makes an extremal an optimum."""
     sooner, note = 0.0, ""
     for other in others:
         if -other.later_s / trajectory.problem.time_unit_s > sooner:
@@ -123,7 +123,7 @@ def turn(trajectory: Trajectory, accuracy: Accuracy) -> Violation:
 
 
 def turn_as_flown(trajectory: Trajectory, accuracy: Accuracy) -> Violation:
-    """1 where that direction is excluded, or is not the one in which the maneuver arrives."""
+    """1 where the maneuver's direction is excluded, or is not the one in which it arrives."""
     (q, e), (_, _, w, _, side) = trajectory.end, trajectory.start
     opposite = inner(1j * q, e + w) * side > 0.0
     excluded, bound = turn(trajectory, accuracy)

@@ -60,7 +60,7 @@ def gradient_of(times: LeastTimes) -> Gradient | None:
     """The gradient of T by central differences at the step of the least bound; None where that bound is too large.
 
     Quotients D(h) and D(h/2) of a smooth T differ by three times the truncation of the second. Quotients to the left
-    and to the right differ by h T'' or, at a corner, by all of it. Rounding of T adds its error over h.
+    and to the right differ by h T'' or, at a corner, by the whole change of slope. Rounding adds the error of T over h.
     """
     best: Gradient | None = None
     coarse: tuple[float, ...] | None = None

@@ -1,4 +1,4 @@
-"""The kernel's T around the start of a maneuver, for its gradient: of the reduced state, or of the pose in wind."""
+"""The kernel's T around the start, for its gradient: a function of the reduced state or, in wind, of the pose."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from loiter.planning.problem import ReducedProblem
 from loiter.verify.trajectory import Trajectory
 
 # Steps of difference quotients of T in still air, each half the one before: from a sixteenth of a turn radius, over
-# which few T are straight, to where rounding, 64 units of 2^-52 over the step, is all that `gradient.RESOLVED` leaves.
+# which T is rarely linear, to where rounding, 64 units of 2^-52 over the step, uses up what `gradient.RESOLVED` allows.
 STEPS_IN_STILL_AIR = tuple(2.0**-k for k in range(4, 34))
 
 # In wind each T takes a search, so there are few.
@@ -27,9 +27,9 @@ class LeastTimes(NamedTuple):
     """T as a function of displacements of the start by a step along an axis: east, north and, in wind, heading.
 
     `time(axis, step)` is T at a displacement; `error(T, slope)` is the error of a difference of two T, where T changes
-    at the rate `slope`; `steps` are those of difference quotients, coarse to fine. `by_heading` is the derivative by
-    the heading, to the left, from the derivatives along the axes. `motion_size` bounds how fast position and heading
-    change. `not_smooth` says why quotients do not converge.
+    at the rate `slope`; `steps` are those of difference quotients, coarse to fine. `by_heading` computes the derivative
+    with respect to the heading, positive to the left, from those along the axes. `motion_size` bounds how fast position
+    and heading change. `not_smooth` explains why quotients do not converge.
     """
 
     axes: int
@@ -91,7 +91,7 @@ def _in_still_air(trajectory: Trajectory) -> LeastTimes:
         axes=2,
         steps=[h for h in STEPS_IN_STILL_AIR if h <= _widest_step(trajectory, problem)],
         time=lambda axis, step: duration(fastest(axis, step)),
-        # The kernel's T is that of a state off by its rounding, and rounded itself.
+        # The kernel's T is that of a state with a rounding error, and is itself rounded.
         error=lambda T, slope: 2.0 * rounding(x, y, R) * (1.0 + slope),
         by_heading=by_heading,
         motion_size=1.0 + hypot(x, y),

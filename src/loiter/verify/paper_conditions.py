@@ -1,8 +1,8 @@
-"""The conditions in still air as the paper writes them, in the reduced plane, and what it has beyond `conditions`.
+"""The conditions in still air as the paper writes them, in the reduced plane, with its further conditions.
 
-The reduced state (2), psi = (p.e, p.Je) and phi obey (7) and (11)-(18); the target is a point, (8)-(10). What holds in
-still air alone: the switching points (19), the line through the centre, and the symmetry of *either* (paper, sections 3
-and 5).
+The reduced state (2), psi = (p.e, p.Je) and phi obey (7) and (11)-(18); the target is a point, (8)-(10). Those valid in
+still air only are the switching points (19), the line through the centre, and the symmetry of *either* (paper, sections
+3 and 5).
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def switch(trajectory: Trajectory, accuracy: Accuracy) -> Violation | None:
 
 
 def middle_arc(trajectory: Trajectory, accuracy: Accuracy) -> Violation | None:
-    """The error of the duration of the arc between two switches, or what it lacks to pi if that is more."""
+    """The error of the duration of the arc between two switches, or how far it falls short of pi, if more."""
     if len(trajectory.opposed) != 2:
         return None
     middle, last = trajectory.opposed
@@ -76,7 +76,7 @@ def line(trajectory: Trajectory, accuracy: Accuracy) -> Violation | None:
 
 
 def axis(trajectory: Trajectory, accuracy: Accuracy) -> Violation | None:
-    """|psi2| where y changes sign, times |y| beyond; for either direction."""
+    """|psi2| where y changes sign, times the |y| reached beyond; only for *either*."""
     if trajectory.problem.orbit.turn != Turn.EITHER:
         return None
     arcs = (piece for piece in trajectory.pieces if piece.u)
@@ -99,7 +99,7 @@ def _crossings(arc: FlownPiece) -> Iterator[float]:
 
 
 def last_arc(trajectory: Trajectory, accuracy: Accuracy, *, tight: bool) -> Violation | None:
-    """How much longer than acos(1/(1 + R)) the last arc is after a switch; None unless `tight` is whether R = 1."""
+    """The excess of a last arc after a switch over acos(1/(1 + R)); None unless `tight` equals R == 1."""
     last, (_, _, _, R, side) = trajectory.last, trajectory.start
     free = trajectory.problem.orbit.turn == Turn.EITHER and tight == (R == 1.0)
     if not free or len(trajectory.pieces) == 1 or last.u != side:

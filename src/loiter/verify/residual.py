@@ -1,4 +1,4 @@
-"""What a certificate is made of: the conditions that were checked, and the other extremals for the same start."""
+"""The parts of a certificate: the conditions that were checked, and the other extremals for the same start."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from loiter.planning.model import Turn
 
 @dataclass(frozen=True, slots=True)
 class Residual:
-    """One condition: its name, its equation, by how much it is violated and how much rounding and tolerance explain.
+    """One condition: name, equation, violation, and the largest violation that rounding and tolerance explain.
 
     `value` and `bound` are None where the condition could not be checked; `note` then says why.
     """

@@ -258,7 +258,8 @@ def durations_of(maneuver: Maneuver) -> list[float]:
     """Durations in turn radii over airspeed; raises `InvalidArgument` for those that cannot be flown."""
     seconds = [segment.duration_s for segment in maneuver.segments]
     durations = [as_float(t) * maneuver.aircraft.airspeed_m_s / maneuver.aircraft.turn_radius_m for t in seconds]
-    # The longest straight piece is REACH turn radii, an arc adds 2 pi at most; 8 leaves room for altered maneuvers.
+    # The longest straight piece is REACH turn radii, an arc adds 2 pi at most; the factor 8 leaves room for altered
+    # maneuvers.
     if not all(0.0 <= t <= 8.0 * REACH for t in durations):
         raise InvalidArgument("maneuver", f"has durations {seconds}: they must be zero or positive, finite seconds")
     return durations

@@ -108,7 +108,7 @@ def pieces(m: Maneuver) -> list[LetterPiece]:
 
 
 def differing(a: Sequence[LetterPiece], b: Sequence[LetterPiece]) -> float:
-    """How long two controls differ; past the end of one of them they do."""
+    """The time during which two controls differ; after the end of one of them they count as different."""
     edges = sorted({0.0, *accumulate(t for _, t in a), *accumulate(t for _, t in b)})
     spans = pairwise(edges)
     return sum(end - begin for begin, end in spans if letter_at(a, begin, end) != letter_at(b, begin, end))

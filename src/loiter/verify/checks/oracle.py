@@ -129,10 +129,10 @@ def all_round(start: Planar, joins: int) -> list[float]:
 
 
 def golden_section(length: Callable[[float], float], left: float, best: OraclePath, right: float) -> OraclePath:
-    """A local minimum of `length` between `left` and `right`, from a point `best` between them that is no longer.
+    """A local minimum of `length` between `left` and `right`, from a point `best` between them that is not longer.
 
-    The best point stays inside the bracket, so the search also converges to a minimum at the edge of a jump, which the
-    length of the shortest path has.
+    The best point stays inside the bracket, so the search also converges to a minimum at a jump of the shortest path's
+    length.
     """
     for _ in range(GOLDEN_STEPS):
         wide, sign = (

@@ -1,4 +1,4 @@
-"""Plans compared with the oracle's paths, over random problems, many of them in hard places."""
+"""Plans compared with the oracle's paths, over random problems, many with starts at difficult places."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from loiter.planning.model import Aircraft, Orbit, Pose, Turn
 from loiter.planning.solve import plan
 from loiter.verify.checks.oracle import Circle, OraclePath, Planar, Search, from_compass
 
-# The resolution of the search, over turn radius plus length. OMPL's path is read, and its start moved, to some 1e-15
-# turn radii. Next to the circle the least time moves with the root of such a displacement e, by e / sqrt(d) at a
-# distance d: some 1e-10 for the nearest starts (d = 1e-9) and a few roundings of R = 30. 1e-9 is a safe bound.
+# The resolution of the search, over turn radius plus length. The end of OMPL's path and its moved start are accurate to
+# some 1e-15 turn radii. Next to the circle the least time moves with the root of such a displacement e, by e / sqrt(d)
+# at a distance d: some 1e-10 for the nearest starts (d = 1e-9) and a few roundings of R = 30. 1e-9 is a safe bound.
 RESOLUTION = 1e-9
 
 # The points of joining tried at first, and at most while the search has not found a path as short as the plan.
@@ -36,7 +36,7 @@ class CheckProblem:
 
 @dataclass(frozen=True, slots=True)
 class OracleDifference:
-    """By how much plan and search differ for one problem, in lengths over (turn radius + length).
+    """By how much plan and search differ for one problem, in lengths divided by (turn radius + length).
 
     `later` is by how much the plan is longer than a path that the search found, `earlier` by how much the search's best
     path stays longer than the plan after refining; each is 0 where it would be negative.
@@ -117,8 +117,8 @@ def oracle_difference(problem: CheckProblem) -> OracleDifference:
     earlier = (found.length - planned) / (r + planned)
     later = 0.0
     if found.length < planned:
-        # OMPL's path may profit from its tolerance: compare from the start from which it ends exactly on the circle,
-        # about the origin, where no offset rounds the distance from the circle.
+        # OMPL's tolerance may shorten its path: compare from the start from which the path ends exactly on the circle,
+        # with the centre at the origin, where no offset rounds the distance from the circle.
         exact, _ = search.exact_start(start, circle, found)
         pose = Pose(exact.east, exact.north, 90.0 - degrees(exact.angle))
         centred = Orbit(0.0, 0.0, orbit.radius_m, orbit.turn)

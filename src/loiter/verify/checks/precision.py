@@ -49,8 +49,8 @@ class RoundingError:
 def precision(states: int, seed: int) -> Iterator[RoundingError]:
     """Measure the rounding error of T at `states` random states, most of them next to a boundary of the synthesis.
 
-    States within rounding of a last circle are left out: there the tolerance decides, on purpose, on which side of a
-    jump they are (docs/theory.md, section 6).
+    States within rounding of a last circle are left out: there the tolerance deliberately decides on which side of a
+    jump they count (docs/theory.md, section 6).
 
     Raises at the call, not at the first result: `InvalidArgument` for fewer than one state, `MissingPackage` where
     mpmath is not installed.

@@ -37,15 +37,16 @@ OUTSIDE = 1.0
 # From these starts every time is below this (just above a whole turn); states that have not arrived then count as inf.
 HORIZON = 7.0
 
-# V has kinks, which an upwind scheme of order r smears over h^(r/(r+1)); here r = 5, and halving h leaves 0.56 of it.
-# No theorem covers this scheme; for monotone ones the error is at least of order 1/2 (Crandall and Lions, 1984), so it
-# shrinks at least by sqrt(1/2), and the finer grid's own is at most the difference of the two times this.
+# V has kinks, which an upwind scheme of order r smears over h^(r/(r+1)); here r = 5, and halving h leaves 0.56 of the
+# error. No theorem covers this scheme. For monotone schemes the error is at least of order 1/2 (Crandall and Lions,
+# 1984): halving h leaves at most sqrt(1/2) of it, so the error of the finer grid is at most OWN_ERROR times the
+# difference of the two grids.
 OWN_ERROR = 1.0 / (sqrt(2.0) - 1.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reach:
-    """Least times on a grid: from (x[i], y[j]) `time[i, j]` to come within `error` of an end point.
+    """Least times on a grid: `time[i, j]` is the time from (x[i], y[j]) to within `error` of an end point.
 
     `error` is the grid's own error in V; `time` is the first of the instants `step` apart, inf past the horizon. `x`
     and `y` are (n,), `spacing` apart, `time` is (n, n). The map is valid up to the distance `within` from the centre.

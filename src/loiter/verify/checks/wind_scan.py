@@ -2,7 +2,7 @@
 
 It shares no code with the kernel and uses neither an adjoint nor transversality: only the lengths of Dubins' words from
 pose to pose (Shkel and Lumelsky, 2001), with both middle arcs of RLR and LRL. The circle moves with -w through still
-air. A word joins it at an azimuth at the time T if its length to the pose there at T is T. The least T is found by
+air. A word joins it at an azimuth at the time T if its length to the pose there at T equals T. The least T is found by
 trying azimuths all round, and then on ever finer scales.
 """
 
@@ -24,8 +24,8 @@ JUMP = 0.5 * pi
 # This many bisections shrink a bracket of one step to rounding.
 BISECTIONS = 50
 
-# The largest length less time left by the bisection of a root: near an edge it moves with the root of 1e-16. More, or
-# nan on one side, is left where the bisection has converged to a jump, or to an edge.
+# The largest |length - time| of a root after bisection: near an edge it varies with the square root of 1e-16. A larger
+# value, or nan on one side, means that the bisection has converged to a jump or to an edge.
 ROOT_ERROR = 1e-6
 
 # Points tried on either side of a least time, the factor by which their range shrinks, and how often: a range of 0.1
@@ -52,7 +52,7 @@ class DriftingCircle(NamedTuple):
 
 
 class Joining(NamedTuple):
-    """When the circle is joined, and at which mathematical azimuth from its centre."""
+    """The time at which the circle is joined, and the mathematical azimuth from its centre at which it is joined."""
 
     time: float
     azimuth: float
@@ -77,7 +77,7 @@ def earliest(start: Planar, circle: DriftingCircle, joins: int, step: float) -> 
 
 
 def first_times(start: Planar, circle: DriftingCircle, azimuths: Array, step: float) -> Array:
-    """The first time at which each azimuth can be joined; `inf` where it is later than the span of the earliest."""
+    """The first time at which each azimuth can be joined; `inf` where it lies after the `BLOCK` of the earliest."""
     wind, apart = hypot(circle.east, circle.north), hypot(start.east, start.north)
     begin = abs(apart - circle.radius) / (1.0 + wind)
     end = (apart + circle.radius + LONGEST_ARCS) / (1.0 - wind)
@@ -126,7 +126,7 @@ def roots(start: Planar, circle: DriftingCircle, azimuths: Array, times: Array) 
 
 
 def excesses(start: Planar, circle: DriftingCircle, azimuths: Array, times: Array) -> Array:
-    """Length less time of each word, for azimuths and times that broadcast: nan where a word does not reach."""
+    """Length less time of each word, for azimuths and times that broadcast; nan where it does not reach the pose."""
     return np.stack(list(lengths(*relative(start, circle, azimuths, times)))) - times
 
 

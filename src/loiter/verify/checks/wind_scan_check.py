@@ -18,7 +18,7 @@ from loiter.verify.checks.wind_scan import DriftingCircle, Joining, earliest
 # of a word merge, and the search misses them when both fall within one step: an error of some 1e-7, seldom more.
 RESOLUTION = 1e-6
 
-# Points of joining and steps of time that are tried one after the other until the search is as early as the kernel.
+# Numbers of points of joining and steps of time, tried in this order until the search is as early as the kernel.
 EFFORTS = ((180, 0.05), (720, 0.02), (2880, 0.005))
 
 WINDIEST = 0.6
