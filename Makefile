@@ -1,18 +1,18 @@
 # make demo   plan a real entry: the table on the screen, the picture in demo.png
 # make check  format, lint, types, import contracts and the quick tests, in two minutes: for every day
 # make test   the same with all tests, and the page in a browser: ten to fifteen minutes
-# make bench  what answers cost, beside other methods: table and plot in benchmarks/results; ROWS=0 spares the tables
+# make bench  times of the answers and of other methods: table and plot in benchmarks/results; ROWS=0 skips the tables
 # make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
-# make pins   write the requirement files anew from pyproject.toml
+# make pins   rewrite the requirement files from pyproject.toml
 PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin
 ROWS ?= 1e8
 
-# On Debian the standard library's venv is a package of its own.
+# On Debian venv of the standard library is a separate package.
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { \
 	  echo "Python 3.11 or newer is needed, and $(PYTHON) is $$($(PYTHON) --version 2>/dev/null || echo missing):" \
-	    "make PYTHON=FILE takes another" >&2; exit 2; }
+	    "make PYTHON=FILE uses another" >&2; exit 2; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || requirements/apt-install python3-venv
 	$(PYTHON) -m venv .venv
 
@@ -25,13 +25,13 @@ $(BIN)/python:
 	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/dev.txt
 	@touch $@
 
-# What checks the page: TypeScript and axe. No lock file: the versions are exact.
+# Tools that check the page: TypeScript and axe. No lock file is needed: the versions are exact.
 .venv/node.stamp: .venv/dev.stamp tests/web/package.json
 	@mkdir -p .venv/node && cp tests/web/package.json .venv/node/
 	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/npm install --prefix .venv/node --no-package-lock --no-audit --no-fund --loglevel=error
 	@touch $@
 
-# To test the page in a browser.
+# The browser in which the page is tested.
 /usr/bin/chromium:
 	@requirements/apt-install chromium
 

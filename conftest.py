@@ -51,7 +51,7 @@ def _names_of_docstrings(doctest_namespace: dict[str, object]) -> None:
 
 
 def run_console(example: Example) -> str | None:
-    """Run each `$ loiter ...` line of a block; what follows it must be what it prints."""
+    """Run each `$ loiter ...` line of a block, and compare its output with the lines that follow it."""
     for block in example.parsed.removeprefix("$ ").split("\n$ "):
         command, _, expected = block.replace("\\\n", "").partition("\n")
         program, *arguments = shlex.split(command)
@@ -67,7 +67,7 @@ def run_console(example: Example) -> str | None:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Workers share the tests one by one, but a document's examples, which build on one another, stay together."""
+    """Distribute tests to workers one by one, but a document's examples, which depend on each other, together."""
     from xdist.scheduler import LoadScopeScheduling
 
     class ByDocument(LoadScopeScheduling):
@@ -80,7 +80,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 @pytest.fixture(scope="module")
 def scratch_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """Examples write their files into a folder that nobody misses."""
+    """A temporary folder as the working directory, into which examples write their files."""
     folder = tmp_path_factory.mktemp("examples")
     os.environ["COLUMNS"] = "100"
     with chdir(folder):

@@ -1,4 +1,4 @@
-"""Start a server and send it mixed requests from many clients: lost answers, response times, growth of memory.
+"""Start a server, send it mixed requests from many clients, and print lost answers, response times and memory.
 
 `python -m benchmarks.service --requests 10000 --clients 50`; the exit status is 1 where an answer is lost or wrong.
 """
@@ -20,7 +20,7 @@ ORIGIN = {"latitude_deg": 47.0, "longitude_deg": 8.0}
 
 
 class ServiceRequest(NamedTuple):
-    """A request and the status of its right answer."""
+    """A request and the status of its correct answer."""
 
     kind: str
     method: str
@@ -30,7 +30,7 @@ class ServiceRequest(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """The kind of a request, its response time and whether its answer was right."""
+    """The kind of a request, its response time and whether its answer was correct."""
 
     kind: str
     seconds: float
@@ -89,7 +89,7 @@ async def exchange(
 
 
 def good(request: ServiceRequest, status: int, headers: dict[str, str], body: bytes) -> bool:
-    """Whether the response is the right answer to this request, and not to another one."""
+    """Whether the response is the correct answer to this request, not that to another one."""
     if status != request.status or headers["x-content-type-options"] != "nosniff":
         return False
     if request.path != "/api/plan" or status != 200:

@@ -1,4 +1,4 @@
-"""`loiter batch` as a whole process: rows per second and peak memory from 1e5 rows up, with one worker and with two."""
+"""Rows per second and peak memory of the process `loiter batch`, from 1e5 rows up, with one worker and with two."""
 
 import subprocess
 import sys

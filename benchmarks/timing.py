@@ -1,4 +1,4 @@
-"""Times of several contenders: they take turns, and the fastest round counts, since other work only slows them down."""
+"""Times of several contenders: they are called in turn, and the shortest time counts, as other load only adds to it."""
 
 from collections.abc import Callable, Mapping
 from time import perf_counter

@@ -55,7 +55,7 @@ def python_of(folder, version):
 def test_an_old_python_is_refused_in_a_sentence(make, tmp_path, version):
     other = python_of(tmp_path, version)
     done = make(".venv/bin/python", f"PYTHON={other}")
-    sentence = f"Python 3.11 or newer is needed, and {other} is Python {version}: make PYTHON=FILE takes another"
+    sentence = f"Python 3.11 or newer is needed, and {other} is Python {version}: make PYTHON=FILE uses another"
     assert done.returncode == 2
     assert done.stderr.splitlines()[0] == sentence
     assert not (tmp_path / ".venv").exists()

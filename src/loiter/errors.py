@@ -43,7 +43,7 @@ class MissingPackage(LoiterError):
 
 
 class LinkFailed(LoiterError):
-    """A vehicle was not reached, refused, or stored something other than it was sent.
+    """A vehicle was not reached, refused a request, or stored something other than what was sent.
 
     The sentence says what the vehicle has now.
     """
@@ -68,8 +68,8 @@ def not_negative(argument: str, value: object, unit: str) -> float:
 
 
 def as_float(value: object) -> float:
-    """A real number as a float; nan for anything else, so that every comparison refuses it."""
-    # Nearly every value is a float: asking for its type costs a fifth of asking whether it is a real number.
+    """A real number as a float; nan for anything else, so that every comparison with it is false."""
+    # Nearly every value is a float: a check of its type takes a fifth of the time of a check for a real number.
     if type(value) is float:
         return value
     if isinstance(value, bool) or not isinstance(value, Real):

@@ -11,7 +11,7 @@ from loiter.errors import InvalidArgument
 
 
 def write_whole(argument: str, path: Path, write: Callable[[BinaryIO], object]) -> None:
-    """Let `write` fill a file beside `path`, then put it in its place; an older file stays until then.
+    """Write a temporary file with `write`, then rename it to `path`; an older file stays until then.
 
     Raises `InvalidArgument` for `argument`, the name of the option that gave the path, where it cannot be written.
     """
@@ -22,7 +22,7 @@ def write_whole(argument: str, path: Path, write: Callable[[BinaryIO], object]) 
 
 
 def check_writable(argument: str, path: Path) -> None:
-    """Raise as `write_whole` where `path` cannot be written; for asking before what takes long."""
+    """Raise the error of `write_whole` where `path` cannot be written; for a check before long work."""
     with _beside(argument, path) as part:
         part.open("xb").close()
         if path.is_dir():
@@ -31,8 +31,8 @@ def check_writable(argument: str, path: Path) -> None:
 
 @contextmanager
 def _beside(argument: str, path: Path) -> Iterator[Path]:
-    """A name for a file beside `path`, that is gone afterwards."""
-    # Drawn, so that threads which write into one folder do not take each other's file for their own.
+    """The name of a temporary file beside `path`, which is deleted afterwards."""
+    # A random name, so that threads that write into the same folder use different files.
     part = path.with_name(f".{os.urandom(8).hex()}.part")
     try:
         try:

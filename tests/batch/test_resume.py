@@ -213,7 +213,7 @@ def test_parts_of_another_job_are_not_mixed_in(job, capsys, monkeypatch, change,
     capsys.readouterr()
     assert main([*arguments, *options]) == 0
     note, *_ = capsys.readouterr().err.splitlines()
-    assert note == "starting over: the parts in out.parquet.parts were of another input, option or program"
+    assert note == "starting over: the parts in out.parquet.parts belong to a job with another input, option or program"
     assert Path("out.parquet").read_bytes() == Path("expected.parquet").read_bytes()
 
 

@@ -63,7 +63,7 @@ def test_six_degrees_of_freedom(shown):
     [
         (UAV, "--pose or --pose-lla is needed"),
         (f"--runs 0 {UAV}", "--runs is 0: it must be at least 1"),
-        (f"--runs 3 {SCENE}", "--runs asks for random starts and circles"),
+        (f"--runs 3 {SCENE}", "--runs selects random starts and circles"),
         (f"--runs 3 {UAV} --plot f.png", "--plot draws one flight"),
         (f"{SCENE} --plot f.doc", "--plot is 'f.doc'"),
         (f"{SCENE} --save f.txt", "--save is 'f.txt': the file name must end in .csv"),
@@ -79,7 +79,7 @@ def test_six_degrees_of_freedom(shown):
         (f"{SCENE} --airframe j3cub", "--airframe has no effect with --sim point"),
         (f"{SCENE} --workers 2", "--workers has no effect without --runs"),
         (f"{SCENE} --sim jsbsim", "--airframe has its own airspeed and bank limit"),
-        (f"{SCENE} --wind 30 0", "a wind of 30 m/s leaves"),
+        (f"{SCENE} --wind 30 0", "in a wind of 30 m/s an aircraft"),
         (f"--runs 3 --workers 0 {UAV}", "--workers is 0"),
         (f"--pose 0 0 0 --orbit 0 0 30 {UAV}", "orbit radius 30 m is tighter"),
     ],

@@ -119,7 +119,7 @@ def test_a_circle_that_moves_with_the_air_is_held_with_one_bank(shown):
 @pytest.mark.parametrize("options", [MOVING, BOTH])
 def test_where_the_centre_is_when_the_circle_is_joined(shown, planned, options):
     there, text = planned(options)["join_over_ground"], shown(f"plan {options}")
-    told = re.search(r"^When it is joined the circle's centre is at (\S+) m east, (\S+) m north\.$", text, re.M)
+    told = re.search(r"^The centre of the circle is at (\S+) m east, (\S+) m north when it is joined\.$", text, re.M)
     wanted = [there["centre_east_m"], there["centre_north_m"]]
     assert [float(value) for value in told.groups()] == pytest.approx(wanted, abs=0.06)
 

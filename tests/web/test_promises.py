@@ -15,7 +15,7 @@ DOCS = (Path(__file__).parents[2] / "docs" / "service.md").read_text("utf-8")
 @pytest.mark.parametrize(
     ("promise", "in_force", "promised"),
     [
-        ("128 requests, or 16 pictures, are waiting already", (app.MAX_REQUESTS, app.MAX_PICTURES), (128, 16)),
+        ("128 requests or 16 pictures are already waiting", (app.MAX_REQUESTS, app.MAX_PICTURES), (128, 16)),
         ("256 connections are open", connections.MAX_CONNECTIONS, 256),
         ("an answer took more than a minute", limits.ANSWER_TIMEOUT_S, 60.0),
         ("nested more than 32 levels deep", limits.MAX_DEPTH, 32),
@@ -30,7 +30,7 @@ DOCS = (Path(__file__).parents[2] / "docs" / "service.md").read_text("utf-8")
             (10.0, 10.0),
         ),
         ("more than 20,000 points", exports.MAX_POINTS, 20_000),
-        ("Four threads compute", app.THREADS, 4),
+        ("Four threads of one process compute", app.THREADS, 4),
     ],
 )
 def test_the_documented_limits_are_in_force(promise, in_force, promised):

@@ -103,7 +103,7 @@ def test_it_warns_where_others_can_reach_it(monkeypatch):
     monkeypatch.setattr("uvicorn.Server.run", lambda *_, **__: None)
     serve(host="0.0.0.0", port=0, announce=lines.append)
     assert lines[0].startswith("http://0.0.0.0:")
-    assert lines[1:] == ["Other machines on the network can reach it: it asks for no user name and no password."]
+    assert lines[1:] == ["Other machines can reach this service: it asks for no user name and no password."]
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "127.0.0.2"])

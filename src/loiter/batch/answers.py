@@ -45,7 +45,7 @@ _TURNS, _STATUSES = views.text_column(TURN_NAMES), views.text_column(STATUSES)
 def solve_batch(batch: pa.RecordBatch, columns: Columns, compiled: bool | None = None) -> pa.RecordBatch:
     """The carried columns of a batch, without dictionary encoding, and the added columns.
 
-    `compiled` is that of `entries`.
+    `compiled` is passed to `entries`.
     """
     # The last column of text marks malformed lines.
     names = carried_columns(batch.schema.names[:-1] if columns.text else batch.schema.names)
@@ -113,7 +113,7 @@ def _sides(column: pa.Array) -> NDArray[np.int8]:
     known = {turn.value: int(SIDES[turn]) for turn in Turn}
     encoded = without_dictionary(column).cast(pa.string()).dictionary_encode()
     codes = [known.get((name or "").strip(), UNKNOWN) for name in encoded.dictionary.to_pylist()]
-    # The index of a null is that of an additional, unknown turn.
+    # A null gets the index of an additional value, the unknown turn.
     indices = views.fill_nulls(encoded.indices, len(codes))
     sides: NDArray[np.int8] = np.array([*codes, UNKNOWN], dtype=np.int8)[indices]
     return sides

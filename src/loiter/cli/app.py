@@ -40,7 +40,7 @@ app.command(
     help_epilogue=epilogue("batch"),
     help="""Plan the fastest entry for every row of a table: Parquet or CSV, any size.
 
-IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s; wind_speed_m_s and wind_from_deg; and orbit_velocity_east_m_s and orbit_velocity_north_m_s. Values without a column come from options; all but the turn, the wind and the circle's velocity are needed.
+IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s; wind_speed_m_s and wind_from_deg; and orbit_velocity_east_m_s and orbit_velocity_north_m_s. Values without a column come from options; all are needed except the turn, the wind and the circle's velocity.
 
 OUT has the rows and the columns of IN, in their order, and then duration_s, word, turn (the direction of the plan, cw or ccw, in place of the turn of IN), join_east_m, join_north_m, join_heading_deg, duration_1_s, duration_2_s, duration_3_s and status. A bad row gets nan or empty fields and a status other than ok; the job goes on.
 
@@ -64,7 +64,7 @@ app.command(
 app.command(
     "loiter.cli.commands.synthesis:synthesis",
     help_epilogue=epilogue("synthesis"),
-    help="Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions.",
+    help="Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between the regions.",
 )
 app.command(
     "loiter.cli.commands.figures:figures",
@@ -103,7 +103,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
         sys.stdout.flush()
     except (BrokenPipeError, SystemExit):
-        # The reader of a pipe has closed it, as `head` does: no error. While rich prints help, it raises SystemExit for it.
+        # The reader of a pipe, such as `head`, has closed it: no error. In the help, rich raises SystemExit for it.
         _abandon_output()
         return 0
     except (LoiterError, CycloptsError, OSError) as error:
@@ -120,6 +120,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _abandon_output() -> None:
-    # Otherwise the interpreter would fail once more at its end, when it flushes what is still buffered.
+    # Otherwise the interpreter would fail again when it exits and flushes its buffers.
     with suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

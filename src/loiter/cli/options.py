@@ -89,7 +89,7 @@ class OrbitOptions:
         TurnName | None,
         Parameter(
             group=scene,
-            help="Direction of flight around the circle, seen from above. If absent: that of --params, or either without --params.",
+            help="Direction of flight around the circle, seen from above. If absent: the direction in --params, or either without --params.",
         ),
     ] = None
     orbit_velocity: Annotated[
@@ -102,7 +102,7 @@ class OrbitOptions:
     ] = (0.0, 0.0)
 
     def circle(self, preset: Preset | None) -> tuple[Orbit, LocalFrame | None]:
-        """The circle, and, where it is in degrees, the local frame about its centre; `InvalidArgument` without one."""
+        """The circle, and the local frame about its centre if it is in degrees; `InvalidArgument` without a circle."""
         radius = None if preset is None else preset.loiter_radius_m
         if bool(self.orbit) == bool(self.orbit_lla):
             raise InvalidArgument("orbit", "or --orbit-lla is needed, and not both")
@@ -162,7 +162,7 @@ class AircraftOptions:
         Parameter(
             group=aircraft,
             metavar="METRES",
-            help="Altitude above mean sea level, or above --altitude-reference. It converts an indicated airspeed (in thin air the true one is higher), and is written to missions and maps.",
+            help="Altitude above mean sea level, or above --altitude-reference. It is used to convert an indicated airspeed (in thin air the true airspeed is higher), and is written to missions and maps.",
         ),
     ] = None
     temperature: Annotated[
@@ -252,7 +252,7 @@ class WindOptions:
         Parameter(
             group=air,
             metavar="SPEED FROM",
-            help="Wind speed, metres per second, and the compass direction that the wind comes from; with places in degrees it counts from true north at the circle.",
+            help="Wind speed, metres per second, and the compass direction that the wind comes from; with places in degrees, clockwise from true north at the circle.",
         ),
     ] = None
 
@@ -271,7 +271,7 @@ class MissionOptions:
         bool,
         Parameter(
             group=missions,
-            help="Write waypoints all along the path. Autopilots cut its turns and join later; without --path a mission has at most one waypoint, which they fly best.",
+            help="Write waypoints all along the path. Autopilots cut its turns and join later; they fly best without --path, with at most one waypoint.",
         ),
     ] = False
     spacing: Annotated[
@@ -352,7 +352,7 @@ def read_options(
 def placed(
     start: StartOptions, orbit: OrbitOptions, preset: Preset | None = None
 ) -> tuple[Pose, Orbit, LocalFrame | None]:
-    """The start and the circle, and, where they are in degrees, the local frame."""
+    """The start and the circle, and the local frame if they are in degrees."""
     if (start.pose is None) == (start.pose_lla is None):
         raise InvalidArgument("pose", "or --pose-lla is needed, and not both")
     circle, frame = orbit.circle(preset)

@@ -15,10 +15,10 @@ from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Pose
 from loiter.planning.vocabulary import ACTIONS
 
-# Two durations that are equal in theory differ by rounding, near 1e-15 of themselves in near and 1e-14 in far scenes.
+# Durations that are equal in theory differ by rounding, relatively by 1e-15 in near scenes and by 1e-14 in far ones.
 SAME_DURATION = 1e-12
 
-# A miss is printed from this share of the radius on: a metre on a kilometre.
+# A miss is printed if it is above this share of the radius: a metre for a radius of a kilometre.
 SMALLEST_MISS = 1e-3
 
 # What a mission with waypoints all along the path costs (docs/maps.md).
@@ -94,7 +94,7 @@ def headline(maneuver: Maneuver) -> str:
 
 
 def table(maneuver: Maneuver, frame: LocalFrame | None = None) -> Table:
-    """A row for each segment and one for the hold."""
+    """A table with a row for each segment and one for the hold."""
     rows = new_table()
     rows.add_column("in", justify="right")
     rows.add_column("do", justify="left")
@@ -149,11 +149,11 @@ def weather(maneuver: Maneuver) -> str:
 
 
 def hold_in_wind(maneuver: Maneuver, frame: LocalFrame | None = None) -> list[str]:
-    """Lines on the bank that the hold takes, and on the position of a moving circle at the join."""
+    """Lines on the bank that the hold needs, and on the position of a moving circle at the join."""
     lines, hold = [], maneuver.hold
     if maneuver.orbit.moves and maneuver.segments:
         centre = _place(maneuver, maneuver.orbit_at_join, frame)
-        lines.append(f"When it is joined the circle's centre is at {centre}.")
+        lines.append(f"The centre of the circle is at {centre} when it is joined.")
     least, most = f"{hold.least_bank_deg:.1f}", f"{hold.largest_bank_deg:.1f}"
     if least == most:
         lines.append(f"Bank on the circle: {most} deg.")

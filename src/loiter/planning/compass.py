@@ -1,6 +1,6 @@
-"""Compass headings (degrees clockwise from north): the one place where they meet mathematical angles.
+"""Compass headings (degrees clockwise from north) and their conversion to mathematical angles, all in this file.
 
-The functions have no branches, so that they serve arrays, after `compiled.rebinding.rebound` where they call `math`.
+The functions have no branches, so that they accept arrays; those that call `math` need `compiled.rebinding.rebound`.
 """
 
 from math import cos, degrees, floor, fmod, radians, sin
@@ -10,13 +10,13 @@ from typing import Any
 def heading_vector(heading_deg: float) -> tuple[float, float]:
     """East and north component of the unit vector along a compass heading, exact at multiples of 90 degrees.
 
-    The heading is reduced to within 45 degrees of a quarter before it becomes radians, so that a start that heads due
-    east for the centre has the reduced ordinate 0, not 6e-17, and a heading of any size keeps its digits.
+    The nearest multiple of 90 degrees is subtracted before the conversion to radians. Therefore a start that heads due
+    east towards the centre has the reduced ordinate 0, not 6e-17, and a large heading keeps its precision.
     """
     heading = fmod(heading_deg, 360.0)
     quarters = floor(heading / 90.0 + 0.5)
     rest = radians(heading - 90.0 * quarters)
-    # Sine and cosine of the whole quarters; halves by floor, as a remainder costs an array more than a sine does.
+    # Sine and cosine of the whole quarters; halves by floor, as an array's remainder takes longer than its sine.
     halves = floor(0.5 * quarters)
     odd, flip = quarters - 2.0 * halves, halves - 2.0 * floor(0.5 * halves)
     sq, cq = odd - 2.0 * odd * flip, (1.0 - odd) * (1.0 - 2.0 * flip)
@@ -27,7 +27,7 @@ def heading_vector(heading_deg: float) -> tuple[float, float]:
 def heading_after(heading_deg: Any, turned: Any) -> Any:
     """The heading after a turn through `turned` radians, counter-clockwise positive, in [0, 360); numbers or arrays.
 
-    A heading is counted clockwise. One far beyond 360 degrees is wrapped first: it would swallow the turn's digits.
+    A heading is counted clockwise. It is wrapped first: a sum with a large heading would lose digits of the turn.
     """
     return wrapped(wrapped(heading_deg) - turned * degrees(1.0))
 

@@ -13,7 +13,7 @@ from loiter.planning.model import Aircraft, Orbit, Wind
 
 
 class RelativeWind(NamedTuple):
-    """The velocity of the air past the circle over the airspeed, east and north: numbers, or arrays of them."""
+    """The velocity of the air relative to the circle, divided by the airspeed: east and north, numbers or arrays."""
 
     x: float
     y: float
@@ -25,13 +25,13 @@ class RelativeWind(NamedTuple):
 
 
 def relative_wind(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> RelativeWind:
-    """The velocity of the air past the circle over the airspeed; zero where nothing but rounding is left."""
+    """The velocity of the air relative to the circle, divided by the airspeed; zero where only rounding remains."""
     circle = orbit.velocity_east_m_s, orbit.velocity_north_m_s
     return RelativeWind(*relative_velocity(wind.velocity_m_s, circle, aircraft.airspeed_m_s))
 
 
 def relative_velocity(air: tuple[float, float], circle: tuple[float, float], airspeed: float) -> tuple[float, float]:
-    """The velocity of the air less that of the circle, over the airspeed. Without branches: it serves arrays."""
+    """The velocity of the air less that of the circle, divided by the airspeed. No branches: it accepts arrays."""
     wx, wy = air[0] - circle[0], air[1] - circle[1]
     passes = hypot(wx, wy) > ROUNDING * (hypot(*air) + hypot(*circle))
     # Adding 0.0 turns -0.0 into 0.0.
@@ -50,7 +50,7 @@ def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:
     if status == Status.WIND_TOO_STRONG:
         V, speed = aircraft.airspeed_m_s, hypot(*air) * aircraft.airspeed_m_s
         raise WindTooStrong(
-            f"{_air(orbit, speed)} leaves an aircraft of {V:g} m/s no circle to hold: "
+            f"in {_air(orbit, speed)} an aircraft of {V:g} m/s can hold no circle: "
             f"its airspeed must be above {speed:.4g} m/s"
         )
     if status in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):

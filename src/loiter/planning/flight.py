@@ -49,7 +49,7 @@ def sampled(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: 
     if not segments:
         return sampled_at(np.zeros(1), start, segments, aircraft, wind)
     ends_s = segments[-1].start_s + segments[-1].duration_s
-    # A last step that only rounding leaves is dropped.
+    # A last step that exists only by rounding is dropped.
     times = np.append(np.arange(0.0, ends_s * (1.0 - ROUNDING), step_s), ends_s)
     return sampled_at(times, start, segments, aircraft, wind)
 

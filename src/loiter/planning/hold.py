@@ -36,7 +36,7 @@ class HoldPoint(NamedTuple):
 
 
 class Round(NamedTuple):
-    """`HoldPoint` round the whole circle: five float64 arrays of one length; azimuths from 0 to below 360."""
+    """The points all round the circle: five float64 arrays of one length; azimuths from 0 to below 360."""
 
     azimuth_deg: NDArray[float64]
     heading_deg: NDArray[float64]

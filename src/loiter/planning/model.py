@@ -36,7 +36,7 @@ def radius_at_rate(airspeed_m_s: float, turn_rate_deg_s: float) -> float:
 def wind_velocity(speed_m_s: float, from_deg: float) -> tuple[float, float]:
     """Velocity of the air over the ground, metres per second towards the east and the north."""
     east, north = heading_vector(from_deg)
-    # Subtracting from 0.0 leaves no component -0.0.
+    # Subtracting from 0.0 avoids components of -0.0.
     return 0.0 - speed_m_s * east, 0.0 - speed_m_s * north
 
 
@@ -119,7 +119,7 @@ class Aircraft:
     def bank_deg(self, radius_m: float) -> float:
         """Bank of a coordinated turn of the given radius at this airspeed, degrees: atan(V^2 / (g radius)).
 
-        A radius of 0, which rounding may give, takes 90 degrees.
+        A radius of 0, which rounding may give, needs 90 degrees.
         """
         return degrees(atan2(self.airspeed_m_s * self.airspeed_m_s, STANDARD_GRAVITY_M_S2 * radius_m))
 
@@ -130,7 +130,7 @@ TURN_LIMITS = {"max_bank_deg": "degrees", "min_turn_radius_m": "metres", "max_tu
 
 @dataclass(frozen=True, slots=True)
 class Orbit:
-    """The holding circle: its centre (metres, local east and north), its radius and the direction asked for.
+    """The holding circle: its centre (metres, local east and north), its radius and the requested direction.
 
     `turn` is a `Turn` or its value: "cw", "ccw" or "either" (whichever is sooner; the default). A moving circle (about
     a ship, a car or a thermal) has a constant velocity over the ground, metres per second; `east_m` and `north_m` are

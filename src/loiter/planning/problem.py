@@ -1,4 +1,4 @@
-"""One entry to plan, in SI, and its scale: here a single plan is divided by turn radius and airspeed, once."""
+"""One planning problem in SI, and its conversion to the kernel's units: division by turn radius and airspeed."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Problem:
     """An entry to plan: from where, onto which circle, by which aircraft, in which wind.
 
     `tolerance_m` is the distance, metres, by which a start may lie beyond the last arc and still count as on it; it is
-    used in still air alone. `relative_wind` is the velocity of the air past the circle over the airspeed.
+    used in still air alone. `relative_wind` is the velocity of the air relative to the circle, divided by the airspeed.
     Raises `InvalidArgument` for a tolerance that is negative or not finite.
     """
 
@@ -52,7 +52,7 @@ class Problem:
 
     @property
     def still(self) -> bool:
-        """Whether the circle meets still air: no wind, or a wind as fast as the circle moves."""
+        """Whether the air is still relative to the circle: no wind, or a wind with the velocity of the circle."""
         return self.relative_wind.still
 
     @property
@@ -66,17 +66,17 @@ class Problem:
         return self.aircraft.turn_radius_m / self.aircraft.airspeed_m_s
 
     def with_turn(self, turn: Turn) -> Problem:
-        """The same with another direction of the circle."""
+        """The same problem with another direction of the hold."""
         return replace(self, orbit=replace(self.orbit, turn=turn))
 
     def reduced(self) -> ReducedProblem:
-        """The kernel's arguments, as in still air.
+        """The kernel's arguments in still air.
 
         Raises `RadiusTooSmall` for a circle tighter than the turn radius, `OutOfRange` for a scene too large.
         """
         pose, orbit, r = self.pose, self.orbit, self.aircraft.turn_radius_m
         x, y = motion.reduce(*self._place(), *heading_vector(pose.heading_deg))
-        # Coordinates far from their origin carry the rounding of their own size into a small difference.
+        # The difference of two large coordinates has a rounding error relative to their size, not to its own.
         size = abs(pose.east_m) + abs(orbit.east_m) + abs(pose.north_m) + abs(orbit.north_m)
         tolerance = max(self.tolerance_m, ROUNDING * size) / r
         reduced = ReducedProblem(x, y, rounded_radius(self.radius), SIDES[orbit.turn], tolerance)
@@ -101,7 +101,7 @@ class Problem:
         return found
 
     def _place(self) -> tuple[float, float]:
-        """Where the aircraft is from the centre of the circle, in turn radii."""
+        """The position of the aircraft relative to the centre of the circle, in turn radii."""
         r = self.aircraft.turn_radius_m
         return (self.pose.east_m - self.orbit.east_m) / r, (self.pose.north_m - self.orbit.north_m) / r
 

@@ -1,4 +1,4 @@
-"""The kernel's answers in SI: multiplied by turn radius and airspeed, once."""
+"""Conversion of the kernel's answers to SI: multiplication by turn radius and airspeed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from loiter.planning.sides import TURNS
 
 
 def maneuver(problem: Problem, entry: Entry, miss: float) -> Maneuver:
-    """The kernel's answer to a problem in SI; `miss` is the distance by which it misses, in turn radii."""
+    """The kernel's answer to a problem, in SI; `miss` is its distance from the tangent point, in turn radii."""
     aircraft, wind = problem.aircraft, problem.wind
     segments: list[Segment] = []
     here, now = problem.pose, 0.0

@@ -1,4 +1,4 @@
-"""Directions as the user gives them, and as the kernel's codes."""
+"""Conversion between directions as the user gives them and the kernel's codes."""
 
 from loiter.kernel.codes import Side
 from loiter.planning.model import Turn

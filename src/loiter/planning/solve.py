@@ -20,21 +20,21 @@ def plan(
 ) -> Maneuver:
     """The fastest maneuver from `pose` onto `orbit`, which it joins tangentially and in the direction `orbit.turn`.
 
-    In still air (`wind` None, or as fast as the circle moves) the answer is the fastest of the extremals of the maximum
-    principle that docs/theory.md, section 3, lists, in closed form: proved to be the optimum for a circle of the
-    minimum turn radius, cross-checked for wider ones. In wind, and onto a moving circle, the path is tangential in the
-    frame of the circle, and is found by branch and bound over the point of joining (docs/wind.md). Where several
+    In still air (`wind` is None, or equals the velocity of the circle) the answer is the fastest of the extremals of
+    the maximum principle that docs/theory.md, section 3, lists, in closed form: proved to be the optimum for a circle
+    of the minimum turn radius, cross-checked for wider ones. In wind, and onto a moving circle, the path is tangential
+    in the frame of the circle, and is found by branch and bound over the point of joining (docs/wind.md). Where several
     maneuvers are optimal, one of them is returned; `plan_all` returns all.
 
     In still air the least time jumps where the start crosses the last arc (docs/theory.md, section 6): just beyond it
-    the aircraft must fly a full turn more. A start beyond it by rounding counts as on the arc; `tolerance_m` (metres)
-    extends that to the noise of a sensor. The maneuver then misses the tangent point by at most that distance, which is
-    its `miss_m`. In wind the time does not jump there, and the tolerance is not used.
+    the aircraft must fly a full turn more. A start that is beyond it only by rounding counts as on the arc;
+    `tolerance_m` (metres) extends this to sensor noise. The maneuver then misses the tangent point by `miss_m`, at most
+    that distance. In wind the time does not jump there, and the tolerance is not used.
 
-    Raises `RadiusTooSmall` where the aircraft cannot hold the circle, `WindTooStrong` where the air passes it as fast
-    as the aircraft flies, `OutOfRange` where coordinates are so large that doubles cannot tell one turn from the next,
-    `InvalidArgument` for a tolerance that is negative or not finite, `NotConverged` where no maneuver in wind was
-    found that ends on the circle.
+    Raises `RadiusTooSmall` where the aircraft cannot hold the circle, `WindTooStrong` where the wind relative to the
+    circle is as fast as the aircraft, `OutOfRange` where coordinates are so large that doubles cannot tell one turn
+    from the next, `InvalidArgument` for a tolerance that is negative or not finite, `NotConverged` where no maneuver in
+    wind was found that ends on the circle.
 
     >>> from loiter import Aircraft, Orbit, Pose, Wind, plan
     >>> m = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0))
@@ -50,7 +50,7 @@ def plan(
 def plan_all(
     pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, tolerance_m: float = 0.0
 ) -> tuple[Maneuver, ...]:
-    """All optimal maneuvers, which tie up to rounding, the fastest first. Arguments and errors as for `plan`.
+    """All optimal maneuvers, equally fast up to rounding, the fastest first. Arguments and errors as for `plan`.
 
     For a circle of the turn radius, held in either direction in still air, there are 1, 2 or 4 (paper, section 6); for
     other circles there may be 3. In wind ties are rare except in scenes that are their own mirror image.
@@ -63,8 +63,8 @@ def candidates(
 ) -> tuple[Maneuver, ...]:
     """All extremals of docs/theory.md, section 3, in the direction `orbit.turn`, the fastest first.
 
-    Arguments and errors as for `plan`. In wind: the maneuvers to points of joining that are local minima of the time,
-    as far as 128 points round the circle resolve them.
+    Arguments and errors as for `plan`. In wind: the maneuvers to the points of joining at which the time has a local
+    minimum, as far as 128 points round the circle resolve the minima.
     """
     return extremals(Problem(pose, orbit, aircraft, CALM if wind is None else wind, tolerance_m))
 
@@ -88,7 +88,7 @@ def extremals(problem: Problem) -> tuple[Maneuver, ...]:
 def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
     """The maneuvers of `plan_all`, and every other extremal, of the other direction too, fastest first.
 
-    Raises as `plan`. In wind it takes half the time of `plan_all` and `candidates` one after the other.
+    Raises the errors of `plan`. In wind it takes half the time of `plan_all` followed by `candidates`.
     """
     known = solved(problem.with_turn(Turn.EITHER), ranked, wind_search.ranked)
     best = all_fastest(problem) if problem.still else _tied(known, problem)
@@ -97,9 +97,9 @@ def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneu
 
 
 def best_each_way(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
-    """The best maneuver of each direction, as `best_and_others` orders them: two where they tie, or one and the other.
+    """The best maneuver of each direction, in two tuples as from `best_and_others`: both in the first where they tie.
 
-    Raises as `plan`. In wind it takes half the time of `best_and_others`.
+    Raises the errors of `plan`. In wind it takes half the time of `best_and_others`.
     """
     found: list[Solved] = []
     for turn in (Turn.CW, Turn.CCW):
@@ -126,7 +126,7 @@ def solved(
     in_still_air: Callable[..., list[Entry]],
     in_wind: Callable[..., list[WindEntry]],
 ) -> tuple[Solved, ...]:
-    """The answers of the kernel's function for still air, or of that for wind, in SI."""
+    """The answers, in SI, of the kernel's function for still air or of its function for wind, as the problem needs."""
     if problem.still:
         reduced = problem.reduced()
         x, y, R, _, _ = reduced
@@ -151,7 +151,7 @@ def _not_converged(problem: Problem) -> NotConverged:
 
 
 def _with_orbit(candidate: Solved, orbit: Orbit) -> Solved:
-    """A candidate with the circle of the problem: one direction, or either."""
+    """A candidate with the circle of the problem, whose direction may be `EITHER`."""
     return candidate._replace(maneuver=replace(candidate.maneuver, orbit=orbit))
 
 

@@ -1,4 +1,4 @@
-"""Words that several front ends share: actions of the pilot, and the names of options. Each stands here once."""
+"""Texts that several front ends share: actions of the pilot, and the names of options."""
 
 # What the pilot does on a segment, by its letter.
 ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}

@@ -50,7 +50,7 @@ def create_app(cors: str | None = None) -> ASGIApp:
 
 
 def _without_ranges(app: ASGIApp) -> ASGIApp:
-    """The app without Range headers, so that it answers with whole files: it would refuse a bad range in plain text."""
+    """The app without Range headers, so that it sends whole files; a bad range would be refused in plain text."""
 
     async def serve_whole(scope: Scope, receive: Receive, send: Send) -> None:
         headers = [(name, value) for name, value in scope["headers"] if name != b"range"]
@@ -108,7 +108,7 @@ def _add_maps(api: FastAPI, pool: BoundedPool) -> None:
             int, Query(ge=8, le=MAX_CELLS, description="Grid points along a side; rounded up to an even number.")
         ] = DEFAULT_CELLS,
     ) -> Response:
-        """The optimal synthesis of the reduced plane: which word wins where, and the curves between the regions."""
+        """The optimal synthesis of the reduced plane: the fastest word in each region, and the curves between them."""
         encoded = await pool.run(lambda query: synthesis(*query), (radius, turn, reach, cells))
         return Response(encoded, media_type="application/json")
 

@@ -25,7 +25,7 @@ MAX_CONNECTIONS = 256
 # Seconds for the head of a request to arrive, counted from the opening of the connection or from the last answer.
 HEAD_TIMEOUT_S = 10.0
 
-# Seconds from the head of a request until the client has read the answer: the limits of both, and time to read.
+# Seconds from the head of a request until the client has read the answer: limits of body and answer, and time to read.
 REQUEST_TIMEOUT_S = BODY_TIMEOUT_S + ANSWER_TIMEOUT_S + 20.0
 
 # Seconds for the client to read a last answer before the connection is aborted.

@@ -30,7 +30,7 @@ HEADERS = {
 }
 SECURITY_HEADERS = [(name.encode(), value.encode()) for name, value in HEADERS.items()]
 
-# Answers are never cached. Browsers keep files of the page, and check by their tag whether they have changed.
+# Answers are never cached. Browsers cache the files of the page, and use their ETag to check for changes.
 NO_STORE, NO_CACHE = (b"cache-control", b"no-store"), (b"cache-control", b"no-cache")
 
 

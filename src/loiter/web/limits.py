@@ -54,7 +54,7 @@ class Limits:
             await answer(scope, receive, send)
 
     async def _read_body(self, scope: Scope, receive: Receive) -> bytes:
-        """The body; raises `HTTPException` where it is too late, too large or too deeply nested."""
+        """The body; raises `HTTPException` where it arrives too late, is too large or too deeply nested."""
         try:
             async with asyncio.timeout(BODY_TIMEOUT_S):
                 body = await _read(scope, receive)
@@ -76,7 +76,7 @@ class Limits:
 
 
 async def _read(scope: Scope, receive: Receive) -> bytes:
-    """The body; raises `HTTPException` where head or body is too large, or the declared length is."""
+    """The body; raises `HTTPException` where the head, the body or the declared length is too large."""
     if _head_bytes(scope) > MAX_HEAD_BYTES:
         raise HTTPException(HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE, HEAD_TOO_LARGE)
     declared_length = int(next((value for name, value in scope["headers"] if name == b"content-length"), b"0"))

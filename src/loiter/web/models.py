@@ -1,7 +1,7 @@
 """Requests and answers of the service, in SI units and compass degrees; `docs/service.md` describes them.
 
-The library checks the ranges of numbers and words the errors; the schema states the same ranges. Fields of answers
-have the names of `loiter plan --json`.
+The library checks the ranges of numbers and writes the error messages; the schema states the same ranges. Fields of
+answers have the names of `loiter plan --json`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Latitude = Annotated[Number, Field(json_schema_extra={"minimum": -90.0, "maximum
 Longitude = Annotated[Number, Field(json_schema_extra={"minimum": -360.0, "maximum": 360.0})]
 
 
-# A finer polyline would be of no use: autopilots fly to within metres.
+# A finer polyline would have no effect: autopilots fly to within metres.
 MIN_CHORD_ERROR_M = 0.01
 
 
@@ -41,7 +41,7 @@ class PoseIn(Request):
 
     east_m: Number = Field(description="Metres east of the origin.")
     north_m: Number = Field(description="Metres north of the origin.")
-    heading_deg: Number = Field(description="Degrees clockwise from north, of any size.")
+    heading_deg: Number = Field(description="Degrees clockwise from north; any finite number.")
 
 
 class OrbitIn(Request):
@@ -116,11 +116,11 @@ class Scene(Request):
         0.0, description="In still air: a start up to this many metres beyond the last arc counts as on it."
     )
     origin: OriginIn | None = Field(
-        None, description="If given, places of the answer are in degrees too, and headings from true north too."
+        None, description="If given, the answer also has positions in degrees and headings from true north."
     )
 
     def placed(self) -> PlacedProblem:
-        """The problem and its frame as values of the library; raises `loiter.errors.InvalidArgument` as they do."""
+        """The problem and its frame as values of the library; raises their `loiter.errors.InvalidArgument`."""
         orbit = self.orbit.model_dump() | {"turn": model.Turn(self.orbit.turn)}
         problem = Problem(
             model.Pose(**self.pose.model_dump()),
@@ -232,7 +232,7 @@ class FlownBy(Answer):
 class Track(Answer):
     """A polyline: over the ground (metres, headings in degrees), and x, y in the reduced plane (turn radii).
 
-    It has a vertex at each switch, and it is nowhere further than 0.002 turn radii from the track.
+    It has a vertex at each switch, and it stays within 0.002 turn radii of the track.
     """
 
     time_s: list[float]
@@ -248,7 +248,7 @@ class Maneuver(Answer):
 
     duration_s: float
     length_m: float
-    word: str = Field(description='The letters of the segments as flown, "RSL"; empty on the circle.')
+    word: str = Field(description='The letters of the segments in the order flown, "RSL"; empty on the circle.')
     turn: Literal["cw", "ccw"]
     join: Pose
     wind: Wind
@@ -347,7 +347,7 @@ class Certificate(Answer):
 
 
 class Series(Answer):
-    """Control, switching function and adjoint over time, segment by segment, with both ends of each segment."""
+    """Control, switching function and adjoint over time, for each segment in turn, including both of its ends."""
 
     time_s: list[float]
     u: list[int]
@@ -382,7 +382,7 @@ class Synthesis(Answer):
     y: list[float]
     words: list[str]
     region: list[list[int]] = Field(
-        description="For each y a row over x: the index of the winning word in words; -1 where none wins."
+        description="For each y a row over x: the index, in words, of the fastest word; -1 where there is none."
     )
     curves: list[Curve]
 

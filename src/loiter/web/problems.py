@@ -60,7 +60,7 @@ JSON_FIELDS = {name: JsonField(f"aircraft.{name}", f"aircraft/{name}") for name 
 }
 
 
-# Sentences for kinds of pydantic's errors whose own sentences speak of Python.
+# Sentences for those errors of pydantic whose own sentences use terms of Python.
 VALIDATION_SENTENCES = {
     "missing": "is needed",
     "extra_forbidden": "is not known",
@@ -109,7 +109,7 @@ def problem(
     }
     document |= {"instance": instance} if instance else {}
     document |= {"errors": list(errors)} if errors else {}
-    # In ASCII: a request may quote characters that UTF-8 cannot encode.
+    # In ASCII: the text may quote characters of the request that UTF-8 cannot encode.
     return Response(json.dumps(document).encode("ascii"), int(status), headers, media_type=MEDIA_TYPE)
 
 
@@ -141,7 +141,7 @@ def _library_error(request: Request, error: Exception) -> Response:
 
 
 def _parameter(request: Request, path: str) -> str:
-    """The parameter of a query that holds a field: the scene, where the query has one."""
+    """The parameter of a query that contains a field: "scene", if the query has it."""
     return "scene" if "scene" in request.query_params else path
 
 
@@ -185,7 +185,7 @@ def _http_error(request: Request, error: Exception) -> Response:
 
 
 def _allowed_methods(request: Request) -> str:
-    """The methods of all routes of the path (the framework lists those of the first); static files have none listed."""
+    """The methods of all routes of the path (the framework lists those of the first only); static files list none."""
     methods = {
         method
         for route in request.app.routes

@@ -1,4 +1,4 @@
-"""The server around the application: its socket, its start and its end."""
+"""The server that runs the application: its socket, its start and its shutdown."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from loiter.web.limits import MAX_HEAD_BYTES
 # Connections that may wait to be accepted.
 BACKLOG = 2048
 
-# Seconds that running answers have to finish when the server ends.
+# Seconds that running answers have to finish when the server shuts down.
 SHUTDOWN_TIMEOUT_S = 3
 
-# Seconds between two checks for newly accepted connections while the server ends.
+# Seconds between two checks for newly accepted connections during the shutdown.
 CLOSING_INTERVAL_S = 0.02
 
 
@@ -56,20 +56,20 @@ def serve(host: str, port: int, cors: str | None, announce: Callable[[str], obje
 
 
 class Server(uvicorn.Server):
-    """uvicorn's server, which ends even where connections are accepted while it ends."""
+    """uvicorn's server, which shuts down even if connections are accepted during the shutdown."""
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Start, and compute the map that the page shows first, in a thread.
 
-        The map needs the compiled kernel; compiling takes ten seconds, once on a machine. It begins only after uvicorn
-        has installed its signal handlers: a signal that interrupted an import before that would block the import of
-        another thread for ever.
+        The map needs the compiled kernel; compiling takes ten seconds, once on a machine. The thread starts only after
+        uvicorn has installed its signal handlers: before that, a signal could interrupt an import and block the import
+        of another thread for ever.
         """
         await super().startup(sockets)
         Thread(target=synthesis, args=(1.0, "either", None, DEFAULT_CELLS)).start()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """End, and close connections that are accepted meanwhile; uvicorn would wait for them until its time-out."""
+        """Shut down, and close connections that are accepted meanwhile; uvicorn would wait until its time-out."""
         closing = asyncio.create_task(self._close_connections())
         await super().shutdown(sockets)
         closing.cancel()
@@ -95,7 +95,7 @@ def listening_socket(host: str, port: int) -> Iterator[socket.socket]:
     # short answer, head and body, waits 40 ms for the acknowledgement of its head.
     with socket.socket(family, kind, protocol) as listener:
         try:
-            # The addresses of ended connections stay in use for a minute. On Windows this option would share the port.
+            # Otherwise the port stays in use for a minute after a shutdown. On Windows the option would share the port.
             if os.name == "posix":
                 listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             listener.bind(address)
@@ -121,7 +121,7 @@ def _announcements(listener: socket.socket) -> Iterator[str]:
     yield f"http://{f'[{host}]' if ':' in host else host}:{port}/"
     address, _, _ = host.partition("%")
     if not ip_address(address).is_loopback:
-        yield "Other machines on the network can reach it: it asks for no user name and no password."
+        yield "Other machines can reach this service: it asks for no user name and no password."
 
 
 def _check_origin(cors: str) -> None:

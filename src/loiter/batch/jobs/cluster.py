@@ -81,7 +81,7 @@ def cluster_executors(client: Any, counter: RowCounter) -> Iterator[Executors]:
         return solving < max(1, AHEAD * sum(map(int, client.nthreads().values())))
 
     def check() -> None:
-        # Tasks may never be done if the client has lost its scheduler.
+        # Tasks may never finish if the client has lost its scheduler.
         if client.status == "closed":
             raise OSError("the scheduler does not answer any more")
 
@@ -106,7 +106,7 @@ def _future_of(task: Any) -> Future[None]:
         elif task.status == "error":
             solved.set_exception(_cause(task.exception()))
         elif task.status == "cancelled":
-            solved.set_exception(OSError("the cluster gave it up"))
+            solved.set_exception(OSError("the cluster cancelled a part"))
         else:
             # The task was finished, but is run again because its worker was lost.
             task.add_done_callback(on_done)
@@ -116,7 +116,7 @@ def _future_of(task: Any) -> Future[None]:
 
 
 def _cause(error: BaseException) -> BaseException:
-    """The error to raise for that of a task: an `OSError` for those of the cluster, after which finished parts stay."""
+    """The error to raise for that of a task: `OSError` if the cluster failed, so that finished parts are kept."""
     from distributed import KilledWorker
 
     return OSError("several workers died while solving the same part") if isinstance(error, KilledWorker) else error
@@ -137,9 +137,9 @@ def _worker_problem(job: Job, source: Path, size: int, version: str) -> str:
     if __version__ != version:
         return f"it has loiter {__version__}, not {version}"
     if not source.exists() or source.stat().st_size != size:
-        return f"it does not see {source}; workers need a file system in common with this machine"
+        return f"it does not see {source}; workers need a file system shared with this machine"
     if not belongs_to(job.folder, job.digest):
-        return f"it does not see {job.folder}; workers need a file system in common with this machine"
+        return f"it does not see {job.folder}; workers need a file system shared with this machine"
     if not os.access(job.folder, os.W_OK):
         return f"it cannot write to {job.folder}"
     return ""

@@ -95,7 +95,7 @@ def digest(description: dict[str, Any]) -> str:
 
 
 def belongs_to(folder: Path, job_digest: str) -> bool:
-    """Whether the folder is still that of the job with a digest."""
+    """Whether the folder still belongs to the job with this digest."""
     try:
         return sha256((folder / DESCRIPTION).read_bytes()).hexdigest() == job_digest
     except FileNotFoundError:
@@ -136,7 +136,7 @@ def _delete(folder: Path, patterns: tuple[str, ...]) -> None:
 
 
 def _remove(folder: Path) -> None:
-    """Remove the folder, unless it has files of others."""
+    """Remove the folder, unless it has files that no job wrote."""
     _delete(folder, (DESCRIPTION, LOCK))
     with suppress(OSError):
         folder.rmdir()

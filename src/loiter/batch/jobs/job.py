@@ -22,7 +22,7 @@ from loiter.version import __version__
 
 
 class JobProgress(NamedTuple):
-    """The progress of a job: the rows done of `total`, which is None while a CSV file is converted, or a note.
+    """The progress of a job: the rows done, of `total` (None while a CSV file is converted), or a note.
 
     A row that is solved but not yet written counts half.
     """
@@ -96,7 +96,7 @@ def run_request(request: JobRequest, workers: int, scheduler: str | None, report
         if not table.exists():
             _convert_csv(request, table, report)
         parts = files.parts_of(table, part_rows, cut=may_drift(request.columns))
-        # The folder is listed, since network file systems may cache that a name did not exist.
+        # The folder is listed, since network file systems may cache the fact that a name did not exist.
         whole = {path for path in folder.finished_parts(here) if is_whole(path)}
         finished = {part.number for part in parts if folder.part_path(here, part.number) in whole}
         _report_start(is_same_job, here, len(finished), len(parts), report)
@@ -134,7 +134,7 @@ def _sizes(request: JobRequest) -> tuple[int, int]:
 
 
 def _description(request: JobRequest) -> dict[str, Any]:
-    """The description of a job: a run resumes from the parts of an earlier one if theirs are equal."""
+    """The description of a job: a run resumes from the parts of an earlier run with an equal description."""
     stat, (part_rows, batch_rows) = request.source.stat(), _sizes(request)
     return {
         "program": __version__,
@@ -163,7 +163,7 @@ def _report_start(is_same_job: bool | None, here: Path, finished: int, parts: in
     if finished:
         report(JobProgress(0, None, f"resuming from {finished} of {parts} parts"))
     elif is_same_job is False:
-        note = f"starting over: the parts in {here.name} were of another input, option or program"
+        note = f"starting over: the parts in {here.name} belong to a job with another input, option or program"
         report(JobProgress(0, None, note))
 
 
@@ -197,7 +197,7 @@ def _write_output(
 
 @contextmanager
 def _report_finished_parts(here: Path) -> Iterator[None]:
-    """Add to the error of a job that stops which parts are finished."""
+    """If the job stops with an error, add a sentence about the finished parts."""
     try:
         yield
     except (OSError, pa.ArrowException) as error:

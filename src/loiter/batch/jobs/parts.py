@@ -33,7 +33,7 @@ class Job:
     """The data that solving a part needs, on this or another machine.
 
     `table` is the Parquet file to read, `folder` the folder of the parts, `schema` their schema; `digest` identifies
-    the job. `batch_rows` are solved at a time; `compiled` is that of `entries`, the same for every part.
+    the job. `batch_rows` are solved at a time; `compiled`, the same for every part, is passed to `entries`.
     """
 
     table: Path
@@ -69,7 +69,7 @@ def solve_part(job: Job, part: Part, count_rows: CountRows = lambda rows: None) 
 def keep_memory() -> None:
     """Make the C library reuse the memory of freed arrays for those of the next batch.
 
-    By default glibc returns large blocks to the operating system, so that every page of the next ones causes a page
+    By default glibc returns large blocks to the operating system, so that every page of the next blocks causes a page
     fault: a quarter of the time of a job. After a block has been freed, glibc keeps all blocks that are smaller
     (mallopt(3), M_MMAP_THRESHOLD). The block freed here is never written to, so it costs nothing.
     """

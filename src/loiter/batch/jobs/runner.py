@@ -22,7 +22,7 @@ class JobStopped(Exception):
 
 
 class RowCounter:
-    """The number of rows done, counted once when solved and once when appended, by several threads.
+    """The number of rows done; several threads count each row twice, when it is solved and when it is appended.
 
     When `stopped` is set, the next call of `count_or_stop` ends its thread.
     """
@@ -61,7 +61,7 @@ class Executors(NamedTuple):
 def thread_executors(workers: int, counter: RowCounter, *, append_only: bool, compiled: bool) -> Iterator[Executors]:
     """Executors in this process: `workers` threads that solve and append, or only append.
 
-    `compiled` is that of `Job`.
+    `compiled` is `Job.compiled`.
     """
     if not append_only:
         # Compiling is done here, since an interrupt does not reach other threads.

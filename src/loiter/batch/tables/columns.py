@@ -56,10 +56,10 @@ class SharedValues(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """The source of each quantity: its value in `shared`, by the name of its column, or otherwise that column.
+    """The source of each quantity: the value in `shared` under the name of its column or, without one, that column.
 
-    `limit` is the name of the turn limit; `turn` is None if a column gives it. With `text` the numbers are text, and
-    the last column of the table marks malformed lines.
+    `limit` is the name of the turn limit; `turn` is None if a column gives it. If `text` is true, the numbers are text,
+    and the last column of the table marks malformed lines.
     """
 
     shared: Mapping[str, float]
@@ -110,7 +110,7 @@ def _aircraft_numbers(aircraft: Aircraft | Mapping[str, float] | None) -> dict[s
     for name in given:
         if name not in names:
             raise InvalidArgument("aircraft", f"has no {name!r}; it has {', '.join(names)}")
-    # `Aircraft` checks the given values; 1 stands for those that columns give.
+    # `Aircraft` checks the given values; 1 replaces the values that columns give.
     limits = {name: value for name, value in given.items() if name != AIRSPEED} or {"min_turn_radius_m": 1.0}
     Aircraft(given.get(AIRSPEED, 1.0), **limits)
     return {name: float(value) for name, value in given.items()}

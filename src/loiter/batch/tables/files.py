@@ -26,7 +26,7 @@ BATCH_ROWS = 1 << 16
 READ_BYTES = 1 << 20
 
 
-# The same for rows in wind, which take a thousand times as long: half a minute a part.
+# The rows of a part and of a batch in wind, where a row takes a thousand times as long: half a minute a part.
 PART_ROWS_IN_WIND = 1 << 16
 BATCH_ROWS_IN_WIND = 1 << 12
 

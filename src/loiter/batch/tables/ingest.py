@@ -44,7 +44,7 @@ def csv_schema(argument: str, path: Path) -> pa.Schema:
 def ingest(argument: str, path: Path, schema: pa.Schema, out: Path, count_rows: Callable[[int], None]) -> None:
     """Convert the CSV file at `path` to a Parquet file at `out`, which appears whole.
 
-    A line that is not UTF-8, or has not as many fields as the header, becomes a row of nulls that is marked as
+    A line that is not UTF-8, or that has more or fewer fields than the header, becomes a row of nulls marked as
     malformed. `count_rows` is called with the number of rows of each batch. Raises `InvalidArgument` if the file cannot
     be read.
     """
@@ -87,8 +87,8 @@ class MalformedLines:
     def merge_into(self, batches: Iterable[pa.RecordBatch]) -> Iterator[pa.RecordBatch]:
         """The rows of `batches` with a row of nulls for each malformed line.
 
-        The parser is ahead of the batches. A run is merged when the present batch has a good row after it: the run is
-        then complete, and the result does not depend on how far ahead the parser is.
+        pyarrow parses lines before it returns their batch. A run is merged once the present batch has a good row after
+        it: the run is then complete, and the result does not depend on how far ahead pyarrow has parsed.
         """
         row = 0
         for batch in batches:

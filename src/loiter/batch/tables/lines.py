@@ -54,7 +54,7 @@ class RepairedLines(io.RawIOBase):
 def repaired_lines(stream: Any, fields: int) -> Iterator[bytes]:
     """The bytes of `stream` in whole lines; a line with an unclosed quote is replaced by one of `fields` + 1 fields.
 
-    A last line without a line end gets one, since pyarrow takes a header without a line end for an empty file.
+    A last line without a line end gets one, since pyarrow treats a header without a line end as an empty file.
     """
     rest, end = b"", b""
     while chunk := stream.read(CHUNK_BYTES):
@@ -79,7 +79,7 @@ def _line_end(text: bytes) -> bytes:
 
 
 def _repair(text: bytes, end: bytes, fields: int, *, last: bool) -> tuple[bytes, bytes]:
-    """The repaired lines of a text, and its lines from a quote that may be closed later; none if `last`."""
+    """The repaired lines, and the remaining ones from a quote that may be closed later; none remain if `last`."""
     unbalanced = _unbalanced_lines(text, end)
     if not unbalanced:
         return text, b""
@@ -109,7 +109,7 @@ def _unbalanced_lines(text: bytes, end: bytes) -> list[int]:
 
 
 def _record(lines: list[bytes]) -> tuple[int | None, int]:
-    """The number of fields of the record that begins with the first line, None if it does not end, and of its lines."""
+    """Number of fields (None if it does not end) and number of lines of the record that begins with the first line."""
     # An additional line shows whether the last one leaves a quote open. latin-1 decodes any bytes.
     reader = csv.reader(chain((line.decode("latin-1") + "\n" for line in lines), ["\n"]))
     try:

@@ -22,7 +22,7 @@ Write = Callable[[pa.Table], None]
 # The level of gzip: a fifth of the time of the usual 6, for a fourteenth more bytes.
 LEVEL = 1
 
-# A column is written with a dictionary if the dictionary in the input made it smaller than this share.
+# A column gets a dictionary if its dictionary in the input reduced its size below this share of the plain size.
 DICTIONARY_SHARE = 0.5
 
 _WIDTHS = {"BOOLEAN": 1, "INT32": 4, "FLOAT": 4, "INT64": 8, "DOUBLE": 8, "INT96": 12}
@@ -35,7 +35,7 @@ def output_schema(schema: pa.Schema) -> pa.Schema:
 
 
 def part_schema(schema: pa.Schema) -> pa.Schema:
-    """The columns of a part: without dictionaries, since an Arrow file has one a column and the input may have more."""
+    """The columns of a part, without dictionaries: an Arrow file can have only one per column, the input several."""
     kept = [pa.field(field.name, values_type(field.type)) for field in output_schema(schema)]
     return pa.schema([*kept[: -len(ADDED)], *ADDED])
 
@@ -67,7 +67,7 @@ def open_output(kind: Kind, path: Path, schema: pa.Schema, dictionaries: list[st
 
 @contextmanager
 def _parquet(path: Path, schema: pa.Schema, dictionaries: list[str]) -> Iterator[Write]:
-    # A dictionary of arbitrary doubles would take as long as all the other work, and make the file larger.
+    # A dictionary of arbitrary doubles would take as long as all the other work, and enlarge the file.
     writer = pq.ParquetWriter(path, schema, compression="snappy", use_dictionary=dictionaries)
     try:
         yield lambda table: writer.write_table(table.cast(schema))

@@ -1,6 +1,6 @@
-"""NumPy arrays that share memory with Arrow columns, and the converse.
+"""Conversion between NumPy arrays and Arrow columns that share their memory.
 
-pyarrow's own conversions import pandas, which takes longer than to solve a small table.
+pyarrow's own conversions import pandas, which takes longer than solving a small table.
 """
 
 from __future__ import annotations

@@ -54,7 +54,7 @@ def batch(
         Parameter(
             group=shared,
             metavar="SPEED FROM",
-            help="Metres per second, and the compass direction the wind comes from; still air if absent.",
+            help="Wind speed, metres per second, and the direction that it comes from; still air if absent.",
         ),
     ] = None,
     orbit_velocity: Annotated[
@@ -62,7 +62,7 @@ def batch(
         Parameter(
             group=shared,
             metavar="EAST NORTH",
-            help="How the circle moves over the ground, metres per second; at rest if absent.",
+            help="Velocity of the circle over the ground, metres per second; at rest if absent.",
         ),
     ] = None,
     tolerance: Annotated[
@@ -70,12 +70,12 @@ def batch(
         Parameter(
             group=work,
             metavar="METRES",
-            help="As for loiter plan: distance by which a start may miss the last arc in still air.",
+            help="In still air: a start up to this many metres beyond the last arc counts as on it, as in loiter plan.",
         ),
     ] = 0.0,
     workers: Annotated[
         int | None,
-        Parameter(group=work, metavar="N", converter=whole, help="Number of threads; that of the cores if absent."),
+        Parameter(group=work, metavar="N", converter=whole, help="Number of threads; the number of cores if absent."),
     ] = None,
     scheduler: Annotated[
         str | None,

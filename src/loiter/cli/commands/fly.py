@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 SimulatorName = Literal["kinematic", "point", "jsbsim"]
 LawName = Literal["optimal", "l1", "vector-field", "tangent"]
 
-# The defaults of --airframe and --gust, which are absent where they would have no effect.
+# The defaults of --airframe and --gust, used only if the options have an effect.
 AIRFRAME, GUST = "aerosonde", 0.05
 
 simulation = Group("Simulation", sort_key=0)
@@ -68,7 +68,7 @@ class SimulationOptions:
         Parameter(
             group=simulation,
             metavar="SHARE",
-            help="Dryden gusts: their standard deviation over the airspeed, 0.05 if absent. From 0.1 on, settled means within 10 % of the radius and 10 degrees, otherwise 5 and 5.",
+            help="Dryden gusts: their standard deviation over the airspeed, 0.05 if absent. Settled means within 5 % of the radius and 5 degrees; from a share of 0.1 on, 10 % and 10 degrees.",
         ),
     ] = None
     runs: Annotated[
@@ -77,7 +77,7 @@ class SimulationOptions:
             group=simulation,
             metavar="N",
             converter=whole,
-            help="Fly from N random starts within 6 radii of circles of 1.2 to 4 times the tightest that can be held, instead of from --pose.",
+            help="Fly from N random starts instead of --pose: within 6 radii of circles with 1.2 to 4 times the smallest radius that can be held.",
         ),
     ] = None
     seed: Annotated[
@@ -158,7 +158,7 @@ def fly(
         _fly_once(trial, simulated.setting(), simulated.laws, plot, save)
         return
     if (start, circle) != (StartOptions(), OrbitOptions()):
-        raise InvalidArgument("runs", "asks for random starts and circles: --pose and --orbit have no effect")
+        raise InvalidArgument("runs", "selects random starts and circles: --pose and --orbit have no effect")
     starts = campaign.trials(simulated.runs, simulated.seed, simulated.aircraft(uav), air.moving_air)
     _fly_many(starts, simulated.setting(), simulated.laws, simulated.workers, save)
 
@@ -208,7 +208,7 @@ def _time_line(flight: Flight) -> Iterator[str]:
             yield f"{time_s:6.1f} s  {phase}, bank {round(bank)} deg"
         previous = phase
     yield (
-        f"{flight.settled_s:6.1f} s  settled: the full turn within the band begins"
+        f"{flight.settled_s:6.1f} s  settled: start of a full turn within the band"
         if flight.settled
         else "Not settled."
     )

@@ -45,7 +45,7 @@ Connect = Annotated[
     Parameter(
         group=connection,
         metavar="LINK",
-        help="udpout:HOST:PORT, udpin:HOST:PORT, tcp:HOST:PORT, or a serial device as /dev/ttyUSB0,57600.",
+        help="udpout:HOST:PORT, udpin:HOST:PORT, tcp:HOST:PORT, or a serial device such as /dev/ttyUSB0,57600.",
     ),
 ]
 System = Annotated[
@@ -65,7 +65,7 @@ TrueRadius = Annotated[
     bool,
     Parameter(
         group=connection,
-        help="ArduPlane widens loiters with the altitude if its NAVL1_LIM_BANK is 0: send the radius for which it flies the desired one.",
+        help="If its NAVL1_LIM_BANK is 0, ArduPlane flies wider loiters at higher altitude: send the radius that makes it fly the desired one.",
     ),
 ]
 
@@ -94,7 +94,7 @@ def upload(
     waypoints: MissionOptions = MissionOptions(),
 ) -> None:
     """Send the fastest entry to a vehicle as a mission, and read it back, item by item, to verify it."""
-    # Before anything is planned and printed.
+    # These checks come before anything is planned or printed.
     check_connection(connect)
     check_target(system, 1, timeout)
     options = (pose, circle, uav, air, waypoints)
@@ -128,7 +128,7 @@ def upload(
 def _plan_mission(
     pose: StartOptions, circle: OrbitOptions, uav: AircraftOptions, air: WindOptions, waypoints: MissionOptions
 ) -> Callable[[int], Mission]:
-    """A function that makes the scene's fastest entry a mission for an autopilot; prints the entry."""
+    """Print the scene's fastest entry; returns a function that converts it to a mission for an autopilot."""
     if pose.pose_lla is None or not circle.orbit_lla:
         raise InvalidArgument("pose_lla", "and --orbit-lla are needed: a vehicle's mission is in degrees")
     if uav.altitude is None:
@@ -233,7 +233,7 @@ def watch(
         sys.stdout.flush()
 
 
-# A wind below this, which would be shown as 0.0, is left out; directions whose times differ by less count as equal.
+# A wind below the first, which would be shown as 0.0, is left out; times that differ by less than the second are equal.
 LEAST_WIND_M_S, SAME_TIME_S = 0.05, 0.05
 
 

@@ -36,7 +36,7 @@ Tolerance = Annotated[
     Parameter(
         group=scene,
         metavar="METRES",
-        help="In still air: a start up to this many metres beyond the last arc counts as on it, so that noise does not send the aircraft round again.",
+        help="In still air: a start up to this many metres beyond the last arc counts as on it, so that noise does not add a full turn.",
     ),
 ]
 All = Annotated[bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")]
@@ -91,7 +91,7 @@ def plan(
     first, *ties = best
     shown = best if all_ else [first]
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
-    # The file comes before the picture: it has more requirements, and an error leaves neither.
+    # The file is written before the picture: it has more requirements, and if it fails, neither is left.
     if save is not None:
         _save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot])
     if plot is not None:

@@ -45,7 +45,7 @@ def synthesis(
         Path | None, Parameter(metavar="FILE", help="Write the map and the curves as arrays: .npz.")
     ] = None,
 ) -> None:
-    """Map the optimal synthesis of the reduced plane: which word wins where, and the curves between the regions."""
+    """Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between them."""
     _check_options(turn, show, plot, save)
     regions = partition(radius, turn, reach=reach, cells=cells)
     curves = boundaries(regions)

@@ -17,10 +17,10 @@ CELLS = (40, 80)
 
 Method = Literal["search", "digits", "collocation", "reachability", "wind"]
 
-# The methods that run where none is named. The search in wind takes half a second for a problem, so it must be named.
+# The methods that run if none is named. The search in wind takes half a second per problem, so it must be named.
 DEFAULTS: tuple[Method, ...] = ("search", "digits", "collocation", "reachability")
 
-# Random problems where no number is given, in still air and in wind.
+# Number of random problems if none is given, in still air and in wind.
 STATES, WINDY_STATES = 2000, 20
 
 
@@ -39,11 +39,11 @@ def verify(
         Parameter(
             metavar="N",
             converter=whole,
-            help=f"Random problems of the search, and states of the digits ({STATES} if absent); problems in wind "
+            help=f"Number of random problems: for search and for digits ({STATES} if absent), and for wind "
             f"({WINDY_STATES} if absent).",
         ),
     ] = None,
-    cases: Annotated[int, Parameter(metavar="N", converter=whole, help="Random problems of the collocation.")] = 50,
+    cases: Annotated[int, Parameter(metavar="N", converter=whole, help="Random problems for collocation.")] = 50,
     seed: Annotated[int, Parameter(metavar="N", converter=whole, help="The same seed draws the same problems.")] = 0,
     witness: Annotated[
         list[Method] | None, Parameter(metavar="NAME", help="Compare with this method only; may be repeated.")

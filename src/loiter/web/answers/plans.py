@@ -44,7 +44,7 @@ def _plan_document(placed: PlacedProblem, best: Sequence[Maneuver], others: Sequ
 
 
 def _other_turn_later_s(maneuvers: Sequence[Maneuver]) -> float | None:
-    """How much later than the first the best maneuver of the other direction joins, seconds; None without one."""
+    """Seconds by which the best maneuver of the other direction joins later than the first; None without one."""
     first, *others = maneuvers
     other = next((m for m in others if m.turn != first.turn), None)
     return None if other is None else other.duration_s - first.duration_s

@@ -19,7 +19,7 @@ DEFAULT_CELLS = 160
 # Maps in the cache: some 16 MB at most.
 CACHED_MAPS = 32
 
-# The index of a cell where no word wins, for example where coordinates are too large for double precision.
+# The index of a cell without a fastest word, for example where coordinates are too large for double precision.
 NO_WORD = -1
 
 

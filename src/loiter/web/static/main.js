@@ -26,7 +26,7 @@ const latency = createLatency(store);
 const actions = createActions(store, requests, latency);
 const camera = createCamera(store);
 
-// The order of watchers: the theme before what is painted in its colours, the plan first of all views.
+// The order of watchers: first the theme, whose colours the views use, then the plan, then the other views.
 themeSwitch(store);
 planView(store, actions, camera);
 latency.measure();

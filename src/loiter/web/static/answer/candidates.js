@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * The list of candidates: the optimal maneuvers, then the others with what they cost.
+ * The list of candidates: the optimal maneuvers, then the others with how much later they join.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/page_state.js").PageState} PageState

@@ -52,7 +52,7 @@ function setFact(id, value, note = "") {
   byId(id, HTMLElement).replaceChildren(value, ...(note ? [html("small", {}, [note])] : []));
 }
 
-/** What a hold in the other direction costs. @param {Answer} answer */
+/** How much later a hold in the other direction is joined. @param {Answer} answer */
 function otherDirectionText({ other_turn_later_s }) {
   if (other_turn_later_s === null) return "cannot be held";
   if (Math.abs(other_turn_later_s) < TIE_S) return "the same time";

@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * The message over the plan view, and a scene without a plan: the page says why, disables what would use the plan, and
- * shows the previous plan faintly.
+ * The message over the plan view, and a scene without a plan: the page says why, disables everything that needs the
+ * plan, and shows the previous plan faintly.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
@@ -51,7 +51,7 @@ export function failureView(store, actions, requests) {
 }
 
 /**
- * Stop a click on a disabled button. Returns whether it was one.
+ * Stop a click on a disabled button. Returns whether the button was disabled.
  *
  * @param {Event} event
  */

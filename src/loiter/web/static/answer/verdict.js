@@ -17,7 +17,7 @@ export function verdictView(store) {
     ({ failure, faults, proof }) => [failure, faults.certificate, proof],
     (state) => {
       const { kind, text } = verdictOf(state);
-      // While the next verdict is on its way the last one stays, faint.
+      // Until the next verdict arrives, the last one stays visible, drawn faintly.
       if (kind !== "waiting" || verdict.className === "unchecked") verdict.textContent = text;
       if (kind === "waiting") verdict.classList.add(kind);
       else verdict.className = kind;

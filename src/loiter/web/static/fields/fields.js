@@ -22,7 +22,7 @@ import { sceneFields } from "./scene_fields.js";
 /**
  * @param {Store} store
  * @param {Actions} actions
- * @param {PlanCamera} camera  follows a scene that is typed
+ * @param {PlanCamera} camera  keeps the scene in view after a number is typed
  * @returns {Fields}
  */
 export function createFields(store, actions, camera) {

@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * Fields for numbers and choices. A text that is no number, or a number that the service refuses, is marked, with a
- * sentence below the field. Until it is corrected the previous number stays in use.
+ * Fields for numbers and choices. If a text is not a number, or the service refuses the number, the field is marked,
+ * with a sentence below it. Until the text is corrected, the previous number stays in use.
  *
  * @typedef {import("../shared/types.js").Units} Units
  * @typedef {import("../shared/units.js").Quantity} Quantity
@@ -72,7 +72,7 @@ class NumberField {
     const suffix = input.nextElementSibling;
     if (suffix) suffix.textContent = name;
     const value = source.get();
-    // A text that is being typed, or is wrong, stays until something else changes the number.
+    // While a text is being typed, or is wrong, it stays until something else changes the number.
     if (value === this.known && (this.textError !== "" || this.hasFocus())) return this.mark();
     [this.textError, this.known] = ["", value];
     this.mark();
@@ -93,7 +93,7 @@ class NumberField {
     return document.activeElement === this.input;
   }
 
-  /** Take over what is typed. @param {Event} event */
+  /** Use the number that is typed. @param {Event} event */
   read(event) {
     const { input, source } = this;
     const isEmpty = source.optional && input.value.trim() === "";

@@ -13,7 +13,7 @@ import { piecesOf } from "../shared/maneuver.js";
 import { decimalsOfStep, fixed, roundStep } from "../shared/units.js";
 
 const LEAST_SPACING_PX = 60;
-const EDGE_PX = 18; // nearer to the edge a number would be cut
+const EDGE_PX = 18; // a number nearer to the edge would be cut
 
 /** The spacing of the numbers. @param {View} view */
 export const stepOf = (view) => roundStep(LEAST_SPACING_PX / view.scale);

@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * The map of the reduced plane: the word that wins in each region, the curves between the regions, and the state of the
+ * The map of the reduced plane: the fastest word in each region, the curves between the regions, and the state of the
  * aircraft (Fig. 4 of the paper).
  *
  * @typedef {import("../state/store.js").Store} Store

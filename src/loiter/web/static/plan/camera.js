@@ -81,7 +81,7 @@ export function showOpenedScenes(store, camera) {
     ({ opening, answeredRevision, failure }) => {
       if (!opening || answeredRevision < opening.revision) return;
       camera.fit();
-      // The answer that comes later must be shown whole, too.
+      // The later answer must also be shown whole.
       if (failure?.name === "unreachable") return;
       if (opening.span) camera.showSpan(opening.span);
       store.update({ opening: null });
@@ -112,7 +112,7 @@ function marginsOf({ width, height }) {
 }
 
 /**
- * Points of all that a view should show: aircraft, circle, optimal paths.
+ * Points of everything that a view should show: aircraft, circle, optimal paths.
  *
  * @param {{scene: Scene, answer: Answer | null}} state
  * @returns {Point[]}

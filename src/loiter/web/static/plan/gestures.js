@@ -75,7 +75,7 @@ function followPointers(root, camera) {
     const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
     camera.move(movedView(camera.view(), from, to, other));
   });
-  // The browser takes the move for scrolling: its first pixels were not meant for the view.
+  // The browser uses the move for scrolling: undo the pan of its first pixels.
   root.addEventListener("pointercancel", (event) => pointers.has(event.pointerId) && pointers.size === 1 && goBack());
   for (const end of POINTER_ENDS) root.addEventListener(end, (event) => pointers.delete(event.pointerId));
   // Two fingers always move the view, also up and down.

@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * The handles on the plan view, the lever to the handle of the heading, and the dial of the wind.
+ * The handles on the plan view, the line to the handle of the heading, and the dial of the wind.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
@@ -23,7 +23,7 @@ export function createHandles(root, layer, store, actions) {
   const stage = () => stageOf(store);
   const lever = svg("path", { class: "lever" });
   const dial = windDial();
-  // Later ones lie on top: the aircraft can always be reached.
+  // Later handles lie on top, so that the aircraft can always be reached.
   const handles = [CENTRE, radiusHandle(), WIND, HEADING, AIRCRAFT].map((handle) => ({
     handle,
     group: svg("g", { id: handle.id }, handle.parts),

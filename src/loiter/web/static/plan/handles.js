@@ -136,7 +136,7 @@ export const CENTRE = {
 
 /**
  * The handle of the radius. It may be anywhere on the circle, but never too near to the centre: on a tiny circle it
- * lies outside, by as many pixels as a drag must not add to the radius.
+ * lies outside, by a distance in pixels that a drag must not add to the radius.
  *
  * @returns {Handle}
  */

@@ -74,7 +74,7 @@ function watchScene(root, layers, store, actions) {
       layers.circle.replaceChildren(...drawCircle(camera.view, scene, answer));
     },
   );
-  // Not after a change of the scene: the paths wait for its answer.
+  // Not after a change of the scene: the paths are drawn when its answer arrives.
   store.watch(
     ({ camera, answer }) => [camera, answer],
     (state) => drawPaths(layers, state, actions.highlight),

@@ -14,8 +14,8 @@ import { headingOf, pointAt, unitVector } from "../shared/geometry.js";
 import { fixed, quantityText, tidy } from "../shared/units.js";
 import { handleParts } from "./handles.js";
 
-const DIAL_PX = { small: 28, large: 42 }; // radius: half the airspeed
-const NARROW_PX = 500; // views that get the small dial
+const DIAL_PX = { small: 28, large: 42 }; // radius; it stands for half the airspeed
+const NARROW_PX = 500; // narrower views get the small dial
 const RIGHT_PX = 64; // from the middle to the edge: half the width of the longest label
 
 /** The radius of the dial, pixels. @param {View} view */

@@ -20,7 +20,7 @@ export class Unreachable extends Problem {
   /**
    * @param {string} headline
    * @param {string} sentence
-   * @param {number} [wait_s]  how long it asks clients to wait
+   * @param {number} [wait_s]  how long the service asks clients to wait
    */
   constructor(headline, sentence, wait_s = 0) {
     super(sentence);
@@ -29,7 +29,7 @@ export class Unreachable extends Problem {
   }
 }
 
-// Too many requests; and what a proxy or the service answers when it is absent or too busy.
+// Statuses of too many requests, and of a service that is absent or too busy; a proxy may send them too.
 const TEMPORARY = [429, 502, 503, 504];
 
 /**
@@ -48,7 +48,7 @@ export async function problemOf(response) {
 /** The seconds that a response asks clients to wait; 0 if it names a date instead. @param {Response} response */
 const waitOf = (response) => Number(response.headers.get("Retry-After")) || 0;
 
-// The service answers within a minute, if only with 503.
+// The service answers within a minute, with 503 if the answer takes longer.
 const TIMEOUT_MS = 70_000;
 
 /**
@@ -114,7 +114,7 @@ async function read(response, content) {
 }
 
 /**
- * A queue of one: while a request is under way, only the newest of the following questions waits. So the service never
+ * A queue of one: while a request is under way, only the newest later question is kept. So the service never
  * works on more than one state of a drag, and the last state always gets its answer.
  *
  * @template Question, Answer

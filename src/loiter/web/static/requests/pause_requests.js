@@ -44,11 +44,11 @@ export function certificateRequest(store, retries) {
   };
 }
 
-const CELLS = 280; // along a side: 1.5 pixels each; the curves cover the steps between them
+const CELLS = 280; // along a side: 1.5 pixels each; the curves cover the steps between cells
 
 /**
- * A function that requests the map for a plan, unless it is shown already. An answer that is no longer wanted is
- * dropped.
+ * A function that requests the map for a plan, unless it is shown already. An answer for a map that is no longer needed
+ * is dropped.
  *
  * @param {Store} store
  * @param {Retries} retries
@@ -87,7 +87,7 @@ export function mapRequest(store, retries) {
  */
 function mapOptions(scene, { reduced }) {
   const { turn } = scene.orbit;
-  // The ratio of a circle of the turn radius may be off by rounding; the map needs at least 1.
+  // R of a circle of the turn radius may be below 1 by rounding; the map needs at least 1.
   const radius = Math.max(1, Number(reduced.radius.toFixed(3)));
   const options = { radius: String(radius), turn, reach: String(reachFor(radius, reduced)), cells: String(CELLS) };
   return {

@@ -1,7 +1,7 @@
 // @ts-check
 /**
  * The progress of the requests as data attributes of the plan view, for which tests and measurements wait; and the
- * delay from a move of the pointer to the path that it asks for, as entries "move to path" of the browser's performance
+ * delay from a move of the pointer to the drawing of its path, as entries "move to path" of the browser's performance
  * timeline.
  *
  * @typedef {import("../state/store.js").Store} Store
@@ -28,13 +28,13 @@ export function publishProgress(store) {
 /** @param {Store} store */
 export function createLatency(store) {
   /** @type {{revision: number, time_ms: number}[]} */
-  let moves = []; // whose path is not drawn yet
+  let moves = []; // of the pointer, whose path is not drawn yet
 
   return {
     /** @param {number} revision @param {PointerEvent} event */
     moved: (revision, event) => moves.push({ revision, time_ms: event.timeStamp }),
 
-    /** Start after the plan view, so that the path is drawn when the delay is taken. */
+    /** Start after the plan view, so that the path is drawn when the delay is measured. */
     measure: () =>
       store.watch(
         ({ answeredRevision }) => [answeredRevision],

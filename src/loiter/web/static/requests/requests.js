@@ -1,7 +1,7 @@
 // @ts-check
 /**
  * The requests of the page. Each change of the scene requests a plan; its certificate and map are requested when the
- * drag pauses. In wind the same holds for the slower candidates, because they take longer than a frame.
+ * drag pauses. In wind the slower candidates are also requested then, because they take longer than a frame.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/page_state.js").PageState} PageState

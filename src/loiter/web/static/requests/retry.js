@@ -9,7 +9,7 @@ import { Unreachable } from "./api.js";
 /** Seconds before each attempt: two minutes in total. */
 const WAITS_S = [1, 2, 4, 8, 15, 30, 30, 30];
 
-const LONGEST_S = 60; // that a busy service may demand
+const LONGEST_S = 60; // longest wait that a busy service may demand
 
 /**
  * @typedef {object} Attempt
@@ -19,9 +19,9 @@ const LONGEST_S = 60; // that a busy service may demand
  *
  * @typedef {object} Retries
  * @property {(least_s: number) => Attempt | null} plan  plan an attempt, unless one is planned; null if none is left
- * @property {() => void} now  ask at once, and count from the beginning
- * @property {() => void} cancel  the planned attempt: the service has answered; the count goes on
- * @property {() => void} reset  the count: the service has answered everything
+ * @property {() => void} now  make an attempt at once, and count from the beginning
+ * @property {() => void} cancel  drop the planned attempt, because the service has answered; keep the count
+ * @property {() => void} reset  reset the count, because the service has answered everything
  */
 
 /**

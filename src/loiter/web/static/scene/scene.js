@@ -22,13 +22,13 @@ export const withWind = (scene, wind) => ({ ...scene, wind: wind.speed_m_s === 0
 export const orbitMoves = ({ orbit }) => orbit.velocity_east_m_s !== 0 || orbit.velocity_north_m_s !== 0;
 
 /**
- * Whether the air or the circle moves. Then a plan takes a search, and the state does not reduce to a plane.
+ * Whether the air or the circle moves. Then a plan needs a search, and the state does not reduce to a plane.
  *
  * @param {Scene} scene
  */
 export const drifts = (scene) => scene.wind !== null || orbitMoves(scene);
 
-// The ratio of a circle of the turn radius is off 1 by rounding only.
+// R of a circle of the turn radius differs from 1 only by rounding.
 const ROUNDING = 1e-9;
 
 /**

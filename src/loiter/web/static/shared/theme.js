@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * Light or dark: the theme of the system, until the user switches.
+ * The light or dark theme: that of the system, until the user switches.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/page_state.js").Theme} Theme

@@ -99,7 +99,7 @@
  * @property {number[]} x
  * @property {number[]} y
  * @property {string[]} words
- * @property {number[][]} region  rows of y; index of the winning word, or -1
+ * @property {number[][]} region  rows of y; index of the fastest word, or -1
  * @property {Curve[]} curves
  *
  * @typedef {"metric" | "aviation"} Units

@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * Units and formats of the numbers that are shown and typed. Everywhere else are metres, seconds and degrees.
+ * Units and formats of the numbers that are shown and typed. All other code uses metres, seconds and degrees.
  *
  * @typedef {import("./types.js").Units} Units
  * @typedef {"length" | "speed" | "degrees" | "rate"} Quantity
@@ -78,7 +78,7 @@ export function fixed(value, decimals) {
 }
 
 /**
- * The number of decimals for a scene with a circle of this radius: as the command line has it, and none for feet.
+ * The number of decimals for a scene with a circle of this radius: as on the command line, but none for feet.
  *
  * @param {number} radius_m
  * @param {Units} units
@@ -112,7 +112,7 @@ export function quantityText(value, quantity, units, decimals) {
 export const sixDigits = (value) => Number(value.toPrecision(6));
 
 /**
- * The size of a difference of times, with three digits as on the command line.
+ * A difference of times without its sign, with three digits as on the command line.
  *
  * @param {number} seconds
  */

@@ -31,7 +31,7 @@
  * @property {"refused" | "unreachable"} name
  * @property {string} headline
  * @property {string} sentence
- * @property {Attempt | null} attempt  the next one, if the service is asked again
+ * @property {Attempt | null} attempt  the next attempt, if there is one
  *
  * @typedef {object} Fault  the reason why a certificate or a map is missing
  * @property {string} sentence
@@ -40,7 +40,7 @@
  * @typedef {object} MapOptions  the map that belongs to a plan
  * @property {string} title
  * @property {string} query
- * @property {boolean} drifts  whether the map, which is for still air, only resembles the scene
+ * @property {boolean} drifts  whether air or circle move, so that the map, which is for still air, is not exact
  *
  * @typedef {object} Playback
  * @property {boolean} playing
@@ -59,11 +59,11 @@
  * @property {number} radiusBearing_deg  the position on the circle of the handle for its radius
  * @property {Opening | null} opening
  * @property {number} revision  number of the newest request for a plan
- * @property {number} answeredRevision  number of the newest one that was answered or has failed
- * @property {number} pausedRevision  number of the newest one after which a drag has paused
+ * @property {number} answeredRevision  number of the newest request that was answered or has failed
+ * @property {number} pausedRevision  number of the newest request after which a drag has paused
  * @property {Record<"plan" | "certificate" | "map", Status>} requests
  * @property {Answer | null} answer  the newest plan
- * @property {boolean} complete  whether it has every candidate, or only the best of each direction
+ * @property {boolean} complete  whether the answer has every candidate, or only the best of each direction
  * @property {Failure | null} failure
  * @property {Answer | null} announced  the plan of the last pause: its text is read out and can be copied
  * @property {Proof | null} proof  the certificate of the plan
@@ -133,7 +133,7 @@ export function isSettled({ revision, pausedRevision, failure, requests }) {
   return failure !== null || (done(requests.certificate) && done(requests.map));
 }
 
-/** The state of the ghost; null while it rests at the start. @param {PageState} state */
+/** The state of the ghost (the moving copy of the aircraft); null while it is at the start. @param {PageState} state */
 export function ghostOf(state) {
   const { answer, playback } = state;
   const time = shownTime(state);

@@ -53,7 +53,7 @@ function watchPlan(root, { back, strip, lines, ticks }, store) {
   store.watch(
     ({ proof, timelineWidth }) => [proof, timelineWidth],
     ({ proof }) => {
-      // The lines of the previous certificate stay, faint.
+      // The lines of the previous certificate stay visible, drawn faintly.
       root.classList.toggle("unproved", proof === null);
       if (!proof) return;
       const drawn = drawSeries(proof, scaleNow(store));
