@@ -13,7 +13,7 @@ from benchmarks import peers, plain
 from benchmarks.timing import least_times
 from loiter import Aircraft, Orbit, Pose
 from loiter.compiled import ufuncs
-from loiter.kernel.codes import Side
+from loiter.kernel.words import Side
 from loiter.verify.checks import wind_scan_check
 
 COUNT = 4_000_000

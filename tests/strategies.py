@@ -5,8 +5,8 @@ from math import atan2, cos, degrees, hypot, pi, sin, sqrt
 from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind
-from loiter.kernel.codes import Side
 from loiter.kernel.synthesis import rounding
+from loiter.kernel.words import Side
 
 coordinates = st.one_of(
     st.floats(-4.0, 4.0),

@@ -9,8 +9,8 @@ from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.arrays.entries import BLOCK, UNKNOWN, States, entries
 from loiter.errors import LoiterError
 from loiter.kernel import wind_search
-from loiter.kernel.codes import Side, Status
-from loiter.kernel.words import Word
+from loiter.kernel.statuses import Status
+from loiter.kernel.words import Side, Word
 from loiter.planning.model import TURN_LIMITS
 from loiter.planning.sides import SIDES
 

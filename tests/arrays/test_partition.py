@@ -8,7 +8,7 @@ import pytest
 import loiter
 from loiter.arrays.partition import Partition, boundaries, partition, worth
 from loiter.errors import InvalidArgument
-from loiter.kernel.switching import beyond_first_circle, beyond_last_circle, switching_abscissa
+from loiter.kernel.switching_curves import beyond_first_circle, beyond_last_circle, switching_abscissa
 from loiter.kernel.synthesis import rounding
 from loiter.kernel.words import Word
 

@@ -10,9 +10,9 @@ from golden.paper import EXAMPLES
 from loiter import Aircraft, Orbit, Pose, plan
 from loiter.arrays import Solution
 from loiter.errors import InvalidArgument
-from loiter.kernel.codes import Side, Status
+from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import duration, first_control, miss, optimum
-from loiter.kernel.words import Word
+from loiter.kernel.words import Side, Word
 
 RANDOM = np.random.default_rng(7)
 X, Y = RANDOM.uniform(-12.0, 12.0, (2, 3000))

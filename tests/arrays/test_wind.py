@@ -9,7 +9,8 @@ import loiter
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.arrays import wind as arrays
 from loiter.errors import InvalidArgument
-from loiter.kernel.codes import Side, Status
+from loiter.kernel.statuses import Status
+from loiter.kernel.words import Side
 
 random = np.random.default_rng(5)
 STATES = [random.uniform(-6.0, 6.0, 12), random.uniform(-6.0, 6.0, 12), random.uniform(0.0, 7.0, 12)]

@@ -10,8 +10,9 @@ import pytest
 
 from loiter.compiled import ufuncs
 from loiter.kernel import motion
-from loiter.kernel.codes import Side, Status
+from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import duration, first_control, miss, optimum, rounding, status_of
+from loiter.kernel.words import Side
 
 RADII = (1.0, 1.0, 1.0 + 1e-6, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 30.0)
 THREE = np.empty(3)

@@ -16,9 +16,8 @@ from loiter.kernel.adjoint import (
     switching_function,
     turn_adjoint,
 )
-from loiter.kernel.codes import Side
 from loiter.kernel.synthesis import Entry, optimum
-from loiter.kernel.words import Word, mirrored
+from loiter.kernel.words import Side, Word, mirrored
 from strategies import controls, coordinates, one_way, radii, sides
 
 CONTROLS = {"L": 1.0, "S": 0.0, "R": -1.0}

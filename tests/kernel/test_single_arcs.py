@@ -4,11 +4,10 @@ from math import cos, inf, pi, sin
 
 import pytest
 
-from loiter.kernel.codes import Side
 from loiter.kernel.extremals import duration, extremals, fastest, l, left_first, r, right_first, start_at
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import optimum, rounding
-from loiter.kernel.words import Word
+from loiter.kernel.words import Side, Word
 
 
 @pytest.mark.parametrize("arc", [0.01, 0.5, 2.0, 6.0])

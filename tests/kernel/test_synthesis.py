@@ -7,8 +7,8 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from golden.paper import EXAMPLES
-from loiter.kernel.codes import Side, Status
 from loiter.kernel.motion import flow
+from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import (
     duration,
     first_control,
@@ -19,7 +19,7 @@ from loiter.kernel.synthesis import (
     rounding,
     status_of,
 )
-from loiter.kernel.words import Word, mirrored
+from loiter.kernel.words import Side, Word, mirrored
 from strategies import blur, controls, coordinates, one_way, radii, sides
 
 SQRT3 = sqrt(3.0)

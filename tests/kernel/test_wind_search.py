@@ -10,12 +10,12 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from loiter.compiled.rebinding import rebound
-from loiter.kernel.codes import Side, Status
 from loiter.kernel.hold import hold_pose, hold_rate, hold_time, phase_of, tightest_radius
 from loiter.kernel.motion import reduce
-from loiter.kernel.synthesis import duration, optimum, rounding
-from loiter.kernel.wind_search import WindProblem, WindScene, fastest, first_path, is_tie, join_slope, optima, ranked
-from loiter.kernel.words import Word
+from loiter.kernel.statuses import Status
+from loiter.kernel.synthesis import duration, is_tie_in_wind, optimum, rounding
+from loiter.kernel.wind_search import WindProblem, WindScene, fastest, first_path, join_slope, optima, ranked
+from loiter.kernel.words import Side, Word
 from strategies import blur, coordinates, one_way, radii, sides
 
 # A plain solve takes milliseconds, tens of them in a shallow valley on a busy machine.
@@ -159,7 +159,7 @@ def test_of_two_valleys_almost_as_deep_the_deeper_is_found(R, beyond, angle, mag
     wind = 10.0**magnitude
     scene = -R - beyond, 0.0, cos(angle), sin(angle), R, wind * cos(azimuth), wind * sin(azimuth)
     least = min(least_time(scene, side) for side in (Side.CW, Side.CCW))
-    assert is_tie(least_time(scene, Side.EITHER), least, R)
+    assert is_tie_in_wind(least_time(scene, Side.EITHER), least, R)
 
 
 @settings(max_examples=12)
@@ -184,7 +184,7 @@ def test_next_to_a_tie_the_sooner_direction_is_found(scene, magnitude):
     for angle in (low, low - 10.0**magnitude, low + 10.0**magnitude):
         there = heading(angle)
         least = min(least_time(there, side) for side in (Side.CW, Side.CCW))
-        assert is_tie(least_time(there, Side.EITHER), least, scene[4])
+        assert is_tie_in_wind(least_time(there, Side.EITHER), least, scene[4])
 
 
 @given(scenes(), sides, st.floats(0.0, 1.0))

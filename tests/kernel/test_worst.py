@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 import loiter
 from kernel.worst import later_than_min_time, miss, miss_with_tolerance, slower_by_tolerance, worst
-from loiter.kernel.codes import Side, Status
 from loiter.kernel.extremals import duration as extremal_duration
 from loiter.kernel.extremals import extremals
+from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import duration, optimum, rounding
 from loiter.kernel.synthesis import miss as missed
-from loiter.kernel.words import Word
+from loiter.kernel.words import Side, Word
 from strategies import coordinates, radii, sides
 
 # Next to (0, -1), the centre of L, where the squared radius of the first arc was lost in a difference of squares.

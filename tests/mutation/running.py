@@ -52,7 +52,7 @@ STAGES = {
     "kernel/moving_target.py": WIND,
     "kernel/hold.py": WIND,
     "kernel/": (
-        tests("kernel", "words codes angles motion exact switching extremals synthesis worst"),
+        tests("kernel", "words statuses angles motion exact switching_curves extremals synthesis worst"),
         [*tests("kernel", "adjoint"), *tests("planning", "solve")],
         [
             "tests/compiled",

@@ -8,11 +8,10 @@ import pytest
 import loiter
 from golden.paper import EXAMPLES
 from loiter.compiled.rebinding import rebound
-from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow
-from loiter.kernel.switching import beyond_first_circle, switching_abscissa
+from loiter.kernel.switching_curves import beyond_first_circle, switching_abscissa
 from loiter.kernel.synthesis import optima, optimum, rounding
-from loiter.kernel.words import Word
+from loiter.kernel.words import Side, Word
 from paper.printed import curve_23, distance_24, feedback, inside_26, on_right_circle, right_bound
 
 REACH = 4.0

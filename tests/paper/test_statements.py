@@ -11,11 +11,10 @@ import loiter
 from golden.paper import ADMISSIBLE, EXAMPLES
 from loiter.compiled.rebinding import rebound
 from loiter.kernel.adjoint import StateAndAdjoint, adjoint, state_and_adjoint_at, switching_function, turn_adjoint
-from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow, reduce
-from loiter.kernel.switching import beyond_last_circle, switching_abscissa
+from loiter.kernel.switching_curves import beyond_last_circle, switching_abscissa
 from loiter.kernel.synthesis import duration, miss, optima, optimum, ranked, rounding
-from loiter.kernel.words import Word
+from loiter.kernel.words import Side, Word
 from paper.printed import T1, T, curve_23, on_left_circle, on_right_circle, root_21
 
 SQRT3 = sqrt(3.0)

@@ -9,7 +9,7 @@ import pytest
 
 import loiter
 from loiter.compiled.rebinding import rebound
-from loiter.kernel.switching import (
+from loiter.kernel.switching_curves import (
     beyond_first_circle,
     beyond_last_circle,
     last_arc_abscissa,

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, candidates, plan, plan_all
 from loiter.errors import InvalidArgument, NotConverged, OutOfRange, RadiusTooSmall, WindTooStrong
-from loiter.kernel.codes import Status
+from loiter.kernel.statuses import Status
 from loiter.planning.flight import sampled_at
 from loiter.planning.model import Segment
 from planning.flying import fly

@@ -9,7 +9,7 @@ import pytest
 
 import loiter
 from golden.paper import ADMISSIBLE, EXAMPLES
-from loiter.kernel.switching import beyond_last_circle, switching_abscissa
+from loiter.kernel.switching_curves import beyond_last_circle, switching_abscissa
 from loiter.kernel.synthesis import rounding
 from loiter.plot.figures import FIGURES, piece
 

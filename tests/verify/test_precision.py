@@ -3,7 +3,7 @@
 import pytest
 
 from loiter.errors import InvalidArgument, MissingPackage
-from loiter.kernel.codes import Side
+from loiter.kernel.words import Side
 from loiter.verify.checks import precision as module
 from loiter.verify.checks.precision import PLACES, WORST, drawn, precision, rounded
 

@@ -6,8 +6,8 @@ from math import acos, cos, inf, pi, sin, sqrt
 import pytest
 
 from loiter.errors import InvalidArgument
-from loiter.kernel.codes import Side
 from loiter.kernel.wind_search import WindProblem, fastest, time_of
+from loiter.kernel.words import Side
 from loiter.verify.checks import wind_scan_check as module
 from loiter.verify.checks.collocation import AirVelocity, collocate
 from loiter.verify.checks.oracle import Circle, Planar

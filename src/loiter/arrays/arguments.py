@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from loiter.errors import InvalidArgument
-from loiter.kernel.codes import Side
+from loiter.kernel.words import Side
 from loiter.planning.model import Turn
 from loiter.planning.sides import SIDES
 

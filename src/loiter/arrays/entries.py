@@ -13,7 +13,7 @@ from loiter.arrays.reduction import heading_vectors
 from loiter.arrays.wind import COMPILED_FROM, rows_in_wind
 from loiter.compiled.rebinding import Function, rebound
 from loiter.kernel import motion
-from loiter.kernel.codes import Status
+from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import REACH, ROUNDING
 from loiter.kernel.wind_search import WindEntry
 from loiter.kernel.words import Word
@@ -39,7 +39,7 @@ UNKNOWN = 2
 class States(NamedTuple):
     """Rows to solve: float64 arrays of one length n or, except for the pose, one number that all rows share.
 
-    `side` holds `loiter.kernel.codes.Side` codes (int8), `UNKNOWN` among them. `limit` names the kind of `turn_limit`:
+    `side` holds `loiter.kernel.words.Side` codes (int8), `UNKNOWN` among them. `limit` names the kind of `turn_limit`:
     "max_bank_deg", "min_turn_radius_m" or "max_turn_rate_deg_s". The position of the circle is that at the start. The
     caller has checked the values that all rows share.
     """

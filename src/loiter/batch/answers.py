@@ -26,7 +26,7 @@ from loiter.batch.tables.columns import (
     carried_columns,
     number_columns,
 )
-from loiter.kernel.codes import Status
+from loiter.kernel.statuses import Status
 from loiter.planning.model import Turn
 from loiter.planning.sides import SIDES
 

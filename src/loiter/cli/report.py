@@ -11,6 +11,7 @@ from rich.text import Text
 
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
+from loiter.planning.compass import wrapped
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Pose
 from loiter.planning.vocabulary import ACTIONS
@@ -158,7 +159,7 @@ def hold_in_wind(maneuver: Maneuver, frame: LocalFrame | None = None) -> list[st
     if least == most:
         lines.append(f"Bank on the circle: {most} deg.")
     else:
-        azimuth = round(hold.largest_bank_azimuth_deg) % 360
+        azimuth = round(wrapped(round(hold.largest_bank_azimuth_deg)))
         lines.append(f"Bank on the circle: {least} to {most} deg, most at azimuth {azimuth:03d} deg.")
     return lines
 
@@ -217,4 +218,4 @@ def _decimals(maneuver: Maneuver) -> int:
 
 
 def _degrees(value: float) -> str:
-    return f"{round(value, 1) % 360.0:05.1f}"
+    return f"{wrapped(round(value, 1)):05.1f}"

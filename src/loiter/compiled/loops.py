@@ -18,7 +18,7 @@ from numba.core import cgutils, types
 from loiter.compiled import branchless
 from loiter.compiled.rebinding import rebound
 from loiter.kernel import motion, wind_search
-from loiter.kernel.codes import Side, Status
+from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import (
     Entry,
     first_control,
@@ -33,6 +33,7 @@ from loiter.kernel.synthesis import (
     status_of,
 )
 from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.words import Side
 
 # Numba has no types for its decorators.
 _intrinsic: Any = extending.intrinsic

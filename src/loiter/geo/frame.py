@@ -94,7 +94,7 @@ class LocalFrame:
         east, north, convergence = (float(value) for value in self._rays(lat, lon))
         if east != east:
             raise self._too_far(f"{lat:g} {lon:g}")
-        return Pose(east, north, heading % 360.0 + convergence)
+        return Pose(east, north, wrapped(heading) + convergence)
 
     def place(self, pose: Pose) -> Place:
         """The place on Earth of a pose of the plane, and its true heading.
@@ -104,7 +104,7 @@ class LocalFrame:
         latitude, longitude = (float(value) for value in self.to_geodetic(pose.east_m, pose.north_m))
         if latitude != latitude:
             raise self._too_far(f"{pose.east_m:g} m east, {pose.north_m:g} m north")
-        heading = pose.heading_deg % 360.0 - float(self.convergence_deg(latitude, longitude))
+        heading = wrapped(pose.heading_deg) - float(self.convergence_deg(latitude, longitude))
         return Place(latitude, longitude, wrapped(heading))
 
     def _too_far(self, where: str) -> OutOfRange:
@@ -125,7 +125,7 @@ class LocalFrame:
         angle = np.radians(out)
         good &= distance <= REACH_M
         # The geodesic arrives with the azimuth back + 180; in the plane it is straight.
-        convergence = (out - back) % 360.0 - 180.0
+        convergence = wrapped(out - back) - 180.0
         return tuple(
             np.where(good, column, np.nan)
             for column in (distance * np.sin(angle), distance * np.cos(angle), convergence)

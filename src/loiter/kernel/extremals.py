@@ -73,8 +73,8 @@ def durations(extremal: Extremal) -> tuple[float, float, float]:
     return angle(extremal.first), extremal.straight + angle(extremal.middle), angle(extremal.last)
 
 
-# A rotation multiplied by less could have subnormal components, which have lost digits. Below this distance the rounding
-# error of c - end x itself is negligible.
+# A rotation multiplied by less could have subnormal components, which have lost digits. Below this distance the
+# rounding error of c - end x itself is negligible.
 SMALLEST_SCALE = 2.0**-300
 
 

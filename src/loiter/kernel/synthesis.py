@@ -4,10 +4,10 @@ from itertools import pairwise
 from math import cbrt, hypot, inf, isfinite
 from typing import NamedTuple
 
-from loiter.kernel.codes import Side, Status
 from loiter.kernel.extremals import Extremal, durations, extremals, fastest
 from loiter.kernel.motion import flow
-from loiter.kernel.words import ABSENT, controls, encode, mirrored, rest
+from loiter.kernel.statuses import Status
+from loiter.kernel.words import ABSENT, Side, controls, encode, mirrored, rest
 
 
 class Entry(NamedTuple):
@@ -172,10 +172,24 @@ def optima(x: float, y: float, R: float, side: int, tolerance: float) -> list[En
     one_maneuver = 2.0 * cbrt(24.0 * length_tolerance)
     distinct: list[Entry] = []
     for maneuver in maneuvers:
-        ties = duration(maneuver) <= least + length_tolerance
+        ties = is_tie(duration(maneuver), least, length_tolerance)
         if ties and all(maneuver.side != m.side or time_apart(maneuver, m) > one_maneuver for m in distinct):
             distinct.append(maneuver)
     return distinct
+
+
+# In wind maneuvers tie if their times agree to this share of 1 + R + T: the accuracy found in docs/wind.md, section 6.
+WIND_TIE_TOLERANCE = 1e-12
+
+
+def is_tie(T: float, least: float, length_tolerance: float) -> bool:
+    """Whether a time T equals the least time in still air: up to the rounding of the scene, `rounding`."""
+    return least + length_tolerance >= T
+
+
+def is_tie_in_wind(T: float, least: float, R: float) -> bool:
+    """Whether a time T equals the least time in wind, within the accuracy of `wind_search.fastest`."""
+    return T - least <= WIND_TIE_TOLERANCE * (1.0 + R + least)
 
 
 def time_apart(a: Entry, b: Entry) -> float:

@@ -9,16 +9,25 @@ from math import atan2, cbrt, hypot, inf, isfinite, nan
 from typing import NamedTuple
 
 from loiter.kernel.angles import TWO_PI
-from loiter.kernel.codes import Status
 from loiter.kernel.hold import NEGLIGIBLE_WIND, hold_pose, hold_rate, hold_time, phase_of, tightest_radius
 from loiter.kernel.motion import fly
 from loiter.kernel.moving_target import NO_PATH, Ends, Path, interception, lrl_rlr, lsl_rsr, lsr_rsl
-from loiter.kernel.synthesis import REACH, ROUNDING, Entry, drop_short_pieces, duration, rounding, time_apart
+from loiter.kernel.statuses import Status
+from loiter.kernel.synthesis import (
+    REACH,
+    ROUNDING,
+    Entry,
+    drop_short_pieces,
+    duration,
+    is_tie_in_wind,
+    rounding,
+    time_apart,
+)
 from loiter.kernel.words import ABSENT, controls, encode
 
 
 class WindProblem(NamedTuple):
-    """An entry to find: start, heading as a unit vector, radius, `codes.Side`, velocity of the air past the circle."""
+    """An entry to find: start, heading as a unit vector, radius, `words.Side`, velocity of the air past the circle."""
 
     x: float
     y: float
@@ -91,9 +100,6 @@ TOO_EARLY = 10.0
 
 # Points of joining around the circle between which `ranked` looks for local minima.
 SAMPLES = 128
-
-# Maneuvers tie if their times agree to this share of 1 + R + T: the accuracy measured in docs/wind.md, section 6.
-TIE_TOLERANCE = 1e-12
 
 
 def status_of(problem: WindProblem) -> int:
@@ -413,12 +419,7 @@ def optima(problem: WindProblem) -> list[WindEntry]:
     """The maneuvers of `ranked` that tie with the fastest, within the accuracy of `fastest`."""
     maneuvers = ranked(problem)
     least = min(map(time_of, maneuvers), default=inf)
-    return [m for m in maneuvers if is_tie(time_of(m), least, problem.R)]
-
-
-def is_tie(T: float, least: float, R: float) -> bool:
-    """Whether a time T equals the least time, within the accuracy of `fastest`."""
-    return T - least <= TIE_TOLERANCE * (1.0 + R + least)
+    return [m for m in maneuvers if is_tie_in_wind(time_of(m), least, problem.R)]
 
 
 def entry_of(maneuver: WindEntry) -> Entry:

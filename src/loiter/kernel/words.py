@@ -1,4 +1,4 @@
-"""Words: the controls of a maneuver in the order flown, as one integer. All arithmetic on words is in this file.
+"""Words, the controls of a maneuver in the order flown, and sides, as integers. All arithmetic on words is here.
 
 A word is a number in base 4 whose lowest digit is the first control plus 2: R = 1, S = 2, L = 3, and 0 where there is
 no piece. It fits into one byte, and compiled code decodes it without a table.
@@ -34,6 +34,14 @@ def mirrored(word: int) -> int:
 def opposed(u: int) -> int:
     """The opposite control; `ABSENT` stays as it is."""
     return u if u == ABSENT else -u
+
+
+class Side(IntEnum):
+    """The direction in which the circle is held: the sign of the target's ordinate in the reduced plane, (8)-(10)."""
+
+    CW = 1
+    CCW = -1
+    EITHER = 0
 
 
 class Word(IntEnum):

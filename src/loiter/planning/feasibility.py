@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 from loiter.errors import RadiusTooSmall, WindTooStrong
 from loiter.kernel import wind_search
-from loiter.kernel.codes import Side, Status
 from loiter.kernel.hold import tightest_radius
+from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import ROUNDING
 from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.words import Side
 from loiter.planning.model import Aircraft, Orbit, Wind
 
 

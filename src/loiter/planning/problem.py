@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, not_negative
 from loiter.kernel import motion, wind_search
-from loiter.kernel.codes import Side, Status
+from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import REACH, ROUNDING, rounded_radius, status_of
 from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.words import Side
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import RelativeWind, check_held, radius_in_turns, relative_wind, too_tight
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind

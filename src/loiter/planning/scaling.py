@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from loiter.kernel.codes import Side
 from loiter.kernel.synthesis import Entry
-from loiter.kernel.words import Word
+from loiter.kernel.words import Side, Word
 from loiter.planning.flight import flown_from
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Aircraft, Pose, Segment, Wind

@@ -1,6 +1,6 @@
 """Conversion between directions as the user gives them and the kernel's codes."""
 
-from loiter.kernel.codes import Side
+from loiter.kernel.words import Side
 from loiter.planning.model import Turn
 
 SIDES = {Turn.CW: Side.CW, Turn.CCW: Side.CCW, Turn.EITHER: Side.EITHER}

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 from loiter.errors import NotConverged
 from loiter.kernel import wind_search
-from loiter.kernel.codes import Status
-from loiter.kernel.synthesis import Entry, duration, miss, optima, optimum, ranked
+from loiter.kernel.statuses import Status
+from loiter.kernel.synthesis import Entry, duration, is_tie_in_wind, miss, optima, optimum, ranked
 from loiter.kernel.wind_search import WindEntry, WindProblem
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
@@ -160,7 +160,7 @@ def _tied(known: Sequence[Solved], problem: Problem) -> tuple[Maneuver, ...]:
     turn, R = problem.orbit.turn, problem.radius
     allowed = [_with_orbit(one, problem.orbit) for one in known if turn in (Turn.EITHER, one.maneuver.turn)]
     least = min(candidate.time for candidate in allowed)
-    return maneuvers(candidate for candidate in allowed if wind_search.is_tie(candidate.time, least, R))
+    return maneuvers(candidate for candidate in allowed if is_tie_in_wind(candidate.time, least, R))
 
 
 def _optimum_alone(*arguments: Any) -> list[Entry]:

@@ -18,11 +18,10 @@ from numpy.typing import NDArray
 from loiter.arrays import control
 from loiter.compiled.rebinding import Function, rebound
 from loiter.kernel.adjoint import adjoint, turn_adjoint
-from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow
-from loiter.kernel.switching import last_arc_abscissa, switching_abscissa
+from loiter.kernel.switching_curves import last_arc_abscissa, switching_abscissa
 from loiter.kernel.synthesis import Entry, duration, optima, ranked
-from loiter.kernel.words import Word, controls
+from loiter.kernel.words import Side, Word, controls
 from loiter.planning.model import CONTROLS
 from loiter.plot.picture import CHORD_RAD, COLOURS, MARKS
 

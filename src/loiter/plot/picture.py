@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
-from loiter.planning.compass import heading_vector
+from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.flight import along
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Pose, Segment, Turn, Wind
@@ -134,7 +134,7 @@ def _draw_wind(axes: Axes, wind: Wind) -> None:
     axes.annotate(
         "", xy=tuple(head), xytext=tuple(tail), textcoords=corner["xycoords"], arrowprops=style, gid="wind", **corner
     )
-    label = f"wind {wind.speed_m_s:.3g} m/s\nfrom {wind.from_deg % 360.0:.0f} deg"
+    label = f"wind {wind.speed_m_s:.3g} m/s\nfrom {wrapped(wind.from_deg):.0f} deg"
     beside = WIND_PLACE + np.array([0.6 * WIND_LENGTH, 0.0])
     axes.annotate(label, xy=tuple(beside), va="center", fontsize="small", color=WIND_COLOUR, gid="wind label", **corner)
 

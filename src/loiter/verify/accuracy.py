@@ -28,8 +28,7 @@ from collections.abc import Sequence
 from math import hypot, radians, sin, sqrt
 from typing import NamedTuple
 
-from loiter.kernel import wind_search
-from loiter.kernel.synthesis import ROUNDING, rounding
+from loiter.kernel.synthesis import ROUNDING, WIND_TIE_TOLERANCE, rounding
 from loiter.planning.maneuver import Maneuver
 from loiter.verify.residual import Candidate
 from loiter.verify.trajectory import MaximumPrinciple, Trajectory
@@ -156,7 +155,7 @@ def _in_wind(trajectory: Trajectory) -> Accuracy:
             transversality=choice,
         ),
         gradient=choice,
-        tie=wind_search.TIE_TOLERANCE * (1.0 + start.R + T) + 2.0 * length,
+        tie=WIND_TIE_TOLERANCE * (1.0 + start.R + T) + 2.0 * length,
     )
 
 

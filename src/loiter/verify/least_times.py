@@ -8,10 +8,9 @@ from math import hypot, inf
 from typing import NamedTuple
 
 from loiter.kernel import wind_search
-from loiter.kernel.codes import Side
 from loiter.kernel.exact import beyond
-from loiter.kernel.synthesis import Entry, duration, optimum, rounding
-from loiter.kernel.words import Word
+from loiter.kernel.synthesis import WIND_TIE_TOLERANCE, Entry, duration, optimum, rounding
+from loiter.kernel.words import Side, Word
 from loiter.planning.problem import ReducedProblem
 from loiter.verify.trajectory import Trajectory
 
@@ -62,7 +61,7 @@ def _in_wind(trajectory: Trajectory) -> LeastTimes:
         axes=3,
         steps=STEPS_IN_WIND,
         time=time,
-        error=lambda T, slope: 2.0 * wind_search.TIE_TOLERANCE * (1.0 + problem.R + T),
+        error=lambda T, slope: 2.0 * WIND_TIE_TOLERANCE * (1.0 + problem.R + T),
         by_heading=by_heading,
         motion_size=4.0,
         not_smooth=lambda: "T has a corner here, or bends too sharply",

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import pyarrow as pa
 
 from loiter.errors import InvalidArgument, not_negative
-from loiter.kernel.codes import Status
+from loiter.kernel.statuses import Status
 from loiter.kernel.words import Word
 from loiter.planning.model import TURN_LIMITS, Aircraft, Orbit, Turn, Wind
 

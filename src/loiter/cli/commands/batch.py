@@ -16,7 +16,7 @@ from rich.text import Text
 
 import loiter
 from loiter.cli.numbers import whole
-from loiter.kernel.codes import Status
+from loiter.kernel.statuses import Status
 from loiter.planning.model import Orbit, Turn, TurnName, Wind
 
 if TYPE_CHECKING:

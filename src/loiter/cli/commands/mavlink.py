@@ -31,6 +31,7 @@ from loiter.errors import InvalidArgument
 from loiter.io.missions.items import Mission
 from loiter.mavlink.connection.link import check_connection
 from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
+from loiter.planning.compass import wrapped
 from loiter.planning.solve import fastest
 from loiter.planning.vocabulary import BRIEF_ACTIONS
 
@@ -250,7 +251,7 @@ def line(vehicle: Report) -> str:
         _other_direction(vehicle, vehicle.plan),
     ]
     if vehicle.wind_source != "still air" and wind.speed_m_s >= LEAST_WIND_M_S:
-        parts.append(f"wind {wind.speed_m_s:.1f} m/s from {wind.from_deg % 360.0:03.0f}, {vehicle.wind_source}")
+        parts.append(f"wind {wind.speed_m_s:.1f} m/s from {wrapped(wind.from_deg):03.0f}, {vehicle.wind_source}")
     return f"{clock}: {'; '.join(parts)}"
 
 

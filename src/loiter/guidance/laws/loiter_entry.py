@@ -15,10 +15,11 @@ from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.kernel import motion, wind_search
-from loiter.kernel.codes import Side, Status
 from loiter.kernel.hold import tightest_radius
+from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import Entry, duration, is_solvable, optimum, rounded_radius
 from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.words import Side
 from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind
 from loiter.planning.sides import SIDES, TURNS

@@ -17,6 +17,7 @@ from loiter.errors import InvalidArgument
 from loiter.io.missions.items import Autopilot, Frame, MavCommand, Mission, MissionItem
 from loiter.io.missions.signs import Params
 from loiter.mavlink.connection.link import Vehicle, dialect
+from loiter.planning.compass import wrapped
 
 # The MAV_FRAMEs in which x and y are latitude and longitude, and the equivalent frame whose name does not end in INT:
 # PX4 returns those that do.
@@ -218,9 +219,9 @@ def _stored_by_px4(command: int, params: Params) -> Params:
     a, b, c, d = params
     match command:
         case MavCommand.NAV_WAYPOINT:
-            return a, b, 0.0, d % 360.0
+            return a, b, 0.0, wrapped(d)
         case MavCommand.NAV_LOITER_UNLIM:
-            return 0.0, 0.0, c, d % 360.0
+            return 0.0, 0.0, c, wrapped(d)
         case MavCommand.NAV_LOITER_TIME:
             return a, float(b > 0.0), c, float(d > 0.0)
         case MavCommand.NAV_LOITER_TO_ALT:

@@ -12,10 +12,10 @@ from typing import Any
 
 from loiter.compiled.rebinding import Function, rebound
 from loiter.errors import InvalidArgument, MissingPackage
-from loiter.kernel.codes import Side
 from loiter.kernel.exact import beyond
-from loiter.kernel.switching import switching_abscissa
+from loiter.kernel.switching_curves import switching_abscissa
 from loiter.kernel.synthesis import duration, optimum, rounding
+from loiter.kernel.words import Side
 
 DIGITS = 50
 

@@ -8,9 +8,9 @@ from math import cos, pi, sin
 from random import Random
 
 from loiter.errors import InvalidArgument
-from loiter.kernel.codes import Side
 from loiter.kernel.hold import tightest_radius
 from loiter.kernel.wind_search import WindProblem, fastest
+from loiter.kernel.words import Side
 from loiter.verify.checks.oracle import Planar
 from loiter.verify.checks.wind_scan import DriftingCircle, Joining, earliest
 

@@ -6,9 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter.kernel.codes import Side
 from loiter.kernel.motion import flow
-from loiter.kernel.switching import (
+from loiter.kernel.switching_curves import (
     beyond_first_circle,
     beyond_last_circle,
     last_arc_abscissa,
@@ -16,7 +15,7 @@ from loiter.kernel.switching import (
     switching_abscissa,
 )
 from loiter.kernel.synthesis import optimum, rounding
-from loiter.kernel.words import Word
+from loiter.kernel.words import Side, Word
 from strategies import coordinates, radii
 
 

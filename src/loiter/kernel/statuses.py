@@ -1,14 +1,6 @@
-"""Sides and statuses: integer codes that the kernel takes and returns in place of strings and exceptions."""
+"""Statuses: integer codes that the kernel returns instead of raising exceptions, with their messages."""
 
 from enum import IntEnum
-
-
-class Side(IntEnum):
-    """The direction in which the circle is held: the sign of the target's ordinate in the reduced plane, (8)-(10)."""
-
-    CW = 1
-    CCW = -1
-    EITHER = 0
 
 
 class Status(IntEnum):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from loiter.kernel.codes import Status
+from loiter.kernel.statuses import Status
 
 
 @pytest.mark.parametrize("status", Status)
