@@ -52,7 +52,9 @@ def blur(x: float, y: float, R: float) -> float:
     Switching points lie where circles cross, so next to a place where they touch T moves with the square root of a
     displacement e. For RL and LR that is the circle of radius R - 1 about (0, 1): q = rm^2 - (R - 1)^2 moves by
     2 (R - 1) e, x1 = sqrt(p q)/4 with p = 8 (R + 1) by 2 sqrt((R + 1)(R - 1) e), the angle by that over R - 1.
+    Next to the centre of a first arc, (0, 1) or (0, -1), its angle moves by e over the distance from the centre.
     """
     e = rounding(x, y, R)
     touching = sqrt((R + 1.0) * e / (R - 1.0)) if R > 1.0 else 0.0
-    return 4.0 * (sqrt(e) + touching)
+    turning = e / max(min(hypot(x, y - 1.0), hypot(x, y + 1.0)), e)
+    return 4.0 * (sqrt(e) + touching + turning)

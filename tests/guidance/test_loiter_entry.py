@@ -183,6 +183,40 @@ def test_without_data_it_is_safe_and_it_recovers_in_one_step(bad, begins_s):
     assert hypot(end.east_m, end.north_m) == pytest.approx(120.0, abs=12.0)
 
 
+def flown_at(telemetry_hz):
+    """The flight of a law that gets a measurement again until the next one comes."""
+    law, mass, last, commands = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=3), None, []
+    while mass.true_state().time_s < 60.0:
+        if last is None or mass.measured_state().time_s - last.time_s >= 1.0 / telemetry_hz - 1e-9:
+            last = mass.measured_state()
+        commands.append(law.step(last, 0.02))
+        mass.advance(commands[-1], 0.02)
+    return commands, mass.true_state()
+
+
+@pytest.mark.parametrize("telemetry_hz", [2.0, 5.0, 12.5])
+def test_between_measurements_the_law_extrapolates(telemetry_hz):
+    commands, end = flown_at(telemetry_hz)
+    assert all(command.phase != Phase.NO_DATA for command in commands)
+    assert hypot(end.east_m, end.north_m) == pytest.approx(120.0, abs=6.0)
+    # The bank follows the path between measurements too, and the time to join falls by about the length of a step.
+    early = commands[100:400]
+    assert len({command.bank_deg for command in early}) > 100
+    steps = np.diff([command.time_to_join_s for command in early])
+    assert np.median(steps) == pytest.approx(-0.02, rel=0.1)
+
+
+def test_a_measurement_is_extrapolated_for_a_second_at_most():
+    law, mass = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=3)
+    for _ in range(100):
+        mass.advance(law.step(mass.measured_state(), 0.02), 0.02)
+    last = mass.measured_state()
+    blind = [law.step(last, 0.02).phase == Phase.NO_DATA for _ in range(120)]
+    assert blind == sorted(blind)
+    # A second has 50 steps; rounding of their sum decides about one.
+    assert 49 <= blind.index(True) <= 51
+
+
 SHIP, AIR = Orbit(0.0, 0.0, 140.0, "either", 2.0, -1.5), Wind(4.0, 200.0)
 SCENES = {"still air": (ORBIT, None), "wind": (ORBIT, AIR), "a ship in wind": (SHIP, AIR)}
 

@@ -62,6 +62,7 @@ def test_the_optimum_ends_at_the_target(x, y, R, side):
 
 @settings(max_examples=500)
 @given(coordinates, coordinates, radii, sides, st.floats(0.0, 1.0))
+@example(-1.4229643664435092e-11, 1.0000000000142295, 1.0, Side.CW, 0.75)  # next to the target and centre (0, 1)
 def test_along_the_optimum_the_time_left_falls_at_unit_rate(x, y, R, side, share):
     held, word, *durations = optimum(x, y, R, side, 0.0)
     left = sum(durations)

@@ -88,10 +88,12 @@ class LoiterEntry:
     lost, so that noise causes neither switching between plans nor a go-around. docs/guidance.md describes the method
     and its performance.
 
-    Where a measurement is not finite, or not later than the last one, the phase is `NO_DATA`: the last command is kept
-    for a second; then the wings are levelled or, on the circle, the bank of the circle is kept. The first good
-    measurement ends this phase. A clock that jumps back, or more than an hour ahead, is accepted when its stamps have
-    advanced by a second; the position of a moving circle is then taken from the new clock.
+    Measurements may come less often than steps: a step then gets the last one again, and the law extrapolates it, for a
+    second at most. Where a measurement is not finite, or earlier than the last one, or where no new one has come for a
+    second, the phase is `NO_DATA`: the last command is kept until a second after the last measurement; then the wings
+    are levelled or, on the circle, the bank of the circle is kept. The first good measurement ends this phase. A clock
+    that jumps back, or more than an hour ahead, is accepted when its stamps have advanced by a second; the position of
+    a moving circle is then taken from the new clock.
 
     Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held, `InvalidArgument` for numbers below 0.
     """
@@ -123,6 +125,9 @@ class LoiterEntry:
         # plan.
         self._join_time = self._planned_join_time = inf
         self._clock, self._last_search_s = Clock(), -inf
+        # The last estimate of the present state, the time since then, and how far its bank was from the modelled one.
+        self._present: Estimate | None = None
+        self._elapsed_s = self._bias_deg = 0.0
         self._last_command = Command(0.0, 0.0, Phase.NO_DATA, nan, orbit.turn, Phase.NO_DATA, nan)
 
     def _set_planned_turn(self, orbit: Orbit, aircraft: Aircraft, reserve: float) -> None:
@@ -147,9 +152,9 @@ class LoiterEntry:
         Raises `InvalidArgument` where `dt` is not positive and finite; the law is then unchanged.
         """
         dt = positive("dt", dt, "seconds")
-        if not is_usable(state) or not self._clock.accept(state.time_s):
+        estimate = self._present_estimate(state)
+        if estimate is None:
             return self._command_without_data(dt)
-        estimate = self._estimate(state)
         if self._route is None:
             self._search(self._relative_state(estimate.after(self._lead_s(0.0, self._limit_deg))))
         if self._route is None:
@@ -157,11 +162,32 @@ class LoiterEntry:
         response = self._advance(self._route, estimate)
         if self._reconsider(self._route, response.state):
             response = self._advance(self._route, estimate)
-        self._last_command = self._follow(self._route, response, dt)
+        self._last_command = self._follow(self._route, response, estimate.time_s, dt)
         return self._last_command
 
+    def _present_estimate(self, state: State) -> Estimate | None:
+        """The estimate of the present state; None where there is no usable measurement.
+
+        Telemetry may be slower than the steps: until the next measurement, but no longer than `BLIND_S`, the last
+        estimate is extrapolated with the modelled bank.
+        """
+        if not is_usable(state):
+            return None
+        if state.time_s == self._clock.time_s:
+            if self._present is None or self._clock.since_s > BLIND_S:
+                return None
+            bank_deg = self._history.current_deg + self._bias_deg
+            self._present = self._present.under_bank(bank_deg, self._elapsed_s)
+        elif self._clock.accept(state.time_s):
+            self._present = self._estimate(state)
+            self._bias_deg = self._present.bank_deg - self._history.current_deg
+        else:
+            return None
+        self._elapsed_s = 0.0
+        return self._present
+
     def _estimate(self, state: State) -> Estimate:
-        """The estimate of the present state from a measurement."""
+        """The estimate of the present state from a new measurement."""
         if self._clock.jump_s != 0.0:
             self._shift_clock(self._clock.jump_s)
         if self._clock.jump_s != 0.0 or self._clock.gap_s > BLIND_S:
@@ -270,8 +296,8 @@ class LoiterEntry:
         found = wind_search.fastest(WindProblem(state.x, state.y, c, s, R, self._side, wx, wy))
         return wind_search.entry_of(found) if found.status == Status.OK else None
 
-    def _follow(self, route: Route, response: ResponsePoint, dt: float) -> Command:
-        """The command that follows the route, with the times that the law reports."""
+    def _follow(self, route: Route, response: ResponsePoint, present_s: float, dt: float) -> Command:
+        """The command that follows the route, with the times that the law reports, counted from the present."""
         target_deg = clip(self._target_bank_deg(route, response.state, dt), self._limit_deg)
         bank_deg = self._roll.demand_deg(self._history.current_deg, target_deg, self._limit_deg)
         self._record_bank(bank_deg, dt)
@@ -279,7 +305,7 @@ class LoiterEntry:
             degrees(rate_at_bank(bank_deg, self._V)),
             bank_deg,
             phase_of_control(route.control),
-            max(self._join_time * self._unit_s - self._clock.time_s - self._history.delay_s, 0.0),
+            max(self._join_time * self._unit_s - present_s, 0.0),
             TURNS[Side(route.side)],
             phase_of_control(route.next_control),
             inf if route.is_holding else route.remaining * self._unit_s - response.early_s,
@@ -301,6 +327,7 @@ class LoiterEntry:
     def _record_bank(self, bank_deg: float, dt: float) -> None:
         """Record the modelled bank after a step under a command, and advance the clock."""
         self._clock.advance(dt)
+        self._elapsed_s += dt
         self._history.record(self._roll.bank_after(self._history.current_deg, bank_deg, dt), dt)
 
 

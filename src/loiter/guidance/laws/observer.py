@@ -83,6 +83,11 @@ class Estimate(NamedTuple):
         pose = PlanarPose(x + self.air_east_m_s * time_s, y + self.air_north_m_s * time_s, c, s)
         return self._replace(time_s=self.time_s + time_s, pose=pose)
 
+    def under_bank(self, bank_deg: float, time_s: float) -> Estimate:
+        """The estimate `time_s` seconds later, flown with another bank."""
+        turn_rate = -rate_at_bank(bank_deg, self.airspeed_m_s)
+        return self._replace(turn_rate=turn_rate, bank_deg=bank_deg).after(time_s)
+
     def at_present(self, history: BankHistory) -> Estimate:
         """The estimate extrapolated over the measurement delay, with the banks modelled since then."""
         bias_deg, V = self.bank_deg - history.delayed_deg, self.airspeed_m_s
