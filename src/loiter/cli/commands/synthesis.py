@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from cyclopts import Parameter
 from rich.table import Table
 
@@ -87,8 +88,6 @@ def table(curves: tuple[Boundary, ...]) -> Table:
 
 def write_arrays(path: Path, regions: Partition, curves: tuple[Boundary, ...]) -> None:
     """Write a partition and its curves as named arrays; the name of a curve is its kind and its words: "tie LRL RL"."""
-    import numpy as np
-
     arrays: dict[str, Any] = {name: np.asarray(value) for name, value in regions._asdict().items()}
     for curve in curves:
         name = " ".join((curve.kind, *curve.words))

@@ -14,6 +14,8 @@ from importlib.util import find_spec
 from math import ceil, nan, sqrt
 from typing import Any
 
+import numpy as np
+
 from loiter.errors import LoiterError, MissingPackage, not_negative
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.simulators.airframes import Airframe
@@ -71,8 +73,6 @@ class JsbsimAircraft:
         gust: float = 0.0,
         noise: Noise | None = None,
     ) -> None:
-        import numpy as np
-
         not_negative("gust", gust, "shares of the airspeed")
         self._start, self._time_s, self._step_s = start, 0.0, 0.0
         check_installed()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import atan2, degrees
 
+import numpy as np
+
 from loiter.errors import not_negative
 from loiter.guidance.protocol import Command, State
 from loiter.guidance.simulators.gusts import Gusts, scale_length_m
@@ -39,8 +41,6 @@ class PointMass:
         noise: Noise = Noise(),  # noqa: B008 (frozen)
         altitude_m: float = ALTITUDE_M,
     ) -> None:
-        import numpy as np
-
         V = self._airspeed_m_s = aircraft.airspeed_m_s
         self._limit_deg = aircraft.bank_deg(aircraft.turn_radius_m)
         self._wind = (CALM if wind is None else wind).velocity_m_s

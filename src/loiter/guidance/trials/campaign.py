@@ -9,6 +9,8 @@ from functools import partial
 from math import cos, degrees, pi, sin, sqrt
 from typing import NamedTuple
 
+import numpy as np
+
 from loiter.errors import InvalidArgument
 from loiter.guidance.laws.l1 import L1, advised_period_s
 from loiter.guidance.laws.loiter_entry import LoiterEntry
@@ -109,8 +111,6 @@ def trials(
 
 
 def _trial(seed: int, i: int, aircraft: Aircraft, wind: Wind | None, radii: tuple[float, float], reach: float) -> Trial:
-    import numpy as np
-
     random = np.random.default_rng((seed, i))
     tightest = tightest_radius(*relative_wind(Orbit(0.0, 0.0, 1.0), aircraft, CALM if wind is None else wind))
     radius_m = aircraft.turn_radius_m * tightest * random.uniform(*radii)

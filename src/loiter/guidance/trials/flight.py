@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from loiter.errors import positive
 from loiter.guidance.protocol import Command, Law, Phase, Simulator, State
 from loiter.guidance.trials.settling import Band, SettlingMonitor
@@ -91,8 +93,6 @@ class Flight:
 
         It is taken over the steps of `REPORT_S` with a time to join at both ends; 0 if there are none.
         """
-        import numpy as np
-
         time_s, to_join_s = self.track.time_s, self.track.time_to_join_s
         report = np.searchsorted(time_s, np.arange(self.track.start_s, self._hold_s - SHORTEST_S, REPORT_S))
         error_s = np.diff(to_join_s[report] + time_s[report])
@@ -144,8 +144,6 @@ def _step_to_event(command: Command, step_s: float) -> float:
 
 def _track(states: Sequence[State], commands: Sequence[Command]) -> FlightTrack:
     """The track of a flight: each state with its command, the last state with the last command."""
-    import numpy as np
-
     *_, last = commands
     rows = [
         (*state, command.bank_deg, command.time_to_join_s)
@@ -158,8 +156,6 @@ def _measured_flight(
     monitor: SettlingMonitor, orbit: Orbit, band: Band, track: FlightTrack, phases: tuple[Phase, ...]
 ) -> Flight:
     """A flight with its measures."""
-    import numpy as np
-
     steps_s = np.diff(track.time_s)
     settled_s, joined_s = (monitor.entered_s, monitor.joined_s) if monitor.settled else (nan, nan)
     # An event that did not happen is placed at the end of the flight.
@@ -181,8 +177,6 @@ def _measured_flight(
 
 def _radial_error_m(orbit: Orbit, track: FlightTrack) -> NDArray[float64]:
     """The distance from the circle at each instant; the circle may move."""
-    import numpy as np
-
     circles = [orbit.after(time_s) for time_s in track.time_s.tolist()]
     east_m = track.east_m - np.array([circle.east_m for circle in circles])
     north_m = track.north_m - np.array([circle.north_m for circle in circles])

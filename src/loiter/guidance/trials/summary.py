@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from loiter.guidance.trials.campaign import Outcome
 
 if TYPE_CHECKING:
@@ -38,8 +40,6 @@ class CampaignSummary:
 
 def summary(outcomes: Sequence[Outcome], others: Sequence[Outcome] = ()) -> CampaignSummary:
     """The summary of one law, compared with the flights `others` of another law from the same starts, if given."""
-    import numpy as np
-
     ideal_s = np.array([o.ideal_s for o in outcomes])
     settled_s = _later_than_all([o.settled_s for o in outcomes])
     # A start on the circle has no ratio: the fastest entry takes no time.
@@ -63,14 +63,10 @@ def summary(outcomes: Sequence[Outcome], others: Sequence[Outcome] = ()) -> Camp
 
 def _later_than_all(times_s: Sequence[float]) -> NDArray[float64]:
     """Settling times as an array, infinite in place of nan."""
-    import numpy as np
-
     times = np.array(times_s, dtype=float)
     return np.where(np.isnan(times), np.inf, times)
 
 
 def _quantile(values: NDArray[float64], share: float) -> float:
     """The quantile without interpolation, so that it can be infinite; nan of no values."""
-    import numpy as np
-
     return float(np.sort(values)[int(np.ceil(share * values.size)) - 1]) if values.size else nan

@@ -20,6 +20,8 @@ from math import cos, hypot, inf, sin, sqrt
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from loiter.errors import MissingPackage
 from loiter.verify.checks.oracle import Circle, Planar
 
@@ -181,8 +183,6 @@ def optimised(
     start: Planar, circle: Circle, controls: Sequence[float], lengths: Sequence[float], wind: AirVelocity, *, even: bool
 ) -> Iterator[CollocatedPath]:
     """The path to which IPOPT converges from a guess; none where it does not converge."""
-    import numpy as np
-
     n = len(controls)
     poses, steps = np.full(3 * (n + 1), inf), lengths[:1] if even else lengths
     lower = np.concatenate([-poses, np.full(n, -1.0), np.zeros(len(steps))])
@@ -209,8 +209,6 @@ def path_of(
     n: int,
 ) -> CollocatedPath:
     """A path from the program's controls and lengths (`values`), the residuals of its constraints and multipliers."""
-    import numpy as np
-
     controls, lengths = values[:n], np.broadcast_to(values[n:], n)
     # Rows of three: the start, one for each interval (east, north, heading); then the two of the end.
     quadrature = QUADRATURE * np.abs(controls) ** 6 * lengths**7

@@ -21,6 +21,8 @@ from importlib.util import find_spec
 from math import sqrt
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from loiter.errors import MissingPackage
 
 if TYPE_CHECKING:
@@ -95,8 +97,6 @@ def reach(R: float, sides: Sequence[int], cells: int) -> Reach:
     It has twice `cells` cells in x and in y; its error is estimated from a grid of `cells`. Raises `MissingPackage`
     without hj-reachability.
     """
-    import numpy as np
-
     check_installed()
     within = R + OUTSIDE
     half = within + MARGIN
@@ -115,7 +115,6 @@ def distances(R: float, sides: Sequence[int], half: float, cells: int, instants:
     """V at each instant and node, (instants, cells + 1, cells + 1), on the square from -`half` to `half`."""
     import hj_reachability as hj
     import jax.numpy as jnp
-    import numpy as np
 
     corner = jnp.array([half, half])
     grid = hj.Grid.from_lattice_parameters_and_boundary_conditions(hj.sets.Box(-corner, corner), (cells + 1, cells + 1))

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from math import pi, sqrt
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from loiter.arrays import min_time
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Turn
@@ -70,8 +72,6 @@ def compare_with_reachability(
 
 def reachability_difference(radius: float, turn: Turn, cells: int) -> ReachabilityDifference:
     """One map compared with T at its nodes."""
-    import numpy as np
-
     found = reach(radius, SIDES[turn], cells)
     inside = np.hypot(found.x[:, np.newaxis], found.y) <= found.within
     T, nearer, near = (least_within(d, found, inside, radius, turn) for d in (0.0, found.error, 2.0 * found.error))
@@ -94,8 +94,6 @@ def reachability_difference(radius: float, turn: Turn, cells: int) -> Reachabili
 
 def least_within(distance: float, found: Reach, inside: NDArray[bool_], radius: float, turn: Turn) -> NDArray[float64]:
     """The least T within a distance of each node inside, (nodes,), on a lattice `FINER` times as fine as the grid."""
-    import numpy as np
-
     width = found.spacing / FINER
     # A lattice point represents the points up to half a diagonal away. Each piece of a plan may use a third of its
     # tolerance, so three times that distance keeps the arcs through the end point, and that point, on the lattice.
