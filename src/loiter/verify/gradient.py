@@ -18,7 +18,7 @@ from loiter.verify.trajectory import Trajectory, inner
 # The bound of a gradient of T must be below this share of its size.
 RESOLVED = 1e-3
 
-BESIDE_LAST_ARC = "the tolerance lets the start count as on the last arc, which T knows nothing of"
+BESIDE_LAST_ARC = "the tolerance counts the start as on the last arc, but T without a tolerance does not"
 
 
 class GradientEquations(NamedTuple):

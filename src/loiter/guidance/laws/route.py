@@ -49,7 +49,7 @@ class Route:
     """The rest of a plan that begins at `state`, in air that moves past the circle with the velocity `wind`.
 
     `side` is the direction in which the circle is held, `remaining` the length left of the current piece, in turn
-    radii. `scale` is the length of the plan's unit in turn radii.
+    radii. `scale` is the unit of length of the plan, in turn radii.
     """
 
     def __init__(self, state: RelativeState, entry: Entry, R: float, wind: tuple[float, float], scale: float) -> None:
@@ -120,7 +120,7 @@ class Route:
         return flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy)
 
     def _in_air(self, state: RelativeState) -> tuple[float, float, float, float]:
-        """Position and velocity in the air of the plan, as the vehicle would have them in still air."""
+        """Position and velocity relative to the steady wind of the plan, as if the air were still."""
         (wx, wy), elapsed = self._wind, state.time - self._start
         vx, vy = flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy)
         q = self._scale

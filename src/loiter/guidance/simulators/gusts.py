@@ -61,8 +61,8 @@ class Gusts:
         self._random = random
         self._draws: list[list[float]] = []
         self._step_s, self._step = 0.0, _gust_step(0.0)
-        # Across, the state is y and T y' of v = y + sqrt(3) T y', where y is noise filtered by 1/(1 + T s)^2. Both have
-        # half the standard deviation of v, and at any instant they are independent.
+        # Across, the gust is v = y + sqrt(3) T y', where y is white noise filtered by 1/(1 + T s)^2. The state is y and
+        # T y': each has half the standard deviation of v, and at any instant they are independent.
         self._along, y, slope = random.standard_normal(3).tolist()
         self._state = 0.5 * y, 0.5 * slope
 

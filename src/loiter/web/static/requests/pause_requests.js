@@ -66,7 +66,7 @@ export function mapRequest(store, retries) {
       if (isWanted(query)) store.update({ synthesis, shownMap: query, ...outcome("idle", null) });
     },
     (error, query) => {
-      if (isWanted(query)) store.update(outcome("failed", faultOf(error, retries, "Not the map of this scene")));
+      if (isWanted(query)) store.update(outcome("failed", faultOf(error, retries, "The map does not show this scene")));
     },
   );
   return (/** @type {Answer} */ answer) => {
