@@ -16,7 +16,7 @@ def heading_vector(heading_deg: float) -> tuple[float, float]:
     heading = fmod(heading_deg, 360.0)
     quarters = floor(heading / 90.0 + 0.5)
     rest = radians(heading - 90.0 * quarters)
-    # Sine and cosine of the whole quarters; halves by floor, as an array's remainder takes longer than its sine.
+    # Sine and cosine of the whole quarters, by `floor`: for arrays the operator % takes longer than a sine.
     halves = floor(0.5 * quarters)
     odd, flip = quarters - 2.0 * halves, halves - 2.0 * floor(0.5 * halves)
     sq, cq = odd - 2.0 * odd * flip, (1.0 - odd) * (1.0 - 2.0 * flip)

@@ -83,7 +83,7 @@ def _paint_values(figure: Figure, axes: Axes, regions: Partition, show: str) -> 
 
 
 def _middles(regions: Partition, word: Word) -> list[tuple[float, float]]:
-    """The position of the label in a region, above and below the axis: the cell farthest from the border."""
+    """The positions of labels in a region, above and below the axis: the cells farthest from the border."""
     found = []
     for half in (regions.y > 0.0, regions.y < 0.0):
         depth = _depth((regions.word == word) & half[:, np.newaxis])

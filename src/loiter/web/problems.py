@@ -45,7 +45,7 @@ PROBLEM_TYPES: dict[type[Exception], ProblemType] = {
 
 
 class JsonField(NamedTuple):
-    """A field of the request: its name in sentences, and its path in the JSON, both in place of an argument's name."""
+    """The field of the request for an argument of the library: its name in sentences, and its path in the JSON."""
 
     name: str
     path: str

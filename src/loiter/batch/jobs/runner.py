@@ -22,7 +22,7 @@ class JobStopped(Exception):
 
 
 class RowCounter:
-    """The number of rows done; several threads count each row twice, when it is solved and when it is appended.
+    """The number of rows done, counted by several threads: each row twice, when it is solved and when it is appended.
 
     When `stopped` is set, the next call of `count_or_stop` ends its thread.
     """

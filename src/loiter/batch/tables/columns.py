@@ -56,7 +56,7 @@ class SharedValues(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """The source of each quantity: the value in `shared` under the name of its column or, without one, that column.
+    """The source of each quantity: the value in `shared` under its column's name or, if there is none, that column.
 
     `limit` is the name of the turn limit; `turn` is None if a column gives it. If `text` is true, the numbers are text,
     and the last column of the table marks malformed lines.

@@ -15,7 +15,7 @@ from loiter.errors import InvalidArgument
 Kind = Literal[".parquet", ".csv", ".csv.gz"]
 KINDS: tuple[Kind, ...] = (".parquet", ".csv", ".csv.gz")
 
-# A part consists of consecutive row groups with up to this many rows, the usual size of one row group, or of one larger
+# A part consists of consecutive row groups with up to this many rows in all (the usual size of one), or of one larger
 # row group. A job that is stopped loses only the parts in progress.
 PART_ROWS = 1 << 20
 

@@ -79,7 +79,7 @@ def _line_end(text: bytes) -> bytes:
 
 
 def _repair(text: bytes, end: bytes, fields: int, *, last: bool) -> tuple[bytes, bytes]:
-    """The repaired lines, and the remaining ones from a quote that may be closed later; none remain if `last`."""
+    """The repaired lines, and the rest from the first line whose quote may be closed later; if `last`, no rest."""
     unbalanced = _unbalanced_lines(text, end)
     if not unbalanced:
         return text, b""

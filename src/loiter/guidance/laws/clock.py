@@ -45,7 +45,7 @@ class Clock:
         self._first_s = self._latest_s = nan
 
     def _new_clock_advance_s(self, time_s: float) -> float:
-        """How far the stamps of another clock have advanced, this one included.
+        """How far the stamps of another clock have advanced, up to `time_s`.
 
         A stamp that does not fit the earlier ones starts the count again.
         """

@@ -25,7 +25,7 @@ PERIOD_S, DAMPING = 17.0, 0.75
 SHORTEST_PERIOD_S = 10.0
 
 # The loop of period T, with w = 2 pi/T and a roll time constant tau, is stable for w tau < 2 damping, and reaches the
-# chosen damping for w tau << 1. Near this w tau it settles fastest, by a search over T for three aircraft
+# chosen damping for w tau << 1. A search over T for three aircraft found the fastest settling near this value of w tau
 # (docs/jsbsim.md).
 FREQUENCY_TIMES_LAG = 0.2
 

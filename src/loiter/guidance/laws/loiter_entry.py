@@ -31,9 +31,9 @@ RESERVE = 0.1
 # The averaging time of measurements, and their dead time, seconds.
 SMOOTHING_S, DELAY_S = 0.5, 0.1
 
-# Turns begin early by this many roll time constants. 0.12 of them compensate the turn rate, g tan(bank)/V, which lags
-# the bank while it grows to 35 deg. The rest allows for gusts: a turn begun late ends inside the circle, a turn begun
-# early can be flown wider.
+# Turns begin early by this many roll time constants. 0.12 of them compensate the lag of the turn rate, g tan(bank)/V,
+# behind the bank while that grows to 35 deg. The rest allows for gusts: a turn begun late ends inside the circle, a
+# turn begun early can be flown wider.
 TURN_LAG = 0.6
 
 # The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank plus
@@ -44,9 +44,9 @@ GAIN, PLACE_GAIN = 4.0, 0.25
 # only on the ratio of the error to the radius.
 HOLD_GAIN = 0.8
 
-# In turn radii over airspeed: a different plan replaces the present one if it is faster by the first margin, the same
-# plan from the present state if it is slower by no more than the second. Sensor noise changes the least time by less
-# than this, except where that jumps; there the present plan is the fastest.
+# Margins, turn radii over airspeed. A different plan replaces the present one if it is faster by the first margin, the
+# same plan, made again from the present state, if it is slower by no more than the second. Sensor noise changes the
+# least time by less than these margins, except where that time jumps; there the present plan is the fastest.
 SWITCH_MARGIN, UPDATE_MARGIN = 0.25, 0.25
 
 # The interval between searches for another plan, seconds. In wind, where a search takes milliseconds, the aircraft must
@@ -287,7 +287,7 @@ class LoiterEntry:
         return min(hypot(*flight_velocity(state.vx, state.vy, state.hx, state.hy)), self._R)
 
     def _fastest_entry(self, state: RelativeState, scale: float) -> Entry | None:
-        """The kernel's entry from a state, if there is one. It starts on the course relative to the steady wind."""
+        """The kernel's entry from a state, if any. It starts along the velocity relative to the steady wind."""
         (wx, wy), R = self._wind, self._R
         c, s = unit(*flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy))
         if self._in_still_air:
@@ -314,7 +314,7 @@ class LoiterEntry:
     def _target_bank_deg(self, route: Route, state: RelativeState, dt: float) -> float:
         """The bank that follows the route; on a turn before the last piece it is the bank limit.
 
-        Such a turn is planned again before it ends, so that flying it as wide as planned would only cost time.
+        Such a turn is planned again before it ends; flying it as wide as planned would only cost time.
         """
         if route.control and route.next_control is not None:
             return -route.control * self._limit_deg
@@ -332,9 +332,9 @@ class LoiterEntry:
 
 
 def _is_better(entry: Entry, route: Route, bend: float) -> bool:
-    """Whether an entry should replace a route: it is the same one, and not much slower, or faster by a margin.
+    """Whether an entry should replace a route: it is the same plan and not much slower, or it is faster by a margin.
 
-    It also counts as the same with additional pieces at its beginning that together are no longer than `bend`.
+    Additional pieces at its beginning do not make it a different plan if together they are no longer than `bend`.
     """
     controls = controls_of(entry.word)
     extra = max(len(controls) - len(route.controls), 0)

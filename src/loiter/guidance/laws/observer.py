@@ -15,8 +15,8 @@ from loiter.planning.compass import heading_vector
 # roll the aircraft left and right.
 CALM_AIR_DIVISOR, ROUGH_AIR_DIVISOR = 2.0, 8.0
 
-# Air is rough if the difference of that average from one over `SLOW_AVERAGE_S` seconds has at least this root mean
-# square, taken over `ROUGHNESS_AVERAGE_S` seconds.
+# Air is rough if that average differs from one over `SLOW_AVERAGE_S` seconds by at least this root mean square, taken
+# over `ROUGHNESS_AVERAGE_S` seconds.
 ROUGH_M_S, SLOW_AVERAGE_S, ROUGHNESS_AVERAGE_S = 1.2, 2.0, 10.0
 
 # Bounds of a plausible measurement: the largest value in metres, degrees or metres per second, the least airspeed.

@@ -115,7 +115,7 @@ class Route:
         return path_offset(self._circle, state.x, state.y, *self.velocity(state))
 
     def velocity(self, state: RelativeState) -> tuple[float, float]:
-        """The velocity along the path: through the air of the plan; on the circle, relative to the circle."""
+        """The velocity along the path: relative to the plan's steady wind; on the circle, relative to the circle."""
         wx, wy = (0.0, 0.0) if self._current is None else self._wind
         return flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy)
 

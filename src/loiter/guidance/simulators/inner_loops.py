@@ -1,8 +1,8 @@
 """The inner loops below guidance: they hold altitude and airspeed, keep turns free of slip, and follow a bank command.
 
-The loops are nested. Each is proportional, with an integral where there is a steady error to remove: bank to roll rate
-to aileron; altitude to climb rate to load factor to pitch rate to elevator; airspeed to throttle; yaw rate and slip to
-rudder. The deflections and throttle of a steady turn are fed forward.
+The loops are nested. Each is proportional, with an integral where there is a steady error to remove. They lead from
+bank to roll rate to aileron; from altitude to climb rate to load factor to pitch rate to elevator; from airspeed to
+throttle; from yaw rate and slip to rudder. The deflections and throttle of a steady turn are fed forward.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ class InnerLoops:
 
     def _pitch(self, measured: LoopInputs, load: float, dt: float) -> float:
         gains = self._gains
-        # cos(bank) of the load balances the weight; the rest curves the path upwards in the plane of symmetry.
+        # In the plane of symmetry a load factor of cos(bank) balances the weight; the rest curves the path upwards.
         rate = STANDARD_GRAVITY_M_S2 / measured.airspeed * (load - cos(measured.bank) * cos(measured.pitch))
         error = rate - measured.pitch_rate
         deflection = self._elevator - gains.elevator_load * (load - 1.0) - gains.elevator * error

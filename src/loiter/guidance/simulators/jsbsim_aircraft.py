@@ -137,8 +137,9 @@ class JsbsimAircraft:
 def identified_roll(airframe: Airframe) -> Roll:
     """The roll response of an airframe in still air, identified from a reversal from one bank limit to the other.
 
-    The rate is the largest mean rate over a tenth of a second. The time constant gives the same integral of the missing
-    bank: D^2/(2 p) + p time^2/2 for a change of D at the rate p (`Roll.lead_s`). Raises the same as `JsbsimAircraft`.
+    The rate is the largest mean rate over a tenth of a second. The time constant is that of the `Roll` with the same
+    integral of the missing bank over time, D^2/(2 p) + p time^2/2 for a change of D at the rate p (`Roll.lead_s`).
+    Raises the same as `JsbsimAircraft`.
     """
     limit_deg = airframe.aircraft.bank_deg(airframe.aircraft.turn_radius_m)
     simulator = JsbsimAircraft(Pose(0.0, 0.0, 0.0), airframe)

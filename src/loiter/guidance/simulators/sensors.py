@@ -43,7 +43,7 @@ EXACT = Noise(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 class Sensors:
     """Measures states one after another; each measurement is available `noise.delay_s` later.
 
-    The measurements before the first state assume that the aircraft flew straight with its present velocity.
+    Measurements from before the first state assume straight flight with the velocity of that state.
     """
 
     def __init__(self, first: State, noise: Noise, random: Generator) -> None:

@@ -50,8 +50,8 @@ class Trial:
 
 
 # A flight counts as a go-around if it turns, off the circle, by this much more than the fastest entry. A go-around is a
-# whole turn that leaves the circle and returns to it. Up to 20 degrees at each end lie within twice the band and do not
-# count; the rest is margin.
+# whole turn that leaves the circle and returns to it. Up to 20 degrees of it at each end lie within twice the band and
+# do not count; the rest of the difference from a whole turn is margin.
 GO_AROUND_DEG = 270.0
 
 

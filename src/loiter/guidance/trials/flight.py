@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 # The time step of a law, seconds: autopilots navigate at 10 to 50 Hz.
 STEP_S = 0.02
 
-# A flight that has not settled by then counts as not settled, seconds.
+# The time limit of a flight, seconds: one that settles later counts as not settled.
 LIMIT_S = 600.0
 
 # The interval at which the reported time to join is checked, seconds.
@@ -138,7 +138,7 @@ def fly(
 
 
 def _step_to_event(command: Command, step_s: float) -> float:
-    """A step that ends at the next event if that comes first; nan means that there is none."""
+    """`step_s`, or the time to the next event if that is shorter; a `next_in_s` of nan means that there is none."""
     return max(command.next_in_s, SHORTEST_S) if command.next_in_s < step_s else step_s
 
 

@@ -48,8 +48,8 @@ class Roll:
         It is the integral of the missing bank over time, divided by the whole change. Let m be the missing bank, p the
         limit of the roll rate, and g how far the bank limit lies beyond the target. The bank changes at the least of
         p, (m + g)/tau (the command is at the bank limit) and `COMMAND_GAIN` m/tau. As m shrinks these apply in that
-        order. The integral over time is that of m/rate over m, which is in the three ranges: m^2/(2 p); tau (m - g ln(m
-        + g)); tau m/COMMAND_GAIN.
+        order. The integral of m over time equals that of m/rate over m. Its antiderivatives in the three ranges are
+        m^2/(2 p), tau (m - g ln(m + g)) and tau m/COMMAND_GAIN.
         """
         m, g = abs(target_deg - bank_deg), limit_deg - (target_deg if target_deg >= bank_deg else -target_deg)
         tau, p = self.time_s, self.rate_deg_s

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from loiter.kernel.motion import fly
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 
-# A turn through a smaller angle, radians, is flown as a straight line: it bends the path by less than rounding does.
+# A turn through a smaller angle, radians, is flown as a straight line: the difference is below the rounding error.
 SMALLEST_TURN = 2.0**-54
 
 

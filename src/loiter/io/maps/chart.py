@@ -13,7 +13,7 @@ from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Samples, Segment
 from loiter.planning.vocabulary import ACTIONS
 
-# The bend of map lines grows without bound towards a pole; it is bounded up to this latitude only.
+# The bend of map lines grows without bound towards a pole; beyond this latitude it is kept constant.
 LARGEST_LATITUDE_DEG = 89.99
 
 
@@ -115,7 +115,7 @@ def _kinds(segments: int) -> list[str]:
 
 
 def _bend_per_m(maneuver: Maneuver, frame: LocalFrame, orbit: Orbit) -> float:
-    """The largest curvature, per metre, in the plane of the frame of a line that is straight on the map.
+    """The largest curvature, per metre, that a straight line of the map has in the plane of the frame.
 
     A line of constant d(latitude)/d(longitude) on the course c at the latitude f has the geodesic curvature
     sin(c) (1 + cos(c)^2) tan(f)/R, at most 1.09 tan(f)/R: tan(c) = cos(f) d(longitude)/d(latitude) gives

@@ -1,8 +1,8 @@
 """How each MAVLink command and each autopilot parameter encodes the radius and the direction of a circle.
 
-The commands follow the definition of MAVLink (message set common, MAV_CMD), WP_LOITER_RAD its description in ArduPlane,
-NAV_LOITER_RAD PX4 since PX4-Autopilot pull request 25265 (July 2025): before that PX4 refused negative values and
-always held clockwise.
+The sources are MAVLink's definition of the commands (message set common, MAV_CMD), ArduPlane's description of
+WP_LOITER_RAD, and for NAV_LOITER_RAD PX4 since PX4-Autopilot pull request 25265 (July 2025): before that PX4 refused
+negative values and always held clockwise.
 """
 
 from __future__ import annotations

@@ -160,7 +160,7 @@ def replace_mission(
     items, remarks = _adapt(mission, vehicle, own_home(old, vehicle), behaviour)
     try:
         if vehicle.autopilot == Autopilot.PX4 and is_same(old, items, vehicle) and not flies_mission(link):
-            # PX4 does not check again a mission that it has found invalid, even if its parameters have changed since.
+            # If PX4 has found a mission invalid, it does not check it again, even after its parameters have changed.
             transfer.clear(link, timeout_s)
         wrong, cut = _send_and_check(link, items, timeout_s, on_progress)
         if wrong:

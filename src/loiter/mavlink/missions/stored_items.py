@@ -19,8 +19,8 @@ from loiter.io.missions.signs import Params
 from loiter.mavlink.connection.link import Vehicle, dialect
 from loiter.planning.compass import wrapped
 
-# The MAV_FRAMEs in which x and y are latitude and longitude, and the equivalent frame whose name does not end in INT:
-# PX4 returns those that do.
+# The MAV_FRAMEs in which x and y are latitude and longitude, each with the equivalent frame whose name does not end in
+# INT. PX4 returns the frames whose names end in INT.
 _EQUIVALENT_FRAMES = {0: 0, 3: 3, 10: 10, 5: 0, 6: 3, 11: 10}
 PER_DEGREE = 1e7
 

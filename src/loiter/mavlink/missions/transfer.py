@@ -195,7 +195,7 @@ class _SendAttempt:
             self.accepted = self._is_complete
             return self.accepted or None
         self.refusal = mission_result(result)
-        # ArduPilot sends this for an item that arrived twice, and goes on; to a busy vehicle the request is repeated.
+        # ArduPilot sends INVALID_SEQUENCE for a repeated item, and goes on; a busy vehicle gets the request again.
         if result == INVALID_SEQUENCE or (self.last_requested < 0 and result in BUSY):
             return None
         if self._is_complete and self.repeats:

@@ -20,7 +20,7 @@ def extrapolated_pose(here: Pose, motion: Motion, airspeed_m_s: float, wind: Win
     speed = hypot(east, north)
     if speed == 0.0:
         return here
-    # A rate to the right is negative as the kernel counts angles.
+    # The kernel counts angles counter-clockwise: a rate to the right is negative.
     place = PlanarPose(here.east_m, here.north_m, east / speed, north / speed)
     x, y, _, _ = constant_turn(place, speed, -radians(motion.rate_deg_s), time_s)
     wind_east, wind_north = wind.velocity_m_s

@@ -16,7 +16,7 @@ NO_HEADING = 65535
 # Seconds for which a heading, a wind and a landed state, which is sent rarely, count as current.
 HEADING_S, WIND_S, LANDED_S = 3.0, 30.0, 10.0
 
-# Without ATTITUDE the rate of turn is computed from headings over the first time, seconds, or at least over the second.
+# Without ATTITUDE the rate of turn is computed from headings over `RATE_S` seconds, or at least `LEAST_RATE_S`.
 RATE_S, LEAST_RATE_S = 0.2, 0.05
 
 # A vehicle whose clock, milliseconds since its start, goes back by more than this has restarted.

@@ -16,7 +16,7 @@ from loiter.planning.model import Turn
 from loiter.planning.solve import all_fastest, best_and_others
 from loiter.web.models import ExportOptions
 
-# Points of a track that the service writes into one file, a second's work; `loiter plan --save` has no such limit.
+# The most points of a track that the service writes to a file, a second's work; `loiter plan --save` has no such limit.
 MAX_POINTS = 20_000
 
 # Media types of the formats.
