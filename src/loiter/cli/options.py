@@ -89,7 +89,7 @@ class OrbitOptions:
         TurnName | None,
         Parameter(
             group=scene,
-            help="Direction of flight around the circle, seen from above. If absent: the direction in --params, or either without --params.",
+            help="Direction of flight around the circle, seen from above. If absent: the direction in --params, otherwise the faster one.",
         ),
     ] = None
     orbit_velocity: Annotated[

@@ -278,7 +278,9 @@ class Plan(Maneuver):
     """The first optimal maneuver, and others."""
 
     alternatives: list[LaterManeuver]
-    optimal: int = Field(description="The number of optimal maneuvers: this one and the first of the alternatives.")
+    optimal: int = Field(
+        description="The number of optimal maneuvers: this one, and the others, which come first in the alternatives."
+    )
     other_turn_later_s: float | None = Field(
         description="Seconds by which the best maneuver in the other direction joins later; 0 where they tie."
     )

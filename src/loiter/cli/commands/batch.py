@@ -37,7 +37,7 @@ def batch(
     ] = None,
     turn: Annotated[
         TurnName | None,
-        Parameter(group=shared, help="Direction in which the circle is held; either if absent."),
+        Parameter(group=shared, help="Direction in which the circle is held; the faster one if absent."),
     ] = None,
     airspeed: Annotated[
         float | None, Parameter(group=shared, metavar="M_PER_S", help="True airspeed, metres per second.")

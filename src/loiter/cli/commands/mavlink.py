@@ -66,7 +66,7 @@ TrueRadius = Annotated[
     bool,
     Parameter(
         group=connection,
-        help="If its NAVL1_LIM_BANK is 0, ArduPlane flies wider loiters at higher altitude: send the radius that makes it fly the desired one.",
+        help="If NAVL1_LIM_BANK is 0, ArduPlane flies wider loiters at higher altitude; this option sends the radius for which it flies the desired one.",
     ),
 ]
 
@@ -234,7 +234,7 @@ def watch(
         sys.stdout.flush()
 
 
-# A wind below the first, which would be shown as 0.0, is left out; times that differ by less than the second are equal.
+# A wind below LEAST_WIND_M_S, which would print as 0.0, is omitted; times closer than SAME_TIME_S count as equal.
 LEAST_WIND_M_S, SAME_TIME_S = 0.05, 0.05
 
 
