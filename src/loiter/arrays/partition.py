@@ -23,8 +23,8 @@ LARGEST, MOST_CELLS = 1e9, 4000
 # within which a start counts as on the last arc, so both ends lie in the open regions on either side.
 NARROW = 1e-6
 
-# Where to divide the interval between the two ends. The uneven share avoids the axes, where words tie, and which
-# bisection on a symmetric grid would hit.
+# Where to divide the interval between the two ends. The uneven share avoids the axes, where words tie and which
+# halving would hit on a symmetric grid.
 SHARE = 0.437
 
 # T jumps at R = 1 only (docs/theory.md, section 6). Across a boundary where T is continuous it differs by less than
@@ -151,7 +151,7 @@ def _grid_step(regions: Partition) -> float:
 
 
 def _kind(word: str, other: str, vanishes: bool) -> str:
-    """The kind of a boundary between two words, where T does not jump; `vanishes`: whether one's first piece does."""
+    """The kind of a boundary between two words, where T does not jump; `vanishes`: whether a first piece is 0 there."""
     if vanishes:
         return "straight" if "S" in word[:2] and "S" in other[:2] else "switch"
     return "same" if word[:1] == other[:1] else "tie"

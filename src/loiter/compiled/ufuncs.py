@@ -56,7 +56,7 @@ def _ufunc(name: str, address: int) -> Any:
     loops, data = (ctypes.c_void_p * 1)(address), (ctypes.c_void_p * 1)(None)
     types = bytes(np.dtype(code).num for code in inputs + outputs)
     title, shapes = name.encode(), signature.encode() if signature else None
-    # NumPy stores pointers to these only.
+    # NumPy stores only pointers to these.
     _REFERENCED.append((loops, data, types, title, shapes))
     return _constructor()(loops, data, types, 1, len(inputs), len(outputs), NO_IDENTITY, title, None, 0, shapes)
 

@@ -8,7 +8,7 @@ psi is determined by a point where phi = 0 (docs/theory.md, section 2):
   construction, and everything before the last switch remains to be checked;
 - a single arc has no such point, and many psi are possible: any with psi1(T) (1 + u side R) = lambda >= max psi1 over
   the arc. The one chosen is the limit of those of the neighbouring words. An arc that crosses the axis on the way
-  counts as the last piece of a straight entry: lambda = 1 and psi = (1, 0) at the crossing. Otherwise it counts as the
+  counts as the last piece after a straight one: lambda = 1 and psi = (1, 0) at the crossing. Otherwise it counts as the
   last piece after a switch at its start: psi is parallel to the start. For a start on the axis the two agree.
 
 Nothing is mirrored: `side` is +1 for the target (0, R), -1 for (0, -R), and L, R, u are as flown.
@@ -33,7 +33,7 @@ class Adjoint(NamedTuple):
 
 
 def turn_adjoint(psi1: float, psi2: float, u: int, t: float) -> tuple[float, float]:
-    """The adjoint psi after a time t with control u, before it where t < 0: the exact flow of the dual system (12)."""
+    """The adjoint psi after a time t (before, if t < 0) with control u: the exact flow of the dual system (12)."""
     # psi is the constant adjoint of the position in axes along the course, so it turns opposite to the course.
     _, _, psi1, psi2 = fly(0.0, 0.0, psi1, psi2, -u, t)
     return psi1, psi2
@@ -45,7 +45,7 @@ def switching_function(x: float, y: float, psi1: float, psi2: float) -> float:
 
 
 def at_switch(x: float, y: float, u: int, R: float) -> Adjoint:
-    """The adjoint at a state (x, y) where phi = 0 and the control u follows.
+    """The adjoint at a state (x, y) where phi = 0 and the next control is u.
 
     psi is parallel to (x, y). Its sign follows from psi1 = lambda >= 0, and also from phi' = -psi2, which has the sign
     of u. The two agree on an optimum; the larger component of (x, y) decides, so that rounding of the smaller one has

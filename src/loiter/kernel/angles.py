@@ -48,11 +48,11 @@ def is_at_most_half_turn(rotated: Rotation) -> bool:
 
 
 def snap_full_turn(rotated: Rotation, radius2: float, arc_tolerance: float) -> Rotation:
-    """The rotation, or none where it is less than a full turn by at most `arc_tolerance` of arc length.
+    """The rotation, or that by zero where it is less than a full turn by at most `arc_tolerance` of arc length.
 
     `radius2` is the square of the radius of the arc. Leaving out the full turn moves the end point by at most
-    `arc_tolerance`; it removes the jump of T that rounding or noise would cause just past a point (docs/theory.md,
-    section 6). The missing angle is replaced by its tangent, which is no smaller.
+    `arc_tolerance`; it removes the jump of T that rounding or noise would cause where an arc vanishes
+    (docs/theory.md, section 6). The missing angle is replaced by its tangent, which is no smaller.
     """
     cross, dot = rotated
     nearly_full = cross < 0.0 < dot and cross * cross * radius2 <= arc_tolerance * arc_tolerance * dot * dot

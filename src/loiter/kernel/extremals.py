@@ -69,7 +69,7 @@ def reaches(extremal: Extremal) -> bool:
 
 
 def durations(extremal: Extremal) -> tuple[float, float, float]:
-    """The durations of its pieces in flying order, 0 past the last."""
+    """The durations of the pieces in flying order, 0 past the last."""
     return angle(extremal.first), extremal.straight + angle(extremal.middle), angle(extremal.last)
 
 
@@ -168,7 +168,7 @@ def r(start: Start) -> Extremal:
 
 
 def rl(start: Start, branch: float) -> Extremal:
-    """RL: right to the last circle, of radius R + 1 about (0, -1), met where x1 has the sign of `branch`; then left.
+    """RL: right to the crossing with the last circle (R + 1 about (0, -1)) where x1 has `branch`'s sign; then left.
 
     The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = (R + 3)^2 - rm^2 =
     8 (R + 1) - q.
@@ -183,7 +183,7 @@ def rl(start: Start, branch: float) -> Extremal:
 
 
 def lr(start: Start, branch: float) -> Extremal:
-    """LR, R > 1: left to the circle of radius R - 1 about (0, 1), met where x1 has the sign of `branch`; then right.
+    """LR, R > 1: left to the crossing with the circle (R - 1 about (0, 1)) where x1 has `branch`'s sign; then right.
 
     The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = -`outer` = (R + 1)^2 - rp^2, p = `fold` =
     rp^2 - (R - 3)^2.
@@ -285,9 +285,9 @@ def fastest(x: float, y: float, R: float, arc_tolerance: float, exact: bool) -> 
     """The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
 
     `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to rounding,
-    and the single arc replaces the words of which it is the limit, except LRL where the arc would cross the axis from
-    y > 0, which no optimal first arc does. With a tolerance, where a start may lie beside a circle, the single arcs
-    compete with the other words, so that a tolerance never makes T larger.
+    and the single arc replaces the words of which it is the limit. It does not replace LRL where it would cross the
+    axis from y > 0, which no optimal first arc does. With a tolerance, where a start may lie beside a circle, the
+    single arcs compete with the other words, so that a tolerance never makes T larger.
 
     Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
     where it exists and its first arc is no longer than half a turn, up to the switching curve.

@@ -1,8 +1,9 @@
 """Holding a circle in wind: heading, ground speed and rate of turn around it (docs/wind.md, section 2).
 
 Everything is relative to the circle: the air moves with w = (wx, wy), |w| < 1, so a vehicle that heads along the unit
-vector e moves with e + w. A point of the circle is given by its phase: the angle flown along the circle since the
-heading was against the wind, in either direction; side +1 is clockwise, -1 counter-clockwise, as in `words.Side`.
+vector e moves with e + w. A point of the circle is given by its phase: the angle flown along the circle, in the
+direction of the hold, since the heading was against the wind; side +1 is clockwise, -1 counter-clockwise, as in
+`words.Side`.
 """
 
 from math import cos, hypot, sin, sqrt

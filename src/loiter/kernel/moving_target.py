@@ -118,7 +118,7 @@ def tangent(u: int, dx: float, dy: float) -> tuple[float, float, float]:
 
 
 def lsr_rsl(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
-    """LSR (u = +1) or RSL, the first whose time is at most `until`; the centres must be at least two radii apart."""
+    """The first LSR (u = +1) or RSL whose time is at most `until`; the centres must be at least two radii apart."""
     # Circles that overlap by rounding count as touching: two arcs without a straight piece.
     enter, leave = time_within(dx, dy, ends.wx, ends.wy, 2.0 - ends.arc_tolerance)
     path = NO_PATH
@@ -130,7 +130,7 @@ def lsr_rsl(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
 
 
 def first_lsr_rsl(u: int, dx: float, dy: float, ends: Ends, interval: Interval) -> Path:
-    """LSR or RSL of the first root in an interval throughout which the centres are at least two radii apart.
+    """The LSR or RSL at the first root in an interval throughout which the centres are at least two radii apart.
 
     With its arcs continued beyond whole turns, length - T is convex and falls with the slope -(1 + w . p). So for each
     number of turns it has at most one root, and Newton's method converges to it from the beginning of the interval.
@@ -172,7 +172,7 @@ def lsr_rsl_root(u: int, dx: float, dy: float, ends: Ends, arcs: float, interval
 
 
 def lrl_rlr(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
-    """LRL (u = +1) or RLR, the first whose time T is at most `until`: T = 2 t2 + rotation from start to pose + turns.
+    """The first LRL (u = +1) or RLR whose time T is at most `until`: T = 2 t2 + rotation from start to pose + turns.
 
     Only a path with p . w + lambda >= 0 can be the first; for each number of whole turns there is at most one such
     path.

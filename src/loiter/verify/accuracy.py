@@ -39,10 +39,11 @@ STEP = 2.0**-15
 
 
 class Accuracy(NamedTuple):
-    """The accuracies above, and the bounds of residuals: of the equations of motion in the order of the formulation.
+    """The accuracies above, and the bounds of residuals.
 
-    `join` bounds the error of the pose at the end of the last segment, `gradient` the deviation of the adjoint's
-    direction from that given by the gradient of T. Durations closer than `tie` count as equal.
+    `motion` bounds each equation of motion, in the order of the formulation, `join` the error of the pose at the end of
+    the last segment, `gradient` the deviation of the adjoint's direction from that given by the gradient of T.
+    Durations closer than `tie` count as equal.
     """
 
     end: float

@@ -97,7 +97,7 @@ class Certificate:
 
     @property
     def runner_up(self) -> Candidate | None:
-        """The fastest candidate that is slower; None where there is none, or where one beats the maneuver."""
+        """The fastest candidate that is slower; None where there is none, or where a candidate is faster."""
         if any(other.later_s < -self.tie_s for other in self.others):
             return None
         return next((other for other in self.others if other.later_s > self.tie_s), None)

@@ -18,7 +18,7 @@ from loiter.verify.trajectory import Trajectory
 # which T is rarely linear, to where rounding, 64 units of 2^-52 over the step, uses up what `gradient.RESOLVED` allows.
 STEPS_IN_STILL_AIR = tuple(2.0**-k for k in range(4, 34))
 
-# In wind each T takes a search, so there are few.
+# In wind each T takes a search, so there are few steps.
 STEPS_IN_WIND = (2.0**-6, 2.0**-9, 2.0**-12, 2.0**-15)
 
 

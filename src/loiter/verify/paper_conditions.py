@@ -99,7 +99,7 @@ def _crossings(arc: FlownPiece) -> Iterator[float]:
 
 
 def last_arc(trajectory: Trajectory, accuracy: Accuracy, *, tight: bool) -> Violation | None:
-    """The excess of a last arc after a switch over acos(1/(1 + R)); None unless `tight` equals R == 1."""
+    """By how much a last arc after a switch exceeds acos(1/(1 + R)); None unless `tight` equals (R == 1)."""
     last, (_, _, _, R, side) = trajectory.last, trajectory.start
     free = trajectory.problem.orbit.turn == Turn.EITHER and tight == (R == 1.0)
     if not free or len(trajectory.pieces) == 1 or last.u != side:

@@ -25,7 +25,7 @@ from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.problem import Problem, ReducedProblem
 
-# Instants checked in each piece. Between two of them psi1 and phi are monotone once their extremes are added.
+# Instants checked in each piece. Once the extremes of psi1 and phi are added, both are monotone between instants.
 SAMPLES = 9
 
 
@@ -130,7 +130,7 @@ class InitialAdjoint(NamedTuple):
 
 
 class MaximumPrinciple(NamedTuple):
-    """One number for each condition of the maximum principle: by how much it is violated, or the bound of that."""
+    """One number for each condition of the maximum principle: by how much it is violated, or the bound on that."""
 
     norm: float
     multiplier: float

@@ -47,8 +47,8 @@ LONGEST = 1.5
 # interval of width h costs about h^2/4, and h = T/24 is about a quarter), so the best minimum is among them.
 MINIMA = 3
 
-# Two paths whose times differ by less are the same local minimum: those of one minimum agree far better, and those of
-# two minima hardly ever do.
+# Two paths whose times differ by less are the same local minimum: times of one minimum agree far better, and times of
+# two minima hardly ever agree so well.
 SAME_TIME = 1e-3
 
 IPOPT: dict[str, Any] = {

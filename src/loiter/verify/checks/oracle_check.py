@@ -18,7 +18,7 @@ from loiter.verify.checks.oracle import Circle, OraclePath, Planar, Search, from
 # at a distance d: some 1e-10 for the nearest starts (d = 1e-9) and a few roundings of R = 30. 1e-9 is a safe bound.
 RESOLUTION = 1e-9
 
-# The points of joining tried at first, and at most while the search has not found a path as short as the plan.
+# The number of points of joining tried first, and the largest tried while no path as short as the plan is found.
 JOINS, MOST_JOINS = 90, 90_000
 
 RADII = (1.0, 1.0 + 1e-6, 1.05, 1.3, 2.0 - 1e-6, 2.0, 2.0 + 1e-6, 3.0, 5.0, 10.0, 30.0)

@@ -38,7 +38,7 @@ MINIMA = 6
 # The span of time that is scanned at once.
 BLOCK = 2.0 * pi
 
-# A bound, with a margin of whole turns, on the time that the arcs of the earliest path take: the end of the scan.
+# A bound, with a margin of whole turns, on the time that the arcs of the earliest path take; the scan ends there.
 LONGEST_ARCS = 10.0 * pi
 
 
