@@ -4,7 +4,17 @@ from math import cos, inf, pi, sin
 
 import pytest
 
-from loiter.kernel.extremals import duration, extremals, fastest, l, left_first, r, right_first, start_at
+from loiter.kernel.extremals import (
+    duration,
+    extremals,
+    fastest,
+    l,
+    left_first,
+    r,
+    reaches,
+    right_first,
+    start_at,
+)
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import optimum, rounding
 from loiter.kernel.words import Side, Word
@@ -47,3 +57,10 @@ def test_with_a_tolerance_the_sooner_of_the_two_first_turns_wins_on_the_tightest
             assert least == min(map(duration, competing))
             differ += least < by_rule
     assert differ > 0
+
+
+@pytest.mark.parametrize(("x", "y"), [(0.0, 1.0), (-1e-4, 1.0001), (1e-4, 1.0)])
+def test_on_the_tightest_circle_there_is_no_single_right_turn(x, y):
+    """Its circle has the radius R - 1 = 0: it would turn on the spot, next to the target, and take no time."""
+    assert not reaches(r(start_at(x, y, 1.0, 1e-3)))
+    assert reaches(r(start_at(0.0, 2.0, 2.0, 1e-3)))
