@@ -213,6 +213,20 @@ def test_parquet_of_other_writers(tmp_path):
         assert_planned([one], asked=asked, airspeed_m_s=18.0, max_bank_deg=35.0)
 
 
+@pytest.mark.parametrize("kind", [pa.int32(), pa.int64(), pa.float32(), pa.float64()])
+def test_numbers_that_a_dictionary_shrank_have_one_in_the_output(tmp_path, kind):
+    rows = 4000
+    few, many = pa.array(np.arange(rows) % 4).cast(kind), pa.array(np.arange(rows)).cast(kind)
+    pq.write_table(poses(rows).append_column("few", few).append_column("many", many), tmp_path / "in.parquet")
+    loiter.batch.run(tmp_path / "in.parquet", tmp_path / "out.parquet", **GIVEN)
+    group = pq.ParquetFile(tmp_path / "out.parquet").metadata.row_group(0)
+    chunks = {chunk.path_in_schema: chunk for chunk in map(group.column, range(group.num_columns))}
+    assert {name: "RLE_DICTIONARY" in chunks[name].encodings for name in ("few", "many")} == {
+        "few": True,
+        "many": False,
+    }
+
+
 @pytest.mark.parametrize("kind", [pd.Categorical, list])
 def test_pandas_reads_back_its_index_and_its_categories(tmp_path, kind):
     frame = poses(20).to_pandas().set_index("id")
