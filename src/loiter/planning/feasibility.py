@@ -44,9 +44,12 @@ def radius_in_turns(orbit: Orbit, aircraft: Aircraft) -> float:
     return orbit.radius_m / aircraft.turn_radius_m
 
 
-def check_held(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> None:
-    """Raise `WindTooStrong` or `RadiusTooSmall` where the aircraft cannot hold the circle at every azimuth."""
-    air, R = relative_wind(orbit, aircraft, wind), radius_in_turns(orbit, aircraft)
+def check_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> None:
+    """Raise `WindTooStrong` or `RadiusTooSmall` if the aircraft cannot hold the circle at every azimuth.
+
+    `air` is the wind relative to the circle, from `relative_wind`.
+    """
+    R = radius_in_turns(orbit, aircraft)
     status = wind_search.status_of(WindProblem(0.0, 0.0, 1.0, 0.0, R, Side.EITHER, *air))
     if status == Status.WIND_TOO_STRONG:
         V, speed = aircraft.airspeed_m_s, hypot(*air) * aircraft.airspeed_m_s

@@ -93,7 +93,7 @@ class Problem:
 
         Raises `RadiusTooSmall` or `WindTooStrong` for a circle that cannot be held, `OutOfRange` for a scene too large.
         """
-        check_held(self.orbit, self.aircraft, self.wind)
+        check_held(self.orbit, self.aircraft, self.relative_wind)
         (x, y), (c, s) = self._place(), heading_vector(self.pose.heading_deg)
         wx, wy = self.relative_wind
         found = WindProblem(x, y, c, s, self.radius, SIDES[self.orbit.turn], wx, wy)

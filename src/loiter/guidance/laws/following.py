@@ -15,7 +15,7 @@ from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.planning.compass import heading_vector
-from loiter.planning.feasibility import check_held
+from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, STANDARD_GRAVITY_M_S2, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.sides import SIDES
 from loiter.planning.solve import plan
@@ -94,7 +94,7 @@ class Follower(ABC):
 
     def __init__(self, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None) -> None:
         self.orbit, self.aircraft, self.wind = orbit, aircraft, CALM if wind is None else wind
-        check_held(orbit, aircraft, self.wind)
+        check_held(orbit, aircraft, relative_wind(orbit, aircraft, self.wind))
         self.turn = orbit.turn
         self._max_bank_deg = aircraft.bank_deg(aircraft.turn_radius_m)
         self._bank_deg = 0.0

@@ -111,8 +111,8 @@ class LoiterEntry:
         gain: float = GAIN,
     ) -> None:
         wind = CALM if wind is None else wind
-        check_held(orbit, aircraft, wind)
         self._orbit, self._roll, self._wind = orbit, roll, relative_wind(orbit, aircraft, wind)
+        check_held(orbit, aircraft, self._wind)
         self._in_still_air = self._wind.still
         self._gain = positive("gain", gain, "units")
         self._history = BankHistory(not_negative("delay_s", delay_s, "seconds"))
