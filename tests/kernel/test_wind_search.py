@@ -1,15 +1,12 @@
 """The fastest way onto a circle in wind: the laws it obeys, the hold, degenerate starts, and still air as its limit."""
 
-from functools import cache
 from itertools import combinations, pairwise
 from math import atan2, cos, hypot, inf, isnan, nan, pi, sin, sqrt
 
-import numba
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from loiter.compiled.rebinding import rebound
 from loiter.kernel.hold import hold_pose, hold_rate, hold_time, phase_of, tightest_radius
 from loiter.kernel.motion import reduce
 from loiter.kernel.statuses import Status
@@ -334,26 +331,6 @@ def test_what_cannot_be_solved_has_a_status(change, status):
     assert answer[0] == status
     assert Status(answer[0]).message
     assert isnan(answer[3]) == (status != Status.OK)
-
-
-@cache
-def compiled():
-    return rebound(fastest, finish=numba.njit)
-
-
-def test_compiled_it_is_the_same():
-    for i in range(40):
-        problem = WindProblem(
-            5.0 * cos(i),
-            4.0 * sin(2 * i),
-            cos(3 * i),
-            sin(3 * i),
-            3.0,
-            int(Side.EITHER),
-            0.4 * cos(5 * i),
-            0.4 * sin(5 * i),
-        )
-        assert compiled()(problem) == pytest.approx(fastest(problem), abs=1e-9)
 
 
 @given(scenes(), sides)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import degrees, hypot, inf, nan
 from typing import NamedTuple
 
+from loiter.compiled import wind_solver
 from loiter.errors import not_negative, positive
 from loiter.guidance.laws.clock import Clock
 from loiter.guidance.laws.observer import BankHistory, Estimate, Observer, is_usable
@@ -114,6 +115,8 @@ class LoiterEntry:
         self._orbit, self._roll, self._wind = orbit, roll, relative_wind(orbit, aircraft, wind)
         check_held(orbit, aircraft, self._wind)
         self._in_still_air = self._wind.still
+        if not self._in_still_air:
+            wind_solver.load()
         self._gain = positive("gain", gain, "units")
         self._history = BankHistory(not_negative("delay_s", delay_s, "seconds"))
         self._V, self._side = aircraft.airspeed_m_s, SIDES[orbit.turn]
@@ -293,7 +296,7 @@ class LoiterEntry:
         if self._in_still_air:
             scene = *motion.reduce(state.x / scale, state.y / scale, c, s), rounded_radius(R / scale)
             return optimum(*scene, self._side, self._tolerance) if is_solvable(*scene, self._tolerance) else None
-        found = wind_search.fastest(WindProblem(state.x, state.y, c, s, R, self._side, wx, wy))
+        found = wind_solver.fastest(WindProblem(state.x, state.y, c, s, R, self._side, wx, wy))
         return wind_search.entry_of(found) if found.status == Status.OK else None
 
     def _follow(self, route: Route, response: ResponsePoint, present_s: float, dt: float) -> Command:
