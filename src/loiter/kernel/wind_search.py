@@ -328,18 +328,67 @@ def fit_two_arcs(arcs: Entry, phase: float, scene: WindScene) -> tuple[Entry, fl
     return Entry(side, word, t1, t2, 0.0), phase
 
 
+def one_arc_entry(found: WindCandidate) -> Entry:
+    """The arc left of a word whose other pieces together last `SHORT` or less; the empty word where there is none."""
+    _, side, path = found
+    first, middle, last = controls(path.word)
+    if first == last and path.t2 <= SHORT:
+        return Entry(side, encode(first), path.t1 + path.t3, 0.0, 0.0)
+    if middle != 0 and path.t1 + path.t3 <= SHORT:
+        return Entry(side, encode(middle), path.t2, 0.0, 0.0)
+    if path.t2 + path.t3 <= SHORT:
+        return Entry(side, encode(first), path.t1, 0.0, 0.0)
+    if path.t1 + path.t2 <= SHORT:
+        return Entry(side, encode(last), path.t3, 0.0, 0.0)
+    return Entry(side, 0, 0.0, 0.0, 0.0)
+
+
+def fit_one_arc(arc: Entry, phase: float, scene: WindScene) -> tuple[Entry, float]:
+    """One arc that ends on the circle, and its phase, from an approximation, by Newton's method.
+
+    It can end on the circle and along it only where the start is on it by rounding. The end and the point of joining
+    move in the same direction, so the distance between them along it determines the duration of the arc less the time s
+    by which it joins later, and then the heading determines s.
+    """
+    x, y, c, s, R, wx, wy, arc_tolerance = scene
+    side, word, t, _, _ = arc
+    u, _, _ = controls(word)
+    for _ in range(ARC_STEPS):
+        x1, y1, c1, s1 = fly(x, y, c, s, u, t)
+        px, py, ce, se, g = hold_pose(phase, side, R, wx, wy)
+        rx, ry, vx, vy = px - x1 - wx * t, py - y1 - wy * t, ce + wx, se + wy
+        longer, bend = (rx * vx + ry * vy) / (g * g), u + side * hold_rate(phase, side, R, wx, wy)
+        if bend == 0.0:
+            break
+        later = (atan2(c1 * se - s1 * ce, c1 * ce + s1 * se) - u * longer) / bend
+        t, phase = t + longer + later, phase + later * g / R
+        if abs(longer) + abs(later) <= arc_tolerance:
+            break
+    return Entry(side, word, t, 0.0, 0.0), phase
+
+
 def polish(found: WindCandidate, scene: WindScene) -> tuple[Entry, float]:
-    """The maneuver and phase of a candidate, or those of its two arcs alone where these are close and no slower."""
+    """The maneuver and phase of a candidate, or those of one or two of its arcs alone if close and no slower."""
     phase, side, path = found
     entry = Entry(side, path.word, path.t1, path.t2, path.t3)
-    arcs = two_arc_entry(found)
+    latest = path.time + TOO_EARLY * end_miss(entry, phase, scene)
+    arc, arcs = one_arc_entry(found), two_arc_entry(found)
+    if arc.word != 0:
+        arc, arc_phase = fit_one_arc(arc, phase, scene)
+        if is_close(arc, arc_phase, latest, scene):
+            return arc, arc_phase
     if arcs.word != 0:
         arcs, arcs_phase = fit_two_arcs(arcs, phase, scene)
-        late = arcs.t1 + arcs.t2 - path.time - TOO_EARLY * end_miss(entry, phase, scene)
-        both_flown = min(arcs.t1, arcs.t2) >= 0.0
-        if both_flown and max(late, end_miss(arcs, arcs_phase, scene)) <= 3.0 * scene.arc_tolerance:
+        if is_close(arcs, arcs_phase, latest, scene):
             return arcs, arcs_phase
     return entry, phase
+
+
+def is_close(arcs: Entry, phase: float, latest: float, scene: WindScene) -> bool:
+    """Whether one or two arcs end on the circle, and no later than `latest`, up to rounding."""
+    both_flown = min(arcs.t1, arcs.t2) >= 0.0
+    late = duration(arcs) - latest
+    return both_flown and max(late, end_miss(arcs, phase, scene)) <= 3.0 * scene.arc_tolerance
 
 
 def end_miss(entry: Entry, phase: float, scene: WindScene) -> float:
