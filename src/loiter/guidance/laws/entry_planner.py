@@ -6,6 +6,7 @@ from math import hypot
 from typing import NamedTuple
 
 from loiter.guidance.laws.path_tracking import flight_velocity
+from loiter.compiled import wind_solver
 from loiter.kernel import motion, wind_search
 from loiter.kernel.hold import tightest_radius
 from loiter.kernel.statuses import Status
@@ -88,7 +89,7 @@ def fastest_entry(
         wx, wy = wind
         scale, course = 1.0, unit(*flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy))
         problem = WindProblem(state.x / r, state.y / r, *course, rounded_radius(radius_m / r), side, wx / V, wy / V)
-        found = wind_search.fastest(problem)
+        found = wind_solver.fastest(problem)
         entry = wind_search.entry_of(found) if found.status == Status.OK else None
     if entry is None:
         return None

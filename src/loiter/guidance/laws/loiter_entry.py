@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import degrees, hypot, inf, nan
 from typing import NamedTuple
 
+from loiter.compiled import wind_solver
 from loiter.errors import not_negative, positive
 from loiter.guidance.laws.clock import Clock
 from loiter.guidance.laws.entry_planner import (
@@ -141,6 +142,8 @@ class LoiterEntry:
         delay_s = not_negative("delay_s", delay_s, "seconds")
         declared = VehicleEstimates(roll, delay_s, 1.0, *air.velocity_m_s, aircraft.airspeed_m_s)
         self._vehicle: Vehicle = DeclaredVehicle(declared)
+        # A wind may have to be planned with: the compiled search is loaded before the flight.
+        wind_solver.load()
         if identify:
             self._vehicle = IdentifiedVehicle(declared, wind_told=wind is not None)
         self._side = SIDES[orbit.turn]
