@@ -143,7 +143,7 @@ def test_the_time_to_join_falls_with_the_clock_in_noise():
 def test_the_bank_command_is_continuous_except_at_switches():
     """Without noise, also at the transition from the last arc to the hold: the bank converges to that of the circle."""
     mass = PointMass(START, UAV, seed=1, gust=0.0, noise=EXACT)
-    flight = fly(LoiterEntry(ORBIT, UAV, delay_s=0.0), mass, ORBIT)
+    flight = fly(LoiterEntry(ORBIT, UAV, delay_s=0.0, identify=False), mass, ORBIT)
     joined_s, k = first_hold(flight)
     after = flight.track.bank_deg[k:]
     turn = 1.0 if after[-1] > 0.0 else -1.0
