@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import exp, hypot
+from collections import deque
+from math import exp, hypot, sqrt
 from typing import NamedTuple
 
 from loiter.guidance.laws.bank_history import BankHistory
@@ -10,14 +11,13 @@ from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.turning import PlanarPose, constant_turn, rate_at_bank
 from loiter.planning.compass import heading_vector
 
-# The averaging time of the air's velocity is the smoothing time divided by this, in calm and in rough air. In rough air
-# a gust must be corrected before the aircraft has drifted far; in calm air so short an average would only let noise
-# roll the aircraft left and right.
-CALM_AIR_DIVISOR, ROUGH_AIR_DIVISOR = 2.0, 8.0
+# How fast the velocity of the air changes is measured from its differences over this time, seconds, averaged over the
+# second time.
+GUST_LAG_S, GUST_AVERAGE_S = 1.0, 10.0
 
-# Air is rough if that average differs from one over `SLOW_AVERAGE_S` seconds by at least this root mean square, taken
-# over `ROUGHNESS_AVERAGE_S` seconds.
-ROUGH_M_S, SLOW_AVERAGE_S, ROUGHNESS_AVERAGE_S = 1.2, 2.0, 10.0
+# What is assumed until then: gusts of about 10 % of the airspeed, as the mean square change of each component in a
+# second, and noise of 0.4 m/s; (m/s)^2.
+FIRST_GUST, FIRST_NOISE = 0.6, 0.16
 
 # Bounds of a plausible measurement: the largest value in metres, degrees or metres per second, the least airspeed.
 LARGEST_VALUE, LEAST_AIRSPEED_M_S = 1e9, 0.1
@@ -71,36 +71,67 @@ def is_usable(state: State) -> bool:
 
 
 class AirVelocityFilter:
-    """The velocity of the air, averaged over a time that is shorter in rougher air.
+    """The velocity of the air, averaged over the time that suits its gusts and the noise of the measurements.
 
-    Roughness is the mean square difference between that average and a slower one over `SLOW_AVERAGE_S` seconds; sensor
-    noise is small in both. Air counts as rough until its roughness has been measured.
+    The air is taken as a random walk, the noise as white. The mean square difference of measurements a time t apart is
+    then 2 noise + gust t. From that of neighbours and that over `GUST_LAG_S` both are known, and the best average is
+    that of the Kalman filter: exponential over sqrt(noise dt/gust) seconds, dt apart. It is limited to `longest_s`.
     """
 
-    def __init__(self, smoothing_s: float) -> None:
-        self._smoothing_s = smoothing_s
-        self._square = ROUGH_M_S * ROUGH_M_S
-        self._east = self._north = self._slow_east = self._slow_north = 0.0
+    def __init__(self, longest_s: float) -> None:
+        self._longest_s = longest_s
+        self._east = self._north = 0.0
+        self._recent: deque[tuple[float, float, float]] = deque()
+        self._time_s = 0.0
+        # The mean square differences of neighbours and over the lag, and the mean times between them.
+        self._near = _Difference(0.02, 2.0 * FIRST_NOISE)
+        self._far = _Difference(GUST_LAG_S, 2.0 * FIRST_NOISE + FIRST_GUST * GUST_LAG_S)
 
     def reset(self, east_m_s: float, north_m_s: float) -> None:
-        """Restart both averages from a velocity."""
-        self._east, self._north = self._slow_east, self._slow_north = east_m_s, north_m_s
+        """Restart the average from a velocity."""
+        self._east, self._north = east_m_s, north_m_s
+        self._recent = deque([(self._time_s, east_m_s, north_m_s)])
 
     def update(self, east_m_s: float, north_m_s: float, dt: float) -> tuple[float, float]:
         """The average, east and north, including a velocity measured `dt` seconds after the last."""
-        divisor = min(
-            max(ROUGH_AIR_DIVISOR * self._square / (ROUGH_M_S * ROUGH_M_S), CALM_AIR_DIVISOR), ROUGH_AIR_DIVISOR
-        )
-        quick = 1.0 - exp(-divisor * dt / self._smoothing_s)
-        self._east += quick * (east_m_s - self._east)
-        self._north += quick * (north_m_s - self._north)
-        slow = 1.0 - exp(-dt / SLOW_AVERAGE_S)
-        self._slow_east += slow * (east_m_s - self._slow_east)
-        self._slow_north += slow * (north_m_s - self._slow_north)
-        off_east, off_north = self._east - self._slow_east, self._north - self._slow_north
-        share = 1.0 - exp(-dt / ROUGHNESS_AVERAGE_S)
-        self._square += share * (off_east * off_east + off_north * off_north - self._square)
+        self._time_s += dt
+        self._measure_differences(east_m_s, north_m_s, dt)
+        share = 1.0 - exp(-dt / self._averaging_s) if self._averaging_s > 0.0 else 1.0
+        self._east += share * (east_m_s - self._east)
+        self._north += share * (north_m_s - self._north)
         return self._east, self._north
+
+    def _measure_differences(self, east_m_s: float, north_m_s: float, dt: float) -> None:
+        weight = 1.0 - exp(-dt / GUST_AVERAGE_S)
+        recent = self._recent
+        while len(recent) > 1 and self._time_s - recent[1][0] >= GUST_LAG_S:
+            recent.popleft()
+        for then, difference in ((recent[-1], self._near), (recent[0], self._far)):
+            time_s, east, north = then
+            square = 0.5 * ((east_m_s - east) ** 2 + (north_m_s - north) ** 2)
+            difference.add(self._time_s - time_s, square, weight)
+        recent.append((self._time_s, east_m_s, north_m_s))
+
+    @property
+    def _averaging_s(self) -> float:
+        near, far = self._near, self._far
+        gust = max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
+        noise = max(near.square - gust * near.time_s, 0.0) / 2.0
+        if noise * near.time_s >= gust * self._longest_s * self._longest_s:
+            return self._longest_s
+        return sqrt(noise * near.time_s / gust)
+
+
+class _Difference:
+    """The mean square difference of measurements, averaged, and the mean time between them."""
+
+    def __init__(self, time_s: float, square: float) -> None:
+        self.time_s, self.square = time_s, square
+
+    def add(self, time_s: float, square: float, weight: float) -> None:
+        """Include a difference with a weight between 0 and 1."""
+        self.time_s += weight * (time_s - self.time_s)
+        self.square += weight * (square - self.square)
 
 
 class Observer:
