@@ -113,9 +113,14 @@ class AirVelocityFilter:
         recent.append((self._time_s, east_m_s, north_m_s))
 
     @property
-    def _averaging_s(self) -> float:
+    def gust(self) -> float:
+        """The mean square change of each component of the air's velocity in a second, (m/s)^2."""
         near, far = self._near, self._far
-        gust = max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
+        return max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
+
+    @property
+    def _averaging_s(self) -> float:
+        near, gust = self._near, self.gust
         noise = max(near.square - gust * near.time_s, 0.0) / 2.0
         if noise * near.time_s >= gust * self._longest_s * self._longest_s:
             return self._longest_s
@@ -145,6 +150,11 @@ class Observer:
     def __init__(self, smoothing_s: float) -> None:
         self._smoothing_s, self._air = smoothing_s, AirVelocityFilter(smoothing_s)
         self._last: Estimate | None = None
+
+    @property
+    def roughness(self) -> float:
+        """The root mean square change of course that gusts cause in a second, radians."""
+        return sqrt(self._air.gust) / self._last.airspeed_m_s if self._last is not None else 0.0
 
     def reset(self) -> None:
         """Start again from the next measurement."""
