@@ -18,7 +18,7 @@ from loiter.geo import LocalFrame
 from loiter.io.missions.signs import circle
 from loiter.mavlink import guide
 from loiter.mavlink.connection import link, parameters
-from loiter.mavlink.guiding import flight
+from loiter.mavlink.guiding import contact, flight, preparation
 from mavlink.vehicle import ACCEPTED, Plane, Port, Vehicle, mavlink
 
 FRAME = LocalFrame(47.0, 8.0)
@@ -128,6 +128,7 @@ class Flyer:
             self.last += STEP_S
             self.airframe.advance(self.target(self.last))
             self.banks.append((self.last - self.began, degrees(self.airframe.bank)))
+        self.beat_s = min(self.intervals.get(0, self.beat_real_s), self.beat_real_s)
         super().idle(now)
         for number in self.streams_of():
             if now >= self.next.get(number, now):
@@ -136,7 +137,7 @@ class Flyer:
                 self.stream(number, now)
 
     def streams_of(self):
-        return [*dict.fromkeys([30, 33, 74, *self.intervals])]
+        return [number for number in dict.fromkeys([30, 33, 74, *self.intervals]) if number]
 
     def boot_ms(self, now):
         return max(round(1e3 * (now + self.boot_offset_s)), 1)
@@ -385,6 +386,7 @@ class FlightPort(Port):
         end = self.now + timeout
         while not (self.incoming and self.incoming[0][0] <= self.now):
             if self.now >= end - 1e-9:
+                self.now = max(self.now, end)
                 return None
             self.pass_time(min(STEP_S, end - self.now))
         return self.mav.decode(bytearray(self.incoming.popleft()[1]))
@@ -411,7 +413,7 @@ def guided(vehicle, orbit=ORBIT, seconds=150.0, interrupt=(), port=None, coast_s
     port.interrupts = list(interrupt)
     outcome = Guided(port)
     with pytest.MonkeyPatch.context() as patch:
-        for module in (link, parameters, flight):
+        for module in (link, parameters, contact, flight, preparation):
             patch.setattr(module, "monotonic", lambda: port.now)
         for name, seconds_ in REAL.items():
             patch.setattr(*name, seconds_)

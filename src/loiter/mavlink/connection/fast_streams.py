@@ -18,8 +18,9 @@ from loiter.mavlink.connection.streams import SET_MESSAGE_INTERVAL
 # Rates that are tried in turn, messages per second.
 RATES_HZ = (50.0, 40.0, 25.0, 10.0, 5.0)
 
-# The rate of streams about the state of the vehicle, messages per second, and of the wind.
-STATE_HZ, WIND_HZ = 2.0, 5.0
+# The rate of streams about the state of the vehicle, messages per second, and of the wind; heartbeats show the mode,
+# and a pilot who changes it must be noticed sooner than in the usual second.
+STATE_HZ, WIND_HZ, HEARTBEAT_HZ = 2.0, 5.0, 5.0
 
 # Seconds until a request without an answer is repeated, and how often it is sent.
 REPEAT_S, TRIES = 0.4, 3
@@ -48,15 +49,21 @@ FAST = {
     Autopilot.ARDUPILOT: [ATTITUDE, GuideStream(33, 6), GuideStream(74, 11)],
     Autopilot.PX4: [ATTITUDE, GuideStream(33, 6), GuideStream(32, 6), GuideStream(74, 11)],
 }
-# EXTENDED_SYS_STATE, then the wind, the estimator's state and, for ArduPlane, the fence.
+# HEARTBEAT, EXTENDED_SYS_STATE, the wind, the estimator's state and, for ArduPlane, the fence.
 SLOW = {
     Autopilot.ARDUPILOT: [
+        GuideStream(0, 0, HEARTBEAT_HZ),
         GuideStream(245, 2, STATE_HZ),
         GuideStream(168, 12, WIND_HZ),
         GuideStream(193, 12, STATE_HZ),
         GuideStream(162, 2, STATE_HZ),
     ],
-    Autopilot.PX4: [GuideStream(245, 2, STATE_HZ), GuideStream(231, 12, WIND_HZ), GuideStream(230, 12, STATE_HZ)],
+    Autopilot.PX4: [
+        GuideStream(0, 0, HEARTBEAT_HZ),
+        GuideStream(245, 2, STATE_HZ),
+        GuideStream(231, 12, WIND_HZ),
+        GuideStream(230, 12, STATE_HZ),
+    ],
 }
 
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from loiter.mavlink.autopilots.modes import CRITICAL, TERMINATION, ModeWatch
 from loiter.mavlink.connection.link import Vehicle
 from loiter.mavlink.guiding.measurements import Measurements
-from loiter.mavlink.guiding.modes import ModeWatch
 
-# Seconds without any message after which the link is lost, and without a new state after which the data are stale.
-SILENT_S, STALE_S = 2.0, 1.0
+# Seconds without any message after which the link is lost, without a new state after which the data are stale, and
+# within which some message must have arrived for the link to be alive.
+SILENT_S, STALE_S, ALIVE_S = 2.0, 1.0, 0.5
 
 # The least rate of measurements, per second, with some tolerance, and the seconds for which it may be lower.
 LEAST_HZ, SLOW_S = 4.5, 2.0
@@ -19,9 +20,6 @@ BAD_ESTIMATE_S, STRONG_WIND_S = 1.0, 3.0
 
 # The bank may differ from the command by more than this, degrees, for this time, seconds.
 UNRESPONSIVE_DEG, UNRESPONSIVE_S = 25.0, 3.0
-
-# MAV_STATE: critical and above is a failsafe, 8 is a terminated flight.
-CRITICAL, TERMINATION = 5, 8
 
 # Flags of EKF_STATUS_REPORT and ESTIMATOR_STATUS: attitude, horizontal velocity and absolute position are needed; a
 # constant position means that the estimator has none.
@@ -59,11 +57,11 @@ class Since:
 class Monitor:
     """Watches a vehicle and its link; `check` gives the first reason to stop."""
 
-    def __init__(self, vehicle: Vehicle, measurements: Measurements) -> None:
+    def __init__(self, vehicle: Vehicle, measurements: Measurements, began: float) -> None:
         self._vehicle, self._measurements = vehicle, measurements
         self.modes = ModeWatch(vehicle.autopilot)
         self.heartbeat: Any = None
-        self.last_message = -1e9
+        self.last_message = began
         self.wind_problem = ""
         self.command_deg = self.bank_deg = 0.0
         self._estimator_ok = True
@@ -89,10 +87,14 @@ class Monitor:
         """The reason to stop, or None. Those that forbid any further command come first."""
         return self._taken_over(now) or self._unsafe(now) or self._unmeasured(now)
 
+    def silent(self, now: float) -> str:
+        """That the link is lost, in words; empty if it is not."""
+        lost = now - self.last_message > SILENT_S
+        return f"nothing was heard from {self._vehicle.named} for {SILENT_S:g} s" if lost else ""
+
     def _taken_over(self, now: float) -> Stop | None:
-        if now - self.last_message > SILENT_S:
-            reason = f"nothing was heard from {self._vehicle.named} for {SILENT_S:g} s"
-            return Stop(reason, ours=False, measured=False)
+        if silent := self.silent(now):
+            return Stop(silent, ours=False, measured=False)
         if surprise := self.modes.surprise(now):
             return Stop(surprise, ours=False)
         if self.heartbeat is not None and self.heartbeat.system_status >= TERMINATION:
@@ -122,9 +124,11 @@ class Monitor:
             return Stop(f"the position jumped by {m.jump_m:.0f} m", measured=False)
         if self._bad.update(not self._estimator_ok, now) > BAD_ESTIMATE_S:
             return Stop("the estimator of the autopilot has lost its position", measured=False)
-        if now - m.attitude_arrived > STALE_S:
+        # Where nothing at all arrives the pilot may have taken over: nothing is commanded until that is clear.
+        alive = now - self.last_message <= ALIVE_S
+        if alive and now - m.attitude_arrived > STALE_S:
             return Stop(f"no attitude arrived for {STALE_S:g} s", measured=False)
-        if now - m.position_arrived > STALE_S:
+        if alive and now - m.position_arrived > STALE_S:
             return Stop(f"no position arrived for {STALE_S:g} s", measured=False)
         rate_hz = m.rate_hz(now)
         if self._slow.update(rate_hz < LEAST_HZ, now) > SLOW_S:

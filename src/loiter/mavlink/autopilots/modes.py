@@ -59,6 +59,9 @@ PX4_OFFBOARD, PX4_AUTO_MAIN, PX4_LOITER_SUB = 6, 4, 3
 # The sub modes of AUTO in which PX4 takes off or lands.
 PX4_UNFIT = {2, 6, 9, 10}
 
+# MAV_STATE: critical and above is a failsafe, 8 is a terminated flight.
+CRITICAL, TERMINATION = 5, 8
+
 # Seconds for a change of mode that was accepted to show in the heartbeats, which come once a second.
 CHANGE_S = 3.0
 

@@ -13,8 +13,8 @@ from __future__ import annotations
 from math import cos, hypot, isfinite, nan, radians, sin, sqrt, tan
 from typing import Any, Protocol
 
+from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign
 from loiter.mavlink.connection.link import Link, Vehicle, dialect
-from loiter.mavlink.guiding.acceleration_sign import AccelerationSign
 from loiter.planning.model import STANDARD_GRAVITY_M_S2, Wind
 
 # ATTITUDE_TARGET_TYPEMASK: everything but the roll is ignored.
@@ -39,6 +39,9 @@ class Steering(Protocol):
     def is_ready(self, now: float) -> bool:
         """Whether setpoints can be made."""
 
+    def prepare(self, delay_s: float, wind: Wind | None) -> None:
+        """Take the time from a measurement to the flight of its setpoint, seconds, and the wind that is reported."""
+
     def send(self, link: Link, bank_deg: float, measured_deg: float, now: float) -> float:
         """Send the setpoint for a bank, degrees, positive to the right; returns the bank that it asks for."""
 
@@ -58,6 +61,9 @@ class RollSteering:
     def is_ready(self, now: float) -> bool:
         """Whether setpoints can be made: always."""
         return True
+
+    def prepare(self, delay_s: float, wind: Wind | None) -> None:
+        """Neither matters."""
 
     def send(self, link: Link, bank_deg: float, measured_deg: float, now: float) -> float:
         """Send the roll."""
@@ -83,11 +89,7 @@ class RollSteering:
 
 
 class AccelerationSteering:
-    """Setpoints for PX4: position, velocity and lateral acceleration, at an altitude above mean sea level.
-
-    `delay_s` is the time from the measurement of a position to the arrival of the setpoint made from it; `wind` is the
-    wind that PX4 estimates.
-    """
+    """Setpoints for PX4: position, velocity and lateral acceleration, at an altitude above mean sea level."""
 
     def __init__(self, vehicle: Vehicle, altitude_m: float, sign: AccelerationSign) -> None:
         self._vehicle, self._altitude_m, self.sign = vehicle, altitude_m, sign
@@ -95,9 +97,8 @@ class AccelerationSteering:
         self._arrived = -1e9
         self._above_sea_m = nan
         self._down_m = nan
-        self._yaw_rate = 0.0
-        self.delay_s = 0.0
-        self.wind: Wind | None = None
+        self._yaw_rate = self._delay_s = 0.0
+        self._wind: Wind | None = None
 
     def update(self, message: Any, now: float) -> None:
         """Take position, rate of turn and altitude from a message."""
@@ -116,6 +117,10 @@ class AccelerationSteering:
         """Whether setpoints can be made: a recent local position is needed."""
         return now - self._arrived <= LOCAL_POSITION_S and isfinite(self._down_m)
 
+    def prepare(self, delay_s: float, wind: Wind | None) -> None:
+        """Take the delay over which positions are extrapolated, and the wind, by which PX4 corrects curvatures."""
+        self._delay_s, self._wind = delay_s, wind
+
     def send(self, link: Link, bank_deg: float, measured_deg: float, now: float) -> float:
         """Send the setpoint for a bank, which is limited until the sign of accelerations is confirmed."""
         bank_deg = self.sign.limited_deg(bank_deg)
@@ -132,7 +137,7 @@ class AccelerationSteering:
     def _send(self, link: Link, acceleration: float, now: float) -> None:
         """Send a setpoint with an acceleration to the right, metres per second squared."""
         p = self._position
-        old_s = min(now - self._arrived, LOCAL_POSITION_S) + self.delay_s
+        old_s = min(now - self._arrived, LOCAL_POSITION_S) + self._delay_s
         turned = self._yaw_rate * old_s
         # The mean velocity until the setpoint arrives, then the velocity at that time.
         north, east = _turned(p.vx, p.vy, 0.5 * turned)
@@ -172,9 +177,9 @@ class AccelerationSteering:
         It is the cosine of the drift angle.
         """
         p = self._position
-        if self.wind is None or p is None:
+        if self._wind is None or p is None:
             return 1.0
-        wind_east, wind_north = self.wind.velocity_m_s
+        wind_east, wind_north = self._wind.velocity_m_s
         speed, airspeed = hypot(p.vx, p.vy), hypot(p.vx - wind_north, p.vy - wind_east)
         if speed == 0.0 or airspeed == 0.0:
             return 1.0

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from loiter.io.missions.items import Autopilot
-from loiter.mavlink.guiding.modes import is_unfit, mode_name
-from loiter.mavlink.guiding.monitor import CRITICAL
+from loiter.mavlink.autopilots.modes import CRITICAL, is_unfit, mode_name
 from loiter.mavlink.watching.telemetry import UNDEFINED
 
 # MAV_TYPE_FIXED_WING, and the types that take off and land vertically, which report in which of their two ways they
