@@ -20,7 +20,7 @@ SLOW = {
     "arrays": "entries wind",
     "batch": "cluster files memory resume wind",
     "cli": "errors mavlink",
-    "compiled": "ufuncs",
+    "compiled": "ufuncs wind_solver",
     "guidance": "campaign following jsbsim_aircraft loiter_entry",
     "kernel": "wind_search",
     "mavlink": "peers upload watch",

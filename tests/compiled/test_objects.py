@@ -56,11 +56,9 @@ def test_code_is_compiled_once_for_each_state_of_the_sources(cache, source):
 
 def test_every_file_of_the_kernel_counts():
     """The trap of caches by file: the formula that changes is not in the file that is compiled."""
-    # Only here: the processes below import this file, and would compile the kernel with it.
-    from loiter.compiled import ufuncs
-
-    names = {path.name for path in ufuncs._sources()}
-    assert {"angles.py", "exact.py", "extremals.py", "synthesis.py", "branchless.py", "loops.py"} <= names
+    names = {path.name for path in objects.kernel_sources()}
+    assert {"angles.py", "exact.py", "extremals.py", "synthesis.py", "wind_search.py", "branchless.py"} <= names
+    assert {"loops.py", "intrinsics.py", "wind_loops.py"} <= names
 
 
 @pytest.mark.parametrize(

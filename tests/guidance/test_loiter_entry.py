@@ -143,7 +143,7 @@ def test_the_time_to_join_falls_with_the_clock_in_noise():
 def test_the_bank_command_is_continuous_except_at_switches():
     """Without noise, also at the transition from the last arc to the hold: the bank converges to that of the circle."""
     mass = PointMass(START, UAV, seed=1, gust=0.0, noise=EXACT)
-    flight = fly(LoiterEntry(ORBIT, UAV, delay_s=0.0), mass, ORBIT)
+    flight = fly(LoiterEntry(ORBIT, UAV, delay_s=0.0, identify=False), mass, ORBIT)
     joined_s, k = first_hold(flight)
     after = flight.track.bank_deg[k:]
     turn = 1.0 if after[-1] > 0.0 else -1.0
@@ -177,7 +177,8 @@ def test_without_data_it_is_safe_and_it_recovers_in_one_step(bad, begins_s):
     before, during = commands[first - 1], commands[first : first + 140]
     assert all(command.bank_deg == before.bank_deg for command in during[:45])
     hold_deg = UAV.bank_deg(120.0) * (1.0 if before.turn == Turn.CW else -1.0)
-    assert during[-1].bank_deg == pytest.approx(hold_deg if before.phase == Phase.HOLD else 0.0)
+    # The bank of the circle at the turn rate and the airspeed that the law has identified.
+    assert during[-1].bank_deg == pytest.approx(hold_deg if before.phase == Phase.HOLD else 0.0, abs=0.5)
     assert all(isnan(command.time_to_join_s) for command in during)
     end = mass.true_state()
     assert hypot(end.east_m, end.north_m) == pytest.approx(120.0, abs=12.0)

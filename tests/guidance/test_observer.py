@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from guidance.flights import UAV
 from loiter import Pose, Wind
-from loiter.guidance.laws.observer import AirVelocityFilter, BankHistory, Observer, is_usable
+from loiter.guidance.laws.bank_history import BankHistory
+from loiter.guidance.laws.observer import AirVelocityFilter, Observer, is_usable
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.simulators.gusts import Gusts
 from loiter.guidance.simulators.kinematic import Kinematic
@@ -106,7 +107,7 @@ steps = st.lists(st.tuples(st.floats(0.0025, 0.3), st.floats(-35.0, 35.0)), min_
 @given(steps, st.floats(0.0, 0.5))
 def test_the_bank_history_covers_the_delay(taken, delay):
     """Compared with the complete history, level before it: the mean over the delay, and the bank at its start."""
-    history = BankHistory(delay)
+    history = BankHistory()
     for dt, bank in taken:
         history.record(bank, dt)
     ends = np.cumsum([10.0, *(dt for dt, _ in taken)])
@@ -114,27 +115,36 @@ def test_the_bank_history_covers_the_delay(taken, delay):
     overlap = np.clip(ends - np.maximum(np.concatenate([[0.0], ends[:-1]]), begin), 0.0, None)
     assert history.current_deg == taken[-1][1]
     if delay > 1e-3:
-        assert history.mean_deg == pytest.approx(overlap @ banks / delay, abs=1e-8)
+        assert history.mean_deg(delay) == pytest.approx(overlap @ banks / delay, abs=1e-8)
     near = {banks[np.searchsorted(ends, begin + nudge)] for nudge in (-1e-9, 1e-9) if begin + nudge <= ends[-1]}
-    assert history.delayed_deg in near
+    assert history.delayed_deg(delay) in near
 
 
 def test_a_step_longer_than_the_delay_replaces_the_history():
-    history = BankHistory(0.1)
+    history = BankHistory()
     for dt in (0.02, 1e308, 0.02, 0.02):
         history.record(20.0, dt)
-    assert (history.delayed_deg, history.current_deg) == (20.0, 20.0)
-    assert history.mean_deg == pytest.approx(20.0)
+    assert (history.delayed_deg(0.1), history.current_deg) == (20.0, 20.0)
+    assert history.mean_deg(0.1) == pytest.approx(20.0)
+
+
+def test_the_bank_history_forgets_what_is_older_than_the_longest_delay():
+    history = BankHistory()
+    for i in range(10_000):
+        history.record(float(i), 0.0025)
+    assert history.delayed_deg(2.0) == pytest.approx(9999.0 - 800.0, abs=1.0)
+    assert history.mean_deg(2.0) == pytest.approx(9999.0 - 399.5, abs=1.0)
+    assert len(history._ends) <= 2048
 
 
 def test_delayed_measurements_are_flown_on_to_the_present():
     """In a reversal of the bank in wind, with a delay of 0.1 s and no noise."""
     late = Noise(0.0, 0.0, 0.0, 0.0, 0.0, 0.1)
     mass = PointMass(Pose(0.0, 0.0, 0.0), UAV, Wind(5.0, 90.0), seed=2, gust=0.0, noise=late)
-    observer, history, roll, bank = Observer(0.5), BankHistory(0.1), Roll(), 0.0
+    observer, history, roll, bank = Observer(0.5), BankHistory(), Roll(), 0.0
     for i in range(200):
         true = mass.true_state()
-        estimate = observer.update(mass.measured_state(), history.delayed_deg).at_present(history)
+        estimate = observer.update(mass.measured_state(), history.delayed_deg(0.1)).at_present(history, 0.1)
         assert estimate.time_s == pytest.approx(true.time_s)
         x, y, c, s = estimate.pose
         assert hypot(x - true.east_m, y - true.north_m) < 0.05

@@ -39,7 +39,6 @@ def tests(folder: str, names: str) -> list[str]:
 
 HEAVY = [
     "tests/kernel/test_wind_search.py::test_next_to_a_tie_the_sooner_direction_is_found",
-    "tests/kernel/test_wind_search.py::test_compiled_it_is_the_same",
 ]
 LIMITS = "tests/batch/test_resume.py::test_limits_of_this_process_are_as_they_were"
 WIND = (

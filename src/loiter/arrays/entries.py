@@ -83,8 +83,8 @@ class Entries(NamedTuple):
 def entries(states: States, *, compiled: bool | None = None) -> Entries:
     """The fastest entry of each row, as `plan` returns it; the first call loads the kernel, which may take seconds.
 
-    `compiled` says whether rows in wind are solved by compiled code, whose results differ by rounding; None chooses it
-    for many rows.
+    `compiled` says whether rows in wind are solved by compiled code, which has the same results; None chooses it for
+    many rows.
     """
     n = len(states.east_m)
     found: list[Any] = [np.empty(n, dtype=np.int8 if name in _CODES else np.float64) for name in Entries._fields]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from loiter.arrays.arguments import side_codes
 from loiter.arrays.threads import share_work, thread_count
+from loiter.compiled import wind_solver
 from loiter.compiled.rebinding import Function
 from loiter.kernel import wind_search
 from loiter.kernel.wind_search import WindEntry, WindProblem
@@ -71,8 +71,8 @@ def solve_in_wind(
     wind less the circle's own velocity) over the airspeed; `turn` as for `min_time`. Arguments broadcast; the results
     are NumPy arrays. Where the status is not `OK` (nan, a wind as fast as the aircraft, a circle too tight to be held
     in it, a search that did not converge) the floats are nan. From 1500 states on the search runs compiled, in a third
-    of a millisecond per state; compiling takes about ten seconds, once per process. `workers` threads share the work;
-    -1 means one per core. Raises `InvalidArgument` for an unknown turn or number of workers.
+    of a millisecond per state; the first time on a machine it is compiled, which takes about ten seconds. `workers`
+    threads share the work; -1 means one per core. Raises `InvalidArgument` for an unknown turn or number of workers.
     """
     angles = np.asarray(angle, dtype=np.float64)
     with np.errstate(invalid="ignore"):
@@ -98,17 +98,9 @@ COMPILED_FROM = 1500
 
 def rows_in_wind(compiled: bool) -> Function:
     """The function that solves each row of an array, a `WindProblem`, and writes a row of another, a `WindEntry`."""
-    return _compiled_in_wind() if compiled else _plain_in_wind
+    return wind_solver.solve_rows if compiled else _plain_in_wind
 
 
 def _plain_in_wind(states: NDArray[np.float64], answers: NDArray[np.float64]) -> None:
     for i, (x, y, c, s, R, side, wx, wy) in enumerate(states.tolist()):
         answers[i] = wind_search.fastest(WindProblem(x, y, c, s, R, int(side), wx, wy))
-
-
-@cache
-def _compiled_in_wind() -> Function:
-    from loiter.compiled.loops import in_wind
-
-    loop: Function = in_wind()
-    return loop

@@ -1,23 +1,31 @@
-"""The kernel's functions, unchanged, compiled into the inner loops of NumPy ufuncs. The only file that imports Numba.
+"""The kernel's functions, unchanged, compiled into the inner loops of NumPy ufuncs: still air.
 
-NumPy calls an inner loop (PyUFuncGenericFunction) with pointers to the operands and their strides. The loop copies a
-block of states into buffers on the stack, works on these with loops that LLVM vectorises, and copies the results out:
-it allocates no other memory, and its speed does not depend on the strides. `branchless` and a fused multiply-add
-replace what would not vectorise.
+The loop copies a block of states into buffers on the stack, works on these with loops that LLVM vectorises, and copies
+the results out: it allocates no other memory, and its speed does not depend on the strides. `branchless` and a fused
+multiply-add replace what would not vectorise.
 """
 
 from math import nan
 from typing import Any, NamedTuple
 
-import llvmlite.binding as llvm
-import numba
-from llvmlite import ir
-from numba import extending
-from numba.core import cgutils, types
-
 from loiter.compiled import branchless
+from loiter.compiled.intrinsics import (
+    BLOCK,
+    FLAGS,
+    LOOP,
+    block_buffer,
+    clear_flags,
+    doubles,
+    fma,
+    inlined,
+    load,
+    module_of,
+    state_count,
+    store,
+    store_bytes,
+)
 from loiter.compiled.rebinding import rebound
-from loiter.kernel import motion, wind_search
+from loiter.kernel import motion
 from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import (
     Entry,
@@ -32,86 +40,27 @@ from loiter.kernel.synthesis import (
     side_or_near,
     status_of,
 )
-from loiter.kernel.wind_search import WindProblem
 from loiter.kernel.words import Side
-
-# Numba has no types for its decorators.
-_intrinsic: Any = extending.intrinsic
-_njit: Any = numba.njit
-
-BLOCK = 256  # states; their buffers of 2 KiB each stay in the first-level cache
-
-DOUBLES = types.CPointer(types.float64)
-BYTES = types.CPointer(types.int8)
-LOOP = types.void(types.CPointer(types.voidptr), types.CPointer(types.intp), types.CPointer(types.intp), types.voidptr)
 
 OK = int(Status.OK)
 CW, CCW, EITHER = int(Side.CW), int(Side.CCW), int(Side.EITHER)
-
-# All flags of <fenv.h>. Compiled code evaluates both sides of a branch; NumPy must not warn about the unused one.
-FLAGS = 0x3F
-_clear_flags = types.ExternalFunction("feclearexcept", types.int32(types.int32))
-
-
-@_intrinsic
-def _fma(context: Any, a: Any, b: Any, c: Any) -> Any:
-    """The product a b plus c, rounded once."""
-    return types.float64(a, b, c), lambda context, builder, signature, args: builder.fma(*args)
-
-
-@_intrinsic
-def _buffer(context: Any) -> Any:
-    """A buffer on the stack for a block of doubles."""
-
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        buffer = cgutils.alloca_once(builder, ir.ArrayType(ir.DoubleType(), BLOCK))
-        return builder.bitcast(buffer, ir.DoubleType().as_pointer())
-
-    return DOUBLES(), generate
-
-
-@_intrinsic
-def _doubles(context: Any, pointer: Any) -> Any:
-    """A pointer to doubles."""
-
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        (untyped,) = args
-        return builder.bitcast(untyped, ir.DoubleType().as_pointer())
-
-    return DOUBLES(pointer), generate
-
-
-@_intrinsic
-def _bytes(context: Any, pointer: Any) -> Any:
-    """A pointer to bytes."""
-
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        (untyped,) = args
-        return builder.bitcast(untyped, ir.IntType(8).as_pointer())
-
-    return BYTES(pointer), generate
-
-
-def _inlined(function: Any) -> Any:
-    """The function compiled, to be inlined into its callers only."""
-    return _njit(forceinline=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
 
 
 def _two_product(a, b):
     """`exact.two_product` by fused multiply-add, equal to the last bit."""
     p = a * b
-    return p, _fma(a, b, -p)
+    return p, fma(a, b, -p)
 
 
 _NAMES = {
-    name: rebound(getattr(branchless, name), finish=_inlined) for name in ("atan2", "sin", "cos", "hypot", "select")
+    name: rebound(getattr(branchless, name), finish=inlined) for name in ("atan2", "sin", "cos", "hypot", "select")
 }
-_NAMES["two_product"] = _inlined(_two_product)
+_NAMES["two_product"] = inlined(_two_product)
 
 
 def _compiled(function: Any) -> Any:
     """A kernel function and the kernel functions that it calls, compiled with the replacements `_NAMES`."""
-    return rebound(function, _NAMES, _inlined)
+    return rebound(function, _NAMES, inlined)
 
 
 _least_time, _optimum_on_side, _side_or_near = map(_compiled, (least_time, optimum_on_side, side_or_near))
@@ -149,80 +98,54 @@ class EntryBlock(NamedTuple):
     t3: Any
 
 
-@_inlined
+@inlined
 def _state_block():
-    return StateBlock(_buffer(), _buffer(), _buffer(), _buffer(), _buffer())
+    return StateBlock(block_buffer(), block_buffer(), block_buffer(), block_buffer(), block_buffer())
 
 
-@_inlined
+@inlined
 def _entry_block():
-    return EntryBlock(_buffer(), _buffer(), _buffer(), _buffer(), _buffer())
+    return EntryBlock(block_buffer(), block_buffer(), block_buffer(), block_buffer(), block_buffer())
 
 
-@_inlined
-def _state_count(dimensions):
-    return dimensions[0]
-
-
-@_inlined
-def _load(buffer, args, steps, operand, start, count):
-    source, stride = _doubles(args[operand]), steps[operand] // 8
-    for i in range(count):
-        buffer[i] = source[(start + i) * stride]
-
-
-@_inlined
-def _store(buffer, args, steps, operand, start, count):
-    target, stride = _doubles(args[operand]), steps[operand] // 8
-    for i in range(count):
-        target[(start + i) * stride] = buffer[i]
-
-
-@_inlined
-def _store_bytes(buffer, args, steps, operand, start, count):
-    target, stride = _bytes(args[operand]), steps[operand]
-    for i in range(count):
-        target[(start + i) * stride] = types.int8(buffer[i])
-
-
-@_inlined
+@inlined
 def _store_durations(entries, args, steps, start, count):
-    target, stride, next_one = _doubles(args[DURATIONS]), steps[DURATIONS] // 8, steps[NEXT_DURATION] // 8
+    target, stride, next_one = doubles(args[DURATIONS]), steps[DURATIONS] // 8, steps[NEXT_DURATION] // 8
     t1, t2, t3 = entries.t1, entries.t2, entries.t3
     for i in range(count):
         place = (start + i) * stride
         target[place], target[place + next_one], target[place + 2 * next_one] = t1[i], t2[i], t3[i]
 
 
-@_inlined
+@inlined
 def _is_constant(args, steps, operand, value):
     """Whether an operand is one number for all states, and equals this value."""
-    return steps[operand] == 0 and _doubles(args[operand])[0] == value
+    return steps[operand] == 0 and doubles(args[operand])[0] == value
 
 
-@_inlined
+@inlined
 def _is_exact(args, steps):
     """Whether no state has a tolerance."""
     return _is_constant(args, steps, TOLERANCE, 0.0)
 
 
-@_inlined
+@inlined
 def _passes(args, steps):
     """The number of passes: 2 where a tolerance may make the far side of *either* the faster one, otherwise 1."""
     one_side = _is_constant(args, steps, SIDE, CW) or _is_constant(args, steps, SIDE, CCW)
     return 1 if _is_exact(args, steps) or one_side else 2
 
 
-@_inlined
+@inlined
 def _load_states(states, args, steps, start, count):
-    _load(states.x, args, steps, X, start, count)
-    _load(states.y, args, steps, Y, start, count)
-    _load(states.R, args, steps, RADIUS, start, count)
-    _load(states.side, args, steps, SIDE, start, count)
-    _load(states.tolerance, args, steps, TOLERANCE, start, count)
+    load(states.x, args, steps, X, start, count)
+    load(states.y, args, steps, Y, start, count)
+    load(states.R, args, steps, RADIUS, start, count)
+    load(states.side, args, steps, SIDE, start, count)
+    load(states.tolerance, args, steps, TOLERANCE, start, count)
 
 
-@_inlined
+@inlined
 def _choose_sides(states, chosen, far, count):
     """The side of each state; for *either* the near one or, where `far` and there is a tolerance, the far one."""
     y, side, tolerance = states.y, states.side, states.tolerance
@@ -231,7 +154,7 @@ def _choose_sides(states, chosen, far, count):
         chosen[i] = -near if far and side[i] == EITHER and tolerance[i] > 0.0 else near
 
 
-@_inlined
+@inlined
 def _tight_times(states, time, count):
     """T for R = 1, *either*, no tolerance: the compiler precomputes whatever depends only on these."""
     x, y = states.x, states.y
@@ -240,7 +163,7 @@ def _tight_times(states, time, count):
         time[i] = T if _is_solvable(x[i], y[i], 1.0, 0.0) else nan
 
 
-@_inlined
+@inlined
 def _times(states, chosen, time, count):
     x, y, R, tolerance = states.x, states.y, states.R, states.tolerance
     for i in range(count):
@@ -248,7 +171,7 @@ def _times(states, chosen, time, count):
         time[i] = T if _is_solvable(x[i], y[i], R[i], tolerance[i]) else nan
 
 
-@_inlined
+@inlined
 def _exact_times(states, chosen, time, count):
     """`_times` without a tolerance: the compiler leaves out the words that compete only beside a circle."""
     x, y, R = states.x, states.y, states.R
@@ -257,7 +180,7 @@ def _exact_times(states, chosen, time, count):
         time[i] = T if _is_solvable(x[i], y[i], R[i], 0.0) else nan
 
 
-@_inlined
+@inlined
 def _keep_least(time, other, far, count):
     """Keep the times of the first pass, or those of the second where they are less."""
     for i in range(count):
@@ -266,14 +189,14 @@ def _keep_least(time, other, far, count):
 
 def min_time(args, dimensions, steps, data):
     """T, or nan where the status is not OK."""
-    states, chosen, time, other = _state_block(), _buffer(), _buffer(), _buffer()
-    n, exact, passes = _state_count(dimensions), _is_exact(args, steps), _passes(args, steps)
+    states, chosen, time, other = _state_block(), block_buffer(), block_buffer(), block_buffer()
+    n, exact, passes = state_count(dimensions), _is_exact(args, steps), _passes(args, steps)
     tight = exact and _is_constant(args, steps, RADIUS, 1.0) and _is_constant(args, steps, SIDE, EITHER)
     for start in range(0, n, BLOCK):
         count = min(BLOCK, n - start)
         if tight:
-            _load(states.x, args, steps, X, start, count)
-            _load(states.y, args, steps, Y, start, count)
+            load(states.x, args, steps, X, start, count)
+            load(states.y, args, steps, Y, start, count)
             _tight_times(states, time, count)
         else:
             _load_states(states, args, steps, start, count)
@@ -284,11 +207,11 @@ def min_time(args, dimensions, steps, data):
                 else:
                     _times(states, chosen, other, count)
                 _keep_least(time, other, far, count)
-        _store(time, args, steps, MIN_TIME, start, count)
-    _clear_flags(FLAGS)
+        store(time, args, steps, MIN_TIME, start, count)
+    clear_flags(FLAGS)
 
 
-@_inlined
+@inlined
 def _optima(states, entries, count):
     """The optimum of each state on the side in `entries`."""
     x, y, R, tolerance = states.x, states.y, states.R, states.tolerance
@@ -299,7 +222,7 @@ def _optima(states, entries, count):
         )
 
 
-@_inlined
+@inlined
 def _exact_optima(states, entries, count):
     """`_optima` without a tolerance; see `_exact_times`."""
     x, y, R = states.x, states.y, states.R
@@ -308,12 +231,12 @@ def _exact_optima(states, entries, count):
         _, word[i], t1[i], t2[i], t3[i] = _optimum_on_side(x[i], y[i], _rounded_radius(R[i]), int(side[i]), 0.0)
 
 
-@_inlined
+@inlined
 def _entry_at(entries, i):
     return Entry(int(entries.side[i]), int(entries.word[i]), entries.t1[i], entries.t2[i], entries.t3[i])
 
 
-@_inlined
+@inlined
 def _keep_faster(states, entries, others, far, count):
     """Keep the maneuvers of the first pass, or those of the second where they are faster."""
     x, y, R = states.x, states.y, states.R
@@ -326,7 +249,7 @@ def _keep_faster(states, entries, others, far, count):
         t1[i], t2[i], t3[i] = t1_[i] if better else t1[i], t2_[i] if better else t2[i], t3_[i] if better else t3[i]
 
 
-@_inlined
+@inlined
 def _load_and_solve(states, entries, args, steps, start, count):
     """Load a block of states and solve it, both sides of *either* where a tolerance requires it."""
     others = _entry_block()
@@ -340,7 +263,7 @@ def _load_and_solve(states, entries, args, steps, start, count):
         _keep_faster(states, entries, others, far, count)
 
 
-@_inlined
+@inlined
 def _controls(states, entries, u, count):
     x, y, R, tolerance = states.x, states.y, states.R, states.tolerance
     side, word = entries.side, entries.word
@@ -351,24 +274,24 @@ def _controls(states, entries, u, count):
 
 def control(args, dimensions, steps, data):
     """The first control of the optimum, or nan where the status is not OK."""
-    states, entries, u = _state_block(), _entry_block(), _buffer()
-    n = _state_count(dimensions)
+    states, entries, u = _state_block(), _entry_block(), block_buffer()
+    n = state_count(dimensions)
     for start in range(0, n, BLOCK):
         count = min(BLOCK, n - start)
         _load_and_solve(states, entries, args, steps, start, count)
         _controls(states, entries, u, count)
-        _store(u, args, steps, CONTROL, start, count)
-    _clear_flags(FLAGS)
+        store(u, args, steps, CONTROL, start, count)
+    clear_flags(FLAGS)
 
 
-@_inlined
+@inlined
 def _misses(states, entries, distance, count):
     x, y, R = states.x, states.y, states.R
     for i in range(count):
         distance[i] = _miss(x[i], y[i], _rounded_radius(R[i]), _entry_at(entries, i))
 
 
-@_inlined
+@inlined
 def _check(states, entries, time, distance, status, count):
     """Set status and T; the results are nan and 0 where the status is not OK."""
     x, y, R, tolerance = states.x, states.y, states.R, states.tolerance
@@ -384,23 +307,23 @@ def _check(states, entries, time, distance, status, count):
 def solve(args, dimensions, steps, data):
     """Time, word, the three durations, status, side and miss."""
     states, entries = _state_block(), _entry_block()
-    time, status, distance = _buffer(), _buffer(), _buffer()
-    n = _state_count(dimensions)
+    time, status, distance = block_buffer(), block_buffer(), block_buffer()
+    n = state_count(dimensions)
     for start in range(0, n, BLOCK):
         count = min(BLOCK, n - start)
         _load_and_solve(states, entries, args, steps, start, count)
         _misses(states, entries, distance, count)
         _check(states, entries, time, distance, status, count)
-        _store(time, args, steps, TIME, start, count)
-        _store_bytes(entries.word, args, steps, WORD, start, count)
+        store(time, args, steps, TIME, start, count)
+        store_bytes(entries.word, args, steps, WORD, start, count)
         _store_durations(entries, args, steps, start, count)
-        _store_bytes(status, args, steps, STATUS, start, count)
-        _store_bytes(entries.side, args, steps, SIDE_HELD, start, count)
-        _store(distance, args, steps, MISS, start, count)
-    _clear_flags(FLAGS)
+        store_bytes(status, args, steps, STATUS, start, count)
+        store_bytes(entries.side, args, steps, SIDE_HELD, start, count)
+        store(distance, args, steps, MISS, start, count)
+    clear_flags(FLAGS)
 
 
-@_inlined
+@inlined
 def _reduce_all(x, y, c, s, count):
     for i in range(count):
         x[i], y[i] = _reduce(x[i], y[i], c[i], s[i])
@@ -408,44 +331,19 @@ def _reduce_all(x, y, c, s, count):
 
 def reduce(args, dimensions, steps, data):
     """The reduced state (2)."""
-    x, y, c, s = _buffer(), _buffer(), _buffer(), _buffer()
-    n = _state_count(dimensions)
+    x, y, c, s = block_buffer(), block_buffer(), block_buffer(), block_buffer()
+    n = state_count(dimensions)
     for start in range(0, n, BLOCK):
         count = min(BLOCK, n - start)
-        _load(x, args, steps, EAST, start, count)
-        _load(y, args, steps, NORTH, start, count)
-        _load(c, args, steps, COSINE, start, count)
-        _load(s, args, steps, SINE, start, count)
+        load(x, args, steps, EAST, start, count)
+        load(y, args, steps, NORTH, start, count)
+        load(c, args, steps, COSINE, start, count)
+        load(s, args, steps, SINE, start, count)
         _reduce_all(x, y, c, s, count)
-        _store(x, args, steps, REDUCED_X, start, count)
-        _store(y, args, steps, REDUCED_Y, start, count)
+        store(x, args, steps, REDUCED_X, start, count)
+        store(y, args, steps, REDUCED_Y, start, count)
 
 
 def build() -> Any:
     """The loops as one LLVM module, each under its own name."""
-    whole = llvm.parse_assembly("")
-    for loop in (min_time, control, solve, reduce):
-        compiled = numba.cfunc(LOOP, error_model="numpy")(loop)
-        module = llvm.parse_assembly(compiled.inspect_llvm())
-        module.get_function(compiled.native_name).name = loop.__name__
-        whole.link_in(module)
-    return whole
-
-
-def in_wind() -> Any:
-    """`wind_search.fastest` over the rows of arrays: the fields of a `WindProblem` in, those of a `WindEntry` out.
-
-    It uses lists, whose memory is managed by Numba's own runtime, so it cannot be stored in an object file: every
-    process compiles it anew, which takes about ten seconds.
-    """
-    compiled = _njit(nogil=True, error_model="numpy")
-    fastest = rebound(wind_search.fastest, finish=compiled)
-
-    def each(problems, answers):
-        for i in range(len(problems)):
-            x, y, c, s, R, side, wx, wy = problems[i]
-            entry = fastest(WindProblem(x, y, c, s, R, int(side), wx, wy))
-            status, side, word, t1, t2, t3, azimuth, miss = entry
-            answers[i] = float(status), float(side), float(word), t1, t2, t3, azimuth, miss
-
-    return compiled(each)
+    return module_of(dict.fromkeys((min_time, control, solve, reduce), LOOP))

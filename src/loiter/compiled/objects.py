@@ -18,7 +18,7 @@ from typing import Any
 import llvmlite.binding as llvm
 
 # Functions of the C library that compiled code may call.
-C_LIBRARY = {"feclearexcept", "sqrt"}
+C_LIBRARY = {"acos", "atan2", "cos", "feclearexcept", "sin", "sqrt"}
 
 DIGEST = hashlib.sha256().digest_size
 
@@ -30,11 +30,22 @@ def addresses(names: Sequence[str], sources: Iterable[Path], build: Callable[[],
     if its folder cannot be written, every process compiles for itself. The code stays loaded until the process ends.
     """
     _start()
-    path = folder() / f"{_digest(sources)}.o"
+    path = _path(names, sources)
     code = _read(path)
     if code is None:
         code = _emit(build(), names)
         _publish(path, code)
+    return _load(code, names)
+
+
+def cached_addresses(names: Sequence[str], sources: Iterable[Path]) -> list[int] | None:
+    """`addresses` where the object file is there and whole; None, at once, where it would have to be made."""
+    _start()
+    code = _read(_path(names, sources))
+    return None if code is None else _load(code, names)
+
+
+def _load(code: bytes, names: Sequence[str]) -> list[int]:
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine())
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
@@ -42,16 +53,26 @@ def addresses(names: Sequence[str], sources: Iterable[Path], build: Callable[[],
     return [engine.get_function_address(name) for name in names]
 
 
+def kernel_sources() -> list[Path]:
+    """The files that the machine code depends on: the formulas, and the code that compiles them."""
+    compiled = Path(__file__).parent
+    return sorted([*compiled.glob("*.py"), *compiled.with_name("kernel").glob("*.py")])
+
+
 def folder() -> Path:
     """The folder of object files: `loiter` in the user's cache folder, $XDG_CACHE_HOME or ~/.cache."""
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "loiter"
 
 
-def _digest(sources: Iterable[Path]) -> str:
-    """A digest of what the machine code depends on: the sources, the compilers and the processor."""
+def _path(names: Sequence[str], sources: Iterable[Path]) -> Path:
+    return folder() / f"{_digest(names, sources)}.o"
+
+
+def _digest(names: Sequence[str], sources: Iterable[Path]) -> str:
+    """A digest of what the machine code depends on: its functions, the sources, the compilers and the processor."""
     compilers = [f"{name} {version(name)}" for name in ("numba", "llvmlite")]
     machine = [platform.platform(), llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()]
-    digest = hashlib.sha256("\n".join([sys.version, *compilers, *machine]).encode())
+    digest = hashlib.sha256("\n".join([*names, sys.version, *compilers, *machine]).encode())
     for source in sources:
         digest.update(source.read_bytes())
     return digest.hexdigest()

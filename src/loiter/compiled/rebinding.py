@@ -20,6 +20,14 @@ def rebound(
     `rebound(fly, {"sin": numpy.sin, "cos": numpy.cos})` takes arrays. `finish` is applied to each copy, so
     `rebound(optimum, finish=numba.njit)` compiles. So each formula is written only once.
     """
+    return rebinding(names, finish)(function)
+
+
+def rebinding(
+    names: Mapping[str, object] | None = None,
+    finish: Callable[[Function], Function] = lambda copy: copy,
+) -> Callable[[Function], Function]:
+    """`rebound` for several functions: what they share is copied once."""
     copies: dict[Function, Function] = {}
 
     def copied(original: Any) -> Function:
@@ -33,4 +41,4 @@ def rebound(
             copies[original] = finish(copy)
         return copies[original]
 
-    return copied(function)
+    return copied

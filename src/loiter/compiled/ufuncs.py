@@ -8,12 +8,11 @@ side, tolerance, three)` returns time, word, durations (..., 3), status, side an
 
 import ctypes
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from loiter.compiled.objects import addresses
+from loiter.compiled.objects import addresses, kernel_sources
 
 # Index of PyUFunc_FromFuncAndDataAndSignature in NumPy's table of functions (numpy/__ufunc_api.h), part of its ABI.
 FROM_FUNCTIONS = 31
@@ -26,12 +25,6 @@ TYPES = {
     "reduce": ("dddd", "dd", None),
     "solve": ("dddddd", "dbdbbd", "(),(),(),(),(),(n)->(),(),(n),(),(),()"),
 }
-
-
-def _sources() -> list[Path]:
-    """The files that the machine code depends on: the formulas, and the code that compiles them."""
-    compiled = Path(__file__).parent
-    return sorted([*compiled.glob("*.py"), *compiled.with_name("kernel").glob("*.py")])
 
 
 def _build() -> Any:
@@ -63,4 +56,4 @@ def _ufunc(name: str, address: int) -> Any:
 
 _REFERENCED: list[Any] = []
 
-min_time, control, reduce, solve = map(_ufunc, TYPES, addresses(tuple(TYPES), _sources(), _build))
+min_time, control, reduce, solve = map(_ufunc, TYPES, addresses(tuple(TYPES), kernel_sources(), _build))

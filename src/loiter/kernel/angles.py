@@ -4,7 +4,7 @@ A rotation from one vector to another is kept as the products (a x b, a . b) unt
 added up, snapped and compared without an arctangent, and the single arctangent at the end is as exact as the angle.
 """
 
-from math import atan2, pi
+from math import atan2, pi, sqrt
 
 TWO_PI = 2.0 * pi
 
@@ -16,6 +16,14 @@ NO_ROTATION = (0.0, 1.0)
 # Added to inner products, so that a zero vector gives the rotation by zero. It is negligible for vectors longer than
 # 1e-37, and a product of three of them does not underflow.
 TINY = 2.0**-300
+
+
+def length(x: float, y: float) -> float:
+    """The length of a vector whose square neither overflows nor underflows.
+
+    Unlike `math.hypot`, whose algorithm is Python's own, compiled code gives the same value to the last bit.
+    """
+    return sqrt(x * x + y * y)
 
 
 def rotation(ax: float, ay: float, bx: float, by: float) -> Rotation:

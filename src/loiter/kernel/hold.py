@@ -6,9 +6,9 @@ direction of the hold, since the heading was against the wind; side +1 is clockw
 `words.Side`.
 """
 
-from math import cos, hypot, sin, sqrt
+from math import cos, sin, sqrt
 
-from loiter.kernel.angles import angle, arc_rotation
+from loiter.kernel.angles import angle, arc_rotation, length
 
 # Position (x, y), heading as a unit vector (c, s) and ground speed of a vehicle that holds the circle. A plain tuple:
 # one is made for each point of joining that is tried, and plain Python makes a tuple of named fields half as fast.
@@ -21,12 +21,13 @@ NEGLIGIBLE_WIND = 2.0**-400
 
 def tightest_radius(wx: float, wy: float) -> float:
     """The least R of a circle that can be held all round: the rate of turn is largest downwind, (1 + |w|)^2 / R."""
-    return (1.0 + hypot(wx, wy)) ** 2
+    fastest = 1.0 + length(wx, wy)
+    return fastest * fastest
 
 
 def downwind(wx: float, wy: float) -> tuple[float, float]:
     """The direction of the wind as a unit vector; (1, 0) in still air, and in a wind too light to have one."""
-    wind = hypot(wx, wy)
+    wind = length(wx, wy)
     return (wx / wind, wy / wind) if wind >= NEGLIGIBLE_WIND else (1.0, 0.0)
 
 

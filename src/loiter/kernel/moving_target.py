@@ -9,10 +9,10 @@ functions, those of LRL and RLR lie where a function is convex, or concave, thro
 In all functions `u` is the control of the first arc and (dx, dy) is d.
 """
 
-from math import acos, atan2, ceil, cos, hypot, inf, pi, sin, sqrt
+from math import acos, atan2, ceil, cos, inf, pi, sin, sqrt
 from typing import NamedTuple
 
-from loiter.kernel.angles import TWO_PI, Rotation, angle, arc_rotation, snap_full_turn
+from loiter.kernel.angles import TWO_PI, Rotation, angle, arc_rotation, length, snap_full_turn
 from loiter.kernel.words import encode
 
 # Two times, the earlier one first.
@@ -103,9 +103,9 @@ def lsl_rsr(u: int, dx: float, dy: float, ends: Ends) -> Path:
         first = arc_time(arc_rotation(u, c0, s0, ex, ey), 1.0 + straight, arc_tolerance)
         last = max(arcs - first, 0.0)
         if first <= arcs + arc_tolerance and last < TWO_PI:
-            length = hypot(ex, ey)
+            distance = length(ex, ey)
             # Where the two circles coincide, any direction of p is possible.
-            p1, p2 = (ex / length, ey / length) if length > 0.0 else (1.0, 0.0)
+            p1, p2 = (ex / distance, ey / distance) if distance > 0.0 else (1.0, 0.0)
             return Path(first + straight + last, encode(u, 0, u), first, straight, last, 1.0, p1, p2)
     return NO_PATH
 
@@ -220,8 +220,8 @@ def middle_arc(dx: float, dy: float, wx: float, wy: float) -> float:
 def three_arcs(u: int, middle: float, dx: float, dy: float, ends: Ends) -> Path:
     """LRL or RLR with a given middle arc between circles whose centres are d = -4 sin(m/2) p apart."""
     c0, s0, c, s, _, _, arc_tolerance = ends
-    length = hypot(dx, dy)
-    p1, p2 = (-dx / length, -dy / length) if length > 0.0 else (1.0, 0.0)
+    distance = length(dx, dy)
+    p1, p2 = (-dx / distance, -dy / distance) if distance > 0.0 else (1.0, 0.0)
     lam, across = -cos(0.5 * middle), sin(0.5 * middle)
     # The headings at the two switches: p turned by the angle whose cosine is lambda, against the sense of the outer
     # arcs at the first switch and in their sense at the second.

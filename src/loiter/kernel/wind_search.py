@@ -5,10 +5,11 @@ moves with (c, s) + w, |w| < 1. The point of joining is parametrised by its phas
 `moving_target` gives the first path to it, and the fastest of these paths is found by branch and bound.
 """
 
-from math import atan2, cbrt, hypot, inf, isfinite, nan
+from collections.abc import Callable
+from math import atan2, cbrt, inf, isfinite, nan
 from typing import NamedTuple
 
-from loiter.kernel.angles import TWO_PI
+from loiter.kernel.angles import TWO_PI, length
 from loiter.kernel.hold import NEGLIGIBLE_WIND, hold_pose, hold_rate, hold_time, phase_of, tightest_radius
 from loiter.kernel.motion import fly
 from loiter.kernel.moving_target import NO_PATH, Ends, Path, interception, lrl_rlr, lsl_rsr, lsr_rsl
@@ -60,6 +61,13 @@ class WindCandidate(NamedTuple):
     path: Path
 
 
+class Cells(NamedTuple):
+    """Arcs of the circle: the phases of their ends, and the times of the first paths to these."""
+
+    ends: list[float]
+    times: list[float]
+
+
 class WindEntry(NamedTuple):
     """A maneuver as flown: status, side, word, durations, azimuth of the point of joining, and miss.
 
@@ -77,12 +85,21 @@ class WindEntry(NamedTuple):
     miss: float
 
 
+class WindSolver(NamedTuple):
+    """The two functions that search: `fastest`, and `local_minima` for one side. `compiled.wind` has faster ones."""
+
+    fastest: Callable[[WindProblem], WindEntry]
+    local_minima: Callable[[WindProblem], list[WindEntry]]
+
+
 # Points of joining that are tried first.
 JOINS = 32
 
 # The cells between them are halved this many times, to 2 pi/4096. Nothing can be faster than the answer by more than
 # the time to hold the circle through one cell, at most R/(1 - |w|) times its width.
 HALVINGS = 7
+
+MOST_CELLS = JOINS << HALVINGS
 
 # Every other step of `refined_minimum` bisects, so 106 steps exhaust the digits of a double; 14 are in reserve.
 REFINING_STEPS = 120
@@ -107,7 +124,7 @@ def status_of(problem: WindProblem) -> int:
     x, y, c, s, R, _, wx, wy = problem
     if not (isfinite(x + y) and isfinite(c + s) and isfinite(R) and isfinite(wx + wy)):
         return Status.NOT_FINITE + 0
-    if hypot(wx, wy) >= 1.0:
+    if length(wx, wy) >= 1.0:
         return Status.WIND_TOO_STRONG + 0
     if tightest_radius(wx, wy) * (1.0 - ROUNDING) > R:
         return (Status.NOT_HELD if R >= 1.0 else Status.RADIUS_TOO_SMALL) + 0
@@ -173,28 +190,44 @@ def best_of_joins(side: int, scene: WindScene, best: WindCandidate) -> WindCandi
     return best
 
 
+def new_cells() -> Cells:
+    """Room for every cell. Compiled code reserves it on the stack."""
+    return Cells([0.0] * MOST_CELLS, [0.0] * MOST_CELLS)
+
+
 def branch_and_bound(side: int, scene: WindScene, best: WindCandidate) -> WindCandidate:
     """The faster of `best` and the fastest path onto the circle held on one side, by branch and bound."""
-    R, wx, wy = scene.R, scene.wx, scene.wy
     known, width = best.path.time, TWO_PI / JOINS
-    cells = [(width * (i + 1.0), inf) for i in range(JOINS)]
+    cells, halves, count = new_cells(), new_cells(), JOINS
     for i in range(JOINS):
-        end, _ = cells[i]
-        time, best = cell_end(end, width, side, scene, best)
-        cells[i] = (end, time)
+        cells.ends[i] = width * (i + 1.0)
+        cells.times[i], best = cell_end(cells.ends[i], width, side, scene, best)
     best = refine_if_better(best, known, width, scene)
     for _ in range(HALVINGS):
         known = best.path.time
         width *= 0.5
-        halves = cells[:0]
-        for end, time in cells:
-            if time - hold_time(end, 2.0 * width, side, R, wx, wy) < known:
-                earlier, best = cell_end(end - width, width, side, scene, best)
-                halves.append((end - width, earlier))
-                halves.append((end, time))
-        cells = halves
+        count, best = halve(cells, count, halves, width, side, scene, best)
+        cells, halves = halves, cells
         best = refine_if_better(best, known, width, scene)
-    return remaining_minima(cells, width, side, scene, best)
+    return remaining_minima(cells, count, width, side, scene, best)
+
+
+def halve(
+    cells: Cells, count: int, halves: Cells, width: float, side: int, scene: WindScene, best: WindCandidate
+) -> tuple[int, WindCandidate]:
+    """Write the halves, of the given width, of the first `count` cells that may hold a faster path than `best`.
+
+    Returns their number, and the faster of `best` and the first paths to their ends.
+    """
+    known, found = best.path.time, 0
+    for i in range(count):
+        end, time = cells.ends[i], cells.times[i]
+        if time - hold_time(end, 2.0 * width, side, scene.R, scene.wx, scene.wy) < known:
+            earlier, best = cell_end(end - width, width, side, scene, best)
+            halves.ends[found], halves.times[found] = end - width, earlier
+            halves.ends[found + 1], halves.times[found + 1] = end, time
+            found += 2
+    return found, best
 
 
 def refine_if_better(best: WindCandidate, known: float, width: float, scene: WindScene) -> WindCandidate:
@@ -203,12 +236,12 @@ def refine_if_better(best: WindCandidate, known: float, width: float, scene: Win
 
 
 def remaining_minima(
-    cells: list[tuple[float, float]], width: float, side: int, scene: WindScene, best: WindCandidate
+    cells: Cells, count: int, width: float, side: int, scene: WindScene, best: WindCandidate
 ) -> WindCandidate:
-    """The faster of `best` and the local minima in cells whose bound does not exclude them."""
-    for i in range(len(cells)):
-        phase, time = cells[i]
-        before, after = time_beside(cells, i, -1, width), time_beside(cells, i, 1, width)
+    """The faster of `best` and the local minima in those of the first `count` cells whose bound is not above it."""
+    for i in range(count):
+        phase, time = cells.ends[i], cells.times[i]
+        before, after = time_beside(cells, count, i, -1, width), time_beside(cells, count, i, 1, width)
         elsewhere = side != best.side or abs(phase - best.phase) > 1.5 * width
         within = hold_time(phase, width, side, scene.R, scene.wx, scene.wy)
         if time - within < best.path.time and time <= min(before, after) and elsewhere:
@@ -219,13 +252,11 @@ def remaining_minima(
     return best
 
 
-def time_beside(cells: list[tuple[float, float]], i: int, step: int, width: float) -> float:
+def time_beside(cells: Cells, count: int, i: int, step: int, width: float) -> float:
     """The time to the end of the cell before (`step` = -1) or after (+1) cell i; `inf` where no cell adjoins it."""
-    if not 0 <= i + step < len(cells):
-        return inf
-    phase, _ = cells[i]
-    there, time = cells[i + step]
-    return time if abs(there - phase) < 1.5 * width else inf
+    there = i + step
+    adjoins = 0 <= there < count and abs(cells.ends[there] - cells.ends[i]) < 1.5 * width
+    return cells.times[there] if adjoins else inf
 
 
 def refined_minimum(found: WindCandidate, width: float, scene: WindScene) -> WindCandidate:
@@ -297,18 +328,67 @@ def fit_two_arcs(arcs: Entry, phase: float, scene: WindScene) -> tuple[Entry, fl
     return Entry(side, word, t1, t2, 0.0), phase
 
 
+def one_arc_entry(found: WindCandidate) -> Entry:
+    """The arc left of a word whose other pieces together last `SHORT` or less; the empty word where there is none."""
+    _, side, path = found
+    first, middle, last = controls(path.word)
+    if first == last and path.t2 <= SHORT:
+        return Entry(side, encode(first), path.t1 + path.t3, 0.0, 0.0)
+    if middle != 0 and path.t1 + path.t3 <= SHORT:
+        return Entry(side, encode(middle), path.t2, 0.0, 0.0)
+    if path.t2 + path.t3 <= SHORT:
+        return Entry(side, encode(first), path.t1, 0.0, 0.0)
+    if path.t1 + path.t2 <= SHORT:
+        return Entry(side, encode(last), path.t3, 0.0, 0.0)
+    return Entry(side, 0, 0.0, 0.0, 0.0)
+
+
+def fit_one_arc(arc: Entry, phase: float, scene: WindScene) -> tuple[Entry, float]:
+    """One arc that ends on the circle, and its phase, from an approximation, by Newton's method.
+
+    It can end on the circle and along it only where the start is on it by rounding. The end and the point of joining
+    move in the same direction, so the distance between them along it determines the duration of the arc less the time s
+    by which it joins later, and then the heading determines s.
+    """
+    x, y, c, s, R, wx, wy, arc_tolerance = scene
+    side, word, t, _, _ = arc
+    u, _, _ = controls(word)
+    for _ in range(ARC_STEPS):
+        x1, y1, c1, s1 = fly(x, y, c, s, u, t)
+        px, py, ce, se, g = hold_pose(phase, side, R, wx, wy)
+        rx, ry, vx, vy = px - x1 - wx * t, py - y1 - wy * t, ce + wx, se + wy
+        longer, bend = (rx * vx + ry * vy) / (g * g), u + side * hold_rate(phase, side, R, wx, wy)
+        if bend == 0.0:
+            break
+        later = (atan2(c1 * se - s1 * ce, c1 * ce + s1 * se) - u * longer) / bend
+        t, phase = t + longer + later, phase + later * g / R
+        if abs(longer) + abs(later) <= arc_tolerance:
+            break
+    return Entry(side, word, t, 0.0, 0.0), phase
+
+
 def polish(found: WindCandidate, scene: WindScene) -> tuple[Entry, float]:
-    """The maneuver and phase of a candidate, or those of its two arcs alone where these are close and no slower."""
+    """The maneuver and phase of a candidate, or those of one or two of its arcs alone if close and no slower."""
     phase, side, path = found
     entry = Entry(side, path.word, path.t1, path.t2, path.t3)
-    arcs = two_arc_entry(found)
+    latest = path.time + TOO_EARLY * end_miss(entry, phase, scene)
+    arc, arcs = one_arc_entry(found), two_arc_entry(found)
+    if arc.word != 0:
+        arc, arc_phase = fit_one_arc(arc, phase, scene)
+        if is_close(arc, arc_phase, latest, scene):
+            return arc, arc_phase
     if arcs.word != 0:
         arcs, arcs_phase = fit_two_arcs(arcs, phase, scene)
-        late = arcs.t1 + arcs.t2 - path.time - TOO_EARLY * end_miss(entry, phase, scene)
-        both_flown = min(arcs.t1, arcs.t2) >= 0.0
-        if both_flown and max(late, end_miss(arcs, arcs_phase, scene)) <= 3.0 * scene.arc_tolerance:
+        if is_close(arcs, arcs_phase, latest, scene):
             return arcs, arcs_phase
     return entry, phase
+
+
+def is_close(arcs: Entry, phase: float, latest: float, scene: WindScene) -> bool:
+    """Whether one or two arcs end on the circle, and no later than `latest`, up to rounding."""
+    both_flown = min(arcs.t1, arcs.t2) >= 0.0
+    late = duration(arcs) - latest
+    return both_flown and max(late, end_miss(arcs, phase, scene)) <= 3.0 * scene.arc_tolerance
 
 
 def end_miss(entry: Entry, phase: float, scene: WindScene) -> float:
@@ -320,7 +400,7 @@ def end_miss(entry: Entry, phase: float, scene: WindScene) -> float:
             x, y, c, s = fly(x, y, c, s, u, t)
             x, y = x + wx * t, y + wy * t
     px, py, ce, se, _ = hold_pose(phase, side, R, wx, wy)
-    return hypot(hypot(px - x, py - y), hypot(ce - c, se - s))
+    return length(length(px - x, py - y), length(ce - c, se - s))
 
 
 def start_on_circle(side: int, scene: WindScene) -> WindCandidate:
@@ -338,7 +418,7 @@ def is_on_circle(side: int, scene: WindScene) -> bool:
 def scene_of(problem: WindProblem) -> WindScene:
     """The scene of a problem, with the arc tolerance that rounding requires; negligible wind is treated as zero."""
     x, y, c, s, R, _, wx, wy = problem
-    if hypot(wx, wy) < NEGLIGIBLE_WIND:
+    if length(wx, wy) < NEGLIGIBLE_WIND:
         wx, wy = 0.0, 0.0
     return WindScene(x, y, c, s, R, wx, wy, rounding(x, y, R) / 3.0)
 
@@ -381,33 +461,49 @@ def wind_entry(found: WindCandidate, scene: WindScene) -> WindEntry:
     return WindEntry(Status.OK + 0, side, word, t1, t2, t3, atan2(py, px), miss)
 
 
-def local_minima(side: int, scene: WindScene) -> list[WindCandidate]:
-    """The local minima of the time over the point of joining, as resolved by `SAMPLES` points."""
-    width = TWO_PI / SAMPLES
-    tried = [WindCandidate(width * i, side, first_path(width * i, side, scene, inf)) for i in range(SAMPLES)]
-    times = [candidate.path.time for candidate in tried]
-    return [
-        refined_minimum(found, width, scene)
-        for i, found in enumerate(tried)
-        if times[i] < inf and times[i] <= min(times[i - 1], times[(i + 1) % SAMPLES])
-    ]
+def sampled_times(side: int, scene: WindScene, times: list[float]) -> None:
+    """Write the times of the first paths to `SAMPLES` points around the circle."""
+    for i in range(SAMPLES):
+        times[i] = first_path(TWO_PI / SAMPLES * i, side, scene, inf).time
 
 
-def ranked(problem: WindProblem) -> list[WindEntry]:
+def is_local_minimum(times: list[float], i: int) -> bool:
+    """Whether the time of sample i is no greater than those beside it."""
+    return times[i] < inf and times[i] <= min(times[(i - 1) % SAMPLES], times[(i + 1) % SAMPLES])
+
+
+def entry_near_sample(i: int, side: int, scene: WindScene) -> WindEntry:
+    """The maneuver at the local minimum next to sample i."""
+    phase, width = TWO_PI / SAMPLES * i, TWO_PI / SAMPLES
+    start = WindCandidate(phase, side, first_path(phase, side, scene, inf))
+    return wind_entry(refined_minimum(start, width, scene), scene)
+
+
+def local_minima(problem: WindProblem) -> list[WindEntry]:
+    """The maneuvers at the local minima of the time over the point of joining, as resolved by `SAMPLES` points.
+
+    The circle is held on one side, that of the problem.
+    """
+    scene, times = scene_of(problem), [0.0] * SAMPLES
+    sampled_times(problem.side, scene, times)
+    return [entry_near_sample(i, problem.side, scene) for i in range(SAMPLES) if is_local_minimum(times, i)]
+
+
+def ranked(problem: WindProblem, solver: WindSolver | None = None) -> list[WindEntry]:
     """The maneuvers that are local minima over the point of joining, each once, fastest first.
 
     Those of both sides for *either*; the fastest of each side is among them. The list is empty where `fastest` finds
-    none. To be called only where `status_of` is OK.
+    none. To be called only where `status_of` is OK. `solver` has other versions of the two functions that search.
     """
-    scene = scene_of(problem)
-    sides = [one for one in (1, -1) if problem.side != -one]
-    best = [fastest(problem._replace(side=one)) for one in sides]
+    solver = solver or WindSolver(fastest, local_minima)
+    sides = [problem._replace(side=one) for one in (1, -1) if problem.side != -one]
+    best = [solver.fastest(one) for one in sides]
     if any(maneuver.status != Status.OK for maneuver in best):
         return []
-    others = [wind_entry(found, scene) for one in sides for found in local_minima(one, scene)]
+    others = [entry for one in sides for entry in solver.local_minima(one)]
     # The phase of a local minimum is known to the square root of rounding, the length of a piece that vanishes there to
     # the cube root, as in `synthesis.optima`.
-    one_maneuver = 2.0 * cbrt(24.0 * rounding(scene.x, scene.y, scene.R))
+    one_maneuver = 2.0 * cbrt(24.0 * rounding(problem.x, problem.y, problem.R))
     distinct: list[WindEntry] = []
     for maneuver in sorted((m for m in (*best, *others) if m.status == Status.OK), key=time_of):
         if all(maneuver.side != m.side or time_apart(entry_of(maneuver), entry_of(m)) > one_maneuver for m in distinct):
@@ -415,9 +511,9 @@ def ranked(problem: WindProblem) -> list[WindEntry]:
     return distinct
 
 
-def optima(problem: WindProblem) -> list[WindEntry]:
+def optima(problem: WindProblem, solver: WindSolver | None = None) -> list[WindEntry]:
     """The maneuvers of `ranked` that tie with the fastest, within the accuracy of `fastest`."""
-    maneuvers = ranked(problem)
+    maneuvers = ranked(problem, solver)
     least = min(map(time_of, maneuvers), default=inf)
     return [m for m in maneuvers if is_tie_in_wind(time_of(m), least, problem.R)]
 

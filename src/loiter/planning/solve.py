@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
+from loiter.compiled import wind_solver
 from loiter.errors import NotConverged
 from loiter.kernel import wind_search
 from loiter.kernel.statuses import Status
@@ -77,12 +78,12 @@ def fastest(problem: Problem) -> Maneuver:
 
 def all_fastest(problem: Problem) -> tuple[Maneuver, ...]:
     """The answer of `plan_all` to a problem."""
-    return maneuvers(solved(problem, optima, wind_search.optima))
+    return maneuvers(solved(problem, optima, wind_solver.optima))
 
 
 def extremals(problem: Problem) -> tuple[Maneuver, ...]:
     """The answer of `candidates` to a problem."""
-    return maneuvers(solved(problem, ranked, wind_search.ranked))
+    return maneuvers(solved(problem, ranked, wind_solver.ranked))
 
 
 def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
@@ -90,7 +91,7 @@ def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneu
 
     Raises the errors of `plan`. In wind it takes half the time of `plan_all` followed by `candidates`.
     """
-    known = solved(problem.with_turn(Turn.EITHER), ranked, wind_search.ranked)
+    known = solved(problem.with_turn(Turn.EITHER), ranked, wind_solver.ranked)
     best = all_fastest(problem) if problem.still else _tied(known, problem)
     others = maneuvers(known)
     return best, tuple(m for m in others if not any(m.turn == b.turn and m.segments == b.segments for b in best))
@@ -168,4 +169,4 @@ def _optimum_alone(*arguments: Any) -> list[Entry]:
 
 
 def _fastest_alone(problem: WindProblem) -> list[WindEntry]:
-    return [wind_search.fastest(problem)]
+    return [wind_solver.fastest(problem)]

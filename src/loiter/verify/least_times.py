@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from math import hypot, inf
 from typing import NamedTuple
 
+from loiter.compiled import wind_solver
 from loiter.kernel import wind_search
 from loiter.kernel.exact import beyond
 from loiter.kernel.synthesis import WIND_TIE_TOLERANCE, Entry, duration, optimum, rounding
@@ -51,7 +52,7 @@ def _in_wind(trajectory: Trajectory) -> LeastTimes:
     def time(axis: int, step: float) -> float:
         e = complex(problem.c, problem.s) * (exp(1j * step) if axis == 2 else 1.0)
         x, y = problem.x + step * (axis == 0), problem.y + step * (axis == 1)
-        return wind_search.time_of(wind_search.fastest(problem._replace(x=x, y=y, c=e.real, s=e.imag)))
+        return wind_search.time_of(wind_solver.fastest(problem._replace(x=x, y=y, c=e.real, s=e.imag)))
 
     def by_heading(slopes: Sequence[float]) -> float:
         _, _, slope = slopes

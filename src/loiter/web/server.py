@@ -14,6 +14,7 @@ from urllib.parse import urlsplit
 
 import uvicorn
 
+from loiter.compiled import wind_solver
 from loiter.errors import InvalidArgument
 from loiter.web.answers.synthesis import DEFAULT_CELLS, synthesis
 from loiter.web.app import create_app
@@ -55,18 +56,23 @@ def serve(host: str, port: int, cors: str | None, announce: Callable[[str], obje
         Server(config).run(sockets=[listener])
 
 
+def _warm_up() -> None:
+    synthesis(1.0, "either", None, DEFAULT_CELLS)
+    wind_solver.prepare()
+
+
 class Server(uvicorn.Server):
     """uvicorn's server, which shuts down even if connections are accepted during the shutdown."""
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Start, and compute the map that the page shows first, in a thread.
+        """Start, compute the map that the page shows first, and load the search in wind, in a thread.
 
-        The map needs the compiled kernel; compiling takes ten seconds, once on a machine. The thread starts only after
-        uvicorn has installed its signal handlers: before that, a signal could interrupt an import and block the import
-        of another thread for ever.
+        Both are compiled, once on a machine, in ten seconds each. The thread starts only after uvicorn has installed
+        its signal handlers: before that, a signal could interrupt an import and block the import of another thread for
+        ever.
         """
         await super().startup(sockets)
-        Thread(target=synthesis, args=(1.0, "either", None, DEFAULT_CELLS)).start()
+        Thread(target=_warm_up).start()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Shut down, and close connections that are accepted meanwhile; uvicorn would wait until its time-out."""

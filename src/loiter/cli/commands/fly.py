@@ -22,6 +22,7 @@ from loiter.cli.numbers import whole
 from loiter.cli.options import AircraftOptions, OrbitOptions, StartOptions, WindOptions, output, placed
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
+from loiter.planning.problem import problem_of
 from loiter.plot import files
 from loiter.writing import check_writable, write_whole
 
@@ -266,7 +267,11 @@ def _fly_many(
     starts: Sequence[Trial], setting: Setting, names: Sequence[str], workers: int | None, save: Path | None
 ) -> None:
     """Fly laws from many starts, and write a table with a row for each law."""
+    from loiter.compiled import wind_solver
     from loiter.guidance.trials.campaign import campaign
+
+    if not problem_of(starts[0].ideal).still:
+        wind_solver.prepare()
 
     laws = {name: setting.laws[name] for name in names}
     with _progress_bar() as progress:

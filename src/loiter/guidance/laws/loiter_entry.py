@@ -5,20 +5,29 @@ from __future__ import annotations
 from math import degrees, hypot, inf, nan
 from typing import NamedTuple
 
+from loiter.compiled import wind_solver
 from loiter.errors import not_negative, positive
 from loiter.guidance.laws.clock import Clock
-from loiter.guidance.laws.observer import BankHistory, Estimate, Observer, is_usable
-from loiter.guidance.laws.path_tracking import air_rate, course_rate, flight_velocity
-from loiter.guidance.laws.route import RelativeState, Route, controls_of, unit
+from loiter.guidance.laws.entry_planner import (
+    PlannedEntry,
+    RelativeState,
+    TurnLimits,
+    fastest_entry,
+    turn_limits,
+)
+from loiter.guidance.laws.observer import Estimate, Observer, is_usable
+from loiter.guidance.laws.path_tracking import air_rate, course_rate
+from loiter.guidance.laws.route import Route, controls_of
+from loiter.guidance.laws.vehicle_identification import (
+    DeclaredVehicle,
+    IdentifiedVehicle,
+    Vehicle,
+    VehicleEstimates,
+)
 from loiter.guidance.protocol import Command, Phase, State, phase_of_control
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
-from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
-from loiter.kernel import motion, wind_search
-from loiter.kernel.hold import tightest_radius
-from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import Entry, duration, is_solvable, optimum, rounded_radius
-from loiter.kernel.wind_search import WindProblem
+from loiter.guidance.vehicle.turning import bank_at_rate, radius_of_turn, rate_at_bank
 from loiter.kernel.words import Side
 from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind
@@ -67,6 +76,18 @@ BLIND_S = 1.0
 # A piece with less than this left, seconds, is complete but for rounding.
 ROUNDING_S = 1e-9
 
+# The gain of course corrections is reduced by this share of the delay: a part of it is not predicted exactly.
+DELAY_SHARE = 1.5
+
+# The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until they
+# differ by less than the second.
+WIND_DIFFERS, WIND_KEPT = 0.1, 0.05
+
+# On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn, at this share of the
+# gain at which it would begin to oscillate, up to the second share of the circle's rate of turn, and only while the
+# error is less than the third, in radii.
+TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.15, 0.15, 0.1
+
 
 class ResponsePoint(NamedTuple):
     """The predicted state in which a command takes effect, and how early the next piece must begin, seconds."""
@@ -78,11 +99,12 @@ class ResponsePoint(NamedTuple):
 class LoiterEntry:
     """A guidance law that flies the fastest entry onto `orbit`, in noise and gusts, and holds the circle.
 
-    `wind` is the steady wind. `orbit` gives the circle at `State.time_s` = 0; a circle that moves keeps its velocity.
-    `roll` is the roll response of the aircraft, `delay_s` the dead time of its measurements, which the law compensates
-    from the commands given since. `reserve` is the share by which planned turns are wider than the tightest,
-    `smoothing_s` the averaging time of measurements, `gain` the gain of course corrections. Call `step` 10 to 400 times
-    a second.
+    `orbit` gives the circle at `State.time_s` = 0; a circle that moves keeps its velocity. The law identifies the
+    vehicle while it flies, from the commands that it gives and the measurements: the roll response, the delay of
+    measurements, the ratio of turn rates, the steady wind and the airspeed. `wind`, `roll` and `delay_s` are first
+    guesses; without `wind` it is taken from the first measurements. With `identify` False the vehicle is as declared.
+    `reserve` is the share by which planned turns are wider than the tightest, `smoothing_s` the averaging time of
+    measurements, `gain` the gain of course corrections. Call `step` 10 to 400 times a second.
 
     The law keeps one plan, with its direction and its word, until another is faster by a margin or the aircraft is
     lost, so that noise causes neither switching between plans nor a go-around. docs/guidance.md describes the method
@@ -109,42 +131,53 @@ class LoiterEntry:
         reserve: float = RESERVE,
         smoothing_s: float = SMOOTHING_S,
         gain: float = GAIN,
+        identify: bool = True,
     ) -> None:
-        wind = CALM if wind is None else wind
-        self._orbit, self._roll, self._wind = orbit, roll, relative_wind(orbit, aircraft, wind)
-        check_held(orbit, aircraft, self._wind)
-        self._in_still_air = self._wind.still
-        self._gain = positive("gain", gain, "units")
-        self._history = BankHistory(not_negative("delay_s", delay_s, "seconds"))
-        self._V, self._side = aircraft.airspeed_m_s, SIDES[orbit.turn]
-        self._set_planned_turn(orbit, aircraft, not_negative("reserve", reserve, "one"))
-        self._observer = Observer(not_negative("smoothing_s", smoothing_s, "seconds"))
-        self._response_s = self._lead_s(0.0, self._limit_deg) + smoothing_s
+        air = CALM if wind is None else wind
+        check_held(orbit, aircraft, relative_wind(orbit, aircraft, air))
+        self._orbit, self._aircraft, self._declared_wind = orbit, aircraft, air.velocity_m_s
+        self._limit_deg = aircraft.bank_deg(aircraft.turn_radius_m)
+        self._gain, self._reserve = positive("gain", gain, "units"), not_negative("reserve", reserve, "one")
+        self._smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
+        delay_s = not_negative("delay_s", delay_s, "seconds")
+        declared = VehicleEstimates(roll, delay_s, 1.0, *air.velocity_m_s, aircraft.airspeed_m_s)
+        self._vehicle: Vehicle = DeclaredVehicle(declared)
+        # A wind may have to be planned with: the compiled search is loaded before the flight.
+        wind_solver.load()
+        if identify:
+            self._vehicle = IdentifiedVehicle(declared, wind_told=wind is not None)
+        self._side = SIDES[orbit.turn]
+        self._observer = Observer(smoothing_s)
         self._route: Route | None = None
-        # The predicted time of joining in the units of a `RelativeState`, and its value at the beginning of the present
-        # plan.
-        self._join_time = self._planned_join_time = inf
+        # The predicted time of joining, seconds, and its value at the beginning of the present plan.
+        self._join_time_s = self._planned_join_time_s = inf
         self._clock, self._last_search_s = Clock(), -inf
+        # Whether the wind differs so much from the declared one that the estimated one is planned with.
+        self._wind_differs = False
+        # The correction of the rate of turn that cancels a steady crosstrack error on the circle, radians per second.
+        self._trim = 0.0
         # The last estimate of the present state, the time since then, and how far its bank was from the modelled one.
         self._present: Estimate | None = None
         self._elapsed_s = self._bias_deg = 0.0
         self._last_command = Command(0.0, 0.0, Phase.NO_DATA, nan, orbit.turn, Phase.NO_DATA, nan)
-
-    def _set_planned_turn(self, orbit: Orbit, aircraft: Aircraft, reserve: float) -> None:
-        """Set the planned turn radius, the units that follow from it, and the banks."""
-        tightest_m, widest_m = aircraft.turn_radius_m, orbit.radius_m / tightest_radius(*self._wind)
-        # Wider by the reserve, as far as the circle allows.
-        self._r = max(tightest_m, min(tightest_m * (1.0 + reserve), widest_m))
-        self._R, self._unit_s = rounded_radius(orbit.radius_m / self._r), self._r / self._V
-        # A start beside the last arc counts as on it if half of the reserve can correct its distance.
-        self._tolerance = 0.5 * (self._r / tightest_m - 1.0)
-        self._limit_deg, self._hold_deg = aircraft.bank_deg(tightest_m), aircraft.bank_deg(orbit.radius_m)
-        self._planned_deg = aircraft.bank_deg(self._r)
+        self._update_limits()
 
     @classmethod
     def exact(cls, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None) -> LoiterEntry:
-        """The law of the theory: no reserve, instant bank, no smoothing, no dead time."""
-        return cls(orbit, aircraft, wind, roll=INSTANT_ROLL, delay_s=0.0, reserve=0.0, smoothing_s=0.0)
+        """The law of the theory: no reserve, instant bank, no smoothing, no dead time, no identification."""
+        return cls(orbit, aircraft, wind, roll=INSTANT_ROLL, delay_s=0.0, reserve=0.0, smoothing_s=0.0, identify=False)
+
+    @property
+    def estimates(self) -> VehicleEstimates:
+        """What the law believes of the vehicle at present."""
+        return self._vehicle.estimates
+
+    @property
+    def crosstrack_m(self) -> float:
+        """The crosstrack error, metres, positive to the left of the path; nan before there is a plan."""
+        if self._route is None or self._present is None:
+            return nan
+        return self._route.offset(self._relative_state(self._present)).crosstrack
 
     def step(self, state: State, dt: float) -> Command:
         """The command for the next `dt` seconds, from a measured state.
@@ -156,7 +189,7 @@ class LoiterEntry:
         if estimate is None:
             return self._command_without_data(dt)
         if self._route is None:
-            self._search(self._relative_state(estimate.after(self._lead_s(0.0, self._limit_deg))))
+            self._first_search(estimate)
         if self._route is None:
             return self._command_without_data(dt)
         response = self._advance(self._route, estimate)
@@ -173,14 +206,15 @@ class LoiterEntry:
         """
         if not is_usable(state):
             return None
+        history = self._vehicle.history
         if state.time_s == self._clock.time_s:
             if self._present is None or self._clock.since_s > BLIND_S:
                 return None
-            bank_deg = self._history.current_deg + self._bias_deg
-            self._present = self._present.under_bank(bank_deg, self._elapsed_s)
+            bank_deg = history.current_deg + self._bias_deg
+            self._present = self._present.with_bank(bank_deg).after(self._elapsed_s)
         elif self._clock.accept(state.time_s):
             self._present = self._estimate(state)
-            self._bias_deg = self._present.bank_deg - self._history.current_deg
+            self._bias_deg = self._present.bank_deg - history.current_deg
         else:
             return None
         self._elapsed_s = 0.0
@@ -192,38 +226,72 @@ class LoiterEntry:
             self._shift_clock(self._clock.jump_s)
         if self._clock.jump_s != 0.0 or self._clock.gap_s > BLIND_S:
             self._observer.reset()
-        return self._observer.update(state, self._history.delayed_deg).at_present(self._history)
+        self._vehicle.measure(state)
+        self._update_limits()
+        known, history = self._vehicle.estimates, self._vehicle.history
+        measured = self._observer.update(state, history.delayed_deg(known.delay_s), known.turn_ratio)
+        return measured.at_present(history, known.delay_s)
+
+    def _update_limits(self) -> None:
+        """Set what follows from the estimates of the vehicle: the wind, turn radii, banks and the response time."""
+        known = self._vehicle.estimates
+        self._wind = self._planned_wind(known)
+        tightest_m = radius_of_turn(self._limit_deg, known.airspeed_m_s) / known.turn_ratio
+        self._limits = turn_limits(known.airspeed_m_s, tightest_m, self._reserve, self._orbit.radius_m, self._wind)
+        self._hold_deg = self._bank_deg(known.airspeed_m_s / self._orbit.radius_m)
+        self._planned_deg = self._bank_deg(known.airspeed_m_s / self._limits.planned_m)
+        self._response_s = self._lead_s(0.0, self._limit_deg) + self._smoothing_s + DELAY_SHARE * known.delay_s
+
+    def _planned_wind(self, known: VehicleEstimates) -> tuple[float, float]:
+        """The velocity of the air past the circle to plan with, metres per second.
+
+        It is the declared one, unless the wind is found to differ from that by more than gusts do.
+        """
+        (east, north), circle = self._declared_wind, self._orbit
+        differs = hypot(known.wind_east_m_s - east, known.wind_north_m_s - north) / known.airspeed_m_s
+        self._wind_differs = differs > (WIND_KEPT if self._wind_differs else WIND_DIFFERS)
+        if self._wind_differs:
+            east, north = known.wind_east_m_s, known.wind_north_m_s
+        return east - circle.velocity_east_m_s, north - circle.velocity_north_m_s
+
+    def _bank_deg(self, rate: float) -> float:
+        """The bank at which the vehicle turns at a rate, radians per second; degrees with the sign of the rate."""
+        known = self._vehicle.estimates
+        return bank_at_rate(rate / known.turn_ratio, known.airspeed_m_s)
+
+    def _turn_rate_deg_s(self, bank_deg: float) -> float:
+        """The rate at which the vehicle turns at a bank: the inverse of `_bank_deg`, but in degrees per second."""
+        known = self._vehicle.estimates
+        return degrees(known.turn_ratio * rate_at_bank(bank_deg, known.airspeed_m_s))
 
     def _shift_clock(self, jump_s: float) -> None:
         """Convert all stored times to a clock that has jumped by `jump_s`."""
-        jump = jump_s / self._unit_s
-        self._join_time, self._planned_join_time = self._join_time + jump, self._planned_join_time + jump
+        self._join_time_s, self._planned_join_time_s = self._join_time_s + jump_s, self._planned_join_time_s + jump_s
         self._last_search_s += jump_s
         if self._route is not None:
-            self._route.shift_clock(jump)
+            self._route.shift_clock(jump_s)
 
     def _command_without_data(self, dt: float) -> Command:
         """The safe command while there is no usable measurement."""
         bank_deg, route = self._last_command.bank_deg, self._route
         if self._clock.since_s > BLIND_S:
-            bank_deg = route.side * self._hold_deg if route is not None and route.is_holding else 0.0
-        self._record_bank(bank_deg, dt)
-        rate_deg_s = degrees(rate_at_bank(bank_deg, self._V))
-        return Command(rate_deg_s, bank_deg, Phase.NO_DATA, nan, self._last_command.turn, Phase.NO_DATA, nan)
+            bank_deg = clip(route.side * self._hold_deg, self._limit_deg) if route and route.is_holding else 0.0
+        self._record(bank_deg, dt)
+        turn = self._last_command.turn
+        return Command(self._turn_rate_deg_s(bank_deg), bank_deg, Phase.NO_DATA, nan, turn, Phase.NO_DATA, nan)
 
     def _relative_state(self, estimate: Estimate) -> RelativeState:
-        """The aircraft relative to the circle, in turn radii and airspeeds."""
-        (x, y, c, s), V, r = estimate.pose, self._V, self._r
+        """The aircraft relative to the circle."""
+        (x, y, c, s), V = estimate.pose, estimate.airspeed_m_s
         orbit = self._orbit.after(estimate.time_s)
-        hx, hy = estimate.airspeed_m_s * c / V, estimate.airspeed_m_s * s / V
         return RelativeState(
-            estimate.time_s / self._unit_s,
-            (x - orbit.east_m) / r,
-            (y - orbit.north_m) / r,
-            hx + (estimate.air_east_m_s - orbit.velocity_east_m_s) / V,
-            hy + (estimate.air_north_m_s - orbit.velocity_north_m_s) / V,
-            hx,
-            hy,
+            estimate.time_s,
+            x - orbit.east_m,
+            y - orbit.north_m,
+            V * c + estimate.air_east_m_s - orbit.velocity_east_m_s,
+            V * s + estimate.air_north_m_s - orbit.velocity_north_m_s,
+            V * c,
+            V * s,
         )
 
     def _advance(self, route: Route, estimate: Estimate) -> ResponsePoint:
@@ -234,33 +302,49 @@ class LoiterEntry:
         while True:
             lead_s = self._lead_s(estimate.bank_deg, self._piece_bank_deg(route, route.control))
             state = self._relative_state(estimate.after(lead_s))
-            remaining = route.update_remaining(state)
+            remaining_s = route.update_remaining(state)
             if route.is_holding:
                 return ResponsePoint(state, 0.0)
             # The hold itself begins without `TURN_LAG`: continuing the last arc aligns the course with the circle
             # sooner.
-            lag_s = TURN_LAG * self._roll.time_s if route.next_control is not None else 0.0
+            lag_s = TURN_LAG * self._vehicle.estimates.roll.time_s if route.next_control is not None else 0.0
             next_bank_deg = self._piece_bank_deg(route, route.next_control)
             early_s = max(self._lead_s(estimate.bank_deg, next_bank_deg) + lag_s - lead_s, 0.0)
-            if remaining * self._unit_s > early_s + ROUNDING_S:
-                self._join_time = state.time + route.time_to_join
+            if remaining_s > early_s + ROUNDING_S:
+                self._join_time_s = state.time_s + route.time_to_join_s
                 return ResponsePoint(state, early_s)
             route.drop_piece()
 
     def _lead_s(self, bank_deg: float, target_deg: float) -> float:
-        return self._roll.lead_s(bank_deg, target_deg, self._limit_deg)
+        return self._vehicle.estimates.roll.lead_s(bank_deg, target_deg, self._limit_deg)
 
     def _piece_bank_deg(self, route: Route, control: int | None) -> float:
         """The planned bank, positive to the right, of a piece with this control, or of the circle if it is None."""
-        return route.side * self._hold_deg if control is None else -control * self._planned_deg
+        bank_deg = route.side * self._hold_deg if control is None else -control * self._planned_deg
+        return clip(bank_deg, self._limit_deg)
 
     def _reconsider(self, route: Route, state: RelativeState) -> bool:
         """Search for another plan if that is due; return whether one was adopted."""
-        offset = route.offset(state)
-        lost = abs(offset.crosstrack) > LOST_OFFSET or abs(offset.course_error) > LOST_COURSE
-        deviated = max(abs(offset.crosstrack), abs(self._join_time - self._planned_join_time)) > DEVIATION
+        offset, r = route.offset(state), self._limits.planned_m
+        lost = abs(offset.crosstrack) > LOST_OFFSET * r or abs(offset.course_error) > LOST_COURSE
+        later_m = abs(self._join_time_s - self._planned_join_time_s) * self._limits.airspeed_m_s
+        deviated = max(abs(offset.crosstrack), later_m) > DEVIATION * r
         due = lost or (not route.is_holding and (self._in_still_air or deviated))
         return due and self._search(state, None if lost else route)
+
+    @property
+    def _in_still_air(self) -> bool:
+        return self._wind == (0.0, 0.0)
+
+    def _first_search(self, estimate: Estimate) -> None:
+        """Adopt the fastest entry from where a command takes effect, which depends on the bank and the first turn."""
+        lead_s = self._lead_s(estimate.bank_deg, clip(-estimate.bank_deg, 0.0))
+        entry = self._fastest_entry(self._relative_state(estimate.after(lead_s)))
+        if entry is None:
+            return
+        first = next(iter(controls_of(entry.word)), None)
+        bank_deg = -first * self._limit_deg if first is not None else entry.side * self._hold_deg
+        self._search(self._relative_state(estimate.after(self._lead_s(estimate.bank_deg, bank_deg))))
 
     def _search(self, state: RelativeState, route: Route | None = None) -> bool:
         """Adopt the fastest entry from a state if it is better than `route`; return whether it was adopted."""
@@ -268,47 +352,30 @@ class LoiterEntry:
         if self._clock.time_s - self._last_search_s < interval_s - ROUNDING_S:
             return False
         self._last_search_s = self._clock.time_s
-        scale = self._scale(state)
-        entry = self._fastest_entry(state, scale)
-        bend = 0.0 if self._in_still_air else LONGEST_BEND
-        if entry is None or not (route is None or _is_better(entry, route, bend)):
+        entry = self._fastest_entry(state)
+        if entry is None or not (route is None or _is_better(entry, route, self._limits, wind=self._wind)):
             return False
-        self._route = Route(state, entry, self._R, self._wind, scale)
-        self._join_time = self._planned_join_time = state.time + duration(entry)
+        self._route = Route(state, entry, self._orbit.radius_m)
+        self._join_time_s = self._planned_join_time_s = state.time_s + entry.duration_s
         return True
 
-    def _scale(self, state: RelativeState) -> float:
-        """The factor by which turns are wider in the present gust: at a given turn rate the radius grows with speed.
-
-        It is at most R: the circle is then as tight as the turns.
-        """
-        if not self._in_still_air:
-            return 1.0
-        return min(hypot(*flight_velocity(state.vx, state.vy, state.hx, state.hy)), self._R)
-
-    def _fastest_entry(self, state: RelativeState, scale: float) -> Entry | None:
-        """The kernel's entry from a state, if any. It starts along the velocity relative to the steady wind."""
-        (wx, wy), R = self._wind, self._R
-        c, s = unit(*flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy))
-        if self._in_still_air:
-            scene = *motion.reduce(state.x / scale, state.y / scale, c, s), rounded_radius(R / scale)
-            return optimum(*scene, self._side, self._tolerance) if is_solvable(*scene, self._tolerance) else None
-        found = wind_search.fastest(WindProblem(state.x, state.y, c, s, R, self._side, wx, wy))
-        return wind_search.entry_of(found) if found.status == Status.OK else None
+    def _fastest_entry(self, state: RelativeState) -> PlannedEntry | None:
+        return fastest_entry(state, self._limits, self._orbit.radius_m, self._side, self._wind)
 
     def _follow(self, route: Route, response: ResponsePoint, present_s: float, dt: float) -> Command:
         """The command that follows the route, with the times that the law reports, counted from the present."""
         target_deg = clip(self._target_bank_deg(route, response.state, dt), self._limit_deg)
-        bank_deg = self._roll.demand_deg(self._history.current_deg, target_deg, self._limit_deg)
-        self._record_bank(bank_deg, dt)
+        roll, current_deg = self._vehicle.estimates.roll, self._vehicle.history.current_deg
+        bank_deg = roll.demand_deg(current_deg, target_deg, self._limit_deg)
+        self._record(bank_deg, dt)
         return Command(
-            degrees(rate_at_bank(bank_deg, self._V)),
+            self._turn_rate_deg_s(bank_deg),
             bank_deg,
             phase_of_control(route.control),
-            max(self._join_time * self._unit_s - present_s, 0.0),
+            max(self._join_time_s - present_s, 0.0),
             TURNS[Side(route.side)],
             phase_of_control(route.next_control),
-            inf if route.is_holding else route.remaining * self._unit_s - response.early_s,
+            inf if route.is_holding else route.remaining_s - response.early_s,
         )
 
     def _target_bank_deg(self, route: Route, state: RelativeState, dt: float) -> float:
@@ -319,28 +386,40 @@ class LoiterEntry:
         if route.control and route.next_control is not None:
             return -route.control * self._limit_deg
         vx, vy = route.velocity(state)
-        bandwidth = self._unit_s / (self._response_s + self._gain * dt)
-        place_gain = HOLD_GAIN / self._R if route.is_holding else PLACE_GAIN * bandwidth
-        course = course_rate(route.offset(state), self._gain * bandwidth, place_gain, hypot(vx, vy) / route.scale)
-        return bank_at_rate(-air_rate(course, vx, vy, state.hx, state.hy) / self._unit_s, self._V)
+        bandwidth, offset = 1.0 / (self._response_s + self._gain * dt), route.offset(state)
+        turn_rate = self._limits.airspeed_m_s / self._orbit.radius_m
+        place_gain = HOLD_GAIN * turn_rate if route.is_holding else PLACE_GAIN * bandwidth
+        course = course_rate(offset, self._gain * bandwidth, place_gain, hypot(vx, vy))
+        if route.is_holding:
+            course -= self._trimmed(offset.crosstrack, self._gain * bandwidth, turn_rate, dt)
+        return self._bank_deg(-air_rate(course, vx, vy, state.hx, state.hy))
 
-    def _record_bank(self, bank_deg: float, dt: float) -> None:
-        """Record the modelled bank after a step under a command, and advance the clock."""
+    def _trimmed(self, crosstrack_m: float, course_gain: float, turn_rate: float, dt: float) -> float:
+        """The correction of the rate of turn on the circle after another step, radians per second."""
+        if abs(crosstrack_m) < TRIMMED_OFFSET * self._orbit.radius_m:
+            place_gain = HOLD_GAIN * turn_rate
+            integral_gain = TRIM_GAIN * place_gain * place_gain * course_gain / self._limits.airspeed_m_s
+            self._trim = clip(self._trim + integral_gain * crosstrack_m * dt, LARGEST_TRIM * turn_rate)
+        return self._trim
+
+    def _record(self, bank_deg: float, dt: float) -> None:
+        """Record a command, and advance the clock."""
         self._clock.advance(dt)
         self._elapsed_s += dt
-        self._history.record(self._roll.bank_after(self._history.current_deg, bank_deg, dt), dt)
+        self._vehicle.record(bank_deg, dt)
 
 
-def _is_better(entry: Entry, route: Route, bend: float) -> bool:
+def _is_better(entry: PlannedEntry, route: Route, limits: TurnLimits, *, wind: tuple[float, float]) -> bool:
     """Whether an entry should replace a route: it is the same plan and not much slower, or it is faster by a margin.
 
     Additional pieces at its beginning do not make it a different plan if together they are no longer than `bend`.
+    The duration of a route that was planned with tighter turns grows with their radius.
     """
+    unit_s = limits.planned_m / limits.airspeed_m_s
+    bend_s = 0.0 if wind == (0.0, 0.0) else LONGEST_BEND * unit_s
     controls = controls_of(entry.word)
     extra = max(len(controls) - len(route.controls), 0)
-    same = (
-        entry.side == route.side
-        and controls[extra:] == route.controls
-        and sum((entry.t1, entry.t2, entry.t3)[:extra]) <= bend
-    )
-    return duration(entry) < route.time_to_join + (UPDATE_MARGIN if same else -SWITCH_MARGIN)
+    same = entry.side == route.side and controls[extra:] == route.controls and sum(entry.times_s[:extra]) <= bend_s
+    widened = max(1.0, entry.turn_radius_m / route.entry.turn_radius_m) if same else 1.0
+    margin_s = (UPDATE_MARGIN if same else -SWITCH_MARGIN) * unit_s
+    return entry.duration_s < widened * route.time_to_join_s + margin_s

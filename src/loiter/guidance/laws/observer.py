@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from collections import deque
-from math import exp, hypot
+from math import exp, hypot, sqrt
 from typing import NamedTuple
 
+from loiter.guidance.laws.bank_history import BankHistory
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.turning import PlanarPose, constant_turn, rate_at_bank
 from loiter.planning.compass import heading_vector
 
-# The averaging time of the air's velocity is the smoothing time divided by this, in calm and in rough air. In rough air
-# a gust must be corrected before the aircraft has drifted far; in calm air so short an average would only let noise
-# roll the aircraft left and right.
-CALM_AIR_DIVISOR, ROUGH_AIR_DIVISOR = 2.0, 8.0
+# How fast the velocity of the air changes is measured from its differences over this time, seconds, averaged over the
+# second time.
+GUST_LAG_S, GUST_AVERAGE_S = 1.0, 10.0
 
-# Air is rough if that average differs from one over `SLOW_AVERAGE_S` seconds by at least this root mean square, taken
-# over `ROUGHNESS_AVERAGE_S` seconds.
-ROUGH_M_S, SLOW_AVERAGE_S, ROUGHNESS_AVERAGE_S = 1.2, 2.0, 10.0
+# What is assumed until then: gusts of about 10 % of the airspeed, as the mean square change of each component in a
+# second, and noise of 0.4 m/s; (m/s)^2.
+FIRST_GUST, FIRST_NOISE = 0.6, 0.16
 
 # Bounds of a plausible measurement: the largest value in metres, degrees or metres per second, the least airspeed.
 LARGEST_VALUE, LEAST_AIRSPEED_M_S = 1e9, 0.1
@@ -26,47 +26,11 @@ LARGEST_VALUE, LEAST_AIRSPEED_M_S = 1e9, 0.1
 LATEST_S = 1e12
 
 
-class BankHistory:
-    """The modelled bank over the last `delay_s` seconds, which measurements of that age do not show yet.
-
-    `delayed_deg` is the bank at the time of measurement, `current_deg` the present one.
-    """
-
-    def __init__(self, delay_s: float) -> None:
-        self.delay_s = delay_s
-        self.delayed_deg = self.current_deg = 0.0
-        # Intervals of time with their bank, oldest first, and the sum of time times bank.
-        self._intervals = deque([(delay_s, 0.0)])
-        self._sum = 0.0
-
-    @property
-    def mean_deg(self) -> float:
-        """The mean bank over the delay."""
-        return self._sum / self.delay_s if self.delay_s > 0.0 else self.current_deg
-
-    def record(self, bank_deg: float, dt: float) -> None:
-        """Append a step of `dt` seconds with the bank at its end, and drop what is older than the delay."""
-        self.current_deg = bank_deg
-        if dt > self.delay_s:
-            # The step covers the whole delay. Only that part of it is summed: the step may be long.
-            self.delayed_deg = bank_deg
-            self._intervals, self._sum = deque([(self.delay_s, bank_deg)]), self.delay_s * bank_deg
-            return
-        self._intervals.append((dt, bank_deg))
-        self._sum += dt * bank_deg
-        while dt > 0.0:
-            time_s, self.delayed_deg = self._intervals.popleft()
-            dropped_s = min(time_s, dt)
-            self._sum -= dropped_s * self.delayed_deg
-            dt -= dropped_s
-            if dropped_s < time_s:
-                self._intervals.appendleft((time_s - dropped_s, self.delayed_deg))
-
-
 class Estimate(NamedTuple):
     """The estimated motion: pose, airspeed, turn rate through the air, bank, and the velocity of the air.
 
-    The turn rate is in radians per second, positive to the left; bank is positive to the right.
+    The turn rate is in radians per second, positive to the left; bank is positive to the right. `turn_ratio` is the
+    turn rate of the vehicle divided by that of a coordinated turn.
     """
 
     time_s: float
@@ -76,6 +40,7 @@ class Estimate(NamedTuple):
     bank_deg: float
     air_east_m_s: float
     air_north_m_s: float
+    turn_ratio: float = 1.0
 
     def after(self, time_s: float) -> Estimate:
         """The estimate `time_s` seconds later, with constant bank in a constant wind."""
@@ -83,17 +48,16 @@ class Estimate(NamedTuple):
         pose = PlanarPose(x + self.air_east_m_s * time_s, y + self.air_north_m_s * time_s, c, s)
         return self._replace(time_s=self.time_s + time_s, pose=pose)
 
-    def under_bank(self, bank_deg: float, time_s: float) -> Estimate:
-        """The estimate `time_s` seconds later, flown with another bank."""
-        turn_rate = -rate_at_bank(bank_deg, self.airspeed_m_s)
-        return self._replace(turn_rate=turn_rate, bank_deg=bank_deg).after(time_s)
+    def with_bank(self, bank_deg: float) -> Estimate:
+        """The estimate with another bank."""
+        turn_rate = -self.turn_ratio * rate_at_bank(bank_deg, self.airspeed_m_s)
+        return self._replace(turn_rate=turn_rate, bank_deg=bank_deg)
 
-    def at_present(self, history: BankHistory) -> Estimate:
+    def at_present(self, history: BankHistory, delay_s: float) -> Estimate:
         """The estimate extrapolated over the measurement delay, with the banks modelled since then."""
-        bias_deg, V = self.bank_deg - history.delayed_deg, self.airspeed_m_s
-        moved = self._replace(turn_rate=-rate_at_bank(history.mean_deg + bias_deg, V)).after(history.delay_s)
-        bank_deg = history.current_deg + bias_deg
-        return moved._replace(turn_rate=-rate_at_bank(bank_deg, V), bank_deg=bank_deg)
+        bias_deg = self.bank_deg - history.delayed_deg(delay_s)
+        moved = self.with_bank(history.mean_deg(delay_s) + bias_deg).after(delay_s)
+        return moved.with_bank(history.current_deg + bias_deg)
 
 
 def is_plausible(state: State) -> bool:
@@ -107,36 +71,67 @@ def is_usable(state: State) -> bool:
 
 
 class AirVelocityFilter:
-    """The velocity of the air, averaged over a time that is shorter in rougher air.
+    """The velocity of the air, averaged over the time that suits its gusts and the noise of the measurements.
 
-    Roughness is the mean square difference between that average and a slower one over `SLOW_AVERAGE_S` seconds; sensor
-    noise is small in both. Air counts as rough until its roughness has been measured.
+    The air is taken as a random walk, the noise as white. The mean square difference of measurements a time t apart is
+    then 2 noise + gust t. From that of neighbours and that over `GUST_LAG_S` both are known, and the best average is
+    that of the Kalman filter: exponential over sqrt(noise dt/gust) seconds, dt apart. It is limited to `longest_s`.
     """
 
-    def __init__(self, smoothing_s: float) -> None:
-        self._smoothing_s = smoothing_s
-        self._square = ROUGH_M_S * ROUGH_M_S
-        self._east = self._north = self._slow_east = self._slow_north = 0.0
+    def __init__(self, longest_s: float) -> None:
+        self._longest_s = longest_s
+        self._east = self._north = 0.0
+        self._recent: deque[tuple[float, float, float]] = deque()
+        self._time_s = 0.0
+        # The mean square differences of neighbours and over the lag, and the mean times between them.
+        self._near = _Difference(0.02, 2.0 * FIRST_NOISE)
+        self._far = _Difference(GUST_LAG_S, 2.0 * FIRST_NOISE + FIRST_GUST * GUST_LAG_S)
 
     def reset(self, east_m_s: float, north_m_s: float) -> None:
-        """Restart both averages from a velocity."""
-        self._east, self._north = self._slow_east, self._slow_north = east_m_s, north_m_s
+        """Restart the average from a velocity."""
+        self._east, self._north = east_m_s, north_m_s
+        self._recent = deque([(self._time_s, east_m_s, north_m_s)])
 
     def update(self, east_m_s: float, north_m_s: float, dt: float) -> tuple[float, float]:
         """The average, east and north, including a velocity measured `dt` seconds after the last."""
-        divisor = min(
-            max(ROUGH_AIR_DIVISOR * self._square / (ROUGH_M_S * ROUGH_M_S), CALM_AIR_DIVISOR), ROUGH_AIR_DIVISOR
-        )
-        quick = 1.0 - exp(-divisor * dt / self._smoothing_s)
-        self._east += quick * (east_m_s - self._east)
-        self._north += quick * (north_m_s - self._north)
-        slow = 1.0 - exp(-dt / SLOW_AVERAGE_S)
-        self._slow_east += slow * (east_m_s - self._slow_east)
-        self._slow_north += slow * (north_m_s - self._slow_north)
-        off_east, off_north = self._east - self._slow_east, self._north - self._slow_north
-        share = 1.0 - exp(-dt / ROUGHNESS_AVERAGE_S)
-        self._square += share * (off_east * off_east + off_north * off_north - self._square)
+        self._time_s += dt
+        self._measure_differences(east_m_s, north_m_s, dt)
+        share = 1.0 - exp(-dt / self._averaging_s) if self._averaging_s > 0.0 else 1.0
+        self._east += share * (east_m_s - self._east)
+        self._north += share * (north_m_s - self._north)
         return self._east, self._north
+
+    def _measure_differences(self, east_m_s: float, north_m_s: float, dt: float) -> None:
+        weight = 1.0 - exp(-dt / GUST_AVERAGE_S)
+        recent = self._recent
+        while len(recent) > 1 and self._time_s - recent[1][0] >= GUST_LAG_S:
+            recent.popleft()
+        for then, difference in ((recent[-1], self._near), (recent[0], self._far)):
+            time_s, east, north = then
+            square = 0.5 * ((east_m_s - east) ** 2 + (north_m_s - north) ** 2)
+            difference.add(self._time_s - time_s, square, weight)
+        recent.append((self._time_s, east_m_s, north_m_s))
+
+    @property
+    def _averaging_s(self) -> float:
+        near, far = self._near, self._far
+        gust = max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
+        noise = max(near.square - gust * near.time_s, 0.0) / 2.0
+        if noise * near.time_s >= gust * self._longest_s * self._longest_s:
+            return self._longest_s
+        return sqrt(noise * near.time_s / gust)
+
+
+class _Difference:
+    """The mean square difference of measurements, averaged, and the mean time between them."""
+
+    def __init__(self, time_s: float, square: float) -> None:
+        self.time_s, self.square = time_s, square
+
+    def add(self, time_s: float, square: float, weight: float) -> None:
+        """Include a difference with a weight between 0 and 1."""
+        self.time_s += weight * (time_s - self.time_s)
+        self.square += weight * (square - self.square)
 
 
 class Observer:
@@ -155,12 +150,12 @@ class Observer:
         """Start again from the next measurement."""
         self._last = None
 
-    def update(self, state: State, bank_deg: float) -> Estimate:
+    def update(self, state: State, bank_deg: float, turn_ratio: float = 1.0) -> Estimate:
         """The estimate at the time of a usable measurement that is later than the last one.
 
         `bank_deg` is the bank that the roll model predicts for that time.
         """
-        measured = _estimate_from(state)
+        measured = _estimate_from(state, turn_ratio)
         if self._last is None or self._smoothing_s == 0.0:
             self._last = measured
             self._air.reset(measured.air_east_m_s, measured.air_north_m_s)
@@ -169,10 +164,10 @@ class Observer:
         share = 1.0 - exp(-dt / self._smoothing_s)
         V = last.airspeed_m_s + share * (state.airspeed_m_s - last.airspeed_m_s)
         bank_deg += share * (state.bank_deg - bank_deg)
-        turn_rate = -rate_at_bank(bank_deg, V)
+        turn_rate = -turn_ratio * rate_at_bank(bank_deg, V)
         pose = _blended(last._replace(airspeed_m_s=V, turn_rate=turn_rate).after(dt).pose, measured.pose, share)
         air = self._air.update(state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s, dt)
-        self._last = Estimate(state.time_s, pose, V, turn_rate, bank_deg, *air)
+        self._last = Estimate(state.time_s, pose, V, turn_rate, bank_deg, *air, turn_ratio)
         return self._last
 
 
@@ -184,9 +179,10 @@ def _blended(pose: PlanarPose, measured: PlanarPose, share: float) -> PlanarPose
     return PlanarPose(x + share * (measured.x - x), y + share * (measured.y - y), c / size, s / size)
 
 
-def _estimate_from(state: State) -> Estimate:
+def _estimate_from(state: State, turn_ratio: float) -> Estimate:
     """The estimate from a single measurement."""
     (c, s), V = heading_vector(state.heading_deg), state.airspeed_m_s
     air = state.velocity_east_m_s - V * c, state.velocity_north_m_s - V * s
     pose = PlanarPose(state.east_m, state.north_m, c, s)
-    return Estimate(state.time_s, pose, V, -rate_at_bank(state.bank_deg, V), state.bank_deg, *air)
+    turn_rate = -turn_ratio * rate_at_bank(state.bank_deg, V)
+    return Estimate(state.time_s, pose, V, turn_rate, state.bank_deg, *air, turn_ratio)

@@ -1,6 +1,6 @@
 """Tracking of arcs, straight lines and the holding circle: feedforward of the path's turn rate, damped corrections.
 
-Lengths are in turn radii, times in turn radii over airspeed, angles counter-clockwise, as in the kernel.
+Any units that fit each other: metres and seconds, or those of the kernel. Angles are radians, counter-clockwise.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from loiter.guidance.vehicle.limits import clip
 # The steepest intercept angle onto a path, radians: a vehicle far off turns towards the path, not all the way round.
 STEEPEST_INTERCEPT = 0.6
 
-# The least speed along the heading, in airspeeds, from which a course is taken: below it the measured velocity is not
-# that of an aircraft in flight.
+# The least speed along the heading, as a share of the airspeed, from which a course is taken: below it the measured
+# velocity is not that of an aircraft in flight.
 LEAST_SPEED = 0.05
 
 
@@ -75,7 +75,7 @@ def course_rate(offset: PathOffset, course_gain: float, place_gain: float, speed
 
 def flight_velocity(vx: float, vy: float, hx: float, hy: float) -> tuple[float, float]:
     """The velocity (vx, vy) of a vehicle that flies along (hx, hy); (hx, hy) where that velocity is not plausible."""
-    return (vx, vy) if vx * hx + vy * hy > LEAST_SPEED * hypot(hx, hy) else (hx, hy)
+    return (vx, vy) if vx * hx + vy * hy > LEAST_SPEED * (hx * hx + hy * hy) else (hx, hy)
 
 
 def air_rate(rate: float, vx: float, vy: float, hx: float, hy: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from loiter.guidance.laws.entry_planner import PlannedEntry, RelativeState, unit
 from loiter.guidance.laws.path_tracking import (
     Arc,
     PathOffset,
@@ -14,52 +15,34 @@ from loiter.guidance.laws.path_tracking import (
 )
 from loiter.kernel.angles import TWO_PI, angle, arc_rotation
 from loiter.kernel.motion import fly
-from loiter.kernel.synthesis import Entry
 from loiter.kernel.words import ABSENT, controls
 
 Controls = tuple[int, ...]
 
 
-class RelativeState(NamedTuple):
-    """An aircraft relative to the circle, in turn radii and airspeeds.
-
-    Time, position (x, y), velocity (vx, vy), and velocity through the air (hx, hy).
-    """
-
-    time: float
-    x: float
-    y: float
-    vx: float
-    vy: float
-    hx: float
-    hy: float
-
-
 class RoutePiece(NamedTuple):
-    """One arc or straight line of a route: its control u, its path, its end (x, y) and its duration t."""
+    """One arc or straight line of a route: its control u, its path, its end (x, y), metres, and its duration."""
 
     u: int
     path: Arc | StraightLine
     x: float
     y: float
-    t: float
+    time_s: float
 
 
 class Route:
-    """The rest of a plan that begins at `state`, in air that moves past the circle with the velocity `wind`.
+    """The rest of a plan that begins at `state`, onto a circle of `radius_m` metres.
 
-    `side` is the direction in which the circle is held, `remaining` the length left of the current piece, in turn
-    radii. `scale` is the unit of length of the plan, in turn radii.
+    `side` is the direction in which the circle is held, `remaining_s` the time left of the current piece.
     """
 
-    def __init__(self, state: RelativeState, entry: Entry, R: float, wind: tuple[float, float], scale: float) -> None:
-        self.side = entry.side
-        self._wind, self._scale, self._start = wind, scale, state.time
-        self._circle = holding_circle(self.side, R)
-        x, y, vx, vy = self._in_air(state)
-        self._later = route_pieces(x, y, *unit(vx, vy), entry.word, (entry.t1, entry.t2, entry.t3))
+    def __init__(self, state: RelativeState, entry: PlannedEntry, radius_m: float) -> None:
+        self.side, self.entry = entry.side, entry
+        self._start_s = state.time_s
+        self._circle = holding_circle(self.side, radius_m)
+        self._later = route_pieces(self._in_air(state), entry)
         self._current: RoutePiece | None = None
-        self.remaining = 0.0
+        self.remaining_s = 0.0
         self.drop_piece()
 
     @property
@@ -83,30 +66,25 @@ class Route:
         return next((piece.u for piece in self._later), None)
 
     @property
-    def time_to_join(self) -> float:
+    def time_to_join_s(self) -> float:
         """The time until the aircraft joins the circle."""
-        return self.remaining + sum(piece.t for piece in self._later)
-
-    @property
-    def scale(self) -> float:
-        """The unit of `offset`, in turn radii."""
-        return 1.0 if self._current is None else self._scale
+        return self.remaining_s + sum(piece.time_s for piece in self._later)
 
     def update_remaining(self, state: RelativeState) -> float:
-        """Set `remaining` to the length of the current piece left at a state, in turn radii, and return it."""
+        """Set `remaining_s` to the time left of the current piece at a state, and return it."""
         if self._current is not None:
             x, y, _, _ = self._in_air(state)
-            self.remaining = _remaining(self._current, x, y, self.remaining)
-        return self.remaining
+            self.remaining_s = _remaining_s(self._current, x, y, self.entry, self.remaining_s)
+        return self.remaining_s
 
     def drop_piece(self) -> None:
         """Make the next piece the current one."""
         self._current = self._later.pop(0) if self._later else None
-        self.remaining = 0.0 if self._current is None else self._current.t
+        self.remaining_s = 0.0 if self._current is None else self._current.time_s
 
-    def shift_clock(self, jump: float) -> None:
+    def shift_clock(self, jump_s: float) -> None:
         """Convert the start of the route to a clock that has jumped."""
-        self._start += jump
+        self._start_s += jump_s
 
     def offset(self, state: RelativeState) -> PathOffset:
         """The offset of a state from the current piece, or from the circle."""
@@ -116,32 +94,26 @@ class Route:
 
     def velocity(self, state: RelativeState) -> tuple[float, float]:
         """The velocity along the path: relative to the plan's steady wind; on the circle, relative to the circle."""
-        wx, wy = (0.0, 0.0) if self._current is None else self._wind
+        wx, wy = (0.0, 0.0) if self._current is None else self.entry.wind
         return flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy)
 
     def _in_air(self, state: RelativeState) -> tuple[float, float, float, float]:
         """Position and velocity relative to the steady wind of the plan, as if the air were still."""
-        (wx, wy), elapsed = self._wind, state.time - self._start
+        (wx, wy), elapsed_s = self.entry.wind, state.time_s - self._start_s
         vx, vy = flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy)
-        q = self._scale
-        return (state.x - wx * elapsed) / q, (state.y - wy * elapsed) / q, vx / q, vy / q
+        return state.x - wx * elapsed_s, state.y - wy * elapsed_s, vx, vy
 
 
-def unit(x: float, y: float) -> tuple[float, float]:
-    """The unit vector along (x, y)."""
-    size = (x * x + y * y) ** 0.5
-    return x / size, y / size
-
-
-def route_pieces(
-    x: float, y: float, c: float, s: float, word: int, times: tuple[float, float, float]
-) -> list[RoutePiece]:
-    """The pieces of a word flown from (x, y) along (c, s)."""
+def route_pieces(motion: tuple[float, float, float, float], entry: PlannedEntry) -> list[RoutePiece]:
+    """The pieces of an entry flown from a position along a velocity (x, y, vx, vy)."""
+    x, y, vx, vy = motion
+    (c, s), r = unit(vx, vy), entry.turn_radius_m
     chain = []
-    for u, t in zip(controls_of(word), times, strict=False):
-        path = Arc(x - u * s, y + u * c, 1.0, u) if u else StraightLine(x, y, c, s)
-        x, y, c, s = fly(x, y, c, s, u, t)
-        chain.append(RoutePiece(u, path, x, y, t))
+    for u, time_s in zip(controls_of(entry.word), entry.times_s, strict=False):
+        path = Arc(x - u * r * s, y + u * r * c, r, u) if u else StraightLine(x, y, c, s)
+        dx, dy, c, s = fly(0.0, 0.0, c, s, u, time_s * entry.speed_m_s / r)
+        x, y = x + r * dx, y + r * dy
+        chain.append(RoutePiece(u, path, x, y, time_s))
     return chain
 
 
@@ -150,13 +122,14 @@ def controls_of(word: int) -> Controls:
     return tuple(u for u in controls(word) if u != ABSENT)
 
 
-def _remaining(piece: RoutePiece, x: float, y: float, previous: float) -> float:
-    """The length of a piece left at (x, y).
+def _remaining_s(piece: RoutePiece, x: float, y: float, entry: PlannedEntry, previous_s: float) -> float:
+    """The time left of a piece at (x, y).
 
-    On an arc this is known up to whole turns: the value nearest to `previous` is taken.
+    On an arc this is known up to whole turns: the value nearest to `previous_s` is taken.
     """
     path = piece.path
     if isinstance(path, StraightLine):
-        return (piece.x - x) * path.c + (piece.y - y) * path.s
-    remaining = angle(arc_rotation(piece.u, x - path.x, y - path.y, piece.x - path.x, piece.y - path.y))
-    return remaining + TWO_PI * round((previous - remaining) / TWO_PI)
+        return ((piece.x - x) * path.c + (piece.y - y) * path.s) / entry.speed_m_s
+    left = angle(arc_rotation(piece.u, x - path.x, y - path.y, piece.x - path.x, piece.y - path.y))
+    rate = entry.speed_m_s / entry.turn_radius_m
+    return (left + TWO_PI * round((previous_s * rate - left) / TWO_PI)) / rate

@@ -31,7 +31,11 @@ LOCAL_POSITION_S = 1.0
 
 
 class Steering(Protocol):
-    """Setpoints for a bank."""
+    """Setpoints for a bank; `trusted` is whether the vehicle is known to bank as it is commanded."""
+
+    @property
+    def trusted(self) -> bool:
+        """Whether the vehicle is known to bank as it is commanded; until then commands are limited."""
 
     def update(self, message: Any, now: float) -> None:
         """Process a message of the vehicle."""
@@ -51,6 +55,8 @@ class Steering(Protocol):
 
 class RollSteering:
     """Setpoints for ArduPlane: the roll alone."""
+
+    trusted = True
 
     def __init__(self, vehicle: Vehicle) -> None:
         self._vehicle = vehicle
@@ -99,6 +105,11 @@ class AccelerationSteering:
         self._down_m = nan
         self._yaw_rate = self._delay_s = 0.0
         self._wind: Wind | None = None
+
+    @property
+    def trusted(self) -> bool:
+        """Whether the sign of accelerations is confirmed."""
+        return self.sign.confirmed
 
     def update(self, message: Any, now: float) -> None:
         """Take position, rate of turn and altitude from a message."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from math import atan2, degrees, hypot, inf, nan
+from dataclasses import replace
+from math import inf
 from time import monotonic
 from typing import Any
 
@@ -23,8 +24,7 @@ from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import SteadyHold
 from loiter.mavlink.missions.flown_radius import loiter_scaling
 from loiter.mavlink.missions.start import CUSTOM_MODE, DO_SET_MODE
-from loiter.planning.feasibility import check_held, relative_wind
-from loiter.planning.model import Wind
+from loiter.planning.feasibility import RelativeWind, check_held, relative_velocity
 
 # Seconds for a command to be confirmed: the fall-back circle, PX4's offboard mode, the hand-over.
 CONFIRM_S = 4.0
@@ -37,6 +37,10 @@ NEXT_HEARTBEAT_S = 0.3
 
 # The first guess of the age of measurements without that of the link, seconds, before the law has identified it.
 DELAY_S = 0.1
+
+# The circle counts as impossible to hold in the wind if one that is wider by this factor is: an estimate has errors,
+# and an aircraft that drifts outside a little is not in danger.
+WIND_SLACK = 1.15
 
 # Seconds between checks of the wind, and steps of a law that is thrown away: they load and compile what it needs.
 WIND_S, WARM_STEPS = 1.0, 3
@@ -66,6 +70,8 @@ class Flight:
         self._steady = SteadyHold(self.orbit)
         # What has been done: whether the fall-back circle was commanded and accepted, whether banks are commanded.
         self._commanded = self._accepted = self._steered = False
+        # Whether the vehicle is known to bank as it is commanded.
+        self._trusted = False
         self._notices: list[str] = []
         self._state: State
         self._stage = Stage.SHOWING if wanted.dry_run else Stage.FALL_BACK
@@ -95,7 +101,8 @@ class Flight:
         for _ in range(WARM_STEPS):
             warm.step(prepared.state, STEP_S)
         self._law = self._new_law()
-        self._contact.steering = self._new_steering()
+        self._contact.steering = steering = self._new_steering()
+        self._trusted = steering.trusted
 
     def _new_law(self) -> Any:
         p = self._prepared
@@ -257,8 +264,11 @@ class Flight:
         """Make a step of the law, and send its command."""
         now, state, steering = monotonic(), self._measure(), self._contact.steering
         dt, self._last_step = max(now - self._last_step, 1e-3), now
-        command = self._law.step(state, dt)
         assert steering is not None  # made by `_begin`
+        if steering.trusted and not self._trusted:
+            # What was commanded until then was not what the law had wanted: it identifies the vehicle from now on.
+            self._trusted, self._law = True, self._new_law()
+        command = self._law.step(state, dt)
         assert self._prepared.aircraft.max_bank_deg is not None  # the aircraft is made with a bank limit
         bank_deg = clip(command.bank_deg, self._prepared.aircraft.max_bank_deg)
         # From the measurement to the middle of the time for which the setpoint is flown.
@@ -285,11 +295,11 @@ class Flight:
             time_to_join_s=command.time_to_join_s,
             turn=self.orbit.turn,
             command_deg=command.bank_deg,
-            crosstrack_m=getattr(self._law, "crosstrack_m", nan),
+            crosstrack_m=self._law.crosstrack_m,
             outside_m=position.outside_m,
             rate_hz=m.rate_hz(now),
             age_s=now - m.arrived,
-            estimates=getattr(self._law, "estimates", None),
+            estimates=self._law.estimates,
         )
         self.record(self._report)
 
@@ -298,18 +308,15 @@ class Flight:
         if now < self._next_wind:
             return
         self._next_wind = now + WIND_S
-        e = getattr(self._law, "estimates", None)
-        wind = self._contact.reported_wind()
-        if e is not None:
-            speed = hypot(e.wind_east_m_s, e.wind_north_m_s)
-            wind = Wind(speed, degrees(atan2(-e.wind_east_m_s, -e.wind_north_m_s)))
+        e, reported = self._law.estimates, self._contact.reported_wind()
+        winds = [(e.wind_east_m_s, e.wind_north_m_s), *([reported.velocity_m_s] if reported else [])]
+        wider, aircraft = replace(self.orbit, radius_m=WIND_SLACK * self.orbit.radius_m), self._prepared.aircraft
         self._monitor.wind_problem = ""
-        if wind is not None:
-            try:
-                aircraft = self._prepared.aircraft
-                check_held(self.orbit, aircraft, relative_wind(self.orbit, aircraft, wind))
-            except LoiterError as error:
-                self._monitor.wind_problem = str(error)
+        try:
+            for wind in winds:
+                check_held(wider, aircraft, RelativeWind(*relative_velocity(wind, (0.0, 0.0), aircraft.airspeed_m_s)))
+        except LoiterError as error:
+            self._monitor.wind_problem = str(error)
 
     def _measure(self) -> State:
         """The last measured state; the one before where the last messages give none."""

@@ -1,0 +1,159 @@
+"""Identification of the roll response in flight: time constant, rate limit and delay, from commands and measured banks.
+
+Many models run side by side on the commands that were given: each a first-order response with a rate limit. Each pair
+of a model and a delay predicts the measured bank. The weight of a pair falls with the square of its recent prediction
+errors (multiple-model estimation: D. T. Magill, "Optimal adaptive estimation of sampled stochastic processes", IEEE
+Transactions on Automatic Control 10(4), 1965). No test manoeuvre is needed: while the bank is constant all pairs
+predict the same, and the weights stay as they are.
+
+The delay is the age of the measurements plus the dead time of the roll. For guidance both are the same: a command
+given now has its effect that long after the motion that is measured now.
+"""
+
+from __future__ import annotations
+
+from math import exp, log
+from typing import NamedTuple
+
+import numpy as np
+
+from loiter.guidance.vehicle.rolling import Roll
+
+# The models: every combination of these time constants, seconds, and rate limits, degrees per second; and the delays.
+TIMES_S, RATES_DEG_S = np.geomspace(0.08, 1.3, 8), np.array([40.0, 75.0, 140.0])
+DELAYS_S = np.linspace(0.0, 1.3, 27)
+
+# What is declared counts as a measurement with these standard deviations: of the logarithms of the time constant and
+# of the rate limit, and of the delay, seconds.
+SPREAD, DELAY_SPREAD_S = 0.7, 0.2
+
+# Prediction errors have this standard deviation, degrees, and are correlated over this time, seconds; larger ones than
+# `LARGEST_ERROR_DEG` count as that.
+ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 2.0, 0.2, 10.0
+
+# Errors are forgotten over this time, seconds, while the predictions differ by more than `EXCITED_DEG`.
+MEMORY_S, EXCITED_DEG = 10.0, 3.0
+
+# The shortest time between two measured banks that are used, and between two stored predictions, seconds.
+MEASURED_S, STORED_S = 0.09, 0.0095
+
+# A longer step, seconds, has the same effect on every model.
+LONGEST_STEP_S = 100.0
+
+# The number of stored predictions: they cover the longest delay.
+STORED = 160
+
+
+class RollEstimate(NamedTuple):
+    """The identified roll response, the delay, and the bank that the models predict for the present."""
+
+    roll: Roll
+    delay_s: float
+
+
+class RollIdentifier:
+    """Estimates the roll response and the delay of a vehicle, beginning with those that are declared."""
+
+    def __init__(self, declared: Roll, delay_s: float) -> None:
+        times, rates = (each.ravel() for each in np.meshgrid(TIMES_S, RATES_DEG_S, indexing="ij"))
+        self._times, self._rates = times, rates
+        self._log_time = _Unknown(np.log(times), log(max(declared.time_s, TIMES_S[0])), SPREAD)
+        self._log_rate = _Unknown(np.log(rates), log(min(declared.rate_deg_s, RATES_DEG_S[-1])), SPREAD)
+        self._delay = _Unknown(DELAYS_S, delay_s, DELAY_SPREAD_S)
+        self._prior = (self._log_time.cost + self._log_rate.cost)[None, :] + self._delay.cost[:, None]
+        self._misfit = np.zeros_like(self._prior)
+        self._banks = np.zeros(len(times))
+        self._change = np.zeros(len(times))
+        self._decay, self._dt = np.ones(len(times)), 0.0
+        self._largest = np.zeros(len(times))
+        self._stored_times, self._stored = np.full(STORED, -np.inf), np.zeros((STORED, len(times)))
+        self._next, self._time_s, self._stored_s, self._measured_s = 0, 0.0, -np.inf, -np.inf
+        self._model_weights = np.empty(0)
+        self.estimate = RollEstimate(declared, delay_s)
+        self._weigh()
+
+    @property
+    def bank_deg(self) -> float:
+        """The bank that the models predict for the present, degrees."""
+        return float(self._model_weights @ self._banks)
+
+    def begin(self, bank_deg: float) -> None:
+        """Start every model at a bank."""
+        self._banks[:] = bank_deg
+        self._stored[:] = bank_deg
+
+    def record(self, command_deg: float, dt: float) -> None:
+        """Fly `dt` seconds under a command."""
+        dt = min(dt, LONGEST_STEP_S)
+        if dt != self._dt:
+            self._dt, self._decay, self._largest = dt, -np.expm1(-dt / self._times), self._rates * dt
+        np.subtract(command_deg, self._banks, out=self._change)
+        self._change *= self._decay
+        np.minimum(self._change, self._largest, out=self._change)
+        np.maximum(self._change, -self._largest, out=self._change)
+        self._banks += self._change
+        self._time_s += dt
+        if self._time_s >= self._stored_s + STORED_S:
+            self._stored_s = self._time_s
+            self._stored_times[self._next], self._stored[self._next] = self._time_s, self._banks
+            self._next = (self._next + 1) % STORED
+
+    def measure(self, bank_deg: float) -> bool:
+        """Take a measured bank that has just arrived; return whether the estimate has changed."""
+        since_s = self._time_s - self._measured_s
+        if since_s < MEASURED_S:
+            return False
+        self._measured_s = self._time_s
+        since_s = min(since_s, CORRELATION_S)
+        predictions = self._predictions()
+        error = np.minimum(np.abs(predictions - bank_deg), LARGEST_ERROR_DEG)
+        spread = predictions.std()
+        excitation = spread * spread / (spread * spread + EXCITED_DEG * EXCITED_DEG)
+        self._misfit *= np.exp(-excitation * since_s / MEMORY_S)
+        self._misfit += error * error * (since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG))
+        self._weigh()
+        return True
+
+    def _predictions(self) -> np.ndarray:
+        """The bank that each model predicts for each delay ago: an array of delays by models."""
+        order = np.arange(self._next - STORED, self._next) % STORED
+        times, wanted = self._stored_times[order], self._time_s - DELAYS_S
+        after = np.clip(np.searchsorted(times, wanted), 1, STORED - 1)
+        early, late = times[after - 1], times[after]
+        with np.errstate(invalid="ignore"):
+            share = np.clip((wanted - early) / (late - early), 0.0, 1.0)
+        share = np.where(np.isfinite(early), share, 1.0)[:, None]
+        first, second = self._stored[order[after - 1]], self._stored[order[after]]
+        return first + share * (second - first)
+
+    def _weigh(self) -> None:
+        """Set the weights of the models, and the estimate, from the misfits."""
+        cost = self._prior + self._misfit
+        weights = np.exp(-0.5 * (cost - cost.min()))
+        weights /= weights.sum()
+        self._model_weights, delay_weights = weights.sum(axis=0), weights.sum(axis=1)
+        log_time, log_rate = self._log_time.mean(self._model_weights), self._log_rate.mean(self._model_weights)
+        delay_s = max(self._delay.mean(delay_weights), 0.0)
+        self.estimate = RollEstimate(Roll(exp(log_time), exp(log_rate)), delay_s)
+
+
+class _Unknown:
+    """An unknown with the values that it may have, and the value that is declared.
+
+    The values have limits, so that the weighted mean differs from the declared value even before anything is measured.
+    That difference is taken away, in proportion to the variance that is left.
+    """
+
+    def __init__(self, values: np.ndarray, declared: float, spread: float) -> None:
+        self.values, self._squares = values, values * values
+        self.cost = ((values - declared) / spread) ** 2
+        weights = np.exp(-0.5 * self.cost)
+        weights /= weights.sum()
+        mean = float(weights @ values)
+        self._excess, self._variance = mean - declared, float(weights @ self._squares) - mean * mean
+
+    def mean(self, weights: np.ndarray) -> float:
+        """The weighted mean."""
+        mean = float(weights @ self.values)
+        left = (float(weights @ self._squares) - mean * mean) / self._variance
+        return mean - min(max(left, 0.0), 1.0) * self._excess

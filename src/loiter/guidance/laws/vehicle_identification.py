@@ -1,0 +1,164 @@
+"""What a law believes of its vehicle: as declared, or identified in flight from commands and measurements."""
+
+from __future__ import annotations
+
+from math import exp, inf, radians, remainder
+from typing import NamedTuple, Protocol
+
+from loiter.guidance.laws.bank_history import BankHistory
+from loiter.guidance.laws.roll_identification import RollIdentifier
+from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle.turning import rate_at_bank
+from loiter.planning.compass import heading_vector
+
+# The turn ratio is fitted to angles that are high-pass filtered over this time, seconds, and forgotten over the second.
+TURN_FILTER_S, TURN_MEMORY_S = 3.0, 60.0
+
+# A turn ratio of 1 counts as if it had been measured with this standard deviation, from angles with errors of
+# `HEADING_ERROR_DEG` that are correlated over a second. It stays within these bounds.
+TURN_RATIO_SPREAD, HEADING_ERROR_DEG, TURN_RATIO_BOUNDS = 0.1, 3.0, (0.6, 1.3)
+
+# The wind is the average of the air's velocity over this time, seconds. A wind that is told counts as if it had been
+# averaged over the first time, one that is not told as if over the second.
+WIND_MEMORY_S, TOLD_WIND_S, UNTOLD_WIND_S = 60.0, 30.0, 0.0
+
+# The airspeed is averaged over this time; the declared one counts as if it had been averaged over the second.
+AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
+
+# Measurements further apart than this, seconds, are not related to each other.
+LARGEST_GAP_S = 1.0
+
+
+class VehicleEstimates(NamedTuple):
+    """What a law believes of its vehicle.
+
+    The roll response; the delay, seconds, between a command and the measurement that first shows it; the turn rate
+    divided by g tan(bank)/V; the steady wind towards the east and the north, and the true airspeed, metres per second.
+    """
+
+    roll: Roll
+    delay_s: float
+    turn_ratio: float
+    wind_east_m_s: float
+    wind_north_m_s: float
+    airspeed_m_s: float
+
+
+class Vehicle(Protocol):
+    """The vehicle as a law knows it."""
+
+    estimates: VehicleEstimates
+    history: BankHistory
+
+    def measure(self, state: State) -> None:
+        """Take a new measurement."""
+
+    def record(self, command_deg: float, dt: float) -> None:
+        """Record a command that is given for `dt` seconds."""
+
+
+class DeclaredVehicle:
+    """A vehicle that is as declared."""
+
+    def __init__(self, declared: VehicleEstimates) -> None:
+        self.estimates, self.history = declared, BankHistory()
+
+    def measure(self, state: State) -> None:
+        """Take a new measurement: it changes nothing."""
+
+    def record(self, command_deg: float, dt: float) -> None:
+        """Record a command that is given for `dt` seconds."""
+        roll, history = self.estimates.roll, self.history
+        history.record(roll.bank_after(history.current_deg, command_deg, dt), dt)
+
+
+class IdentifiedVehicle:
+    """A vehicle that is identified in flight, beginning with what is declared; `wind_told` says whether the wind is."""
+
+    def __init__(self, declared: VehicleEstimates, *, wind_told: bool) -> None:
+        self.estimates, self.history = declared, BankHistory()
+        self._roll = RollIdentifier(declared.roll, declared.delay_s)
+        self._turning = TurnRatio(declared.turn_ratio)
+        wind_s = TOLD_WIND_S if wind_told else UNTOLD_WIND_S
+        self._east = Average(declared.wind_east_m_s, wind_s, WIND_MEMORY_S)
+        self._north = Average(declared.wind_north_m_s, wind_s, WIND_MEMORY_S)
+        self._airspeed = Average(declared.airspeed_m_s, DECLARED_AIRSPEED_S, AIRSPEED_MEMORY_S)
+        self._last_s = -inf
+
+    def measure(self, state: State) -> None:
+        """Take a new measurement."""
+        dt = state.time_s - self._last_s
+        first, self._last_s = self._last_s == -inf, state.time_s
+        if first:
+            self._roll.begin(state.bank_deg)
+            self.history.begin(state.bank_deg)
+        self._roll.measure(state.bank_deg)
+        if not 0.0 < dt <= LARGEST_GAP_S:
+            dt = 0.0
+            self._turning.restart(state)
+        self._turning.measure(state, dt)
+        self._airspeed.add(state.airspeed_m_s, dt)
+        (c, s), V = heading_vector(state.heading_deg), state.airspeed_m_s
+        self.estimates = VehicleEstimates(
+            *self._roll.estimate,
+            self._turning.ratio,
+            self._east.add(state.velocity_east_m_s - V * c, dt),
+            self._north.add(state.velocity_north_m_s - V * s, dt),
+            self._airspeed.value,
+        )
+
+    def record(self, command_deg: float, dt: float) -> None:
+        """Record a command that is given for `dt` seconds."""
+        self._roll.record(command_deg, dt)
+        self.history.record(self._roll.bank_deg, dt)
+
+
+class Average:
+    """A running average over `memory_s` seconds at most, which begins with a value that counts `known_s` seconds."""
+
+    def __init__(self, value: float, known_s: float, memory_s: float) -> None:
+        self.value, self._known_s, self._memory_s = value, known_s, memory_s
+
+    def add(self, value: float, dt: float) -> float:
+        """The average including a value measured `dt` seconds after the last."""
+        if self._known_s == 0.0:
+            self.value = value
+        self._known_s = min(self._known_s + max(dt, 1e-3), self._memory_s)
+        self.value += min(dt / self._known_s, 1.0) * (value - self.value)
+        return self.value
+
+
+class TurnRatio:
+    """The turn rate of a vehicle divided by that of a coordinated turn at its bank and airspeed, g tan(bank)/V.
+
+    It is below 1 where the vehicle slips, and off where its airspeed or bank is measured wrongly. Both angles turned,
+    measured and computed, are high-pass filtered, so that errors of the heading do not add up, and related by least
+    squares.
+    """
+
+    def __init__(self, declared: float) -> None:
+        prior = HEADING_ERROR_DEG**2 / TURN_RATIO_SPREAD**2
+        self.ratio, self._declared, self._prior = declared, declared, prior
+        self._product = self._square = 0.0
+        self._measured_deg = self._computed_deg = 0.0
+        self._last: State | None = None
+
+    def restart(self, state: State) -> None:
+        """Relate later measurements to this one only."""
+        self._measured_deg = self._computed_deg = 0.0
+        self._last = state
+
+    def measure(self, state: State, dt: float) -> None:
+        """Take a measurement `dt` seconds after the last."""
+        last, self._last = self._last or state, state
+        share, forgotten = exp(-dt / TURN_FILTER_S), exp(-dt / TURN_MEMORY_S)
+        turned_deg = remainder(state.heading_deg - last.heading_deg, 360.0)
+        rates = rate_at_bank(last.bank_deg, last.airspeed_m_s) + rate_at_bank(state.bank_deg, state.airspeed_m_s)
+        self._measured_deg = share * (self._measured_deg + turned_deg)
+        self._computed_deg = share * (self._computed_deg + 0.5 * dt * rates / radians(1.0))
+        self._product = forgotten * self._product + self._measured_deg * self._computed_deg * dt
+        self._square = forgotten * self._square + self._computed_deg * self._computed_deg * dt
+        ratio = (self._product + self._declared * self._prior) / (self._square + self._prior)
+        low, high = TURN_RATIO_BOUNDS
+        self.ratio = min(max(ratio, low), high)

@@ -1,0 +1,65 @@
+"""Telemetry of a simulated aircraft: measurements arrive at a low rate, with jitter, and some are lost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from loiter.errors import InvalidArgument, positive
+from loiter.guidance.protocol import Command, Simulator, State
+
+
+@dataclass(frozen=True, slots=True)
+class Telemetry:
+    """How measurements reach a law: `rate_hz` a second, at intervals that vary by the share `jitter`, `loss` are lost.
+
+    Raises `InvalidArgument` for a rate that is not positive, and for shares outside [0, 1).
+    """
+
+    rate_hz: float = 50.0
+    jitter: float = 0.0
+    loss: float = 0.0
+
+    def __post_init__(self) -> None:
+        positive("rate_hz", self.rate_hz, "measurements per second")
+        for name in ("jitter", "loss"):
+            if not 0.0 <= getattr(self, name) < 1.0:
+                raise InvalidArgument(name, f"is {getattr(self, name)}: it must be at least 0 and below 1")
+
+
+class WithTelemetry:
+    """A simulator whose measurements arrive by `Telemetry`; between two of them the last one is repeated.
+
+    The same seed gives the same intervals and losses.
+    """
+
+    def __init__(self, simulator: Simulator, telemetry: Telemetry, seed: int) -> None:
+        self._simulator, self._telemetry = simulator, telemetry
+        self._random = np.random.default_rng(seed)
+        self._latest = simulator.measured_state()
+        self._next_s = simulator.true_state().time_s + self._interval_s()
+
+    def true_state(self) -> State:
+        """The true state."""
+        return self._simulator.true_state()
+
+    def measured_state(self) -> State:
+        """The last measurement that has arrived."""
+        return self._latest
+
+    def advance(self, command: Command, dt: float) -> None:
+        """Fly `dt` seconds under a command."""
+        self._simulator.advance(command, dt)
+        now_s = self._simulator.true_state().time_s
+        # The margin is for rounding.
+        if now_s < self._next_s - 1e-9:
+            return
+        while self._next_s <= now_s + 1e-9:
+            self._next_s += self._interval_s()
+        if self._random.random() >= self._telemetry.loss:
+            self._latest = self._simulator.measured_state()
+
+    def _interval_s(self) -> float:
+        jitter = self._telemetry.jitter
+        return (1.0 + self._random.uniform(-jitter, jitter)) / self._telemetry.rate_hz

@@ -1,0 +1,128 @@
+"""Trials with aircraft drawn at random, of which the laws know the airspeed and the bank limit alone.
+
+docs/guidance.md, "Unknown vehicles", has the ranges and the results.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, pi, sin, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from loiter.guidance.laws.l1 import L1, advised_period_s
+from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.laws.vector_field import VectorField, advised_gains
+from loiter.guidance.protocol import Law, Simulator
+from loiter.guidance.simulators.point_mass import PointMass
+from loiter.guidance.simulators.roll_dynamics import RollResponse
+from loiter.guidance.simulators.sensors import Noise
+from loiter.guidance.simulators.telemetry import Telemetry, WithTelemetry
+from loiter.guidance.trials.campaign import Trial
+from loiter.kernel.hold import tightest_radius
+from loiter.planning.feasibility import relative_wind
+from loiter.planning.model import Aircraft, Orbit, Pose, Wind
+from loiter.planning.solve import plan
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
+
+# The ranges from which an aircraft is drawn.
+AIRSPEED_M_S, BANK_DEG = (12.0, 28.0), (30.0, 50.0)
+ROLL_TIME_S, DEAD_TIME_S, OVERSHOOT, ROLL_RATE_DEG_S = (0.1, 1.0), (0.0, 0.4), (0.0, 0.25), (40.0, 150.0)
+TURN_RATIO = 0.7, 1.1
+
+# Those of its telemetry: the age of measurements, their rate, and the shares of jitter and loss.
+AGE_S, RATE_HZ, JITTER, LOSS = (0.0, 0.5), (5.0, 50.0), 0.3, 0.02
+
+# The share of trials in wind, and the largest wind as a share of the airspeed.
+WINDY, LARGEST_WIND = 0.7, 0.4
+
+# The radius of the circle in tightest radii, and the largest distance of the start from the centre in radii.
+RADII, REACH = (1.2, 4.0), 6.0
+
+
+@dataclass(frozen=True, slots=True)
+class VariedTrial(Trial):
+    """A trial with its own aircraft.
+
+    `ideal` is the fastest entry at the turn rate that the aircraft truly reaches, in the true wind. `declared` is the
+    aircraft as the laws know it, with the turn rate that belongs to its bank limit. The laws do not know the wind.
+    """
+
+    declared: Aircraft
+    response: RollResponse
+    turn_ratio: float
+    telemetry: Telemetry
+    noise: Noise
+    start_bank_deg: float
+
+
+def varied_trials(runs: int, seed: int) -> list[VariedTrial]:
+    """Random starts of random aircraft; trial i depends on the seed and on i alone."""
+    return [_varied_trial(np.random.default_rng((seed, i))) for i in range(runs)]
+
+
+def _varied_trial(random: Generator) -> VariedTrial:
+    declared = Aircraft(random.uniform(*AIRSPEED_M_S), max_bank_deg=random.uniform(*BANK_DEG))
+    turn_ratio = random.uniform(*TURN_RATIO)
+    true = Aircraft(declared.airspeed_m_s, min_turn_radius_m=declared.turn_radius_m / turn_ratio)
+    windy = random.random() < WINDY
+    wind = Wind(LARGEST_WIND * declared.airspeed_m_s * random.random() * windy, 360.0 * random.random())
+    tightest = tightest_radius(*relative_wind(Orbit(0.0, 0.0, 1.0), true, wind))
+    radius_m = true.turn_radius_m * tightest * random.uniform(*RADII)
+    distance_m, azimuth = REACH * radius_m * sqrt(random.random()), 2.0 * pi * random.random()
+    pose = Pose(distance_m * cos(azimuth), distance_m * sin(azimuth), 360.0 * random.random())
+    response = RollResponse(*(random.uniform(*each) for each in (ROLL_TIME_S, DEAD_TIME_S, OVERSHOOT, ROLL_RATE_DEG_S)))
+    rate_hz = RATE_HZ[0] * (RATE_HZ[1] / RATE_HZ[0]) ** random.random()
+    return VariedTrial(
+        plan(pose, Orbit(0.0, 0.0, radius_m), true, wind),
+        int(random.integers(2**63)),
+        declared,
+        response,
+        turn_ratio,
+        Telemetry(rate_hz, JITTER, LOSS),
+        Noise(delay_s=random.uniform(*AGE_S)),
+        declared.bank_deg(declared.turn_radius_m) * random.uniform(-1.0, 1.0),
+    )
+
+
+def varied_point_mass(trial: VariedTrial, gust: float = 0.05) -> Simulator:
+    """The aircraft of a trial with its telemetry."""
+    m = trial.ideal
+    aircraft = PointMass(
+        m.start,
+        trial.declared,
+        m.wind,
+        seed=trial.seed,
+        roll=trial.response,
+        gust=gust,
+        noise=trial.noise,
+        turn_ratio=trial.turn_ratio,
+        start_bank_deg=trial.start_bank_deg,
+    )
+    return WithTelemetry(aircraft, trial.telemetry, trial.seed)
+
+
+def varied_optimal(trial: VariedTrial) -> Law:
+    """The fastest entry, which knows the airspeed and the bank limit of the aircraft, and nothing else."""
+    return LoiterEntry(trial.ideal.orbit, trial.declared)
+
+
+def varied_l1(trial: VariedTrial) -> Law:
+    """L1 with the advised period for the true roll response, and the direction of the fastest entry."""
+    return L1(trial.orbit, trial.declared, period_s=advised_period_s(_roll_delay_s(trial)))
+
+
+def varied_vector_field(trial: VariedTrial) -> Law:
+    """The vector field with the advised gains for the true roll response, and the direction of the fastest entry."""
+    gains = advised_gains(trial.orbit, trial.declared, _roll_delay_s(trial))
+    return VectorField(trial.orbit, trial.declared, gains=gains)
+
+
+VARIED_LAWS = {"optimal": varied_optimal, "l1": varied_l1, "vector-field": varied_vector_field}
+
+
+def _roll_delay_s(trial: VariedTrial) -> float:
+    return trial.response.dead_time_s + trial.response.time_s
