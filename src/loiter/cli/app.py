@@ -57,6 +57,15 @@ app.command(
     help="Listen to a vehicle and print, live, the fastest entry from its position.",
 )
 app.command(
+    "loiter.cli.commands.guide:guide",
+    help_epilogue=epilogue("guide"),
+    help="""Guide a vehicle in flight onto the circle in least time, then hand it over to its own hold of the circle.
+
+First the vehicle is commanded to hold the circle by its own guidance, the fall-back circle. Then its bank is commanded many times a second: ArduPlane's in GUIDED, PX4's in OFFBOARD; the autopilot holds altitude and airspeed. Once the circle is held steadily, the vehicle confirms that it holds it by its own guidance, and nothing more is sent. The vehicle must be in flight: it is never armed, and never takes off or lands.
+
+Guiding stops at once, and one sentence says why, if the link or the telemetry is lost, the pilot or a failsafe changes the mode, or at Ctrl-C; the vehicle then flies the fall-back circle, or what the pilot wants. Airspeed and bank limit are those of the autopilot's parameters unless options give them. docs/autopilots.md has the details.""",
+)
+app.command(
     "loiter.cli.commands.fly:fly",
     help_epilogue=epilogue("fly"),
     help="Fly the fastest entry in closed loop, and compare it with the laws that autopilots use today.",

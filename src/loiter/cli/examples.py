@@ -24,11 +24,18 @@ EXAMPLES = {
       --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35
   loiter watch --connect udpin:127.0.0.1:14550 --reports 10 \
       --orbit-lla 47.11 8.23 --params uav.param""",
+    "guide": r"""
+  loiter guide --connect udpout:127.0.0.1:14550 --orbit-lla 47.11 8.23 120
+  loiter guide --connect udpin:127.0.0.1:14550 --dry-run \
+      --orbit-lla 47.11 8.23 120 --turn ccw --bank 40
+  loiter guide --connect /dev/ttyUSB0,57600 --orbit-lla 47.11 8.23 120 \
+      --altitude 900 --keep --log flight.csv""",
     "fly": r"""
   loiter fly --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 \
       --compare --plot flight.png
   loiter fly --pose -400 120 90 --orbit 0 0 200 --sim jsbsim
-  loiter fly --runs 100 --compare --airspeed 18 --bank 35 --save runs.csv""",
+  loiter fly --runs 100 --compare --airspeed 18 --bank 35 --save runs.csv
+  loiter fly --replay flight.csv --plot flight.png""",
     "synthesis": r"""
   loiter synthesis --radius 1.5 --turn cw --plot map.png
   loiter synthesis --radius 2 --show worth --save map.npz""",
@@ -52,9 +59,10 @@ Exit status
   1  a check failed (loiter verify, loiter plan --certify)
   2  the request cannot be met: one sentence on standard error says why,
      and no file is left half written
-  3  the vehicle cannot be reached, does not answer or refuses: the
-     sentence says which mission it has now
-  130  interrupted; finished parts of a batch job are kept"""
+  3  the vehicle cannot be reached, does not answer or refuses, or guiding
+     had to stop: the sentence says what the vehicle has or does now
+  130  interrupted; finished parts of a batch job are kept, and a guided
+     vehicle flies its fall-back circle"""
 
 
 def epilogue(*commands: str) -> str:

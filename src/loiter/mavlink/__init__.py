@@ -1,7 +1,20 @@
-"""Vehicles over MAVLink: upload, download and watch."""
+"""Vehicles over MAVLink: upload, download, watch and guide."""
 
+from loiter.mavlink.guiding.guide import guide
+from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.missions.exchange import MissionSummary, Summary, download, upload
 from loiter.mavlink.watching.telemetry import WindSource
 from loiter.mavlink.watching.watch import Report, watch
 
-__all__ = ["MissionSummary", "Report", "Summary", "WindSource", "download", "upload", "watch"]
+__all__ = [
+    "GuideReport",
+    "MissionSummary",
+    "Report",
+    "Stage",
+    "Summary",
+    "WindSource",
+    "download",
+    "guide",
+    "upload",
+    "watch",
+]

@@ -48,6 +48,8 @@ OPTIONS = {
     "period_s": "--every",
     "reports": "--reports",
     "send": "--send",
+    "log": "--log",
+    "replay": "--replay",
     "true_radius": "--true-radius",
     "runs": "--runs",
     "gust": "--gust",

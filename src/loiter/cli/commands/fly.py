@@ -132,6 +132,14 @@ class SimulationOptions:
 
 def fly(
     *,
+    replay: Annotated[
+        Path | None,
+        Parameter(
+            group=simulation,
+            metavar="LOG",
+            help="Instead of a simulation: the log of loiter guide, .csv or .parquet; --plot draws it.",
+        ),
+    ] = None,
     simulated: SimulationOptions = SimulationOptions(),
     start: StartOptions = StartOptions(),
     circle: OrbitOptions = OrbitOptions(),
@@ -151,6 +159,9 @@ def fly(
     """Fly the fastest entry in closed loop, compared with the laws that autopilots use today."""
     from loiter.guidance.trials import campaign
 
+    if replay is not None:
+        _replay(replay, (simulated, start, circle, uav, air, save), plot)
+        return
     simulated.check()
     _check_files(plot, save, simulated.runs)
     if simulated.runs is None:
@@ -162,6 +173,16 @@ def fly(
         raise InvalidArgument("runs", "selects random starts and circles: --pose and --orbit have no effect")
     starts = campaign.trials(simulated.runs, simulated.seed, simulated.aircraft(uav), air.moving_air)
     _fly_many(starts, simulated.setting(), simulated.laws, simulated.workers, save)
+
+
+def _replay(log: Path, others: tuple[object, ...], plot: Path | None) -> None:
+    """Replay a log; `others` are the options that have no effect with it."""
+    from loiter.cli.commands.replay import replay
+
+    if any(option is not None and option != type(option)() for option in others):
+        raise InvalidArgument("replay", "shows a flight that was flown: it takes no option but --plot")
+    _check_files(plot, None, None)
+    replay(log, plot)
 
 
 def _check_files(plot: Path | None, save: Path | None, runs: int | None) -> None:

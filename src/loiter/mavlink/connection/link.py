@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import socket
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import closing, contextmanager, suppress
 from math import inf
 from time import monotonic
@@ -64,7 +64,7 @@ class Link:
     """A port with a vehicle at its other end; only its messages to us or to all are received.
 
     With `heartbeats` a heartbeat is sent every second. `on_message` is called with every message of the vehicle and the
-    time.
+    time. `others` are the other vehicles whose heartbeats were received.
     """
 
     def __init__(
@@ -77,6 +77,7 @@ class Link:
     ) -> None:
         self.vehicle = vehicle
         self.on_message = on_message
+        self.others: set[Vehicle] = set()
         self._port = port
         self._heartbeats = heartbeats
         self._next_heartbeat = monotonic()
@@ -119,6 +120,8 @@ class Link:
                 self.on_message(message, monotonic())
 
     def _from_vehicle(self, message: Any) -> bool:
+        if _is_heartbeat(message) and message.get_srcSystem() != self.vehicle.system:
+            self.others.add(_vehicle(message, self.vehicle.component))
         return _sender(message) == (self.vehicle.system, self.vehicle.component)
 
     def _to_us(self, message: Any) -> bool:
@@ -138,11 +141,15 @@ def open_link(
     *,
     heartbeats: bool = True,
     on_message: Callable[[Any, float], None] = lambda message, now: None,
+    listen_s: float | None = None,
 ) -> Iterator[Link]:
-    """A link to the vehicle that answers on a connection; raises `LinkFailed` if none does. Options as for `Link`."""
+    """A link to the vehicle that answers on a connection; raises `LinkFailed` if none does. Options as for `Link`.
+
+    `listen_s` is that of `find_vehicle`.
+    """
     port = open_port(connection, timeout_s)
     try:
-        vehicle = find_vehicle(port, connection, system, component, timeout_s, heartbeats=heartbeats)
+        vehicle = find_vehicle(port, connection, system, component, timeout_s, heartbeats=heartbeats, listen_s=listen_s)
     except BaseException:
         port.close()
         raise
@@ -187,13 +194,22 @@ def check_connection(connection: object) -> None:
 
 
 def find_vehicle(
-    port: Any, connection: str, system: int | None, component: int, timeout_s: float, *, heartbeats: bool = True
+    port: Any,
+    connection: str,
+    system: int | None,
+    component: int,
+    timeout_s: float,
+    *,
+    heartbeats: bool = True,
+    listen_s: float | None = None,
 ) -> Vehicle:
     """The vehicle whose heartbeat is received on a port: the one with that system id, or the only one.
 
-    With `heartbeats` our own are sent meanwhile: the other end of `udpout` learns our address from them. Raises
+    With `heartbeats` our own are sent meanwhile: the other end of `udpout` learns our address from them. Without
+    `system` a second vehicle is listened for during `listen_s` seconds, `SECOND_VEHICLE_S` by default. Raises
     `LinkFailed` if no heartbeat is received in time, and if there are several vehicles and `system` is None.
     """
+    listen_s = SECOND_VEHICLE_S if listen_s is None else listen_s
     vehicles: dict[int, Vehicle] = {}
     deadline, next_heartbeat = monotonic() + timeout_s, -inf
     while (now := monotonic()) < deadline:
@@ -201,17 +217,17 @@ def find_vehicle(
             _send(port, heartbeat(), mavlink1=False)
             next_heartbeat = now + HEARTBEAT_S
         message = _receive(port, min(deadline - now, HEARTBEAT_S))
-        if message is None or message.get_type() != "HEARTBEAT" or message.autopilot == NO_AUTOPILOT:
+        if message is None or not _is_heartbeat(message):
             continue
         vehicle = _vehicle(message, component)
         if vehicle.system == system:
             return vehicle
         if system is None and not vehicles:
-            deadline = min(deadline, monotonic() + SECOND_VEHICLE_S)
+            deadline = min(deadline, monotonic() + listen_s)
         vehicles[vehicle.system] = vehicle
     if system is None and len(vehicles) == 1:
         return next(iter(vehicles.values()))
-    raise LinkFailed(_not_found(connection, system, vehicles, timeout_s))
+    raise LinkFailed(not_found(connection, system, vehicles.values(), timeout_s))
 
 
 def heartbeat() -> Any:
@@ -283,14 +299,20 @@ def _tcp(address: str, timeout_s: float) -> Any:
     return Tcp(address)
 
 
+def _is_heartbeat(message: Any) -> bool:
+    """Whether a message is the heartbeat of an autopilot; ground stations and companions have none."""
+    return bool(message.get_type() == "HEARTBEAT" and message.autopilot != NO_AUTOPILOT)
+
+
 def _vehicle(heartbeat: Any, component: int) -> Vehicle:
     # A packet of MAVLink 1 begins with 0xFE.
     mavlink1 = heartbeat.get_msgbuf()[:1] == b"\xfe"
     return Vehicle(heartbeat.get_srcSystem(), component, heartbeat.autopilot, mavlink1)
 
 
-def _not_found(connection: str, system: int | None, vehicles: dict[int, Vehicle], timeout_s: float) -> str:
-    heard = " and ".join(vehicle.named for _, vehicle in sorted(vehicles.items()))
+def not_found(connection: str, system: int | None, vehicles: Collection[Vehicle], timeout_s: float) -> str:
+    """The error message where the vehicle was not found among those that were heard."""
+    heard = " and ".join(vehicle.named for vehicle in sorted(vehicles))
     if system is None and vehicles:
         return f"there are several vehicles on {connection}, {heard}: choose one by its system number"
     wanted = "a vehicle" if system is None else f"system {system}"

@@ -1,0 +1,123 @@
+"""What an autopilot's parameters say about its aircraft: airspeed, bank limit, roll response, and its failsafe.
+
+The roll response of ArduPlane is that of RLL2SRV_TCONST and RLL2SRV_RMAX, the one of PX4 that of FW_R_TC, FW_R_RMAX and
+FW_PN_R_SLEW_MAX. It is only a first guess: the law identifies the response in flight.
+"""
+
+from __future__ import annotations
+
+from math import nan
+from typing import NamedTuple
+
+from loiter.guidance.vehicle.rolling import Roll
+from loiter.io.missions.items import Autopilot
+from loiter.mavlink.missions.flown_radius import BANK_LIMIT, CRUISE, OLD_CRUISE
+
+# The limit of commanded banks lies below the autopilot's own limit by this, degrees, and is never above the second.
+BANK_MARGIN_DEG, STEEPEST_DEG = 3.0, 60.0
+
+# Roll response where the parameters do not tell it: degrees per second, seconds.
+ROLL_RATE_DEG_S, ROLL_TIME_S = 90.0, 0.4
+
+# The meanings of COM_OBL_RC_ACT in words.
+LOSS_ACTIONS = {
+    0: "position mode",
+    1: "altitude mode",
+    2: "stabilized mode",
+    3: "return",
+    4: "land",
+    5: "hold",
+    6: "terminate",
+    7: "disarm",
+}
+
+# The names of parameters, and those of them that must be known before guiding begins: one of each group.
+NAMES = {
+    Autopilot.ARDUPILOT: [
+        CRUISE,
+        OLD_CRUISE,
+        "ROLL_LIMIT_DEG",
+        "LIM_ROLL_CD",
+        "RLL2SRV_TCONST",
+        "RLL2SRV_RMAX",
+        "ARSPD_USE",
+        BANK_LIMIT,
+    ],
+    Autopilot.PX4: [
+        "FW_AIRSPD_TRIM",
+        "FW_R_LIM",
+        "FW_R_TC",
+        "FW_R_RMAX",
+        "FW_PN_R_SLEW_MAX",
+        "COM_OF_LOSS_T",
+        "COM_OBL_RC_ACT",
+    ],
+}
+NEEDED = {
+    Autopilot.ARDUPILOT: [{CRUISE, OLD_CRUISE}, {"ROLL_LIMIT_DEG", "LIM_ROLL_CD"}, {BANK_LIMIT}],
+    Autopilot.PX4: [{"FW_AIRSPD_TRIM"}, {"FW_R_LIM"}],
+}
+# Those that are waited for while others are: later versions have them all.
+WANTED = {
+    Autopilot.ARDUPILOT: [{"RLL2SRV_TCONST"}, {"RLL2SRV_RMAX"}],
+    Autopilot.PX4: [{"FW_R_TC"}, {"FW_R_RMAX"}, {"COM_OBL_RC_ACT"}],
+}
+
+
+class AutopilotSettings(NamedTuple):
+    """The settings of an autopilot: indicated cruise airspeed, metres per second, and largest bank, degrees, or nan.
+
+    `has_airspeed_sensor` is whether it uses an airspeed sensor, as far as its parameters tell. `loss_action` is what
+    PX4 does when setpoints stop.
+    """
+
+    airspeed_m_s: float
+    bank_limit_deg: float
+    roll: Roll
+    has_airspeed_sensor: bool = True
+    loss_action: str = ""
+
+    @property
+    def guided_bank_deg(self) -> float:
+        """The limit of commanded banks, degrees."""
+        return min(self.bank_limit_deg - BANK_MARGIN_DEG, STEEPEST_DEG)
+
+
+def missing(autopilot: Autopilot, known: dict[str, float]) -> list[str]:
+    """The parameters that are needed and not known yet; of several names the newest."""
+    newest = NAMES[autopilot]
+    return [min(names, key=newest.index) for names in NEEDED[autopilot] if not names & known.keys()]
+
+
+def is_complete(autopilot: Autopilot, known: dict[str, float]) -> bool:
+    """Whether all needed and all wanted parameters are known."""
+    return all(names & known.keys() for names in NEEDED[autopilot] + WANTED[autopilot])
+
+
+def autopilot_settings(autopilot: Autopilot, known: dict[str, float]) -> AutopilotSettings:
+    """The settings in the parameters of an autopilot."""
+    return _plane_settings(known) if autopilot == Autopilot.ARDUPILOT else _px4_settings(known)
+
+
+def _plane_settings(known: dict[str, float]) -> AutopilotSettings:
+    return AutopilotSettings(
+        known.get(CRUISE, known.get(OLD_CRUISE, nan) / 100.0),
+        known.get("ROLL_LIMIT_DEG", known.get("LIM_ROLL_CD", nan) / 100.0),
+        _roll(known.get("RLL2SRV_TCONST", ROLL_TIME_S), known.get("RLL2SRV_RMAX", 0.0)),
+        known.get("ARSPD_USE", 1.0) != 0.0,
+    )
+
+
+def _px4_settings(known: dict[str, float]) -> AutopilotSettings:
+    rates = [known.get(name, 0.0) for name in ("FW_R_RMAX", "FW_PN_R_SLEW_MAX")]
+    return AutopilotSettings(
+        known.get("FW_AIRSPD_TRIM", nan),
+        known.get("FW_R_LIM", nan),
+        _roll(known.get("FW_R_TC", ROLL_TIME_S), min((rate for rate in rates if rate > 0.0), default=0.0)),
+        loss_action=LOSS_ACTIONS.get(round(known.get("COM_OBL_RC_ACT", -1.0)), "what COM_OBL_RC_ACT says"),
+    )
+
+
+def _roll(time_s: float, rate_deg_s: float) -> Roll:
+    """The response with a time constant and a rate limit; a rate of 0 is no limit, and a default stands in for it."""
+    return Roll(max(time_s, 0.0), rate_deg_s if rate_deg_s > 0.0 else ROLL_RATE_DEG_S)

@@ -1,0 +1,142 @@
+"""The contact to a guided vehicle: all that is known from its messages, and the requests for more of them."""
+
+from __future__ import annotations
+
+from math import inf
+from time import monotonic
+from typing import Any
+
+from loiter.errors import LinkFailed
+from loiter.geo import LocalFrame
+from loiter.guidance.protocol import State
+from loiter.io.missions.items import Autopilot
+from loiter.mavlink.autopilots.settings import NAMES
+from loiter.mavlink.autopilots.steering import Steering
+from loiter.mavlink.connection.command import long_command
+from loiter.mavlink.connection.fast_streams import FastStreams, fastest_hz
+from loiter.mavlink.connection.link import BAUD, Link
+from loiter.mavlink.connection.parameters import Parameters
+from loiter.mavlink.connection.pending_command import PendingCommand
+from loiter.mavlink.connection.round_trip import RoundTrip
+from loiter.mavlink.connection.status_text import StatusTexts
+from loiter.mavlink.guiding.measurements import Measurements
+from loiter.mavlink.guiding.monitor import Monitor
+from loiter.mavlink.missions.start import REQUEST_MESSAGE
+from loiter.mavlink.watching.telemetry import EXTENDED_SYS_STATE, Telemetry, WindSource
+from loiter.planning.model import Wind
+
+# The longest time between two setpoints, seconds, and the time to wait for the second message of a state.
+STEP_S, PARTNER_S = 0.05, 0.006
+
+# Seconds until a request for a message is repeated.
+REQUEST_S = 0.5
+
+# Numbers of messages that are requested once.
+HEARTBEAT, AUTOPILOT_VERSION = 0, 148
+
+
+class Contact:
+    """A link to a vehicle with ArduPilot or PX4, and what its messages say.
+
+    `steering` and `pending`, once they are set, get every message too. `extended` is the last EXTENDED_SYS_STATE,
+    `version` the flight_sw_version of AUTOPILOT_VERSION, 0 before it is known.
+    """
+
+    def __init__(self, link: Link, connection: str, frame: LocalFrame) -> None:
+        vehicle = link.vehicle
+        if vehicle.autopilot not in list(Autopilot):
+            raise LinkFailed(f"{vehicle.named} cannot be guided: its autopilot is neither ArduPilot nor PX4")
+        self.link = link
+        self.autopilot = Autopilot(vehicle.autopilot)
+        self.began = monotonic()
+        self.measurements = Measurements(frame)
+        self.monitor = Monitor(vehicle, self.measurements, self.began)
+        self.telemetry, self.texts = Telemetry(), StatusTexts()
+        self.streams = FastStreams(self.autopilot, fastest_hz(connection, BAUD))
+        self.parameters = Parameters(NAMES[self.autopilot], vehicle.autopilot)
+        self.round_trip = RoundTrip()
+        self.steering: Steering | None = None
+        self.pending: PendingCommand | None = None
+        self.extended: Any = None
+        self.version = 0
+        self._next_request = -inf
+        link.on_message = self._on_message
+
+    @property
+    def name(self) -> str:
+        """The vehicle in sentences."""
+        return self.link.vehicle.named
+
+    @property
+    def flies_px4(self) -> bool:
+        """Whether the autopilot is PX4; otherwise it is ArduPilot."""
+        return self.autopilot == Autopilot.PX4
+
+    def listen(self) -> float:
+        """Receive messages until a new state is complete, or for `STEP_S`; returns the time."""
+        m, until = self.measurements, monotonic() + STEP_S
+        m.take()
+        while monotonic() < until:
+            message = self.link.receive({"ATTITUDE", "GLOBAL_POSITION_INT"}, until)
+            if message is None or m.complete:
+                break
+            until = min(until, monotonic() + PARTNER_S)
+        self.link.process_pending(monotonic() + PARTNER_S)
+        return monotonic()
+
+    def request_all(self, now: float) -> None:
+        """Send the requests that are due before the flight begins."""
+        self.streams.request(self.link, now, self.measurements.rate_hz(now))
+        self.parameters.request(self.link, now)
+        self.round_trip.request(self.link, now)
+        if now < self._next_request:
+            return
+        self._next_request = now + REQUEST_S
+        wanted = [(HEARTBEAT, self.monitor.heartbeat), (EXTENDED_SYS_STATE, self.extended)]
+        if self.flies_px4:
+            wanted.append((AUTOPILOT_VERSION, self.version or None))
+        for number, received in wanted:
+            if received is None:
+                self._request_message(number)
+
+    def request_in_flight(self, now: float) -> None:
+        """Send the requests that are due in flight: for streams that have become slow, and for the round trip time."""
+        self.streams.request(self.link, now, self.measurements.rate_hz(now))
+        self.round_trip.request(self.link, now)
+
+    def request_heartbeat(self, now: float) -> None:
+        """Request a heartbeat if that is due: it shows a change of mode sooner than the next regular one."""
+        if now >= self._next_request:
+            self._next_request = now + REQUEST_S
+            self._request_message(HEARTBEAT)
+
+    def reported_wind(self) -> Wind | None:
+        """The wind that the vehicle reports, or None."""
+        wind, source = self.telemetry.wind(monotonic())
+        return wind if source == WindSource.VEHICLE else None
+
+    def state(self) -> State | None:
+        """The last measured state, or None."""
+        return self.measurements.state(self.reported_wind(), monotonic())
+
+    def _request_message(self, number: int) -> None:
+        self.link.send(long_command(self.link, REQUEST_MESSAGE, number))
+
+    def _on_message(self, message: Any, now: float) -> None:
+        """Pass a message of the vehicle to all that need it."""
+        self.measurements.update(message, now)
+        self.monitor.update(message, now)
+        self.telemetry.update(message, now)
+        self.streams.update(message)
+        self.parameters.update(message)
+        self.texts.update(message)
+        self.round_trip.update(message, now)
+        if self.steering is not None:
+            self.steering.update(message, now)
+        if self.pending is not None:
+            self.pending.update(message)
+        kind = message.get_type()
+        if kind == "EXTENDED_SYS_STATE":
+            self.extended = message
+        elif kind == "AUTOPILOT_VERSION":
+            self.version = message.flight_sw_version

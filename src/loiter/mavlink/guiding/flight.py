@@ -1,0 +1,360 @@
+"""A guided flight: its stages from the first message to the hand-over, and its end where something goes wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from dataclasses import replace
+from math import inf
+from time import monotonic
+from typing import Any
+
+from loiter.errors import LinkFailed, LoiterError
+from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.protocol import Command, Phase, State
+from loiter.guidance.vehicle.limits import clip
+from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign, sign_of_version
+from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD, PX4_OFFBOARD
+from loiter.mavlink.autopilots.steering import AccelerationSteering, RollSteering, Steering
+from loiter.mavlink.connection.command import hold_command, long_command
+from loiter.mavlink.connection.pending_command import PendingCommand
+from loiter.mavlink.guiding.contact import STEP_S, Contact
+from loiter.mavlink.guiding.monitor import Stop
+from loiter.mavlink.guiding.preparation import Prepared, Wanted, prepare
+from loiter.mavlink.guiding.report import GuideReport, Stage
+from loiter.mavlink.guiding.settling import SteadyHold
+from loiter.mavlink.missions.flown_radius import loiter_scaling
+from loiter.mavlink.missions.start import CUSTOM_MODE, DO_SET_MODE
+from loiter.planning.feasibility import RelativeWind, check_held, relative_velocity
+
+# Seconds for a command to be confirmed: the fall-back circle, PX4's offboard mode, the hand-over.
+CONFIRM_S = 4.0
+
+# Seconds until PX4's change of mode is commanded again: it is refused until PX4 has noticed the setpoints.
+MODE_REPEAT_S = 0.25
+
+# Seconds to wait for a heartbeat before PX4's mode is changed.
+NEXT_HEARTBEAT_S = 0.3
+
+# The first guess of the age of measurements without that of the link, seconds, before the law has identified it.
+DELAY_S = 0.1
+
+# The circle counts as impossible to hold in the wind if one that is wider by this factor is: an estimate has errors,
+# and an aircraft that drifts outside a little is not in danger.
+WIND_SLACK = 1.15
+
+# Seconds between checks of the wind, and steps of a law that is thrown away: they load and compile what it needs.
+WIND_S, WARM_STEPS = 1.0, 3
+
+
+class Stopped(Exception):
+    """Guiding must stop, for the reason in `stop`."""
+
+    def __init__(self, stop: Stop) -> None:
+        super().__init__(stop.reason)
+        self.stop = stop
+
+
+class Flight:
+    """A guided flight; `stages` flies it, `stop` ends it early.
+
+    `record` is called with a report for every step.
+    """
+
+    def __init__(self, contact: Contact, wanted: Wanted, period_s: float) -> None:
+        self.orbit = wanted.orbit
+        self.record: Callable[[GuideReport], None] = lambda report: None
+        self._contact, self._wanted, self._period_s = contact, wanted, period_s
+        self._monitor, self._modes = contact.monitor, contact.monitor.modes
+        self._prepared: Prepared
+        self._law: Any = None
+        self._steady = SteadyHold(self.orbit)
+        # What has been done: whether the fall-back circle was commanded and accepted, whether banks are commanded.
+        self._commanded = self._accepted = self._steered = False
+        # Whether the vehicle is known to bank as it is commanded.
+        self._trusted = False
+        self._notices: list[str] = []
+        self._state: State
+        self._stage = Stage.SHOWING if wanted.dry_run else Stage.FALL_BACK
+        self._report = GuideReport(0.0, self._stage)
+        self._last_step = contact.began
+        self._next_report, self._next_wind = contact.began + period_s, -inf
+
+    # The stages.
+
+    def stages(self, timeout_s: float, *, only_vehicle: bool) -> Generator[GuideReport, None, None]:
+        """Fly all stages; yields reports. The arguments are those of `prepare`."""
+        self._begin(prepare(self._contact, self._wanted, timeout_s, only_vehicle=only_vehicle))
+        if self._wanted.dry_run:
+            yield from self._show()
+        yield from self._fall_back()
+        if self._contact.flies_px4:
+            yield from self._enter_offboard()
+        yield from self._steer()
+        yield self._hand_over()
+
+    def _begin(self, prepared: Prepared) -> None:
+        """Take what the flight begins with, and make the law; raises errors before anything is commanded."""
+        self._prepared, self.orbit, self._state = prepared, prepared.orbit, prepared.state
+        self._notices += prepared.notices
+        self._steady = SteadyHold(self.orbit)
+        warm = self._new_law()
+        for _ in range(WARM_STEPS):
+            warm.step(prepared.state, STEP_S)
+        self._law = self._new_law()
+        self._contact.steering = steering = self._new_steering()
+        self._trusted = steering.trusted
+
+    def _new_law(self) -> Any:
+        p = self._prepared
+        delay_s = DELAY_S + self._contact.round_trip.seconds
+        wind = self._wanted.wind or self._contact.reported_wind()
+        return LoiterEntry(self.orbit, p.aircraft, wind, roll=p.settings.roll, delay_s=delay_s)
+
+    def _new_steering(self) -> Steering:
+        vehicle, p = self._contact.link.vehicle, self._prepared
+        if not self._contact.flies_px4:
+            return RollSteering(vehicle)
+        sign = AccelerationSign(sign_of_version(self._contact.version), p.settings.roll)
+        return AccelerationSteering(vehicle, p.altitude_m, sign)
+
+    def _show(self) -> Generator[GuideReport, None, None]:
+        """Show what would be commanded, until the generator is closed; nothing is commanded."""
+        self._notices.append("Dry run: nothing is commanded; only telemetry and parameters are requested.")
+        while True:
+            now = self._contact.listen()
+            self._check(now)
+            if now >= self._next_report:
+                # Its commands are not flown: each report is that of a law that begins now.
+                self._law = self._new_law()
+                state = self._measure()
+                self._note(state, self._law.step(state, STEP_S), now)
+                yield self._take_report(now)
+
+    def _fall_back(self) -> Generator[GuideReport, None, None]:
+        """Command the fall-back circle, and wait until the vehicle has accepted it."""
+        pending = self._contact.pending = PendingCommand(self._hold_command())
+        self._commanded = True
+        self._modes.expect(self._hold_mode)
+        # PX4 accepts the offboard mode only while setpoints arrive: they begin here.
+        yield from self._await(pending, "hold the circle")
+        self._accepted = True
+        self._modes.accepted(monotonic())
+
+    def _enter_offboard(self) -> Generator[GuideReport, None, None]:
+        """Change PX4's mode to offboard, once a heartbeat has shown the hold: the pilot may have taken over.
+
+        A heartbeat that does not come soon is not waited for.
+        """
+        until = monotonic() + NEXT_HEARTBEAT_S
+        while not self._modes.confirmed and monotonic() < until:
+            self._send_level()
+            self._contact.request_heartbeat(monotonic())
+            self._check(self._contact.listen())
+        change = long_command(self._contact.link, DO_SET_MODE, CUSTOM_MODE, PX4_OFFBOARD)
+        pending = self._contact.pending = PendingCommand(change, MODE_REPEAT_S)
+        self._modes.expect(OFFBOARD)
+        yield from self._await(pending, "change to the offboard mode")
+
+    def _await(self, pending: PendingCommand, action: str) -> Generator[GuideReport, None, None]:
+        """Send a command until it is accepted; raises `LinkFailed` if it is refused, or not answered in time.
+
+        PX4 gets setpoints for straight flight meanwhile.
+        """
+        deadline = monotonic() + CONFIRM_S
+        while not pending.accepted:
+            if pending.final or (pending.refusal and monotonic() > deadline):
+                raise LinkFailed(f"{self._contact.name} refused to {action}: {pending.refusal}{self._texts}")
+            if monotonic() > deadline:
+                raise LinkFailed(f"{self._contact.name} did not answer the command to {action} in {CONFIRM_S:g} s")
+            pending.send(self._contact.link, monotonic())
+            if self._contact.flies_px4:
+                self._send_level()
+            now = self._contact.listen()
+            self._check(now)
+            if now >= self._next_report:
+                self._state = self._measure()
+                yield self._take_report(now)
+
+    def _steer(self) -> Generator[GuideReport, None, None]:
+        """Fly the law until the circle is held steadily, or without end with `keep`."""
+        self._modes.accepted(monotonic())
+        self._contact.pending = None
+        self._stage, self._steered = Stage.JOINING, True
+        self._law = self._new_law()
+        self._last_step = monotonic() - STEP_S
+        while not (self._steady.settled and not self._wanted.keep):
+            self._step()
+            if monotonic() >= self._next_report:
+                yield self._take_report(monotonic())
+            self._check(self._contact.listen())
+
+    def _hand_over(self) -> GuideReport:
+        """Hand the vehicle over to its own hold; returns the last report."""
+        self._stage = Stage.HANDING_OVER
+        if not self._command_hold(measured=True):
+            raise Stopped(Stop("the vehicle did not confirm the circle on which it is handed over", ours=False))
+        self._stage = Stage.HANDED_OVER
+        turn = self.orbit.turn.described
+        self._notices.append(f"Handed over: {self._contact.name} holds the circle {turn} by its own guidance.")
+        return self._take_report(monotonic())
+
+    # The end.
+
+    def stop(self, stop: Stop) -> str:
+        """Stop guiding: command the fall-back circle where that is allowed; returns the sentence that says why."""
+        if not self._commanded:
+            return stop.reason if self._wanted.dry_run else f"{stop.reason}; nothing was commanded"
+        if stop.ours:
+            try:
+                if self._command_hold(measured=stop.measured):
+                    return f"{stop.reason}: guiding has stopped, and {self._contact.name} flies the fall-back circle"
+            except (LoiterError, Stopped) as failure:
+                stop = Stop(f"{stop.reason}, and then {failure}", ours=False)
+        return f"{stop.reason}: guiding has stopped, nothing more is sent, and {self._consequence}"
+
+    @property
+    def _consequence(self) -> str:
+        """What the vehicle does by itself when nothing more is sent."""
+        name, mode = self._contact.name, self._modes.mode
+        if mode is not None and mode not in (GUIDED, OFFBOARD, HOLD):
+            return f"{name} flies in {self._modes.name}"
+        if not self._steered or mode == HOLD:
+            return f"{name} flies the fall-back circle" if self._accepted else f"{name} flies in {self._modes.name}"
+        if self._contact.flies_px4:
+            return f"PX4 follows COM_OBL_RC_ACT: {self._prepared.settings.loss_action}"
+        return "ArduPlane keeps its bank for up to 3 s and then flies the fall-back circle"
+
+    def _command_hold(self, *, measured: bool) -> bool:
+        """Command the circle, and keep the vehicle steered until it has confirmed it; returns whether it has.
+
+        With `measured` the law flies on until then; otherwise the wings are levelled.
+        """
+        contact = self._contact
+        pending = contact.pending = PendingCommand(self._hold_command())
+        self._modes.expect(self._hold_mode)
+        deadline, levelled = monotonic() + CONFIRM_S, False
+        while not (pending.accepted and self._modes.confirmed):
+            if monotonic() > deadline or (pending.final and not pending.accepted):
+                return False
+            pending.send(contact.link, monotonic())
+            if pending.accepted:
+                contact.request_heartbeat(monotonic())
+            levelled = self._steer_on(measured=measured, levelled=levelled)
+            now = contact.listen()
+            if (stop := self._monitor.check(now)) and not stop.ours:
+                raise Stopped(stop)
+        return True
+
+    def _steer_on(self, *, measured: bool, levelled: bool) -> bool:
+        """Keep the vehicle steered while it changes over; returns whether the wings were levelled.
+
+        ArduPlane gets one setpoint to level its wings: each prolongs the time until it flies the circle.
+        """
+        if not self._steered:
+            return False
+        if measured:
+            self._step()
+        elif self._contact.flies_px4 or not levelled:
+            self._send_level()
+        return not measured
+
+    # A step.
+
+    def _step(self) -> None:
+        """Make a step of the law, and send its command."""
+        now, state, steering = monotonic(), self._measure(), self._contact.steering
+        dt, self._last_step = max(now - self._last_step, 1e-3), now
+        assert steering is not None  # made by `_begin`
+        if steering.trusted and not self._trusted:
+            # What was commanded until then was not what the law had wanted: it identifies the vehicle from now on.
+            self._trusted, self._law = True, self._new_law()
+        command = self._law.step(state, dt)
+        assert self._prepared.aircraft.max_bank_deg is not None  # the aircraft is made with a bank limit
+        bank_deg = clip(command.bank_deg, self._prepared.aircraft.max_bank_deg)
+        # From the measurement to the middle of the time for which the setpoint is flown.
+        delay_s = self._contact.round_trip.seconds + 0.5 * min(dt, STEP_S)
+        steering.prepare(delay_s, self._contact.reported_wind())
+        sent_deg = steering.send(self._contact.link, bank_deg, state.bank_deg, now)
+        if self._stage != Stage.HANDING_OVER:
+            self._stage = Stage.HOLDING if command.phase == Phase.HOLD else Stage.JOINING
+        self._monitor.command_deg, self._monitor.bank_deg = sent_deg, state.bank_deg
+        self._check_wind(now)
+        self._contact.request_in_flight(now)
+        self._note(state, command._replace(bank_deg=sent_deg), now)
+
+    def _note(self, state: State, command: Command, now: float) -> None:
+        """Make and record the report of a step."""
+        m, position = self._contact.measurements, self._steady.update(state)
+        self._report = GuideReport(
+            time_s=now - self._contact.began,
+            stage=self._stage,
+            state=state,
+            altitude_m=m.altitude_m,
+            airspeed_source=m.airspeed(self._contact.reported_wind(), now)[1],
+            phase=command.phase,
+            time_to_join_s=command.time_to_join_s,
+            turn=self.orbit.turn,
+            command_deg=command.bank_deg,
+            crosstrack_m=self._law.crosstrack_m,
+            outside_m=position.outside_m,
+            rate_hz=m.rate_hz(now),
+            age_s=now - m.arrived,
+            estimates=self._law.estimates,
+        )
+        self.record(self._report)
+
+    def _check_wind(self, now: float) -> None:
+        """Note whether the circle can be held in the wind that the law estimates, or that the vehicle reports."""
+        if now < self._next_wind:
+            return
+        self._next_wind = now + WIND_S
+        e, reported = self._law.estimates, self._contact.reported_wind()
+        winds = [(e.wind_east_m_s, e.wind_north_m_s), *([reported.velocity_m_s] if reported else [])]
+        wider, aircraft = replace(self.orbit, radius_m=WIND_SLACK * self.orbit.radius_m), self._prepared.aircraft
+        self._monitor.wind_problem = ""
+        try:
+            for wind in winds:
+                check_held(wider, aircraft, RelativeWind(*relative_velocity(wind, (0.0, 0.0), aircraft.airspeed_m_s)))
+        except LoiterError as error:
+            self._monitor.wind_problem = str(error)
+
+    def _measure(self) -> State:
+        """The last measured state; the one before where the last messages give none."""
+        self._state = self._contact.state() or self._state
+        return self._state
+
+    def _check(self, now: float) -> None:
+        if stop := self._monitor.check(now):
+            raise Stopped(stop)
+
+    def _take_report(self, now: float) -> GuideReport:
+        """The present report with the notices; the next one is due a period later."""
+        self._next_report = max(self._next_report + self._period_s, now)
+        notices, self._notices = tuple(self._notices), []
+        time_s = now - self._contact.began
+        return self._report._replace(time_s=time_s, stage=self._stage, state=self._state, notices=notices)
+
+    def _send_level(self) -> None:
+        steering = self._contact.steering
+        if steering is not None and steering.is_ready(monotonic()):
+            steering.send_level(self._contact.link, monotonic())
+
+    # The circle.
+
+    @property
+    def _texts(self) -> str:
+        return self._contact.texts.quoted
+
+    @property
+    def _hold_mode(self) -> int:
+        return HOLD if self._contact.flies_px4 else GUIDED
+
+    def _hold_command(self) -> Any:
+        """The command to hold the circle, with the radius with which the vehicle flies that of the orbit."""
+        radius_m, altitude_m = self.orbit.radius_m, self._prepared.altitude_m
+        scaling = loiter_scaling(self._contact.parameters.known)
+        if scaling is not None:
+            radius_m = scaling.sent_whole_m(radius_m, altitude_m)
+        latitude_deg, longitude_deg = self._wanted.frame.to_geodetic(self.orbit.east_m, self.orbit.north_m)
+        place = float(latitude_deg), float(longitude_deg), altitude_m
+        return hold_command(self._contact.link.vehicle, place, radius_m, self.orbit.turn)

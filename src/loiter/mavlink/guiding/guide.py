@@ -1,0 +1,120 @@
+"""Guiding a vehicle in flight onto its circle: the public generator, its arguments and its stages."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+from loiter.errors import InvalidArgument, LinkFailed, number, positive
+from loiter.geo import LocalFrame
+from loiter.mavlink.connection.link import check_connection, dialect, open_link
+from loiter.mavlink.guiding.contact import Contact
+from loiter.mavlink.guiding.flight import Flight, Stopped
+from loiter.mavlink.guiding.monitor import Stop
+from loiter.mavlink.guiding.preparation import Wanted
+from loiter.mavlink.guiding.report import GuideReport
+from loiter.mavlink.guiding.step_log import check_log, step_log
+from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
+from loiter.planning.model import Orbit, Wind
+
+INTERRUPTED = Stop("guiding was interrupted")
+
+
+def guide(
+    connection: str,
+    orbit: Orbit,
+    frame: LocalFrame,
+    *,
+    airspeed_m_s: float | None = None,
+    max_bank_deg: float | None = None,
+    wind: Wind | None = None,
+    system: int | None = None,
+    component: int = 1,
+    period_s: float = 1.0,
+    timeout_s: float = TIMEOUT_S,
+    altitude_m: float | None = None,
+    keep: bool = False,
+    dry_run: bool = False,
+    log: str | Path | None = None,
+) -> Generator[GuideReport, None, None]:
+    """Guide a vehicle in flight onto a circle by bank commands, and hand it over to its own hold of that circle.
+
+    Yields a report every `period_s` seconds; the flight goes on only while the next one is asked for. `connection`,
+    `system` and `component` are those of `upload`; `orbit` is a circle at rest in the local metres of `frame`. The
+    true airspeed, metres per second, and the largest bank, degrees, are those of the autopilot's parameters unless they
+    are given. `wind` is a first guess; without it that is the wind which the vehicle reports. `altitude_m` is the
+    altitude above mean sea level at which the circle is held, by default the present one.
+
+    The vehicle must be in flight: it is neither armed nor made to take off or land. First it is commanded to hold the
+    circle by its own guidance, the fall-back circle. Then its bank is commanded: ArduPlane by SET_ATTITUDE_TARGET in
+    GUIDED, PX4 by SET_POSITION_TARGET_LOCAL_NED in OFFBOARD; the autopilot holds altitude and airspeed. When it has
+    held the circle for some seconds, it is handed over: it confirms that it holds the circle by its own guidance, and
+    nothing more is sent. With `keep` the circle is flown until the generator is closed. With `dry_run` nothing is
+    commanded: reports show what would be. `log` is a file, .csv or .parquet, for every step.
+
+    docs/autopilots.md lists what ends the flight early, and what the vehicle does then: at once it is commanded back to
+    the fall-back circle, if the link is alive and neither the pilot nor a failsafe has changed its mode. `LinkFailed`
+    then says why. It is also raised if the vehicle is not found, is not fit to be guided, or refuses a command;
+    `InvalidArgument` and `MissingPackage` are raised immediately. A generator that is closed, or in which
+    KeyboardInterrupt is raised, commands the fall-back circle first.
+    """
+    check_connection(connection)
+    check_target(system, component, timeout_s)
+    dialect()
+    positive("period_s", period_s, "seconds")
+    for name, value in (("airspeed_m_s", airspeed_m_s), ("max_bank_deg", max_bank_deg)):
+        if value is not None:
+            positive(name, value, "units")
+    if altitude_m is not None:
+        number("altitude_m", altitude_m, "metres")
+    if orbit.moves:
+        raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
+    path = None if log is None else Path(log)
+    check_log(path)
+    wanted = Wanted(orbit, frame, airspeed_m_s, max_bank_deg, wind, altitude_m, keep, dry_run)
+    target = _Target(connection, system, component, timeout_s)
+    return _guide(target, wanted, period_s, path)
+
+
+class _Target(NamedTuple):
+    """The connection to a vehicle, as `guide` takes it."""
+
+    connection: str
+    system: int | None
+    component: int
+    timeout_s: float
+
+
+def _guide(target: _Target, wanted: Wanted, period_s: float, log: Path | None) -> Generator[GuideReport, None, None]:
+    with open_link(*target, listen_s=0.0) as link:
+        flight = Flight(Contact(link, target.connection, wanted.frame), wanted, period_s)
+        with step_log(log, lambda: flight.orbit) as flight.record, _without_garbage_collection():
+            try:
+                yield from flight.stages(target.timeout_s, only_vehicle=target.system is None)
+            except Stopped as stopped:
+                raise LinkFailed(flight.stop(stopped.stop)) from None
+            except LinkFailed as failure:
+                raise LinkFailed(flight.stop(Stop(str(failure), ours=False))) from failure
+            except KeyboardInterrupt:
+                raise KeyboardInterrupt(flight.stop(INTERRUPTED)) from None
+            except BaseException:
+                flight.stop(INTERRUPTED)
+                raise
+
+
+@contextmanager
+def _without_garbage_collection() -> Iterator[None]:
+    """Garbage is not collected meanwhile: a collection of all generations takes tens of milliseconds."""
+    enabled = gc.isenabled()
+    gc.collect()
+    gc.freeze()
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.unfreeze()
+        if enabled:
+            gc.enable()

@@ -1,0 +1,136 @@
+"""The reasons to stop guiding a vehicle: lost link, mode changes, failsafes, bad or missing measurements."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from loiter.mavlink.autopilots.modes import CRITICAL, TERMINATION, ModeWatch
+from loiter.mavlink.connection.link import Vehicle
+from loiter.mavlink.guiding.measurements import Measurements
+
+# Seconds without any message after which the link is lost, without a new state after which the data are stale, and
+# within which some message must have arrived for the link to be alive.
+SILENT_S, STALE_S, ALIVE_S = 2.0, 1.0, 0.5
+
+# The least rate of measurements, per second, with some tolerance, and the seconds for which it may be lower.
+LEAST_HZ, SLOW_S = 4.5, 2.0
+
+# Seconds for which the estimator may report that it has no position, and for which the wind may be too strong.
+BAD_ESTIMATE_S, STRONG_WIND_S = 1.0, 3.0
+
+# The bank may differ from the command by more than this, degrees, for this time, seconds.
+UNRESPONSIVE_DEG, UNRESPONSIVE_S = 25.0, 3.0
+
+# Flags of EKF_STATUS_REPORT and ESTIMATOR_STATUS: attitude, horizontal velocity and absolute position are needed; a
+# constant position means that the estimator has none.
+NEEDED_FLAGS, CONSTANT_POSITION = 1 | 2 | 16, 128
+
+
+class Stop(NamedTuple):
+    """A reason to stop, as the beginning of a sentence.
+
+    `ours` is whether the vehicle may be commanded once more, back to the fall-back circle: not if the link is lost, and
+    not if the pilot or a failsafe has taken over. `measured` is whether its state is still known.
+    """
+
+    reason: str
+    ours: bool = True
+    measured: bool = True
+
+
+class Since:
+    """How long a condition has held without interruption, seconds."""
+
+    def __init__(self) -> None:
+        self._began: float | None = None
+
+    def update(self, condition: bool, now: float) -> float:
+        """The time for which the condition has held; 0 if it does not hold."""
+        if not condition:
+            self._began = None
+            return 0.0
+        if self._began is None:
+            self._began = now
+        return now - self._began
+
+
+class Monitor:
+    """Watches a vehicle and its link; `check` gives the first reason to stop."""
+
+    def __init__(self, vehicle: Vehicle, measurements: Measurements, began: float) -> None:
+        self._vehicle, self._measurements = vehicle, measurements
+        self.modes = ModeWatch(vehicle.autopilot)
+        self.heartbeat: Any = None
+        self.last_message = began
+        self.wind_problem = ""
+        self.command_deg = self.bank_deg = 0.0
+        self._estimator_ok = True
+        self._fence_breached = self._grounded = False
+        self._bad, self._slow, self._windy, self._off = Since(), Since(), Since(), Since()
+
+    def update(self, message: Any, now: float) -> None:
+        """Process a message of the vehicle."""
+        self.last_message = now
+        kind = message.get_type()
+        if kind == "HEARTBEAT":
+            self.heartbeat = message
+            self.modes.update(message)
+        elif kind in ("EKF_STATUS_REPORT", "ESTIMATOR_STATUS"):
+            flags = message.flags
+            self._estimator_ok = flags & NEEDED_FLAGS == NEEDED_FLAGS and not flags & CONSTANT_POSITION
+        elif kind == "FENCE_STATUS":
+            self._fence_breached = bool(message.breach_status)
+        elif kind == "EXTENDED_SYS_STATE":
+            self._grounded = message.landed_state == 1
+
+    def check(self, now: float) -> Stop | None:
+        """The reason to stop, or None. Those that forbid any further command come first."""
+        return self._taken_over(now) or self._unsafe(now) or self._unmeasured(now)
+
+    def silent(self, now: float) -> str:
+        """That the link is lost, in words; empty if it is not."""
+        lost = now - self.last_message > SILENT_S
+        return f"nothing was heard from {self._vehicle.named} for {SILENT_S:g} s" if lost else ""
+
+    def _taken_over(self, now: float) -> Stop | None:
+        if silent := self.silent(now):
+            return Stop(silent, ours=False, measured=False)
+        if surprise := self.modes.surprise(now):
+            return Stop(surprise, ours=False)
+        if self.heartbeat is not None and self.heartbeat.system_status >= TERMINATION:
+            return Stop("the autopilot has terminated the flight", ours=False)
+        if self.heartbeat is not None and not self.heartbeat.base_mode & 128:
+            return Stop("the vehicle is disarmed", ours=False)
+        if self._grounded:
+            return Stop("the vehicle reports that it is on the ground", ours=False)
+        return None
+
+    def _unsafe(self, now: float) -> Stop | None:
+        if self._fence_breached:
+            return Stop("the vehicle is outside its fence")
+        if self.heartbeat is not None and self.heartbeat.system_status >= CRITICAL:
+            return Stop("the autopilot reports a failsafe")
+        if self._windy.update(bool(self.wind_problem), now) > STRONG_WIND_S:
+            return Stop(f"the circle cannot be held: {self.wind_problem}")
+        if self._off.update(abs(self.command_deg - self.bank_deg) > UNRESPONSIVE_DEG, now) > UNRESPONSIVE_S:
+            return Stop(f"the vehicle does not follow the commanded bank, {self.command_deg:.0f} degrees")
+        return None
+
+    def _unmeasured(self, now: float) -> Stop | None:
+        m = self._measurements
+        if m.restarted:
+            return Stop("the clock of the autopilot went back: it has restarted", measured=False)
+        if m.jump_m > 0.0:
+            return Stop(f"the position jumped by {m.jump_m:.0f} m", measured=False)
+        if self._bad.update(not self._estimator_ok, now) > BAD_ESTIMATE_S:
+            return Stop("the estimator of the autopilot has lost its position", measured=False)
+        # Where nothing at all arrives the pilot may have taken over: nothing is commanded until that is clear.
+        alive = now - self.last_message <= ALIVE_S
+        if alive and now - m.attitude_arrived > STALE_S:
+            return Stop(f"no attitude arrived for {STALE_S:g} s", measured=False)
+        if alive and now - m.position_arrived > STALE_S:
+            return Stop(f"no position arrived for {STALE_S:g} s", measured=False)
+        rate_hz = m.rate_hz(now)
+        if self._slow.update(rate_hz < LEAST_HZ, now) > SLOW_S:
+            return Stop(f"only {rate_hz:.1f} measurements a second arrive, and {LEAST_HZ:.0f} are needed")
+        return None

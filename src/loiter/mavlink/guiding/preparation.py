@@ -1,0 +1,139 @@
+"""Before a guided flight: everything that must be known, and the choice of aircraft, circle and altitude."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import isfinite
+from time import monotonic
+from typing import NamedTuple
+
+from loiter.errors import InvalidArgument, LinkFailed
+from loiter.geo import LocalFrame
+from loiter.guidance.protocol import State
+from loiter.mavlink.autopilots.readiness import refusal
+from loiter.mavlink.autopilots.settings import AutopilotSettings, autopilot_settings, is_complete, missing
+from loiter.mavlink.connection.link import not_found
+from loiter.mavlink.guiding.contact import Contact
+from loiter.mavlink.guiding.measurements import AirspeedSource
+from loiter.mavlink.guiding.monitor import LEAST_HZ
+from loiter.mavlink.missions.flown_radius import eas2tas_squared
+from loiter.planning.compass import wrapped
+from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
+from loiter.planning.solve import plan
+
+# Seconds to listen for a second vehicle: heartbeats come once a second.
+OTHERS_S = 1.1
+
+# Seconds for everything that is needed to arrive.
+PREPARE_S = 8.0
+
+# The share by which the measured airspeed may differ from the declared one before the plan uses the measured one.
+AIRSPEED_SHARE = 0.15
+
+
+class Wanted(NamedTuple):
+    """What is wanted: the circle and its frame, the aircraft and the wind as far as they are given, and the options."""
+
+    orbit: Orbit
+    frame: LocalFrame
+    airspeed_m_s: float | None
+    max_bank_deg: float | None
+    wind: Wind | None
+    altitude_m: float | None
+    keep: bool
+    dry_run: bool
+
+
+class Prepared(NamedTuple):
+    """What a flight begins with; the orbit has a direction, `notices` are sentences for the user."""
+
+    orbit: Orbit
+    aircraft: Aircraft
+    settings: AutopilotSettings
+    altitude_m: float
+    state: State
+    wind: Wind | None
+    notices: tuple[str, ...]
+
+
+def prepare(contact: Contact, wanted: Wanted, timeout_s: float, *, only_vehicle: bool) -> Prepared:
+    """Wait until everything that is needed has arrived, and choose aircraft, altitude and direction.
+
+    `only_vehicle` is whether a second vehicle must be listened for. Raises `LinkFailed` where something does not
+    arrive, and for a vehicle that must not be guided; `InvalidArgument` where the options do not suit it.
+    """
+    _await_everything(contact, min(timeout_s, PREPARE_S), OTHERS_S if only_vehicle else 0.0)
+    if only_vehicle and contact.link.others:
+        vehicles = {contact.link.vehicle, *contact.link.others}
+        raise LinkFailed(not_found("the connection", None, vehicles, 0.0))
+    if problem := refusal(contact.monitor.heartbeat, contact.extended):
+        raise LinkFailed(f"{contact.name} cannot be guided: {problem}")
+    settings = autopilot_settings(contact.autopilot, contact.parameters.known)
+    bank_deg = _bank_limit_deg(wanted, settings)
+    airspeed, notices = _airspeed(contact, wanted, settings)
+    contact.measurements.declared_m_s = airspeed
+    aircraft = Aircraft(airspeed, max_bank_deg=bank_deg)
+    altitude_m = contact.measurements.altitude_m if wanted.altitude_m is None else wanted.altitude_m
+    wind, state = wanted.wind or contact.reported_wind(), contact.state()
+    assert state is not None  # it was waited for
+    orbit = wanted.orbit
+    if orbit.turn == Turn.EITHER:
+        start = Pose(state.east_m, state.north_m, wrapped(state.heading_deg))
+        orbit = replace(orbit, turn=plan(start, orbit, aircraft, wind).turn)
+    return Prepared(orbit, aircraft, settings, altitude_m, state, wind, notices)
+
+
+def _await_everything(contact: Contact, timeout_s: float, listen_s: float) -> None:
+    """Request and receive until nothing is lacking, and at least for `listen_s` seconds."""
+    now = contact.began
+    while (lacking := _lacking(contact, now)) or now < contact.began + listen_s:
+        if silent := contact.monitor.silent(now):
+            raise LinkFailed(silent)
+        if lacking and now - contact.began > timeout_s:
+            raise LinkFailed(f"{contact.name} {lacking}{contact.texts.quoted}")
+        contact.request_all(now)
+        now = contact.listen()
+
+
+def _lacking(contact: Contact, now: float) -> str:
+    """What has not arrived yet, in words; empty if nothing is missing."""
+    m = contact.measurements
+    if contact.monitor.heartbeat is None:
+        return "sends no heartbeat"
+    if contact.extended is None:
+        return "does not report whether it is in the air (EXTENDED_SYS_STATE)"
+    if unknown := missing(contact.autopilot, contact.parameters.known):
+        return f"does not report its parameter {unknown[0]}"
+    if not contact.parameters.done and not is_complete(contact.autopilot, contact.parameters.known):
+        return "does not report its parameters"
+    if contact.state() is None:
+        return "sends no position and attitude, or is more than 100 km from the circle"
+    if m.rate_hz(now) < LEAST_HZ:
+        return f"sends {m.rate_hz(now):.1f} measurements a second, and {LEAST_HZ:.0f} are needed"
+    if contact.flies_px4 and not contact.telemetry.gap_s("LOCAL_POSITION_NED", now) < 1.0:
+        return "sends no local position (LOCAL_POSITION_NED)"
+    return "" if contact.streams.settled else "does not answer requests for streams"
+
+
+def _bank_limit_deg(wanted: Wanted, settings: AutopilotSettings) -> float:
+    """The limit of commanded banks: the one that is wanted, or just below that of the autopilot."""
+    limit_deg = settings.bank_limit_deg
+    if wanted.max_bank_deg is not None and wanted.max_bank_deg > limit_deg:
+        given = f"is {wanted.max_bank_deg:g}"
+        raise InvalidArgument("max_bank_deg", f"{given}: the autopilot banks no steeper than {limit_deg:g} degrees")
+    return settings.guided_bank_deg if wanted.max_bank_deg is None else wanted.max_bank_deg
+
+
+def _airspeed(contact: Contact, wanted: Wanted, settings: AutopilotSettings) -> tuple[float, tuple[str, ...]]:
+    """The true airspeed to plan with, metres per second, and notices about it."""
+    declared = wanted.airspeed_m_s
+    if declared is None:
+        declared = settings.airspeed_m_s * eas2tas_squared(contact.measurements.altitude_m) ** 0.5
+    contact.measurements.declared_m_s = declared
+    measured, source = contact.measurements.airspeed(contact.reported_wind(), monotonic())
+    if source != AirspeedSource.MEASURED:
+        return declared, (f"The vehicle reports no airspeed; the airspeed is {source}.",)
+    if wanted.airspeed_m_s is None and isfinite(measured) and abs(measured - declared) > AIRSPEED_SHARE * declared:
+        text = f"The vehicle flies at {measured:.1f} m/s, not at its cruise airspeed of {declared:.1f} m/s"
+        return measured, (f"{text}: the plan is for {measured:.1f} m/s.",)
+    return declared, ()

@@ -1,0 +1,629 @@
+"""Vehicles that misbehave: never a bank beyond the limit, one sentence, and then what docs/autopilots.md promises."""
+
+import math
+from math import radians
+
+import pytest
+
+from loiter import Orbit, Wind
+from loiter.errors import LinkFailed, WindTooStrong
+from loiter.mavlink import Stage
+from loiter.mavlink.guiding.measurements import AirspeedSource
+from mavlink.flyer import (
+    GUIDED,
+    HOLD,
+    OFFBOARD,
+    RTL,
+    FlightPort,
+    GuidedPlane,
+    OffboardPx4,
+    guided,
+    miss_m,
+)
+from mavlink.vehicle import ACCEPTED, mavlink
+
+KINDS = [GuidedPlane, OffboardPx4]
+LIMIT_DEG = 47.0 + 1e-3
+# The modes into which a pilot changes: FBWA, and PX4's position mode.
+PILOTS = {GuidedPlane: 5, OffboardPx4: 3 << 16}
+NAMES = {GuidedPlane: "FBWA", OffboardPx4: "POSCTL"}
+VEHICLES = {GuidedPlane: "system 1 (ArduPilot)", OffboardPx4: "system 1 (PX4)"}
+OWN = {GuidedPlane: GUIDED, OffboardPx4: HOLD}
+
+# Times after the start: before the first setpoint, while the law joins, and on the circle before the hand-over.
+STARTING_S, JOINING_S, HOLDING_S = 0.2, 5.0, 16.0
+
+
+def ended(outcome, reason):
+    """One sentence with the reason, and no bank beyond the limit."""
+    assert reason in outcome.end
+    assert outcome.end.count(". ") == 0
+    assert "\n" not in outcome.end
+    assert max(map(abs, outcome.vehicle.asked), default=0.0) <= LIMIT_DEG
+    return outcome
+
+
+def falls_back(outcome):
+    """The vehicle confirmed the fall-back circle, nothing was sent afterwards, and it flies that circle."""
+    vehicle = outcome.vehicle
+    assert outcome.end.endswith("flies the fall-back circle")
+    assert vehicle.mode == OWN[next(kind for kind in KINDS if isinstance(vehicle, kind))]
+    assert len(vehicle.heard_at) == outcome.sent
+    outcome.port.interrupts = []
+    fly_on(outcome, 30.0)
+    assert abs(miss_m(vehicle)) < 6.0
+
+
+def fly_on(outcome, seconds):
+    end = outcome.port.now + seconds
+    while outcome.port.now < end:
+        outcome.port.pass_time(0.005)
+
+
+def is_left_alone(outcome, since_s):
+    """Nothing was commanded from a second after an event on: until then its heartbeat had not arrived."""
+    vehicle = outcome.vehicle
+    assert "nothing more is sent" in outcome.end
+    assert [at for at in vehicle.heard_at if at > since_s + 1.2] == []
+    assert vehicle.commanded_at == [] or vehicle.commanded_at[-1] < since_s + 1.2
+
+
+def commanding(kind):
+    """The kind, with the times at which it was commanded."""
+
+    class Commanded(kind):
+        def set_up(self):
+            self.commanded_at = []
+
+        def on_command_int(self, message):
+            self.commanded_at.append(self.clock() - self.began)
+            super().on_command_int(message)
+
+    return Commanded
+
+
+def with_event(kind, at_s, event, **changes):
+    vehicle = commanding(kind)(events=[(at_s, event)])
+    for name, value in changes.items():
+        setattr(vehicle, name, value)
+    return vehicle
+
+
+# The pilot and failsafes.
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("at_s", [JOINING_S, HOLDING_S])
+def test_the_pilot_takes_over(kind, at_s):
+    mode = PILOTS[kind]
+    outcome = ended(guided(with_event(kind, at_s, lambda v: v.change_mode(mode))), "the pilot or a failsafe changed")
+    assert outcome.end == (
+        f"the pilot or a failsafe changed the mode to {NAMES[kind]}: guiding has stopped, nothing more is sent, "
+        f"and {VEHICLES[kind]} flies in {NAMES[kind]}"
+    )
+    is_left_alone(outcome, at_s)
+    assert outcome.vehicle.mode == mode
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_pilot_takes_over_while_the_fall_back_circle_is_accepted(kind):
+    class TakenOver(commanding(kind)):
+        def on_command_int(self, message):
+            super().on_command_int(message)
+            self.events.append((self.clock() - self.began + 0.15, lambda v: v.change_mode(PILOTS[kind])))
+
+    outcome = ended(guided(TakenOver()), "the pilot or a failsafe changed")
+    assert outcome.vehicle.mode == PILOTS[kind]
+    assert outcome.ended_at < 3.0
+    assert "nothing more is sent" in outcome.end
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_pilot_takes_over_in_the_hand_over(kind):
+    class TakenOver(commanding(kind)):
+        def on_command_int(self, message):
+            if self.commanded_at:
+                # Instead of an answer.
+                self.commanded_at.append(self.clock() - self.began)
+                self.change_mode(PILOTS[kind])
+            else:
+                super().on_command_int(message)
+
+    outcome = ended(guided(TakenOver()), "the pilot or a failsafe changed")
+    is_left_alone(outcome, outcome.vehicle.commanded_at[1])
+    assert outcome.vehicle.mode == PILOTS[kind]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_failsafe_changes_the_mode(kind):
+    mode = {GuidedPlane: RTL, OffboardPx4: 4 << 16 | 5 << 24}[kind]
+
+    def fail(vehicle):
+        vehicle.send(mavlink.MAVLink_statustext_message(2, b"Battery low"))
+        vehicle.change_mode(mode)
+
+    outcome = ended(guided(with_event(kind, JOINING_S, fail)), "RTL")
+    is_left_alone(outcome, JOINING_S)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_failsafe_without_a_change_of_mode(kind):
+    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "system_status", 5)))
+    falls_back(ended(outcome, "the autopilot reports a failsafe"))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_terminated_flight(kind):
+    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "system_status", 8)))
+    is_left_alone(ended(outcome, "has terminated the flight"), JOINING_S)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_vehicle_that_is_disarmed(kind):
+    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "armed", False)))
+    is_left_alone(ended(outcome, "the vehicle is disarmed"), JOINING_S)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_vehicle_that_lands(kind):
+    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "landed_state", 1)))
+    is_left_alone(ended(outcome, "it is on the ground"), JOINING_S)
+
+
+def test_a_breached_fence():
+    class Fenced(GuidedPlane):
+        breach = 0
+
+        def stream(self, number, now):
+            if number == 162:
+                self.transmit_safe(mavlink.MAVLink_fence_status_message(self.breach, 1, 3, 0))
+            else:
+                super().stream(number, now)
+
+    outcome = guided(with_event(Fenced, JOINING_S, lambda v: setattr(v, "breach", 1)))
+    falls_back(ended(outcome, "the vehicle is outside its fence"))
+
+
+# The link.
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("at_s", [STARTING_S, 0.45, JOINING_S, HOLDING_S])
+def test_the_link_is_lost(kind, at_s):
+    def lose(vehicle):
+        vehicle.silent = vehicle.muted = True
+
+    outcome = ended(guided(with_event(kind, at_s, lose)), "nothing was heard from")
+    assert outcome.ended_at < at_s + 3.0
+    if at_s == STARTING_S:
+        assert outcome.end.endswith("nothing was commanded")
+    elif kind == GuidedPlane and at_s > 1.0:
+        assert outcome.end.endswith("and ArduPlane keeps its bank for up to 3 s and then flies the fall-back circle")
+        fly_on(outcome, 30.0)
+        assert abs(miss_m(outcome.vehicle)) < 6.0
+    elif at_s > 1.0:
+        assert outcome.end.endswith("and PX4 follows COM_OBL_RC_ACT: position mode")
+        assert outcome.vehicle.mode == 3 << 16
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_nothing_is_commanded_to_a_vehicle_that_is_silent_but_hears(kind):
+    outcome = ended(guided(with_event(kind, JOINING_S, lambda v: setattr(v, "muted", True))), "nothing was heard")
+    assert len(outcome.vehicle.commanded_at) == 1
+    assert outcome.vehicle.heard_at[-1] < JOINING_S + 2.2
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_vehicle_that_no_longer_hears_us(kind):
+    def deafen(vehicle):
+        vehicle.silent = True
+
+    outcome = guided(with_event(kind, JOINING_S, deafen))
+    assert outcome.end != ""
+    assert outcome.end.count(". ") == 0
+    if kind == OffboardPx4:
+        # Its failsafe has changed the mode.
+        ended(outcome, "changed the mode to POSCTL")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_connection_is_closed(kind):
+    class Closing(FlightPort):
+        def recv_match(self, blocking, timeout):
+            if self.now > 1000.0 + JOINING_S:
+                raise ConnectionResetError("the other end closed the connection")
+            return super().recv_match(blocking, timeout)
+
+    vehicle = commanding(kind)()
+    outcome = ended(guided(vehicle, port=Closing(vehicle.take_time())), "the connection to the vehicle is lost")
+    is_left_alone(outcome, JOINING_S)
+
+
+# What is not a fitting vehicle.
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"vehicle_type": 2}, "cannot be guided: it is no fixed wing, but a quadrotor"),
+        ({"vehicle_type": 12}, "cannot be guided: it is no fixed wing, but a submarine"),
+        ({"vehicle_type": 22}, "cannot be guided: it does not fly as a fixed wing now"),
+        ({"armed": False}, "cannot be guided: it is not armed"),
+        ({"landed_state": 1}, "cannot be guided: it is on the ground"),
+        ({"landed_state": 3}, "cannot be guided: it is taking off"),
+        ({"landed_state": 4}, "cannot be guided: it is landing"),
+        ({"landed_state": 0}, "cannot be guided: it does not know whether it is in the air"),
+        ({"system_status": 5}, "cannot be guided: it is in a failsafe"),
+        ({"autopilot": 0}, "its autopilot is neither ArduPilot nor PX4"),
+        ({"muted_kinds": {245}}, r"does not report whether it is in the air (EXTENDED_SYS_STATE)"),
+        ({"muted_kinds": {33}}, "sends no position and attitude"),
+        ({"muted_kinds": {30}}, "sends no position and attitude"),
+        ({"parameters": {}}, "does not report its parameter"),
+    ],
+)
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_vehicle_that_must_not_be_guided(kind, changes, words):
+    vehicle = kind()
+    for name, value in changes.items():
+        setattr(vehicle, name, value)
+    outcome = ended(guided(vehicle), words)
+    assert isinstance(outcome.error, LinkFailed)
+    assert vehicle.commands == vehicle.asked == []
+
+
+@pytest.mark.parametrize(
+    ("kind", "mode", "name"),
+    [(GuidedPlane, 13, "TAKEOFF"), (GuidedPlane, 19, "QLOITER"), (OffboardPx4, 4 << 16 | 6 << 24, "AUTO.LAND")],
+)
+def test_a_mode_in_which_a_vehicle_is_not_taken_over(kind, mode, name):
+    vehicle = kind()
+    vehicle.mode = mode
+    ended(guided(vehicle), f"cannot be guided: it is in the mode {name}")
+    assert vehicle.commands == vehicle.asked == []
+
+
+def test_a_vtol_that_flies_as_a_fixed_wing_is_guided():
+    class Vtol(OffboardPx4):
+        vehicle_type = 22
+
+        def stream(self, number, now):
+            if number == 245:
+                self.transmit_safe(mavlink.MAVLink_extended_sys_state_message(4, 2))
+            else:
+                super().stream(number, now)
+
+    assert guided(Vtol()).end == ""
+
+
+def test_another_system():
+    outcome = guided(GuidedPlane(), system=7)
+    assert "no heartbeat of system 7 in" in outcome.end
+    assert "heard system 1 (ArduPilot)" in outcome.end
+    assert outcome.vehicle.commands == []
+
+
+def test_two_vehicles():
+    class Two(GuidedPlane):
+        def beat(self):
+            super().beat()
+            self.mav.srcSystem = 2
+            super().beat()
+            self.mav.srcSystem = 1
+
+    vehicle = Two()
+    outcome = guided(vehicle, system=None)
+    assert "there are several vehicles" in outcome.end
+    assert vehicle.commands == vehicle.asked == []
+    assert guided(Two(), system=1).end == ""
+
+
+def test_one_vehicle_needs_no_number():
+    outcome = guided(GuidedPlane(), system=None)
+    assert outcome.end == ""
+    assert 1.0 < outcome.vehicle.heard_at[0] < 2.5
+
+
+# What is refused.
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(("result", "words"), [(2, "the command has a value that it does not accept"), (1, "not now")])
+def test_a_refused_fall_back_circle(kind, result, words):
+    class Refusing(kind):
+        def on_command_int(self, message):
+            self.commands.append(message)
+            self.acknowledge_command(message, result)
+
+    outcome = ended(guided(Refusing()), f"refused to hold the circle: {words}")
+    assert "nothing more is sent" in outcome.end
+    if kind == GuidedPlane:
+        assert outcome.vehicle.asked == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_fall_back_circle_without_an_answer(kind):
+    class Mute(kind):
+        def on_command_int(self, message):
+            pass
+
+    ended(guided(Mute()), "did not answer the command to hold the circle in 4 s")
+
+
+def test_px4_refuses_offboard():
+    class Refusing(OffboardPx4):
+        def on_mode(self, message):
+            self.acknowledge_command(message, 1)
+
+    outcome = ended(guided(Refusing()), "refused to change to the offboard mode: not now")
+    falls_back(outcome)
+
+
+def test_px4_accepts_offboard_and_does_not_change():
+    class Lying(OffboardPx4):
+        def on_mode(self, message):
+            self.acknowledge_command(message, ACCEPTED)
+
+    outcome = ended(guided(Lying()), "the vehicle stays in the mode AUTO.LOITER, and does not change to OFFBOARD")
+    falls_back(outcome)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_refused_hand_over(kind):
+    class Refusing(kind):
+        def on_command_int(self, message):
+            if self.commands and self.commands[0].get_type() == "COMMAND_INT":
+                self.acknowledge_command(message, 4)
+            else:
+                super().on_command_int(message)
+
+    outcome = ended(guided(Refusing()), "did not confirm the circle on which it is handed over")
+    assert len(outcome.vehicle.heard_at) == outcome.sent
+    if kind == GuidedPlane:
+        fly_on(outcome, 30.0)
+        assert abs(miss_m(outcome.vehicle)) < 6.0
+    else:
+        assert "PX4 follows COM_OBL_RC_ACT: position mode" in outcome.end
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_refused_streams(kind):
+    """With telemetry twice a second it is refused; with ten times it is flown."""
+
+    class Refusing(kind):
+        fastest_hz, default_hz = 0.1, 2.0
+
+        def streams_of(self):
+            return [*super().streams_of(), 245, 32]
+
+    outcome = ended(guided(Refusing()), "measurements a second, and 4 are needed")
+    assert outcome.vehicle.commands == []
+
+    class Enough(Refusing):
+        default_hz = 10.0
+
+    assert guided(Enough()).end == ""
+
+
+def test_an_old_vehicle_is_asked_by_request_data_stream():
+    class Old(GuidedPlane):
+        default_hz = 10.0
+
+        def streams_of(self):
+            return [*super().streams_of(), 245]
+
+        def on_command_long(self, message):
+            self.acknowledge_command(message, 3)
+
+    outcome = guided(Old())
+    assert outcome.end == ""
+    assert {6, 10, 11} <= set(outcome.vehicle.streams)
+
+
+# What is measured.
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("at_s", [JOINING_S, HOLDING_S])
+def test_the_position_jumps(kind, at_s):
+    outcome = guided(with_event(kind, at_s, lambda v: v.shift.__setitem__(0, 200.0)))
+    ended(outcome, "the position jumped by 200 m")
+    outcome.vehicle.shift[0] = 0.0
+    falls_back(outcome)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_small_jump_is_flown_over(kind):
+    assert guided(with_event(kind, JOINING_S, lambda v: v.shift.__setitem__(0, 8.0))).end == ""
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_clock_goes_back(kind):
+    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "boot_offset_s", -1000.0)))
+    falls_back(ended(outcome, "the clock of the autopilot went back: it has restarted"))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    ("number", "words"), [(30, "no attitude arrived for 1 s"), (33, "no position arrived for 1 s")]
+)
+def test_stale_data(kind, number, words):
+    outcome = guided(with_event(kind, JOINING_S, lambda v: v.muted_kinds.add(number)))
+    falls_back(ended(outcome, words))
+    assert outcome.ended_at < JOINING_S + 3.5
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_only_heartbeats_arrive(kind):
+    outcome = guided(with_event(kind, JOINING_S, lambda v: v.muted_kinds.update(range(1, 300))))
+    falls_back(ended(outcome, "arrived for 1 s"))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_streams_that_become_slow_are_requested_again(kind):
+    def slow(vehicle):
+        vehicle.intervals.update(dict.fromkeys(vehicle.intervals, 0.45))
+
+    outcome = ended(guided(with_event(kind, JOINING_S, slow)), "")
+    assert outcome.end == ""
+    assert outcome.reports[-1].rate_hz > 30.0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_rate_that_stays_low(kind):
+    class Slowing(commanding(kind)):
+        slow = False
+
+        def streams_of(self):
+            numbers = super().streams_of()
+            if self.slow:
+                self.intervals.update(dict.fromkeys(self.intervals, 0.45))
+            return numbers
+
+    outcome = guided(with_event(Slowing, JOINING_S, lambda v: setattr(v, "slow", True)))
+    falls_back(ended(outcome, "measurements a second arrive, and 4 are needed"))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("flags", [0b1111 & ~2, 0b100101111, 128 | 0b11111])
+def test_the_estimator_loses_the_position(kind, flags):
+    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "estimator_flags", flags)))
+    falls_back(ended(outcome, "the estimator of the autopilot has lost its position"))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_missing_airspeed_is_the_declared_one(kind):
+    outcome = guided(with_event(kind, 0.0, lambda v: None, reports_airspeed=False))
+    assert ended(outcome, "").end == ""
+    assert outcome.notices[0] == "The vehicle reports no airspeed; the airspeed is declared."
+    assert {report.airspeed_source for report in outcome.reports[2:]} == {AirspeedSource.DECLARED}
+    assert abs(miss_m(outcome.vehicle)) < 5.0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_an_airspeed_that_stops_in_flight(kind):
+    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "reports_airspeed", False)))
+    assert ended(outcome, "").end == ""
+    assert outcome.reports[-1].airspeed_source == AirspeedSource.DECLARED
+    assert abs(miss_m(outcome.vehicle)) < 5.0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_an_airspeed_of_nan_or_zero(kind):
+    class Blocked(kind):
+        shown = 0.0
+
+        def stream(self, number, now):
+            if number == 74:
+                self.transmit_safe(mavlink.MAVLink_vfr_hud_message(self.shown, 18.0, 0, 50, 600.0, 0.0))
+            else:
+                super().stream(number, now)
+
+    for shown in (0.0, math.nan):
+        vehicle = Blocked()
+        vehicle.shown = shown
+        assert ended(guided(vehicle), "").end == ""
+        assert abs(miss_m(vehicle)) < 5.0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_attitudes_of_nan(kind):
+    class Broken(commanding(kind)):
+        broken = False
+
+        def stream(self, number, now):
+            if number == 30 and self.broken:
+                nan = math.nan
+                self.transmit_safe(mavlink.MAVLink_attitude_message(self.boot_ms(now), nan, nan, nan, nan, nan, nan))
+            else:
+                super().stream(number, now)
+
+    outcome = guided(with_event(Broken, JOINING_S, lambda v: setattr(v, "broken", True)))
+    falls_back(ended(outcome, "no attitude arrived for 1 s"))
+
+
+# Wind and response.
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_told_wind_above_the_airspeed(kind):
+    vehicle = kind()
+    with pytest.raises(WindTooStrong, match=r"can hold no circle"):
+        guided(vehicle, wind=Wind(25.0, 90.0))
+    assert vehicle.commands == vehicle.asked == []
+
+
+class Windy:
+    """Reports the wind, as ArduPlane or PX4."""
+
+    def stream(self, number, now):
+        east, north = self.airframe.wind
+        if number == 168:
+            speed, direction = math.hypot(east, north), math.degrees(math.atan2(-east, -north))
+            self.transmit_safe(mavlink.MAVLink_wind_message(direction, speed, 0.0))
+        elif number == 231:
+            self.transmit_safe(mavlink.MAVLink_wind_cov_message(0, north, east, 0.0, *[0.1] * 5))
+        else:
+            super().stream(number, now)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_wind_that_grows_above_the_airspeed(kind):
+    class Blown(Windy, commanding(kind)):
+        pass
+
+    outcome = guided(with_event(Blown, JOINING_S, lambda v: setattr(v.airframe, "wind", (21.0, 0.0))))
+    ended(outcome, "the circle cannot be held: in a wind of 21 m/s")
+    assert outcome.end.endswith("flies the fall-back circle")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_vehicle_that_does_not_bank_as_commanded(kind):
+    class Stuck(commanding(kind)):
+        stuck = False
+
+        def target(self, now):
+            return radians(5.0) if self.stuck and self.mode in (GUIDED, OFFBOARD) else super().target(now)
+
+    outcome = guided(with_event(Stuck, 1.0, lambda v: setattr(v, "stuck", True)), Orbit(30.0, -20.0, 60.0))
+    ended(outcome, "the vehicle does not follow the commanded bank")
+
+
+# The user.
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("at_s", [JOINING_S, HOLDING_S])
+def test_ctrl_c(kind, at_s):
+    outcome = guided(commanding(kind)(), interrupt=[at_s])
+    assert isinstance(outcome.error, KeyboardInterrupt)
+    falls_back(ended(outcome, "guiding was interrupted"))
+
+
+def test_ctrl_c_before_anything_was_commanded():
+    outcome = guided(GuidedPlane(), interrupt=[STARTING_S])
+    assert isinstance(outcome.error, KeyboardInterrupt)
+    assert outcome.end == "guiding was interrupted; nothing was commanded"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_closed_generator(kind):
+    """A caller that asks for no more reports has the vehicle commanded back, in silence."""
+    outcome = guided(commanding(kind)(), seconds=JOINING_S)
+    assert outcome.end == ""
+    assert outcome.reports[-1].stage == Stage.JOINING
+    outcome.end = "flies the fall-back circle"
+    falls_back(outcome)
+
+
+def test_a_vehicle_far_away():
+    class Far(GuidedPlane):
+        def stream(self, number, now):
+            if number == 33:
+                place = round(50.0 * 1e7), round(8.0 * 1e7), 600_000, 100_000
+                self.transmit_safe(mavlink.MAVLink_global_position_int_message(self.boot_ms(now), *place, 0, 0, 0, 0))
+            else:
+                super().stream(number, now)
+
+    far = Far()
+    ended(guided(far), "is more than 100 km from the circle")
+    assert far.commands == []
