@@ -15,7 +15,7 @@ from loiter.guidance.laws.entry_planner import (
     fastest_entry,
     turn_limits,
 )
-from loiter.guidance.laws.observer import Estimate, Observer, is_usable
+from loiter.guidance.laws.observer import Estimate, Observer, Turning, is_usable
 from loiter.guidance.laws.path_tracking import air_rate, course_rate
 from loiter.guidance.laws.route import Route, controls_of
 from loiter.guidance.laws.vehicle_identification import (
@@ -144,7 +144,7 @@ class LoiterEntry:
         self._gain, self._reserve = positive("gain", gain, "units"), not_negative("reserve", reserve, "one")
         self._smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
         delay_s = not_negative("delay_s", delay_s, "seconds")
-        declared = VehicleEstimates(roll, delay_s, 1.0, *air.velocity_m_s, aircraft.airspeed_m_s)
+        declared = VehicleEstimates(roll, delay_s, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s)
         self._vehicle: Vehicle = DeclaredVehicle(declared)
         # A wind may have to be planned with: the compiled search is loaded before the flight.
         wind_solver.load()
@@ -233,7 +233,8 @@ class LoiterEntry:
         self._vehicle.measure(state)
         self._update_limits()
         known, history = self._vehicle.estimates, self._vehicle.history
-        measured = self._observer.update(state, history.delayed_deg(known.delay_s), known.turn_ratio)
+        turning = Turning(known.turn_ratio, known.course_lead_s)
+        measured = self._observer.update(state, history.delayed_deg(known.delay_s), turning)
         return measured.at_present(history, known.delay_s)
 
     def _update_limits(self) -> None:
