@@ -47,7 +47,7 @@ TURN_LAG = 0.6
 
 # The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank plus
 # the averaging time. A faster correction of crosstrack errors would need an intercept angle of several degrees.
-GAIN, PLACE_GAIN = 6.0, 0.25
+GAIN, PLACE_GAIN = 4.0, 0.25
 
 # In calm air the gain of course corrections falls to this share: only noise would be corrected. The air is rough where
 # gusts change the course by this angle in a second, radians (root mean square).
