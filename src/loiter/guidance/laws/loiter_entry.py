@@ -7,6 +7,12 @@ from typing import NamedTuple
 
 from loiter.compiled import wind_solver
 from loiter.errors import not_negative, positive
+from loiter.guidance.identification.vehicle import (
+    DeclaredVehicle,
+    IdentifiedVehicle,
+    Vehicle,
+    VehicleEstimates,
+)
 from loiter.guidance.laws.clock import Clock
 from loiter.guidance.laws.entry_planner import (
     PlannedEntry,
@@ -18,12 +24,6 @@ from loiter.guidance.laws.entry_planner import (
 from loiter.guidance.laws.observer import Estimate, Observer, Turning, is_usable
 from loiter.guidance.laws.path_tracking import air_rate, course_rate
 from loiter.guidance.laws.route import Route, controls_of
-from loiter.guidance.laws.vehicle_identification import (
-    DeclaredVehicle,
-    IdentifiedVehicle,
-    Vehicle,
-    VehicleEstimates,
-)
 from loiter.guidance.protocol import Command, Phase, State, phase_of_control
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll

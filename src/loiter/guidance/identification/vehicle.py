@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import atan2, degrees, exp, inf, nan, remainder
 from typing import NamedTuple, Protocol
 
-from loiter.guidance.laws.bank_history import BankHistory
-from loiter.guidance.laws.roll_identification import RollIdentifier
+from loiter.guidance.identification.bank_history import BankHistory
+from loiter.guidance.identification.roll_response import RollIdentifier
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.guidance.vehicle.turning import rate_at_bank
