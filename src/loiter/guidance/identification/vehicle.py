@@ -153,17 +153,19 @@ class RatioSettings(NamedTuple):
     """How a ratio of two angles is fitted: high-pass filtered and forgotten over these times, seconds, and the prior.
 
     The declared ratio counts as if it had been measured with the standard deviation `spread`, from angles with errors
-    of `error_deg` that are correlated over the filter time.
+    of `error_deg` that are correlated over the filter time. A larger angle than `saturation_deg` counts no more than
+    that: otherwise one large turn would outweigh many small oscillations.
     """
 
     filter_s: float
     memory_s: float
     spread: float
     error_deg: float
+    saturation_deg: float
 
 
 # The ratio of slow turns, from headings, and that of quick ones, from courses.
-SLOW_TURNS, QUICK_TURNS = RatioSettings(3.0, 60.0, 0.1, 1.7), RatioSettings(0.3, 15.0, 0.5, 1.0)
+SLOW_TURNS, QUICK_TURNS = RatioSettings(3.0, 60.0, 0.1, 1.7, inf), RatioSettings(0.3, 6.0, 0.5, 0.5, 0.5)
 
 
 class TurnRatio:
@@ -193,8 +195,9 @@ class TurnRatio:
         kept, forgotten = exp(-dt / self._settings.filter_s), exp(-dt / self._settings.memory_s)
         self._measured_deg *= kept
         self._computed_deg *= kept
-        self._product = forgotten * self._product + self._measured_deg * self._computed_deg * dt
-        self._square = forgotten * self._square + self._computed_deg * self._computed_deg * dt
+        weight = dt / max(abs(self._computed_deg) / self._settings.saturation_deg, 1.0) ** 2
+        self._product = forgotten * self._product + weight * self._measured_deg * self._computed_deg
+        self._square = forgotten * self._square + weight * self._computed_deg * self._computed_deg
         ratio = (self._product + self._declared * self._prior) / (self._square + self._prior)
         low, high = TURN_RATIO_BOUNDS
         self.ratio = min(max(ratio, low), high)
