@@ -154,10 +154,12 @@ class RatioSettings(NamedTuple):
 
     The declared ratio counts as if it had been measured with the standard deviation `spread`, from angles with errors
     of `error_deg` that are correlated over the filter time. A larger angle than `saturation_deg` counts no more than
-    that: otherwise one large turn would outweigh many small oscillations.
+    that: otherwise one large turn would outweigh many small oscillations. Of the filtered angles their means over
+    `mean_s` are subtracted, which a steady turn leaves.
     """
 
     filter_s: float
+    mean_s: float
     memory_s: float
     spread: float
     error_deg: float
@@ -165,7 +167,8 @@ class RatioSettings(NamedTuple):
 
 
 # The ratio of slow turns, from headings, and that of quick ones, from courses.
-SLOW_TURNS, QUICK_TURNS = RatioSettings(3.0, 60.0, 0.1, 1.7, inf), RatioSettings(0.3, 6.0, 0.5, 0.5, 0.5)
+SLOW_TURNS = RatioSettings(3.0, inf, 60.0, 0.1, 1.7, inf)
+QUICK_TURNS = RatioSettings(0.3, 0.5, 6.0, 0.5, 0.5, 0.5)
 
 
 class TurnRatio:
@@ -185,6 +188,7 @@ class TurnRatio:
         """Do not relate later measurements to earlier ones."""
         self._measured_deg = self._computed_deg = 0.0
         self._last_deg = self._last_rate = nan
+        self._measured, self._computed = _HighPass(self._settings.mean_s), _HighPass(self._settings.mean_s)
 
     def measure(self, direction_deg: float, rate_deg_s: float, dt: float) -> None:
         """Take a direction and the turn rate of a coordinated turn, `dt` seconds after the last."""
@@ -195,9 +199,11 @@ class TurnRatio:
         kept, forgotten = exp(-dt / self._settings.filter_s), exp(-dt / self._settings.memory_s)
         self._measured_deg *= kept
         self._computed_deg *= kept
-        weight = dt / max(abs(self._computed_deg) / self._settings.saturation_deg, 1.0) ** 2
-        self._product = forgotten * self._product + weight * self._measured_deg * self._computed_deg
-        self._square = forgotten * self._square + weight * self._computed_deg * self._computed_deg
+        measured_deg = self._measured.filtered(self._measured_deg, dt)
+        computed_deg = self._computed.filtered(self._computed_deg, dt)
+        weight = dt / max(abs(computed_deg) / self._settings.saturation_deg, 1.0) ** 2
+        self._product = forgotten * self._product + weight * measured_deg * computed_deg
+        self._square = forgotten * self._square + weight * computed_deg * computed_deg
         ratio = (self._product + self._declared * self._prior) / (self._square + self._prior)
         low, high = TURN_RATIO_BOUNDS
         self.ratio = min(max(ratio, low), high)
@@ -235,7 +241,7 @@ class CourseLead:
 
 
 class _HighPass:
-    """A first-order high-pass filter; it begins at the first value."""
+    """A first-order high-pass filter over a time, seconds, infinite for no filter; it begins at the first value."""
 
     def __init__(self, time_s: float) -> None:
         self._time_s = time_s
