@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import replace
-from math import atan2, degrees, hypot, isnan
+from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
@@ -19,7 +19,7 @@ from loiter.cli.commands.mavlink import Connect, System, Timeout, connection
 from loiter.cli.options import AircraftOptions, PlacedOrbitOptions, WindOptions, output
 from loiter.errors import InvalidArgument
 from loiter.mavlink.missions.exchange import TIMEOUT_S
-from loiter.planning.compass import wrapped
+from loiter.planning.model import wind_from_velocity
 
 if TYPE_CHECKING:
     from loiter.io.missions.parameters import Preset
@@ -176,8 +176,7 @@ def _estimates(vehicle: GuideReport) -> list[str]:
     if e is None:
         return []
     parts = [f"roll {e.roll.time_s:.2f} s, delay {e.delay_s:.2f} s, turns {e.turn_ratio:.2f}"]
-    speed = hypot(e.wind_east_m_s, e.wind_north_m_s)
-    if speed >= LEAST_WIND_M_S:
-        from_deg = wrapped(degrees(atan2(-e.wind_east_m_s, -e.wind_north_m_s)))
-        parts.append(f"wind {speed:.1f} m/s from {from_deg:03.0f}")
+    wind = wind_from_velocity(e.wind_east_m_s, e.wind_north_m_s)
+    if wind.speed_m_s >= LEAST_WIND_M_S:
+        parts.append(f"wind {wind.speed_m_s:.1f} m/s from {wind.from_deg:03.0f}")
     return parts

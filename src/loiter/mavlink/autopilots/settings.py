@@ -14,7 +14,7 @@ from loiter.io.missions.items import Autopilot
 from loiter.mavlink.missions.flown_radius import BANK_LIMIT, CRUISE, OLD_CRUISE
 
 # The limit of commanded banks lies below the autopilot's own limit by this, degrees, and is never above the second.
-BANK_MARGIN_DEG, STEEPEST_DEG = 3.0, 60.0
+BANK_MARGIN_DEG, STEEPEST_DEG = 1.0, 60.0
 
 # Roll response where the parameters do not tell it: degrees per second, seconds.
 ROLL_RATE_DEG_S, ROLL_TIME_S = 90.0, 0.4
@@ -42,6 +42,7 @@ NAMES = {
         "RLL2SRV_RMAX",
         "ARSPD_USE",
         BANK_LIMIT,
+        "NAVL1_PERIOD",
     ],
     Autopilot.PX4: [
         "FW_AIRSPD_TRIM",
@@ -59,7 +60,7 @@ NEEDED = {
 }
 # Those that are waited for while others are: later versions have them all.
 WANTED = {
-    Autopilot.ARDUPILOT: [{"RLL2SRV_TCONST"}, {"RLL2SRV_RMAX"}],
+    Autopilot.ARDUPILOT: [{"RLL2SRV_TCONST"}, {"RLL2SRV_RMAX"}, {"NAVL1_PERIOD"}],
     Autopilot.PX4: [{"FW_R_TC"}, {"FW_R_RMAX"}, {"COM_OBL_RC_ACT"}],
 }
 
