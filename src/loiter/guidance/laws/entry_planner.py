@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import hypot
 from typing import NamedTuple
 
-from loiter.guidance.laws.path_tracking import flight_velocity
 from loiter.compiled import wind_solver
+from loiter.guidance.laws.path_tracking import flight_velocity
 from loiter.kernel import motion, wind_search
 from loiter.kernel.hold import tightest_radius
 from loiter.kernel.statuses import Status

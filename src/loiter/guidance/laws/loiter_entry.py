@@ -15,7 +15,7 @@ from loiter.guidance.laws.entry_planner import (
     fastest_entry,
     turn_limits,
 )
-from loiter.guidance.laws.observer import Estimate, Observer, is_usable
+from loiter.guidance.laws.observer import Estimate, Observer, Turning, is_usable
 from loiter.guidance.laws.path_tracking import air_rate, course_rate
 from loiter.guidance.laws.route import Route, controls_of
 from loiter.guidance.laws.vehicle_identification import (
@@ -48,6 +48,10 @@ TURN_LAG = 0.6
 # The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank plus
 # the averaging time. A faster correction of crosstrack errors would need an intercept angle of several degrees.
 GAIN, PLACE_GAIN = 4.0, 0.25
+
+# In calm air the gain of course corrections falls to this share: only noise would be corrected. The air is rough where
+# gusts change the course by this angle in a second, radians (root mean square).
+CALM_GAIN, ROUGH_AIR = 0.5, 0.02
 
 # On the circle crosstrack errors are corrected over an arc of 1/HOLD_GAIN radians, so that the intercept angle depends
 # only on the ratio of the error to the radius.
@@ -140,7 +144,7 @@ class LoiterEntry:
         self._gain, self._reserve = positive("gain", gain, "units"), not_negative("reserve", reserve, "one")
         self._smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
         delay_s = not_negative("delay_s", delay_s, "seconds")
-        declared = VehicleEstimates(roll, delay_s, 1.0, *air.velocity_m_s, aircraft.airspeed_m_s)
+        declared = VehicleEstimates(roll, delay_s, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s)
         self._vehicle: Vehicle = DeclaredVehicle(declared)
         # A wind may have to be planned with: the compiled search is loaded before the flight.
         wind_solver.load()
@@ -229,7 +233,8 @@ class LoiterEntry:
         self._vehicle.measure(state)
         self._update_limits()
         known, history = self._vehicle.estimates, self._vehicle.history
-        measured = self._observer.update(state, history.delayed_deg(known.delay_s), known.turn_ratio)
+        turning = Turning(known.turn_ratio, known.course_lead_s)
+        measured = self._observer.update(state, history.delayed_deg(known.delay_s), turning)
         return measured.at_present(history, known.delay_s)
 
     def _update_limits(self) -> None:
@@ -386,12 +391,12 @@ class LoiterEntry:
         if route.control and route.next_control is not None:
             return -route.control * self._limit_deg
         vx, vy = route.velocity(state)
-        bandwidth, offset = 1.0 / (self._response_s + self._gain * dt), route.offset(state)
-        turn_rate = self._limits.airspeed_m_s / self._orbit.radius_m
+        gain, offset = self._gain * max(min(self._observer.roughness / ROUGH_AIR, 1.0), CALM_GAIN), route.offset(state)
+        bandwidth, turn_rate = 1.0 / (self._response_s + gain * dt), self._limits.airspeed_m_s / self._orbit.radius_m
         place_gain = HOLD_GAIN * turn_rate if route.is_holding else PLACE_GAIN * bandwidth
-        course = course_rate(offset, self._gain * bandwidth, place_gain, hypot(vx, vy))
+        course = course_rate(offset, gain * bandwidth, place_gain, hypot(vx, vy))
         if route.is_holding:
-            course -= self._trimmed(offset.crosstrack, self._gain * bandwidth, turn_rate, dt)
+            course -= self._trimmed(offset.crosstrack, gain * bandwidth, turn_rate, dt)
         return self._bank_deg(-air_rate(course, vx, vy, state.hx, state.hy))
 
     def _trimmed(self, crosstrack_m: float, course_gain: float, turn_rate: float, dt: float) -> float:

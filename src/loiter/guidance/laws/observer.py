@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from math import exp, hypot, sqrt
+from math import cos, exp, hypot, sin, sqrt
 from typing import NamedTuple
 
 from loiter.guidance.laws.bank_history import BankHistory
@@ -26,11 +26,29 @@ LARGEST_VALUE, LEAST_AIRSPEED_M_S = 1e9, 0.1
 LATEST_S = 1e12
 
 
+class Turning(NamedTuple):
+    """How a vehicle turns: its turn rate divided by that of a coordinated turn, and how far it flies beside its nose.
+
+    In a turn the direction of flight is ahead of the heading by `lead_s` times the turn rate: the vehicle slips, or its
+    velocity is measured later than its attitude (then the lead is negative).
+    """
+
+    ratio: float
+    lead_s: float
+
+    def rate(self, bank_deg: float, airspeed_m_s: float) -> float:
+        """The turn rate at a bank, radians per second, positive to the left."""
+        return -self.ratio * rate_at_bank(bank_deg, airspeed_m_s)
+
+
+COORDINATED = Turning(1.0, 0.0)
+
+
 class Estimate(NamedTuple):
     """The estimated motion: pose, airspeed, turn rate through the air, bank, and the velocity of the air.
 
-    The turn rate is in radians per second, positive to the left; bank is positive to the right. `turn_ratio` is the
-    turn rate of the vehicle divided by that of a coordinated turn.
+    The pose has the direction of flight through the air. The turn rate is in radians per second, positive to the left;
+    bank is positive to the right. `turning` relates bank, turn rate and the heading of the nose.
     """
 
     time_s: float
@@ -40,7 +58,7 @@ class Estimate(NamedTuple):
     bank_deg: float
     air_east_m_s: float
     air_north_m_s: float
-    turn_ratio: float = 1.0
+    turning: Turning = COORDINATED
 
     def after(self, time_s: float) -> Estimate:
         """The estimate `time_s` seconds later, with constant bank in a constant wind."""
@@ -49,9 +67,10 @@ class Estimate(NamedTuple):
         return self._replace(time_s=self.time_s + time_s, pose=pose)
 
     def with_bank(self, bank_deg: float) -> Estimate:
-        """The estimate with another bank."""
-        turn_rate = -self.turn_ratio * rate_at_bank(bank_deg, self.airspeed_m_s)
-        return self._replace(turn_rate=turn_rate, bank_deg=bank_deg)
+        """The estimate with another bank, which also changes the direction of flight if the vehicle slips."""
+        turn_rate = self.turning.rate(bank_deg, self.airspeed_m_s)
+        pose = _rotated(self.pose, self.turning.lead_s * (turn_rate - self.turn_rate))
+        return self._replace(pose=pose, turn_rate=turn_rate, bank_deg=bank_deg)
 
     def at_present(self, history: BankHistory, delay_s: float) -> Estimate:
         """The estimate extrapolated over the measurement delay, with the banks modelled since then."""
@@ -113,9 +132,14 @@ class AirVelocityFilter:
         recent.append((self._time_s, east_m_s, north_m_s))
 
     @property
-    def _averaging_s(self) -> float:
+    def gust(self) -> float:
+        """The mean square change of each component of the air's velocity in a second, (m/s)^2."""
         near, far = self._near, self._far
-        gust = max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
+        return max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
+
+    @property
+    def _averaging_s(self) -> float:
+        near, gust = self._near, self.gust
         noise = max(near.square - gust * near.time_s, 0.0) / 2.0
         if noise * near.time_s >= gust * self._longest_s * self._longest_s:
             return self._longest_s
@@ -146,16 +170,21 @@ class Observer:
         self._smoothing_s, self._air = smoothing_s, AirVelocityFilter(smoothing_s)
         self._last: Estimate | None = None
 
+    @property
+    def roughness(self) -> float:
+        """The root mean square change of course that gusts cause in a second, radians."""
+        return sqrt(self._air.gust) / self._last.airspeed_m_s if self._last is not None else 0.0
+
     def reset(self) -> None:
         """Start again from the next measurement."""
         self._last = None
 
-    def update(self, state: State, bank_deg: float, turn_ratio: float = 1.0) -> Estimate:
+    def update(self, state: State, bank_deg: float, turning: Turning = COORDINATED) -> Estimate:
         """The estimate at the time of a usable measurement that is later than the last one.
 
         `bank_deg` is the bank that the roll model predicts for that time.
         """
-        measured = _estimate_from(state, turn_ratio)
+        measured = _estimate_from(state, turning)
         if self._last is None or self._smoothing_s == 0.0:
             self._last = measured
             self._air.reset(measured.air_east_m_s, measured.air_north_m_s)
@@ -164,10 +193,10 @@ class Observer:
         share = 1.0 - exp(-dt / self._smoothing_s)
         V = last.airspeed_m_s + share * (state.airspeed_m_s - last.airspeed_m_s)
         bank_deg += share * (state.bank_deg - bank_deg)
-        turn_rate = -turn_ratio * rate_at_bank(bank_deg, V)
-        pose = _blended(last._replace(airspeed_m_s=V, turn_rate=turn_rate).after(dt).pose, measured.pose, share)
+        now = last._replace(airspeed_m_s=V, turning=turning).with_bank(bank_deg).after(dt)
+        pose = _blended(now.pose, measured.pose, share)
         air = self._air.update(state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s, dt)
-        self._last = Estimate(state.time_s, pose, V, turn_rate, bank_deg, *air, turn_ratio)
+        self._last = now._replace(time_s=state.time_s, pose=pose, air_east_m_s=air[0], air_north_m_s=air[1])
         return self._last
 
 
@@ -179,10 +208,19 @@ def _blended(pose: PlanarPose, measured: PlanarPose, share: float) -> PlanarPose
     return PlanarPose(x + share * (measured.x - x), y + share * (measured.y - y), c / size, s / size)
 
 
-def _estimate_from(state: State, turn_ratio: float) -> Estimate:
+def _estimate_from(state: State, turning: Turning) -> Estimate:
     """The estimate from a single measurement."""
-    (c, s), V = heading_vector(state.heading_deg), state.airspeed_m_s
-    air = state.velocity_east_m_s - V * c, state.velocity_north_m_s - V * s
-    pose = PlanarPose(state.east_m, state.north_m, c, s)
-    turn_rate = -turn_ratio * rate_at_bank(state.bank_deg, V)
-    return Estimate(state.time_s, pose, V, turn_rate, state.bank_deg, *air, turn_ratio)
+    V, turn_rate = state.airspeed_m_s, turning.rate(state.bank_deg, state.airspeed_m_s)
+    heading = PlanarPose(state.east_m, state.north_m, *heading_vector(state.heading_deg))
+    pose = _rotated(heading, turning.lead_s * turn_rate)
+    air = state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s
+    return Estimate(state.time_s, pose, V, turn_rate, state.bank_deg, *air, turning)
+
+
+def _rotated(pose: PlanarPose, angle: float) -> PlanarPose:
+    """A pose turned to the left by an angle, radians."""
+    if angle == 0.0:
+        return pose
+    x, y, c, s = pose
+    cosine, sine = cos(angle), sin(angle)
+    return PlanarPose(x, y, c * cosine - s * sine, s * cosine + c * sine)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import exp, inf, radians, remainder
+from math import atan2, exp, inf, nan, radians, remainder
 from typing import NamedTuple, Protocol
 
 from loiter.guidance.laws.bank_history import BankHistory
@@ -19,6 +19,11 @@ TURN_FILTER_S, TURN_MEMORY_S = 3.0, 60.0
 # `HEADING_ERROR_DEG` that are correlated over a second. It stays within these bounds.
 TURN_RATIO_SPREAD, HEADING_ERROR_DEG, TURN_RATIO_BOUNDS = 0.1, 3.0, (0.6, 1.3)
 
+# The lead of the course is fitted to signals that are high-pass filtered over this time, and forgotten over the second.
+# A lead of 0 counts as if it had been measured with the third, from directions with errors of the fourth, radians, that
+# are correlated over a second. It stays within the last.
+LEAD_FILTER_S, LEAD_MEMORY_S, LEAD_SPREAD_S, DIRECTION_ERROR, LARGEST_LEAD_S = 1.5, 30.0, 0.1, 0.03, 0.4
+
 # The wind is the average of the air's velocity over this time, seconds. A wind that is told counts as if it had been
 # averaged over the first time, one that is not told as if over the second.
 WIND_MEMORY_S, TOLD_WIND_S, UNTOLD_WIND_S = 60.0, 30.0, 0.0
@@ -34,12 +39,14 @@ class VehicleEstimates(NamedTuple):
     """What a law believes of its vehicle.
 
     The roll response; the delay, seconds, between a command and the measurement that first shows it; the turn rate
-    divided by g tan(bank)/V; the steady wind towards the east and the north, and the true airspeed, metres per second.
+    divided by g tan(bank)/V; the time, seconds, by which the direction of flight is ahead of the heading in a turn; the
+    steady wind towards the east and the north, and the true airspeed, metres per second.
     """
 
     roll: Roll
     delay_s: float
     turn_ratio: float
+    course_lead_s: float
     wind_east_m_s: float
     wind_north_m_s: float
     airspeed_m_s: float
@@ -79,7 +86,7 @@ class IdentifiedVehicle:
     def __init__(self, declared: VehicleEstimates, *, wind_told: bool) -> None:
         self.estimates, self.history = declared, BankHistory()
         self._roll = RollIdentifier(declared.roll, declared.delay_s)
-        self._turning = TurnRatio(declared.turn_ratio)
+        self._turning, self._lead = TurnRatio(declared.turn_ratio), CourseLead(declared.course_lead_s)
         wind_s = TOLD_WIND_S if wind_told else UNTOLD_WIND_S
         self._east = Average(declared.wind_east_m_s, wind_s, WIND_MEMORY_S)
         self._north = Average(declared.wind_north_m_s, wind_s, WIND_MEMORY_S)
@@ -97,14 +104,19 @@ class IdentifiedVehicle:
         if not 0.0 < dt <= LARGEST_GAP_S:
             dt = 0.0
             self._turning.restart(state)
+            self._lead.restart()
         self._turning.measure(state, dt)
         self._airspeed.add(state.airspeed_m_s, dt)
+        self._lead.measure(state, self._turning.ratio, (self._east.value, self._north.value), dt)
         (c, s), V = heading_vector(state.heading_deg), state.airspeed_m_s
+        # The direction of flight is to the right of the heading by this angle.
+        off = self._lead.lead_s * self._turning.ratio * rate_at_bank(state.bank_deg, V)
         self.estimates = VehicleEstimates(
             *self._roll.estimate,
             self._turning.ratio,
-            self._east.add(state.velocity_east_m_s - V * c, dt),
-            self._north.add(state.velocity_north_m_s - V * s, dt),
+            self._lead.lead_s,
+            self._east.add(state.velocity_east_m_s - V * (c + off * s), dt),
+            self._north.add(state.velocity_north_m_s - V * (s - off * c), dt),
             self._airspeed.value,
         )
 
@@ -162,3 +174,49 @@ class TurnRatio:
         ratio = (self._product + self._declared * self._prior) / (self._square + self._prior)
         low, high = TURN_RATIO_BOUNDS
         self.ratio = min(max(ratio, low), high)
+
+
+class CourseLead:
+    """The time by which the direction of flight through the air is ahead of the heading in a turn: the slip.
+
+    The direction of flight is that of the velocity over the ground less the wind. Its angle to the heading and the turn
+    rate are high-pass filtered, so that an error of the wind hardly matters, and related by least squares.
+    """
+
+    def __init__(self, declared_s: float) -> None:
+        self.lead_s, self._declared_s = declared_s, declared_s
+        self._prior = DIRECTION_ERROR**2 / LEAD_SPREAD_S**2
+        self._product = self._square = 0.0
+        self._angle, self._rate = _HighPass(LEAD_FILTER_S), _HighPass(LEAD_FILTER_S)
+
+    def restart(self) -> None:
+        """Do not relate later measurements to earlier ones."""
+        self._angle, self._rate = _HighPass(LEAD_FILTER_S), _HighPass(LEAD_FILTER_S)
+
+    def measure(self, state: State, turn_ratio: float, wind: tuple[float, float], dt: float) -> None:
+        """Take a measurement `dt` seconds after the last, in a wind towards the east and the north."""
+        (c, s), (wind_east, wind_north) = heading_vector(state.heading_deg), wind
+        east, north = state.velocity_east_m_s - wind_east, state.velocity_north_m_s - wind_north
+        # Both positive to the right.
+        angle = self._angle.filtered(atan2(east * s - north * c, east * c + north * s), dt)
+        rate = self._rate.filtered(turn_ratio * rate_at_bank(state.bank_deg, state.airspeed_m_s), dt)
+        forgotten = exp(-dt / LEAD_MEMORY_S)
+        self._product = forgotten * self._product + angle * rate * dt
+        self._square = forgotten * self._square + rate * rate * dt
+        lead_s = (self._product + self._declared_s * self._prior) / (self._square + self._prior)
+        self.lead_s = min(max(lead_s, -LARGEST_LEAD_S), LARGEST_LEAD_S)
+
+
+class _HighPass:
+    """A first-order high-pass filter; it begins at the first value."""
+
+    def __init__(self, time_s: float) -> None:
+        self._time_s = time_s
+        self._value, self._last = 0.0, nan
+
+    def filtered(self, value: float, dt: float) -> float:
+        """The filtered value, `dt` seconds after the last."""
+        change = value - self._last if self._last == self._last else 0.0
+        self._last = value
+        self._value = exp(-dt / self._time_s) * (self._value + change)
+        return self._value

@@ -9,7 +9,7 @@ from loiter.errors import InvalidArgument, as_float, not_negative
 from loiter.guidance.vehicle.limits import clip
 
 # The commanded change of bank is this many times the change that is wanted, where the limits leave room.
-COMMAND_GAIN = 4.0
+COMMAND_GAIN = 2.5
 
 
 @dataclass(frozen=True, slots=True)
