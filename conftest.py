@@ -22,7 +22,7 @@ SLOW = {
     "cli": "errors guide mavlink",
     "compiled": "ufuncs wind_solver",
     "guidance": "campaign following jsbsim_aircraft loiter_entry",
-    "kernel": "wind_search",
+    "kernel": "cell_bounds wind_search",
     "mavlink": "guide guide_misbehaving peers upload watch",
     "mutation": "mutation",
     "planning": "wind",

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from guidance.flights import UAV
 from loiter import Pose, Wind
-from loiter.guidance.laws.bank_history import BankHistory
+from loiter.guidance.identification.bank_history import BankHistory
 from loiter.guidance.laws.observer import AirVelocityFilter, Observer, is_usable
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.simulators.gusts import Gusts

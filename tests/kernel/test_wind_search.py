@@ -11,7 +11,8 @@ from loiter.kernel.hold import hold_pose, hold_rate, hold_time, phase_of, tighte
 from loiter.kernel.motion import reduce
 from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import duration, is_tie_in_wind, optimum, rounding
-from loiter.kernel.wind_search import WindProblem, WindScene, fastest, first_path, join_slope, optima, ranked
+from loiter.kernel.wind.paths import WindScene, first_path, join_slope
+from loiter.kernel.wind_search import WindProblem, fastest, optima, ranked
 from loiter.kernel.words import Side, Word
 from strategies import blur, coordinates, one_way, radii, sides
 

@@ -45,13 +45,13 @@ def held_m(outcome, orbit=ORBIT):
 def test_a_vehicle_joins_in_time_and_holds_the_circle_by_itself(kind, start, turn):
     orbit = Orbit(30.0, -20.0, 80.0, turn)
     outcome = guided(kind(airframe(start)), orbit)
-    best = plan(start, orbit, Aircraft(18.0, max_bank_deg=49.0))
+    best = plan(start, orbit, Aircraft(18.0, max_bank_deg=49.5))
     joined_s = next(report.time_s for report in outcome.reports if report.stage == Stage.HOLDING)
     assert outcome.end == ""
     assert outcome.reports[-1].stage == Stage.HANDED_OVER
     assert joined_s < best.duration_s + 4.0
     assert held_m(outcome) < 3.0
-    assert max(map(abs, outcome.vehicle.asked)) <= 49.0 + 1e-4
+    assert max(map(abs, outcome.vehicle.asked)) <= 49.5 + 1e-4
     way = "counter-clockwise" if turn == "ccw" else "clockwise"
     assert [f"holds the circle {way} by its own guidance" in notice for notice in outcome.notices] == [True]
 
@@ -86,7 +86,7 @@ def test_px4_gets_setpoints_before_offboard_and_until_it_has_confirmed_the_hold(
 def test_the_direction_is_that_of_the_faster_entry(kind):
     start = STARTS[1]
     outcome = guided(kind(airframe(start)))
-    assert outcome.reports[-1].turn == plan(start, ORBIT, Aircraft(18.0, max_bank_deg=49.0)).turn
+    assert outcome.reports[-1].turn == plan(start, ORBIT, Aircraft(18.0, max_bank_deg=49.5)).turn
 
 
 @pytest.mark.parametrize("towards", [1, -1])
@@ -99,9 +99,10 @@ def test_the_sign_of_px4s_accelerations_is_found_whatever_its_version_says(towar
     outcome = guided(Px4(airframe(start)))
     assert outcome.end == ""
     assert held_m(outcome) < 3.0
-    best = plan(start, ORBIT, Aircraft(18.0, max_bank_deg=49.0))
+    best = plan(start, ORBIT, Aircraft(18.0, max_bank_deg=49.5))
     joined_s = next(report.time_s for report in outcome.reports if report.stage == Stage.HOLDING)
-    assert joined_s < best.duration_s + 5.0
+    # A vehicle that does not report its version is waited for.
+    assert joined_s < best.duration_s + (5.0 if version else 6.5)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -23,7 +23,7 @@ from mavlink.flyer import (
 from mavlink.vehicle import ACCEPTED, mavlink
 
 KINDS = [GuidedPlane, OffboardPx4]
-LIMIT_DEG = 49.0 + 1e-3
+LIMIT_DEG = 49.5 + 1e-3
 # The modes into which a pilot changes: FBWA, and PX4's position mode.
 PILOTS = {GuidedPlane: 5, OffboardPx4: 3 << 16}
 NAMES = {GuidedPlane: "FBWA", OffboardPx4: "POSCTL"}

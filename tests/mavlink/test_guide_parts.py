@@ -3,6 +3,7 @@
 import csv
 import math
 from math import degrees, isnan, radians, tan
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
@@ -12,7 +13,6 @@ from loiter import Aircraft, Orbit, Wind, hold
 from loiter.batch.tables.flight_logs import read_parquet, to_parquet
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
-from loiter.guidance.laws.vehicle_identification import VehicleEstimates
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.io.flight_log import TEXTS, LogRow, read_log
@@ -286,7 +286,7 @@ def test_settings_of_arduplane_in_both_generations_of_names():
     old = {"TRIM_ARSPD_CM": 2200.0, "LIM_ROLL_CD": 4500.0, "RLL2SRV_TCONST": 0.5, "RLL2SRV_RMAX": 75.0}
     settings = autopilot_settings(Autopilot.ARDUPILOT, new)
     assert autopilot_settings(Autopilot.ARDUPILOT, old) == settings
-    assert (settings.airspeed_m_s, settings.bank_limit_deg, settings.guided_bank_deg) == (22.0, 45.0, 44.0)
+    assert (settings.airspeed_m_s, settings.bank_limit_deg, settings.guided_bank_deg) == (22.0, 45.0, 44.5)
     assert settings.roll == Roll(0.25, 75.0)
     assert missing(Autopilot.ARDUPILOT, {}) == ["AIRSPEED_CRUISE", "ROLL_LIMIT_DEG", "NAVL1_LIM_BANK"]
     assert missing(Autopilot.ARDUPILOT, {**old, "NAVL1_LIM_BANK": 0.0}) == []
@@ -417,7 +417,16 @@ def test_in_gusts_the_band_doubles_after_a_full_circle():
 
 
 def estimates(ratio=1.0, wind=(0.0, 0.0), airspeed=18.0):
-    return VehicleEstimates(Roll(0.2, 80.0), 0.2, ratio, 0.0, *wind, airspeed)
+    """What the hand-over and the log take from the estimates of a law."""
+    return SimpleNamespace(
+        roll=Roll(0.2, 80.0),
+        delay_s=0.2,
+        turn_ratio=ratio,
+        course_lead_s=0.0,
+        wind_east_m_s=wind[0],
+        wind_north_m_s=wind[1],
+        airspeed_m_s=airspeed,
+    )
 
 
 @pytest.mark.parametrize("ratio", [0.73, 0.9, 1.0, 1.05])

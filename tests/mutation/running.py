@@ -49,6 +49,7 @@ WIND = (
 # The tests of a file: those of the first name here that its path begins with, in stages, fast ones first.
 STAGES = {
     "kernel/wind_search.py": WIND,
+    "kernel/wind/": WIND,
     "kernel/moving_target.py": WIND,
     "kernel/hold.py": WIND,
     "kernel/": (

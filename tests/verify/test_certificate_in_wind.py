@@ -12,6 +12,7 @@ from loiter import Aircraft, Orbit, Pose, Wind, candidates, hold, plan, plan_all
 from loiter.errors import InvalidArgument
 from loiter.kernel import wind_search
 from loiter.kernel.synthesis import Entry
+from loiter.kernel.wind.paths import first_path
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
 from loiter.verify import certify
@@ -67,7 +68,7 @@ def joined_at(phase, side):
     problem = Problem(pose, orbit, uav, wind)
     scene = problem.in_wind()
     inner = wind_search.scene_of(scene)
-    way = wind_search.first_path(phase, side, inner, inf)
+    way = first_path(phase, side, inner, inf)
     return maneuver(problem, Entry(side, *way[1:5]), 0.0)
 
 

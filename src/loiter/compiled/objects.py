@@ -56,7 +56,7 @@ def _load(code: bytes, names: Sequence[str]) -> list[int]:
 def kernel_sources() -> list[Path]:
     """The files that the machine code depends on: the formulas, and the code that compiles them."""
     compiled = Path(__file__).parent
-    return sorted([*compiled.glob("*.py"), *compiled.with_name("kernel").glob("*.py")])
+    return sorted([*compiled.glob("*.py"), *compiled.with_name("kernel").rglob("*.py")])
 
 
 def folder() -> Path:

@@ -9,22 +9,16 @@ from typing import Any
 from loiter.compiled.intrinsics import DOUBLES, INTEGER, NOTHING, called, inlined, module_of, stack_buffer
 from loiter.compiled.rebinding import rebinding
 from loiter.kernel import wind_search
-from loiter.kernel.wind_search import Cells, WindProblem
+from loiter.kernel.wind_search import WindProblem
 
 # The numbers of a `WindProblem`, and of a `WindEntry`.
 FIELDS = 8
 
-MOST_CELLS, SAMPLES = wind_search.MOST_CELLS, wind_search.SAMPLES
+SAMPLES = wind_search.SAMPLES
 
-_cell_buffer, _sample_buffer = stack_buffer(MOST_CELLS), stack_buffer(SAMPLES)
+_sample_buffer = stack_buffer(SAMPLES)
 
-
-@inlined
-def _new_cells():
-    return Cells(_cell_buffer(), _cell_buffer())
-
-
-_compiled = rebinding({"new_cells": _new_cells}, called)
+_compiled = rebinding(finish=called)
 _fastest, _scene_of = _compiled(wind_search.fastest), _compiled(wind_search.scene_of)
 _sampled_times, _is_local_minimum = _compiled(wind_search.sampled_times), _compiled(wind_search.is_local_minimum)
 _entry_near_sample = _compiled(wind_search.entry_near_sample)

@@ -57,8 +57,12 @@ NO_PATH = Path(inf, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0)
 # error, or halves it near a double root; 60 halvings are more than the digits of a double.
 NEWTON_STEPS = 60
 
-# While the straight piece of LSR or RSL turns by up to pi, each of the two arcs passes a whole turn at most once.
-WHOLE_TURNS = 2
+# The next step of Newton's method for LSR or RSL is left out where it would be less than the time times this over
+# 2 (1 - |w|).
+NO_STEP = 2.0**-58
+
+# An arc that comes this close to a whole turn, or to zero, may pass it.
+ALMOST = 1e-6
 
 
 def interception(dx: float, dy: float, wx: float, wy: float) -> float:
@@ -138,9 +142,13 @@ def first_lsr_rsl(u: int, dx: float, dy: float, ends: Ends, interval: Interval) 
     c0, s0, c, s, wx, wy, arc_tolerance = ends
     begin, end = interval
     straight, e1, e2 = tangent(u, dx - wx * begin, dy - wy * begin)
-    arcs = angle(arc_rotation(u, c0, s0, e1, e2)) + angle(arc_rotation(u, c, s, e1, e2))
-    fewest = max(ceil((begin - arcs - straight) / TWO_PI), -WHOLE_TURNS)
-    for turns in range(fewest, WHOLE_TURNS + 1):
+    first, last = angle(arc_rotation(u, c0, s0, e1, e2)), angle(arc_rotation(u, c, s, e1, e2))
+    arcs, growth = first + last, arc_growth(u, dx, dy, ends, interval)
+    # An arc that grows beyond a whole turn loses it, one that shrinks below zero gains one.
+    least, most = min(first, last) + growth, max(first, last) + growth
+    fewest = max(-passes(least, TWO_PI) - passes(most, TWO_PI), ceil((begin - arcs - straight) / TWO_PI))
+    gained = passes(-least, 0.0) + passes(-most, 0.0)
+    for turns in range(fewest, gained + 1):
         time = lsr_rsl_root(u, dx, dy, ends, arcs + TWO_PI * turns, interval)
         if time > end:
             break
@@ -152,6 +160,23 @@ def first_lsr_rsl(u: int, dx: float, dy: float, ends: Ends, interval: Interval) 
     return NO_PATH
 
 
+def arc_growth(u: int, dx: float, dy: float, ends: Ends, interval: Interval) -> float:
+    """By how much each arc of LSR (u = +1) or RSL grows in an interval, continued beyond whole turns."""
+    begin, end = interval
+    _, e1, e2 = tangent(u, dx - ends.wx * begin, dy - ends.wy * begin)
+    # In the end the straight piece points against the wind.
+    p1, p2 = -ends.wx, -ends.wy
+    if end < inf:
+        _, p1, p2 = tangent(u, dx - ends.wx * end, dy - ends.wy * end)
+    turned = abs(atan2(e1 * p2 - e2 * p1, e1 * p1 + e2 * p2))
+    return turned if u * (ends.wx * e2 - ends.wy * e1) >= 0.0 else -turned
+
+
+def passes(arc: float, limit: float) -> int:
+    """1 where an arc exceeds a limit, or almost: the ends of arcs are known up to rounding only; otherwise 0."""
+    return 1 if arc > limit - ALMOST else 0
+
+
 def lsr_rsl_root(u: int, dx: float, dy: float, ends: Ends, arcs: float, interval: Interval) -> float:
     """The time in an interval at which the length of LSR or RSL equals T; any later time where there is none.
 
@@ -159,15 +184,17 @@ def lsr_rsl_root(u: int, dx: float, dy: float, ends: Ends, arcs: float, interval
     """
     wx, wy = ends.wx, ends.wy
     begin, end = interval
-    _, e1, e2 = tangent(u, dx - wx * begin, dy - wy * begin)
-    time = begin
+    straight, e1, e2 = tangent(u, dx - wx * begin, dy - wy * begin)
+    time, p1, p2, turned = begin, e1, e2, 0.0
     for _ in range(NEWTON_STEPS):
+        step = (arcs + turned + straight - time) / (1.0 + wx * p1 + wy * p2)
+        before, time, across = time, time + step, (wx * p2 - wy * p1) * step
+        # The next step would be `across`^2 / (2 straight (1 + w . p)).
+        if time <= before or time > end or across * across <= NO_STEP * straight * time:
+            break
         straight, p1, p2 = tangent(u, dx - wx * time, dy - wy * time)
         # The direction turns one way only, by no more than pi in all.
         turned = 2.0 * u * atan2(e1 * p2 - e2 * p1, e1 * p1 + e2 * p2)
-        before, time = time, time + (arcs + turned + straight - time) / (1.0 + wx * p1 + wy * p2)
-        if time <= before or time > end:
-            break
     return time
 
 

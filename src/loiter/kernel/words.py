@@ -36,6 +36,17 @@ def opposed(u: int) -> int:
     return u if u == ABSENT else -u
 
 
+# Sets of the six words of three pieces, a bit for each: all, and those with a straight piece.
+ALL_WORDS, WITH_STRAIGHT = 63, 15
+
+
+def set_of(word: int) -> int:
+    """The set that contains only a word of three pieces: LSL, RSR, LSR, RSL, LRL and RLR are its bits, lowest first."""
+    first, middle, last = controls(word)
+    lowest = 16 if middle != 0 else 1 if first == last else 4
+    return lowest if first > 0 else 2 * lowest
+
+
 class Side(IntEnum):
     """The direction in which the circle is held: the sign of the target's ordinate in the reduced plane, (8)-(10)."""
 

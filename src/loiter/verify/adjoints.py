@@ -12,10 +12,10 @@ from collections.abc import Iterator, Sequence
 from math import atan2, cos, hypot, pi
 from typing import NamedTuple
 
-from loiter.kernel import wind_search
 from loiter.kernel.adjoint import adjoint, switching_function
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import Entry, rounding
+from loiter.kernel.wind import fits
 from loiter.kernel.words import encode
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS
@@ -35,7 +35,7 @@ from loiter.verify.trajectory import (
 )
 
 # A piece of at most this duration may be due to rounding alone: adjoints are then tried without it too.
-SHORT = wind_search.SHORT
+SHORT = fits.SHORT
 
 # Directions of p tried for a single arc, for which many p may meet the conditions.
 SCANNED_DIRECTIONS = 720

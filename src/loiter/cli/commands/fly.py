@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from loiter.guidance.trials.flight import Flight
     from loiter.guidance.trials.settings import Setting
 
-SimulatorName = Literal["kinematic", "point", "jsbsim"]
+SimulatorName = Literal["kinematic", "point", "varied", "jsbsim"]
 LawName = Literal["optimal", "l1", "vector-field", "tangent"]
 
 # The defaults of --airframe and --gust, used only if the options have an effect.
@@ -50,7 +50,7 @@ class SimulationOptions:
         SimulatorName,
         Parameter(
             group=simulation,
-            help="kinematic: the exact vehicle of the theory. point: with roll response, gusts, noise and delay. jsbsim: six degrees of freedom.",
+            help="kinematic: the exact vehicle of the theory. point: with roll response, gusts, noise and delay. varied: with --runs, another aircraft in each, drawn at random, of which the law knows only airspeed and bank limit. jsbsim: six degrees of freedom.",
         ),
     ] = "point"
     law: Annotated[LawName, Parameter(group=simulation, help="The guidance law.")] = "optimal"
@@ -102,6 +102,8 @@ class SimulationOptions:
             raise InvalidArgument("gust", "has no effect with --sim kinematic: this vehicle flies in calm air")
         if self.sim != "jsbsim" and self.airframe is not None:
             raise InvalidArgument("airframe", f"has no effect with --sim {self.sim}: only jsbsim flies airframes")
+        if self.sim == "varied" and self.runs is None:
+            raise InvalidArgument("runs", "is needed with --sim varied, which flies another aircraft in each run")
         if self.runs is None and self.workers is not None:
             raise InvalidArgument("workers", "has no effect without --runs: there is only one start")
 
@@ -112,9 +114,22 @@ class SimulationOptions:
         gust = GUST if self.gust is None else self.gust
         if self.sim == "kinematic":
             return settings.kinematic_setting()
+        if self.sim == "varied":
+            return settings.varied_setting(gust)
         if self.sim == "point":
             return settings.point_mass_setting(gust)
         return settings.jsbsim_setting(self._airframe(), gust)
+
+    def trials(self, uav: AircraftOptions, air: WindOptions) -> Sequence[Trial]:
+        """The random starts of --runs; with --sim varied each has its own aircraft and wind."""
+        from loiter.guidance.trials import campaign, varied
+
+        runs = self.runs or 1
+        if self.sim != "varied":
+            return campaign.trials(runs, self.seed, self.aircraft(uav), air.moving_air)
+        if (uav, air) != (AircraftOptions(), WindOptions()):
+            raise InvalidArgument("sim", "varied draws aircraft and wind at random: options for them have no effect")
+        return varied.varied_trials(runs, self.seed)
 
     def aircraft(self, uav: AircraftOptions) -> Aircraft:
         """The aircraft of the options, or that of the airframe, which has its own airspeed and bank limit."""
@@ -171,8 +186,7 @@ def fly(
         return
     if (start, circle) != (StartOptions(), OrbitOptions()):
         raise InvalidArgument("runs", "selects random starts and circles: --pose and --orbit have no effect")
-    starts = campaign.trials(simulated.runs, simulated.seed, simulated.aircraft(uav), air.moving_air)
-    _fly_many(starts, simulated.setting(), simulated.laws, simulated.workers, save)
+    _fly_many(simulated.trials(uav, air), simulated.setting(), simulated.laws, simulated.workers, save)
 
 
 def _replay(log: Path, others: tuple[object, ...], plot: Path | None) -> None:

@@ -7,6 +7,12 @@ from typing import NamedTuple
 
 from loiter.compiled import wind_solver
 from loiter.errors import not_negative, positive
+from loiter.guidance.identification.vehicle import (
+    DeclaredVehicle,
+    IdentifiedVehicle,
+    Vehicle,
+    VehicleEstimates,
+)
 from loiter.guidance.laws.clock import Clock
 from loiter.guidance.laws.entry_planner import (
     PlannedEntry,
@@ -18,12 +24,6 @@ from loiter.guidance.laws.entry_planner import (
 from loiter.guidance.laws.observer import Estimate, Observer, Turning, is_usable
 from loiter.guidance.laws.path_tracking import air_rate, course_rate
 from loiter.guidance.laws.route import Route, controls_of
-from loiter.guidance.laws.vehicle_identification import (
-    DeclaredVehicle,
-    IdentifiedVehicle,
-    Vehicle,
-    VehicleEstimates,
-)
 from loiter.guidance.protocol import Command, Phase, State, phase_of_control
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
@@ -47,7 +47,7 @@ TURN_LAG = 0.6
 
 # The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank plus
 # the averaging time. A faster correction of crosstrack errors would need an intercept angle of several degrees.
-GAIN, PLACE_GAIN = 4.0, 0.25
+GAIN, PLACE_GAIN = 3.0, 0.25
 
 # In calm air the gain of course corrections falls to this share: only noise would be corrected. The air is rough where
 # gusts change the course by this angle in a second, radians (root mean square).
@@ -144,7 +144,7 @@ class LoiterEntry:
         self._gain, self._reserve = positive("gain", gain, "units"), not_negative("reserve", reserve, "one")
         self._smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
         delay_s = not_negative("delay_s", delay_s, "seconds")
-        declared = VehicleEstimates(roll, delay_s, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s)
+        declared = VehicleEstimates(roll, delay_s, 1.0, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s)
         self._vehicle: Vehicle = DeclaredVehicle(declared)
         # A wind may have to be planned with: the compiled search is loaded before the flight.
         wind_solver.load()
@@ -391,13 +391,19 @@ class LoiterEntry:
         if route.control and route.next_control is not None:
             return -route.control * self._limit_deg
         vx, vy = route.velocity(state)
-        gain, offset = self._gain * max(min(self._observer.roughness / ROUGH_AIR, 1.0), CALM_GAIN), route.offset(state)
+        gain, offset = self._present_gain(), route.offset(state)
         bandwidth, turn_rate = 1.0 / (self._response_s + gain * dt), self._limits.airspeed_m_s / self._orbit.radius_m
         place_gain = HOLD_GAIN * turn_rate if route.is_holding else PLACE_GAIN * bandwidth
         course = course_rate(offset, gain * bandwidth, place_gain, hypot(vx, vy))
         if route.is_holding:
             course -= self._trimmed(offset.crosstrack, gain * bandwidth, turn_rate, dt)
         return self._bank_deg(-air_rate(course, vx, vy, state.hx, state.hy))
+
+    def _present_gain(self) -> float:
+        """The gain for the present air, lower for a vehicle that turns faster than its bank where that changes."""
+        known = self._vehicle.estimates
+        lively = max(known.quick_turn_ratio / known.turn_ratio, 1.0)
+        return self._gain * max(min(self._observer.roughness / ROUGH_AIR, 1.0), CALM_GAIN) / lively
 
     def _trimmed(self, crosstrack_m: float, course_gain: float, turn_rate: float, dt: float) -> float:
         """The correction of the rate of turn on the circle after another step, radians per second."""

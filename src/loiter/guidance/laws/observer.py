@@ -6,7 +6,7 @@ from collections import deque
 from math import cos, exp, hypot, sin, sqrt
 from typing import NamedTuple
 
-from loiter.guidance.laws.bank_history import BankHistory
+from loiter.guidance.identification.bank_history import BankHistory
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.turning import PlanarPose, constant_turn, rate_at_bank
 from loiter.planning.compass import heading_vector

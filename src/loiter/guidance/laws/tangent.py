@@ -24,6 +24,7 @@ from loiter.kernel import wind_search
 from loiter.kernel.hold import phase_of, tightest_radius
 from loiter.kernel.motion import fly
 from loiter.kernel.moving_target import Path
+from loiter.kernel.wind.paths import first_path
 from loiter.kernel.wind_search import WindProblem
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import relative_wind
@@ -132,7 +133,7 @@ class Tangent(L1):
         heading, R = heading_vector(state.heading_deg), self.orbit.radius_m / r
         scene = wind_search.scene_of(WindProblem(*place, *heading, R, side, *self._relative_wind))
         phase = phase_of(polar.out_east, polar.out_north, side, *self._relative_wind)
-        return wind_search.first_path(phase, side, scene, inf)
+        return first_path(phase, side, scene, inf)
 
     def _progress(self, piece: DubinsPiece, start: State, state: State) -> PieceProgress:
         """The progress of the aircraft along a piece, relative to the moving air."""

@@ -41,7 +41,7 @@ class Trial:
     seed: int
 
     def __post_init__(self) -> None:
-        _at_least(0, "seed", self.seed)
+        at_least(0, "seed", self.seed)
 
     @property
     def orbit(self) -> Orbit:
@@ -55,7 +55,8 @@ class Trial:
 GO_AROUND_DEG = 270.0
 
 
-def _at_least(least: int, name: str, value: int) -> None:
+def at_least(least: int, name: str, value: int) -> None:
+    """Raise `InvalidArgument` for a value below `least`."""
     if value < least:
         raise InvalidArgument(name, f"is {value}: it must be at least {least}")
 
@@ -105,8 +106,8 @@ def trials(
     that can be held in the wind; in still air that is the turn radius. The start is within `reach` radii of the centre,
     on any heading. Raises `InvalidArgument` for fewer than one run and a seed below 0, and the same as `plan`.
     """
-    _at_least(1, "runs", runs)
-    _at_least(0, "seed", seed)
+    at_least(1, "runs", runs)
+    at_least(0, "seed", seed)
     return [_trial(seed, i, aircraft, wind, radii, reach) for i in range(runs)]
 
 
@@ -205,7 +206,7 @@ def campaign(
     `InvalidArgument` for fewer than one worker.
     """
     if workers is not None:
-        _at_least(1, "workers", workers)
+        at_least(1, "workers", workers)
     fly_all = partial(_outcomes, tuple(laws.values()), simulator, band, step_s, limit_s)
     done: list[tuple[Outcome, ...]] = []
     for row in _map_in_processes(fly_all, list(enumerate(starts)), workers):

@@ -5,6 +5,7 @@ docs/guidance.md, "Unknown vehicles", has the ranges and the results.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, pi, sin, sqrt
 from typing import TYPE_CHECKING
@@ -13,13 +14,14 @@ import numpy as np
 
 from loiter.guidance.laws.l1 import L1, advised_period_s
 from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.laws.tangent import Tangent
 from loiter.guidance.laws.vector_field import VectorField, advised_gains
 from loiter.guidance.protocol import Law, Simulator
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.simulators.telemetry import Telemetry, WithTelemetry
-from loiter.guidance.trials.campaign import Trial
+from loiter.guidance.trials.campaign import Trial, at_least
 from loiter.kernel.hold import tightest_radius
 from loiter.planning.feasibility import relative_wind
 from loiter.planning.model import Aircraft, Orbit, Pose, Wind
@@ -60,7 +62,12 @@ class VariedTrial(Trial):
 
 
 def varied_trials(runs: int, seed: int) -> list[VariedTrial]:
-    """Random starts of random aircraft; trial i depends on the seed and on i alone."""
+    """Random starts of random aircraft; trial i depends on the seed and on i alone.
+
+    Raises `InvalidArgument` for fewer than one run and a seed below 0.
+    """
+    at_least(1, "runs", runs)
+    at_least(0, "seed", seed)
     return [_varied_trial(np.random.default_rng((seed, i))) for i in range(runs)]
 
 
@@ -121,7 +128,18 @@ def varied_vector_field(trial: VariedTrial) -> Law:
     return VectorField(trial.orbit, trial.declared, gains=gains)
 
 
-VARIED_LAWS = {"optimal": varied_optimal, "l1": varied_l1, "vector-field": varied_vector_field}
+def varied_tangent(trial: VariedTrial) -> Law:
+    """Dubins' path to the nearest point of the circle, with the true roll response and the fastest direction."""
+    return Tangent(trial.orbit, trial.declared, lead_s=_roll_delay_s(trial))
+
+
+# The laws by name, as `campaign.LAWS`.
+VARIED_LAWS: dict[str, Callable[..., Law]] = {
+    "optimal": varied_optimal,
+    "l1": varied_l1,
+    "vector-field": varied_vector_field,
+    "tangent": varied_tangent,
+}
 
 
 def _roll_delay_s(trial: VariedTrial) -> float:

@@ -14,7 +14,7 @@ from loiter.io.missions.items import Autopilot
 from loiter.mavlink.missions.flown_radius import BANK_LIMIT, CRUISE, OLD_CRUISE
 
 # The limit of commanded banks lies below the autopilot's own limit by this, degrees, and is never above the second.
-BANK_MARGIN_DEG, STEEPEST_DEG = 1.0, 60.0
+BANK_MARGIN_DEG, STEEPEST_DEG = 0.5, 60.0
 
 # Roll response where the parameters do not tell it: degrees per second, seconds.
 ROLL_RATE_DEG_S, ROLL_TIME_S = 90.0, 0.4

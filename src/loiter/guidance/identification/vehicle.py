@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from math import atan2, exp, inf, nan, radians, remainder
+from math import atan2, degrees, exp, inf, nan, remainder
 from typing import NamedTuple, Protocol
 
-from loiter.guidance.laws.bank_history import BankHistory
-from loiter.guidance.laws.roll_identification import RollIdentifier
+from loiter.guidance.identification.bank_history import BankHistory
+from loiter.guidance.identification.roll_response import RollIdentifier
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.guidance.vehicle.turning import rate_at_bank
 from loiter.planning.compass import heading_vector
 
-# The turn ratio is fitted to angles that are high-pass filtered over this time, seconds, and forgotten over the second.
-TURN_FILTER_S, TURN_MEMORY_S = 3.0, 60.0
-
-# A turn ratio of 1 counts as if it had been measured with this standard deviation, from angles with errors of
-# `HEADING_ERROR_DEG` that are correlated over a second. It stays within these bounds.
-TURN_RATIO_SPREAD, HEADING_ERROR_DEG, TURN_RATIO_BOUNDS = 0.1, 3.0, (0.6, 1.3)
+# The bounds of ratios of turns.
+TURN_RATIO_BOUNDS = 0.6, 3.0
 
 # The lead of the course is fitted to signals that are high-pass filtered over this time, and forgotten over the second.
 # A lead of 0 counts as if it had been measured with the third, from directions with errors of the fourth, radians, that
@@ -39,13 +35,15 @@ class VehicleEstimates(NamedTuple):
     """What a law believes of its vehicle.
 
     The roll response; the delay, seconds, between a command and the measurement that first shows it; the turn rate
-    divided by g tan(bank)/V; the time, seconds, by which the direction of flight is ahead of the heading in a turn; the
-    steady wind towards the east and the north, and the true airspeed, metres per second.
+    divided by g tan(bank)/V, in steady turns and where the bank changes within a second; the time, seconds, by which
+    the direction of flight is ahead of the heading in a turn; the steady wind towards the east and the north, and the
+    true airspeed, metres per second.
     """
 
     roll: Roll
     delay_s: float
     turn_ratio: float
+    quick_turn_ratio: float
     course_lead_s: float
     wind_east_m_s: float
     wind_north_m_s: float
@@ -86,7 +84,8 @@ class IdentifiedVehicle:
     def __init__(self, declared: VehicleEstimates, *, wind_told: bool) -> None:
         self.estimates, self.history = declared, BankHistory()
         self._roll = RollIdentifier(declared.roll, declared.delay_s)
-        self._turning, self._lead = TurnRatio(declared.turn_ratio), CourseLead(declared.course_lead_s)
+        self._turning, self._lead = TurnRatio(declared.turn_ratio, SLOW_TURNS), CourseLead(declared.course_lead_s)
+        self._quick_turning = TurnRatio(declared.turn_ratio, QUICK_TURNS)
         wind_s = TOLD_WIND_S if wind_told else UNTOLD_WIND_S
         self._east = Average(declared.wind_east_m_s, wind_s, WIND_MEMORY_S)
         self._north = Average(declared.wind_north_m_s, wind_s, WIND_MEMORY_S)
@@ -103,22 +102,31 @@ class IdentifiedVehicle:
         self._roll.measure(state.bank_deg)
         if not 0.0 < dt <= LARGEST_GAP_S:
             dt = 0.0
-            self._turning.restart(state)
+            self._turning.restart()
+            self._quick_turning.restart()
             self._lead.restart()
-        self._turning.measure(state, dt)
+        self._measure_turns(state, dt)
         self._airspeed.add(state.airspeed_m_s, dt)
-        self._lead.measure(state, self._turning.ratio, (self._east.value, self._north.value), dt)
         (c, s), V = heading_vector(state.heading_deg), state.airspeed_m_s
         # The direction of flight is to the right of the heading by this angle.
         off = self._lead.lead_s * self._turning.ratio * rate_at_bank(state.bank_deg, V)
         self.estimates = VehicleEstimates(
             *self._roll.estimate,
             self._turning.ratio,
+            self._quick_turning.ratio,
             self._lead.lead_s,
             self._east.add(state.velocity_east_m_s - V * (c + off * s), dt),
             self._north.add(state.velocity_north_m_s - V * (s - off * c), dt),
             self._airspeed.value,
         )
+
+    def _measure_turns(self, state: State, dt: float) -> None:
+        """Relate heading and course to the bank."""
+        east, north = state.velocity_east_m_s - self._east.value, state.velocity_north_m_s - self._north.value
+        rate_deg_s = degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s))
+        self._turning.measure(state.heading_deg, rate_deg_s, dt)
+        self._quick_turning.measure(degrees(atan2(east, north)), rate_deg_s, dt)
+        self._lead.measure(state, self._turning.ratio, (self._east.value, self._north.value), dt)
 
     def record(self, command_deg: float, dt: float) -> None:
         """Record a command that is given for `dt` seconds."""
@@ -141,36 +149,55 @@ class Average:
         return self.value
 
 
-class TurnRatio:
-    """The turn rate of a vehicle divided by that of a coordinated turn at its bank and airspeed, g tan(bank)/V.
+class RatioSettings(NamedTuple):
+    """How a ratio of two angles is fitted: high-pass filtered and forgotten over these times, seconds, and the prior.
 
-    It is below 1 where the vehicle slips, and off where its airspeed or bank is measured wrongly. Both angles turned,
-    measured and computed, are high-pass filtered, so that errors of the heading do not add up, and related by least
-    squares.
+    The declared ratio counts as if it had been measured with the standard deviation `spread`, from angles with errors
+    of `error_deg` that are correlated over the filter time. A larger angle than `saturation_deg` counts no more than
+    that: otherwise one large turn would outweigh many small oscillations.
     """
 
-    def __init__(self, declared: float) -> None:
-        prior = HEADING_ERROR_DEG**2 / TURN_RATIO_SPREAD**2
-        self.ratio, self._declared, self._prior = declared, declared, prior
+    filter_s: float
+    memory_s: float
+    spread: float
+    error_deg: float
+    saturation_deg: float
+
+
+# The ratio of slow turns, from headings, and that of quick ones, from courses.
+SLOW_TURNS, QUICK_TURNS = RatioSettings(3.0, 60.0, 0.1, 1.7, inf), RatioSettings(0.3, 6.0, 0.5, 0.5, 0.5)
+
+
+class TurnRatio:
+    """The angle that a vehicle turns, divided by that of coordinated turns at its bank and airspeed: g tan(bank)/V.
+
+    The ratio of slow turns is below 1 where the vehicle slips, and off where its airspeed or bank is measured wrongly.
+    Both angles are high-pass filtered, so that errors of the measured one do not add up, and related by least squares.
+    """
+
+    def __init__(self, declared: float, settings: RatioSettings) -> None:
+        self._prior = settings.error_deg**2 * settings.filter_s / settings.spread**2
+        self.ratio, self._declared, self._settings = declared, declared, settings
         self._product = self._square = 0.0
-        self._measured_deg = self._computed_deg = 0.0
-        self._last: State | None = None
+        self.restart()
 
-    def restart(self, state: State) -> None:
-        """Relate later measurements to this one only."""
+    def restart(self) -> None:
+        """Do not relate later measurements to earlier ones."""
         self._measured_deg = self._computed_deg = 0.0
-        self._last = state
+        self._last_deg = self._last_rate = nan
 
-    def measure(self, state: State, dt: float) -> None:
-        """Take a measurement `dt` seconds after the last."""
-        last, self._last = self._last or state, state
-        share, forgotten = exp(-dt / TURN_FILTER_S), exp(-dt / TURN_MEMORY_S)
-        turned_deg = remainder(state.heading_deg - last.heading_deg, 360.0)
-        rates = rate_at_bank(last.bank_deg, last.airspeed_m_s) + rate_at_bank(state.bank_deg, state.airspeed_m_s)
-        self._measured_deg = share * (self._measured_deg + turned_deg)
-        self._computed_deg = share * (self._computed_deg + 0.5 * dt * rates / radians(1.0))
-        self._product = forgotten * self._product + self._measured_deg * self._computed_deg * dt
-        self._square = forgotten * self._square + self._computed_deg * self._computed_deg * dt
+    def measure(self, direction_deg: float, rate_deg_s: float, dt: float) -> None:
+        """Take a direction and the turn rate of a coordinated turn, `dt` seconds after the last."""
+        if self._last_deg == self._last_deg:
+            self._measured_deg += remainder(direction_deg - self._last_deg, 360.0)
+            self._computed_deg += 0.5 * dt * (self._last_rate + rate_deg_s)
+        self._last_deg, self._last_rate = direction_deg, rate_deg_s
+        kept, forgotten = exp(-dt / self._settings.filter_s), exp(-dt / self._settings.memory_s)
+        self._measured_deg *= kept
+        self._computed_deg *= kept
+        weight = dt / max(abs(self._computed_deg) / self._settings.saturation_deg, 1.0) ** 2
+        self._product = forgotten * self._product + weight * self._measured_deg * self._computed_deg
+        self._square = forgotten * self._square + weight * self._computed_deg * self._computed_deg
         ratio = (self._product + self._declared * self._prior) / (self._square + self._prior)
         low, high = TURN_RATIO_BOUNDS
         self.ratio = min(max(ratio, low), high)

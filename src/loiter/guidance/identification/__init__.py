@@ -1,0 +1,1 @@
+"""Identification of the vehicle in flight, from the commands that a law gives and the measurements it gets."""

@@ -1,0 +1,138 @@
+"""Local minima of the time over the point of joining, by secant steps with bisection, and where two arcs are left."""
+
+from math import inf, pi
+
+from loiter.kernel.angles import length
+from loiter.kernel.moving_target import Path
+from loiter.kernel.wind.fits import end_miss, fit_two_arcs, two_arc_entry
+from loiter.kernel.wind.paths import JoinPoint, WindCandidate, WindScene, first_path, join_point, join_slope
+from loiter.kernel.words import ALL_WORDS, set_of
+
+# Refinements after which the path is of the word that is the first; the second is rarely needed.
+REFINEMENTS = 4
+
+# Steps, each twice as long as the last, that together go round the circle from a leaf of `wind_search`.
+BRACKETING_STEPS = 7
+
+# At worst every other step of `enclosed_minimum` bisects, so 106 steps exhaust the digits of a double; 14 are in
+# reserve.
+REFINING_STEPS = 120
+
+# The search ends where another step is worth less than the time over this.
+WORTH = 2.0**53
+
+# A point of two arcs is a local minimum where the time is higher this far before and after it, in radians; this is
+# multiplied by the time where that is below 1.
+BESIDE = 1e-7
+
+
+def refined_minimum(found: WindCandidate, width: float, scene: WindScene) -> WindCandidate:
+    """The local minimum of the time next to a candidate, where the slope changes its sign or the time jumps.
+
+    Only the words of the two points that enclose the minimum are tried, until all are at the end.
+    """
+    for _ in range(REFINEMENTS):
+        found = enclosed_minimum(found, width, scene)
+        first = first_path(found.phase, found.side, scene, found.path.time - scene.arc_tolerance)
+        if first.time == inf:
+            break
+        found = WindCandidate(found.phase, found.side, first)
+    return found
+
+
+def enclosed_minimum(found: WindCandidate, width: float, scene: WindScene) -> WindCandidate:
+    """The local minimum of the time next to a candidate, of the words of the two points that enclose it at first.
+
+    From the best point so far, `here`, the time falls towards the point `other`. There the time is higher, or it falls
+    in the opposite direction. So there is a local minimum between them.
+    """
+    side = found.side
+    start = JoinPoint(found.phase, found.path, join_slope(found.path, found.phase, side, scene))
+    here, other = bracketed_minimum(start, width, side, scene)
+    words = set_of(here.path.word) | set_of(other.path.word)
+    last, bisect = other, False
+    for step in range(REFINING_STEPS):
+        secant = secant_phase(here, last)
+        if is_worthless(here, secant, scene):
+            break
+        corner = corner_phase(here, other, side, scene) if step % 4 == 1 else inf
+        there = corner if is_between(corner, here, other) else 0.5 * (here.phase + other.phase)
+        use_secant = there != corner and not bisect and is_between(secant, here, other)
+        if use_secant:
+            there = secant
+        if there in (here.phase, other.phase):
+            break
+        flattest, last = min(abs(here.slope), abs(last.slope)), join_point(words, there, side, scene)
+        if last.path.time > here.path.time and has_changed(here.path, last.path):
+            last = join_point(ALL_WORDS, there, side, scene)
+            words |= set_of(last.path.word)
+        # A secant that helps little is followed by a bisection.
+        bisect = use_secant and abs(last.slope) > 0.5 * flattest
+        if last.path.time > here.path.time + scene.arc_tolerance:
+            other = last
+        else:
+            if here.slope * last.slope < 0.0:
+                other = here
+            here, last = last, here
+            if there == corner and is_least_beside(here, side, scene):
+                break
+    return WindCandidate(here.phase, side, here.path)
+
+
+def is_between(phase: float, a: JoinPoint, b: JoinPoint) -> bool:
+    """Whether a phase lies between those of two points."""
+    return min(a.phase, b.phase) < phase < max(a.phase, b.phase)
+
+
+def is_worthless(here: JoinPoint, there: float, scene: WindScene) -> bool:
+    """Whether the time at a phase, where the slope should be zero, is lower by no more than rounding."""
+    slowest = 1.0 - length(scene.wx, scene.wy)
+    return abs(there - here.phase) * abs(here.slope) * scene.R * WORTH <= here.path.time * slowest
+
+
+def has_changed(a: Path, b: Path) -> bool:
+    """Whether two paths are of different words, or an arc has lost or gained a whole turn between them."""
+    return a.word != b.word or max(abs(a.t1 - b.t1), abs(a.t3 - b.t3)) > pi
+
+
+def secant_phase(a: JoinPoint, b: JoinPoint) -> float:
+    """Where the slope is zero by the secant through two points; `inf` where there is none."""
+    if a.slope == b.slope:
+        return inf
+    return a.phase + (b.phase - a.phase) * (a.slope / (a.slope - b.slope))
+
+
+def bracketed_minimum(here: JoinPoint, width: float, side: int, scene: WindScene) -> tuple[JoinPoint, JoinPoint]:
+    """Two points with a local minimum between them, the better one first, from a point next to it."""
+    other = here
+    for _ in range(BRACKETING_STEPS):
+        other = join_point(ALL_WORDS, here.phase + (width if here.slope < 0.0 else -width), side, scene)
+        if other.path.time > here.path.time:
+            break
+        here, other = other, here
+        if here.slope * other.slope <= 0.0:
+            break
+        width *= 2.0
+    return here, other
+
+
+def corner_phase(here: JoinPoint, other: JoinPoint, side: int, scene: WindScene) -> float:
+    """The phase between two points of different words where the path consists of two arcs; `inf` if none is found."""
+    if here.path.word != other.path.word:
+        for point in (here, other):
+            arcs = two_arc_entry(WindCandidate(point.phase, side, point.path), inf)
+            if arcs.word != 0:
+                arcs, phase = fit_two_arcs(arcs, point.phase, scene)
+                fits = min(arcs.t1, arcs.t2) >= 0.0 and end_miss(arcs, phase, scene) <= 3.0 * scene.arc_tolerance
+                if fits and is_between(phase, here, other):
+                    return phase
+    return inf
+
+
+def is_least_beside(corner: JoinPoint, side: int, scene: WindScene) -> bool:
+    """Whether the time is higher a little before and after a point."""
+    time = corner.path.time
+    beside = BESIDE * min(time, 1.0)
+    before = first_path(corner.phase - beside, side, scene, time)
+    after = first_path(corner.phase + beside, side, scene, time)
+    return min(before.time, after.time) == inf
