@@ -19,11 +19,11 @@ from loiter.cli.app import main
 SLOW = {
     "arrays": "entries wind",
     "batch": "cluster files memory resume wind",
-    "cli": "errors mavlink",
+    "cli": "errors guide mavlink",
     "compiled": "ufuncs wind_solver",
     "guidance": "campaign following jsbsim_aircraft loiter_entry",
     "kernel": "cell_bounds wind_search",
-    "mavlink": "peers upload watch",
+    "mavlink": "guide guide_misbehaving peers upload watch",
     "mutation": "mutation",
     "planning": "wind",
     "plot": "picture",

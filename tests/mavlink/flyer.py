@@ -7,7 +7,7 @@ through it.
 import math
 import random
 from collections import deque
-from contextlib import closing, suppress
+from contextlib import closing, contextmanager
 from math import atan, atan2, cos, degrees, hypot, pi, radians, remainder, sin, tan
 
 import pytest
@@ -249,8 +249,22 @@ class GuidedPlane(Flyer, Plane):
         "RLL2SRV_TCONST": (0.4, 9),
         "RLL2SRV_RMAX": (75.0, 9),
         "ARSPD_USE": (1.0, 9),
+        "NAVL1_PERIOD": (15.0, 9),
     }
     roll_s, roll_at = 0.0, -1e9
+
+    def own_bank(self, centre, radius_m, turn):
+        """Near its circle ArduPlane demands V^2/r and corrects distance and rate, as if it turned as it banks."""
+        a, side = self.airframe, 1.0 if turn == "cw" else -1.0
+        x, y = a.east - centre[0], a.north - centre[1]
+        (east, north), d = a.velocity, hypot(x, y) or 1.0
+        outside, outward, along = d - radius_m, (x * east + y * north) / d, side * (y * east - x * north) / d
+        if abs(outside) > 0.4 * radius_m or along < 0.0:
+            return super().own_bank(centre, radius_m, turn)
+        omega = 2.0 * pi / self.parameters["NAVL1_PERIOD"][0]
+        accel = along * along / d + omega * omega * outside + 1.5 * omega * outward
+        limit = radians(self.bank_limit_deg)
+        return side * max(-limit, min(limit, atan(accel / G)))
 
     def on_set_attitude_target(self, message):
         assert message.type_mask == 0xFE
@@ -402,36 +416,51 @@ class Guided:
     def vehicle(self):
         return self.port.vehicle
 
+    def coast(self, seconds):
+        """Let the vehicle fly on alone."""
+        end = self.port.now + seconds
+        while self.port.now < end:
+            self.port.pass_time(STEP_S)
+
     @property
     def notices(self):
         return [notice for report in self.reports for notice in report.notices]
+
+
+@contextmanager
+def simulated_time(port):
+    """Connections lead to a port while this lasts, and the library's clock is that of the port."""
+    with pytest.MonkeyPatch.context() as patch:
+        for module in (link, parameters, contact, flight, preparation):
+            patch.setattr(module, "monotonic", lambda: port.now)
+        for name, seconds in REAL.items():
+            patch.setattr(*name, seconds)
+        patch.setattr(link, "open_port", lambda connection, timeout_s: port)
+        yield port
 
 
 def guided(vehicle, orbit=ORBIT, seconds=150.0, interrupt=(), port=None, coast_s=8.0, **options):
     """Fly `guide` against a vehicle; afterwards the vehicle flies on alone for `coast_s` seconds."""
     port = port or FlightPort(vehicle.take_time())
     port.interrupts = list(interrupt)
-    outcome = Guided(port)
-    with pytest.MonkeyPatch.context() as patch:
-        for module in (link, parameters, contact, flight, preparation):
-            patch.setattr(module, "monotonic", lambda: port.now)
-        for name, seconds_ in REAL.items():
-            patch.setattr(*name, seconds_)
-        patch.setattr(link, "open_port", lambda connection, timeout_s: port)
-        options = {"system": 1, **options}
-        with closing(guide("udpout:127.0.0.1:14550", orbit, FRAME, **options)) as reports:
-            try:
-                for report in reports:
-                    outcome.reports.append(report)
-                    if report.time_s > seconds:
-                        break
-            except (LinkFailed, KeyboardInterrupt) as error:
-                outcome.error, outcome.end = error, str(error)
-    outcome.sent = len(vehicle.heard_at)
+    outcome, options = Guided(port), {"system": 1, **options}
+    with (
+        simulated_time(port),
+        closing(guide("udpout:127.0.0.1:14550", orbit, FRAME, **options)) as reports,
+    ):
+        try:
+            for report in reports:
+                outcome.reports.append(report)
+                if report.time_s > seconds:
+                    break
+        except (LinkFailed, KeyboardInterrupt) as error:
+            outcome.error, outcome.end = error, str(error)
     outcome.ended_at = port.now - 1000.0
-    with suppress(KeyboardInterrupt):
-        while port.now < 1000.0 + outcome.ended_at + coast_s:
-            port.pass_time(STEP_S)
+    port.interrupts = []
+    # What is on its way when it ends still arrives.
+    outcome.coast(0.2)
+    outcome.sent = len(vehicle.heard_at)
+    outcome.coast(coast_s - 0.2)
     return outcome
 
 

@@ -39,6 +39,7 @@ class LogRow(NamedTuple):
     roll_rate_deg_s: float
     delay_s: float
     turn_ratio: float
+    course_lead_s: float
     wind_east_m_s: float
     wind_north_m_s: float
     orbit_east_m: float

@@ -8,7 +8,7 @@ from math import atan2, degrees, hypot, inf, radians, tan
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
 from loiter.errors import InvalidArgument, as_float, not_negative, number, positive
-from loiter.planning.compass import heading_vector
+from loiter.planning.compass import heading_vector, wrapped
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -212,6 +212,11 @@ class Wind:
 
 
 CALM = Wind(0.0, 0.0)
+
+
+def wind_from_velocity(east_m_s: float, north_m_s: float) -> Wind:
+    """The wind whose air has a velocity over the ground, metres per second towards the east and the north."""
+    return Wind(hypot(east_m_s, north_m_s), wrapped(degrees(atan2(-east_m_s, -north_m_s))))
 
 
 @dataclass(frozen=True, slots=True)

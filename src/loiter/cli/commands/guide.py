@@ -6,23 +6,22 @@ import signal
 import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from dataclasses import replace
-from math import atan2, degrees, hypot, isnan
+from dataclasses import dataclass
+from math import isnan
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import Parameter
+from cyclopts import Group, Parameter
 
 import loiter
 from loiter.cli import report
 from loiter.cli.commands.mavlink import Connect, System, Timeout, connection
-from loiter.cli.options import AircraftOptions, PlacedOrbitOptions, WindOptions, output
+from loiter.cli.options import PlacedOrbitOptions, WindOptions, output, scene
 from loiter.errors import InvalidArgument
 from loiter.mavlink.missions.exchange import TIMEOUT_S
-from loiter.planning.compass import wrapped
+from loiter.planning.model import TurnName, wind_from_velocity
 
 if TYPE_CHECKING:
-    from loiter.io.missions.parameters import Preset
     from loiter.mavlink import GuideReport
 
 # Winds below this, metres per second, and offsets below this, metres, are omitted: they would print as 0.
@@ -30,6 +29,55 @@ LEAST_WIND_M_S, LEAST_OFFSET_M = 0.05, 0.05
 
 # Signals that end the program: the vehicle is commanded back to the fall-back circle first, as at Ctrl-C.
 ENDING_SIGNALS = ("SIGTERM", "SIGHUP")
+
+
+vehicle_limits = Group("Aircraft: what is absent comes from the vehicle's parameters", sort_key=2)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class GuidedOrbitOptions(PlacedOrbitOptions):
+    """The circle, which an autopilot must be able to hold: --orbit-velocity is parsed, but hidden."""
+
+    orbit_lla: Annotated[
+        tuple[float, ...],
+        Parameter(
+            group=scene,
+            consume_multiple=True,
+            show_default=False,
+            metavar="LAT LON RADIUS",
+            help="The circle: centre in WGS84 degrees, radius in metres.",
+        ),
+    ] = ()
+    turn: Annotated[
+        TurnName | None,
+        Parameter(
+            group=scene, help="Direction of flight around the circle, seen from above; the faster one if absent."
+        ),
+    ] = None
+    orbit_velocity: Annotated[tuple[float, float], Parameter(show=False)] = (0.0, 0.0)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class GuidedVehicleOptions:
+    """The vehicle, as far as its own parameters are not to be used."""
+
+    airspeed: Annotated[
+        float | None, Parameter(group=vehicle_limits, metavar="M_PER_S", help="True airspeed, metres per second.")
+    ] = None
+    bank: Annotated[
+        float | None,
+        Parameter(group=vehicle_limits, metavar="DEGREES", help="Largest bank, at most that of the autopilot."),
+    ] = None
+    altitude: Annotated[
+        float | None,
+        Parameter(
+            group=vehicle_limits,
+            metavar="METRES",
+            help="Altitude above mean sea level at which the circle is flown; the present one if absent.",
+        ),
+    ] = None
 
 
 def guide(
@@ -51,8 +99,8 @@ def guide(
             help="Command nothing, and show what would be commanded. Only heartbeats and requests for telemetry and parameters are sent.",
         ),
     ] = False,
-    circle: PlacedOrbitOptions = PlacedOrbitOptions(),
-    uav: AircraftOptions = AircraftOptions(),
+    circle: GuidedOrbitOptions = GuidedOrbitOptions(),
+    uav: GuidedVehicleOptions = GuidedVehicleOptions(),
     air: WindOptions = WindOptions(),
     log: Annotated[
         Path | None,
@@ -64,16 +112,14 @@ def guide(
     """Guide a vehicle in flight onto the circle by bank commands, then hand it over to its own hold."""
     if not circle.orbit_lla:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
-    preset = uav.preset()
-    orbit, frame = circle.circle(preset)
+    orbit, frame = circle.circle(None)
     assert frame is not None  # the circle is in degrees
-    limits = _limits(uav, preset)
     reports = loiter.mavlink.guide(
         connect,
         orbit,
         frame,
-        airspeed_m_s=limits.airspeed_m_s,
-        max_bank_deg=limits.max_bank_deg,
+        airspeed_m_s=uav.airspeed,
+        max_bank_deg=uav.bank,
         wind=None if air.wind is None else air.moving_air,
         system=system,
         period_s=every,
@@ -93,29 +139,6 @@ def guide(
                 raise
             # It came between two reports: the vehicle is commanded back, and the interrupt says so.
             reports.throw(KeyboardInterrupt)
-
-
-class _Limits(NamedTuple):
-    """True airspeed and largest bank that the options give; None where the vehicle's own count."""
-
-    airspeed_m_s: float | None
-    max_bank_deg: float | None
-
-
-def _limits(uav: AircraftOptions, preset: Preset | None) -> _Limits:
-    """Airspeed and bank from the options of the aircraft, all of which may be absent."""
-    has_speed = uav.airspeed is not None or uav.indicated(preset) is not None
-    has_circle = uav.turn_radius is not None or uav.turn_rate is not None
-    has_limit = has_circle or uav.bank is not None or (preset is not None and preset.max_bank_deg is not None)
-    if has_speed and has_limit:
-        aircraft = uav.aircraft(preset)
-        return _Limits(aircraft.airspeed_m_s, aircraft.bank_deg(aircraft.turn_radius_m))
-    if has_circle:
-        raise InvalidArgument("airspeed_m_s", "is needed with --turn-radius and --turn-rate")
-    if has_speed:
-        # The bank is not used; an aircraft needs one.
-        return _Limits(replace(uav, bank=45.0).aircraft(preset).airspeed_m_s, None)
-    return _Limits(None, uav.bank if preset is None or uav.bank is not None else preset.max_bank_deg)
 
 
 @contextmanager
@@ -176,8 +199,7 @@ def _estimates(vehicle: GuideReport) -> list[str]:
     if e is None:
         return []
     parts = [f"roll {e.roll.time_s:.2f} s, delay {e.delay_s:.2f} s, turns {e.turn_ratio:.2f}"]
-    speed = hypot(e.wind_east_m_s, e.wind_north_m_s)
-    if speed >= LEAST_WIND_M_S:
-        from_deg = wrapped(degrees(atan2(-e.wind_east_m_s, -e.wind_north_m_s)))
-        parts.append(f"wind {speed:.1f} m/s from {from_deg:03.0f}")
+    wind = wind_from_velocity(e.wind_east_m_s, e.wind_north_m_s)
+    if wind.speed_m_s >= LEAST_WIND_M_S:
+        parts.append(f"wind {wind.speed_m_s:.1f} m/s from {wind.from_deg:03.0f}")
     return parts

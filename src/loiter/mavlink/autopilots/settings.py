@@ -1,7 +1,7 @@
 """What an autopilot's parameters say about its aircraft: airspeed, bank limit, roll response, and its failsafe.
 
-The roll response of ArduPlane is that of RLL2SRV_TCONST and RLL2SRV_RMAX, the one of PX4 that of FW_R_TC, FW_R_RMAX and
-FW_PN_R_SLEW_MAX. It is only a first guess: the law identifies the response in flight.
+The roll response is guessed from RLL2SRV_TCONST and RLL2SRV_RMAX of ArduPlane, or FW_R_TC, FW_R_RMAX and
+FW_PN_R_SLEW_MAX of PX4; the law identifies it in flight.
 """
 
 from __future__ import annotations
@@ -18,6 +18,10 @@ BANK_MARGIN_DEG, STEEPEST_DEG = 0.5, 60.0
 
 # Roll response where the parameters do not tell it: degrees per second, seconds.
 ROLL_RATE_DEG_S, ROLL_TIME_S = 90.0, 0.4
+
+# The time constant of the response over that of the parameter, which scales the error of the attitude alone: about so
+# much was measured in both autopilots' simulators.
+TIME_SHARE = 0.5
 
 # The meanings of COM_OBL_RC_ACT in words.
 LOSS_ACTIONS = {
@@ -42,6 +46,7 @@ NAMES = {
         "RLL2SRV_RMAX",
         "ARSPD_USE",
         BANK_LIMIT,
+        "NAVL1_PERIOD",
     ],
     Autopilot.PX4: [
         "FW_AIRSPD_TRIM",
@@ -59,7 +64,7 @@ NEEDED = {
 }
 # Those that are waited for while others are: later versions have them all.
 WANTED = {
-    Autopilot.ARDUPILOT: [{"RLL2SRV_TCONST"}, {"RLL2SRV_RMAX"}],
+    Autopilot.ARDUPILOT: [{"RLL2SRV_TCONST"}, {"RLL2SRV_RMAX"}, {"NAVL1_PERIOD"}],
     Autopilot.PX4: [{"FW_R_TC"}, {"FW_R_RMAX"}, {"COM_OBL_RC_ACT"}],
 }
 
@@ -120,4 +125,4 @@ def _px4_settings(known: dict[str, float]) -> AutopilotSettings:
 
 def _roll(time_s: float, rate_deg_s: float) -> Roll:
     """The response with a time constant and a rate limit; a rate of 0 is no limit, and a default stands in for it."""
-    return Roll(max(time_s, 0.0), rate_deg_s if rate_deg_s > 0.0 else ROLL_RATE_DEG_S)
+    return Roll(TIME_SHARE * max(time_s, 0.0), rate_deg_s if rate_deg_s > 0.0 else ROLL_RATE_DEG_S)

@@ -18,11 +18,11 @@ from loiter.mavlink.autopilots.steering import AccelerationSteering, RollSteerin
 from loiter.mavlink.connection.command import hold_command, long_command
 from loiter.mavlink.connection.pending_command import PendingCommand
 from loiter.mavlink.guiding.contact import STEP_S, Contact
+from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.monitor import Stop
 from loiter.mavlink.guiding.preparation import Prepared, Wanted, prepare
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import SteadyHold
-from loiter.mavlink.missions.flown_radius import loiter_scaling
 from loiter.mavlink.missions.start import CUSTOM_MODE, DO_SET_MODE
 from loiter.planning.feasibility import RelativeWind, check_held, relative_velocity
 
@@ -243,7 +243,21 @@ class Flight:
             now = contact.listen()
             if (stop := self._monitor.check(now)) and not stop.ours:
                 raise Stopped(stop)
+        if measured and self._steered:
+            self._send_last()
         return True
+
+    def _send_last(self) -> None:
+        """Send ArduPlane the bank that it keeps until it flies the circle by itself.
+
+        It is that of the circle where the vehicle is on it; otherwise the wings are levelled.
+        """
+        contact, limit_deg = self._contact, self._prepared.aircraft.max_bank_deg
+        if contact.flies_px4 or contact.steering is None or limit_deg is None:
+            return
+        on_circle = self._report.phase == Phase.HOLD
+        bank_deg = last_bank_deg(self.orbit, self._state, self._law.estimates, limit_deg) if on_circle else 0.0
+        contact.steering.send(contact.link, bank_deg, self._state.bank_deg, monotonic())
 
     def _steer_on(self, *, measured: bool, levelled: bool) -> bool:
         """Keep the vehicle steered while it changes over; returns whether the wings were levelled.
@@ -351,10 +365,9 @@ class Flight:
 
     def _hold_command(self) -> Any:
         """The command to hold the circle, with the radius with which the vehicle flies that of the orbit."""
-        radius_m, altitude_m = self.orbit.radius_m, self._prepared.altitude_m
-        scaling = loiter_scaling(self._contact.parameters.known)
-        if scaling is not None:
-            radius_m = scaling.sent_whole_m(radius_m, altitude_m)
+        altitude_m = self._prepared.altitude_m
+        estimates = self._law.estimates if self._steered else None
+        radius_m = sent_radius_m(self.orbit, altitude_m, self._contact.parameters.known, estimates)
         latitude_deg, longitude_deg = self._wanted.frame.to_geodetic(self.orbit.east_m, self.orbit.north_m)
         place = float(latitude_deg), float(longitude_deg), altitude_m
         return hold_command(self._contact.link.vehicle, place, radius_m, self.orbit.turn)

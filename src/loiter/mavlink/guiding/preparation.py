@@ -24,8 +24,8 @@ from loiter.planning.solve import plan
 # Seconds to listen for a second vehicle: heartbeats come once a second.
 OTHERS_S = 1.1
 
-# Seconds for everything that is needed to arrive.
-PREPARE_S = 8.0
+# Seconds for everything that is needed to arrive, and for PX4's version, without which the flight begins too.
+PREPARE_S, VERSION_S = 8.0, 1.5
 
 # The share by which the measured airspeed may differ from the declared one before the plan uses the measured one.
 AIRSPEED_SHARE = 0.15
@@ -112,6 +112,8 @@ def _lacking(contact: Contact, now: float) -> str:
         return f"sends {m.rate_hz(now):.1f} measurements a second, and {LEAST_HZ:.0f} are needed"
     if contact.flies_px4 and not contact.telemetry.gap_s("LOCAL_POSITION_NED", now) < 1.0:
         return "sends no local position (LOCAL_POSITION_NED)"
+    if contact.flies_px4 and not contact.version and now < contact.began + VERSION_S:
+        return "does not report its version"
     return "" if contact.streams.settled else "does not answer requests for streams"
 
 

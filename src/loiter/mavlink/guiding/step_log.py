@@ -98,8 +98,8 @@ def log_row(report: GuideReport, orbit: Orbit) -> LogRow:
 
 def _estimates(e: Any) -> dict[str, float]:
     """The columns of the law's estimates."""
-    names = ["roll_time_s", "roll_rate_deg_s", "delay_s", "turn_ratio", "wind_east_m_s", "wind_north_m_s"]
+    names = ["delay_s", "turn_ratio", "course_lead_s", "wind_east_m_s", "wind_north_m_s"]
     if e is None:
-        return dict.fromkeys(names, nan)
-    values = (e.roll.time_s, e.roll.rate_deg_s, e.delay_s, e.turn_ratio, e.wind_east_m_s, e.wind_north_m_s)
-    return dict(zip(names, map(float, values), strict=True))
+        return dict.fromkeys(["roll_time_s", "roll_rate_deg_s", *names], nan)
+    roll = {"roll_time_s": float(e.roll.time_s), "roll_rate_deg_s": float(e.roll.rate_deg_s)}
+    return roll | {name: float(getattr(e, name)) for name in names}

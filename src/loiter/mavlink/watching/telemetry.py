@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections import deque
 from enum import StrEnum
-from math import atan2, cos, degrees, hypot, inf, isfinite, nan, remainder, sin
+from math import cos, degrees, hypot, inf, isfinite, nan, remainder, sin
 from typing import Any, NamedTuple
 
 from loiter.planning.compass import wrapped
-from loiter.planning.model import CALM, Wind
+from loiter.planning.model import CALM, Wind, wind_from_velocity
 
 # The value of an unknown heading in GLOBAL_POSITION_INT.
 NO_HEADING = 65535
@@ -180,8 +180,7 @@ class Telemetry:
         wind = self._recent("WIND_COV", now, WIND_S)
         if wind is not None and isfinite(wind.wind_x) and isfinite(wind.wind_y):
             # x and y are the velocity of the air towards north and east.
-            speed_m_s = hypot(wind.wind_x, wind.wind_y)
-            return Wind(speed_m_s, wrapped(degrees(atan2(-wind.wind_y, -wind.wind_x)))), WindSource.VEHICLE
+            return wind_from_velocity(wind.wind_y, wind.wind_x), WindSource.VEHICLE
         return CALM, WindSource.STILL_AIR
 
     def _recent(self, kind: str, now: float, within_s: float) -> Any | None:

@@ -1,0 +1,67 @@
+"""What a vehicle is told when it is handed over to its own hold: the radius of the circle, and the last bank.
+
+ArduPlane keeps the last bank for 3 s, and then holds a circle whose radius has a steady error if its turns are not as
+fast as g tan(bank)/V. Its guidance (AP_L1_Control::update_loiter) demands the lateral acceleration V^2/r + Kx e on a
+circle of radius r that is e wider than commanded, with Kx = (2 pi/NAVL1_PERIOD)^2. It gets the share k of it, the turn
+ratio, and V^2/r is needed: e = (1 - k)/k V^2/(r Kx). The radius that is sent is smaller by e.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import atan, degrees, hypot, pi, radians, tan
+from typing import Any
+
+from loiter.errors import LoiterError
+from loiter.guidance.protocol import State
+from loiter.mavlink.guiding.settling import circle_position
+from loiter.mavlink.missions.flown_radius import loiter_scaling
+from loiter.planning.hold import hold
+from loiter.planning.model import Aircraft, Orbit, Turn, wind_from_velocity
+
+# ArduPlane's parameter for the period of its guidance, seconds.
+PERIOD = "NAVL1_PERIOD"
+
+# The largest share of the radius by which it is corrected.
+LARGEST_SHARE = 0.3
+
+# Half of the time, seconds, for which ArduPlane keeps the last bank: it suits the middle of that time.
+HALF_KEPT_S = 1.5
+
+
+def sent_radius_m(orbit: Orbit, altitude_m: float, parameters: dict[str, float], estimates: Any | None) -> float:
+    """The radius to send, metres, with which a vehicle flies that of the orbit at an altitude above mean sea level.
+
+    `parameters` are those of the vehicle, `estimates` those of the law, or None before it has flown.
+    """
+    scaling, radius_m = loiter_scaling(parameters), orbit.radius_m
+    if scaling is None:
+        return radius_m
+    if estimates is not None and parameters.get(PERIOD, 0.0) > 0.0:
+        error_m = _steady_error_m(radius_m, estimates.airspeed_m_s, estimates.turn_ratio, parameters[PERIOD])
+        radius_m -= min(max(error_m, -LARGEST_SHARE * radius_m), LARGEST_SHARE * radius_m)
+    return scaling.sent_whole_m(radius_m, altitude_m)
+
+
+def last_bank_deg(orbit: Orbit, state: State, estimates: Any, limit_deg: float) -> float:
+    """The bank, degrees, that keeps an aircraft on its circle over the next seconds, in the wind that is estimated."""
+    azimuth_deg = circle_position(state, orbit).azimuth_deg
+    side = 1.0 if orbit.turn == Turn.CW else -1.0
+    speed = hypot(state.velocity_east_m_s, state.velocity_north_m_s)
+    ahead_deg = azimuth_deg + side * degrees(HALF_KEPT_S * speed / orbit.radius_m)
+    aircraft = Aircraft(estimates.airspeed_m_s, min_turn_radius_m=orbit.radius_m)
+    wind = wind_from_velocity(estimates.wind_east_m_s, estimates.wind_north_m_s)
+    try:
+        # Only the bank limit of the autopilot matters: an aircraft that could turn tighter has the same bank here.
+        tight = replace(aircraft, min_turn_radius_m=0.1 * orbit.radius_m)
+        coordinated_deg = hold(orbit, tight, wind).at(ahead_deg).bank_deg
+    except LoiterError:
+        coordinated_deg = aircraft.bank_deg(orbit.radius_m)
+    bank_deg = degrees(atan(tan(radians(coordinated_deg)) / estimates.turn_ratio))
+    return side * min(bank_deg, limit_deg)
+
+
+def _steady_error_m(radius_m: float, airspeed_m_s: float, turn_ratio: float, period_s: float) -> float:
+    """How much wider than commanded ArduPlane holds a circle that has a radius in fact, metres."""
+    stiffness = (2.0 * pi / period_s) ** 2
+    return (1.0 - turn_ratio) / turn_ratio * airspeed_m_s * airspeed_m_s / (radius_m * stiffness)

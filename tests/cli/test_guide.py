@@ -1,0 +1,183 @@
+"""`loiter guide`: what it prints, and how it ends; and `loiter fly --replay` of its logs."""
+
+import re
+import signal
+from types import SimpleNamespace
+
+import pytest
+
+from loiter.cli.app import main
+from loiter.cli.commands.guide import line
+from loiter.guidance.protocol import Phase, State
+from loiter.guidance.vehicle.rolling import Roll
+from loiter.mavlink import GuideReport, Stage
+from loiter.planning.model import Turn
+from mavlink.flyer import FlightPort, GuidedPlane, OffboardPx4, miss_m, simulated_time
+
+GUIDE = "guide --connect udpout:127.0.0.1:14550 --system 1 --orbit-lla 47 8 80"
+
+
+def flown(vehicle, arguments, capsys, interrupt=()):
+    """Status, output and error of `loiter guide` for a vehicle in simulated time."""
+    port = FlightPort(vehicle.take_time())
+    port.interrupts = list(interrupt)
+    with simulated_time(port):
+        status = main(arguments.split())
+    out, err = capsys.readouterr()
+    assert err.count("\n") == (status != 0), err
+    return status, out, err
+
+
+@pytest.mark.parametrize("kind", [GuidedPlane, OffboardPx4])
+def test_a_line_a_second_and_the_hand_over(kind, capsys):
+    vehicle = kind()
+    status, out, _ = flown(vehicle, GUIDE, capsys)
+    *lines, handed_over, last = out.splitlines()
+    assert status == 0
+    assert re.match(r" +1\.0 s: joining, clockwise in \d+\.\d s; ", lines[0])
+    assert any(
+        re.search(r"s: joining, clockwise in 5\.\d s; fly straight, bank -?\d, commanded -?\d deg; ", x) for x in lines
+    )
+    assert re.search(r"; \d+ Hz, \d+ ms old; roll 0\.\d\d s, delay 0\.\d\d s, turns [01]\.\d\d", lines[3])
+    assert any(re.search(r": holding, clockwise; hold, bank 2\d, commanded 2\d deg; .* the circle; ", x) for x in lines)
+    assert re.fullmatch(r"Handed over: system 1 \(\w+\) holds the circle clockwise by its own guidance\.", handed_over)
+    assert "handed over, clockwise" in last
+    assert vehicle.airframe.airspeed == 18.0
+
+
+def test_ctrl_c_commands_the_vehicle_back(capsys):
+    status, out, err = flown(GuidedPlane(), f"{GUIDE} --keep", capsys, interrupt=[10.0])
+    assert status == 130
+    assert err == (
+        "loiter: guiding was interrupted: guiding has stopped, and system 1 (ArduPilot) flies the fall-back circle\n"
+    )
+    assert out.count("\n") == 9
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
+def test_a_signal_between_two_lines_does_too(capsys, monkeypatch, number):
+    printed = []
+
+    def write(*lines):
+        printed.extend(lines)
+        if len(printed) == 4:
+            signal.raise_signal(number)
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    monkeypatch.setattr("loiter.cli.commands.guide.report.write", write)
+    try:
+        status, _, err = flown(GuidedPlane(), GUIDE, capsys)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert status == 130
+    assert "flies the fall-back circle" in err
+
+
+def test_a_pilot_who_takes_over_ends_it_with_a_sentence(capsys):
+    vehicle = GuidedPlane(events=[(5.0, lambda v: v.change_mode(5))])
+    status, _, err = flown(vehicle, GUIDE, capsys)
+    assert status == 3
+    assert err.startswith("loiter: the pilot or a failsafe changed the mode to FBWA: guiding has stopped")
+
+
+def test_a_dry_run_says_what_it_would_command(capsys):
+    status, out, err = flown(GuidedPlane(), f"{GUIDE} --dry-run", capsys, interrupt=[4.0])
+    first, second, *_ = out.splitlines()
+    assert (status, err) == (130, "loiter: guiding was interrupted\n")
+    assert first == "Dry run: nothing is commanded; only telemetry and parameters are requested."
+    assert re.match(r" +1\.0 s: dry run, \S+ in \d+\.\d s; ", second)
+
+
+@pytest.mark.parametrize(
+    ("options", "asked_deg"),
+    [
+        ("--bank 30", 30.0),
+        ("--airspeed 18 --bank 35 --altitude 600 --turn ccw --wind 1 90", 35.0),
+        ("--airspeed 18", 49.5),
+    ],
+)
+def test_the_limits_come_from_options_or_from_the_vehicle(options, asked_deg, capsys):
+    vehicle = GuidedPlane()
+    status, _, _ = flown(vehicle, f"{GUIDE} {options}", capsys)
+    assert status == 0
+    assert max(map(abs, vehicle.asked)) == pytest.approx(asked_deg, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (GUIDE.partition(" --orbit")[0], "--orbit-lla is needed: a vehicle reports its position in degrees"),
+        (GUIDE.replace(" 80", ""), "--orbit-lla needs 3 numbers"),
+        (f"{GUIDE} --orbit-velocity 1 0", "--orbit moves: an autopilot holds only circles at rest"),
+        (f"{GUIDE} --log flight.txt", "--log is 'flight.txt': the file name must end in .csv or .parquet"),
+        (f"{GUIDE} --log /nowhere/flight.csv", "--log is '/nowhere/flight.csv': it cannot be written"),
+        (f"{GUIDE} --every 0", "--every is 0"),
+        (f"{GUIDE} --bank 60", "--bank is 60: the autopilot banks no steeper than 50 degrees"),
+        (f"{GUIDE} --wind 30 0", "can hold no circle"),
+        (GUIDE.replace("80", "20"), "orbit radius 20 m is tighter than the aircraft can turn"),
+    ],
+)
+def test_what_cannot_be_flown_is_said_in_a_sentence(arguments, sentence, capsys):
+    vehicle = GuidedPlane()
+    status, _, err = flown(vehicle, arguments, capsys)
+    assert (status, vehicle.asked, vehicle.commands) == (2, [], [])
+    assert sentence in err
+
+
+def test_a_log_is_replayed_and_drawn(tmp_path, capsys):
+    logs = [tmp_path / "flight.csv", tmp_path / "flight.parquet"]
+    texts = []
+    for log in logs:
+        vehicle = GuidedPlane()
+        assert flown(vehicle, f"{GUIDE} --log {log}", capsys)[0] == 0
+        assert abs(miss_m(vehicle, type("Circle", (), {"east_m": 0.0, "north_m": 0.0, "radius_m": 80.0}))) < 5.0
+        plot = log.with_suffix(".svg")
+        assert main(["fly", "--replay", str(log), "--plot", str(plot)]) == 0
+        texts.append(capsys.readouterr().out)
+        svg = plot.read_text()
+        assert {f'id="{name}"' for name in ("circle", "joining", "on the circle", "command_deg", "bank_deg")} <= set(
+            re.findall(r'id="[^"]+"', svg)
+        )
+    assert texts[0] == texts[1]
+    first, *_, last = texts[0].splitlines()
+    assert re.fullmatch(r" +0\.\d s  joining: turn right, bank \d+ deg commanded", first)
+    assert re.fullmatch(
+        r"\d+ steps in \d+\.\d s; on the circle \d\.\d m (in|out)side in the mean, \d\.\d m at most\.", last
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ("--pose 0 0 0", "--replay shows a flight that was flown: it takes no option but --plot"),
+        ("--runs 3", "it takes no option but --plot"),
+        ("--save x.csv", "it takes no option but --plot"),
+        ("--plot x.txt", "--plot is 'x.txt': the file name must end in .png, .svg, .pdf"),
+        ("", "it has no steps"),
+    ],
+)
+def test_a_replay_takes_only_a_plot(arguments, sentence, tmp_path, capsys):
+    from loiter.io.flight_log import LogRow
+
+    log = tmp_path / "flight.csv"
+    log.write_text(",".join(LogRow._fields) + "\n")
+    assert main(["fly", "--replay", str(log), *arguments.split()]) == 2
+    assert sentence in capsys.readouterr().err
+
+
+def test_a_line_says_what_is_known():
+    state = State(1.0, 0.0, 0.0, 10.0, -0.4, 18.0, 0.0, 18.0)
+    known = SimpleNamespace(roll=Roll(0.2, 80.0), delay_s=0.15, turn_ratio=0.97, wind_east_m_s=4.0, wind_north_m_s=-3.0)
+    report = GuideReport(
+        12.04, Stage.JOINING, state, 600.0, phase=Phase.STRAIGHT, time_to_join_s=8.2, turn=Turn.CCW, command_deg=0.3,
+        crosstrack_m=-1.26, outside_m=90.0, rate_hz=39.6, age_s=0.0131, estimates=known,
+    )  # fmt: skip
+    assert line(report) == (
+        "  12.0 s: joining, counter-clockwise in 8.2 s; fly straight, bank 0, commanded 0 deg; "
+        "1.3 m right of the path; 40 Hz, 13 ms old; roll 0.20 s, delay 0.15 s, turns 0.97; wind 5.0 m/s from 307"
+    )
+    on_path = line(report._replace(crosstrack_m=0.01, estimates=None))
+    assert "; on the path; 40 Hz" in on_path
+    holding = report._replace(stage=Stage.HOLDING, phase=Phase.HOLD, outside_m=-2.0, time_to_join_s=0.0)
+    assert "holding, counter-clockwise; hold, bank 0, commanded 0 deg; 2.0 m inside the circle; " in line(holding)
+    assert line(GuideReport(1.0, Stage.FALL_BACK)) == "   1.0 s: fall-back circle"

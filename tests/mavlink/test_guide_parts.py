@@ -1,0 +1,538 @@
+"""The parts of a guided flight by themselves: signs, streams, modes, parameters, states, hand-over, logs."""
+
+import csv
+import math
+from math import degrees, isnan, radians, tan
+from types import SimpleNamespace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from loiter import Aircraft, Orbit, Wind, hold
+from loiter.batch.tables.flight_logs import read_parquet, to_parquet
+from loiter.errors import InvalidArgument
+from loiter.geo import LocalFrame
+from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.rolling import Roll
+from loiter.io.flight_log import TEXTS, LogRow, read_log
+from loiter.io.missions.items import Autopilot
+from loiter.mavlink.autopilots.acceleration_sign import CAUTIOUS_DEG, AccelerationSign, sign_of_version
+from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD, ModeWatch, is_unfit, mode_name
+from loiter.mavlink.autopilots.settings import autopilot_settings, missing
+from loiter.mavlink.autopilots.steering import AccelerationSteering
+from loiter.mavlink.connection.fast_streams import FastStreams, fastest_hz
+from loiter.mavlink.connection.link import Vehicle
+from loiter.mavlink.connection.pending_command import PendingCommand
+from loiter.mavlink.connection.round_trip import RoundTrip
+from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
+from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
+from loiter.mavlink.guiding.report import GuideReport, Stage
+from loiter.mavlink.guiding.settling import SteadyHold, circle_position
+from loiter.mavlink.guiding.step_log import log_row, step_log
+from mavlink.vehicle import mavlink
+
+FRAME = LocalFrame(47.0, 8.0)
+CIRCLE = Orbit(0.0, 0.0, 80.0, "cw")
+VEHICLE = Vehicle(1, 1, Autopilot.PX4)
+
+
+class Sent:
+    """A link that keeps what is sent."""
+
+    vehicle = VEHICLE
+    us = (250, 190)
+
+    def __init__(self):
+        self.messages = []
+
+    def send(self, message):
+        self.messages.append(message)
+
+
+def ack(command, result):
+    return mavlink.MAVLink_command_ack_message(command, result, 0, 0, 250, 190)
+
+
+# Signs.
+
+
+@pytest.mark.parametrize(
+    ("version", "sign"),
+    [((1, 18, 0, 255), 1), ((1, 18, 0, 64), 1), ((2, 0, 0, 255), 1), ((1, 17, 3, 255), -1), ((1, 14, 0, 0), -1)],
+)
+def test_the_version_gives_the_first_guess_of_the_sign(version, sign):
+    major, minor, patch, kind = version
+    assert sign_of_version(major << 24 | minor << 16 | patch << 8 | kind) == sign
+
+
+@given(
+    st.sampled_from([1, -1]),
+    st.sampled_from([1, -1]),
+    st.floats(-40.0, 40.0),
+    st.floats(-49.0, 49.0).filter(lambda bank: abs(bank) > 12.0),
+    st.floats(0.1, 0.5),
+    st.floats(0.0, 0.2),
+)
+def test_the_response_shows_the_sign_whatever_was_guessed(guess, truth, start, wanted, time_s, dead_s):
+    """From any bank; the vehicle is slower or faster than declared, and answers after another dead time."""
+    found, roll, bank, now = AccelerationSign(guess, Roll(0.25, 80.0)), Roll(time_s, 80.0), start, 100.0
+    targets = [start] * round(dead_s / 0.02 + 1)
+    for _ in range(150):
+        now += 0.02
+        command = found.limited_deg(wanted)
+        assert found.confirmed or abs(command) <= CAUTIOUS_DEG
+        found.update(bank, command, now)
+        targets.append(truth * found.sign * command)
+        bank = roll.bank_after(bank, targets[-1 - round(dead_s / 0.02)], 0.02)
+    assert found.confirmed
+    assert found.sign == truth
+    assert found.limited_deg(wanted) == wanted
+
+
+def test_straight_flight_shows_no_sign():
+    found = AccelerationSign(1, Roll(0.25, 80.0))
+    for i in range(500):
+        found.update(math.sin(i), 1.0, 0.02 * i)
+    assert (found.confirmed, found.sign) == (False, 1)
+
+
+# Setpoints for PX4.
+
+
+def steering(sign=1):
+    s = AccelerationSteering(VEHICLE, 600.0, AccelerationSign(sign, Roll()))
+    s.sign.confirmed = True
+    s.update(mavlink.MAVLink_global_position_int_message(1000, 0, 0, 590_000, 0, 0, 0, 0, 0), 10.0)
+    return s
+
+
+def test_a_setpoint_says_the_own_path_and_the_acceleration_of_the_bank():
+    link, s = Sent(), steering()
+    s.update(mavlink.MAVLink_local_position_ned_message(1000, 100.0, 50.0, -90.0, 0.0, 18.0, 0.0), 10.0)
+    assert s.is_ready(10.0)
+    assert s.send(link, 30.0, 0.0, 10.0) == 30.0
+    (m,) = link.messages
+    assert (m.x, m.y, m.vx, m.vy) == (100.0, 50.0, 0.0, 18.0)
+    # It flies east: the right is south. It is at 590 m and must be at 600: ten metres less "down".
+    assert (m.afx, m.afy) == pytest.approx((-9.80665 * tan(radians(30.0)), 0.0), abs=1e-9)
+    assert (m.z, m.vz, m.afz) == (-100.0, 0.0, 0.0)
+    assert (m.coordinate_frame, m.type_mask) == (1, 0xC00)
+
+
+def test_an_inverted_px4_gets_the_opposite_acceleration():
+    for sign, north in ((1, -1.0), (-1, 1.0)):
+        link, s = Sent(), steering(sign)
+        s.update(mavlink.MAVLink_local_position_ned_message(1000, 0.0, 0.0, -90.0, 0.0, 18.0, 0.0), 10.0)
+        s.send(link, 45.0, 0.0, 10.0)
+        assert link.messages[0].afx == pytest.approx(north * 9.80665)
+
+
+def test_a_setpoint_is_extrapolated_along_the_turn_and_keeps_its_altitude():
+    link, s = Sent(), steering()
+    s.prepare(0.1, None)
+    s.update(mavlink.MAVLink_attitude_message(1000, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5), 10.0)
+    s.update(mavlink.MAVLink_local_position_ned_message(1000, 0.0, 0.0, -90.0, 20.0, 0.0, 0.0), 10.0)
+    s.send(link, 0.0, 0.0, 10.1)
+    s.update(mavlink.MAVLink_local_position_ned_message(1000, 0.0, 0.0, -90.5, 20.0, 0.0, 0.0), 10.1)
+    s.send(link, 0.0, 0.0, 10.1)
+    first, second = link.messages
+    # 0.2 s at 0.5 rad/s to the right.
+    assert (first.vx, first.vy) == pytest.approx((20.0 * math.cos(0.1), 20.0 * math.sin(0.1)))
+    assert (first.x, first.y) == pytest.approx((4.0 * math.cos(0.05), 4.0 * math.sin(0.05)))
+    assert first.z == second.z == -100.0
+    # A shift of the origin moves the setpoint with it.
+    s.update(mavlink.MAVLink_local_position_ned_message(1000, 0.0, 0.0, -70.0, 20.0, 0.0, 0.0), 10.2)
+    s.send_level(link, 10.2)
+    assert link.messages[2].z == -80.0
+
+
+def test_in_a_crosswind_the_acceleration_is_that_along_the_path():
+    link, s = Sent(), steering()
+    s.prepare(0.0, Wind(6.0, from_deg=90.0))
+    # It flies north over the ground at 8 m/s: through the air 8 north and 6 east, 10 m/s.
+    s.update(mavlink.MAVLink_local_position_ned_message(1000, 0.0, 0.0, -90.0, 8.0, 0.0, 0.0), 10.0)
+    s.send(link, 45.0, 0.0, 10.0)
+    assert link.messages[0].afy == pytest.approx(9.80665 * 0.8)
+
+
+# Streams, commands, the round trip.
+
+
+def test_a_slower_rate_is_tried_where_one_is_denied_and_the_other_streams_follow_at_that_rate():
+    link, streams = Sent(), FastStreams(Autopilot.ARDUPILOT)
+    for now, result in ((0.0, 2), (0.1, 2), (0.2, 0)):
+        streams.request(link, now, 0.0)
+        streams.update(ack(511, result))
+    assert [(m.param1, m.param2) for m in link.messages] == [(30, 20000), (30, 25000), (30, 40000)]
+    assert (streams.settled, streams.rate_hz) == (True, 25.0)
+    streams.request(link, 0.3, 0.0)
+    rates = {int(m.param1): m.param2 for m in link.messages[3:]}
+    assert (rates[30], rates[33], rates[74]) == (40000, 40000, 40000)
+    assert rates[0] == 200000
+    assert rates[162] == 500000
+    assert 32 not in rates
+
+
+def test_streams_that_do_not_come_are_requested_again_a_few_times():
+    link, streams = Sent(), FastStreams(Autopilot.PX4)
+    streams.request(link, 0.0, 0.0)
+    streams.update(ack(511, 0))
+    counts = []
+    for now in range(1, 20):
+        streams.request(link, float(now), 10.0)
+        counts.append(len(link.messages))
+    assert len(set(counts)) == 4
+    assert {32, 231, 230} <= {int(m.param1) for m in link.messages}
+
+
+def test_a_vehicle_that_does_not_answer_gets_the_requests_anyway():
+    link, streams = Sent(), FastStreams(Autopilot.PX4)
+    for now in (0.0, 0.5, 1.0, 1.5):
+        assert not streams.settled
+        streams.request(link, now, 0.0)
+    assert streams.settled
+    assert len(link.messages) > 6
+
+
+@pytest.mark.parametrize(
+    ("connection", "hz"),
+    [("udpin:0.0.0.0:14550", 50.0), ("/dev/ttyUSB0,57600", 26.88), ("COM3", 26.88), ("/dev/ttyACM0,921600", 430.08)],
+)
+def test_a_serial_line_limits_the_rate(connection, hz):
+    assert fastest_hz(connection, 57600) == pytest.approx(hz)
+
+
+def test_a_command_is_repeated_until_it_is_answered():
+    link = Sent()
+    command = PendingCommand(mavlink.MAVLink_command_long_message(1, 1, 176, 0, 1, 6, 0, 0, 0, 0, 0))
+    for now in (0.0, 0.2, 0.5, 0.6):
+        command.send(link, now)
+    assert len(link.messages) == 2
+    command.update(ack(511, 0))
+    command.update(ack(176, 5))
+    assert (command.accepted, command.final, command.refusal) == (False, False, "")
+    command.update(ack(176, 1))
+    assert (command.accepted, command.final) == (False, False)
+    assert "not now" in command.refusal
+    command.update(ack(176, 0))
+    assert (command.accepted, command.final, command.refusal) == (True, True, "")
+    command.update(ack(176, 4))
+    assert command.accepted
+    command.send(link, 9.0)
+    assert len(link.messages) == 2
+
+
+def test_the_round_trip_is_the_fastest_of_the_last_answers():
+    link, trip = Sent(), RoundTrip()
+    trip.request(link, 5.0)
+    trip.request(link, 5.1)
+    assert len(link.messages) == 1
+    assert trip.seconds == 0.04
+    sent = link.messages[0].ts1
+    for now in (5.08, 5.06, 5.2, 4.0, 99.0):
+        trip.update(mavlink.MAVLink_timesync_message(1, sent), now)
+    trip.update(mavlink.MAVLink_timesync_message(0, sent), 5.01)
+    assert trip.seconds == pytest.approx(0.06)
+
+
+# Modes and parameters.
+
+
+@pytest.mark.parametrize(
+    ("autopilot", "mode", "name", "unfit"),
+    [
+        (3, 15, "GUIDED", False),
+        (3, 13, "TAKEOFF", True),
+        (3, 20, "QLAND", True),
+        (3, 25, "LOITER_ALT_QLAND", True),
+        (3, 11, "RTL", False),
+        (3, 99, "mode 99", False),
+        (12, OFFBOARD, "OFFBOARD", False),
+        (12, HOLD, "AUTO.LOITER", False),
+        (12, 4 << 16 | 6 << 24, "AUTO.LAND", True),
+        (12, 4 << 16 | 77 << 24, "AUTO.77", False),
+        (12, 9 << 16, "mode 9", False),
+    ],
+)
+def test_modes_have_names_and_some_do_not_fit(autopilot, mode, name, unfit):
+    assert (mode_name(autopilot, mode), is_unfit(autopilot, mode)) == (name, unfit)
+
+
+def beat(mode):
+    return mavlink.MAVLink_heartbeat_message(1, 3, 129, mode, 4, 3)
+
+
+def test_a_mode_is_expected_to_change_and_then_to_stay():
+    watch = ModeWatch(3)
+    assert (watch.surprise(0.0), watch.name) == ("", "unknown")
+    watch.update(beat(10))
+    assert watch.surprise(0.0) == ""
+    watch.expect(GUIDED)
+    assert watch.surprise(99.0) == ""
+    watch.accepted(100.0)
+    assert watch.surprise(102.0) == ""
+    assert watch.surprise(104.0) == "the vehicle stays in the mode AUTO, and does not change to GUIDED"
+    watch.update(beat(GUIDED))
+    assert watch.confirmed
+    assert watch.surprise(104.0) == ""
+    watch.expect(GUIDED)
+    watch.update(beat(10))
+    assert watch.surprise(104.0) == "the pilot or a failsafe changed the mode to AUTO"
+
+
+def test_settings_of_arduplane_in_both_generations_of_names():
+    new = {"AIRSPEED_CRUISE": 22.0, "ROLL_LIMIT_DEG": 45.0, "RLL2SRV_TCONST": 0.5, "RLL2SRV_RMAX": 75.0}
+    old = {"TRIM_ARSPD_CM": 2200.0, "LIM_ROLL_CD": 4500.0, "RLL2SRV_TCONST": 0.5, "RLL2SRV_RMAX": 75.0}
+    settings = autopilot_settings(Autopilot.ARDUPILOT, new)
+    assert autopilot_settings(Autopilot.ARDUPILOT, old) == settings
+    assert (settings.airspeed_m_s, settings.bank_limit_deg, settings.guided_bank_deg) == (22.0, 45.0, 44.5)
+    assert settings.roll == Roll(0.25, 75.0)
+    assert missing(Autopilot.ARDUPILOT, {}) == ["AIRSPEED_CRUISE", "ROLL_LIMIT_DEG", "NAVL1_LIM_BANK"]
+    assert missing(Autopilot.ARDUPILOT, {**old, "NAVL1_LIM_BANK": 0.0}) == []
+
+
+def test_settings_of_px4():
+    known = {"FW_AIRSPD_TRIM": 15.0, "FW_R_LIM": 70.0, "FW_R_TC": 0.4, "FW_R_RMAX": 70.0, "FW_PN_R_SLEW_MAX": 60.0}
+    settings = autopilot_settings(Autopilot.PX4, {**known, "COM_OBL_RC_ACT": 5.0})
+    assert (settings.airspeed_m_s, settings.guided_bank_deg, settings.roll) == (15.0, 60.0, Roll(0.2, 60.0))
+    assert settings.loss_action == "hold"
+    assert autopilot_settings(Autopilot.PX4, known).loss_action == "what COM_OBL_RC_ACT says"
+    # A rate of 0 means no limit.
+    assert (
+        autopilot_settings(Autopilot.PX4, {**known, "FW_R_RMAX": 0.0, "FW_PN_R_SLEW_MAX": 0.0}).roll.rate_deg_s == 90.0
+    )
+
+
+# States.
+
+
+def attitude(ms, roll=0.0, yaw=0.0, rates=(0.0, 0.0, 0.0)):
+    return mavlink.MAVLink_attitude_message(ms, roll, 0.0, yaw, *rates)
+
+
+def position(ms, east=0.0, north=0.0, velocity=(18.0, 0.0)):
+    lat, lon = FRAME.to_geodetic(east, north)
+    place = round(float(lat) * 1e7), round(float(lon) * 1e7), 600_000, 0
+    return mavlink.MAVLink_global_position_int_message(
+        ms, *place, round(100.0 * velocity[0]), round(100.0 * velocity[1]), 0, 0
+    )
+
+
+def test_the_older_of_attitude_and_position_is_extrapolated():
+    m = Measurements(FRAME)
+    m.declared_m_s = 18.0
+    m.update(position(1000, 100.0, 0.0), 5.0)
+    assert m.state(None, 5.0) is None
+    m.update(attitude(1200, 0.1, 0.0, (0.5, 0.0, 0.3)), 5.2)
+    state = m.state(None, 5.2)
+    # 0.2 s north at 18 m/s; a turn to the right by 0.06 rad.
+    assert (state.time_s, state.north_m) == (1.2, pytest.approx(3.6, abs=0.02))
+    assert state.east_m == pytest.approx(100.0 + 3.6 * 0.03, abs=0.02)
+    assert degrees(0.1) == pytest.approx(state.bank_deg)
+    assert math.atan2(state.velocity_east_m_s, state.velocity_north_m_s) == pytest.approx(0.2 * m.yaw_rate, abs=1e-3)
+    m.update(position(1300, 100.0, 5.4), 5.3)
+    later = m.state(None, 5.3)
+    assert (later.time_s, later.north_m) == (1.3, pytest.approx(5.4, abs=0.02))
+    assert later.bank_deg == pytest.approx(degrees(0.1 + 0.05), abs=1e-6)
+    assert later.heading_deg == pytest.approx(degrees(0.1 * m.yaw_rate), abs=0.01)
+
+
+def test_attitude_and_position_that_are_half_a_second_apart_give_no_state():
+    m = Measurements(FRAME)
+    m.update(position(1000), 5.0)
+    m.update(attitude(1600), 5.6)
+    assert m.state(None, 5.6) is None
+
+
+def test_indicated_airspeed_becomes_true_and_a_missing_one_is_replaced():
+    m = Measurements(FRAME)
+    m.declared_m_s = 18.0
+    m.update(position(1000), 5.0)
+    m.update(mavlink.MAVLink_vfr_hud_message(20.0, 18.0, 0, 50, 600.0, 0.0), 5.0)
+    assert m.airspeed(None, 5.0) == (pytest.approx(20.0 / 0.9437**0.5, rel=1e-3), AirspeedSource.MEASURED)
+    # It is lost; the wind from the north slows the 18 m/s over the ground.
+    assert m.airspeed(Wind(3.0, 0.0), 9.0) == (pytest.approx(21.0), AirspeedSource.GROUND_AND_WIND)
+    assert m.airspeed(None, 9.0) == (18.0, AirspeedSource.DECLARED)
+    m.update(mavlink.MAVLink_vfr_hud_message(2.0, 18.0, 0, 50, 600.0, 0.0), 9.0)
+    assert m.airspeed(None, 9.0) == (18.0, AirspeedSource.DECLARED)
+
+
+def test_jumps_restarts_and_rates_are_noticed():
+    m = Measurements(FRAME)
+    for i in range(41):
+        m.update(attitude(1000 + 50 * i), 0.05 * i)
+        m.update(position(1000 + 50 * i, 0.0, 0.9 * i), 0.05 * i)
+    assert m.rate_hz(2.0) == pytest.approx(20.0, rel=0.05)
+    assert (m.jump_m, m.restarted, m.complete) == (0.0, False, True)
+    m.take()
+    assert not m.complete
+    m.update(position(3050, 25.0, 36.9), 2.05)
+    assert m.jump_m == 0.0
+    m.update(position(3100, 225.0, 37.8), 2.1)
+    assert m.jump_m == pytest.approx(200.0, abs=0.1)
+    m.update(attitude(2500), 2.1)
+    assert not m.restarted
+    m.update(attitude(100), 2.1)
+    assert m.restarted
+    assert m.rate_hz(9.0) == 0.0
+
+
+# The circle and the hand-over.
+
+
+def on_circle(azimuth_deg, radius_m=80.0, course_error_deg=0.0, time_s=0.0, turn=1.0):
+    a = radians(azimuth_deg)
+    course = a + turn * math.pi / 2.0 + radians(course_error_deg)
+    velocity = 18.0 * math.sin(course), 18.0 * math.cos(course)
+    return State(time_s, radius_m * math.sin(a), radius_m * math.cos(a), degrees(course), 20.0, *velocity, 18.0)
+
+
+def test_the_position_on_a_circle():
+    found = circle_position(on_circle(30.0, 84.0, 3.0), CIRCLE)
+    assert found == pytest.approx((4.0, 3.0, 30.0))
+    other = circle_position(on_circle(30.0, 76.0, -2.0, turn=-1.0), Orbit(0.0, 0.0, 80.0, "ccw"))
+    assert other == pytest.approx((-4.0, -2.0, 30.0))
+
+
+def test_a_steady_hold_takes_time_and_a_quarter_of_the_circle():
+    steady, times = SteadyHold(CIRCLE), []
+    for i in range(200):
+        steady.update(on_circle(1.29 * i, 80.0 if i > 20 else 90.0, time_s=0.1 * i))
+        if steady.settled:
+            times.append(0.1 * i)
+    assert times[0] == pytest.approx(2.1 + max(5.0, 90.0 / 12.9), abs=0.2)
+    steady.update(on_circle(0.0, 85.0, time_s=50.0))
+    assert not steady.settled
+
+
+def test_in_gusts_the_band_doubles_after_a_full_circle():
+    steady = SteadyHold(CIRCLE)
+    settled = []
+    for i in range(800):
+        steady.update(on_circle(1.3 * i, 80.0 + 6.0 * math.sin(0.3 * i), time_s=0.1 * i))
+        settled.append(steady.settled)
+    assert not any(settled[:280])
+    assert any(settled[280:500])
+
+
+def estimates(ratio=1.0, wind=(0.0, 0.0), airspeed=18.0):
+    """What the hand-over and the log take from the estimates of a law."""
+    return SimpleNamespace(
+        roll=Roll(0.2, 80.0),
+        delay_s=0.2,
+        turn_ratio=ratio,
+        course_lead_s=0.0,
+        wind_east_m_s=wind[0],
+        wind_north_m_s=wind[1],
+        airspeed_m_s=airspeed,
+    )
+
+
+@pytest.mark.parametrize("ratio", [0.73, 0.9, 1.0, 1.05])
+def test_the_sent_radius_is_the_one_that_the_guidance_of_arduplane_flies_as_ours(ratio):
+    known = {"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0, "NAVL1_PERIOD": 15.0}
+    sent = sent_radius_m(CIRCLE, 100.0, known, estimates(ratio))
+    # On the circle of 80 m the demand for one of `sent`, of which the aircraft turns the share, is the one needed.
+    demand = 18.0**2 / 80.0 + (2.0 * math.pi / 15.0) ** 2 * (80.0 - sent)
+    assert ratio * demand == pytest.approx(18.0**2 / 80.0, rel=0.03)
+    assert sent == round(sent)
+    assert sent_radius_m(CIRCLE, 100.0, known, None) == 80.0
+    assert sent_radius_m(CIRCLE, 100.0, {}, estimates(ratio)) == 80.0
+
+
+def test_a_correction_of_the_radius_has_a_bound():
+    known = {"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0, "NAVL1_PERIOD": 60.0}
+    assert sent_radius_m(CIRCLE, 100.0, known, estimates(0.6)) == 56.0
+
+
+def test_the_last_bank_is_that_of_the_circle_a_little_ahead():
+    assert last_bank_deg(CIRCLE, on_circle(0.0), estimates(), 40.0) == pytest.approx(22.4, abs=0.05)
+    slipping = last_bank_deg(CIRCLE, on_circle(0.0), estimates(0.75), 40.0)
+    assert tan(radians(slipping)) * 0.75 == pytest.approx(18.0**2 / 80.0 / 9.80665)
+    other = last_bank_deg(Orbit(0.0, 0.0, 80.0, "ccw"), on_circle(0.0, turn=-1.0), estimates(), 20.0)
+    assert other == -20.0
+    windy = last_bank_deg(CIRCLE, on_circle(90.0), estimates(wind=(4.0, -3.0)), 60.0)
+    ahead = 90.0 + degrees(1.5 * 18.0 / 80.0)
+    exact = hold(CIRCLE, Aircraft(18.0, min_turn_radius_m=20.0), Wind(5.0, degrees(math.atan2(-4.0, 3.0)))).at(ahead)
+    assert windy == pytest.approx(exact.bank_deg, abs=1e-6)
+    # A wind in which no circle can be held.
+    assert last_bank_deg(CIRCLE, on_circle(0.0), estimates(wind=(30.0, 0.0)), 60.0) == pytest.approx(22.4, abs=0.05)
+
+
+# Logs.
+
+
+def report(time_s=1.0, state=None, known=None):
+    return GuideReport(time_s, Stage.JOINING, state, crosstrack_m=-0.5, estimates=known)
+
+
+def test_a_log_has_every_step_as_soon_as_it_is_flown(tmp_path):
+    path = tmp_path / "flight.csv"
+    with step_log(path, lambda: CIRCLE) as record:
+        record(report(1.0))
+        record(report(1.02, on_circle(0.0), estimates(0.9)))
+        # While it flies: another program can read it.
+        columns = read_log(path)
+    assert columns["time_s"] == [1.0, 1.02]
+    assert columns["stage"] == ["joining", "joining"]
+    assert isnan(columns["east_m"][0])
+    assert columns["turn_ratio"][1] == 0.9
+    assert columns["orbit_radius_m"] == [80.0, 80.0]
+    assert list(columns) == list(LogRow._fields)
+
+
+@pytest.mark.parametrize("error", [None, KeyboardInterrupt])
+def test_a_parquet_log_is_made_from_the_lines_at_the_end(tmp_path, error):
+    path = tmp_path / "flight.parquet"
+
+    def fly():
+        with step_log(path, lambda: CIRCLE) as record:
+            record(report(1.0, on_circle(0.0), estimates()))
+            assert (tmp_path / "flight.parquet.csv").read_text().count("\n") == 2
+            if error:
+                raise error
+
+    if error:
+        with pytest.raises(error):
+            fly()
+    else:
+        fly()
+    assert not (tmp_path / "flight.parquet.csv").exists()
+    columns = read_parquet(path)
+    assert columns["time_s"] == [1.0]
+    assert columns["phase"] == ["no data"]
+
+
+def test_a_log_that_was_cut_in_a_line_is_read_up_to_there(tmp_path):
+    path = tmp_path / "flight.csv"
+    with step_log(path, lambda: CIRCLE) as record:
+        for i in range(5):
+            record(report(float(i), on_circle(0.0), estimates()))
+    path.write_text(path.read_text()[:-40])
+    assert read_log(path)["time_s"] == [0.0, 1.0, 2.0, 3.0]
+    to_parquet(path, tmp_path / "flight.parquet", TEXTS)
+    assert read_parquet(tmp_path / "flight.parquet")["time_s"] == [0.0, 1.0, 2.0, 3.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [("", "cannot be read"), ("a,b\n1,2\n", "the column time_s is missing"), (None, "cannot be read")],
+)
+def test_other_files_are_no_logs(tmp_path, text, words):
+    path = tmp_path / "flight.csv"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(InvalidArgument, match=words):
+        read_log(path)
+
+
+def test_a_log_with_a_word_for_a_number_is_refused(tmp_path):
+    path = tmp_path / "flight.csv"
+    row = log_row(report(1.0, on_circle(0.0), estimates()), CIRCLE)._asdict() | {"bank_deg": "steep"}
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, list(row))
+        writer.writeheader()
+        writer.writerow(row)
+    with pytest.raises(InvalidArgument, match=r"bank_deg is 'steep', not a number"):
+        read_log(path)
