@@ -30,6 +30,9 @@ AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
 # Measurements further apart than this, seconds, are not related to each other.
 LARGEST_GAP_S = 1.0
 
+# Measurements that follow each other sooner than this, seconds, are left out: identification needs no more.
+SHORTEST_GAP_S = 0.035
+
 
 class VehicleEstimates(NamedTuple):
     """What a law believes of its vehicle.
@@ -56,8 +59,8 @@ class Vehicle(Protocol):
     estimates: VehicleEstimates
     history: BankHistory
 
-    def measure(self, state: State) -> None:
-        """Take a new measurement."""
+    def measure(self, state: State) -> bool:
+        """Take a new measurement; return whether the estimates have changed."""
 
     def record(self, command_deg: float, dt: float) -> None:
         """Record a command that is given for `dt` seconds."""
@@ -69,8 +72,9 @@ class DeclaredVehicle:
     def __init__(self, declared: VehicleEstimates) -> None:
         self.estimates, self.history = declared, BankHistory()
 
-    def measure(self, state: State) -> None:
+    def measure(self, state: State) -> bool:
         """Take a new measurement: it changes nothing."""
+        return False
 
     def record(self, command_deg: float, dt: float) -> None:
         """Record a command that is given for `dt` seconds."""
@@ -92,9 +96,11 @@ class IdentifiedVehicle:
         self._airspeed = Average(declared.airspeed_m_s, DECLARED_AIRSPEED_S, AIRSPEED_MEMORY_S)
         self._last_s = -inf
 
-    def measure(self, state: State) -> None:
-        """Take a new measurement."""
+    def measure(self, state: State) -> bool:
+        """Take a new measurement; return whether the estimates have changed."""
         dt = state.time_s - self._last_s
+        if 0.0 < dt < SHORTEST_GAP_S:
+            return False
         first, self._last_s = self._last_s == -inf, state.time_s
         if first:
             self._roll.begin(state.bank_deg)
@@ -119,6 +125,7 @@ class IdentifiedVehicle:
             self._north.add(state.velocity_north_m_s - V * (s - off * c), dt),
             self._airspeed.value,
         )
+        return True
 
     def _measure_turns(self, state: State, dt: float) -> None:
         """Relate heading and course to the bank."""

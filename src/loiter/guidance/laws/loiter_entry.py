@@ -230,8 +230,8 @@ class LoiterEntry:
             self._shift_clock(self._clock.jump_s)
         if self._clock.jump_s != 0.0 or self._clock.gap_s > BLIND_S:
             self._observer.reset()
-        self._vehicle.measure(state)
-        self._update_limits()
+        if self._vehicle.measure(state):
+            self._update_limits()
         known, history = self._vehicle.estimates, self._vehicle.history
         turning = Turning(known.turn_ratio, known.course_lead_s)
         measured = self._observer.update(state, history.delayed_deg(known.delay_s), turning)
