@@ -55,9 +55,9 @@ def test_the_lead_is_the_integral_of_the_missing_bank(roll, bank, target):
 def test_the_lead_by_hand():
     # At the bank limit no command lies beyond the target: 60 of 70 deg/s until 30 deg are missing, then the lag.
     assert Roll().lead_s(0.0, 35.0, 35.0) == pytest.approx((35.0**2 - 30.0**2) / 120.0 / 35.0 + 0.5 * 30.0 / 35.0)
-    # Below it, four times as fast: from 5 to 0 deg with a lag of 1/8 s; from 10 deg with 60 deg/s until 7.5 deg.
-    assert Roll().lead_s(5.0, 0.0, 35.0) == pytest.approx(0.125)
-    assert Roll().lead_s(10.0, 0.0, 35.0) == pytest.approx(((10.0**2 - 7.5**2) / 120.0 + 0.125 * 7.5) / 10.0)
+    # Below it, 2.5 times as fast: from 5 to 0 deg with a lag of 1/5 s; from 20 deg with 60 deg/s until 12 deg.
+    assert Roll().lead_s(5.0, 0.0, 35.0) == pytest.approx(0.2)
+    assert Roll().lead_s(20.0, 0.0, 35.0) == pytest.approx(((20.0**2 - 12.0**2) / 120.0 + 0.2 * 12.0) / 20.0)
     assert INSTANT_ROLL.lead_s(-35.0, 35.0, 35.0) == 0.0
 
 

@@ -124,7 +124,8 @@ class SimulationOptions:
         """The random starts of --runs; with --sim varied each has its own aircraft and wind."""
         from loiter.guidance.trials import campaign, varied
 
-        runs = self.runs or 1
+        assert self.runs is not None  # only --runs flies random starts
+        runs = self.runs
         if self.sim != "varied":
             return campaign.trials(runs, self.seed, self.aircraft(uav), air.moving_air)
         if (uav, air) != (AircraftOptions(), WindOptions()):
