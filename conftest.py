@@ -21,7 +21,7 @@ SLOW = {
     "batch": "cluster files memory resume wind",
     "cli": "errors guide mavlink",
     "compiled": "ufuncs wind_solver",
-    "guidance": "campaign following jsbsim_aircraft loiter_entry",
+    "guidance": "campaign following identification jsbsim_aircraft loiter_entry",
     "kernel": "cell_bounds wind_search",
     "mavlink": "guide guide_misbehaving peers upload watch",
     "mutation": "mutation",

@@ -83,8 +83,8 @@ def test_air_is_averaged_over_the_time_that_suits_noise_and_gusts(gust_m_s):
         after = air.update(averages[-1][0] + 1.0, averages[-1][1], 1e-3)
         times.append(-1e-3 / np.log(1.0 - (after[0] - averages[-1][0])))
         assert after[1] == pytest.approx(averages[-1][1])
-    # In a second each component of Dryden gusts of 263 m changes by 2 sigma^2/T along and 3 sigma^2/T across, T = 14.6 s
-    # (mean square): the Kalman filter of a random walk averages over sqrt(noise^2 dt/change).
+    # In a second Dryden gusts of 263 m change by 2 sigma^2/T along and 3 sigma^2/T across (mean square), T = 14.6 s.
+    # The Kalman filter of a random walk averages over sqrt(noise^2 dt/change).
     change = 2.5 * gust_m_s**2 / 14.6
     assert np.median(times) == pytest.approx(np.sqrt(0.3**2 * 0.02 / change), rel=0.3)
 

@@ -1,0 +1,202 @@
+"""Identification of the vehicle in flight: roll response and delay, turn ratio, lead of the course, wind."""
+
+from itertools import pairwise
+from math import degrees, pi, radians, sin
+
+import numpy as np
+import pytest
+
+from guidance.varied import result
+from loiter import Aircraft, Orbit, Pose, Wind, plan
+from loiter.guidance.identification.roll_response import RollIdentifier
+from loiter.guidance.identification.vehicle import (
+    QUICK_TURNS,
+    SLOW_TURNS,
+    Average,
+    CourseLead,
+    TurnRatio,
+)
+from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.protocol import State
+from loiter.guidance.simulators.point_mass import PointMass
+from loiter.guidance.simulators.roll_dynamics import RollResponse
+from loiter.guidance.simulators.sensors import EXACT, Noise
+from loiter.guidance.trials.flight import fly
+from loiter.guidance.trials.varied import varied_trials
+from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle.turning import rate_at_bank
+
+UAV, ORBIT = Aircraft(18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, 120.0)
+START = Pose(-400.0, 120.0, 200.0)
+
+
+def identified(roll, delay_s, *, noise_deg=0.5, seconds=12.0, dt=0.02):
+    """The estimate after reversals of the bank every two seconds, and the banks that were predicted for the present."""
+    random, identifier = np.random.default_rng(4), RollIdentifier(Roll(0.5, 60.0), 0.1)
+    bank, banks, errors = 0.0, [], []
+    for i in range(round(seconds / dt)):
+        command = 35.0 if (i * dt) % 4.0 < 2.0 else -35.0
+        banks.append(bank)
+        measured = banks[max(len(banks) - 1 - round(delay_s / dt), 0)]
+        identifier.measure(measured + random.normal(0.0, noise_deg))
+        identifier.record(command, dt)
+        bank = roll.bank_after(bank, command, dt)
+        errors.append(identifier.bank_deg - bank)
+    return identifier.estimate, np.array(errors)
+
+
+@pytest.mark.parametrize("delay_s", [0.0, 0.3, 0.8])
+@pytest.mark.parametrize("roll", [Roll(0.12, 130.0), Roll(0.4, 75.0), Roll(1.0, 50.0)])
+def test_roll_response_and_delay_are_found(roll, delay_s):
+    """To the nearest model: their time constants differ by a factor of 1.49, their delays by 0.05 s."""
+    estimate, errors = identified(roll, delay_s)
+    assert 1.0 / 1.49 < estimate.roll.time_s / roll.time_s < 1.49
+    assert estimate.delay_s == pytest.approx(delay_s, abs=0.06)
+    # What the law uses is the bank that they predict for the present.
+    late = errors[len(errors) // 2 :]
+    assert np.sqrt(np.mean(late**2)) < 2.5
+
+
+@pytest.mark.parametrize("delay_s", [0.0, 0.1, 0.6])
+@pytest.mark.parametrize("roll", [Roll(0.1, 100.0), Roll(0.5, 60.0), Roll(1.2, 45.0)])
+def test_before_anything_is_measured_the_estimate_is_what_is_declared(roll, delay_s):
+    estimate = RollIdentifier(roll, delay_s).estimate
+    assert estimate.delay_s == pytest.approx(delay_s, abs=1e-9)
+    assert estimate.roll.time_s == pytest.approx(roll.time_s)
+    assert estimate.roll.rate_deg_s == pytest.approx(roll.rate_deg_s)
+
+
+def test_a_constant_bank_teaches_nothing_and_makes_nothing_forgotten():
+    identifier = RollIdentifier(Roll(0.5, 60.0), 0.1)
+    identifier.begin(20.0)
+    for _ in range(3000):
+        identifier.measure(20.0)
+        identifier.record(20.0, 0.02)
+    assert identifier.estimate.delay_s == pytest.approx(0.1, abs=1e-6)
+    assert identifier.estimate.roll.time_s == pytest.approx(0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("ratio", [0.7, 0.9, 1.1])
+def test_the_turn_ratio_is_found_and_flown(ratio):
+    law = LoiterEntry(ORBIT, UAV)
+    flight = fly(law, PointMass(START, UAV, seed=3, turn_ratio=ratio), ORBIT, limit_s=200.0)
+    assert law.estimates.turn_ratio == pytest.approx(ratio, abs=0.03)
+    true = Aircraft(18.0, min_turn_radius_m=UAV.turn_radius_m / ratio)
+    assert flight.settled_s < plan(START, ORBIT, true).duration_s + 5.0
+
+
+def sampled(bank_deg, course_deg, seconds=30.0, dt=0.025, wind=(0.0, 0.0)):
+    """States of an aircraft at 20 m/s whose bank and course are functions of time; its heading is the course."""
+    for i in range(round(seconds / dt)):
+        t = i * dt
+        course = radians(course_deg(t))
+        velocity = 20.0 * sin(course) + wind[0], 20.0 * sin(course + pi / 2) + wind[1]
+        yield State(t, 0.0, 0.0, course_deg(t), bank_deg(t), *velocity, 20.0)
+
+
+@pytest.mark.parametrize("lead_s", [-0.15, 0.0, 0.15])
+def test_the_lead_of_the_course_is_found_in_wind(lead_s):
+    """Banks that change every three seconds; the course is ahead of the heading by the lead times the turn rate."""
+
+    def bank_deg(t):
+        return 30.0 if t % 6.0 < 3.0 else -30.0
+
+    lead, heading = CourseLead(0.0), 0.0
+    states = list(sampled(bank_deg, lambda t: 0.0))
+    for before, state in pairwise(states):
+        rate = rate_at_bank(state.bank_deg, 20.0)
+        heading += degrees(rate) * (state.time_s - before.time_s)
+        course = radians(heading) + lead_s * rate
+        velocity = 20.0 * sin(course) + 4.0, 20.0 * sin(course + pi / 2) - 3.0
+        found = state._replace(heading_deg=heading, velocity_east_m_s=velocity[0], velocity_north_m_s=velocity[1])
+        # The wind is known to a metre a second.
+        lead.measure(found, 1.0, (4.7, -3.7), state.time_s - before.time_s)
+    assert lead.lead_s == pytest.approx(lead_s, abs=0.03)
+
+
+@pytest.mark.parametrize("gain", [0.8, 1.0, 2.2])
+def test_quick_turns_have_a_ratio_of_their_own(gain):
+    """A steady turn with an oscillation of 0.75 Hz, in which the course turns `gain` times as far as the bank says."""
+    slow, quick, w = TurnRatio(1.0, SLOW_TURNS), TurnRatio(1.0, QUICK_TURNS), 2.0 * pi * 0.75
+    for i in range(1200):
+        t = i * 0.025
+        rate_deg_s = 15.0 + 5.0 * sin(w * t + pi / 2)
+        course_deg = 0.9 * 15.0 * t + gain * 5.0 / w * sin(w * t)
+        for ratio in (slow, quick):
+            ratio.measure(course_deg, rate_deg_s, 0.025)
+    assert slow.ratio == pytest.approx(0.9, abs=0.06)
+    # The prior of 1 keeps a share.
+    assert quick.ratio == pytest.approx(gain, abs=0.35 * abs(gain - 1.0) + 0.03)
+
+
+def test_an_average_begins_with_what_is_known():
+    told, untold = Average(5.0, 30.0, 60.0), Average(0.0, 0.0, 60.0)
+    for _ in range(500):
+        told.add(3.0, 0.02)
+        untold.add(3.0, 0.02)
+    assert told.value == pytest.approx(5.0 - 2.0 * 10.0 / 40.0, abs=0.05)
+    assert untold.value == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize("told", [None, Wind(6.0, 80.0), Wind(3.0, 260.0)])
+def test_the_wind_is_found(told):
+    """Also where another is told: then more slowly."""
+    wind = Wind(6.0, 80.0)
+    law, mass = LoiterEntry(ORBIT, UAV, told), PointMass(START, UAV, wind, seed=3, gust=0.0)
+    for _ in range(4000):
+        mass.advance(law.step(mass.measured_state(), 0.02), 0.02)
+    found, (east, north) = law.estimates, wind.velocity_m_s
+    assert found.wind_east_m_s == pytest.approx(east, abs=0.5 if told != Wind(3.0, 260.0) else 4.0)
+    assert found.wind_north_m_s == pytest.approx(north, abs=0.5)
+    assert found.airspeed_m_s == pytest.approx(18.0, abs=0.2)
+
+
+@pytest.mark.parametrize("bank_deg", [-35.0, 0.0, 35.0])
+@pytest.mark.parametrize("heading_deg", [60.0, 200.0])
+def test_the_first_promise_knows_the_bank_at_the_start(bank_deg, heading_deg):
+    start = Pose(-400.0, 120.0, heading_deg)
+    mass = PointMass(start, UAV, seed=1, gust=0.0, noise=EXACT, start_bank_deg=bank_deg)
+    law, joins_s = LoiterEntry(ORBIT, UAV, delay_s=0.0), []
+    for _ in range(500):
+        state = mass.measured_state()
+        command = law.step(state, 0.02)
+        joins_s.append(state.time_s + command.time_to_join_s)
+        mass.advance(command, 0.02)
+    assert max(joins_s) - min(joins_s) < 0.6
+
+
+def test_a_bank_that_is_measured_wrongly_leaves_no_offset():
+    """By two degrees: the integral of the crosstrack error removes what the turn ratio does not."""
+    law, mass, off = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=1, gust=0.0, noise=Noise(delay_s=0.2)), []
+    for _ in range(6000):
+        state = mass.measured_state()
+        mass.advance(law.step(state._replace(bank_deg=state.bank_deg + 2.0), 0.02), 0.02)
+        true = mass.true_state()
+        off.append(np.hypot(true.east_m, true.north_m) - 120.0)
+    assert abs(np.mean(off[-2500:])) < 0.01 * 120.0
+
+
+def test_without_identification_the_vehicle_is_as_declared():
+    law = LoiterEntry(ORBIT, UAV, roll=Roll(0.3, 90.0), delay_s=0.2, identify=False)
+    before = law.estimates
+    fly(law, PointMass(START, UAV, seed=3, turn_ratio=0.9), ORBIT, limit_s=20.0)
+    assert law.estimates == before
+
+
+@pytest.mark.parametrize("i", range(8))
+def test_unknown_aircraft_settle_in_calm_air(i):
+    """Of seed 29, with which nothing was tuned: no limit cycle, and no offset."""
+    trial = varied_trials(8, 29)[i]
+    flown = result(trial, "optimal", gust=0.0, limit_s=trial.ideal.duration_s + 200.0)
+    assert flown.settled_s < 1.6 * trial.ideal.duration_s + 6.0
+    assert not flown.round_again
+    assert abs(flown.offset) < 0.01
+    if trial.ideal.wind.speed_m_s == 0.0:
+        assert flown.command_deg < 6.0
+
+
+def test_trials_of_unknown_aircraft_do_not_depend_on_their_number():
+    assert varied_trials(3, 5) == varied_trials(6, 5)[:3]
+    responses = [trial.response for trial in varied_trials(40, 5)]
+    assert all(isinstance(response, RollResponse) for response in responses)
+    assert len({response.time_s for response in responses}) == 40
