@@ -28,7 +28,7 @@ from loiter.mavlink.connection.round_trip import RoundTrip
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
 from loiter.mavlink.guiding.report import GuideReport, Stage
-from loiter.mavlink.guiding.settling import SteadyHold, circle_position
+from loiter.mavlink.guiding.settling import SteadyHoldDetector, circle_position
 from loiter.mavlink.guiding.step_log import log_row, step_log
 from mavlink.vehicle import mavlink
 
@@ -396,7 +396,7 @@ def test_the_position_on_a_circle():
 
 
 def test_a_steady_hold_takes_time_and_a_quarter_of_the_circle():
-    steady, times = SteadyHold(CIRCLE), []
+    steady, times = SteadyHoldDetector(CIRCLE), []
     for i in range(200):
         steady.update(on_circle(1.29 * i, 80.0 if i > 20 else 90.0, time_s=0.1 * i))
         if steady.settled:
@@ -407,7 +407,7 @@ def test_a_steady_hold_takes_time_and_a_quarter_of_the_circle():
 
 
 def test_in_gusts_the_band_doubles_after_a_full_circle():
-    steady = SteadyHold(CIRCLE)
+    steady = SteadyHoldDetector(CIRCLE)
     settled = []
     for i in range(800):
         steady.update(on_circle(1.3 * i, 80.0 + 6.0 * math.sin(0.3 * i), time_s=0.1 * i))
