@@ -70,7 +70,8 @@ def line(name: str, flown: Sequence[Result]) -> str:
         f"{name:24s} settled {settled} of {n}, again {sum(r.round_again for r in flown)}, ratio {ratio[n // 2]:.3f}, "
         f"75 % {ratio[int(0.75 * n)]:.2f}, 90 % {ratio[int(0.9 * n)]:.2f}, late {late[n // 2]:.2f} s; "
         f"offset above 1 %: {sum(abs(r.offset) > 0.01 for r in flown)}, "
-        f"mean {100 * np.mean([abs(r.offset) for r in flown]):.2f} %; course {np.median([r.course_deg for r in flown]):.2f}, "
+        f"mean {100 * np.mean([abs(r.offset) for r in flown]):.2f} %; course "
+        f"{np.median([r.course_deg for r in flown]):.2f}, "
         f"command {np.median([r.command_deg for r in flown]):.1f} deg"
     )
 

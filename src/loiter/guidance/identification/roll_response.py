@@ -35,7 +35,10 @@ ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 2.0, 0.2, 10.0
 MEMORY_S, EXCITED_DEG = 10.0, 3.0
 
 # The shortest time between two measured banks that are used, and between two stored predictions, seconds.
-MEASURED_S, STORED_S = 0.09, 0.0095
+MEASURED_S, STORED_S = 0.15, 0.0095
+
+# Before the first step the models have flown for at least this time, seconds.
+EARLIER_S = 1e6
 
 # A longer step, seconds, has the same effect on every model.
 LONGEST_STEP_S = 100.0
@@ -66,7 +69,8 @@ class RollIdentifier:
         self._change = np.zeros(len(times))
         self._decay, self._dt = np.ones(len(times)), 0.0
         self._largest = np.zeros(len(times))
-        self._stored_times, self._stored = np.full(STORED, -np.inf), np.zeros((STORED, len(times)))
+        # Before the first step the banks are those at which the models begin.
+        self._stored_times, self._stored = np.arange(STORED) - EARLIER_S, np.zeros((STORED, len(times)))
         self._next, self._time_s, self._stored_s, self._measured_s = 0, 0.0, -np.inf, -np.inf
         self._model_weights = np.empty(0)
         self.estimate = RollEstimate(declared, delay_s)
@@ -107,24 +111,24 @@ class RollIdentifier:
         since_s = min(since_s, CORRELATION_S)
         predictions = self._predictions()
         error = np.minimum(np.abs(predictions - bank_deg), LARGEST_ERROR_DEG)
-        spread = predictions.std()
-        excitation = spread * spread / (spread * spread + EXCITED_DEG * EXCITED_DEG)
-        self._misfit *= np.exp(-excitation * since_s / MEMORY_S)
+        variance = float(predictions.var())
+        excitation = variance / (variance + EXCITED_DEG * EXCITED_DEG)
+        self._misfit *= exp(-excitation * since_s / MEMORY_S)
         self._misfit += error * error * (since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG))
         self._weigh()
         return True
 
     def _predictions(self) -> np.ndarray:
         """The bank that each model predicts for each delay ago: an array of delays by models."""
-        order = np.arange(self._next - STORED, self._next) % STORED
-        times, wanted = self._stored_times[order], self._time_s - DELAYS_S
-        after = np.clip(np.searchsorted(times, wanted), 1, STORED - 1)
+        split, wanted = self._next, self._time_s - DELAYS_S
+        # The stored predictions in the order of their times.
+        times = np.concatenate((self._stored_times[split:], self._stored_times[:split]))
+        after = np.minimum(np.maximum(times.searchsorted(wanted), 1), STORED - 1)
         early, late = times[after - 1], times[after]
-        with np.errstate(invalid="ignore"):
-            share = np.clip((wanted - early) / (late - early), 0.0, 1.0)
-        share = np.where(np.isfinite(early), share, 1.0)[:, None]
-        first, second = self._stored[order[after - 1]], self._stored[order[after]]
-        return first + share * (second - first)
+        share = np.clip((wanted - early) / (late - early), 0.0, 1.0)[:, None]
+        first, second = self._stored[(after - 1 + split) % STORED], self._stored[(after + split) % STORED]
+        predictions: np.ndarray = first + share * (second - first)
+        return predictions
 
     def _weigh(self) -> None:
         """Set the weights of the models, and the estimate, from the misfits."""

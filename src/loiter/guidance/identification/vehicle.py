@@ -30,6 +30,9 @@ AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
 # Measurements further apart than this, seconds, are not related to each other.
 LARGEST_GAP_S = 1.0
 
+# Measurements that follow each other sooner than this, seconds, are left out: identification needs no more.
+SHORTEST_GAP_S = 0.035
+
 
 class VehicleEstimates(NamedTuple):
     """What a law believes of its vehicle.
@@ -56,8 +59,8 @@ class Vehicle(Protocol):
     estimates: VehicleEstimates
     history: BankHistory
 
-    def measure(self, state: State) -> None:
-        """Take a new measurement."""
+    def measure(self, state: State) -> bool:
+        """Take a new measurement; return whether the estimates have changed."""
 
     def record(self, command_deg: float, dt: float) -> None:
         """Record a command that is given for `dt` seconds."""
@@ -69,8 +72,9 @@ class DeclaredVehicle:
     def __init__(self, declared: VehicleEstimates) -> None:
         self.estimates, self.history = declared, BankHistory()
 
-    def measure(self, state: State) -> None:
+    def measure(self, state: State) -> bool:
         """Take a new measurement: it changes nothing."""
+        return False
 
     def record(self, command_deg: float, dt: float) -> None:
         """Record a command that is given for `dt` seconds."""
@@ -92,9 +96,11 @@ class IdentifiedVehicle:
         self._airspeed = Average(declared.airspeed_m_s, DECLARED_AIRSPEED_S, AIRSPEED_MEMORY_S)
         self._last_s = -inf
 
-    def measure(self, state: State) -> None:
-        """Take a new measurement."""
+    def measure(self, state: State) -> bool:
+        """Take a new measurement; return whether the estimates have changed."""
         dt = state.time_s - self._last_s
+        if 0.0 < dt < SHORTEST_GAP_S:
+            return False
         first, self._last_s = self._last_s == -inf, state.time_s
         if first:
             self._roll.begin(state.bank_deg)
@@ -119,6 +125,7 @@ class IdentifiedVehicle:
             self._north.add(state.velocity_north_m_s - V * (s - off * c), dt),
             self._airspeed.value,
         )
+        return True
 
     def _measure_turns(self, state: State, dt: float) -> None:
         """Relate heading and course to the bank."""
@@ -154,10 +161,12 @@ class RatioSettings(NamedTuple):
 
     The declared ratio counts as if it had been measured with the standard deviation `spread`, from angles with errors
     of `error_deg` that are correlated over the filter time. A larger angle than `saturation_deg` counts no more than
-    that: otherwise one large turn would outweigh many small oscillations.
+    that: otherwise one large turn would outweigh many small oscillations. Of the filtered angles their means over
+    `mean_s` are subtracted, which a steady turn leaves.
     """
 
     filter_s: float
+    mean_s: float
     memory_s: float
     spread: float
     error_deg: float
@@ -165,7 +174,8 @@ class RatioSettings(NamedTuple):
 
 
 # The ratio of slow turns, from headings, and that of quick ones, from courses.
-SLOW_TURNS, QUICK_TURNS = RatioSettings(3.0, 60.0, 0.1, 1.7, inf), RatioSettings(0.3, 6.0, 0.5, 0.5, 0.5)
+SLOW_TURNS = RatioSettings(3.0, inf, 60.0, 0.1, 1.7, inf)
+QUICK_TURNS = RatioSettings(0.3, 0.5, 6.0, 0.5, 0.5, 0.5)
 
 
 class TurnRatio:
@@ -185,6 +195,7 @@ class TurnRatio:
         """Do not relate later measurements to earlier ones."""
         self._measured_deg = self._computed_deg = 0.0
         self._last_deg = self._last_rate = nan
+        self._measured, self._computed = _HighPass(self._settings.mean_s), _HighPass(self._settings.mean_s)
 
     def measure(self, direction_deg: float, rate_deg_s: float, dt: float) -> None:
         """Take a direction and the turn rate of a coordinated turn, `dt` seconds after the last."""
@@ -195,9 +206,11 @@ class TurnRatio:
         kept, forgotten = exp(-dt / self._settings.filter_s), exp(-dt / self._settings.memory_s)
         self._measured_deg *= kept
         self._computed_deg *= kept
-        weight = dt / max(abs(self._computed_deg) / self._settings.saturation_deg, 1.0) ** 2
-        self._product = forgotten * self._product + weight * self._measured_deg * self._computed_deg
-        self._square = forgotten * self._square + weight * self._computed_deg * self._computed_deg
+        measured_deg = self._measured.filtered(self._measured_deg, dt)
+        computed_deg = self._computed.filtered(self._computed_deg, dt)
+        weight = dt / max(abs(computed_deg) / self._settings.saturation_deg, 1.0) ** 2
+        self._product = forgotten * self._product + weight * measured_deg * computed_deg
+        self._square = forgotten * self._square + weight * computed_deg * computed_deg
         ratio = (self._product + self._declared * self._prior) / (self._square + self._prior)
         low, high = TURN_RATIO_BOUNDS
         self.ratio = min(max(ratio, low), high)
@@ -235,7 +248,7 @@ class CourseLead:
 
 
 class _HighPass:
-    """A first-order high-pass filter; it begins at the first value."""
+    """A first-order high-pass filter over a time, seconds, infinite for no filter; it begins at the first value."""
 
     def __init__(self, time_s: float) -> None:
         self._time_s = time_s

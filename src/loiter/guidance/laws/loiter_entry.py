@@ -47,11 +47,11 @@ TURN_LAG = 0.6
 
 # The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank plus
 # the averaging time. A faster correction of crosstrack errors would need an intercept angle of several degrees.
-GAIN, PLACE_GAIN = 3.0, 0.25
+GAIN, PLACE_GAIN = 4.0, 0.25
 
 # In calm air the gain of course corrections falls to this share: only noise would be corrected. The air is rough where
 # gusts change the course by this angle in a second, radians (root mean square).
-CALM_GAIN, ROUGH_AIR = 0.5, 0.02
+CALM_GAIN, ROUGH_AIR = 0.75, 0.02
 
 # On the circle crosstrack errors are corrected over an arc of 1/HOLD_GAIN radians, so that the intercept angle depends
 # only on the ratio of the error to the radius.
@@ -81,7 +81,7 @@ BLIND_S = 1.0
 ROUNDING_S = 1e-9
 
 # The gain of course corrections is reduced by this share of the delay: a part of it is not predicted exactly.
-DELAY_SHARE = 1.5
+DELAY_SHARE = 1.0
 
 # The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until they
 # differ by less than the second.
@@ -90,7 +90,7 @@ WIND_DIFFERS, WIND_KEPT = 0.1, 0.05
 # On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn, at this share of the
 # gain at which it would begin to oscillate, up to the second share of the circle's rate of turn, and only while the
 # error is less than the third, in radii.
-TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.15, 0.15, 0.1
+TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.25, 0.15, 0.1
 
 
 class ResponsePoint(NamedTuple):
@@ -199,7 +199,7 @@ class LoiterEntry:
         response = self._advance(self._route, estimate)
         if self._reconsider(self._route, response.state):
             response = self._advance(self._route, estimate)
-        self._last_command = self._follow(self._route, response, estimate.time_s, dt)
+        self._last_command = self._follow(self._route, response, estimate, dt)
         return self._last_command
 
     def _present_estimate(self, state: State) -> Estimate | None:
@@ -230,8 +230,8 @@ class LoiterEntry:
             self._shift_clock(self._clock.jump_s)
         if self._clock.jump_s != 0.0 or self._clock.gap_s > BLIND_S:
             self._observer.reset()
-        self._vehicle.measure(state)
-        self._update_limits()
+        if self._vehicle.measure(state):
+            self._update_limits()
         known, history = self._vehicle.estimates, self._vehicle.history
         turning = Turning(known.turn_ratio, known.course_lead_s)
         measured = self._observer.update(state, history.delayed_deg(known.delay_s), turning)
@@ -367,17 +367,16 @@ class LoiterEntry:
     def _fastest_entry(self, state: RelativeState) -> PlannedEntry | None:
         return fastest_entry(state, self._limits, self._orbit.radius_m, self._side, self._wind)
 
-    def _follow(self, route: Route, response: ResponsePoint, present_s: float, dt: float) -> Command:
+    def _follow(self, route: Route, response: ResponsePoint, present: Estimate, dt: float) -> Command:
         """The command that follows the route, with the times that the law reports, counted from the present."""
         target_deg = clip(self._target_bank_deg(route, response.state, dt), self._limit_deg)
-        roll, current_deg = self._vehicle.estimates.roll, self._vehicle.history.current_deg
-        bank_deg = roll.demand_deg(current_deg, target_deg, self._limit_deg)
+        bank_deg = self._vehicle.estimates.roll.demand_deg(present.bank_deg, target_deg, self._limit_deg)
         self._record(bank_deg, dt)
         return Command(
             self._turn_rate_deg_s(bank_deg),
             bank_deg,
             phase_of_control(route.control),
-            max(self._join_time_s - present_s, 0.0),
+            max(self._join_time_s - present.time_s, 0.0),
             TURNS[Side(route.side)],
             phase_of_control(route.next_control),
             inf if route.is_holding else route.remaining_s - response.early_s,
