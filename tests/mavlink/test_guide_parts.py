@@ -265,20 +265,20 @@ def beat(mode):
 
 def test_a_mode_is_expected_to_change_and_then_to_stay():
     watch = ModeWatch(3)
-    assert (watch.surprise(0.0), watch.name) == ("", "unknown")
+    assert (watch.unexpected_mode(0.0), watch.name) == ("", "unknown")
     watch.update(beat(10))
-    assert watch.surprise(0.0) == ""
+    assert watch.unexpected_mode(0.0) == ""
     watch.expect(GUIDED)
-    assert watch.surprise(99.0) == ""
+    assert watch.unexpected_mode(99.0) == ""
     watch.accepted(100.0)
-    assert watch.surprise(102.0) == ""
-    assert watch.surprise(104.0) == "the vehicle stays in the mode AUTO, and does not change to GUIDED"
+    assert watch.unexpected_mode(102.0) == ""
+    assert watch.unexpected_mode(104.0) == "the vehicle stays in the mode AUTO, and does not change to GUIDED"
     watch.update(beat(GUIDED))
     assert watch.confirmed
-    assert watch.surprise(104.0) == ""
+    assert watch.unexpected_mode(104.0) == ""
     watch.expect(GUIDED)
     watch.update(beat(10))
-    assert watch.surprise(104.0) == "the pilot or a failsafe changed the mode to AUTO"
+    assert watch.unexpected_mode(104.0) == "the pilot or a failsafe changed the mode to AUTO"
 
 
 def test_settings_of_arduplane_in_both_generations_of_names():

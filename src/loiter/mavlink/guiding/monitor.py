@@ -100,8 +100,8 @@ class Monitor:
     def _taken_over(self, now: float) -> StopReason | None:
         if silent := self.silent(now):
             return StopReason(silent, ours=False, measured=False)
-        if surprise := self.modes.surprise(now):
-            return StopReason(surprise, ours=False)
+        if unexpected_mode := self.modes.unexpected_mode(now):
+            return StopReason(unexpected_mode, ours=False)
         if self.heartbeat is not None and self.heartbeat.system_status >= TERMINATION:
             return StopReason("the autopilot has terminated the flight", ours=False)
         if self.heartbeat is not None and not self.heartbeat.base_mode & 128:
