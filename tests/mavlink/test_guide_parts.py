@@ -28,7 +28,7 @@ from loiter.mavlink.connection.round_trip import RoundTrip
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
 from loiter.mavlink.guiding.report import GuideReport, Stage
-from loiter.mavlink.guiding.settling import SteadyHold, circle_position
+from loiter.mavlink.guiding.settling import SteadyHoldDetector, circle_position
 from loiter.mavlink.guiding.step_log import log_row, step_log
 from mavlink.vehicle import mavlink
 
@@ -265,20 +265,20 @@ def beat(mode):
 
 def test_a_mode_is_expected_to_change_and_then_to_stay():
     watch = ModeWatch(3)
-    assert (watch.surprise(0.0), watch.name) == ("", "unknown")
+    assert (watch.unexpected_mode(0.0), watch.name) == ("", "unknown")
     watch.update(beat(10))
-    assert watch.surprise(0.0) == ""
+    assert watch.unexpected_mode(0.0) == ""
     watch.expect(GUIDED)
-    assert watch.surprise(99.0) == ""
+    assert watch.unexpected_mode(99.0) == ""
     watch.accepted(100.0)
-    assert watch.surprise(102.0) == ""
-    assert watch.surprise(104.0) == "the vehicle stays in the mode AUTO, and does not change to GUIDED"
+    assert watch.unexpected_mode(102.0) == ""
+    assert watch.unexpected_mode(104.0) == "the vehicle stays in the mode AUTO, and does not change to GUIDED"
     watch.update(beat(GUIDED))
     assert watch.confirmed
-    assert watch.surprise(104.0) == ""
+    assert watch.unexpected_mode(104.0) == ""
     watch.expect(GUIDED)
     watch.update(beat(10))
-    assert watch.surprise(104.0) == "the pilot or a failsafe changed the mode to AUTO"
+    assert watch.unexpected_mode(104.0) == "the pilot or a failsafe changed the mode to AUTO"
 
 
 def test_settings_of_arduplane_in_both_generations_of_names():
@@ -396,7 +396,7 @@ def test_the_position_on_a_circle():
 
 
 def test_a_steady_hold_takes_time_and_a_quarter_of_the_circle():
-    steady, times = SteadyHold(CIRCLE), []
+    steady, times = SteadyHoldDetector(CIRCLE), []
     for i in range(200):
         steady.update(on_circle(1.29 * i, 80.0 if i > 20 else 90.0, time_s=0.1 * i))
         if steady.settled:
@@ -407,7 +407,7 @@ def test_a_steady_hold_takes_time_and_a_quarter_of_the_circle():
 
 
 def test_in_gusts_the_band_doubles_after_a_full_circle():
-    steady = SteadyHold(CIRCLE)
+    steady = SteadyHoldDetector(CIRCLE)
     settled = []
     for i in range(800):
         steady.update(on_circle(1.3 * i, 80.0 + 6.0 * math.sin(0.3 * i), time_s=0.1 * i))

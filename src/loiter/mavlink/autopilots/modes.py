@@ -131,7 +131,7 @@ class ModeWatch:
         """Expect the change soon, since the vehicle has accepted the command."""
         self._deadline = now + CHANGE_S
 
-    def surprise(self, now: float) -> str:
+    def unexpected_mode(self, now: float) -> str:
         """What is not as expected, in words, and "" while all is well."""
         if self._target is None or self.mode is None or self.confirmed:
             return ""

@@ -19,10 +19,10 @@ from loiter.mavlink.connection.command import hold_command, long_command
 from loiter.mavlink.connection.pending_command import PendingCommand
 from loiter.mavlink.guiding.contact import STEP_S, Contact
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
-from loiter.mavlink.guiding.monitor import Stop
-from loiter.mavlink.guiding.preparation import Prepared, Wanted, prepare
+from loiter.mavlink.guiding.monitor import StopReason
+from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, prepare
 from loiter.mavlink.guiding.report import GuideReport, Stage
-from loiter.mavlink.guiding.settling import SteadyHold
+from loiter.mavlink.guiding.settling import SteadyHoldDetector
 from loiter.mavlink.missions.start import CUSTOM_MODE, DO_SET_MODE
 from loiter.planning.feasibility import RelativeWind, check_held, relative_velocity
 
@@ -46,10 +46,10 @@ WIND_SLACK = 1.15
 WIND_S, WARM_STEPS = 1.0, 3
 
 
-class Stopped(Exception):
+class GuidingStopped(Exception):
     """Guiding must stop, for the reason in `stop`."""
 
-    def __init__(self, stop: Stop) -> None:
+    def __init__(self, stop: StopReason) -> None:
         super().__init__(stop.reason)
         self.stop = stop
 
@@ -60,21 +60,21 @@ class Flight:
     `record` is called with a report for every step.
     """
 
-    def __init__(self, contact: Contact, wanted: Wanted, period_s: float) -> None:
-        self.orbit = wanted.orbit
+    def __init__(self, contact: Contact, request: GuideRequest, period_s: float) -> None:
+        self.orbit = request.orbit
         self.record: Callable[[GuideReport], None] = lambda report: None
-        self._contact, self._wanted, self._period_s = contact, wanted, period_s
+        self._contact, self._request, self._period_s = contact, request, period_s
         self._monitor, self._modes = contact.monitor, contact.monitor.modes
-        self._prepared: Prepared
-        self._law: Any = None
-        self._steady = SteadyHold(self.orbit)
+        self._setup: FlightSetup
+        self._law: LoiterEntry
+        self._steady = SteadyHoldDetector(self.orbit)
         # What has been done: whether the fall-back circle was commanded and accepted, whether banks are commanded.
         self._commanded = self._accepted = self._steered = False
         # Whether the vehicle is known to bank as it is commanded.
         self._trusted = False
         self._notices: list[str] = []
         self._state: State
-        self._stage = Stage.SHOWING if wanted.dry_run else Stage.FALL_BACK
+        self._stage = Stage.SHOWING if request.dry_run else Stage.FALL_BACK
         self._report = GuideReport(0.0, self._stage)
         self._last_step = contact.began
         self._next_report, self._next_wind = contact.began + period_s, -inf
@@ -83,8 +83,8 @@ class Flight:
 
     def stages(self, timeout_s: float, *, only_vehicle: bool) -> Generator[GuideReport, None, None]:
         """Fly all stages; yields reports. The arguments are those of `prepare`."""
-        self._begin(prepare(self._contact, self._wanted, timeout_s, only_vehicle=only_vehicle))
-        if self._wanted.dry_run:
+        self._begin(prepare(self._contact, self._request, timeout_s, only_vehicle=only_vehicle))
+        if self._request.dry_run:
             yield from self._show()
         yield from self._fall_back()
         if self._contact.flies_px4:
@@ -92,26 +92,26 @@ class Flight:
         yield from self._steer()
         yield self._hand_over()
 
-    def _begin(self, prepared: Prepared) -> None:
+    def _begin(self, setup: FlightSetup) -> None:
         """Take what the flight begins with, and make the law; raises errors before anything is commanded."""
-        self._prepared, self.orbit, self._state = prepared, prepared.orbit, prepared.state
-        self._notices += prepared.notices
-        self._steady = SteadyHold(self.orbit)
+        self._setup, self.orbit, self._state = setup, setup.orbit, setup.state
+        self._notices += setup.notices
+        self._steady = SteadyHoldDetector(self.orbit)
         warm = self._new_law()
         for _ in range(WARM_STEPS):
-            warm.step(prepared.state, STEP_S)
+            warm.step(setup.state, STEP_S)
         self._law = self._new_law()
         self._contact.steering = steering = self._new_steering()
         self._trusted = steering.trusted
 
-    def _new_law(self) -> Any:
-        p = self._prepared
+    def _new_law(self) -> LoiterEntry:
+        p = self._setup
         delay_s = DELAY_S + self._contact.round_trip.seconds
-        wind = self._wanted.wind or self._contact.reported_wind()
+        wind = self._request.wind or self._contact.reported_wind()
         return LoiterEntry(self.orbit, p.aircraft, wind, roll=p.settings.roll, delay_s=delay_s)
 
     def _new_steering(self) -> Steering:
-        vehicle, p = self._contact.link.vehicle, self._prepared
+        vehicle, p = self._contact.link.vehicle, self._setup
         if not self._contact.flies_px4:
             return RollSteering(vehicle)
         sign = AccelerationSign(sign_of_version(self._contact.version), p.settings.roll)
@@ -127,7 +127,7 @@ class Flight:
                 # Its commands are not flown: each report is that of a law that begins now.
                 self._law = self._new_law()
                 state = self._measure()
-                self._note(state, self._law.step(state, STEP_S), now)
+                self._record_step(state, self._law.step(state, STEP_S), now)
                 yield self._take_report(now)
 
     def _fall_back(self) -> Generator[GuideReport, None, None]:
@@ -182,7 +182,7 @@ class Flight:
         self._stage, self._steered = Stage.JOINING, True
         self._law = self._new_law()
         self._last_step = monotonic() - STEP_S
-        while not (self._steady.settled and not self._wanted.keep):
+        while not (self._steady.settled and not self._request.keep):
             self._step()
             if monotonic() >= self._next_report:
                 yield self._take_report(monotonic())
@@ -192,7 +192,9 @@ class Flight:
         """Hand the vehicle over to its own hold; returns the last report."""
         self._stage = Stage.HANDING_OVER
         if not self._command_hold(measured=True):
-            raise Stopped(Stop("the vehicle did not confirm the circle on which it is handed over", ours=False))
+            raise GuidingStopped(
+                StopReason("the vehicle did not confirm the circle on which it is handed over", ours=False)
+            )
         self._stage = Stage.HANDED_OVER
         turn = self.orbit.turn.described
         self._notices.append(f"Handed over: {self._contact.name} holds the circle {turn} by its own guidance.")
@@ -200,16 +202,16 @@ class Flight:
 
     # The end.
 
-    def stop(self, stop: Stop) -> str:
+    def stop(self, stop: StopReason) -> str:
         """Stop guiding: command the fall-back circle where that is allowed; returns the sentence that says why."""
         if not self._commanded:
-            return stop.reason if self._wanted.dry_run else f"{stop.reason}; nothing was commanded"
+            return stop.reason if self._request.dry_run else f"{stop.reason}; nothing was commanded"
         if stop.ours:
             try:
                 if self._command_hold(measured=stop.measured):
                     return f"{stop.reason}: guiding has stopped, and {self._contact.name} flies the fall-back circle"
-            except (LoiterError, Stopped) as failure:
-                stop = Stop(f"{stop.reason}, and then {failure}", ours=False)
+            except (LoiterError, GuidingStopped) as failure:
+                stop = StopReason(f"{stop.reason}, and then {failure}", ours=False)
         return f"{stop.reason}: guiding has stopped, nothing more is sent, and {self._consequence}"
 
     @property
@@ -221,7 +223,7 @@ class Flight:
         if not self._steered or mode == HOLD:
             return f"{name} flies the fall-back circle" if self._accepted else f"{name} flies in {self._modes.name}"
         if self._contact.flies_px4:
-            return f"PX4 follows COM_OBL_RC_ACT: {self._prepared.settings.loss_action}"
+            return f"PX4 follows COM_OBL_RC_ACT: {self._setup.settings.loss_action}"
         return "ArduPlane keeps its bank for up to 3 s and then flies the fall-back circle"
 
     def _command_hold(self, *, measured: bool) -> bool:
@@ -239,10 +241,10 @@ class Flight:
             pending.send(contact.link, monotonic())
             if pending.accepted:
                 contact.request_heartbeat(monotonic())
-            levelled = self._steer_on(measured=measured, levelled=levelled)
+            levelled = self._keep_steering(measured=measured, levelled=levelled)
             now = contact.listen()
             if (stop := self._monitor.check(now)) and not stop.ours:
-                raise Stopped(stop)
+                raise GuidingStopped(stop)
         if measured and self._steered:
             self._send_last()
         return True
@@ -252,14 +254,14 @@ class Flight:
 
         It is that of the circle where the vehicle is on it; otherwise the wings are levelled.
         """
-        contact, limit_deg = self._contact, self._prepared.aircraft.max_bank_deg
+        contact, limit_deg = self._contact, self._setup.aircraft.max_bank_deg
         if contact.flies_px4 or contact.steering is None or limit_deg is None:
             return
         on_circle = self._report.phase == Phase.HOLD
         bank_deg = last_bank_deg(self.orbit, self._state, self._law.estimates, limit_deg) if on_circle else 0.0
         contact.steering.send(contact.link, bank_deg, self._state.bank_deg, monotonic())
 
-    def _steer_on(self, *, measured: bool, levelled: bool) -> bool:
+    def _keep_steering(self, *, measured: bool, levelled: bool) -> bool:
         """Keep the vehicle steered while it changes over; returns whether the wings were levelled.
 
         ArduPlane gets one setpoint to level its wings: each prolongs the time until it flies the circle.
@@ -283,8 +285,8 @@ class Flight:
             # What was commanded until then was not what the law had wanted: it identifies the vehicle from now on.
             self._trusted, self._law = True, self._new_law()
         command = self._law.step(state, dt)
-        assert self._prepared.aircraft.max_bank_deg is not None  # the aircraft is made with a bank limit
-        bank_deg = clip(command.bank_deg, self._prepared.aircraft.max_bank_deg)
+        assert self._setup.aircraft.max_bank_deg is not None  # the aircraft is made with a bank limit
+        bank_deg = clip(command.bank_deg, self._setup.aircraft.max_bank_deg)
         # From the measurement to the middle of the time for which the setpoint is flown.
         delay_s = self._contact.round_trip.seconds + 0.5 * min(dt, STEP_S)
         steering.prepare(delay_s, self._contact.reported_wind())
@@ -294,9 +296,9 @@ class Flight:
         self._monitor.command_deg, self._monitor.bank_deg = sent_deg, state.bank_deg
         self._check_wind(now)
         self._contact.request_in_flight(now)
-        self._note(state, command._replace(bank_deg=sent_deg), now)
+        self._record_step(state, command._replace(bank_deg=sent_deg), now)
 
-    def _note(self, state: State, command: Command, now: float) -> None:
+    def _record_step(self, state: State, command: Command, now: float) -> None:
         """Make and record the report of a step."""
         m, position = self._contact.measurements, self._steady.update(state)
         self._report = GuideReport(
@@ -324,7 +326,7 @@ class Flight:
         self._next_wind = now + WIND_S
         e, reported = self._law.estimates, self._contact.reported_wind()
         winds = [(e.wind_east_m_s, e.wind_north_m_s), *([reported.velocity_m_s] if reported else [])]
-        wider, aircraft = replace(self.orbit, radius_m=WIND_SLACK * self.orbit.radius_m), self._prepared.aircraft
+        wider, aircraft = replace(self.orbit, radius_m=WIND_SLACK * self.orbit.radius_m), self._setup.aircraft
         self._monitor.wind_problem = ""
         try:
             for wind in winds:
@@ -339,7 +341,7 @@ class Flight:
 
     def _check(self, now: float) -> None:
         if stop := self._monitor.check(now):
-            raise Stopped(stop)
+            raise GuidingStopped(stop)
 
     def _take_report(self, now: float) -> GuideReport:
         """The present report with the notices; the next one is due a period later."""
@@ -365,9 +367,9 @@ class Flight:
 
     def _hold_command(self) -> Any:
         """The command to hold the circle, with the radius with which the vehicle flies that of the orbit."""
-        altitude_m = self._prepared.altitude_m
+        altitude_m = self._setup.altitude_m
         estimates = self._law.estimates if self._steered else None
         radius_m = sent_radius_m(self.orbit, altitude_m, self._contact.parameters.known, estimates)
-        latitude_deg, longitude_deg = self._wanted.frame.to_geodetic(self.orbit.east_m, self.orbit.north_m)
+        latitude_deg, longitude_deg = self._request.frame.to_geodetic(self.orbit.east_m, self.orbit.north_m)
         place = float(latitude_deg), float(longitude_deg), altitude_m
         return hold_command(self._contact.link.vehicle, place, radius_m, self.orbit.turn)

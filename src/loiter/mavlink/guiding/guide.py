@@ -8,19 +8,20 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
+from loiter.compiled import wind_solver
 from loiter.errors import InvalidArgument, LinkFailed, number, positive
 from loiter.geo import LocalFrame
 from loiter.mavlink.connection.link import check_connection, dialect, open_link
 from loiter.mavlink.guiding.contact import Contact
-from loiter.mavlink.guiding.flight import Flight, Stopped
-from loiter.mavlink.guiding.monitor import Stop
-from loiter.mavlink.guiding.preparation import Wanted
+from loiter.mavlink.guiding.flight import Flight, GuidingStopped
+from loiter.mavlink.guiding.monitor import StopReason
+from loiter.mavlink.guiding.preparation import GuideRequest
 from loiter.mavlink.guiding.report import GuideReport
 from loiter.mavlink.guiding.step_log import check_log, step_log
 from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
 from loiter.planning.model import Orbit, Wind
 
-INTERRUPTED = Stop("guiding was interrupted")
+INTERRUPTED = StopReason("guiding was interrupted")
 
 
 def guide(
@@ -74,9 +75,9 @@ def guide(
         raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
     path = None if log is None else Path(log)
     check_log(path)
-    wanted = Wanted(orbit, frame, airspeed_m_s, max_bank_deg, wind, altitude_m, keep, dry_run)
+    request = GuideRequest(orbit, frame, airspeed_m_s, max_bank_deg, wind, altitude_m, keep, dry_run)
     target = _Target(connection, system, component, timeout_s)
-    return _guide(target, wanted, period_s, path)
+    return _guide(target, request, period_s, path)
 
 
 class _Target(NamedTuple):
@@ -88,16 +89,20 @@ class _Target(NamedTuple):
     timeout_s: float
 
 
-def _guide(target: _Target, wanted: Wanted, period_s: float, log: Path | None) -> Generator[GuideReport, None, None]:
+def _guide(
+    target: _Target, request: GuideRequest, period_s: float, log: Path | None
+) -> Generator[GuideReport, None, None]:
+    # The compiled search in wind is loaded now, not while a vehicle flies.
+    wind_solver.load()
     with open_link(*target, listen_s=0.0) as link:
-        flight = Flight(Contact(link, target.connection, wanted.frame), wanted, period_s)
+        flight = Flight(Contact(link, target.connection, request.frame), request, period_s)
         with step_log(log, lambda: flight.orbit) as flight.record, _without_garbage_collection():
             try:
                 yield from flight.stages(target.timeout_s, only_vehicle=target.system is None)
-            except Stopped as stopped:
+            except GuidingStopped as stopped:
                 raise LinkFailed(flight.stop(stopped.stop)) from None
             except LinkFailed as failure:
-                raise LinkFailed(flight.stop(Stop(str(failure), ours=False))) from failure
+                raise LinkFailed(flight.stop(StopReason(str(failure), ours=False))) from failure
             except KeyboardInterrupt:
                 raise KeyboardInterrupt(flight.stop(INTERRUPTED)) from None
             except BaseException:

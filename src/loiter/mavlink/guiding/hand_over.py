@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import atan, degrees, hypot, pi, radians, tan
-from typing import Any
 
 from loiter.errors import LoiterError
+from loiter.guidance.identification.vehicle import VehicleEstimates
 from loiter.guidance.protocol import State
 from loiter.mavlink.guiding.settling import circle_position
 from loiter.mavlink.missions.flown_radius import loiter_scaling
@@ -29,7 +29,9 @@ LARGEST_SHARE = 0.3
 HALF_KEPT_S = 1.5
 
 
-def sent_radius_m(orbit: Orbit, altitude_m: float, parameters: dict[str, float], estimates: Any | None) -> float:
+def sent_radius_m(
+    orbit: Orbit, altitude_m: float, parameters: dict[str, float], estimates: VehicleEstimates | None
+) -> float:
     """The radius to send, metres, with which a vehicle flies that of the orbit at an altitude above mean sea level.
 
     `parameters` are those of the vehicle, `estimates` those of the law, or None before it has flown.
@@ -43,7 +45,7 @@ def sent_radius_m(orbit: Orbit, altitude_m: float, parameters: dict[str, float],
     return scaling.sent_whole_m(radius_m, altitude_m)
 
 
-def last_bank_deg(orbit: Orbit, state: State, estimates: Any, limit_deg: float) -> float:
+def last_bank_deg(orbit: Orbit, state: State, estimates: VehicleEstimates, limit_deg: float) -> float:
     """The bank, degrees, that keeps an aircraft on its circle over the next seconds, in the wind that is estimated."""
     azimuth_deg = circle_position(state, orbit).azimuth_deg
     side = 1.0 if orbit.turn == Turn.CW else -1.0

@@ -26,7 +26,7 @@ UNRESPONSIVE_DEG, UNRESPONSIVE_S = 25.0, 3.0
 NEEDED_FLAGS, CONSTANT_POSITION = 1 | 2 | 16, 128
 
 
-class Stop(NamedTuple):
+class StopReason(NamedTuple):
     """A reason to stop, as the beginning of a sentence.
 
     `ours` is whether the vehicle may be commanded once more, back to the fall-back circle: not if the link is lost, and
@@ -38,7 +38,7 @@ class Stop(NamedTuple):
     measured: bool = True
 
 
-class Since:
+class ConditionTimer:
     """How long a condition has held without interruption, seconds."""
 
     def __init__(self) -> None:
@@ -66,7 +66,12 @@ class Monitor:
         self.command_deg = self.bank_deg = 0.0
         self._estimator_ok = True
         self._fence_breached = self._grounded = False
-        self._bad, self._slow, self._windy, self._off = Since(), Since(), Since(), Since()
+        self._bad, self._slow, self._windy, self._off = (
+            ConditionTimer(),
+            ConditionTimer(),
+            ConditionTimer(),
+            ConditionTimer(),
+        )
 
     def update(self, message: Any, now: float) -> None:
         """Process a message of the vehicle."""
@@ -83,7 +88,7 @@ class Monitor:
         elif kind == "EXTENDED_SYS_STATE":
             self._grounded = message.landed_state == 1
 
-    def check(self, now: float) -> Stop | None:
+    def check(self, now: float) -> StopReason | None:
         """The reason to stop, or None. Those that forbid any further command come first."""
         return self._taken_over(now) or self._unsafe(now) or self._unmeasured(now)
 
@@ -92,45 +97,45 @@ class Monitor:
         lost = now - self.last_message > SILENT_S
         return f"nothing was heard from {self._vehicle.named} for {SILENT_S:g} s" if lost else ""
 
-    def _taken_over(self, now: float) -> Stop | None:
+    def _taken_over(self, now: float) -> StopReason | None:
         if silent := self.silent(now):
-            return Stop(silent, ours=False, measured=False)
-        if surprise := self.modes.surprise(now):
-            return Stop(surprise, ours=False)
+            return StopReason(silent, ours=False, measured=False)
+        if unexpected_mode := self.modes.unexpected_mode(now):
+            return StopReason(unexpected_mode, ours=False)
         if self.heartbeat is not None and self.heartbeat.system_status >= TERMINATION:
-            return Stop("the autopilot has terminated the flight", ours=False)
+            return StopReason("the autopilot has terminated the flight", ours=False)
         if self.heartbeat is not None and not self.heartbeat.base_mode & 128:
-            return Stop("the vehicle is disarmed", ours=False)
+            return StopReason("the vehicle is disarmed", ours=False)
         if self._grounded:
-            return Stop("the vehicle reports that it is on the ground", ours=False)
+            return StopReason("the vehicle reports that it is on the ground", ours=False)
         return None
 
-    def _unsafe(self, now: float) -> Stop | None:
+    def _unsafe(self, now: float) -> StopReason | None:
         if self._fence_breached:
-            return Stop("the vehicle is outside its fence")
+            return StopReason("the vehicle is outside its fence")
         if self.heartbeat is not None and self.heartbeat.system_status >= CRITICAL:
-            return Stop("the autopilot reports a failsafe")
+            return StopReason("the autopilot reports a failsafe")
         if self._windy.update(bool(self.wind_problem), now) > STRONG_WIND_S:
-            return Stop(f"the circle cannot be held: {self.wind_problem}")
+            return StopReason(f"the circle cannot be held: {self.wind_problem}")
         if self._off.update(abs(self.command_deg - self.bank_deg) > UNRESPONSIVE_DEG, now) > UNRESPONSIVE_S:
-            return Stop(f"the vehicle does not follow the commanded bank, {self.command_deg:.0f} degrees")
+            return StopReason(f"the vehicle does not follow the commanded bank, {self.command_deg:.0f} degrees")
         return None
 
-    def _unmeasured(self, now: float) -> Stop | None:
+    def _unmeasured(self, now: float) -> StopReason | None:
         m = self._measurements
         if m.restarted:
-            return Stop("the clock of the autopilot went back: it has restarted", measured=False)
+            return StopReason("the clock of the autopilot went back: it has restarted", measured=False)
         if m.jump_m > 0.0:
-            return Stop(f"the position jumped by {m.jump_m:.0f} m", measured=False)
+            return StopReason(f"the position jumped by {m.jump_m:.0f} m", measured=False)
         if self._bad.update(not self._estimator_ok, now) > BAD_ESTIMATE_S:
-            return Stop("the estimator of the autopilot has lost its position", measured=False)
+            return StopReason("the estimator of the autopilot has lost its position", measured=False)
         # Where nothing at all arrives the pilot may have taken over: nothing is commanded until that is clear.
         alive = now - self.last_message <= ALIVE_S
         if alive and now - m.attitude_arrived > STALE_S:
-            return Stop(f"no attitude arrived for {STALE_S:g} s", measured=False)
+            return StopReason(f"no attitude arrived for {STALE_S:g} s", measured=False)
         if alive and now - m.position_arrived > STALE_S:
-            return Stop(f"no position arrived for {STALE_S:g} s", measured=False)
+            return StopReason(f"no position arrived for {STALE_S:g} s", measured=False)
         rate_hz = m.rate_hz(now)
         if self._slow.update(rate_hz < LEAST_HZ, now) > SLOW_S:
-            return Stop(f"only {rate_hz:.1f} measurements a second arrive, and {LEAST_HZ:.0f} are needed")
+            return StopReason(f"only {rate_hz:.1f} measurements a second arrive, and {LEAST_HZ:.0f} are needed")
         return None

@@ -31,8 +31,8 @@ PREPARE_S, VERSION_S = 8.0, 1.5
 AIRSPEED_SHARE = 0.15
 
 
-class Wanted(NamedTuple):
-    """What is wanted: the circle and its frame, the aircraft and the wind as far as they are given, and the options."""
+class GuideRequest(NamedTuple):
+    """The arguments of `guide`: the circle and its frame, the aircraft and the wind if they are given, the options."""
 
     orbit: Orbit
     frame: LocalFrame
@@ -44,7 +44,7 @@ class Wanted(NamedTuple):
     dry_run: bool
 
 
-class Prepared(NamedTuple):
+class FlightSetup(NamedTuple):
     """What a flight begins with; the orbit has a direction, `notices` are sentences for the user."""
 
     orbit: Orbit
@@ -56,37 +56,37 @@ class Prepared(NamedTuple):
     notices: tuple[str, ...]
 
 
-def prepare(contact: Contact, wanted: Wanted, timeout_s: float, *, only_vehicle: bool) -> Prepared:
+def prepare(contact: Contact, request: GuideRequest, timeout_s: float, *, only_vehicle: bool) -> FlightSetup:
     """Wait until everything that is needed has arrived, and choose aircraft, altitude and direction.
 
     `only_vehicle` is whether a second vehicle must be listened for. Raises `LinkFailed` where something does not
     arrive, and for a vehicle that must not be guided; `InvalidArgument` where the options do not suit it.
     """
-    _await_everything(contact, min(timeout_s, PREPARE_S), OTHERS_S if only_vehicle else 0.0)
+    _await_data(contact, min(timeout_s, PREPARE_S), OTHERS_S if only_vehicle else 0.0)
     if only_vehicle and contact.link.others:
         vehicles = {contact.link.vehicle, *contact.link.others}
         raise LinkFailed(not_found("the connection", None, vehicles, 0.0))
     if problem := refusal(contact.monitor.heartbeat, contact.extended):
         raise LinkFailed(f"{contact.name} cannot be guided: {problem}")
     settings = autopilot_settings(contact.autopilot, contact.parameters.known)
-    bank_deg = _bank_limit_deg(wanted, settings)
-    airspeed, notices = _airspeed(contact, wanted, settings)
+    bank_deg = _bank_limit_deg(request, settings)
+    airspeed, notices = _airspeed(contact, request, settings)
     contact.measurements.declared_m_s = airspeed
     aircraft = Aircraft(airspeed, max_bank_deg=bank_deg)
-    altitude_m = contact.measurements.altitude_m if wanted.altitude_m is None else wanted.altitude_m
-    wind, state = wanted.wind or contact.reported_wind(), contact.state()
+    altitude_m = contact.measurements.altitude_m if request.altitude_m is None else request.altitude_m
+    wind, state = request.wind or contact.reported_wind(), contact.state()
     assert state is not None  # it was waited for
-    orbit = wanted.orbit
+    orbit = request.orbit
     if orbit.turn == Turn.EITHER:
         start = Pose(state.east_m, state.north_m, wrapped(state.heading_deg))
         orbit = replace(orbit, turn=plan(start, orbit, aircraft, wind).turn)
-    return Prepared(orbit, aircraft, settings, altitude_m, state, wind, notices)
+    return FlightSetup(orbit, aircraft, settings, altitude_m, state, wind, notices)
 
 
-def _await_everything(contact: Contact, timeout_s: float, listen_s: float) -> None:
+def _await_data(contact: Contact, timeout_s: float, listen_s: float) -> None:
     """Request and receive until nothing is lacking, and at least for `listen_s` seconds."""
     now = contact.began
-    while (lacking := _lacking(contact, now)) or now < contact.began + listen_s:
+    while (lacking := _missing_data(contact, now)) or now < contact.began + listen_s:
         if silent := contact.monitor.silent(now):
             raise LinkFailed(silent)
         if lacking and now - contact.began > timeout_s:
@@ -95,7 +95,7 @@ def _await_everything(contact: Contact, timeout_s: float, listen_s: float) -> No
         now = contact.listen()
 
 
-def _lacking(contact: Contact, now: float) -> str:
+def _missing_data(contact: Contact, now: float) -> str:
     """What has not arrived yet, in words; empty if nothing is missing."""
     m = contact.measurements
     if contact.monitor.heartbeat is None:
@@ -117,25 +117,25 @@ def _lacking(contact: Contact, now: float) -> str:
     return "" if contact.streams.settled else "does not answer requests for streams"
 
 
-def _bank_limit_deg(wanted: Wanted, settings: AutopilotSettings) -> float:
-    """The limit of commanded banks: the one that is wanted, or just below that of the autopilot."""
+def _bank_limit_deg(request: GuideRequest, settings: AutopilotSettings) -> float:
+    """The limit of commanded banks: the one requested, or just below that of the autopilot."""
     limit_deg = settings.bank_limit_deg
-    if wanted.max_bank_deg is not None and wanted.max_bank_deg > limit_deg:
-        given = f"is {wanted.max_bank_deg:g}"
+    if request.max_bank_deg is not None and request.max_bank_deg > limit_deg:
+        given = f"is {request.max_bank_deg:g}"
         raise InvalidArgument("max_bank_deg", f"{given}: the autopilot banks no steeper than {limit_deg:g} degrees")
-    return settings.guided_bank_deg if wanted.max_bank_deg is None else wanted.max_bank_deg
+    return settings.guided_bank_deg if request.max_bank_deg is None else request.max_bank_deg
 
 
-def _airspeed(contact: Contact, wanted: Wanted, settings: AutopilotSettings) -> tuple[float, tuple[str, ...]]:
+def _airspeed(contact: Contact, request: GuideRequest, settings: AutopilotSettings) -> tuple[float, tuple[str, ...]]:
     """The true airspeed to plan with, metres per second, and notices about it."""
-    declared = wanted.airspeed_m_s
+    declared = request.airspeed_m_s
     if declared is None:
         declared = settings.airspeed_m_s * eas2tas_squared(contact.measurements.altitude_m) ** 0.5
     contact.measurements.declared_m_s = declared
     measured, source = contact.measurements.airspeed(contact.reported_wind(), monotonic())
     if source != AirspeedSource.MEASURED:
         return declared, (f"The vehicle reports no airspeed; the airspeed is {source}.",)
-    if wanted.airspeed_m_s is None and isfinite(measured) and abs(measured - declared) > AIRSPEED_SHARE * declared:
+    if request.airspeed_m_s is None and isfinite(measured) and abs(measured - declared) > AIRSPEED_SHARE * declared:
         text = f"The vehicle flies at {measured:.1f} m/s, not at its cruise airspeed of {declared:.1f} m/s"
         return measured, (f"{text}: the plan is for {measured:.1f} m/s.",)
     return declared, ()

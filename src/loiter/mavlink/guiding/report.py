@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from enum import StrEnum
 from math import nan
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from loiter.guidance.identification.vehicle import VehicleEstimates
 from loiter.guidance.protocol import Phase, State
 from loiter.mavlink.guiding.measurements import AirspeedSource
 from loiter.planning.model import Turn
@@ -47,5 +48,5 @@ class GuideReport(NamedTuple):
     outside_m: float = nan
     rate_hz: float = 0.0
     age_s: float = nan
-    estimates: Any = None
+    estimates: VehicleEstimates | None = None
     notices: tuple[str, ...] = ()

@@ -33,7 +33,7 @@ def circle_position(state: State, orbit: Orbit) -> CirclePosition:
     return CirclePosition(hypot(x, y) - orbit.radius_m, remainder(track_deg - tangent_deg, 360.0), azimuth_deg)
 
 
-class SteadyHold:
+class SteadyHoldDetector:
     """Whether the circle is held steadily; `update` is called with every new state."""
 
     def __init__(self, orbit: Orbit) -> None:

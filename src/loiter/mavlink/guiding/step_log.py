@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from math import nan
 from pathlib import Path
-from typing import Any
 
 from loiter.errors import InvalidArgument, MissingPackage
+from loiter.guidance.identification.vehicle import VehicleEstimates
 from loiter.io.flight_log import TEXTS, LogRow, LogWriter
 from loiter.mavlink.guiding.report import GuideReport
 from loiter.planning.model import Orbit
@@ -96,7 +96,7 @@ def log_row(report: GuideReport, orbit: Orbit) -> LogRow:
     )
 
 
-def _estimates(e: Any) -> dict[str, float]:
+def _estimates(e: VehicleEstimates | None) -> dict[str, float]:
     """The columns of the law's estimates."""
     names = ["delay_s", "turn_ratio", "course_lead_s", "wind_east_m_s", "wind_north_m_s"]
     if e is None:
