@@ -19,9 +19,12 @@ import numpy as np
 
 from loiter.guidance.vehicle.rolling import Roll
 
-# The models: every combination of these time constants, seconds, and rate limits, degrees per second; and the delays.
-TIMES_S, RATES_DEG_S = np.geomspace(0.08, 1.3, 8), np.array([40.0, 75.0, 140.0])
+# The models: each of these multiples of the declared time constant and rate limit; and the delays, seconds.
+TIMES, RATES = 1.5 ** np.arange(-4.0, 3.0), 1.3 ** np.arange(-2.0, 4.0)
 DELAYS_S = np.linspace(0.0, 1.3, 27)
+
+# The least time constant, seconds, and the largest rate limit, degrees per second, that count as declared.
+LEAST_TIME_S, LARGEST_RATE_DEG_S = 0.1, 200.0
 
 # What is declared counts as a measurement with these standard deviations: of the logarithms of the time constant and
 # of the rate limit, and of the delay, seconds.
@@ -29,7 +32,7 @@ SPREAD, DELAY_SPREAD_S = 0.7, 0.2
 
 # Prediction errors have this standard deviation, degrees, and are correlated over this time, seconds; larger ones than
 # `LARGEST_ERROR_DEG` count as that.
-ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 2.0, 0.2, 10.0
+ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 3.0, 0.2, 10.0
 
 # Errors are forgotten over this time, seconds, while the predictions differ by more than `EXCITED_DEG`.
 MEMORY_S, EXCITED_DEG = 10.0, 3.0
@@ -58,10 +61,11 @@ class RollIdentifier:
     """Estimates the roll response and the delay of a vehicle, beginning with those that are declared."""
 
     def __init__(self, declared: Roll, delay_s: float) -> None:
-        times, rates = (each.ravel() for each in np.meshgrid(TIMES_S, RATES_DEG_S, indexing="ij"))
+        time_s, rate_deg_s = max(declared.time_s, LEAST_TIME_S), min(declared.rate_deg_s, LARGEST_RATE_DEG_S)
+        times, rates = (each.ravel() for each in np.meshgrid(TIMES * time_s, RATES * rate_deg_s, indexing="ij"))
         self._times, self._rates = times, rates
-        self._log_time = _Unknown(np.log(times), log(max(declared.time_s, TIMES_S[0])), SPREAD)
-        self._log_rate = _Unknown(np.log(rates), log(min(declared.rate_deg_s, RATES_DEG_S[-1])), SPREAD)
+        self._log_time = _Unknown(np.log(times), log(time_s), SPREAD)
+        self._log_rate = _Unknown(np.log(rates), log(rate_deg_s), SPREAD)
         self._delay = _Unknown(DELAYS_S, delay_s, DELAY_SPREAD_S)
         self._prior = (self._log_time.cost + self._log_rate.cost)[None, :] + self._delay.cost[:, None]
         self._misfit = np.zeros_like(self._prior)
