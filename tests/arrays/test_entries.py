@@ -141,10 +141,11 @@ def test_a_row_in_wind_that_no_maneuver_is_found_for_says_so(monkeypatch):
 
 
 @pytest.mark.parametrize("tolerance", [0.0, 0.5])
-def test_the_tolerance_is_that_of_plan(tolerance):
+@pytest.mark.parametrize("wind", [(0.0, 0.0), (4.0, 90.0)])
+def test_the_tolerance_is_that_of_plan(tolerance, wind):
     # On the circle the right way round, but for some centimetres.
     beside = np.array([-0.1, -0.05, 0.0, 0.05, 0.1])
-    shared = (0.0, 0.0, 80.0, Side.CW, 18.0, 35.0, "max_bank_deg", tolerance)
+    shared = (0.0, 0.0, 80.0, Side.CW, 18.0, 35.0, "max_bank_deg", tolerance, *wind)
     states = States(np.zeros(5), 80.0 + beside, np.full(5, 90.0), *shared)
     assert_planned(states, range(5))
     assert (entries(states).word == Word.EMPTY).sum() == (5 if tolerance else 1)

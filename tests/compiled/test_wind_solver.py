@@ -34,6 +34,12 @@ def test_it_is_plain_python_to_the_last_bit(compiled, seed, windiest):
         assert text(compiled.fastest(problem)) == text(PLAIN.fastest(problem)), problem
 
 
+def test_within_a_tolerance_it_is_plain_python_to_the_last_bit(compiled):
+    for i, problem in enumerate(drawn(80, 5)):
+        wider = problem._replace(tolerance=10.0 ** (-1.0 - i % 6))
+        assert text(compiled.fastest(wider)) == text(PLAIN.fastest(wider)), wider
+
+
 def test_the_other_minima_are_those_of_plain_python_to_the_last_bit(compiled):
     for problem in drawn(24, 3):
         for side in (1, -1):

@@ -157,7 +157,9 @@ def _in_wind(s: States) -> Entries:
     refused = _refused(s, r)
     x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
     (c, v), (wx, wy) = heading_vectors()(s.heading_deg), _relative_wind(s)
-    solution = _kernel_in_wind(np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy)
+    solution = _kernel_in_wind(
+        np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy, s.tolerance_m / r
+    )
     time, word, durations, status, side, azimuth, _ = solution
     seconds = r / s.airspeed_m_s
     time_s, (first_s, second_s, third_s) = time * seconds, durations.T * seconds

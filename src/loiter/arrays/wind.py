@@ -36,6 +36,7 @@ def min_time_in_wind(
     turn: ArrayLike,
     wind_x: ArrayLike,
     wind_y: ArrayLike,
+    tolerance: ArrayLike = 0.0,
     *,
     out: Any = None,
     where: ArrayLike = True,
@@ -45,14 +46,14 @@ def min_time_in_wind(
 
     `x`, `y` are the position from the circle's centre and `radius` its radius, in turn radii; `angle` is the direction
     of the heading in radians, counter-clockwise from x; `wind_x`, `wind_y` the velocity of the air past the circle (the
-    wind less the circle's own velocity) over the airspeed; `turn`, `out`, `where`, `workers`, the kinds of arrays and
-    the errors as for `min_time`. A state takes some 60 microseconds. The first call on a machine compiles the search,
-    which takes about twenty seconds.
+    wind less the circle's own velocity) over the airspeed; `turn`, `tolerance`, `out`, `where`, `workers`, the kinds of
+    arrays and the errors as for `min_time`. A state takes some 60 microseconds. The first call on a machine compiles
+    the search, which takes about twenty seconds.
 
     >>> round(float(loiter.min_time_in_wind(-10.0, 0.0, 0.0, 3.0, "cw", 0.3, 0.0)), 4)
     5.9162
     """
-    arguments = _arguments(x, y, angle, radius, turn, wind_x, wind_y)
+    arguments = _arguments(x, y, angle, radius, turn, wind_x, wind_y, tolerance)
     return apply("min_time_in_wind", arguments, out, where, workers)
 
 
@@ -64,6 +65,7 @@ def solve_in_wind(
     turn: ArrayLike,
     wind_x: ArrayLike,
     wind_y: ArrayLike,
+    tolerance: ArrayLike = 0.0,
     *,
     out: WindSolution | None = None,
     where: ArrayLike = True,
@@ -75,13 +77,13 @@ def solve_in_wind(
     tight to be held in it, a search that did not converge) the floats are nan. Dask arrays give Dask arrays, all other
     arguments NumPy arrays; `out` is a `WindSolution` to fill. Raises the errors of `solve`.
     """
-    arguments = _arguments(x, y, angle, radius, turn, wind_x, wind_y)
+    arguments = _arguments(x, y, angle, radius, turn, wind_x, wind_y, tolerance)
     return apply_solver("solve_in_wind", arguments, WindSolution, out, where, workers)
 
 
-def _arguments(x: Any, y: Any, angle: Any, radius: Any, turn: Any, wind_x: Any, wind_y: Any) -> tuple[Any, ...]:
+def _arguments(x: Any, y: Any, angle: Any, radius: Any, turn: Any, *others: Any) -> tuple[Any, ...]:
     """The inputs of the ufuncs: the heading as a unit vector, the turn as a code."""
     angles = np.multiply(angle, 1.0, dtype=np.float64)
     with np.errstate(invalid="ignore"):
         c, s = np.cos(angles), np.sin(angles)
-    return x, y, c, s, radius, side_codes(turn), wind_x, wind_y
+    return x, y, c, s, radius, side_codes(turn), *others

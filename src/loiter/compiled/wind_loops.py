@@ -41,26 +41,18 @@ _sampled_times, _is_local_minimum = _compiled(wind_search.sampled_times), _compi
 _entry_near_sample = _compiled(wind_search.entry_near_sample)
 
 # The operands of the ufuncs by number: the numbers of a `WindProblem`, and the results of each ufunc.
-X, Y, COSINE, SINE, RADIUS, SIDE, WIND_X, WIND_Y = range(8)
-MIN_TIME = 8
+X, Y, COSINE, SINE, RADIUS, SIDE, WIND_X, WIND_Y, TOLERANCE = range(9)
+MIN_TIME = 9
 # `solve_in_wind` has one more input, only for the number 3 of durations. After the strides of all operands come those
 # along the axis of length 3, of that input and of the durations.
-_, TIME, WORD, DURATIONS, STATUS, SIDE_HELD, AZIMUTH, MISS, _, NEXT_DURATION = range(8, 18)
+_, TIME, WORD, DURATIONS, STATUS, SIDE_HELD, AZIMUTH, MISS, _, NEXT_DURATION = range(9, 19)
 
 
 @inlined
 def _stored_problem(problem):
-    x, y, c, s, R, side, wx, wy = (
-        problem[0],
-        problem[1],
-        problem[2],
-        problem[3],
-        problem[4],
-        problem[5],
-        problem[6],
-        problem[7],
-    )
-    return WindProblem(x, y, c, s, R, int(side), wx, wy)
+    x, y, c, s, R = problem[0], problem[1], problem[2], problem[3], problem[4]
+    side, wx, wy, tolerance = problem[5], problem[6], problem[7], problem[8]
+    return WindProblem(x, y, c, s, R, int(side), wx, wy, tolerance)
 
 
 @inlined
@@ -95,7 +87,7 @@ def _entry_of_state(args, steps, i):
     c, s = number_at(args, steps, COSINE, i), number_at(args, steps, SINE, i)
     R, side = number_at(args, steps, RADIUS, i), number_at(args, steps, SIDE, i)
     wx, wy = number_at(args, steps, WIND_X, i), number_at(args, steps, WIND_Y, i)
-    return _fastest(WindProblem(x, y, c, s, R, int(side), wx, wy))
+    return _fastest(WindProblem(x, y, c, s, R, int(side), wx, wy, number_at(args, steps, TOLERANCE, i)))
 
 
 def min_time_in_wind(args, dimensions, steps, data):

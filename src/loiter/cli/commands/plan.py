@@ -36,7 +36,7 @@ Tolerance = Annotated[
     Parameter(
         group=scene,
         metavar="METRES",
-        help="In still air: a start up to this many metres beyond the last arc counts as on it, so that noise does not add a full turn.",
+        help="A start up to this many metres beyond the last arc counts as on it, so that noise does not add a full turn.",
     ),
 ]
 All = Annotated[bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")]
