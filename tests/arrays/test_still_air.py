@@ -255,6 +255,8 @@ def test_dask_arrays_stay_lazy_and_chunked():
     assert times.chunks == x.chunks
     assert np.array_equal(times.compute(scheduler="threads"), loiter.min_time(X, Y, 2.5, "cw"))
     assert np.array_equal(loiter.control(x, y).compute(scheduler="processes", num_workers=1), loiter.control(X, Y))
+    for one, values in zip(loiter.solve(x, Y, R, TURNS), loiter.solve(X, Y, R, TURNS), strict=True):
+        assert np.array_equal(one.compute(scheduler="threads"), values)
     expected = loiter.solve(X, Y, 2.5, "cw")
     for lazy, values in zip(solution, expected, strict=True):
         assert np.array_equal(lazy.compute(scheduler="threads"), values)

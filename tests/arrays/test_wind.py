@@ -187,11 +187,11 @@ def test_a_solution_may_overlap_its_arguments(field, overlap, workers):
 def test_dask_arrays_stay_lazy_and_chunked():
     array = pytest.importorskip("dask.array")
     x, y, angle = (array.from_array(values, chunks=70) for values in (X, Y, ANGLE))
-    times, solution = times_of(x, y, angle), solution_of(x, y, angle, turn="either")
+    times, solution = times_of(x, y, angle), solution_of(x, y, angle)
     assert times.chunks == x.chunks
     assert np.array_equal(times.compute(scheduler="threads"), TIMES)
-    expected = solution_of(X, turn="either")
-    assert_equal([lazy.compute(scheduler="threads") for lazy in solution], expected)
+    assert_equal([lazy.compute(scheduler="threads") for lazy in solution], SOLUTION)
+    assert {lazy.chunks[0] for lazy in solution} == {x.chunks[0]}
     assert times_of(x, y, angle, workers=2).chunks == x.chunks
     with pytest.raises(InvalidArgument, match="out cannot be filled: an argument is a lazy array"):
         solution_of(x, y, angle, out=SOLUTION)

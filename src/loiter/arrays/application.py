@@ -54,7 +54,8 @@ def apply_solver(
     _check_where(where, out)
     if any(map(is_lazy, arrays)):
         refuse_lazy_out(out)
-        return kind(*ufunc(name)(*arrays, np.empty(3)))
+        # A lazy array takes others with a signature only in the same chunks.
+        return kind(*ufunc(name)(*np.broadcast_arrays(*arrays), np.empty(3)))
     if out is None:
         out = _empty(kind, np.broadcast_shapes(*(a.shape for a in arrays)))
     if where is not True:
