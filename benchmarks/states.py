@@ -13,6 +13,8 @@ from benchmarks import peers, plain
 from benchmarks.timing import least_times
 from loiter import Aircraft, Orbit, Pose
 from loiter.compiled import ufuncs
+from loiter.kernel import wind_search
+from loiter.kernel.wind_search import WindProblem
 from loiter.kernel.words import Side
 from loiter.verify.checks import wind_scan_check
 
@@ -80,20 +82,24 @@ def wind() -> list[Row]:
         (s.start.east, s.start.north, s.start.angle, s.radius, int(s.side), s.wind_east, s.wind_north) for s in scenes
     ]
     x, y, angle, R, side, wx, wy = np.array(columns).T
-    few = [column[:100] for column in (x, y, angle, R, side.astype(np.int8), wx, wy)]
-    all_ = x, y, angle, R, side.astype(np.int8), wx, wy
-    times = least_times(
-        {"plain Python": lambda: loiter.solve_in_wind(*few), "compiled": lambda: loiter.solve_in_wind(*all_)}, 3
-    )
+    states = x, y, angle, R, side.astype(np.int8), wx, wy
+    few = [WindProblem(*row) for row in zip(x, y, np.cos(angle), np.sin(angle), R, side, wx, wy, strict=True)][:100]
+    contenders = {
+        "kernel, plain Python": (lambda: [wind_search.fastest(problem) for problem in few], len(few)),
+        "loiter.min_time_in_wind": (lambda: loiter.min_time_in_wind(*states), len(scenes)),
+        f"loiter.min_time_in_wind, {CORES} threads": (
+            lambda: loiter.min_time_in_wind(*states, workers=CORES),
+            len(scenes),
+        ),
+        "loiter.solve_in_wind": (lambda: loiter.solve_in_wind(*states), len(scenes)),
+    }
+    times = least_times({name: call for name, (call, _) in contenders.items()}, 3)
     begin = perf_counter()
     differences = [wind_scan_check.scan_difference(scene) for scene in scenes[:20]]
     search = (perf_counter() - begin) / 20
     errors = [max(d.later, d.earlier) for d in differences]
     rows = [("search over points, words and times, NumPy", search, max(errors), float(np.mean(errors)))]
-    rows += [
-        (f"loiter.solve_in_wind, {name}", seconds / count, nan, nan)
-        for (name, seconds), count in zip(times.items(), (100, 3000), strict=True)
-    ]
+    rows += [(name, times[name] / count, nan, nan) for name, (_, count) in contenders.items()]
     return [Row("wind", name, seconds, seconds / search, largest, mean) for name, seconds, largest, mean in rows]
 
 

@@ -8,7 +8,6 @@ import pytest
 from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.arrays.entries import BLOCK, UNKNOWN, States, entries
 from loiter.errors import LoiterError
-from loiter.kernel import wind_search
 from loiter.kernel.statuses import Status
 from loiter.kernel.words import Side, Word
 from loiter.planning.model import TURN_LIMITS
@@ -133,18 +132,20 @@ def test_where_no_air_passes_the_circle_the_bytes_are_those_of_still_air():
 
 
 def test_a_row_in_wind_that_no_maneuver_is_found_for_says_so(monkeypatch):
-    lost = float(Status.NOT_CONVERGED), 0.0, 0.0, *[nan] * 5
-    monkeypatch.setattr(wind_search, "fastest", lambda *scene: lost)
+    code, none = np.zeros(1, dtype=np.int8), np.full(1, nan)
+    lost = none, code, np.full((1, 3), nan), code + np.int8(Status.NOT_CONVERGED), code, none, none
+    monkeypatch.setattr("loiter.arrays.entries._kernel_in_wind", lambda *columns: lost)
     found = entries(drawn(2)._replace(wind_speed_m_s=np.array([0.0, 3.0])))
     assert found.status.tolist() == [Status.OK, Status.NOT_CONVERGED]
     assert np.isnan(found.join_heading_deg).tolist() == [False, True]
 
 
 @pytest.mark.parametrize("tolerance", [0.0, 0.5])
-def test_the_tolerance_is_that_of_plan(tolerance):
+@pytest.mark.parametrize("wind", [(0.0, 0.0), (4.0, 90.0)])
+def test_the_tolerance_is_that_of_plan(tolerance, wind):
     # On the circle the right way round, but for some centimetres.
     beside = np.array([-0.1, -0.05, 0.0, 0.05, 0.1])
-    shared = (0.0, 0.0, 80.0, Side.CW, 18.0, 35.0, "max_bank_deg", tolerance)
+    shared = (0.0, 0.0, 80.0, Side.CW, 18.0, 35.0, "max_bank_deg", tolerance, *wind)
     states = States(np.zeros(5), 80.0 + beside, np.full(5, 90.0), *shared)
     assert_planned(states, range(5))
     assert (entries(states).word == Word.EMPTY).sum() == (5 if tolerance else 1)

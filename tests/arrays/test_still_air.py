@@ -131,6 +131,25 @@ def test_results_go_where_they_are_wanted():
     assert y.tolist() == [1.0, 1.0, 1.0]
 
 
+@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize("function", [loiter.min_time, loiter.control])
+def test_elsewhere_the_results_stay_as_they_are(function, workers):
+    wanted, out = X > 0.0, np.full(3000, 7.0)
+    assert function(X, Y, R, TURNS, out=out, where=wanted, workers=workers) is out
+    assert np.array_equal(out, np.where(wanted, function(X, Y, R, TURNS), 7.0))
+    with pytest.raises(InvalidArgument, match="where needs out"):
+        function(X, Y, where=wanted)
+
+
+def test_a_solution_stays_as_it_is_elsewhere():
+    wanted, solution = X > 0.0, loiter.solve(X, Y, R, TURNS)
+    out = Solution(*(np.full_like(values, 7) for values in solution))
+    assert loiter.solve(X, Y, R, TURNS, out=out, where=wanted) is out
+    for found, values in zip(out, solution, strict=True):
+        assert np.array_equal(found[wanted], values[wanted])
+        assert np.all(found[~wanted] == 7)
+
+
 @pytest.mark.parametrize("workers", [2, 3, -1])
 def test_threads_share_the_work(workers):
     grid = X.reshape(30, 100), Y.reshape(30, 100), R.reshape(30, 100), TURNS.reshape(30, 100)
@@ -236,6 +255,8 @@ def test_dask_arrays_stay_lazy_and_chunked():
     assert times.chunks == x.chunks
     assert np.array_equal(times.compute(scheduler="threads"), loiter.min_time(X, Y, 2.5, "cw"))
     assert np.array_equal(loiter.control(x, y).compute(scheduler="processes", num_workers=1), loiter.control(X, Y))
+    for one, values in zip(loiter.solve(x, Y, R, TURNS), loiter.solve(X, Y, R, TURNS), strict=True):
+        assert np.array_equal(one.compute(scheduler="threads"), values)
     expected = loiter.solve(X, Y, 2.5, "cw")
     for lazy, values in zip(solution, expected, strict=True):
         assert np.array_equal(lazy.compute(scheduler="threads"), values)

@@ -1,15 +1,19 @@
-"""Arrays in wind: the same answers as the kernel one by one, compiled or not, by one thread or several."""
+"""Arrays in wind: the same answers as the kernel one by one, by one thread or several, for arrays of any library."""
 
-from math import nan
+import pickle
+import warnings
+from math import inf, nan
 
 import numpy as np
 import pytest
 
 import loiter
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.arrays import wind as arrays
+from loiter.arrays import WindSolution
+from loiter.compiled import ufunc
 from loiter.errors import InvalidArgument
 from loiter.kernel.statuses import Status
+from loiter.kernel.wind_search import WindProblem, fastest
 from loiter.kernel.words import Side
 
 random = np.random.default_rng(5)
@@ -59,23 +63,172 @@ def test_what_cannot_be_solved_is_nan_with_its_status():
     assert loiter.solve_in_wind(3.0, 1.0, 0.0, 9.0, "cw", 1.0, 0.0).status == Status.WIND_TOO_STRONG
 
 
-def test_compiled_and_by_threads_it_is_the_same(monkeypatch):
-    plain = loiter.solve_in_wind(*STATES, 2.5, "either", 0.2, -0.1)
-    monkeypatch.setattr(arrays, "COMPILED_FROM", 1)
-    for workers in (1, 3):
-        compiled = loiter.solve_in_wind(*STATES, 2.5, "either", 0.2, -0.1, workers=workers)
-        assert compiled.time == pytest.approx(plain.time, abs=1e-9)
-        for name in ("word", "status", "side"):
-            assert getattr(compiled, name).tolist() == getattr(plain, name).tolist()
-
-
-def test_few_states_for_many_workers():
-    few = [column[:3] for column in STATES]
-    alone = loiter.min_time_in_wind(*few, 2.5, "either", 0.2, -0.1)
-    assert loiter.min_time_in_wind(*few, 2.5, "either", 0.2, -0.1, workers=8).tolist() == alone.tolist()
+def test_they_are_the_entries_of_the_kernel_to_the_last_bit():
+    found = loiter.solve_in_wind(*STATES, 2.5, "either", 0.2, -0.1)
+    times = loiter.min_time_in_wind(*STATES, 2.5, "either", 0.2, -0.1)
+    for i, (x, y, angle) in enumerate(zip(*STATES, strict=True)):
+        entry = fastest(WindProblem(x, y, np.cos(angle), np.sin(angle), 2.5, 0, 0.2, -0.1))
+        assert (found.status[i], found.side[i], found.word[i]) == (entry.status, entry.side, entry.word)
+        assert found.durations[i].tolist() == [entry.t1, entry.t2, entry.t3]
+        assert (found.azimuth[i], found.miss[i]) == (entry.azimuth, entry.miss)
+        assert times[i] == found.time[i] == entry.t1 + entry.t2 + entry.t3
 
 
 @pytest.mark.parametrize(("turn", "workers"), [("left", 1), (2, 1), ("cw", 0), ("cw", 1.5)])
 def test_bad_requests_are_refused(turn, workers):
     with pytest.raises(InvalidArgument, match=r"^(turn|workers) is"):
         loiter.min_time_in_wind(3.0, 1.0, 0.0, 3.0, turn, 0.2, 0.0, workers=workers)
+
+
+WIND = 0.2, -0.1
+RANDOM = np.random.default_rng(8)
+X, Y = RANDOM.uniform(-6.0, 6.0, (2, 300))
+ANGLE = RANDOM.uniform(0.0, 7.0, 300)
+TURNS = RANDOM.choice(["cw", "ccw", "either"], 300)
+SIDES = np.array([Side[turn.upper()] for turn in TURNS], dtype=np.int8)
+
+
+def times_of(x, y=Y, angle=ANGLE, radius=2.5, turn=SIDES, **options):
+    return loiter.min_time_in_wind(x, y, angle, radius, turn, *WIND, **options)
+
+
+def solution_of(x, y=Y, angle=ANGLE, radius=2.5, turn=SIDES, **options):
+    return loiter.solve_in_wind(x, y, angle, radius, turn, *WIND, **options)
+
+
+TIMES, SOLUTION = times_of(X), solution_of(X)
+
+
+def assert_equal(found, expected):
+    for a, b in zip(found, expected, strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_results_go_where_they_are_wanted():
+    out = np.empty((2, 300))
+    radii = np.array([[2.5], [3.0]])
+    assert times_of(X, radius=radii, out=out) is out
+    assert np.array_equal(out, times_of(X, radius=radii))
+    blank = solution_of(np.zeros(300))
+    assert solution_of(X, out=blank) is blank
+    assert_equal(blank, SOLUTION)
+    filled = np.empty(300)
+    assert times_of(X, out=(filled,), workers=2) is filled
+    assert np.array_equal(filled, TIMES)
+    with pytest.raises(TypeError, match="must be of ArrayType"):
+        times_of(X, out=[0.0] * 300, workers=2)
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_elsewhere_the_results_stay_as_they_are(workers):
+    wanted, out = X > 0.0, np.full(300, 7.0)
+    times_of(X, out=out, where=wanted, workers=workers)
+    assert np.array_equal(out, np.where(wanted, TIMES, 7.0))
+    blank = WindSolution(*(np.full_like(values, 7) for values in SOLUTION))
+    assert solution_of(X, out=blank, where=wanted, workers=workers) is blank
+    for found, values in zip(blank, SOLUTION, strict=True):
+        assert np.array_equal(found[wanted], values[wanted])
+        assert np.all(found[~wanted] == 7)
+    with pytest.raises(InvalidArgument, match="where needs out"):
+        times_of(X, where=wanted)
+    with pytest.raises(InvalidArgument, match="where needs out"):
+        solution_of(X, where=wanted)
+
+
+@pytest.mark.parametrize("workers", [2, 3, -1])
+def test_threads_share_the_work(workers):
+    grid = [values.reshape(10, 30) for values in (X, Y, ANGLE)]
+    assert np.array_equal(times_of(*grid, turn=0, workers=workers), times_of(*grid, turn=0))
+    assert_equal(solution_of(*grid, turn=0, workers=workers), solution_of(*grid, turn=0))
+    assert times_of(4.0, 4.0, 0.0, turn=0, workers=workers) == times_of(4.0, 4.0, 0.0, turn=0)
+
+
+# Where the result lies in the memory of an argument: reversed, one further, one back, every third, the same.
+OVERLAPS = {
+    "reversed": (slice(None, None, -1), slice(None)),
+    "further": (slice(None, -1), slice(1, None)),
+    "back": (slice(1, None), slice(None, -1)),
+    "every third": (slice(0, 100), slice(0, 300, 3)),
+    "same": (slice(None), slice(None)),
+}
+
+
+@pytest.mark.parametrize("workers", [1, 3])
+@pytest.mark.parametrize("overlap", OVERLAPS)
+@pytest.mark.parametrize("argument", ["x", "angle"])
+def test_a_result_may_overlap_an_argument(argument, overlap, workers):
+    source, target = OVERLAPS[overlap]
+    others = {"y": Y[source], "turn": SIDES[source]}
+    given = {"x": X[source], "angle": ANGLE[source]}
+    expected = times_of(**{**others, **given})
+    memory = {"x": X, "angle": ANGLE}[argument].copy()
+    given[argument] = memory[source]
+    times_of(**{**others, **given}, out=memory[target], workers=workers)
+    assert np.array_equal(memory[target], expected)
+
+
+@pytest.mark.parametrize("workers", [1, 3])
+@pytest.mark.parametrize("overlap", OVERLAPS)
+@pytest.mark.parametrize("field", WindSolution._fields)
+def test_a_solution_may_overlap_its_arguments(field, overlap, workers):
+    source, target = OVERLAPS[overlap]
+    expected = solution_of(X[source], Y[source], ANGLE[source], turn=SIDES[source])
+    x, sides = X.copy(), SIDES.copy()
+    blank = WindSolution(*(np.empty_like(values) for values in expected))
+    if field == "durations":
+        memory = np.tile(x[:, np.newaxis], 3)
+        x, out = memory[:, 2], blank._replace(durations=memory[target])
+    else:
+        out = blank._replace(**{field: (x if getattr(blank, field).dtype == float else sides)[target]})
+    found = solution_of(x[source], Y[source], ANGLE[source], turn=sides[source], out=out, workers=workers)
+    assert_equal(found, expected)
+
+
+def test_dask_arrays_stay_lazy_and_chunked():
+    array = pytest.importorskip("dask.array")
+    x, y, angle = (array.from_array(values, chunks=70) for values in (X, Y, ANGLE))
+    times, solution = times_of(x, y, angle), solution_of(x, y, angle)
+    assert times.chunks == x.chunks
+    assert np.array_equal(times.compute(scheduler="threads"), TIMES)
+    assert_equal([lazy.compute(scheduler="threads") for lazy in solution], SOLUTION)
+    assert {lazy.chunks[0] for lazy in solution} == {x.chunks[0]}
+    assert times_of(x, y, angle, workers=2).chunks == x.chunks
+    with pytest.raises(InvalidArgument, match="out cannot be filled: an argument is a lazy array"):
+        solution_of(x, y, angle, out=SOLUTION)
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_columns_of_pandas_stay_columns(workers):
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"x": X, "y": Y, "angle": ANGLE}, index=np.arange(300) + 7)
+    times = times_of(frame.x, frame.y, frame.angle, workers=workers)
+    assert times.index.equals(frame.index)
+    assert np.array_equal(times, TIMES)
+    assert_equal(solution_of(frame.x, frame.y, frame.angle, workers=workers), SOLUTION)
+
+
+def test_arrays_of_xarray_keep_their_names():
+    xarray = pytest.importorskip("xarray")
+    x = xarray.DataArray(X.reshape(10, 30), dims=("run", "step"))
+    y = xarray.DataArray(Y[:30], dims=("step",))
+    times = times_of(x, y, 0.5, turn=0)
+    assert times.dims == ("run", "step")
+    assert np.array_equal(times, times_of(X.reshape(10, 30), Y[:30], 0.5, turn=0))
+
+
+def test_nothing_is_solved_without_a_warning():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = loiter.solve_in_wind([nan, 0.0, 0.0], 0.0, [0.0, inf, 0.0], [2.0, 2.0, 0.5], "cw", 0.1, 0.0)
+        assert np.isnan(loiter.min_time_in_wind(0.0, 0.0, inf, 2.0, "cw", 0.1, 0.0))
+    assert found.status.tolist() == [Status.NOT_FINITE, Status.NOT_FINITE, Status.RADIUS_TOO_SMALL]
+
+
+@pytest.mark.parametrize("name", ["min_time_in_wind", "solve_in_wind"])
+def test_they_are_ufuncs_of_numpy_and_travel_by_name(name):
+    function = ufunc(name)
+    assert isinstance(function, np.ufunc)
+    # By name: pickle asks every module for it, and some warn when they are asked.
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assert pickle.loads(pickle.dumps(function)) is function

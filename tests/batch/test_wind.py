@@ -12,7 +12,6 @@ from pandas.testing import assert_frame_equal
 import loiter
 from batch.making import ADDED, poses, read, scenes, write
 from loiter import Aircraft, Orbit, Pose, Wind, plan
-from loiter.arrays.wind import rows_in_wind
 from loiter.batch.tables import files
 from loiter.batch.tables.columns import VELOCITY, WIND
 from loiter.errors import InvalidArgument
@@ -251,14 +250,11 @@ def test_another_wind_starts_the_job_over(tmp_path, monkeypatch, small):
         assert_planned(one, orbit=ORBIT, aircraft=UAV, wind=BREEZE)
 
 
-@pytest.mark.parametrize(("rows", "calls"), [(60, [False]), (61, [True])])
-def test_large_jobs_are_compiled_at_their_start_and_whole(tmp_path, monkeypatch, small, rows, calls):
-    """Not by the number of rows in each batch: the same row gets the same bytes wherever it stands."""
-    started, chosen = [], set()
-    monkeypatch.setattr("loiter.batch.jobs.job.COMPILED_FROM", 61)
+@pytest.mark.parametrize("wind", [BREEZE, None])
+def test_the_search_in_wind_is_compiled_before_the_threads_start(tmp_path, monkeypatch, small, wind):
+    """An interrupt does not reach other threads."""
+    started = []
     monkeypatch.setattr("loiter.batch.jobs.runner.compile_kernel", lambda in_wind: started.append(in_wind))
-    plainly = rows_in_wind(compiled=False)
-    monkeypatch.setattr("loiter.arrays.entries.rows_in_wind", lambda compiled: chosen.add(compiled) or plainly)
-    given = {"orbit": ORBIT, "aircraft": UAV, "wind": BREEZE}
-    loiter.batch.run(write(poses(rows), tmp_path / "in.parquet"), tmp_path / "out.parquet", **given)
-    assert (started, chosen) == (calls, set(calls))
+    given = {"orbit": ORBIT, "aircraft": UAV, "wind": wind}
+    loiter.batch.run(write(poses(60), tmp_path / "in.parquet"), tmp_path / "out.parquet", **given)
+    assert started == [wind is not None]

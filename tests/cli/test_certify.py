@@ -83,3 +83,12 @@ def test_a_failed_condition_is_printed_and_sets_the_exit_status(ran, monkeypatch
     assert status == 1
     assert "NOT VALID" in out
     assert "FAILED" in out
+
+
+def test_the_tolerance_is_that_of_the_certificate_in_wind_too(ran):
+    beside = "plan --pose 122 0 198 --orbit 0 0 120 --turn cw --airspeed 18 --bank 35 --wind 8 250 --certify --json"
+    _, strict, _ = ran(beside)
+    status, lenient, _ = ran(f"{beside} --tolerance 5")
+    assert status == 0
+    assert json.loads(strict)["miss_m"] < 1e-9
+    assert 1.9 < json.loads(lenient)["miss_m"] <= 5.0

@@ -130,6 +130,7 @@ def test_a_file_is_sent_as_it_is(shown, tmp_path, ending):
         (f"entry.plan {PLACED} --connect udpin:127.0.0.1:PORT", 2, "mission FILE is sent as it is: options of a"),
         ("entry.plan --altitude 300 --connect udpin:127.0.0.1:PORT", 2, "mission FILE is sent as it is: options of a"),
         ("entry.plan --wind 5 90 --connect udpin:127.0.0.1:PORT", 2, "mission FILE is sent as it is: options of a"),
+        ("entry.plan --fit --connect udpin:127.0.0.1:PORT", 2, "mission FILE is sent as it is: options of a"),
         ("--connect udpin:127.0.0.1:PORT", 2, "--pose-lla and --orbit-lla are needed: a vehicle's mission is in deg"),
         (
             "--connect udpin:127.0.0.1:PORT --pose 1 2 3 --orbit 1 2 80 --airspeed 18 --bank 35",

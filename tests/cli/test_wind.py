@@ -154,3 +154,22 @@ def test_a_picture_is_written(shown, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     shown(f"plan {BOTH} --plot entry.svg")
     assert "<svg" in (tmp_path / "entry.svg").read_text("utf-8")
+
+
+TIGHT = f"--pose -400 120 90 --orbit 0 0 60 {UAV} --wind 8 250"
+
+
+def test_fit_takes_the_least_radius_and_says_so(shown, planned):
+    text = shown(f"plan {TIGHT} --fit")
+    assert text.startswith("A circle of 60 m cannot be held; planned for 98.45 m, the least radius.\n")
+    wider = loiter.Orbit(0.0, 0.0, 60.0).fitted(loiter.Aircraft(18.0, 35.0), loiter.Wind(8.0, 250.0))
+    answer = planned(f"{TIGHT} --fit")
+    assert answer["fitted_radius_m"] == wider.radius_m
+    assert hypot(answer["join"]["east_m"], answer["join"]["north_m"]) == pytest.approx(wider.radius_m)
+
+
+def test_a_circle_that_can_be_held_needs_no_fit(shown, planned):
+    assert shown(f"plan {FIXED} --fit") == shown(f"plan {FIXED}")
+    answer = planned(f"{FIXED} --fit")
+    assert answer.pop("fitted_radius_m") == 120.0
+    assert answer == planned(FIXED)

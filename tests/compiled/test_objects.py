@@ -9,7 +9,7 @@ from pathlib import Path
 import llvmlite.binding as llvm
 import pytest
 
-from loiter.compiled import objects
+from loiter.compiled import objects, ufunc
 
 IR = """
 define i64 @answer(i64 %n) {
@@ -115,6 +115,7 @@ def test_processes_that_start_together_leave_one_whole_file(cache, source):
 
 
 def test_loading_the_loops_from_the_cache_takes_no_numba():
+    ufunc("control")
     code = (
         "import sys; from loiter.compiled.ufuncs import control; print('numba' in sys.modules, control(4, 4, 1, 0, 0))"
     )

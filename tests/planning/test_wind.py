@@ -408,3 +408,24 @@ def test_samples_of_a_start_on_the_circle_are_one():
     """Heading across a wind from the west, the track is off by the crab angle."""
     samples = plan(Pose(0.0, 120.0, 90.0), ORBIT, UAV, Wind(6.0, 270.0)).sample(1.0)
     assert [column.tolist() for column in samples] == [[0.0], [0.0], [120.0], [90.0], [0.0], [90.0], [24.0], [0.0]]
+
+
+@pytest.mark.parametrize(("uav", "orbit", "wind", "need"), TOO_TIGHT)
+def test_a_fitted_circle_is_the_least_that_can_be_held(uav, orbit, wind, need):
+    fitted = orbit.fitted(uav, wind)
+    assert fitted == replace(orbit, radius_m=fitted.radius_m)
+    assert f"it needs {fitted.radius_m:.4g} m" in need
+    assert plan(POSE, fitted, uav, wind).orbit == fitted
+    with pytest.raises(RadiusTooSmall):
+        plan(POSE, replace(orbit, radius_m=fitted.radius_m * (1.0 - 1e-9)), uav, wind)
+    assert fitted.fitted(uav, wind) is fitted
+
+
+def test_a_circle_in_still_air_is_fitted_to_the_turn_radius():
+    assert Orbit(1.0, 2.0, 3.0, "cw").fitted(UAV) == Orbit(1.0, 2.0, UAV.turn_radius_m, "cw")
+    assert ORBIT.fitted(UAV) is ORBIT
+
+
+def test_in_a_wind_as_fast_as_the_aircraft_no_circle_fits():
+    with pytest.raises(WindTooStrong):
+        ORBIT.fitted(UAV, Wind(18.0, 30.0))

@@ -162,3 +162,23 @@ def test_an_impossible_maneuver_is_refused():
         certify(replace(m, turn=loiter.Turn.EITHER))
     with pytest.raises(InvalidArgument, match="has the word 'LLL'"):
         certify(replace(m, segments=tuple(replace(s, letter="L") for s in m.segments)))
+
+
+@pytest.mark.parametrize("turn", ["cw", "ccw"])
+@pytest.mark.parametrize("azimuth", [0.0, 70.0, 160.0, 250.0])
+@pytest.mark.parametrize("outside", [-2.0, 2.0])
+@pytest.mark.parametrize("turned", [0.0, 1.0, -20.0, 20.0])
+def test_a_start_beside_the_circle_within_the_tolerance_is_certified(turn, azimuth, outside, turned):
+    """Without a tolerance the same maneuver is refused: it ends beside the circle."""
+    orbit, a = replace(ORBIT, turn=turn), azimuth * pi / 180.0
+    heading = hold(orbit, UAV, WIND, turn=turn).at(azimuth).heading_deg + turned
+    pose = Pose((120.0 + outside) * sin(a), (120.0 + outside) * cos(a), heading)
+    for m in plan_all(pose, orbit, UAV, WIND, tolerance_m=5.0):
+        certificate = certify(m, tolerance_m=5.0)
+        assert certificate.valid, str(certificate)
+        assert m.miss_m <= 5.0
+        assert m.duration_s <= plan(pose, orbit, UAV, WIND).duration_s
+        if m.miss_m > 1e-6:
+            refused = {residual.name for residual in certify(m).failed}
+            assert refused & {"target", "course"}
+    assert turned in (-20.0, 20.0) or plan(pose, orbit, UAV, WIND, tolerance_m=5.0).word == ""

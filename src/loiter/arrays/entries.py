@@ -10,12 +10,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from loiter.arrays.reduction import heading_vectors
-from loiter.arrays.wind import COMPILED_FROM, rows_in_wind
 from loiter.compiled.rebinding import Function, rebound
 from loiter.kernel import motion
 from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import REACH, ROUNDING
-from loiter.kernel.wind_search import WindEntry
 from loiter.kernel.words import Word
 from loiter.planning.compass import heading_after
 from loiter.planning.feasibility import RelativeWind, relative_velocity
@@ -80,12 +78,8 @@ class Entries(NamedTuple):
     status: Codes
 
 
-def entries(states: States, *, compiled: bool | None = None) -> Entries:
-    """The fastest entry of each row, as `plan` returns it; the first call loads the kernel, which may take seconds.
-
-    `compiled` says whether rows in wind are solved by compiled code, which has the same results; None chooses it for
-    many rows.
-    """
+def entries(states: States) -> Entries:
+    """The fastest entry of each row, as `plan` returns it; the first call loads the kernel, which may take seconds."""
     n = len(states.east_m)
     found: list[Any] = [np.empty(n, dtype=np.int8 if name in _CODES else np.float64) for name in Entries._fields]
     with np.errstate(all="ignore"):
@@ -93,8 +87,7 @@ def entries(states: States, *, compiled: bool | None = None) -> Entries:
             _solve(states, slice(start, start + BLOCK), _in_still_air, found)
         windy = _windy(states)
         if windy.size:
-            solve_rows = rows_in_wind(windy.size >= COMPILED_FROM if compiled is None else compiled)
-            _solve(states, windy, lambda rows: _in_wind(rows, solve_rows), found)
+            _solve(states, windy, _in_wind, found)
     return Entries(*found)
 
 
@@ -104,7 +97,7 @@ def compile_kernel(*, in_wind: bool = False) -> None:
     calm = States(one, one, one, 0.0, 0.0, 1.0, 0, 1.0, 1.0, "min_turn_radius_m")
     entries(calm)
     if in_wind:
-        entries(calm._replace(orbit_radius_m=2.0, wind_speed_m_s=0.1), compiled=True)
+        entries(calm._replace(orbit_radius_m=2.0, wind_speed_m_s=0.1))
 
 
 def _solve(states: States, rows: Any, solve: Callable[[States], Entries], found: list[Any]) -> None:
@@ -158,28 +151,25 @@ def _in_still_air(s: States) -> Entries:
     )
 
 
-def _in_wind(s: States, solve_rows: Function) -> Entries:
-    """The entries of rows in wind relative to the circle; `solve_rows` is one of `rows_in_wind`."""
+def _in_wind(s: States) -> Entries:
+    """The entries of rows in wind relative to the circle."""
     r = _turn_radius(s)
     refused = _refused(s, r)
     x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
     (c, v), (wx, wy) = heading_vectors()(s.heading_deg), _relative_wind(s)
-    columns = np.broadcast_arrays(np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy)
-    problems = np.stack(columns, axis=1).astype(np.float64)
-    answers = np.empty_like(problems)
-    solve_rows(problems, answers)
-    found: Any = WindEntry(*answers.T)
-    status, side, word = (codes.astype(np.int8) for codes in (found.status, found.side, found.word))
-    durations = np.stack([found.t1, found.t2, found.t3], axis=1)
+    solution = _kernel_in_wind(
+        np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy, s.tolerance_m / r
+    )
+    time, word, durations, status, side, azimuth, _ = solution
     seconds = r / s.airspeed_m_s
-    time_s, (first_s, second_s, third_s) = durations.sum(axis=1) * seconds, durations.T * seconds
+    time_s, (first_s, second_s, third_s) = time * seconds, durations.T * seconds
     east, north = _centre_after(s, time_s)
     return Entries(
         time_s,
         word,
         side,
-        east + s.orbit_radius_m * np.cos(found.azimuth),
-        north + s.orbit_radius_m * np.sin(found.azimuth),
+        east + s.orbit_radius_m * np.cos(azimuth),
+        north + s.orbit_radius_m * np.sin(azimuth),
         _joining_heading(s, word, durations),
         first_s,
         second_s,
@@ -220,6 +210,14 @@ def _kernel(x: Any, y: Any, R: Any, side: Any, tolerance: Any) -> tuple[Any, ...
     from loiter.compiled import ufuncs
 
     result: tuple[Any, ...] = ufuncs.solve(x, y, R, side, tolerance, np.empty(3))
+    return result
+
+
+def _kernel_in_wind(*columns: Any) -> tuple[Any, ...]:
+    """Time, word, durations, status, side, azimuth, miss. The only place where the kernel is called for wind."""
+    from loiter.compiled import wind_ufuncs
+
+    result: tuple[Any, ...] = wind_ufuncs.solve_in_wind(*columns, np.empty(3))
     return result
 
 

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from types import NoneType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
-from loiter.arrays.arguments import is_lazy, refuse_lazy_out, side_codes
-from loiter.arrays.threads import share_work, thread_count
-from loiter.compiled import ufunc
+from loiter.arrays.application import apply, apply_solver
+from loiter.arrays.arguments import side_codes
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
 
@@ -38,24 +35,26 @@ def min_time(
     tolerance: ArrayLike = 0.0,
     *,
     out: Any = None,
+    where: ArrayLike = True,
     workers: int = 1,
 ) -> Any:
     """Least time T to the circle from reduced states (x, y), in units of turn radius over airspeed.
 
     `x`, `y` are the coordinates (2) of docs/theory.md and `radius` the circle's, all in turn radii; `turn` is "cw",
     "ccw" or "either", or a `Side` code; `tolerance` is that of `plan`, in turn radii. It behaves like a ufunc:
-    arguments broadcast, the result is float64, `out` is an array to fill, which may overlap an argument; Dask arrays,
-    pandas columns and xarray's arrays give results of the same kind. A state that cannot be solved (nan, infinite,
-    radius < 1) gives nan; the status of `solve` gives the reason. `workers` threads share NumPy arrays; -1 means one
-    per core. Raises `InvalidArgument` for an unknown turn or number of workers. The first call on a machine compiles
-    the kernel, which takes about ten seconds; the code is kept in the user's cache folder.
+    arguments broadcast, the result is float64, `out` is an array to fill, which may overlap an argument; it keeps its
+    values where `where`, an array of bool, is false. Dask arrays, pandas columns and xarray's arrays give results of
+    the same kind. A state that cannot be solved (nan, infinite, radius < 1) gives nan; the status of `solve` gives the
+    reason. `workers` threads share NumPy arrays; -1 means one per core. Raises `InvalidArgument` for an unknown turn or
+    number of workers, and for `where` without `out`. The first call on a machine compiles the kernel, which takes about
+    ten seconds; the code is kept in the user's cache folder.
 
     >>> round(float(loiter.min_time(4.0, 4.0)), 4)
     6.9136
     >>> loiter.min_time([0.0, 1.0], 1.0, radius=[1.0, 0.5], turn="cw")
     array([ 0., nan])
     """
-    return _broadcast("min_time", (x, y, radius, side_codes(turn), tolerance), out, workers)
+    return apply("min_time", (x, y, radius, side_codes(turn), tolerance), out, where, workers)
 
 
 def control(
@@ -66,6 +65,7 @@ def control(
     tolerance: ArrayLike = 0.0,
     *,
     out: Any = None,
+    where: ArrayLike = True,
     workers: int = 1,
 ) -> Any:
     """The feedback law: first control of the optimum at (x, y), -1 (right), 0 or +1 (left), as float64.
@@ -76,7 +76,7 @@ def control(
     >>> loiter.control([4.0, -0.53, -3.0], [4.0, 0.31, 0.0])
     array([-1.,  1.,  0.])
     """
-    return _broadcast("control", (x, y, radius, side_codes(turn), tolerance), out, workers)
+    return apply("control", (x, y, radius, side_codes(turn), tolerance), out, where, workers)
 
 
 def solve(
@@ -87,6 +87,7 @@ def solve(
     tolerance: ArrayLike = 0.0,
     *,
     out: Solution | None = None,
+    where: ArrayLike = True,
     workers: int = 1,
 ) -> Solution:
     """Optimal maneuvers from reduced states (x, y): time, word, durations, status. Arguments as for `min_time`.
@@ -97,31 +98,4 @@ def solve(
     >>> loiter.solve(4.0, 4.0).durations.round(4)
     array([2.6994, 3.1669, 1.0472])
     """
-    arguments: tuple[Any, ...] = (x, y, radius, side_codes(turn), tolerance)
-    arguments = tuple(a if is_lazy(a) else np.asarray(a) for a in arguments)
-    count = thread_count(workers)
-    if any(map(is_lazy, arguments)):
-        refuse_lazy_out(out)
-        return Solution(*ufunc("solve")(*arguments, np.empty(3)))
-    if out is None:
-        shape = np.broadcast_shapes(*(a.shape for a in arguments))
-        shapes = {name: (*shape, 3) if name == "durations" else shape for name in Solution._fields}
-        out = Solution(*(np.empty(shapes[name], _DTYPES.get(name, np.float64)) for name in Solution._fields))
-    share_work(lambda *blocks, out: ufunc("solve")(*blocks, np.empty(3), out=out), arguments, tuple(out), count)
-    return out
-
-
-_DTYPES = {"word": np.int8, "status": np.int8, "side": np.int8}
-
-
-def _broadcast(name: str, arguments: tuple[Any, ...], out: Any, workers: int) -> Any:
-    """Apply a ufunc with one result, in threads where there are several workers and only NumPy arguments."""
-    function, count = ufunc(name), thread_count(workers)
-    arrays = [a if hasattr(a, "__array_ufunc__") else np.asarray(a, dtype=np.float64) for a in arguments]
-    shareable = all(isinstance(a, (np.ndarray, np.generic)) for a in arrays)
-    if count == 1 or not shareable or not isinstance(out, (np.ndarray, NoneType)):
-        return function(*arrays) if out is None else function(*arrays, out=out)
-    if out is None:
-        out = np.empty(np.broadcast_shapes(*(a.shape for a in arrays)))
-    share_work(lambda *blocks, out: function(*blocks, out=out), tuple(arrays), (out,), workers)
-    return out[()]
+    return apply_solver("solve", (x, y, radius, side_codes(turn), tolerance), Solution, out, where, workers)

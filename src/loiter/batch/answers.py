@@ -42,20 +42,17 @@ _WORDS = views.text_column([word.letters for word in WORDS])
 _TURNS, _STATUSES = views.text_column(TURN_NAMES), views.text_column(STATUSES)
 
 
-def solve_batch(batch: pa.RecordBatch, columns: Columns, compiled: bool | None = None) -> pa.RecordBatch:
-    """The carried columns of a batch, without dictionary encoding, and the added columns.
-
-    `compiled` is passed to `entries`.
-    """
+def solve_batch(batch: pa.RecordBatch, columns: Columns) -> pa.RecordBatch:
+    """The carried columns of a batch, without dictionary encoding, and the added columns."""
     # The last column of text marks malformed lines.
     names = carried_columns(batch.schema.names[:-1] if columns.text else batch.schema.names)
     kept = [without_dictionary(batch.column(name)) for name in names]
-    return pa.RecordBatch.from_arrays([*kept, *added_columns(batch, columns, compiled)], [*names, *ADDED.names])
+    return pa.RecordBatch.from_arrays([*kept, *added_columns(batch, columns)], [*names, *ADDED.names])
 
 
-def added_columns(batch: pa.RecordBatch, columns: Columns, compiled: bool | None = None) -> list[pa.Array]:
+def added_columns(batch: pa.RecordBatch, columns: Columns) -> list[pa.Array]:
     """The added columns, in the order of `ADDED`."""
-    found = entries(states(batch, columns), compiled=compiled)
+    found = entries(states(batch, columns))
     status = found.status
     if columns.text:
         status = np.where(views.to_numpy(batch.column(-1)), np.int8(Status.MALFORMED), status)

@@ -262,6 +262,15 @@ class WindOptions:
         return CALM if self.wind is None else Wind(*self.wind)
 
 
+Fit = Annotated[
+    bool,
+    Parameter(
+        group=air,
+        help="Where the aircraft cannot hold the circle in the wind, take the least radius that it can hold, and say so.",
+    ),
+]
+
+
 @Parameter(name="*")
 @dataclass(frozen=True)
 class MissionOptions:
@@ -339,14 +348,28 @@ def read_options(
     wind: WindOptions,
     *,
     tolerance_m: float = 0.0,
+    fit: bool = False,
     datum: AltitudeDatum = MEAN_SEA_LEVEL,
 ) -> OptionsRead:
-    """The problem that the options describe; raises `InvalidArgument` where they are contradictory or incomplete."""
+    """The problem that the options describe, with `fit` for a circle that can be held (`Orbit.fitted`).
+
+    Raises `InvalidArgument` where they are contradictory or incomplete.
+    """
     preset = aircraft.preset()
     aircraft = aircraft.above_sea(preset, datum)
     pose, circle, frame = placed(start, orbit, preset)
-    problem = Problem(pose, circle, aircraft.aircraft(preset), wind.moving_air, tolerance_m)
-    return OptionsRead(PlacedProblem(problem, frame), aircraft.remark(preset))
+    uav = aircraft.aircraft(preset)
+    planned = circle.fitted(uav, wind.moving_air) if fit else circle
+    problem = Problem(pose, planned, uav, wind.moving_air, tolerance_m)
+    remarks = [aircraft.remark(preset), _fit_remark(circle, planned)]
+    return OptionsRead(PlacedProblem(problem, frame), "\n".join(filter(None, remarks)))
+
+
+def _fit_remark(asked: Orbit, planned: Orbit) -> str:
+    """A line with both radii where the circle was widened; otherwise empty."""
+    if planned == asked:
+        return ""
+    return f"A circle of {asked.radius_m:g} m cannot be held; planned for {planned.radius_m:.4g} m, the least radius."
 
 
 def placed(

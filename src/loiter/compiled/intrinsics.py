@@ -113,6 +113,24 @@ def store_bytes(buffer, args, steps, operand, start, count):
         target[(start + i) * stride] = types.int8(buffer[i])
 
 
+@inlined
+def number_at(args, steps, operand, i):
+    """The number of an operand for state i."""
+    return doubles(args[operand])[i * (steps[operand] // 8)]
+
+
+@inlined
+def put_number(args, steps, operand, i, value):
+    """Store a number in a result for state i."""
+    doubles(args[operand])[i * (steps[operand] // 8)] = value
+
+
+@inlined
+def put_code(args, steps, operand, i, code):
+    """Store a code in a result of bytes for state i."""
+    octets(args[operand])[i * steps[operand]] = types.int8(code)
+
+
 def module_of(functions: Mapping[Callable[..., Any], Any]) -> Any:
     """The functions, compiled with their signatures, as one LLVM module, each under its own name."""
     whole = llvm.parse_assembly("")

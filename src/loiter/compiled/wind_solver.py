@@ -16,8 +16,8 @@ from typing import Any
 from loiter.kernel import wind_search
 from loiter.kernel.wind_search import WindEntry, WindProblem, WindSolver
 
-# The functions in the object file.
-NAMES = ("fastest", "local_minima")
+# The functions in the object file: two for single scenes, and the inner loops of `wind_ufuncs`.
+NAMES = ("fastest", "local_minima", "min_time_in_wind", "solve_in_wind")
 
 # Scenes that a process solves in plain Python before it looks for machine code in the cache.
 PLAIN_FIRST = 16
@@ -58,7 +58,7 @@ def load() -> bool:
 
 
 def prepare() -> None:
-    """Load the machine code; compile it first where it is not in the cache, which takes about ten seconds."""
+    """Load the machine code; compile it first where it is not in the cache, which takes about twenty seconds."""
     from loiter.compiled.objects import addresses, kernel_sources
 
     with _STATE.lock:
@@ -66,15 +66,10 @@ def prepare() -> None:
             _STATE.use(addresses(NAMES, kernel_sources(), _build))
 
 
-def solve_rows(problems: Any, entries: Any) -> None:
-    """Solve each row of a C-contiguous float64 array, a `WindProblem`; write the rows of another, a `WindEntry`.
-
-    Loads or compiles the machine code. The interpreter's lock is released meanwhile.
-    """
+def loops() -> tuple[int, ...]:
+    """The addresses of the inner loops `min_time_in_wind` and `solve_in_wind`; loads or compiles the machine code."""
     prepare()
-    if not (problems.flags.c_contiguous and entries.flags.c_contiguous):
-        raise ValueError("rows must be C-contiguous")
-    _STATE.functions[0](problems.ctypes.data, entries.ctypes.data, len(problems))
+    return _STATE.loops
 
 
 class _State:
@@ -83,15 +78,17 @@ class _State:
     def __init__(self) -> None:
         self.lock = Lock()
         self.solver: WindSolver | None = None
-        self.functions: list[Callable[..., int]] = []
+        self.loops: tuple[int, ...] = ()
         self.scenes = count(1)
 
     def use(self, found: list[int]) -> None:
         """Use the functions at these addresses."""
+        fastest_address, minima_address, *inner_loops = found
+        self.loops = tuple(inner_loops)
         pointer, number = ctypes.c_void_p, ctypes.c_ssize_t
-        kinds = ctypes.CFUNCTYPE(None, pointer, pointer, number), ctypes.CFUNCTYPE(number, pointer, pointer)
-        self.functions = [kind(address) for kind, address in zip(kinds, found, strict=True)]
-        self.solver = _solver_of(*self.functions)
+        fastest_of = ctypes.CFUNCTYPE(None, pointer, pointer)(fastest_address)
+        minima_of = ctypes.CFUNCTYPE(number, pointer, pointer)(minima_address)
+        self.solver = _solver_of(fastest_of, minima_of)
 
 
 _STATE = _State()
@@ -103,19 +100,21 @@ def _solver() -> WindSolver:
     return _STATE.solver or PLAIN
 
 
-def _solver_of(fastest_rows: Callable[..., int], minima_rows: Callable[..., int]) -> WindSolver:
-    """The two functions of the object file as functions of a `WindProblem`."""
-    fields, most = len(WindProblem._fields), wind_search.SAMPLES
-    Row, Rows = ctypes.c_double * fields, ctypes.c_double * (len(WindEntry._fields) * most)
+def _solver_of(fastest_of: Callable[..., int], minima_of: Callable[..., int]) -> WindSolver:
+    """Two functions of the object file as functions of a `WindProblem`."""
+    width = len(WindEntry._fields)
+    Problem, Row, Rows = (
+        ctypes.c_double * count for count in (len(WindProblem._fields), width, width * wind_search.SAMPLES)
+    )
 
     def fastest(problem: WindProblem) -> WindEntry:
         entry = Row()
-        fastest_rows(Row(*problem), entry, 1)
+        fastest_of(Problem(*problem), entry)
         return _entry(*entry)
 
     def local_minima(problem: WindProblem) -> list[WindEntry]:
         entries = Rows()
-        found, width = minima_rows(Row(*problem), entries), len(WindEntry._fields)
+        found = minima_of(Problem(*problem), entries)
         return [_entry(*entries[width * i : width * (i + 1)]) for i in range(found)]
 
     return WindSolver(fastest, local_minima)

@@ -28,11 +28,15 @@ from loiter.kernel.wind.cell_bounds import words_inside
 from loiter.kernel.wind.fits import end_miss, polish
 from loiter.kernel.wind.minimum import refined_minimum
 from loiter.kernel.wind.paths import JoinPoint, WindCandidate, WindScene, first_path, first_path_of, join_slope
+from loiter.kernel.wind.tolerance import entry_beside
 from loiter.kernel.words import ALL_WORDS, WITH_STRAIGHT
 
 
 class WindProblem(NamedTuple):
-    """An entry to find: start, heading as a unit vector, radius, `words.Side`, velocity of the air past the circle."""
+    """An entry to find: start, heading as a unit vector, radius, `words.Side`, velocity of the air past the circle.
+
+    A start beyond the circle, or beyond a last arc, by less than `tolerance` (turn radii) counts as on it.
+    """
 
     x: float
     y: float
@@ -42,6 +46,7 @@ class WindProblem(NamedTuple):
     side: int
     wx: float
     wy: float
+    tolerance: float = 0.0
 
 
 class WindEntry(NamedTuple):
@@ -101,7 +106,7 @@ SAMPLES = 128
 
 def status_of(problem: WindProblem) -> int:
     """`Status.OK`, or why there is nothing to solve."""
-    x, y, c, s, R, _, wx, wy = problem
+    x, y, c, s, R, _, wx, wy, tolerance = problem
     if not (isfinite(x + y) and isfinite(c + s) and isfinite(R) and isfinite(wx + wy)):
         return Status.NOT_FINITE + 0
     if length(wx, wy) >= 1.0:
@@ -110,7 +115,7 @@ def status_of(problem: WindProblem) -> int:
         return (Status.NOT_HELD if R >= 1.0 else Status.RADIUS_TOO_SMALL) + 0
     if abs(x) > REACH or abs(y) > REACH or R > REACH:
         return Status.OUT_OF_RANGE + 0
-    return Status.OK + 0
+    return (Status.OK if 0.0 <= tolerance <= REACH else Status.BAD_TOLERANCE) + 0
 
 
 def best_of_joins(side: int, scene: WindScene, best: WindCandidate) -> WindCandidate:
@@ -228,22 +233,47 @@ def is_on_circle(side: int, scene: WindScene) -> bool:
 
 def scene_of(problem: WindProblem) -> WindScene:
     """The scene of a problem, with the arc tolerance that rounding requires; negligible wind is treated as zero."""
-    x, y, c, s, R, _, wx, wy = problem
+    x, y, c, s, R, _, wx, wy, _ = problem
     if length(wx, wy) < NEGLIGIBLE_WIND:
         wx, wy = 0.0, 0.0
     return WindScene(x, y, c, s, R, wx, wy, rounding(x, y, R) / 3.0)
 
 
 def fastest(problem: WindProblem) -> WindEntry:
-    """The fastest maneuver onto the circle; nan, with a status, where there is none.
+    """The fastest maneuver onto the circle, or beside it within the tolerance; nan, with a status, where there is none.
 
     docs/wind.md, section 5, bounds by how much another maneuver could be faster, and says how the answer is found and
     checked. The status is `Status.NOT_CONVERGED` where the maneuver, flown exactly, does not end on the circle.
     """
-    status, side = status_of(problem), problem.side
+    status = status_of(problem)
     if status != 0:
-        return WindEntry(status, 0, 0, nan, nan, nan, nan, nan)
+        return no_entry(status)
     scene = scene_of(problem)
+    if problem.tolerance == 0.0:
+        return fastest_onto(problem.side, scene)
+    beside = entry_beside(problem.side, problem.tolerance, scene)
+    if beside.entry.t1 == 0.0:
+        return entry_at(beside.entry, beside.phase, beside.miss, scene)
+    onto = fastest_onto(problem.side, scene)
+    # The negated comparison is also true where there is no maneuver onto the circle: its times are nan.
+    if beside.entry.t1 < inf and not time_of(onto) <= beside.entry.t1:
+        return entry_at(beside.entry, beside.phase, beside.miss, scene)
+    return onto
+
+
+def no_entry(status: int) -> WindEntry:
+    """The result where there is no maneuver."""
+    return WindEntry(status, 0, 0, nan, nan, nan, nan, nan)
+
+
+def entry_at(entry: Entry, phase: float, miss: float, scene: WindScene) -> WindEntry:
+    """The result for a maneuver that joins at a phase."""
+    px, py, _, _, _ = hold_pose(phase, entry.side, scene.R, scene.wx, scene.wy)
+    return WindEntry(Status.OK + 0, entry.side, entry.word, entry.t1, entry.t2, entry.t3, atan2(py, px), miss)
+
+
+def fastest_onto(side: int, scene: WindScene) -> WindEntry:
+    """The fastest maneuver that ends on the circle."""
     best = WindCandidate(0.0, 0, NO_PATH)
     for one in (1, -1):
         if side != -one and is_on_circle(one, scene):
@@ -270,9 +300,8 @@ def wind_entry(found: WindCandidate, scene: WindScene) -> WindEntry:
     # Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The negated
     # comparison also rejects a miss that is nan.
     if not miss <= 2.0 * length_tolerance + ROUNDING * (t1 + t2 + t3):
-        return WindEntry(Status.NOT_CONVERGED + 0, 0, 0, nan, nan, nan, nan, nan)
-    px, py, _, _, _ = hold_pose(phase, side, scene.R, scene.wx, scene.wy)
-    return WindEntry(Status.OK + 0, side, word, t1, t2, t3, atan2(py, px), miss)
+        return no_entry(Status.NOT_CONVERGED + 0)
+    return entry_at(Entry(side, word, t1, t2, t3), phase, miss, scene)
 
 
 def sampled_times(side: int, scene: WindScene, times: list[float]) -> None:

@@ -49,8 +49,7 @@ def check_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> None:
 
     `air` is the wind relative to the circle, from `relative_wind`.
     """
-    R = radius_in_turns(orbit, aircraft)
-    status = wind_search.status_of(WindProblem(0.0, 0.0, 1.0, 0.0, R, Side.EITHER, *air))
+    status = _status(orbit, aircraft, air)
     if status == Status.WIND_TOO_STRONG:
         V, speed = aircraft.airspeed_m_s, hypot(*air) * aircraft.airspeed_m_s
         raise WindTooStrong(
@@ -59,6 +58,24 @@ def check_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> None:
         )
     if status in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
         raise RadiusTooSmall(too_tight(orbit, aircraft) if air.still else _not_held(orbit, aircraft, air))
+
+
+def fitted_radius_m(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> float:
+    """The radius of the circle, metres, or the least one that the aircraft can hold in the wind if that is larger.
+
+    Raises `WindTooStrong` where it can hold none.
+    """
+    air = relative_wind(orbit, aircraft, wind)
+    if _status(orbit, aircraft, air) in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
+        return tightest_radius(*air) * aircraft.turn_radius_m
+    check_held(orbit, aircraft, air)
+    return orbit.radius_m
+
+
+def _status(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> int:
+    """Whether the circle can be held: the status of a start at its centre."""
+    R = radius_in_turns(orbit, aircraft)
+    return wind_search.status_of(WindProblem(0.0, 0.0, 1.0, 0.0, R, Side.EITHER, *air))
 
 
 def too_tight(orbit: Orbit, aircraft: Aircraft) -> str:

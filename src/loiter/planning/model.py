@@ -183,6 +183,22 @@ class Orbit:
         velocity_east, velocity_north = self.velocity_east_m_s, self.velocity_north_m_s
         return moved(self.east_m, velocity_east, time_s), moved(self.north_m, velocity_north, time_s)
 
+    def fitted(self, aircraft: Aircraft, wind: Wind | None = None) -> Orbit:
+        """The circle, or where the aircraft cannot hold it in the wind, the one with the least radius that it can hold.
+
+        Centre, direction and velocity stay the same; a circle that can be held is returned as it is. At the least
+        radius the turn is as tight as the aircraft can fly where it flies downwind. Raises `WindTooStrong` where the
+        wind relative to the circle is as fast as the aircraft.
+
+        >>> uav, wind = Aircraft(18.0, max_bank_deg=35.0), Wind(8.0, from_deg=250.0)
+        >>> round(Orbit(0.0, 0.0, 60.0).fitted(uav, wind).radius_m, 1)
+        98.4
+        """
+        from loiter.planning.feasibility import fitted_radius_m
+
+        radius_m = fitted_radius_m(self, aircraft, CALM if wind is None else wind)
+        return self if radius_m == self.radius_m else replace(self, radius_m=radius_m)
+
     def distance_m(self, pose: Pose) -> float:
         """Distance of a pose from the centre, metres."""
         return hypot(pose.east_m - self.east_m, pose.north_m - self.north_m)

@@ -35,8 +35,8 @@ class ReducedProblem(NamedTuple):
 class Problem:
     """An entry to plan: from where, onto which circle, by which aircraft, in which wind.
 
-    `tolerance_m` is the distance, metres, by which a start may lie beyond the last arc and still count as on it; it is
-    used in still air alone. `relative_wind` is the velocity of the air relative to the circle, divided by the airspeed.
+    `tolerance_m` is the distance, metres, by which a start may lie beyond the last arc and still count as on it.
+    `relative_wind` is the velocity of the air relative to the circle, divided by the airspeed.
     Raises `InvalidArgument` for a tolerance that is negative or not finite.
     """
 
@@ -96,7 +96,8 @@ class Problem:
         check_held(self.orbit, self.aircraft, self.relative_wind)
         (x, y), (c, s) = self._place(), heading_vector(self.pose.heading_deg)
         wx, wy = self.relative_wind
-        found = WindProblem(x, y, c, s, self.radius, SIDES[self.orbit.turn], wx, wy)
+        tolerance = self.tolerance_m / self.aircraft.turn_radius_m
+        found = WindProblem(x, y, c, s, self.radius, SIDES[self.orbit.turn], wx, wy, tolerance)
         if wind_search.status_of(found) != Status.OK or not self._has_durations():
             raise self._too_large()
         return found

@@ -30,7 +30,8 @@ def plan(
     In still air the least time jumps where the start crosses the last arc (docs/theory.md, section 6): just beyond it
     the aircraft must fly a full turn more. A start that is beyond it only by rounding counts as on the arc;
     `tolerance_m` (metres) extends this to sensor noise. The maneuver then misses the tangent point by `miss_m`, at most
-    that distance. In wind the time does not jump there, and the tolerance is not used.
+    that distance. In wind the time is steep there and does not jump; a start beyond the circle, or beyond its last arc,
+    by less than the tolerance counts as on it.
 
     Raises `RadiusTooSmall` where the aircraft cannot hold the circle, `WindTooStrong` where the wind relative to the
     circle is as fast as the aircraft, `OutOfRange` where coordinates are so large that doubles cannot tell one turn

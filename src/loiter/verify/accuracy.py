@@ -6,8 +6,8 @@ extreme. Its bound follows from four accuracies:
 - `length`: the rounding of a length in this problem, 64 units of 2^-52 times its size: some 20 operations a piece.
 - `end`: the distance from the circle at which the maneuver may end. In still air it is the tolerance or `length`. The
   flow moves the plane rigidly, so no state on the way has a larger error, and phi = psi x state is as accurate, since
-  |psi| = 1. In wind it is the error that the kernel accepts. The conversion of durations to seconds and back, 4
-  roundings, adds one `length`.
+  |psi| = 1. In wind it is the error that the kernel accepts, and the tolerance where the maneuver ends beside the
+  circle by more than that. The conversion of durations to seconds and back, 4 roundings, adds one `length`.
 - `angle`: the accuracy of the direction of p. In still air psi of a single arc is parallel to its start, which may lie
   `end` beside its circle. At the first of two switches psi has turned by the angle of the middle arc, whose accuracy is
   `end` over that arc's radius. In wind p is the direction of the straight piece, or lies between the headings at two
@@ -41,7 +41,8 @@ STEP = 2.0**-15
 class Accuracy(NamedTuple):
     """The accuracies above, and the bounds of residuals.
 
-    `motion` bounds each equation of motion, in the order of the formulation, `join` the error of the pose at the end of
+    `beside` says whether the maneuver ends beside the circle by more than rounding, as the tolerance allows. `motion`
+    bounds each equation of motion, in the order of the formulation, `join` the error of the pose at the end of
     the last segment, `gradient` the deviation of the adjoint's direction from that given by the gradient of T.
     Durations closer than `tie` count as equal.
     """
@@ -49,6 +50,7 @@ class Accuracy(NamedTuple):
     end: float
     length: float
     angle: float
+    beside: bool
     join: float
     motion: tuple[float, ...]
     maximum_principle: MaximumPrinciple
@@ -80,6 +82,7 @@ def _in_still_air(trajectory: Trajectory, others: Sequence[Candidate]) -> Accura
         end,
         length,
         angle,
+        beside=2.0 * length < trajectory.miss <= end,
         join=end + max(trajectory.reduced_join.tolerance, length) + _heading_rounding(maneuver) * far,
         # The third derivative of a state on an arc is as large as the arc's radius.
         motion=(
@@ -135,6 +138,9 @@ def _in_wind(trajectory: Trajectory) -> Accuracy:
     start, maneuver, T = trajectory.start, trajectory.maneuver, trajectory.duration
     length = rounding(start.q.real, start.q.imag, start.R)
     end = 3.0 * length + 2.0 * ROUNDING * T
+    tolerance = trajectory.problem.in_wind().tolerance
+    beside = end < trajectory.beside <= end + tolerance
+    end += tolerance if beside else 0.0
     turning = 1.0 + 1.0 / max(_length_of_direction(trajectory), end)
     angle = end * turning
     choice = angle + sqrt(4.0 * end * turning)
@@ -145,6 +151,7 @@ def _in_wind(trajectory: Trajectory) -> Accuracy:
         end,
         length,
         angle,
+        beside,
         join=join,
         motion=(_of_difference(1.0, length),) * 3,
         maximum_principle=MaximumPrinciple(

@@ -69,7 +69,7 @@ def _start(problem: Problem, side: int) -> RelativeStart:
     if problem.still:
         x, y, R, _, _ = problem.reduced()
         return RelativeStart(complex(x, y), 1.0 + 0.0j, 0.0j, R, side)
-    x, y, c, s, R, _, wx, wy = problem.in_wind()
+    x, y, c, s, R, _, wx, wy, _ = problem.in_wind()
     return RelativeStart(complex(x, y), complex(c, s), complex(wx, wy), R, side)
 
 

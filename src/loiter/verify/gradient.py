@@ -38,10 +38,9 @@ class Gradient(NamedTuple):
 def gradient_residuals(equations: GradientEquations, trajectory: Trajectory, accuracy: Accuracy) -> Iterator[Residual]:
     """By how much the gradient of T differs from the adjoint's, and the Hamilton-Jacobi-Bellman equation from 0."""
     times = least_times(trajectory)
-    within = trajectory.problem.still and 2.0 * accuracy.length < trajectory.miss <= accuracy.end
-    gradient = None if within else gradient_of(times)
+    gradient = None if accuracy.beside else gradient_of(times)
     if gradient is None:
-        note = BESIDE_LAST_ARC if within else times.not_smooth()
+        note = BESIDE_LAST_ARC if accuracy.beside else times.not_smooth()
         yield Residual("gradient", equations.gradient, None, None, note)
         yield Residual("bellman", equations.bellman, None, None, note)
         return

@@ -47,7 +47,8 @@ def least_times(trajectory: Trajectory) -> LeastTimes:
 
 
 def _in_wind(trajectory: Trajectory) -> LeastTimes:
-    problem = trajectory.problem.in_wind()
+    # A tolerance would make T jump where it begins to count a start as on a last arc.
+    problem = trajectory.problem.in_wind()._replace(tolerance=0.0)
 
     def time(axis: int, step: float) -> float:
         e = complex(problem.c, problem.s) * (exp(1j * step) if axis == 2 else 1.0)

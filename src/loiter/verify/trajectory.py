@@ -175,6 +175,12 @@ class Trajectory:
         return abs(q * e.conjugate() - 1j * self.start.side * self.start.R)
 
     @property
+    def beside(self) -> float:
+        """How far from the circle the maneuver ends, or the component of its velocity across the circle if larger."""
+        q, e = self.end
+        return max(abs(abs(q) - self.start.R), abs(inner(q, e + self.start.w)) / (abs(q) or 1.0))
+
+    @property
     def opposed(self) -> list[FlownPiece]:
         """The arcs that begin with a switch between L and R."""
         return [after for before, after in pairwise(self.pieces) if before.u * after.u < 0]

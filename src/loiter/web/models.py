@@ -113,7 +113,7 @@ class Scene(Request):
     aircraft: AircraftIn
     wind: WindIn | None = Field(None, description="Still air if absent.")
     tolerance_m: NotNegative = Field(
-        0.0, description="In still air: a start up to this many metres beyond the last arc counts as on it."
+        0.0, description="A start up to this many metres beyond the last arc counts as on it."
     )
     origin: OriginIn | None = Field(
         None, description="If given, the answer also has positions in degrees and headings from true north."

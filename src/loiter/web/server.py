@@ -67,9 +67,9 @@ class Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Start, compute the map that the page shows first, and load the search in wind, in a thread.
 
-        Both are compiled, once on a machine, in ten seconds each. The thread starts only after uvicorn has installed
-        its signal handlers: before that, a signal could interrupt an import and block the import of another thread for
-        ever.
+        Both are compiled, once on a machine, in ten and twenty seconds. The thread starts only after uvicorn has
+        installed its signal handlers: before that, a signal could interrupt an import and block the import of another
+        thread for ever.
         """
         await super().startup(sockets)
         Thread(target=_warm_up).start()

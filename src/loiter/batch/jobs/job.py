@@ -5,13 +5,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import pyarrow as pa
 
-from loiter.arrays.wind import COMPILED_FROM
 from loiter.batch.jobs import cluster, folder
 from loiter.batch.jobs.parts import Job, append_part, is_whole
 from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_executors
@@ -102,8 +101,8 @@ def run_request(request: JobRequest, workers: int, scheduler: str | None, report
         _report_start(is_same_job, here, len(finished), len(parts), report)
         counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
         total, earlier, resumed = sum(part.rows for part in parts), counter.rows, len(finished)
-        job = replace(job, compiled=may_drift(request.columns) and total >= COMPILED_FROM)
-        executors = _executors(client, workers, counter, append_only=resumed == len(parts), compiled=job.compiled)
+        in_wind = may_drift(request.columns)
+        executors = _executors(client, workers, counter, append_only=resumed == len(parts), in_wind=in_wind)
         counts = _write_output(
             request, job, parts, finished, executors, counter, lambda: report(JobProgress(counter.rows // 2, total))
         )
@@ -119,11 +118,11 @@ def _client(scheduler: str | None) -> AbstractContextManager[Any]:
 
 
 def _executors(
-    client: Any, workers: int, counter: RowCounter, *, append_only: bool, compiled: bool
+    client: Any, workers: int, counter: RowCounter, *, append_only: bool, in_wind: bool
 ) -> AbstractContextManager[Executors]:
     if client is not None:
         return cluster.cluster_executors(client, counter)
-    return thread_executors(workers, counter, append_only=append_only, compiled=compiled)
+    return thread_executors(workers, counter, append_only=append_only, in_wind=in_wind)
 
 
 def _sizes(request: JobRequest) -> tuple[int, int]:

@@ -33,7 +33,7 @@ class Job:
     """The data that solving a part needs, on this or another machine.
 
     `table` is the Parquet file to read, `folder` the folder of the parts, `schema` their schema; `digest` identifies
-    the job. `batch_rows` are solved at a time; `compiled`, the same for every part, is passed to `entries`.
+    the job. `batch_rows` are solved at a time.
     """
 
     table: Path
@@ -42,7 +42,6 @@ class Job:
     schema: pa.Schema
     digest: str
     batch_rows: int = BATCH_ROWS
-    compiled: bool = False
 
 
 def solve_part(job: Job, part: Part, count_rows: CountRows = lambda rows: None) -> None:
@@ -57,7 +56,7 @@ def solve_part(job: Job, part: Part, count_rows: CountRows = lambda rows: None) 
     try:
         with pa.OSFile(str(unfinished), "wb") as sink, pa.ipc.new_file(sink, job.schema) as writer:
             for batch in files.batches(job.table, part, job.batch_rows):
-                writer.write_batch(solve_batch(batch, job.columns, job.compiled))
+                writer.write_batch(solve_batch(batch, job.columns))
                 count_rows(batch.num_rows)
         # The job may have ended before its worker, and the folder may now belong to another job.
         if belongs_to(job.folder, job.digest):

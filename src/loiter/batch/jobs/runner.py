@@ -58,14 +58,14 @@ class Executors(NamedTuple):
 
 
 @contextmanager
-def thread_executors(workers: int, counter: RowCounter, *, append_only: bool, compiled: bool) -> Iterator[Executors]:
+def thread_executors(workers: int, counter: RowCounter, *, append_only: bool, in_wind: bool) -> Iterator[Executors]:
     """Executors in this process: `workers` threads that solve and append, or only append.
 
-    `compiled` is `Job.compiled`.
+    `in_wind` says whether rows may be in wind.
     """
     if not append_only:
         # Compiling is done here, since an interrupt does not reach other threads.
-        compile_kernel(in_wind=compiled)
+        compile_kernel(in_wind=in_wind)
     with thread_pool(workers, counter) as pool:
         yield Executors(
             lambda job, part: pool.submit(solve_part, job, part, counter.count_or_stop),

@@ -70,7 +70,7 @@ def batch(
         Parameter(
             group=work,
             metavar="METRES",
-            help="In still air: a start up to this many metres beyond the last arc counts as on it, as in loiter plan.",
+            help="A start up to this many metres beyond the last arc counts as on it, as in loiter plan.",
         ),
     ] = 0.0,
     workers: Annotated[

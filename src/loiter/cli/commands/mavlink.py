@@ -19,6 +19,7 @@ from loiter.cli import report
 from loiter.cli.numbers import whole
 from loiter.cli.options import (
     AircraftOptions,
+    Fit,
     MissionOptions,
     OrbitOptions,
     PlacedOrbitOptions,
@@ -92,6 +93,7 @@ def upload(
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
+    fit: Fit = False,
     waypoints: MissionOptions = MissionOptions(),
 ) -> None:
     """Send the fastest entry to a vehicle as a mission, and read it back, item by item, to verify it."""
@@ -101,8 +103,8 @@ def upload(
     options = (pose, circle, uav, air, waypoints)
     to_send: Mission | Callable[[int], Mission]
     if mission is None:
-        to_send = _plan_mission(*options)
-    elif any(given != type(given)() for given in options):
+        to_send = _plan_mission(*options, fit=fit)
+    elif fit or any(given != type(given)() for given in options):
         raise InvalidArgument("mission", "FILE is sent as it is: options of a scene have no effect with it")
     else:
         to_send = loiter.io.read_mission(mission)
@@ -127,7 +129,13 @@ def upload(
 
 
 def _plan_mission(
-    pose: StartOptions, circle: OrbitOptions, uav: AircraftOptions, air: WindOptions, waypoints: MissionOptions
+    pose: StartOptions,
+    circle: OrbitOptions,
+    uav: AircraftOptions,
+    air: WindOptions,
+    waypoints: MissionOptions,
+    *,
+    fit: bool,
 ) -> Callable[[int], Mission]:
     """Print the scene's fastest entry; returns a function that converts it to a mission for an autopilot."""
     if pose.pose_lla is None or not circle.orbit_lla:
@@ -135,7 +143,7 @@ def _plan_mission(
     if uav.altitude is None:
         raise InvalidArgument("altitude_m", f"is needed: a vehicle's mission has one, {waypoints.datum.unit}")
     along_path = waypoints.along_path
-    (problem, frame), remark = read_options(pose, circle, uav, air, datum=waypoints.datum)
+    (problem, frame), remark = read_options(pose, circle, uav, air, fit=fit, datum=waypoints.datum)
     assert frame is not None  # both places are in degrees
     best = fastest(problem)
     to_mission = partial(

@@ -11,6 +11,7 @@ import loiter
 from loiter.cli import certificates, report
 from loiter.cli.options import (
     AircraftOptions,
+    Fit,
     MissionOptions,
     OrbitOptions,
     StartOptions,
@@ -36,7 +37,7 @@ Tolerance = Annotated[
     Parameter(
         group=scene,
         metavar="METRES",
-        help="In still air: a start up to this many metres beyond the last arc counts as on it, so that noise does not add a full turn.",
+        help="A start up to this many metres beyond the last arc counts as on it, so that noise does not add a full turn.",
     ),
 ]
 All = Annotated[bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")]
@@ -74,6 +75,7 @@ def plan(
     circle: OrbitOptions = OrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
+    fit: Fit = False,
     tolerance: Tolerance = 0.0,
     all_: All = False,
     json: Json = False,
@@ -84,7 +86,9 @@ def plan(
     autopilot: AutopilotChoice = "ardupilot",
 ) -> int:
     """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off."""
-    (problem, frame), remark = read_options(start, circle, uav, air, tolerance_m=tolerance, datum=waypoints.datum)
+    (problem, frame), remark = read_options(
+        start, circle, uav, air, tolerance_m=tolerance, fit=fit, datum=waypoints.datum
+    )
     _check_formats(plot, save)
     along_path = save is not None and is_mission(save) and waypoints.along_path
     best, others = best_and_others(problem)
@@ -99,7 +103,8 @@ def plan(
         files.save(plot, shown, slower if all_ else [*ties, *slower], frame=frame)
         certificates.save_picture(plot, certified)
     if json:
-        report.print_json(answer(best, others, frame) | certificates.document(certified))
+        fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
+        report.print_json(answer(best, others, frame) | fitted | certificates.document(certified))
     else:
         report.print_tables(best, others, everything=all_, frame=frame, remark=remark)
         certificates.print_text(certified)
