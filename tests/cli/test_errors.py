@@ -74,7 +74,7 @@ BAD_SHAPES = [
     (plan(speed="18"), ["--speed"]),
     ([*plan(), "--quiet"], ["--quiet"]),
     ([*plan(), "extra"], ["extra"]),
-    (["hover"], ["hover", "plan", "verify"]),
+    (["hover"], ["hover", "plan", "guide"]),
     (["plna"], ["plna", "plan"]),
     (["--nope"], ["--nope"]),
 ]
