@@ -113,12 +113,16 @@ class RollIdentifier:
             return False
         self._measured_s = self._time_s
         since_s = min(since_s, CORRELATION_S)
-        predictions = self._predictions()
-        error = np.minimum(np.abs(predictions - bank_deg), LARGEST_ERROR_DEG)
-        variance = float(predictions.var())
+        error = self._predictions()
+        mean = float(error.sum()) / error.size
+        variance = max(float(np.vdot(error, error)) / error.size - mean * mean, 0.0)
         excitation = variance / (variance + EXCITED_DEG * EXCITED_DEG)
         self._misfit *= exp(-excitation * since_s / MEMORY_S)
-        self._misfit += error * error * (since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG))
+        error -= bank_deg
+        np.minimum(np.abs(error, out=error), LARGEST_ERROR_DEG, out=error)
+        error *= error
+        error *= since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG)
+        self._misfit += error
         self._weigh()
         return True
 

@@ -31,7 +31,7 @@ AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
 LARGEST_GAP_S = 1.0
 
 # Measurements that follow each other sooner than this, seconds, are left out: identification needs no more.
-SHORTEST_GAP_S = 0.035
+SHORTEST_GAP_S = 0.075
 
 
 class VehicleEstimates(NamedTuple):
