@@ -16,7 +16,7 @@ import numpy as np
 from loiter.guidance.trials.flight import fly
 from loiter.guidance.trials.varied import VARIED_LAWS, VariedTrial, varied_point_mass, varied_trials
 
-# Held by no law so far: `python -m guidance.varied 500 17`.
+# The default campaign: nothing was tuned with this seed.
 RUNS, SEED, LIMIT_S = 500, 17, 600.0
 
 
