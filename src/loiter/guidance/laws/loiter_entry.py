@@ -396,7 +396,9 @@ class LoiterEntry:
         course = course_rate(offset, gain * bandwidth, place_gain, hypot(vx, vy))
         if route.is_holding:
             course -= self._trimmed(offset.crosstrack, gain * bandwidth, turn_rate, dt)
-        return self._bank_deg(-air_rate(course, vx, vy, state.hx, state.hy))
+        rate = -air_rate(course, vx, vy, state.hx, state.hy)
+        # At the present airspeed, which differs from the mean one where an autopilot holds it less exactly.
+        return bank_at_rate(rate / self._vehicle.estimates.turn_ratio, hypot(state.hx, state.hy))
 
     def _present_gain(self) -> float:
         """The gain for the present air, lower for a vehicle that turns faster than its bank where that changes."""
