@@ -66,9 +66,10 @@ def guide(
     check_target(system, component, timeout_s)
     dialect()
     positive("period_s", period_s, "seconds")
-    for name, value in (("airspeed_m_s", airspeed_m_s), ("max_bank_deg", max_bank_deg)):
-        if value is not None:
-            positive(name, value, "units")
+    if airspeed_m_s is not None:
+        positive("airspeed_m_s", airspeed_m_s, "metres per second")
+    if max_bank_deg is not None:
+        positive("max_bank_deg", max_bank_deg, "degrees")
     if altitude_m is not None:
         number("altitude_m", altitude_m, "metres")
     if orbit.moves:
