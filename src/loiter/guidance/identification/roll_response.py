@@ -51,7 +51,7 @@ STORED = 160
 
 
 class RollEstimate(NamedTuple):
-    """The identified roll response, the delay, and the bank that the models predict for the present."""
+    """The identified roll response, and the delay, seconds."""
 
     roll: Roll
     delay_s: float
@@ -106,11 +106,11 @@ class RollIdentifier:
             self._stored_times[self._next], self._stored[self._next] = self._time_s, self._banks
             self._next = (self._next + 1) % STORED
 
-    def measure(self, bank_deg: float) -> bool:
-        """Take a measured bank that has just arrived; return whether the estimate has changed."""
+    def measure(self, bank_deg: float) -> None:
+        """Take a measured bank that has just arrived."""
         since_s = self._time_s - self._measured_s
         if since_s < MEASURED_S:
-            return False
+            return
         self._measured_s = self._time_s
         since_s = min(since_s, CORRELATION_S)
         error = self._predictions()
@@ -124,7 +124,6 @@ class RollIdentifier:
         error *= since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG)
         self._misfit += error
         self._weigh()
-        return True
 
     def _predictions(self) -> np.ndarray:
         """The bank that each model predicts for each delay ago: an array of delays by models."""

@@ -8,6 +8,7 @@ from typing import NamedTuple, Protocol
 from loiter.guidance.identification.bank_history import BankHistory
 from loiter.guidance.identification.roll_response import RollIdentifier
 from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.guidance.vehicle.turning import rate_at_bank
 from loiter.planning.compass import heading_vector
@@ -20,11 +21,11 @@ TURN_RATIO_BOUNDS = 0.6, 3.0
 # are correlated over a second. It stays within the last.
 LEAD_FILTER_S, LEAD_MEMORY_S, LEAD_SPREAD_S, DIRECTION_ERROR, LARGEST_LEAD_S = 1.5, 30.0, 0.1, 0.03, 0.4
 
-# The wind is the average of the air's velocity over this time, seconds. A wind that is told counts as if it had been
-# averaged over the first time, one that is not told as if over the second.
-WIND_MEMORY_S, TOLD_WIND_S, UNTOLD_WIND_S = 60.0, 30.0, 0.0
+# The wind is the average of the air's velocity over the first time, seconds, at most. A declared wind counts as if it
+# had been averaged over the second; without one the average begins with the first measurement.
+WIND_MEMORY_S, DECLARED_WIND_S = 60.0, 30.0
 
-# The airspeed is averaged over this time; the declared one counts as if it had been averaged over the second.
+# The same for the airspeed.
 AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
 
 # Measurements further apart than this, seconds, are not related to each other.
@@ -83,14 +84,14 @@ class DeclaredVehicle:
 
 
 class IdentifiedVehicle:
-    """A vehicle that is identified in flight, beginning with what is declared; `wind_told` says whether the wind is."""
+    """A vehicle that is identified in flight, beginning with what is declared; `wind_declared`: whether the wind is."""
 
-    def __init__(self, declared: VehicleEstimates, *, wind_told: bool) -> None:
+    def __init__(self, declared: VehicleEstimates, *, wind_declared: bool) -> None:
         self.estimates, self.history = declared, BankHistory()
         self._roll = RollIdentifier(declared.roll, declared.delay_s)
         self._turning, self._lead = TurnRatio(declared.turn_ratio, SLOW_TURNS), CourseLead(declared.course_lead_s)
         self._quick_turning = TurnRatio(declared.turn_ratio, QUICK_TURNS)
-        wind_s = TOLD_WIND_S if wind_told else UNTOLD_WIND_S
+        wind_s = DECLARED_WIND_S if wind_declared else 0.0
         self._east = Average(declared.wind_east_m_s, wind_s, WIND_MEMORY_S)
         self._north = Average(declared.wind_north_m_s, wind_s, WIND_MEMORY_S)
         self._airspeed = Average(declared.airspeed_m_s, DECLARED_AIRSPEED_S, AIRSPEED_MEMORY_S)
@@ -174,8 +175,8 @@ class RatioSettings(NamedTuple):
 
 
 # The ratio of slow turns, from headings, and that of quick ones, from courses.
-SLOW_TURNS = RatioSettings(3.0, inf, 60.0, 0.1, 1.7, inf)
-QUICK_TURNS = RatioSettings(0.3, 0.5, 6.0, 0.5, 0.5, 0.5)
+SLOW_TURNS = RatioSettings(filter_s=3.0, mean_s=inf, memory_s=60.0, spread=0.1, error_deg=1.7, saturation_deg=inf)
+QUICK_TURNS = RatioSettings(filter_s=0.3, mean_s=0.5, memory_s=6.0, spread=0.5, error_deg=0.5, saturation_deg=0.5)
 
 
 class TurnRatio:
@@ -186,34 +187,29 @@ class TurnRatio:
     """
 
     def __init__(self, declared: float, settings: RatioSettings) -> None:
-        self._prior = settings.error_deg**2 * settings.filter_s / settings.spread**2
-        self.ratio, self._declared, self._settings = declared, declared, settings
-        self._product = self._square = 0.0
+        prior = settings.error_deg**2 * settings.filter_s / settings.spread**2
+        self._fit, self._settings, self.ratio = _LeastSquares(declared, prior, settings.memory_s), settings, declared
         self.restart()
 
     def restart(self) -> None:
         """Do not relate later measurements to earlier ones."""
-        self._measured_deg = self._computed_deg = 0.0
         self._last_deg = self._last_rate = nan
-        self._measured, self._computed = _HighPass(self._settings.mean_s), _HighPass(self._settings.mean_s)
+        filter_s, mean_s = self._settings.filter_s, self._settings.mean_s
+        self._measured, self._computed = _HighPass(filter_s), _HighPass(filter_s)
+        self._measured_mean, self._computed_mean = _HighPass(mean_s), _HighPass(mean_s)
 
     def measure(self, direction_deg: float, rate_deg_s: float, dt: float) -> None:
         """Take a direction and the turn rate of a coordinated turn, `dt` seconds after the last."""
+        measured_turn_deg = computed_turn_deg = 0.0
         if self._last_deg == self._last_deg:
-            self._measured_deg += remainder(direction_deg - self._last_deg, 360.0)
-            self._computed_deg += 0.5 * dt * (self._last_rate + rate_deg_s)
+            measured_turn_deg = remainder(direction_deg - self._last_deg, 360.0)
+            computed_turn_deg = 0.5 * dt * (self._last_rate + rate_deg_s)
         self._last_deg, self._last_rate = direction_deg, rate_deg_s
-        kept, forgotten = exp(-dt / self._settings.filter_s), exp(-dt / self._settings.memory_s)
-        self._measured_deg *= kept
-        self._computed_deg *= kept
-        measured_deg = self._measured.filtered(self._measured_deg, dt)
-        computed_deg = self._computed.filtered(self._computed_deg, dt)
-        weight = dt / max(abs(computed_deg) / self._settings.saturation_deg, 1.0) ** 2
-        self._product = forgotten * self._product + weight * measured_deg * computed_deg
-        self._square = forgotten * self._square + weight * computed_deg * computed_deg
-        ratio = (self._product + self._declared * self._prior) / (self._square + self._prior)
+        measured_deg = self._measured_mean.filtered(self._measured.changed(measured_turn_deg, dt), dt)
+        computed_deg = self._computed_mean.filtered(self._computed.changed(computed_turn_deg, dt), dt)
+        weight = 1.0 / max(abs(computed_deg) / self._settings.saturation_deg, 1.0) ** 2
         low, high = TURN_RATIO_BOUNDS
-        self.ratio = min(max(ratio, low), high)
+        self.ratio = min(max(self._fit.ratio(measured_deg, computed_deg, weight, dt), low), high)
 
 
 class CourseLead:
@@ -224,10 +220,9 @@ class CourseLead:
     """
 
     def __init__(self, declared_s: float) -> None:
-        self.lead_s, self._declared_s = declared_s, declared_s
-        self._prior = DIRECTION_ERROR**2 / LEAD_SPREAD_S**2
-        self._product = self._square = 0.0
-        self._angle, self._rate = _HighPass(LEAD_FILTER_S), _HighPass(LEAD_FILTER_S)
+        self.lead_s = declared_s
+        self._fit = _LeastSquares(declared_s, DIRECTION_ERROR**2 / LEAD_SPREAD_S**2, LEAD_MEMORY_S)
+        self.restart()
 
     def restart(self) -> None:
         """Do not relate later measurements to earlier ones."""
@@ -240,11 +235,22 @@ class CourseLead:
         # Both positive to the right.
         angle = self._angle.filtered(atan2(east * s - north * c, east * c + north * s), dt)
         rate = self._rate.filtered(turn_ratio * rate_at_bank(state.bank_deg, state.airspeed_m_s), dt)
-        forgotten = exp(-dt / LEAD_MEMORY_S)
-        self._product = forgotten * self._product + angle * rate * dt
-        self._square = forgotten * self._square + rate * rate * dt
-        lead_s = (self._product + self._declared_s * self._prior) / (self._square + self._prior)
-        self.lead_s = min(max(lead_s, -LARGEST_LEAD_S), LARGEST_LEAD_S)
+        self.lead_s = clip(self._fit.ratio(angle, rate, 1.0, dt), LARGEST_LEAD_S)
+
+
+class _LeastSquares:
+    """The ratio y/x by least squares with a memory, seconds; `prior` is how much the declared ratio weighs in x^2 s."""
+
+    def __init__(self, declared: float, prior: float, memory_s: float) -> None:
+        self._declared, self._prior, self._memory_s = declared, prior, memory_s
+        self._product = self._square = 0.0
+
+    def ratio(self, y: float, x: float, weight: float, dt: float) -> float:
+        """The ratio including a pair that counts for `dt` seconds with a weight."""
+        kept, share = exp(-dt / self._memory_s), weight * dt
+        self._product = kept * self._product + share * y * x
+        self._square = kept * self._square + share * x * x
+        return (self._product + self._declared * self._prior) / (self._square + self._prior)
 
 
 class _HighPass:
@@ -258,5 +264,9 @@ class _HighPass:
         """The filtered value, `dt` seconds after the last."""
         change = value - self._last if self._last == self._last else 0.0
         self._last = value
+        return self.changed(change, dt)
+
+    def changed(self, change: float, dt: float) -> float:
+        """The filtered value, `dt` seconds after the last, where the input has changed."""
         self._value = exp(-dt / self._time_s) * (self._value + change)
         return self._value

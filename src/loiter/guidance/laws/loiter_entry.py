@@ -27,10 +27,10 @@ from loiter.guidance.laws.route import Route, controls_of
 from loiter.guidance.protocol import Command, Phase, State, phase_of_control
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
-from loiter.guidance.vehicle.turning import bank_at_rate, radius_of_turn, rate_at_bank
+from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.kernel.words import Side
 from loiter.planning.feasibility import check_held, relative_wind
-from loiter.planning.model import CALM, Aircraft, Orbit, Wind
+from loiter.planning.model import CALM, Aircraft, Orbit, Wind, radius_at_bank
 from loiter.planning.sides import SIDES, TURNS
 
 # The values below were tuned in gusts, with 200 to 500 starts each: docs/guidance.md.
@@ -139,7 +139,7 @@ class LoiterEntry:
     ) -> None:
         air = CALM if wind is None else wind
         check_held(orbit, aircraft, relative_wind(orbit, aircraft, air))
-        self._orbit, self._aircraft, self._declared_wind = orbit, aircraft, air.velocity_m_s
+        self._orbit, self._declared_wind = orbit, air.velocity_m_s
         self._limit_deg = aircraft.bank_deg(aircraft.turn_radius_m)
         self._gain, self._reserve = positive("gain", gain, "units"), not_negative("reserve", reserve, "one")
         self._smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
@@ -149,7 +149,7 @@ class LoiterEntry:
         # A wind may have to be planned with: the compiled search is loaded before the flight.
         wind_solver.load()
         if identify:
-            self._vehicle = IdentifiedVehicle(declared, wind_told=wind is not None)
+            self._vehicle = IdentifiedVehicle(declared, wind_declared=wind is not None)
         self._side = SIDES[orbit.turn]
         self._observer = Observer(smoothing_s)
         self._route: Route | None = None
@@ -241,7 +241,7 @@ class LoiterEntry:
         """Set what follows from the estimates of the vehicle: the wind, turn radii, banks and the response time."""
         known = self._vehicle.estimates
         self._wind = self._planned_wind(known)
-        tightest_m = radius_of_turn(self._limit_deg, known.airspeed_m_s) / known.turn_ratio
+        tightest_m = radius_at_bank(known.airspeed_m_s, self._limit_deg) / known.turn_ratio
         self._limits = turn_limits(known.airspeed_m_s, tightest_m, self._reserve, self._orbit.radius_m, self._wind)
         self._hold_deg = self._bank_deg(known.airspeed_m_s / self._orbit.radius_m)
         self._planned_deg = self._bank_deg(known.airspeed_m_s / self._limits.planned_m)
@@ -343,7 +343,7 @@ class LoiterEntry:
 
     def _first_search(self, estimate: Estimate) -> None:
         """Adopt the fastest entry from where a command takes effect, which depends on the bank and the first turn."""
-        lead_s = self._lead_s(estimate.bank_deg, clip(-estimate.bank_deg, 0.0))
+        lead_s = self._lead_s(estimate.bank_deg, 0.0)
         entry = self._fastest_entry(self._relative_state(estimate.after(lead_s)))
         if entry is None:
             return
@@ -358,7 +358,7 @@ class LoiterEntry:
             return False
         self._last_search_s = self._clock.time_s
         entry = self._fastest_entry(state)
-        if entry is None or not (route is None or _is_better(entry, route, self._limits, wind=self._wind)):
+        if entry is None or not (route is None or _is_better(entry, route, self._limits)):
             return False
         self._route = Route(state, entry, self._orbit.radius_m)
         self._join_time_s = self._planned_join_time_s = state.time_s + entry.duration_s
@@ -421,14 +421,14 @@ class LoiterEntry:
         self._vehicle.record(bank_deg, dt)
 
 
-def _is_better(entry: PlannedEntry, route: Route, limits: TurnLimits, *, wind: tuple[float, float]) -> bool:
+def _is_better(entry: PlannedEntry, route: Route, limits: TurnLimits) -> bool:
     """Whether an entry should replace a route: it is the same plan and not much slower, or it is faster by a margin.
 
-    Additional pieces at its beginning do not make it a different plan if together they are no longer than `bend`.
+    In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a different plan.
     The duration of a route that was planned with tighter turns grows with their radius.
     """
     unit_s = limits.planned_m / limits.airspeed_m_s
-    bend_s = 0.0 if wind == (0.0, 0.0) else LONGEST_BEND * unit_s
+    bend_s = 0.0 if entry.wind == (0.0, 0.0) else LONGEST_BEND * unit_s
     controls = controls_of(entry.word)
     extra = max(len(controls) - len(route.controls), 0)
     same = entry.side == route.side and controls[extra:] == route.controls and sum(entry.times_s[:extra]) <= bend_s

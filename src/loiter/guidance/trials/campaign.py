@@ -7,7 +7,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from math import cos, degrees, pi, sin, sqrt
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from loiter.guidance.protocol import Law, Simulator
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.trials.flight import LIMIT_S, STEP_S, fly
+from loiter.guidance.trials.flight import LIMIT_S, STEP_S, Flight, fly
 from loiter.guidance.trials.settling import Band
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.kernel.hold import tightest_radius
@@ -28,6 +28,9 @@ from loiter.planning.feasibility import relative_wind
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind
 from loiter.planning.solve import plan
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,11 +116,18 @@ def trials(
 
 def _trial(seed: int, i: int, aircraft: Aircraft, wind: Wind | None, radii: tuple[float, float], reach: float) -> Trial:
     random = np.random.default_rng((seed, i))
+    return Trial(random_entry(random, aircraft, wind, radii, reach), int(random.integers(2**63)))
+
+
+def random_entry(
+    random: Generator, aircraft: Aircraft, wind: Wind | None, radii: tuple[float, float], reach: float
+) -> Maneuver:
+    """The fastest entry from a random start onto a random circle about the origin, as `trials` describes them."""
     tightest = tightest_radius(*relative_wind(Orbit(0.0, 0.0, 1.0), aircraft, CALM if wind is None else wind))
     radius_m = aircraft.turn_radius_m * tightest * random.uniform(*radii)
     distance_m, azimuth = reach * radius_m * sqrt(random.random()), 2.0 * pi * random.random()
     pose = Pose(distance_m * cos(azimuth), distance_m * sin(azimuth), 360.0 * random.random())
-    return Trial(plan(pose, Orbit(0.0, 0.0, radius_m), aircraft, wind), int(random.integers(2**63)))
+    return plan(pose, Orbit(0.0, 0.0, radius_m), aircraft, wind)
 
 
 def optimal(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
@@ -174,7 +184,6 @@ def outcome(
     """Fly one trial, number `i`, and return its result."""
     m = trial.ideal
     flight = fly(law(trial), simulator(trial), m.orbit, band=band, step_s=step_s, limit_s=limit_s)
-    arcs_deg = degrees(sum(abs(segment.curvature_per_m) * segment.length_m for segment in m.segments))
     return Outcome(
         i,
         m.duration_s,
@@ -183,9 +192,15 @@ def outcome(
         flight.overshoot_m,
         flight.bank_rate_deg_s,
         flight.distance_m,
-        flight.settled and flight.turned_deg > arcs_deg + GO_AROUND_DEG,
+        is_go_around(flight, m),
         flight.join_error_s,
     )
+
+
+def is_go_around(flight: Flight, ideal: Maneuver) -> bool:
+    """Whether a flight that settled turned by `GO_AROUND_DEG` more, off the circle, than the fastest entry."""
+    arcs_deg = degrees(sum(abs(segment.curvature_per_m) * segment.length_m for segment in ideal.segments))
+    return flight.settled and flight.turned_deg > arcs_deg + GO_AROUND_DEG
 
 
 def campaign(

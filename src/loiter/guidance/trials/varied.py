@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import cos, pi, sin, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,11 +20,8 @@ from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.simulators.telemetry import Telemetry, WithTelemetry
-from loiter.guidance.trials.campaign import Trial, at_least
-from loiter.kernel.hold import tightest_radius
-from loiter.planning.feasibility import relative_wind
-from loiter.planning.model import Aircraft, Orbit, Pose, Wind
-from loiter.planning.solve import plan
+from loiter.guidance.trials.campaign import Trial, at_least, random_entry
+from loiter.planning.model import Aircraft, Wind
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -77,14 +73,11 @@ def _varied_trial(random: Generator) -> VariedTrial:
     true = Aircraft(declared.airspeed_m_s, min_turn_radius_m=declared.turn_radius_m / turn_ratio)
     windy = random.random() < WINDY
     wind = Wind(LARGEST_WIND * declared.airspeed_m_s * random.random() * windy, 360.0 * random.random())
-    tightest = tightest_radius(*relative_wind(Orbit(0.0, 0.0, 1.0), true, wind))
-    radius_m = true.turn_radius_m * tightest * random.uniform(*RADII)
-    distance_m, azimuth = REACH * radius_m * sqrt(random.random()), 2.0 * pi * random.random()
-    pose = Pose(distance_m * cos(azimuth), distance_m * sin(azimuth), 360.0 * random.random())
+    ideal = random_entry(random, true, wind, RADII, REACH)
     response = RollResponse(*(random.uniform(*each) for each in (ROLL_TIME_S, DEAD_TIME_S, OVERSHOOT, ROLL_RATE_DEG_S)))
     rate_hz = RATE_HZ[0] * (RATE_HZ[1] / RATE_HZ[0]) ** random.random()
     return VariedTrial(
-        plan(pose, Orbit(0.0, 0.0, radius_m), true, wind),
+        ideal,
         int(random.integers(2**63)),
         declared,
         response,

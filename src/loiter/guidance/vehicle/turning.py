@@ -37,8 +37,3 @@ def rate_at_bank(bank_deg: float, airspeed_m_s: float) -> float:
 def bank_at_rate(rate: float, airspeed_m_s: float) -> float:
     """Bank of a coordinated turn, degrees, from its rate in radians per second: the inverse of `rate_at_bank`."""
     return degrees(atan(rate * airspeed_m_s / STANDARD_GRAVITY_M_S2))
-
-
-def radius_of_turn(bank_deg: float, airspeed_m_s: float) -> float:
-    """Radius of a coordinated turn, metres: V^2/(g tan(bank))."""
-    return airspeed_m_s * airspeed_m_s / (STANDARD_GRAVITY_M_S2 * tan(radians(bank_deg)))
