@@ -43,7 +43,7 @@ def guide(
 ) -> Generator[GuideReport, None, None]:
     """Guide a vehicle in flight onto a circle by bank commands, and hand it over to its own hold of that circle.
 
-    Yields a report every `period_s` seconds; the flight goes on only while the next one is asked for. `connection`,
+    Yields a report every `period_s` seconds; the flight goes on only while the next one is requested. `connection`,
     `system` and `component` are those of `upload`; `orbit` is a circle at rest in the local metres of `frame`. The
     true airspeed, metres per second, and the largest bank, degrees, are those of the autopilot's parameters unless they
     are given. `wind` is a first guess; without it that is the wind which the vehicle reports. `altitude_m` is the

@@ -1,4 +1,4 @@
-"""What a vehicle is told when it is handed over to its own hold: the radius of the circle, and the last bank.
+"""The commands at the hand-over of a vehicle to its own hold: the radius of the circle, and the last bank.
 
 ArduPlane keeps the last bank for 3 s, and then holds a circle whose radius has a steady error if its turns are not as
 fast as g tan(bank)/V. Its guidance (AP_L1_Control::update_loiter) demands the lateral acceleration V^2/r + Kx e on a
