@@ -382,3 +382,18 @@ def test_an_aircraft_given_by_its_turn_rate_that_banks_slowly():
     off = np.hypot(flight.track.east_m[-1] - 50.0, flight.track.north_m[-1] + 30.0) - 200.0
     assert abs(off) < 10.0
     assert cos(radians(flight.track.bank_deg[-1])) > 0.5
+
+
+def test_commands_can_be_limited_below_the_bank_limit():
+    start, uav, orbit = Pose(-400.0, 120.0, 90.0), Aircraft(18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, 120.0)
+    law, aircraft = LoiterEntry(orbit, uav), PointMass(start, uav, seed=1, gust=0.0)
+    law.command_limit_deg, commands = 20.0, []
+    for _ in range(60):
+        commands.append(law.step(aircraft.measured_state(), 0.02))
+        aircraft.advance(commands[-1], 0.02)
+    assert max(abs(command.bank_deg) for command in commands) == 20.0
+    # What was commanded is what the law expects of the vehicle: its roll response is found as declared.
+    assert law.estimates.roll.time_s == pytest.approx(0.5, rel=0.2)
+    assert law.estimates.delay_s == pytest.approx(0.1, abs=0.08)
+    law.command_limit_deg = 35.0
+    assert abs(law.step(aircraft.measured_state(), 0.02).bank_deg) > 30.0

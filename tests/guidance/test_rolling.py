@@ -1,6 +1,6 @@
 """The roll response, compared with small steps of its differential equation."""
 
-from math import inf
+from math import cos, inf, log, radians, sqrt, tan
 
 import pytest
 from hypothesis import given, settings
@@ -37,28 +37,59 @@ def test_two_steps_are_one(roll, bank, command, first, second):
     assert first == 0.0 or abs(between - bank) <= roll.rate_deg_s * first + 1e-9
 
 
+def stepped_onset(roll, bank, target, limit):
+    """Mean and variance of the times at which the parts of the turn rate change, in small steps of the bank."""
+    step, time, now, parts = roll.time_s / 400.0, 0.0, bank, []
+    while abs(target - now) > 1e-4:
+        after = roll.bank_after(now, roll.demand_deg(now, target, limit), step)
+        parts.append((time + 0.5 * step, tan(radians(after)) - tan(radians(now))))
+        now, time = after, time + step
+    whole = sum(part for _, part in parts)
+    mean = sum(at * part for at, part in parts) / whole
+    return mean, sum((at - mean) ** 2 * part for at, part in parts) / whole
+
+
 @settings(max_examples=30, deadline=None)
 @given(rolls, banks, st.one_of(banks, st.sampled_from([-LIMIT_DEG, 0.0, LIMIT_DEG])))
-def test_the_lead_is_the_integral_of_the_missing_bank(roll, bank, target):
+def test_the_onset_of_a_turn(roll, bank, target):
     if abs(target - bank) < 1.0:
         return
-    step, missing = roll.time_s / 400.0, 0.0
-    now = bank
-    while abs(target - now) > 1e-4:
-        after = roll.bank_after(now, roll.demand_deg(now, target, LIMIT_DEG), step)
-        missing += (target - 0.5 * (now + after)) * step
-        now = after
-    # The trapezoidal rule, with the command constant in each step.
-    assert roll.lead_s(bank, target, LIMIT_DEG) == pytest.approx(missing / (target - bank), abs=0.003)
+    mean, variance = stepped_onset(roll, bank, target, LIMIT_DEG)
+    onset = roll.onset(bank, target, LIMIT_DEG)
+    # Gauss's rules of three points are least exact for the exponential approach to the bank limit.
+    assert onset.lead_s == pytest.approx(mean, abs=0.02 * roll.time_s + 0.005)
+    assert sqrt(onset.variance_s2) == pytest.approx(sqrt(variance), abs=0.05 * roll.time_s + 0.005)
 
 
-def test_the_lead_by_hand():
-    # At the bank limit no command lies beyond the target: 60 of 70 deg/s until 30 deg are missing, then the lag.
-    assert Roll().lead_s(0.0, 35.0, 35.0) == pytest.approx((35.0**2 - 30.0**2) / 120.0 / 35.0 + 0.5 * 30.0 / 35.0)
-    # Below it, 2.5 times as fast: from 5 to 0 deg with a lag of 1/5 s; from 20 deg with 60 deg/s until 12 deg.
-    assert Roll().lead_s(5.0, 0.0, 35.0) == pytest.approx(0.2)
-    assert Roll().lead_s(20.0, 0.0, 35.0) == pytest.approx(((20.0**2 - 12.0**2) / 120.0 + 0.2 * 12.0) / 20.0)
-    assert INSTANT_ROLL.lead_s(-35.0, 35.0, 35.0) == 0.0
+def test_the_onset_by_hand():
+    # A lag of 0.5 s/2.5 without any limit; an instant bank; a bank of 60 deg/s alone: tan grows as its bank does.
+    assert Roll().onset(5.0, 0.0, 35.0) == pytest.approx((0.2, 0.04))
+    assert INSTANT_ROLL.onset(-35.0, 35.0, 35.0) == (0.0, 0.0)
+    ramp = Roll(0.0, 60.0).onset(0.0, 30.0, 35.0)
+    # The mean of t over tan(60 deg t) up to 0.5 s: 0.5 s less the integral of tan, -ln cos(30 deg), over its end.
+    assert ramp.lead_s == pytest.approx(0.5 + log(cos(radians(30.0))) / tan(radians(30.0)) / radians(60.0), abs=1e-5)
+    assert ramp.variance_s2 == pytest.approx(0.5**2 / 12.0, rel=0.02)
+
+
+@pytest.mark.parametrize("reversal", [(-45.0, 25.0), (40.0, -40.0)])
+def test_a_reversal_displaces_the_aircraft_towards_the_new_turn(reversal):
+    # Flown in small steps, beside an aircraft that banks instantly after the mean time.
+    roll, V, step, (begin, end) = Roll(0.3, 60.0), 15.0, 1e-3, reversal
+    mean, _ = stepped_onset(roll, begin, end, 50.0)
+    bank, course, instant, apart = begin, 0.0, 0.0, 0.0
+    for i in range(3000):
+        after = roll.bank_after(bank, roll.demand_deg(bank, end, 50.0), step)
+        course += 0.5 * (turn_rate(bank, V) + turn_rate(after, V)) * step
+        instant += turn_rate(begin if i * step < mean else end, V) * step
+        apart += V * (course - instant) * step
+        bank = after
+    assert course == pytest.approx(instant, abs=0.002)
+    change = turn_rate(end, V) - turn_rate(begin, V)
+    assert apart == pytest.approx(0.5 * roll.onset(begin, end, 50.0).variance_s2 * V * change, rel=0.05)
+
+
+def turn_rate(bank, airspeed):
+    return 9.80665 * tan(radians(bank)) / airspeed
 
 
 @given(rolls, banks, banks)

@@ -14,6 +14,7 @@ from loiter.batch.tables.flight_logs import read_parquet, to_parquet
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.io.flight_log import TEXTS, LogRow, read_log
 from loiter.io.missions.items import Autopilot
@@ -80,14 +81,14 @@ def test_the_response_shows_the_sign_whatever_was_guessed(guess, truth, start, w
     targets = [start] * round(dead_s / 0.02 + 1)
     for _ in range(150):
         now += 0.02
-        command = found.limited_deg(wanted)
-        assert found.confirmed or abs(command) <= CAUTIOUS_DEG
+        assert found.limit_deg == (math.inf if found.confirmed else CAUTIOUS_DEG)
+        command = clip(wanted, found.limit_deg)
         found.update(bank, command, now)
         targets.append(truth * found.sign * command)
         bank = roll.bank_after(bank, targets[-1 - round(dead_s / 0.02)], 0.02)
     assert found.confirmed
     assert found.sign == truth
-    assert found.limited_deg(wanted) == wanted
+    assert found.limit_deg == math.inf
 
 
 def test_straight_flight_shows_no_sign():

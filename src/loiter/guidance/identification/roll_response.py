@@ -72,7 +72,7 @@ class RollIdentifier:
         self._banks = np.zeros(len(times))
         self._change = np.zeros(len(times))
         self._decay, self._dt = np.ones(len(times)), 0.0
-        self._largest = np.zeros(len(times))
+        self._largest = self._least = np.zeros(len(times))
         # Before the first step the banks are those at which the models begin.
         self._stored_times, self._stored = np.arange(STORED) - EARLIER_S, np.zeros((STORED, len(times)))
         self._next, self._time_s, self._stored_s, self._measured_s = 0, 0.0, -np.inf, -np.inf
@@ -95,10 +95,11 @@ class RollIdentifier:
         dt = min(dt, LONGEST_STEP_S)
         if dt != self._dt:
             self._dt, self._decay, self._largest = dt, -np.expm1(-dt / self._times), self._rates * dt
+            self._least = -self._largest
         np.subtract(command_deg, self._banks, out=self._change)
         self._change *= self._decay
         np.minimum(self._change, self._largest, out=self._change)
-        np.maximum(self._change, -self._largest, out=self._change)
+        np.maximum(self._change, self._least, out=self._change)
         self._banks += self._change
         self._time_s += dt
         if self._time_s >= self._stored_s + STORED_S:

@@ -28,6 +28,9 @@ WIND_MEMORY_S, DECLARED_WIND_S = 60.0, 30.0
 # The same for the airspeed.
 AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
 
+# The same for the airspeed in turns with more than this share of the bank limit.
+TIGHT_SHARE, DECLARED_TURN_AIRSPEED_S = 0.7, 0.3
+
 # Measurements further apart than this, seconds, are not related to each other.
 LARGEST_GAP_S = 1.0
 
@@ -41,7 +44,7 @@ class VehicleEstimates(NamedTuple):
     The roll response; the delay, seconds, between a command and the measurement that first shows it; the turn rate
     divided by g tan(bank)/V, in steady turns and where the bank changes within a second; the time, seconds, by which
     the direction of flight is ahead of the heading in a turn; the steady wind towards the east and the north, and the
-    true airspeed, metres per second.
+    true airspeed, metres per second, in all and in the tightest turns: autopilots do not hold it exactly there.
     """
 
     roll: Roll
@@ -52,6 +55,7 @@ class VehicleEstimates(NamedTuple):
     wind_east_m_s: float
     wind_north_m_s: float
     airspeed_m_s: float
+    turn_airspeed_m_s: float
 
 
 class Vehicle(Protocol):
@@ -86,7 +90,7 @@ class DeclaredVehicle:
 class IdentifiedVehicle:
     """A vehicle that is identified in flight, beginning with what is declared; `wind_declared`: whether the wind is."""
 
-    def __init__(self, declared: VehicleEstimates, *, wind_declared: bool) -> None:
+    def __init__(self, declared: VehicleEstimates, tightest_deg: float, *, wind_declared: bool) -> None:
         self.estimates, self.history = declared, BankHistory()
         self._roll = RollIdentifier(declared.roll, declared.delay_s)
         self._turning, self._lead = TurnRatio(declared.turn_ratio, SLOW_TURNS), CourseLead(declared.course_lead_s)
@@ -95,6 +99,8 @@ class IdentifiedVehicle:
         self._east = Average(declared.wind_east_m_s, wind_s, WIND_MEMORY_S)
         self._north = Average(declared.wind_north_m_s, wind_s, WIND_MEMORY_S)
         self._airspeed = Average(declared.airspeed_m_s, DECLARED_AIRSPEED_S, AIRSPEED_MEMORY_S)
+        self._turn_airspeed = Average(declared.turn_airspeed_m_s, DECLARED_TURN_AIRSPEED_S, AIRSPEED_MEMORY_S)
+        self._tight_deg = TIGHT_SHARE * tightest_deg
         self._last_s = -inf
 
     def measure(self, state: State) -> bool:
@@ -114,6 +120,8 @@ class IdentifiedVehicle:
             self._lead.restart()
         self._measure_turns(state, dt)
         self._airspeed.add(state.airspeed_m_s, dt)
+        if abs(state.bank_deg) > self._tight_deg:
+            self._turn_airspeed.add(state.airspeed_m_s, dt)
         (c, s), V = heading_vector(state.heading_deg), state.airspeed_m_s
         # The direction of flight is to the right of the heading by this angle.
         off = self._lead.lead_s * self._turning.ratio * rate_at_bank(state.bank_deg, V)
@@ -125,6 +133,7 @@ class IdentifiedVehicle:
             self._east.add(state.velocity_east_m_s - V * (c + off * s), dt),
             self._north.add(state.velocity_north_m_s - V * (s - off * c), dt),
             self._airspeed.value,
+            self._turn_airspeed.value,
         )
         return True
 

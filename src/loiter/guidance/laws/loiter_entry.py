@@ -22,7 +22,7 @@ from loiter.guidance.laws.entry_planner import (
     turn_limits,
 )
 from loiter.guidance.laws.observer import Estimate, Observer, Turning, is_usable
-from loiter.guidance.laws.path_tracking import air_rate, course_rate
+from loiter.guidance.laws.path_tracking import PathOffset, air_rate, course_rate
 from loiter.guidance.laws.route import Route, controls_of
 from loiter.guidance.protocol import Command, Phase, State, phase_of_control
 from loiter.guidance.vehicle.limits import clip
@@ -40,11 +40,6 @@ RESERVE = 0.1
 # The averaging time of measurements, and their dead time, seconds.
 SMOOTHING_S, DELAY_S = 0.5, 0.1
 
-# Turns begin early by this many roll time constants. 0.12 of them compensate the lag of the turn rate, g tan(bank)/V,
-# behind the bank while that grows to 35 deg. The rest allows for gusts: a turn begun late ends inside the circle, a
-# turn begun early can be flown wider.
-TURN_LAG = 0.6
-
 # The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank plus
 # the averaging time. A faster correction of crosstrack errors would need an intercept angle of several degrees.
 GAIN, PLACE_GAIN = 4.0, 0.25
@@ -55,21 +50,19 @@ CALM_GAIN, ROUGH_AIR = 0.75, 0.02
 
 # On the circle crosstrack errors are corrected over an arc of 1/HOLD_GAIN radians, so that the intercept angle depends
 # only on the ratio of the error to the radius.
-HOLD_GAIN = 0.8
+HOLD_GAIN = 1.2
 
 # Margins, turn radii over airspeed. A different plan replaces the present one if it is faster by the first margin, the
 # same plan, made again from the present state, if it is slower by no more than the second. Sensor noise changes the
 # least time by less than these margins, except where that time jumps; there the present plan is the fastest.
 SWITCH_MARGIN, UPDATE_MARGIN = 0.25, 0.25
 
-# The interval between searches for another plan, seconds. In wind, where a search takes milliseconds, the aircraft must
-# also have deviated from the last plan.
-STILL_AIR_INTERVAL_S, WIND_INTERVAL_S = 0.1, 1.0
+# The interval between searches for another plan, seconds.
+SEARCH_INTERVAL_S = 0.1
 
-# In wind the aircraft has deviated from a plan if the crosstrack error or the change of the time to join exceeds this,
-# in turn radii. A new plan counts as the same one if it differs only by a first turn back to the path, no longer than
-# `LONGEST_BEND`.
-DEVIATION, LONGEST_BEND = 0.1, 0.1
+# In wind a new plan counts as the same one if it differs only by a first turn back to the path that is no longer than
+# this, turn radii.
+LONGEST_BEND = 0.1
 
 # Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is accepted.
 LOST_OFFSET, LOST_COURSE = 0.5, 1.0
@@ -94,9 +87,13 @@ TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.25, 0.15, 0.1
 
 
 class ResponsePoint(NamedTuple):
-    """The predicted state in which a command takes effect, and how early the next piece must begin, seconds."""
+    """The predicted state in which a command takes effect, and its offset from the route.
+
+    The next piece begins `early_s` seconds before the current one ends.
+    """
 
     state: RelativeState
+    offset: PathOffset
     early_s: float
 
 
@@ -108,7 +105,8 @@ class LoiterEntry:
     measurements, the ratio of turn rates, the steady wind and the airspeed. `wind`, `roll` and `delay_s` are first
     guesses; without `wind` it is taken from the first measurements. With `identify` False the vehicle is as declared.
     `reserve` is the share by which planned turns are wider than the tightest, `smoothing_s` the averaging time of
-    measurements, `gain` the gain of course corrections. Call `step` 10 to 400 times a second.
+    measurements, `gain` the gain of course corrections. `command_limit_deg`, which may be set at any time, limits the
+    commanded banks further, but not the turns that are planned. Call `step` 10 to 400 times a second.
 
     The law keeps one plan, with its direction and its word, until another is faster by a margin or the aircraft is
     lost, so that noise causes neither switching between plans nor a go-around. docs/guidance.md describes the method
@@ -140,21 +138,23 @@ class LoiterEntry:
         air = CALM if wind is None else wind
         check_held(orbit, aircraft, relative_wind(orbit, aircraft, air))
         self._orbit, self._declared_wind = orbit, air.velocity_m_s
-        self._limit_deg = aircraft.bank_deg(aircraft.turn_radius_m)
+        self._limit_deg = self.command_limit_deg = aircraft.bank_deg(aircraft.turn_radius_m)
         self._gain, self._reserve = positive("gain", gain, "units"), not_negative("reserve", reserve, "one")
         self._smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
         delay_s = not_negative("delay_s", delay_s, "seconds")
-        declared = VehicleEstimates(roll, delay_s, 1.0, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s)
+        declared = VehicleEstimates(
+            roll, delay_s, 1.0, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s, aircraft.airspeed_m_s
+        )
         self._vehicle: Vehicle = DeclaredVehicle(declared)
         # A wind may have to be planned with: the compiled search is loaded before the flight.
         wind_solver.load()
         if identify:
-            self._vehicle = IdentifiedVehicle(declared, wind_declared=wind is not None)
+            self._vehicle = IdentifiedVehicle(declared, self._limit_deg, wind_declared=wind is not None)
         self._side = SIDES[orbit.turn]
         self._observer = Observer(smoothing_s)
         self._route: Route | None = None
-        # The predicted time of joining, seconds, and its value at the beginning of the present plan.
-        self._join_time_s = self._planned_join_time_s = inf
+        # The predicted time of joining, seconds.
+        self._join_time_s = inf
         self._clock, self._last_search_s = Clock(), -inf
         # Whether the wind differs so much from the declared one that the estimated one is planned with.
         self._wind_differs = False
@@ -164,6 +164,9 @@ class LoiterEntry:
         self._present: Estimate | None = None
         self._elapsed_s = self._bias_deg = 0.0
         self._last_command = Command(0.0, 0.0, Phase.NO_DATA, nan, orbit.turn, Phase.NO_DATA, nan)
+        # The roll response for which the delays of changes of bank were computed, and these delays.
+        self._roll, self._leads_s = roll, dict[tuple[int, int], float]()
+        self._reversal_m = 0.0
         self._update_limits()
 
     @classmethod
@@ -197,7 +200,7 @@ class LoiterEntry:
         if self._route is None:
             return self._command_without_data(dt)
         response = self._advance(self._route, estimate)
-        if self._reconsider(self._route, response.state):
+        if self._reconsider(self._route, response):
             response = self._advance(self._route, estimate)
         self._last_command = self._follow(self._route, response, estimate, dt)
         return self._last_command
@@ -241,11 +244,20 @@ class LoiterEntry:
         """Set what follows from the estimates of the vehicle: the wind, turn radii, banks and the response time."""
         known = self._vehicle.estimates
         self._wind = self._planned_wind(known)
-        tightest_m = radius_at_bank(known.airspeed_m_s, self._limit_deg) / known.turn_ratio
+        tightest_m = radius_at_bank(known.turn_airspeed_m_s, self._limit_deg) / known.turn_ratio
         self._limits = turn_limits(known.airspeed_m_s, tightest_m, self._reserve, self._orbit.radius_m, self._wind)
         self._hold_deg = self._bank_deg(known.airspeed_m_s / self._orbit.radius_m)
         self._planned_deg = self._bank_deg(known.airspeed_m_s / self._limits.planned_m)
+        if known.roll is not self._roll:
+            self._roll, self._leads_s = known.roll, {}
+        self._reversal_m = self._reversal_width_m(known)
         self._response_s = self._lead_s(0.0, self._limit_deg) + self._smoothing_s + DELAY_SHARE * known.delay_s
+
+    def _reversal_width_m(self, known: VehicleEstimates) -> float:
+        """How far an aircraft is displaced towards the circle while it rolls from an opposite planned turn onto it."""
+        begin_deg, end_deg = (clip(each, self._limit_deg) for each in (-self._planned_deg, self._hold_deg))
+        onset, V = known.roll.onset(begin_deg, end_deg, self._limit_deg), known.airspeed_m_s
+        return 0.5 * onset.variance_s2 * V * V * (1.0 / self._limits.planned_m + 1.0 / self._orbit.radius_m)
 
     def _planned_wind(self, known: VehicleEstimates) -> tuple[float, float]:
         """The velocity of the air past the circle to plan with, metres per second.
@@ -271,7 +283,7 @@ class LoiterEntry:
 
     def _shift_clock(self, jump_s: float) -> None:
         """Convert all stored times to a clock that has jumped by `jump_s`."""
-        self._join_time_s, self._planned_join_time_s = self._join_time_s + jump_s, self._planned_join_time_s + jump_s
+        self._join_time_s += jump_s
         self._last_search_s += jump_s
         if self._route is not None:
             self._route.shift_clock(jump_s)
@@ -280,7 +292,8 @@ class LoiterEntry:
         """The safe command while there is no usable measurement."""
         bank_deg, route = self._last_command.bank_deg, self._route
         if self._clock.since_s > BLIND_S:
-            bank_deg = clip(route.side * self._hold_deg, self._limit_deg) if route and route.is_holding else 0.0
+            bank_deg = self._piece_bank_deg(route, None) if route and route.is_holding else 0.0
+            bank_deg = clip(bank_deg, self.command_limit_deg)
         self._record(bank_deg, dt)
         turn = self._last_command.turn
         return Command(self._turn_rate_deg_s(bank_deg), bank_deg, Phase.NO_DATA, nan, turn, Phase.NO_DATA, nan)
@@ -309,37 +322,42 @@ class LoiterEntry:
             state = self._relative_state(estimate.after(lead_s))
             remaining_s = route.update_remaining(state)
             if route.is_holding:
-                return ResponsePoint(state, 0.0)
-            # The hold itself begins without `TURN_LAG`: continuing the last arc aligns the course with the circle
-            # sooner.
-            lag_s = TURN_LAG * self._vehicle.estimates.roll.time_s if route.next_control is not None else 0.0
-            next_bank_deg = self._piece_bank_deg(route, route.next_control)
-            early_s = max(self._lead_s(estimate.bank_deg, next_bank_deg) + lag_s - lead_s, 0.0)
+                return ResponsePoint(state, route.offset(state), 0.0)
+            early_s = self._early_s(route, estimate.bank_deg, lead_s)
             if remaining_s > early_s + ROUNDING_S:
                 self._join_time_s = state.time_s + route.time_to_join_s
-                return ResponsePoint(state, early_s)
+                return ResponsePoint(state, route.offset(state), early_s)
             route.drop_piece()
 
+    def _early_s(self, route: Route, bank_deg: float, lead_s: float) -> float:
+        """How long before its end the current piece must end, since the next bank takes effect with a delay."""
+        early_s = self._lead_s(bank_deg, self._piece_bank_deg(route, route.next_control)) - lead_s
+        between_s = route.straight_between_s
+        if between_s is not None:
+            # A straight line between opposite turns may be shorter than the reversal, which then begins before its end.
+            reversal_s = self._lead_s(bank_deg, self._piece_bank_deg(route, route.last_control)) - lead_s
+            early_s = max(early_s, reversal_s - 0.5 * between_s)
+        return max(early_s, 0.0)
+
     def _lead_s(self, bank_deg: float, target_deg: float) -> float:
-        return self._vehicle.estimates.roll.lead_s(bank_deg, target_deg, self._limit_deg)
+        """The delay of a change of bank: it is computed for whole half degrees, and kept until the roll is another."""
+        change = round(2.0 * bank_deg), round(2.0 * target_deg)
+        if change not in self._leads_s:
+            onset = self._roll.onset(0.5 * change[0], 0.5 * change[1], self._limit_deg)
+            self._leads_s[change] = onset.lead_s
+        return self._leads_s[change]
 
     def _piece_bank_deg(self, route: Route, control: int | None) -> float:
         """The planned bank, positive to the right, of a piece with this control, or of the circle if it is None."""
         bank_deg = route.side * self._hold_deg if control is None else -control * self._planned_deg
         return clip(bank_deg, self._limit_deg)
 
-    def _reconsider(self, route: Route, state: RelativeState) -> bool:
+    def _reconsider(self, route: Route, response: ResponsePoint) -> bool:
         """Search for another plan if that is due; return whether one was adopted."""
-        offset, r = route.offset(state), self._limits.planned_m
+        offset, r = response.offset, self._limits.planned_m
         lost = abs(offset.crosstrack) > LOST_OFFSET * r or abs(offset.course_error) > LOST_COURSE
-        later_m = abs(self._join_time_s - self._planned_join_time_s) * self._limits.airspeed_m_s
-        deviated = max(abs(offset.crosstrack), later_m) > DEVIATION * r
-        due = lost or (not route.is_holding and (self._in_still_air or deviated))
-        return due and self._search(state, None if lost else route)
-
-    @property
-    def _in_still_air(self) -> bool:
-        return self._wind == (0.0, 0.0)
+        due = lost or not route.is_holding
+        return due and self._search(response.state, None if lost else route)
 
     def _first_search(self, estimate: Estimate) -> None:
         """Adopt the fastest entry from where a command takes effect, which depends on the bank and the first turn."""
@@ -353,24 +371,31 @@ class LoiterEntry:
 
     def _search(self, state: RelativeState, route: Route | None = None) -> bool:
         """Adopt the fastest entry from a state if it is better than `route`; return whether it was adopted."""
-        interval_s = STILL_AIR_INTERVAL_S if self._in_still_air else WIND_INTERVAL_S
-        if self._clock.time_s - self._last_search_s < interval_s - ROUNDING_S:
+        if self._clock.time_s - self._last_search_s < SEARCH_INTERVAL_S - ROUNDING_S:
             return False
         self._last_search_s = self._clock.time_s
         entry = self._fastest_entry(state)
         if entry is None or not (route is None or _is_better(entry, route, self._limits)):
             return False
         self._route = Route(state, entry, self._orbit.radius_m)
-        self._join_time_s = self._planned_join_time_s = state.time_s + entry.duration_s
+        self._join_time_s = state.time_s + entry.duration_s
         return True
 
     def _fastest_entry(self, state: RelativeState) -> PlannedEntry | None:
-        return fastest_entry(state, self._limits, self._orbit.radius_m, self._side, self._wind)
+        """The fastest entry from a state, onto a circle that is wider by `_reversal_m` if its last turn is opposite."""
+        reverses = self._route is None or _reverses(self._route.entry)
+        for assumed in (reverses, not reverses):
+            radius_m = self._orbit.radius_m + (self._reversal_m if assumed else 0.0)
+            entry = fastest_entry(state, self._limits, radius_m, self._side, self._wind)
+            if entry is None or _reverses(entry) == assumed:
+                break
+        return entry
 
     def _follow(self, route: Route, response: ResponsePoint, present: Estimate, dt: float) -> Command:
         """The command that follows the route, with the times that the law reports, counted from the present."""
-        target_deg = clip(self._target_bank_deg(route, response.state, dt), self._limit_deg)
-        bank_deg = self._vehicle.estimates.roll.demand_deg(present.bank_deg, target_deg, self._limit_deg)
+        target_deg = clip(self._target_bank_deg(route, response, dt), self._limit_deg)
+        demand_deg = self._vehicle.estimates.roll.demand_deg(present.bank_deg, target_deg, self._limit_deg)
+        bank_deg = clip(demand_deg, self.command_limit_deg)
         self._record(bank_deg, dt)
         return Command(
             self._turn_rate_deg_s(bank_deg),
@@ -382,15 +407,16 @@ class LoiterEntry:
             inf if route.is_holding else route.remaining_s - response.early_s,
         )
 
-    def _target_bank_deg(self, route: Route, state: RelativeState, dt: float) -> float:
+    def _target_bank_deg(self, route: Route, response: ResponsePoint, dt: float) -> float:
         """The bank that follows the route; on a turn before the last piece it is the bank limit.
 
         Such a turn is planned again before it ends; flying it as wide as planned would only cost time.
         """
         if route.control and route.next_control is not None:
             return -route.control * self._limit_deg
+        state, offset, _ = response
         vx, vy = route.velocity(state)
-        gain, offset = self._present_gain(), route.offset(state)
+        gain = self._present_gain()
         bandwidth, turn_rate = 1.0 / (self._response_s + gain * dt), self._limits.airspeed_m_s / self._orbit.radius_m
         place_gain = HOLD_GAIN * turn_rate if route.is_holding else PLACE_GAIN * bandwidth
         course = course_rate(offset, gain * bandwidth, place_gain, hypot(vx, vy))
@@ -419,6 +445,12 @@ class LoiterEntry:
         self._clock.advance(dt)
         self._elapsed_s += dt
         self._vehicle.record(bank_deg, dt)
+
+
+def _reverses(entry: PlannedEntry) -> bool:
+    """Whether the last turn of an entry is opposite to that of the circle."""
+    controls = controls_of(entry.word)
+    return bool(controls) and controls[-1] == entry.side
 
 
 def _is_better(entry: PlannedEntry, route: Route, limits: TurnLimits) -> bool:

@@ -85,14 +85,24 @@ class Estimate(NamedTuple):
 
     def at_present(self, history: BankHistory, delay_s: float) -> Estimate:
         """The estimate extrapolated over the measurement delay, with the banks modelled since then."""
-        bias_deg = self.bank_deg - history.delayed_deg(delay_s)
-        moved = self.with_bank(history.mean_deg(delay_s) + bias_deg).after(delay_s)
-        return moved.with_bank(history.current_deg + bias_deg)
+        bias_deg, turning, V = self.bank_deg - history.delayed_deg(delay_s), self.turning, self.airspeed_m_s
+        mean_rate, bank_deg = turning.rate(history.mean_deg(delay_s) + bias_deg, V), history.current_deg + bias_deg
+        pose = _rotated(self.pose, turning.lead_s * (mean_rate - self.turn_rate))
+        x, y, c, s = constant_turn(pose, V, mean_rate, delay_s)
+        turn_rate, east, north = turning.rate(bank_deg, V), self.air_east_m_s, self.air_north_m_s
+        pose = _rotated(
+            PlanarPose(x + east * delay_s, y + north * delay_s, c, s), turning.lead_s * (turn_rate - mean_rate)
+        )
+        return Estimate(self.time_s + delay_s, pose, V, turn_rate, bank_deg, east, north, turning)
 
 
 def is_plausible(state: State) -> bool:
-    """Whether every number of a measurement is finite and within `LATEST_S` and `LARGEST_VALUE`."""
-    return abs(state.time_s) < LATEST_S and all(abs(value) < LARGEST_VALUE for value in state[1:])
+    """Whether the time of a measurement is within `LATEST_S`, and all other numbers together within `LARGEST_VALUE`."""
+    time_s, east, north, heading, bank, velocity_east, velocity_north, airspeed = state
+    position, angles = abs(east) + abs(north), abs(heading) + abs(bank)
+    size = position + angles + abs(velocity_east) + abs(velocity_north) + abs(airspeed)
+    # Neither comparison holds for nan.
+    return abs(time_s) < LATEST_S and size < LARGEST_VALUE
 
 
 def is_usable(state: State) -> bool:
@@ -126,7 +136,8 @@ class AirVelocityFilter:
         """The average, east and north, including a velocity measured `dt` seconds after the last."""
         self._time_s += dt
         self._measure_differences(east_m_s, north_m_s, dt)
-        share = 1.0 - exp(-dt / self._averaging_s) if self._averaging_s > 0.0 else 1.0
+        averaging_s = self._averaging_s
+        share = 1.0 - exp(-dt / averaging_s) if averaging_s > 0.0 else 1.0
         self._east += share * (east_m_s - self._east)
         self._north += share * (north_m_s - self._north)
         return self._east, self._north
@@ -195,20 +206,21 @@ class Observer:
 
         `bank_deg` is the bank that the roll model predicts for that time.
         """
-        measured = _estimate_from(state, turning)
         if self._last is None or self._smoothing_s == 0.0:
-            self._last = measured
+            self._last = measured = _estimate_from(state, turning)
             self._air.reset(measured.air_east_m_s, measured.air_north_m_s)
             return measured
         last, dt = self._last, state.time_s - self._last.time_s
         share = 1.0 - exp(-dt / self._smoothing_s)
         V = last.airspeed_m_s + share * (state.airspeed_m_s - last.airspeed_m_s)
         bank_deg += share * (state.bank_deg - bank_deg)
-        last = Estimate(last.time_s, last.pose, V, last.turn_rate, 0.0, last.air_east_m_s, last.air_north_m_s, turning)
-        now = last.with_bank(bank_deg).after(dt)
-        pose = _blended(now.pose, measured.pose, share)
+        turn_rate = turning.rate(bank_deg, V)
+        begin = _rotated(last.pose, turning.lead_s * (turn_rate - last.turn_rate))
+        x, y, c, s = constant_turn(begin, V, turn_rate, dt)
+        predicted = PlanarPose(x + last.air_east_m_s * dt, y + last.air_north_m_s * dt, c, s)
+        pose = _blended(predicted, _flight_pose(state, turning), share)
         air = self._air.update(state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s, dt)
-        self._last = Estimate(state.time_s, pose, V, now.turn_rate, bank_deg, *air, turning)
+        self._last = Estimate(state.time_s, pose, V, turn_rate, bank_deg, *air, turning)
         return self._last
 
 
@@ -222,11 +234,19 @@ def _blended(pose: PlanarPose, measured: PlanarPose, share: float) -> PlanarPose
 
 def _estimate_from(state: State, turning: Turning) -> Estimate:
     """The estimate from a single measurement."""
-    V, turn_rate = state.airspeed_m_s, turning.rate(state.bank_deg, state.airspeed_m_s)
-    heading = PlanarPose(state.east_m, state.north_m, *heading_vector(state.heading_deg))
-    pose = _rotated(heading, turning.lead_s * turn_rate)
+    V, turn_rate, pose = (
+        state.airspeed_m_s,
+        turning.rate(state.bank_deg, state.airspeed_m_s),
+        _flight_pose(state, turning),
+    )
     air = state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s
     return Estimate(state.time_s, pose, V, turn_rate, state.bank_deg, *air, turning)
+
+
+def _flight_pose(state: State, turning: Turning) -> PlanarPose:
+    """The measured position, with the direction of flight through the air."""
+    heading = PlanarPose(state.east_m, state.north_m, *heading_vector(state.heading_deg))
+    return _rotated(heading, turning.lead_s * turning.rate(state.bank_deg, state.airspeed_m_s))
 
 
 def _rotated(pose: PlanarPose, angle: float) -> PlanarPose:

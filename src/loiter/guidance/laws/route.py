@@ -66,6 +66,18 @@ class Route:
         return next((piece.u for piece in self._later), None)
 
     @property
+    def last_control(self) -> int | None:
+        """The control of the last piece before the circle; none on the circle."""
+        return self._later[-1].u if self._later else self.control
+
+    @property
+    def straight_between_s(self) -> float | None:
+        """The duration of the straight line between the current turn and an opposite one, if that is next, seconds."""
+        if len(self.controls) < 3 or self._later[0].u != 0 or self._later[1].u == self.control:
+            return None
+        return self._later[0].time_s
+
+    @property
     def time_to_join_s(self) -> float:
         """The time until the aircraft joins the circle."""
         return self.remaining_s + sum(piece.time_s for piece in self._later)

@@ -3,13 +3,36 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, inf, log
+from math import exp, inf, log, radians, tan
+from typing import NamedTuple
+
+import numpy as np
 
 from loiter.errors import InvalidArgument, as_float, not_negative
 from loiter.guidance.vehicle.limits import clip
 
 # The commanded change of bank is this many times the change that is wanted, where the limits leave room.
 COMMAND_GAIN = 2.5
+
+# A smaller change of bank, degrees, takes effect like an infinitely small one where only the last range is passed.
+SMALL_CHANGE_DEG = 5.0
+
+# Gauss-Legendre points and weights on [0, 1], and Gauss-Laguerre points x with exp(-x) and weights.
+LEGENDRE = tuple(
+    (0.5 + 0.5 * float(x), 0.5 * float(w)) for x, w in zip(*np.polynomial.legendre.leggauss(3), strict=True)
+)
+LAGUERRE = tuple((float(x), exp(-x), float(w)) for x, w in zip(*np.polynomial.laguerre.laggauss(3), strict=True))
+
+
+class TurnOnset(NamedTuple):
+    """When a change of turn rate takes effect: the mean of the times at which its parts do, and their variance.
+
+    After the change the aircraft flies as if it had changed its turn rate instantly after `lead_s` seconds, but it is
+    displaced towards the new turn by half of `variance_s2` times airspeed times the change of turn rate.
+    """
+
+    lead_s: float
+    variance_s2: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,26 +65,47 @@ class Roll:
             return target_deg
         return clip(bank_deg + COMMAND_GAIN * (target_deg - bank_deg), limit_deg)
 
-    def lead_s(self, bank_deg: float, target_deg: float, limit_deg: float) -> float:
-        """The delay, seconds, of a change of bank under `demand_deg` relative to an instant change.
+    def onset(self, bank_deg: float, target_deg: float, limit_deg: float) -> TurnOnset:
+        """When a change of bank under `demand_deg` changes the turn rate, which is proportional to tan(bank)."""
+        missing_deg, last_s = abs(target_deg - bank_deg), self.time_s / COMMAND_GAIN
+        room_deg = max(limit_deg - (target_deg if target_deg >= bank_deg else -target_deg), 0.0)
+        small = missing_deg <= min(room_deg / (COMMAND_GAIN - 1.0), self.rate_deg_s * last_s, SMALL_CHANGE_DEG)
+        if self.is_instant or missing_deg == 0.0 or small:
+            return TurnOnset(last_s, last_s * last_s)
+        sign = 1.0 if target_deg > bank_deg else -1.0
+        whole = mean = square = 0.0
+        for left_deg, time_s, share_deg in self._passages(missing_deg, room_deg):
+            tangent = tan(radians(target_deg - sign * left_deg))
+            share = share_deg * (1.0 + tangent * tangent)
+            whole += share
+            mean += share * time_s
+            square += share * time_s * time_s
+        mean /= whole
+        return TurnOnset(mean, max(square / whole - mean * mean, 0.0))
 
-        It is the integral of the missing bank over time, divided by the whole change. Let m be the missing bank, p the
-        limit of the roll rate, and g how far the bank limit lies beyond the target. The bank changes at the least of
-        p, (m + g)/tau (the command is at the bank limit) and `COMMAND_GAIN` m/tau. As m shrinks these apply in that
-        order. The integral of m over time equals that of m/rate over m. Its antiderivatives in the three ranges are
-        m^2/(2 p), tau (m - g ln(m + g)) and tau m/COMMAND_GAIN.
+    def _passages(self, m: float, g: float) -> list[tuple[float, float, float]]:
+        """Missing banks that are passed, when, and their shares of the whole change; degrees, seconds, degrees.
+
+        Let m be the missing bank, p the limit of the roll rate, and g how far the bank limit lies beyond the target.
+        The bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `COMMAND_GAIN` m/tau. As
+        m shrinks these apply in that order. The time at which m is left follows from each in closed form. The missing
+        banks and their shares are those of Gauss's rules over each range.
         """
-        m, g = abs(target_deg - bank_deg), limit_deg - (target_deg if target_deg >= bank_deg else -target_deg)
-        tau, p = self.time_s, self.rate_deg_s
-        if m == 0.0 or tau == 0.0:
-            return 0.5 * m / p + tau / COMMAND_GAIN
+        tau, p, last_s = self.time_s, self.rate_deg_s, self.time_s / COMMAND_GAIN
         # The missing bank at which the rate leaves its limit, and at which the command leaves the bank limit.
-        slow = min(max(p * tau - g, p * tau / COMMAND_GAIN), m)
+        slow = min(max(p * tau - g, p * last_s), m)
         free = min(g / (COMMAND_GAIN - 1.0), slow)
-        area = 0.5 * (m - slow) * (m + slow) / p + tau * free / COMMAND_GAIN
-        if slow > free:
-            area += tau * (slow - free - (g * log((slow + g) / (free + g)) if g > 0.0 else 0.0))
-        return area / m
+        passages, time_s = [], (m - slow) / p
+        if slow < m:
+            passages = [(slow + x * (m - slow), (1.0 - x) * time_s, w * (m - slow)) for x, w in LEGENDRE]
+        if free < slow:
+            # In the square of a variable the logarithm is smooth where it begins.
+            lefts = [(free + x * x * (slow - free), 2.0 * x * w * (slow - free)) for x, w in LEGENDRE]
+            passages += [(left, time_s + tau * log((slow + g) / (left + g)), share) for left, share in lefts]
+        if free > 0.0:
+            time_s += tau * log((slow + g) / (free + g))
+            passages += [(free * left, time_s + x * last_s, w * free) for x, left, w in LAGUERRE]
+        return passages
 
     def bank_after(self, bank_deg: float, command_deg: float, time_s: float) -> float:
         """The exact bank after `time_s` seconds under a constant command."""

@@ -7,8 +7,8 @@ the response that of every vehicle. Two models of the bank, one for each sign, a
 from __future__ import annotations
 
 from collections import deque
+from math import inf
 
-from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import Roll
 
 # The first version, major and minor, whose releases turn towards the acceleration.
@@ -49,9 +49,10 @@ class AccelerationSign:
         self._time = 0.0
         self._since: tuple[int, float] | None = None
 
-    def limited_deg(self, bank_deg: float) -> float:
-        """A bank command, limited while the sign is not confirmed."""
-        return bank_deg if self.confirmed else clip(bank_deg, CAUTIOUS_DEG)
+    @property
+    def limit_deg(self) -> float:
+        """The largest bank to command, degrees: no limit once the sign is confirmed."""
+        return inf if self.confirmed else CAUTIOUS_DEG
 
     def update(self, bank_deg: float, command_deg: float, now: float) -> None:
         """Process a measured bank and the command that is sent with the present sign."""

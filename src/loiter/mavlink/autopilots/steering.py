@@ -10,9 +10,10 @@ the time of arrival.
 
 from __future__ import annotations
 
-from math import cos, hypot, isfinite, nan, radians, sin, sqrt, tan
+from math import cos, hypot, inf, isfinite, nan, radians, sin, sqrt, tan
 from typing import Any, Protocol
 
+from loiter.guidance.vehicle.limits import clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign
 from loiter.mavlink.connection.link import Link, Vehicle, dialect
 from loiter.planning.model import STANDARD_GRAVITY_M_S2, Wind
@@ -31,11 +32,15 @@ LOCAL_POSITION_S = 1.0
 
 
 class Steering(Protocol):
-    """Setpoints for a bank; `trusted` is whether the vehicle is known to bank as it is commanded."""
+    """Setpoints for a bank."""
 
     @property
-    def trusted(self) -> bool:
-        """Whether the vehicle is known to bank as it is commanded; until then commands are limited."""
+    def limit_deg(self) -> float:
+        """The largest bank that is sent at present, degrees: small until the vehicle is known to bank as commanded."""
+
+    @property
+    def reversals(self) -> int:
+        """How often the vehicle was found to bank opposite to what was commanded until then."""
 
     def update(self, message: Any, now: float) -> None:
         """Process a message of the vehicle."""
@@ -56,7 +61,7 @@ class Steering(Protocol):
 class RollSteering:
     """Setpoints for ArduPlane: the roll alone."""
 
-    trusted = True
+    limit_deg, reversals = inf, 0
 
     def __init__(self, vehicle: Vehicle) -> None:
         self._vehicle = vehicle
@@ -107,9 +112,14 @@ class AccelerationSteering:
         self._wind: Wind | None = None
 
     @property
-    def trusted(self) -> bool:
-        """Whether the sign of accelerations is confirmed."""
-        return self.sign.confirmed
+    def limit_deg(self) -> float:
+        """The largest bank that is sent at present, degrees: small until the sign of accelerations is confirmed."""
+        return self.sign.limit_deg
+
+    @property
+    def reversals(self) -> int:
+        """How often the sign of accelerations was found to be the other."""
+        return self.sign.flips
 
     def update(self, message: Any, now: float) -> None:
         """Take position, rate of turn and altitude from a message."""
@@ -134,7 +144,7 @@ class AccelerationSteering:
 
     def send(self, link: Link, bank_deg: float, measured_deg: float, now: float) -> float:
         """Send the setpoint for a bank, which is limited until the sign of accelerations is confirmed."""
-        bank_deg = self.sign.limited_deg(bank_deg)
+        bank_deg = clip(bank_deg, self.limit_deg)
         self.sign.update(measured_deg, bank_deg, now)
         acceleration = STANDARD_GRAVITY_M_S2 * tan(radians(bank_deg)) * self._path_share()
         self._send(link, self.sign.sign * acceleration, now)

@@ -70,8 +70,8 @@ class Flight:
         self._steady = SteadyHoldDetector(self.orbit)
         # What has been done: whether the fall-back circle was commanded and accepted, whether banks are commanded.
         self._commanded = self._accepted = self._steered = False
-        # Whether the vehicle is known to bank as it is commanded.
-        self._trusted = False
+        # How often the vehicle was found to bank opposite to its commands.
+        self._reversals = 0
         self._notices: list[str] = []
         self._state: State
         self._stage = Stage.SHOWING if request.dry_run else Stage.FALL_BACK
@@ -101,8 +101,7 @@ class Flight:
         for _ in range(WARM_STEPS):
             warm.step(setup.state, STEP_S)
         self._law = self._new_law()
-        self._contact.steering = steering = self._new_steering()
-        self._trusted = steering.trusted
+        self._contact.steering = self._new_steering()
 
     def _new_law(self) -> LoiterEntry:
         p = self._setup
@@ -281,9 +280,10 @@ class Flight:
         now, state, steering = monotonic(), self._measure(), self._contact.steering
         dt, self._last_step = max(now - self._last_step, 1e-3), now
         assert steering is not None  # made by `_begin`
-        if steering.trusted and not self._trusted:
-            # What was commanded until then was not what the law had wanted: it identifies the vehicle from now on.
-            self._trusted, self._law = True, self._new_law()
+        if steering.reversals != self._reversals:
+            # What was flown until then was not what the law had commanded: it identifies the vehicle from now on.
+            self._reversals, self._law = steering.reversals, self._new_law()
+        self._law.command_limit_deg = steering.limit_deg
         command = self._law.step(state, dt)
         assert self._setup.aircraft.max_bank_deg is not None  # the aircraft is made with a bank limit
         bank_deg = clip(command.bank_deg, self._setup.aircraft.max_bank_deg)
