@@ -9,7 +9,6 @@ import os
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from loiter.errors import InvalidArgument, MissingPackage
@@ -59,7 +58,7 @@ def run(
     from loiter.batch.tables.columns import shared_values
 
     count, given = _workers(workers, scheduler), shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s)
-    request = job.check_request(Path(source), Path(target), given, tolerance_m)
+    request = job.check_request(os.fspath(source), os.fspath(target), given, tolerance_m)
     return job.run_request(request, count, scheduler, progress)
 
 

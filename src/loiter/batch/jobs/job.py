@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import asdict, dataclass
-from pathlib import Path
+from pathlib import PurePosixPath
 from typing import Any, NamedTuple
 
 import pyarrow as pa
 
 from loiter.batch.jobs import cluster, folder
+from loiter.batch.jobs.folder import Target
 from loiter.batch.jobs.parts import Job, append_part, is_whole
 from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_executors
-from loiter.batch.tables import files, ingest, outputs
+from loiter.batch.tables import files, ingest, outputs, storage
 from loiter.batch.tables.columns import STATUSES, Columns, SharedValues, columns, may_drift
+from loiter.batch.tables.joined import Append, check_joined, open_joined
+from loiter.batch.tables.sources import Source, find_source
+from loiter.batch.tables.storage import Folder
 from loiter.errors import InvalidArgument, Unfinished
 from loiter.version import __version__
 
@@ -55,60 +60,81 @@ ReportProgress = Callable[[JobProgress], object]
 
 
 class JobRequest(NamedTuple):
-    """A job to do: its files and their kinds, the schema of the input and the meaning of its columns."""
+    """A job to do: its files, the schema of the input and the meaning of its columns.
 
-    source: Path
-    target: Path
-    source_kind: files.Kind
-    target_kind: files.Kind
+    `versions` are those of the files of the input, and `sizes` the numbers of rows of their row groups, by file.
+    """
+
+    source: Source
+    target: Target
+    versions: list[list[Any]]
+    sizes: list[list[int]]
     schema: pa.Schema
     columns: Columns
 
 
-def check_request(source: Path, target: Path, options: SharedValues, tolerance_m: float) -> JobRequest:
+def check_request(source: str, target: str, options: SharedValues, tolerance_m: float) -> JobRequest:
     """The job to do, checked as far as possible before any work; raises `InvalidArgument`."""
-    source_kind, target_kind = files.kind("source", source), files.kind("target", target)
-    is_text = source_kind != ".parquet"
-    schema = ingest.csv_schema("source", source) if is_text else files.parquet_schema("source", source)
+    found, output = find_source("source", source), folder.find_target("target", target)
+    versions, sizes = _versions(found), []
+    is_text = found.kind != ".parquet"
+    if is_text:
+        schema = ingest.csv_schema("source", found)
+    else:
+        footers = files.read_footers("source", found.files, found.shown)
+        schema = files.common_schema("source", found.files, [footer.schema for footer in footers])
+        sizes = [footer.sizes for footer in footers]
     meaning = columns("source", schema, options, tolerance_m, text=is_text)
-    outputs.check_columns(target_kind, outputs.output_schema(schema))
-    if target.is_dir():
-        raise InvalidArgument("target", f"is {str(target)!r}: that is a folder")
-    if target.exists() and target.samefile(source):
-        raise InvalidArgument("target", f"is {str(target)!r}: that is the input")
-    return JobRequest(source, target, source_kind, target_kind, schema, meaning)
+    outputs.check_columns(output.kind, outputs.output_schema(schema))
+    _check_apart(found, output)
+    return JobRequest(found, output, versions, sizes, schema, meaning)
+
+
+def _versions(source: Source) -> list[list[Any]]:
+    """The size and the version of each file of the input."""
+    versions = []
+    for place in source.files:
+        try:
+            versions.append(storage.version_of(place))
+        except OSError as error:
+            raise files.unreadable("source", source.shown(place), error) from error
+    return versions
+
+
+def _check_apart(source: Source, target: Target) -> None:
+    """Raise `InvalidArgument` if the output is a file of the input, or lies in the folder of the input."""
+    place = target.folder.place(target.name).rstrip("/")
+    if any(storage.is_same_file(place, file) for file in source.files):
+        problem = "that is the input" if len(source.files) == 1 else "that is a file of the input"
+    elif source.folder is not None and f"{place}/".startswith(f"{source.folder}/"):
+        problem = "that is in the folder of the input"
+    else:
+        return
+    raise InvalidArgument("target", f"is {target.text!r}: {problem}")
 
 
 def run_request(request: JobRequest, workers: int, scheduler: str | None, report: ReportProgress) -> JobSummary:
-    """Run the job, resuming it if possible, and move the output to its place."""
+    """Run the job, resuming it if possible, and say that the output is complete."""
     started = time.monotonic()
-    with _client(scheduler) as client, folder.locked_folder(request.target) as here, _report_finished_parts(here):
+    target = request.target
+    with _client(scheduler) as client, folder.locked_folder(target) as work, _report_finished_parts(target):
         description = _description(request)
-        is_same_job = folder.resume(here, description)
-        # Absolute paths, since workers of a cluster have other working directories.
-        table = request.source.absolute() if request.source_kind == ".parquet" else here / folder.INGESTED
-        part_rows, batch_rows = _sizes(request)
-        schema = outputs.part_schema(request.schema)
-        job = Job(table, here, request.columns, schema, folder.digest(description), batch_rows)
+        is_same_job = folder.resume(target, description)
         if client is not None:
-            cluster.check_workers(client, job, request.source)
-        if not table.exists():
-            _convert_csv(request, table, report)
-        parts = files.parts_of(table, part_rows, cut=may_drift(request.columns))
-        # The folder is listed, since network file systems may cache the fact that a name did not exist.
-        whole = {path for path in folder.finished_parts(here) if is_whole(path)}
-        finished = {part.number for part in parts if folder.part_path(here, part.number) in whole}
-        _report_start(is_same_job, here, len(finished), len(parts), report)
+            cluster.check_workers(client, target, folder.digest(description), request.source, request.versions[0])
+        job, parts = _divide(request, description, report)
+        finished = _finished(job, parts, workers)
+        _report_start(is_same_job, work, len(finished), len(parts), report)
         counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
         total, earlier, resumed = sum(part.rows for part in parts), counter.rows, len(finished)
+        if target.is_dataset and resumed < len(parts):
+            target.folder.delete([folder.SUCCESS])
         in_wind = may_drift(request.columns)
         executors = _executors(client, workers, counter, append_only=resumed == len(parts), in_wind=in_wind)
         counts = _write_output(
             request, job, parts, finished, executors, counter, lambda: report(JobProgress(counter.rows // 2, total))
         )
-        if _description(request) != description:
-            raise InvalidArgument("source", f"is {str(request.source)!r}: it changed while it was read")
-        folder.finish(here, request.target, workers)
+        folder.finish(target)
     seconds = time.monotonic() - started
     return JobSummary(total, counts, len(parts), resumed, total - earlier, seconds)
 
@@ -125,7 +151,7 @@ def _executors(
     return thread_executors(workers, counter, append_only=append_only, in_wind=in_wind)
 
 
-def _sizes(request: JobRequest) -> tuple[int, int]:
+def _row_limits(request: JobRequest) -> tuple[int, int]:
     """The number of rows of a part and of a batch."""
     if may_drift(request.columns):
         return files.PART_ROWS_IN_WIND, files.BATCH_ROWS_IN_WIND
@@ -134,12 +160,14 @@ def _sizes(request: JobRequest) -> tuple[int, int]:
 
 def _description(request: JobRequest) -> dict[str, Any]:
     """The description of a job: a run resumes from the parts of an earlier run with an equal description."""
-    stat, (part_rows, batch_rows) = request.source.stat(), _sizes(request)
+    part_rows, batch_rows = _row_limits(request)
     return {
         "program": __version__,
-        "source": str(request.source.resolve()),
-        "size": stat.st_size,
-        "mtime_ns": stat.st_mtime_ns,
+        "files": [
+            {"file": storage.resolved(file), "size": size, "version": version}
+            for file, (size, version) in zip(request.source.files, request.versions, strict=True)
+        ],
+        "output": request.target.kind,
         "schema": [f"{field.name}: {field.type}" for field in request.schema],
         "columns": asdict(request.columns),
         "part_rows": part_rows,
@@ -147,22 +175,62 @@ def _description(request: JobRequest) -> dict[str, Any]:
     }
 
 
-def _convert_csv(request: JobRequest, table: Path, report: ReportProgress) -> None:
-    """Convert the CSV file to a Parquet file."""
-    counter = RowCounter()
+def _divide(request: JobRequest, description: dict[str, Any], report: ReportProgress) -> tuple[Job, list[files.Part]]:
+    """The job and its parts. CSV files are converted to a Parquet file first."""
+    target, tables, sizes, names = request.target, request.source.files, request.sizes, request.schema.names
+    if request.source.kind != ".parquet":
+        converted = target.work.place(folder.INGESTED)
+        _convert_csv(request, report)
+        tables, sizes = (converted,), [files.read_footer(converted).sizes]
+        names = [*names, ingest.MARK.name]
+    part_rows, batch_rows = _row_limits(request)
+    parts = files.parts_of(sizes, part_rows, cut=may_drift(request.columns))
+    schema = outputs.output_schema(request.schema)
+    job = Job(
+        tables=tuple(tables),
+        names=tuple(names),
+        work=target.work,
+        parts=target.parts,
+        kind=target.kind,
+        columns=request.columns,
+        schema=schema,
+        dictionaries=tuple(outputs.dictionary_columns(request.schema, tables[0])),
+        digest=folder.digest(description),
+        count=len(parts),
+        batch_rows=batch_rows,
+    )
+    return job, parts
+
+
+def _convert_csv(request: JobRequest, report: ReportProgress) -> None:
+    """Convert the CSV files to a Parquet file in the working folder, unless an earlier run has done it."""
+    work, counter = request.target.work, RowCounter()
+    if folder.INGESTED in work.names():
+        return
 
     def count_rows(rows: int) -> None:
         counter.count(rows)
         report(JobProgress(counter.rows, None))
 
-    ingest.ingest("source", request.source, request.schema, table, count_rows)
+    with work.create(folder.INGESTED, work) as path:
+        ingest.ingest("source", request.source, request.schema, path, count_rows)
 
 
-def _report_start(is_same_job: bool | None, here: Path, finished: int, parts: int, report: ReportProgress) -> None:
+def _finished(job: Job, parts: list[files.Part], workers: int) -> set[int]:
+    """The numbers of the parts that an earlier run has finished."""
+    present = set(job.parts.names())
+    candidates = [part for part in parts if job.name(part) in present]
+    with ThreadPoolExecutor(workers) as pool:
+        whole = list(pool.map(lambda part: is_whole(job, part), candidates))
+    return {part.number for part, is_finished in zip(candidates, whole, strict=True) if is_finished}
+
+
+def _report_start(is_same_job: bool | None, work: Folder, finished: int, parts: int, report: ReportProgress) -> None:
     if finished:
         report(JobProgress(0, None, f"resuming from {finished} of {parts} parts"))
     elif is_same_job is False:
-        note = f"starting over: the parts in {here.name} belong to a job with another input, option or program"
+        name = PurePosixPath(work.place("")).name
+        note = f"starting over: the parts in {name} belong to a job with another input, option or program"
         report(JobProgress(0, None, note))
 
 
@@ -175,39 +243,51 @@ def _write_output(
     counter: RowCounter,
     on_poll: Callable[[], object],
 ) -> dict[str, int]:
-    """Solve the remaining parts and write the output; returns the number of rows of each status that occurs."""
-    dictionaries = outputs.dictionary_columns(request.schema, job.table)
-    schema = outputs.output_schema(request.schema)
-    path = job.folder / folder.OUTPUT
-    with (
-        outputs.open_output(request.target_kind, path, schema, dictionaries) as write,
-        executors_context as executors,
-    ):
-        counts = run_parts(
-            job,
-            parts,
-            finished,
-            executors,
-            lambda part: append_part(job, part, write, counter.count_or_stop),
-            on_poll,
-        )
+    """Solve the remaining parts and complete the output; returns the number of rows of each status that occurs."""
+    with _open_output(request, sum(part.rows for part in parts)) as append:
+        with executors_context as executors:
+            counts = run_parts(
+                job,
+                parts,
+                finished,
+                executors,
+                lambda part: append_part(job, part, append, counter.count_or_stop),
+                on_poll,
+            )
+        if _versions(request.source) != request.versions:
+            raise InvalidArgument("source", f"is {request.source.text!r}: it changed while it was read")
     return {name: count for code, name in enumerate(STATUSES) if (count := sum(int(c[code]) for c in counts))}
 
 
 @contextmanager
-def _report_finished_parts(here: Path) -> Iterator[None]:
+def _open_output(request: JobRequest, rows: int) -> Iterator[Append]:
+    """A context whose value appends a part to the output; in a dataset the parts are there already."""
+    target = request.target
+    if target.is_dataset:
+        yield lambda place: None
+        return
+    with target.folder.create(target.name, target.work) as path:
+        with open_joined(target.kind, path, outputs.output_schema(request.schema)) as append:
+            yield append
+        if target.kind == ".parquet":
+            check_joined(path, rows)
+
+
+@contextmanager
+def _report_finished_parts(target: Target) -> Iterator[None]:
     """If the job stops with an error, add a sentence about the finished parts."""
     try:
         yield
     except (OSError, pa.ArrowException) as error:
-        raise Unfinished(f"the job stopped: {files.reason(error)}; {_finished_parts(here)}") from error
+        raise Unfinished(f"the job stopped: {files.reason(error)}; {_finished_parts(target)}") from error
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"interrupted; {_finished_parts(here)}") from None
+        raise KeyboardInterrupt(f"interrupted; {_finished_parts(target)}") from None
 
 
-def _finished_parts(here: Path) -> str:
-    count = len(folder.finished_parts(here))
+def _finished_parts(target: Target) -> str:
+    count = len(folder.finished_parts(target))
     if not count:
         return "no part was finished"
+    place = target.parts.place("").rstrip("/")
     parts = "1 finished part stays" if count == 1 else f"{count} finished parts stay"
-    return f"{parts} in {here}, and the same command resumes from there"
+    return f"{parts} in {place}, and the same command resumes from there"
