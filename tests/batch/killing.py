@@ -12,8 +12,8 @@ from importlib import import_module
 from pathlib import Path
 
 from loiter.arrays.entries import compile_kernel
-from loiter.batch.jobs import cluster, parts
-from loiter.batch.tables import files, ingest
+from loiter.batch.jobs import cluster
+from loiter.batch.tables import files, ingest, outputs
 from loiter.cli.app import main
 
 
@@ -21,7 +21,7 @@ def small(part_rows=500, batch_rows=100):
     """Makes parts and batches so small that a job of some thousand rows has many, and waits short; heeds interrupts."""
     # A shell that runs the tests in the background has its children ignore them.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    files.PART_ROWS = parts.PART_ROWS = part_rows
+    files.PART_ROWS = outputs.ROW_GROUP_ROWS = part_rows
     files.BATCH_ROWS = ingest.BATCH_ROWS = batch_rows
     ingest.BLOCK_BYTES = 10_000
     cluster.CONNECT_S = cluster.WORKER_S = 2
@@ -57,7 +57,7 @@ def kill(arguments, target, seed, times):
         killed += ended(pid) == -signal.SIGKILL
         # The output is there whole or not at all.
         assert not target.exists() or target.read_bytes() == expected
-        resumed += any(target.with_name(f"{target.name}.parts").glob("part-*.arrow"))
+        resumed += any(target.with_name(f"{target.name}.parts").glob("part-*"))
         assert ended(forked(arguments)) == 0
         assert target.read_bytes() == expected
         assert not target.with_name(f"{target.name}.parts").exists()

@@ -13,9 +13,8 @@ import pytest
 
 import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, write
-from loiter.batch.jobs import cluster, folder, job, parts
-from loiter.batch.tables import files
-from loiter.batch.tables.columns import shared_values
+from loiter.batch.jobs import cluster, folder
+from loiter.batch.tables import files, outputs
 
 HERE = Path(__file__).parent
 ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])}
@@ -103,14 +102,18 @@ def expected(source, target):
 
 
 def wait_for_parts(process, at, count):
-    while len(list(at.glob("part-*.arrow"))) < count:
+    while len(list(at.glob("part-*"))) < count:
         assert process.poll() is None, process.stderr.read()
         time.sleep(0.02)
 
 
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
-    for module, name, value in [(files, "PART_ROWS", 500), (parts, "PART_ROWS", 500), (files, "BATCH_ROWS", 100)]:
+    for module, name, value in [
+        (files, "PART_ROWS", 500),
+        (outputs, "ROW_GROUP_ROWS", 500),
+        (files, "BATCH_ROWS", 100),
+    ]:
         monkeypatch.setattr(module, name, value)
 
 
@@ -175,20 +178,22 @@ def test_a_job_begun_on_a_cluster_goes_on_without_it(cluster_here, place):
 
 
 def test_a_worker_that_sees_other_files_cannot_take_part(tmp_path):
-    source = write(poses(5), tmp_path / "in.parquet")
-    asked = job.check_request(source, tmp_path / "out.parquet", shared_values(ORBIT, None, UAV), 0.0)
-    with folder.locked_folder(asked.target) as here:
+    source = str(write(poses(5), tmp_path / "in.parquet"))
+    target = folder.find_target("target", str(tmp_path / "out.parquet"))
+    with folder.locked_folder(target) as work:
         description = {"some": "job"}
-        folder.resume(here, description)
-        one = parts.Job(source, here, asked.columns, asked.schema, folder.digest(description))
-        size = source.stat().st_size
-        assert cluster._worker_problem(one, source, size, loiter.__version__) == ""
-        assert "has loiter" in cluster._worker_problem(one, source, size, "0.0.1")
-        assert f"does not see {source}" in cluster._worker_problem(one, source, size + 1, loiter.__version__)
-        assert "does not see" in cluster._worker_problem(one, tmp_path / "no.parquet", size, loiter.__version__)
-        folder.resume(here, {"another": "job"})
-        (here / folder.DESCRIPTION).unlink()
-        assert f"does not see {here}" in cluster._worker_problem(one, source, size, loiter.__version__)
+        folder.resume(target, description)
+        digest, size = folder.digest(description), Path(source).stat().st_size
+        folders = (target.work, target.parts, digest)
+        assert cluster._worker_problem(*folders, source, size, loiter.__version__) == ""
+        assert "has loiter" in cluster._worker_problem(*folders, source, size, "0.0.1")
+        assert f"does not see {source}" in cluster._worker_problem(*folders, source, size + 1, loiter.__version__)
+        missing = str(tmp_path / "no.parquet")
+        assert "does not see" in cluster._worker_problem(*folders, missing, size, loiter.__version__)
+        folder.resume(target, {"another": "job"})
+        work.delete([folder.DESCRIPTION])
+        unseen = f"does not see {tmp_path / 'out.parquet.parts'}"
+        assert unseen in cluster._worker_problem(*folders, source, size, loiter.__version__)
 
 
 def test_when_every_worker_is_lost_another_may_join(cluster_here, place):

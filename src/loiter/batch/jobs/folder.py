@@ -66,12 +66,15 @@ def find_target(argument: str, text: str) -> Target:
     storage.check_place(argument, text)
     try:
         with storage.os_errors():
-            is_dataset = text.endswith("/") or sources.is_folder(text)
+            is_folder = sources.is_folder(text)
     except OSError as error:
         raise InvalidArgument(argument, f"is {text!r}: it cannot be written, {files.reason(error)}") from error
-    if is_dataset:
+    # Spark and Dask name folders, too, entries.parquet.
+    if text.endswith("/") or (is_folder and files.kind_of(text) in (None, ".parquet")):
         return Target(text, storage.folder_at(text), "", ".parquet")
     kind = files.kind(argument, text)
+    if is_folder:
+        raise InvalidArgument(argument, f"is {text!r}: that is a folder")
     folder, name = storage.split(text)
     return Target(text, folder, name, kind)
 

@@ -132,6 +132,8 @@ def common_schema(argument: str, places: Sequence[str], schemas: Sequence[pa.Sch
 
     Raises `InvalidArgument` if a file has other columns or other types than the first.
     """
+    if len(schemas) == 1:
+        return schemas[0]
     fields = {field.name: field for field in schemas[0]}
     for place, schema in zip(places, schemas, strict=True):
         if sorted(schema.names) != sorted(schemas[0].names):
@@ -144,7 +146,7 @@ def common_schema(argument: str, places: Sequence[str], schemas: Sequence[pa.Sch
             elif not pa.types.is_null(field.type) and values_type(field.type) != values_type(known.type):
                 types = f"{known.type} in the first, {field.type} in {place}"
                 raise InvalidArgument(argument, f"has files with different types of the column {field.name}: {types}")
-    return pa.schema([fields[field.name] if len(schemas) > 1 else field for field in schemas[0]], schemas[0].metadata)
+    return pa.schema([fields[name] for name in schemas[0].names], schemas[0].metadata)
 
 
 def parts_of(sizes: Sequence[Sequence[int]], rows: int, *, cut: bool = False) -> list[Part]:

@@ -40,7 +40,8 @@ def find_source(argument: str, text: str) -> Source:
     if folder is None and found == [_absolute(text)]:
         return Source(text, tuple(found), files.kind(argument, text))
     if not found:
-        raise InvalidArgument(argument, f"is {text!r}: no file is there" if folder else f"is {text!r}: no file matches")
+        problem = "it cannot be read, there is no file in it" if folder else "no file matches"
+        raise InvalidArgument(argument, f"is {text!r}: {problem}")
     return Source(text, tuple(found), _common_kind(argument, text, found), folder)
 
 
