@@ -57,7 +57,7 @@ def kill(arguments, target, seed, times):
         killed += ended(pid) == -signal.SIGKILL
         # The output is there whole or not at all.
         assert not target.exists() or target.read_bytes() == expected
-        resumed += any(target.with_name(f"{target.name}.parts").glob("part-*"))
+        resumed += any(target.with_name(f"{target.name}.parts").glob("part-*[!p]"))
         assert ended(forked(arguments)) == 0
         assert target.read_bytes() == expected
         assert not target.with_name(f"{target.name}.parts").exists()
