@@ -152,6 +152,38 @@ def test_a_lost_workers_parts_are_done_by_the_others(cluster_here, place):
     assert not (place / "out.parquet.parts").exists()
 
 
+def parts_of(dataset):
+    return {path.name: path.read_bytes() for path in dataset.glob("*.parquet")}
+
+
+def test_a_dataset_is_written_by_the_workers(cluster_here, place):
+    write(poses(20_000), place / "in.parquet", 500)
+    loiter.batch.run(place / "in.parquet", f"{place}/here/", orbit=ORBIT, aircraft=UAV)
+    for _ in range(2):
+        cluster_here.work()
+    process = cluster_here.batch("in.parquet", "out/")
+    wait_for_parts(process, place / "out", 6)
+    cluster_here.lose()
+    _, err = process.communicate()
+    assert process.returncode == 0, err
+    assert parts_of(place / "out") == parts_of(place / "here")
+    assert [path.name for path in (place / "out").iterdir() if path.suffix != ".parquet"] == ["_SUCCESS"]
+
+
+def test_workers_that_see_other_urls_cannot_take_part(cluster_here, place):
+    # Each process has its own memory://.
+    write(poses(2000), place / "in.parquet", 500)
+    cluster_here.work()
+    process = cluster_here.batch("in.parquet", "memory://out/")
+    _, err = process.communicate()
+    assert process.returncode == 2
+    assert re.fullmatch(
+        r"loiter: --scheduler has a worker tcp://\S+ that cannot take part: it does not see memory://out/_temporary; "
+        r"workers need a file system shared with this machine\n",
+        err,
+    ), err
+
+
 def test_csv_is_read_in_here_and_solved_there(cluster_here, place):
     write(poses(2000), place / "in.csv")
     text_here = gzip.decompress(expected(place / "in.csv", place / "out-here.csv.gz"))

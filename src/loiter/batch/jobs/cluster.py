@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from loiter.batch.jobs.folder import Target, belongs_to
 from loiter.batch.jobs.parts import Job, solve_part
@@ -18,6 +18,9 @@ from loiter.batch.tables.sources import Source
 from loiter.batch.tables.storage import Folder, LocalFolder, version_of
 from loiter.errors import InvalidArgument
 from loiter.version import __version__
+
+if TYPE_CHECKING:
+    from loiter.batch.tables.outputs import Counts
 
 # Seconds to wait for the scheduler, and for its first worker.
 CONNECT_S = 5
@@ -70,7 +73,7 @@ def cluster_executors(client: Any, counter: RowCounter) -> Iterator[Executors]:
     """
     submitted: set[Any] = set()
 
-    def solve(job: Job, part: Part) -> Future[None]:
+    def solve(job: Job, part: Part) -> Future[Counts | None]:
         task = client.submit(solve_part, job, part, pure=False)
         submitted.add(task)
         solved = _future_of(task)
@@ -94,12 +97,12 @@ def cluster_executors(client: Any, counter: RowCounter) -> Iterator[Executors]:
             client.cancel(list(submitted))
 
 
-def _future_of(task: Any) -> Future[None]:
+def _future_of(task: Any) -> Future[Counts | None]:
     """A future of the standard library that is done when a Dask task is.
 
     The result of a task is a file, so that nothing must be fetched from its worker, which may be lost by then.
     """
-    solved: Future[None] = Future()
+    solved: Future[Counts | None] = Future()
 
     def on_done(task: Any) -> None:
         if task.status == "finished":

@@ -96,7 +96,9 @@ def locked_folder(target: Target) -> Iterator[Folder]:
         try:
             yield work
         finally:
-            _clean_up(target)
+            # A store that does not answer any more has been reported.
+            with suppress(OSError):
+                _clean_up(target)
         return
     was_there = target.is_dataset and work.path.parent.exists()
     lock = _lock_or_refuse(target, work)

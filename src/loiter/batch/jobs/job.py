@@ -7,14 +7,15 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import PurePosixPath
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import pyarrow as pa
 
 from loiter.batch.jobs import cluster, folder
 from loiter.batch.jobs.folder import Target
-from loiter.batch.jobs.parts import Job, append_part, is_whole
+from loiter.batch.jobs.parts import Job, append_part, counts_of
 from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_executors
 from loiter.batch.tables import files, ingest, outputs, storage
 from loiter.batch.tables.columns import STATUSES, Columns, SharedValues, columns, may_drift
@@ -24,11 +25,16 @@ from loiter.batch.tables.storage import Folder
 from loiter.errors import InvalidArgument, Unfinished
 from loiter.version import __version__
 
+if TYPE_CHECKING:
+    from loiter.batch.tables.outputs import Counts
+
+Result = TypeVar("Result")
+
 
 class JobProgress(NamedTuple):
     """The progress of a job: the rows done, of `total` (None while a CSV file is converted), or a note.
 
-    A row that is solved but not yet written counts half.
+    A row that is solved but not yet appended to the output file counts half.
     """
 
     rows: int
@@ -123,7 +129,7 @@ def run_request(request: JobRequest, workers: int, scheduler: str | None, report
         if client is not None:
             cluster.check_workers(client, target, folder.digest(description), request.source, request.versions[0])
         job, parts = _divide(request, description, report)
-        finished = _finished(job, parts, workers)
+        finished = _finished(job, parts)
         _report_start(is_same_job, work, len(finished), len(parts), report)
         counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
         total, earlier, resumed = sum(part.rows for part in parts), counter.rows, len(finished)
@@ -131,8 +137,15 @@ def run_request(request: JobRequest, workers: int, scheduler: str | None, report
             target.folder.delete([folder.SUCCESS])
         in_wind = may_drift(request.columns)
         executors = _executors(client, workers, counter, append_only=resumed == len(parts), in_wind=in_wind)
+        times_counted = 1 if target.is_dataset else 2
         counts = _write_output(
-            request, job, parts, finished, executors, counter, lambda: report(JobProgress(counter.rows // 2, total))
+            request,
+            job,
+            parts,
+            finished,
+            executors,
+            counter,
+            lambda: report(JobProgress(counter.rows // times_counted, total)),
         )
         folder.finish(target)
     seconds = time.monotonic() - started
@@ -216,13 +229,25 @@ def _convert_csv(request: JobRequest, report: ReportProgress) -> None:
         ingest.ingest("source", request.source, request.schema, path, count_rows)
 
 
-def _finished(job: Job, parts: list[files.Part], workers: int) -> set[int]:
-    """The numbers of the parts that an earlier run has finished."""
+def _finished(job: Job, parts: list[files.Part]) -> dict[int, Counts]:
+    """The rows of each status for each part that an earlier run has finished, by its number."""
     present = set(job.parts.names())
     candidates = [part for part in parts if job.name(part) in present]
-    with ThreadPoolExecutor(workers) as pool:
-        whole = list(pool.map(lambda part: is_whole(job, part), candidates))
-    return {part.number for part, is_finished in zip(candidates, whole, strict=True) if is_finished}
+
+    def counts(part: files.Part) -> Counts | None:
+        # Where the file system has no fsync(2), the end of a part may be missing after a power failure.
+        try:
+            return counts_of(job, part)
+        except OSError:
+            return None
+
+    return {number: found for number, found in _for_each(candidates, counts).items() if found is not None}
+
+
+def _for_each(parts: list[files.Part], function: Callable[[files.Part], Result]) -> dict[int, Result]:
+    """The results of a function for parts, by their numbers, several at a time, since a store takes long to answer."""
+    with ThreadPoolExecutor(files.FOOTERS_AT_A_TIME) as pool:
+        return dict(zip((part.number for part in parts), pool.map(function, parts), strict=True))
 
 
 def _report_start(is_same_job: bool | None, work: Folder, finished: int, parts: int, report: ReportProgress) -> None:
@@ -238,7 +263,7 @@ def _write_output(
     request: JobRequest,
     job: Job,
     parts: list[files.Part],
-    finished: set[int],
+    finished: dict[int, Counts],
     executors_context: AbstractContextManager[Executors],
     counter: RowCounter,
     on_poll: Callable[[], object],
@@ -246,25 +271,23 @@ def _write_output(
     """Solve the remaining parts and complete the output; returns the number of rows of each status that occurs."""
     with _open_output(request, sum(part.rows for part in parts)) as append:
         with executors_context as executors:
-            counts = run_parts(
-                job,
-                parts,
-                finished,
-                executors,
-                lambda part: append_part(job, part, append, counter.count_or_stop),
-                on_poll,
-            )
+            appended = None
+            if append is not None:
+                appended = partial(append_part, job, append=append, count_rows=counter.count_or_stop)
+            counts = run_parts(job, parts, finished, executors, appended, on_poll)
         if _versions(request.source) != request.versions:
             raise InvalidArgument("source", f"is {request.source.text!r}: it changed while it was read")
-    return {name: count for code, name in enumerate(STATUSES) if (count := sum(int(c[code]) for c in counts))}
+    unknown = [part for part in parts if counts[part.number] is None]
+    known = [found for found in (counts | _for_each(unknown, partial(counts_of, job))).values() if found is not None]
+    return {name: count for code, name in enumerate(STATUSES) if (count := sum(int(c[code]) for c in known))}
 
 
 @contextmanager
-def _open_output(request: JobRequest, rows: int) -> Iterator[Append]:
-    """A context whose value appends a part to the output; in a dataset the parts are there already."""
+def _open_output(request: JobRequest, rows: int) -> Iterator[Append | None]:
+    """A context whose value appends a part to the output file; None for a dataset, whose parts are not appended."""
     target = request.target
     if target.is_dataset:
-        yield lambda place: None
+        yield None
         return
     with target.folder.create(target.name, target.work) as path:
         with open_joined(target.kind, path, outputs.output_schema(request.schema)) as append:
@@ -285,7 +308,10 @@ def _report_finished_parts(target: Target) -> Iterator[None]:
 
 
 def _finished_parts(target: Target) -> str:
-    count = len(folder.finished_parts(target))
+    try:
+        count = len(folder.finished_parts(target))
+    except OSError:
+        return "the same command resumes from the finished parts"
     if not count:
         return "no part was finished"
     place = target.parts.place("").rstrip("/")

@@ -18,7 +18,7 @@ from loiter.batch.tables.joined import Append
 from loiter.batch.tables.storage import Folder
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from loiter.batch.tables.outputs import Counts
 
 # Called with the number of rows that have been processed.
 CountRows = Callable[[int], None]
@@ -53,20 +53,25 @@ class Job:
         return part_name(part.number, self.count, self.digest, self.kind)
 
 
-def solve_part(job: Job, part: Part, count_rows: CountRows = lambda rows: None) -> None:
+def solve_part(job: Job, part: Part, count_rows: CountRows = lambda rows: None) -> Counts:
     """Solve the rows of a part and write them to its file, which appears whole and always has the same bytes.
 
-    `count_rows` is called with the number of rows of each batch.
+    Returns the number of rows of each status, by its code. `count_rows` is called with the number of rows of each
+    batch.
     """
     keep_memory()
+    counts = outputs.no_rows()
     # The job may have ended before its worker, and the folder may now belong to another job.
     with (
         job.parts.create(job.name(part), job.work, lambda: belongs_to(job.work, job.digest)) as path,
         outputs.open_part(job.kind, path, job.schema, job.dictionaries) as write,
     ):
         for batch in files.batches(job.tables, part, job.batch_rows):
-            write(solve_batch(batch.select(job.names), job.columns))
+            solved = solve_batch(batch.select(job.names), job.columns)
+            write(solved)
+            counts += outputs.count_statuses(solved.column("status"))
             count_rows(batch.num_rows)
+    return counts
 
 
 def keep_memory() -> None:
@@ -79,27 +84,25 @@ def keep_memory() -> None:
     np.empty(KEPT_BYTES, dtype=np.uint8)
 
 
-def is_whole(job: Job, part: Part) -> bool:
-    """Whether the file of a part is complete; without fsync(2) its end may be missing after a power failure."""
-    try:
-        return _has_rows(part, outputs.status_counts(job.kind, job.parts.place(job.name(part))))
-    except (OSError, pa.ArrowException):
-        return False
-
-
-def append_part(job: Job, part: Part, append: Append, count_rows: CountRows) -> NDArray[np.int64]:
-    """Append a finished part to the output; returns the number of rows of each status, by its code.
-
-    `count_rows` is called with the number of rows. Raises `OSError` if the part is not whole.
-    """
+def counts_of(job: Job, part: Part) -> Counts:
+    """The number of rows of each status, by its code, in a finished part; raises `OSError` if the part is not whole."""
     place = job.parts.place(job.name(part))
-    counts = outputs.status_counts(job.kind, place)
-    if not _has_rows(part, counts):
+    try:
+        counts = outputs.status_counts(job.kind, place)
+    except pa.ArrowException as error:
+        raise OSError(f"{place} cannot be read, {files.reason(error)}") from error
+    if int(counts.sum()) != part.rows:
         raise OSError(f"{place} has {counts.sum()} rows instead of {part.rows}")
-    append(place)
-    count_rows(part.rows)
     return counts
 
 
-def _has_rows(part: Part, counts: NDArray[np.int64]) -> bool:
-    return int(counts.sum()) == part.rows
+def append_part(job: Job, part: Part, known: Counts | None, append: Append, count_rows: CountRows) -> Counts:
+    """Append a finished part to the output; returns the number of rows of each status, by its code.
+
+    `known` is that number, if it is known. `count_rows` is called with the number of rows. Raises `OSError` if the part
+    is not whole.
+    """
+    counts = counts_of(job, part) if known is None else known
+    append(job.parts.place(job.name(part)))
+    count_rows(part.rows)
+    return counts

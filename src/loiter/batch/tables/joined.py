@@ -26,7 +26,7 @@ MAGIC = b"PAR1"
 _TAIL = 8
 
 # Bytes copied at a time where the operating system cannot copy from file to file.
-_COPY_BYTES = 1 << 22
+_COPY_BYTES = 1 << 23
 
 # Errors of copy_file_range(2) where the two files do not allow it.
 _NO_COPY = {errno.EXDEV, errno.ENOSYS, errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.EPERM}

@@ -24,6 +24,9 @@ from loiter.errors import InvalidArgument
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    # The number of rows of each status, by its code.
+    Counts = NDArray[np.int64]
+
 # Called with a batch of answers.
 Write = Callable[[pa.RecordBatch], None]
 
@@ -115,7 +118,7 @@ def _abandon(writer: Any) -> None:
 @contextmanager
 def _csv_part(file: BinaryIO, kind: Kind) -> Iterator[Write]:
     """A context that writes lines without a header, and then the number of rows of each status."""
-    counts = np.zeros(len(STATUSES), dtype=np.int64)
+    counts = no_rows()
     with ExitStack() as stack:
         lines: Any = file
         if kind == ".csv.gz":
@@ -124,13 +127,13 @@ def _csv_part(file: BinaryIO, kind: Kind) -> Iterator[Write]:
 
         def write(batch: pa.RecordBatch) -> None:
             lines.write(csv_lines(batch))
-            counts[:] += _count(batch.column("status"))
+            counts[:] += count_statuses(batch.column("status"))
 
         yield write
     file.write(_TRAILER.pack(CSV_MAGIC, *counts.tolist()))
 
 
-def status_counts(kind: Kind, place: str) -> NDArray[np.int64]:
+def status_counts(kind: Kind, place: str) -> Counts:
     """The number of rows of each status, by its code, in a part.
 
     Raises `OSError` or `ArrowException` if the part is not whole: after a power failure its end may be missing where
@@ -139,16 +142,22 @@ def status_counts(kind: Kind, place: str) -> NDArray[np.int64]:
     if kind != ".parquet":
         with open_place(place) as file:
             return _csv_counts(file)
-    counts = np.zeros(len(STATUSES), dtype=np.int64)
+    counts = no_rows()
     with open_parquet(place) as file:
         for batch in file.iter_batches(columns=["status"], use_threads=False):
-            counts += _count(batch.column(0))
+            counts += count_statuses(batch.column(0))
     return counts
 
 
-def _count(status: pa.Array) -> NDArray[np.int64]:
+def no_rows() -> Counts:
+    """No rows of any status."""
+    return np.zeros(len(STATUSES), dtype=np.int64)
+
+
+def count_statuses(status: pa.Array) -> Counts:
+    """The number of rows of each status, by its code, in a column of statuses."""
     names = status.dictionary.to_pylist()
-    counts = np.zeros(len(STATUSES), dtype=np.int64)
+    counts = no_rows()
     found = np.bincount(to_numpy(status.indices), minlength=len(names))
     counts[[STATUSES.index(name) for name in names]] = found[: len(names)]
     return counts
@@ -159,7 +168,7 @@ def csv_size(part: BinaryIO) -> int:
     return part.seek(0, SEEK_END) - _TRAILER.size
 
 
-def _csv_counts(part: BinaryIO) -> NDArray[np.int64]:
+def _csv_counts(part: BinaryIO) -> Counts:
     if csv_size(part) < 0:
         raise OSError("a part ends too early")
     part.seek(csv_size(part))

@@ -92,7 +92,7 @@ def batch(
         Parameter(
             group=work,
             metavar="tcp://HOST:PORT",
-            help="Use the Dask cluster with this scheduler; its workers must see IN and OUT under the same paths.",
+            help="Use the Dask cluster with this scheduler; its workers must see IN and OUT at the same places.",
         ),
     ] = None,
 ) -> None:
