@@ -19,8 +19,8 @@ import pytest
 import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, read, write
 from loiter.batch.jobs import folder, parts
-from loiter.batch.jobs import job as jobs
 from loiter.batch.tables import files, outputs
+from loiter.batch.tables.sources import SUCCESS
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, Unfinished
 
@@ -81,7 +81,7 @@ def test_a_dataset_has_the_rows_of_a_file(expected):
     assert (summary.rows, summary.parts, summary.statuses) == (1000, 10, {"ok": 1000})
     assert rows_of() == expected
     [success, *found] = names()
-    assert success == folder.SUCCESS
+    assert success == SUCCESS
     assert [name[:10] for name in found] == [f"part-{i:05}" for i in range(10)]
     assert names(".") == ["expected.parquet", "in.parquet", "out"]
 
@@ -212,7 +212,7 @@ def test_csv_files_may_be_a_dataset_too(kind):
     assert summary.statuses == {"ok": 300, "malformed": 1}
     ids = [row["id"] for row in rows_of()]
     assert ids == [*map(str, range(200)), None, *map(str, range(200, 300))]
-    assert names() == [folder.SUCCESS, *(path.name for path in sorted(Path("out").glob("*.parquet")))]
+    assert names() == [SUCCESS, *(path.name for path in sorted(Path("out").glob("*.parquet")))]
 
 
 def test_a_file_whose_name_looks_like_a_pattern_is_a_file(expected):
@@ -334,7 +334,7 @@ def test_a_part_that_was_damaged_or_deleted_is_done_again(expected):
     solve = parts.solve_part
 
     def solve_part(job, part, *tick):
-        seen.append(Path("out", folder.SUCCESS).exists())
+        seen.append(Path("out", SUCCESS).exists())
         solve(job, part, *tick)
 
     with pytest.MonkeyPatch.context() as patch:
@@ -342,7 +342,7 @@ def test_a_part_that_was_damaged_or_deleted_is_done_again(expected):
         assert run().resumed_parts == 7
     assert seen == [False, False, False]
     assert rows_of() == expected
-    assert names()[0] == folder.SUCCESS
+    assert names()[0] == SUCCESS
 
 
 def another_option():
@@ -438,7 +438,7 @@ def test_an_input_that_changes_meanwhile_is_reported(expected, monkeypatch):
     monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
     with pytest.raises(InvalidArgument, match="it changed while it was read"):
         run()
-    assert folder.SUCCESS not in names()
+    assert SUCCESS not in names()
 
 
 def test_what_is_called_finished_is_on_the_disk(expected, monkeypatch):
@@ -496,4 +496,4 @@ def test_the_description_lists_all_files(monkeypatch):
             run("data", workers=1)
     description = json.loads(Path("out/_temporary/job.json").read_text())
     assert [Path(file["file"]).name for file in description["files"]] == [f"part.{i}.parquet" for i in range(3)]
-    assert description["program"] == jobs.__version__
+    assert description["program"] == loiter.__version__

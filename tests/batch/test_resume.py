@@ -18,6 +18,7 @@ import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, write
 from loiter.batch.jobs import folder, parts
 from loiter.batch.jobs import job as jobs
+from loiter.batch.jobs import request as requests
 from loiter.batch.tables import files, outputs
 from loiter.batch.tables.columns import shared_values
 from loiter.cli.app import main
@@ -191,7 +192,7 @@ def touched_input():
 
 
 def other_program(monkeypatch):
-    monkeypatch.setattr(jobs, "__version__", "9.9.9")
+    monkeypatch.setattr(requests, "__version__", "9.9.9")
 
 
 STALE = {
@@ -282,10 +283,10 @@ def test_files_of_others_in_the_folder_are_left_alone(job):
 
 
 def test_a_worker_that_outlives_its_job_writes_nothing(job):
-    request = jobs.check_request("in.parquet", "out.parquet", shared_values(ORBIT, None, UAV), 0.0)
-    late, [part, *_] = jobs._divide(request, jobs._description(request), lambda progress: None)
+    request = requests.check_request("in.parquet", "out.parquet", shared_values(ORBIT, None, UAV), 0.0)
+    late, [part, *_] = jobs._divide(request, requests.describe(request), lambda progress: None)
     Path("out.parquet.parts").mkdir()
-    for description, written in [({"of": "another job"}, 0), (jobs._description(request), 1)]:
+    for description, written in [({"of": "another job"}, 0), (requests.describe(request), 1)]:
         assert folder.resume(request.target, description) is None
         parts.solve_part(late, part)
         assert names("out.parquet.parts") == ["job.json", *[late.name(part)] * written]

@@ -19,8 +19,9 @@ import pytest
 
 import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, read, write
-from loiter.batch.jobs import folder, parts
+from loiter.batch.jobs import parts
 from loiter.batch.tables import files, outputs, storage
+from loiter.batch.tables.sources import SUCCESS
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, MissingPackage, Unfinished
 
@@ -107,7 +108,7 @@ def test_a_dataset_behind_a_url(root, expected, target):
     out = f"{root}/{target.rstrip('/')}"
     assert rows_of(out) == expected
     first, *others = below(out)
-    assert first == folder.SUCCESS
+    assert first == SUCCESS
     assert len(others) == 10
     assert loiter.batch.run(f"{root}/in.parquet", f"{root}/{target}", **GIVEN).resumed_parts == 10
 

@@ -55,10 +55,11 @@ def run(
     if find_spec("fcntl") is None:
         raise MissingPackage("a batch job locks its files, which needs Linux or macOS")
     from loiter.batch.jobs import job
+    from loiter.batch.jobs.request import check_request
     from loiter.batch.tables.columns import shared_values
 
     count, given = _workers(workers, scheduler), shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s)
-    request = job.check_request(os.fspath(source), os.fspath(target), given, tolerance_m)
+    request = check_request(os.fspath(source), os.fspath(target), given, tolerance_m)
     return job.run_request(request, count, scheduler, progress)
 
 

@@ -17,16 +17,13 @@ from hashlib import sha256
 from typing import Any, NamedTuple
 
 from loiter.batch.tables import files, sources, storage
-from loiter.batch.tables.sources import TEMPORARY
+from loiter.batch.tables.sources import SUCCESS, TEMPORARY
 from loiter.batch.tables.storage import Folder, LocalFolder, synchronise
 from loiter.errors import InvalidArgument
 
 DESCRIPTION = "job.json"
 INGESTED = "input.parquet"
 LOCK = "lock"
-
-# The empty file that says, as in datasets of Spark, that a dataset is complete.
-SUCCESS = "_SUCCESS"
 
 # Hexadecimal digits of the digest of a job in the names of its parts.
 _DIGITS = 8

@@ -1,4 +1,4 @@
-"""A batch job from the request to the summary: checked, resumed, run."""
+"""A batch job from the request to the summary: resumed, run, completed."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
@@ -16,14 +16,14 @@ import pyarrow as pa
 from loiter.batch.jobs import cluster, folder
 from loiter.batch.jobs.folder import Target
 from loiter.batch.jobs.parts import Job, append_part, counts_of
+from loiter.batch.jobs.request import JobRequest, describe, row_limits, versions_of
 from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_executors
-from loiter.batch.tables import files, ingest, outputs, storage
-from loiter.batch.tables.columns import STATUSES, Columns, SharedValues, columns, may_drift
+from loiter.batch.tables import files, ingest, outputs
+from loiter.batch.tables.columns import STATUSES, may_drift
 from loiter.batch.tables.joined import Append, check_joined, open_joined
-from loiter.batch.tables.sources import Source, find_source
+from loiter.batch.tables.sources import SUCCESS
 from loiter.batch.tables.storage import Folder
 from loiter.errors import InvalidArgument, Unfinished
-from loiter.version import __version__
 
 if TYPE_CHECKING:
     from loiter.batch.tables.outputs import Counts
@@ -65,66 +65,12 @@ Summary = JobSummary
 ReportProgress = Callable[[JobProgress], object]
 
 
-class JobRequest(NamedTuple):
-    """A job to do: its files, the schema of the input and the meaning of its columns.
-
-    `versions` are those of the files of the input, and `sizes` the numbers of rows of their row groups, by file.
-    """
-
-    source: Source
-    target: Target
-    versions: list[list[Any]]
-    sizes: list[list[int]]
-    schema: pa.Schema
-    columns: Columns
-
-
-def check_request(source: str, target: str, options: SharedValues, tolerance_m: float) -> JobRequest:
-    """The job to do, checked as far as possible before any work; raises `InvalidArgument`."""
-    found, output = find_source("source", source), folder.find_target("target", target)
-    versions, sizes = _versions(found), []
-    is_text = found.kind != ".parquet"
-    if is_text:
-        schema = ingest.csv_schema("source", found)
-    else:
-        footers = files.read_footers("source", found.files, found.shown)
-        schema = files.common_schema("source", found.files, [footer.schema for footer in footers])
-        sizes = [footer.sizes for footer in footers]
-    meaning = columns("source", schema, options, tolerance_m, text=is_text)
-    outputs.check_columns(output.kind, outputs.output_schema(schema))
-    _check_apart(found, output)
-    return JobRequest(found, output, versions, sizes, schema, meaning)
-
-
-def _versions(source: Source) -> list[list[Any]]:
-    """The size and the version of each file of the input."""
-    versions = []
-    for place in source.files:
-        try:
-            versions.append(storage.version_of(place))
-        except OSError as error:
-            raise files.unreadable("source", source.shown(place), error) from error
-    return versions
-
-
-def _check_apart(source: Source, target: Target) -> None:
-    """Raise `InvalidArgument` if the output is a file of the input, or lies in the folder of the input."""
-    place = target.folder.place(target.name).rstrip("/")
-    if any(storage.is_same_file(place, file) for file in source.files):
-        problem = "that is the input" if len(source.files) == 1 else "that is a file of the input"
-    elif source.folder is not None and f"{place}/".startswith(f"{source.folder}/"):
-        problem = "that is in the folder of the input"
-    else:
-        return
-    raise InvalidArgument("target", f"is {target.text!r}: {problem}")
-
-
 def run_request(request: JobRequest, workers: int, scheduler: str | None, report: ReportProgress) -> JobSummary:
     """Run the job, resuming it if possible, and say that the output is complete."""
     started = time.monotonic()
     target = request.target
     with _client(scheduler) as client, folder.locked_folder(target) as work, _report_finished_parts(target):
-        description = _description(request)
+        description = describe(request)
         is_same_job = folder.resume(target, description)
         if client is not None:
             cluster.check_workers(client, target, folder.digest(description), request.source, request.versions[0])
@@ -134,7 +80,7 @@ def run_request(request: JobRequest, workers: int, scheduler: str | None, report
         counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
         total, earlier, resumed = sum(part.rows for part in parts), counter.rows, len(finished)
         if target.is_dataset and resumed < len(parts):
-            target.folder.delete([folder.SUCCESS])
+            target.folder.delete([SUCCESS])
         in_wind = may_drift(request.columns)
         executors = _executors(client, workers, counter, append_only=resumed == len(parts), in_wind=in_wind)
         times_counted = 1 if target.is_dataset else 2
@@ -164,30 +110,6 @@ def _executors(
     return thread_executors(workers, counter, append_only=append_only, in_wind=in_wind)
 
 
-def _row_limits(request: JobRequest) -> tuple[int, int]:
-    """The number of rows of a part and of a batch."""
-    if may_drift(request.columns):
-        return files.PART_ROWS_IN_WIND, files.BATCH_ROWS_IN_WIND
-    return files.PART_ROWS, files.BATCH_ROWS
-
-
-def _description(request: JobRequest) -> dict[str, Any]:
-    """The description of a job: a run resumes from the parts of an earlier run with an equal description."""
-    part_rows, batch_rows = _row_limits(request)
-    return {
-        "program": __version__,
-        "files": [
-            {"file": storage.resolved(file), "size": size, "version": version}
-            for file, (size, version) in zip(request.source.files, request.versions, strict=True)
-        ],
-        "output": request.target.kind,
-        "schema": [f"{field.name}: {field.type}" for field in request.schema],
-        "columns": asdict(request.columns),
-        "part_rows": part_rows,
-        "batch_rows": batch_rows,
-    }
-
-
 def _divide(request: JobRequest, description: dict[str, Any], report: ReportProgress) -> tuple[Job, list[files.Part]]:
     """The job and its parts. CSV files are converted to a Parquet file first."""
     target, tables, sizes, names = request.target, request.source.files, request.sizes, request.schema.names
@@ -196,7 +118,7 @@ def _divide(request: JobRequest, description: dict[str, Any], report: ReportProg
         _convert_csv(request, report)
         tables, sizes = (converted,), [files.read_footer(converted).sizes]
         names = [*names, ingest.MARK.name]
-    part_rows, batch_rows = _row_limits(request)
+    part_rows, batch_rows = row_limits(request)
     parts = files.parts_of(sizes, part_rows, cut=may_drift(request.columns))
     schema = outputs.output_schema(request.schema)
     job = Job(
@@ -275,7 +197,7 @@ def _write_output(
             if append is not None:
                 appended = partial(append_part, job, append=append, count_rows=counter.count_or_stop)
             counts = run_parts(job, parts, finished, executors, appended, on_poll)
-        if _versions(request.source) != request.versions:
+        if versions_of(request.source) != request.versions:
             raise InvalidArgument("source", f"is {request.source.text!r}: it changed while it was read")
     unknown = [part for part in parts if counts[part.number] is None]
     known = [found for found in (counts | _for_each(unknown, partial(counts_of, job))).values() if found is not None]

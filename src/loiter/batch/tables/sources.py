@@ -15,6 +15,9 @@ from loiter.errors import InvalidArgument
 # The folder in which Spark and this program keep what is needed only until a dataset is complete.
 TEMPORARY = "_temporary"
 
+# The empty file that says, as in datasets of Spark, that a dataset is complete.
+SUCCESS = "_SUCCESS"
+
 
 class Source(NamedTuple):
     """An input as it was given, the places of its files in order, and their kind; `folder` if it is one."""
@@ -84,9 +87,10 @@ def _matches(pattern: str) -> list[str]:
 
 def _files_of(folder: str) -> Iterator[str]:
     """The files in a folder and its subfolders, without those that readers of datasets ignore."""
-    for name in _names_below(folder):
+    found = _names_below(folder)
+    for name in found:
         *parents, last = PurePosixPath(name).parts
-        if TEMPORARY in parents:
+        if TEMPORARY in parents and SUCCESS not in found:
             raise OSError(f"the dataset is not finished: it has a folder {TEMPORARY}")
         for parent in parents:
             if "=" in parent:
