@@ -6,7 +6,7 @@ import errno
 import gzip
 import os
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import Any, BinaryIO
 
 import pyarrow as pa
@@ -15,7 +15,7 @@ import pyarrow.parquet as pq
 from loiter.batch.tables.files import Kind
 from loiter.batch.tables.outputs import LEVEL, csv_header, csv_size
 from loiter.batch.tables.parquet_footer import joined_footer
-from loiter.batch.tables.storage import open_place
+from loiter.batch.tables.storage import open_place, written_behind
 
 # Called with the place of a part.
 Append = Callable[[str], None]
@@ -35,12 +35,16 @@ _NO_COPY = {errno.EXDEV, errno.ENOSYS, errno.EINVAL, errno.ENOTSUP, errno.EBADF,
 @contextmanager
 def open_joined(kind: Kind, path: str, schema: pa.Schema) -> Iterator[Append]:
     """A context whose value appends a part, in the encoding of its kind, to the file at `path`."""
-    with open(path, "wb", buffering=0) as file:  # noqa: PTH123
-        if kind == ".parquet":
-            with _parquet(file) as append:
-                yield append
-        else:
-            yield _csv(file, kind, schema)
+    with ExitStack() as stack:
+        file = stack.enter_context(open(path, "wb", buffering=0))  # noqa: PTH123
+        append_bytes = stack.enter_context(_parquet(file)) if kind == ".parquet" else _csv(file, kind, schema)
+        begin_to_write = stack.enter_context(written_behind(path))
+
+        def append(place: str) -> None:
+            append_bytes(place)
+            begin_to_write()
+
+        yield append
 
 
 @contextmanager

@@ -17,7 +17,7 @@ import pyarrow.parquet as pq
 from loiter.batch.answers import without_dictionary
 from loiter.batch.tables.columns import ADDED, STATUSES, carried_columns, is_text, values_type
 from loiter.batch.tables.files import Kind, open_parquet
-from loiter.batch.tables.storage import open_place
+from loiter.batch.tables.storage import open_place, written_behind
 from loiter.batch.tables.views import to_numpy
 from loiter.errors import InvalidArgument
 
@@ -73,12 +73,22 @@ def dictionary_columns(schema: pa.Schema, source: str) -> list[str]:
 @contextmanager
 def open_part(kind: Kind, path: str, schema: pa.Schema, dictionaries: Sequence[str]) -> Iterator[Write]:
     """A context whose value appends a batch of answers to the part at `path`; the same rows give the same bytes."""
-    if kind == ".parquet":
-        with open_parquet_output(path, schema, dictionaries) as write:
-            yield lambda batch: write(pa.Table.from_batches([batch]))
-    else:
-        with open(path, "wb") as file, _csv_part(file, kind) as write_batch:  # noqa: PTH123
-            yield write_batch
+    with ExitStack() as stack:
+        if kind == ".parquet":
+            write_table = stack.enter_context(open_parquet_output(path, schema, dictionaries))
+        else:
+            file = stack.enter_context(open(path, "wb"))  # noqa: PTH123
+            write_lines = stack.enter_context(_csv_part(file, kind))
+        begin_to_write = stack.enter_context(written_behind(path))
+
+        def write(batch: pa.RecordBatch) -> None:
+            if kind == ".parquet":
+                write_table(pa.Table.from_batches([batch]))
+            else:
+                write_lines(batch)
+            begin_to_write()
+
+        yield write
 
 
 @contextmanager
