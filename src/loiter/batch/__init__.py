@@ -39,16 +39,18 @@ def run(
 ) -> JobSummary:
     """Plan the fastest entry of every row of a table; docs/batch.md describes the columns of the input and the output.
 
-    `source` is a file (.parquet, .csv, .csv.gz), a folder of files, a pattern such as "states-*.csv", or a URL of one of
-    these (s3://, gs://, az://, memory://). `target` is a file, a folder of Parquet files (its name ends in a slash, or it
-    exists), or a URL of one of these. `orbit`, `turn`, `aircraft` and `wind` replace columns that
-    the table does not have; `aircraft` may be incomplete, such as {"airspeed_m_s": 18.0} with a column max_bank_deg.
+    `source` is a file (.parquet, .csv, .csv.gz), a folder of files, a pattern such as "states-*.csv", or the URL of one
+    of these (s3://, gs://, az://, memory://). `target` is a file, a folder of Parquet files (its name ends in a slash,
+    or it exists), or the URL of one of these.
+    `orbit`, `turn`, `aircraft` and `wind` replace columns that the table does not have; `aircraft` may be incomplete,
+    such as {"airspeed_m_s": 18.0} with a column max_bank_deg.
     `orbit_velocity_m_s`, (east, north), is the velocity of circles that are given by columns.
     `workers` is the number of threads, by default that of the cores; `scheduler` is the address of the scheduler of a
     Dask cluster that does the work instead. `progress` is called periodically.
 
     A file appears whole or not at all, and so does each part in a folder, where _SUCCESS says that all parts are there.
-    A job that was stopped resumes from its finished parts when it is run again. A bad row gets nan and a status; the other rows are solved.
+    A job that was stopped resumes from its finished parts when it is run again. A bad row gets nan and a status; the
+    other rows are solved.
 
     Raises `InvalidArgument` before any work for files, columns and options that cannot be used, and for a folder with
     files of others; `Unfinished` if the work stops, for example because the disk is full; `MissingPackage`.
