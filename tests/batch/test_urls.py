@@ -249,3 +249,15 @@ def test_others_read_a_dataset_in_s3(monkeypatch):
     assert pl.scan_parquet(f"{url}/out/", storage_options=options).collect().height == 300
     assert pq.read_table(url.removeprefix("s3://") + "/out", filesystem=store).num_rows == 300
     store.rm(url.split("/")[2], recursive=True)
+
+
+def test_files_that_others_write_meanwhile_are_seen_in_s3(monkeypatch):
+    store, url = s3_root(monkeypatch)
+    here = storage.folder_at(f"{url}/out")
+    store.pipe_file(f"{url}/out/one", b"1")
+    assert here.names() == ["one"]
+    store.pipe_file(f"{url}/out/two", b"2")
+    with storage.open_place(here.place("two")) as file:
+        assert file.read() == b"2"
+    assert storage.version_of(here.place("two"))[0] == 1
+    store.rm(url.split("/")[2], recursive=True)

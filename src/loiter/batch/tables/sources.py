@@ -53,7 +53,6 @@ def is_folder(place: str) -> bool:
     if not storage.is_url(place):
         return Path(place).is_dir()
     store, path = storage.filesystem(place)
-    store.invalidate_cache()
     return bool(store.isdir(path))
 
 
@@ -81,7 +80,6 @@ def _matches(pattern: str) -> list[str]:
     if not storage.is_url(pattern):
         return [_absolute(match) for match in glob(pattern, recursive=True)]  # noqa: PTH207
     store, path = storage.filesystem(pattern)
-    store.invalidate_cache()
     return [store.unstrip_protocol(match) for match in store.glob(path)]
 
 

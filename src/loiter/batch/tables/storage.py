@@ -61,8 +61,10 @@ def filesystem(url: str) -> tuple[Any, str]:
     # Imported here, since only URLs need it.
     from fsspec.core import url_to_fs
 
-    found: tuple[Any, str] = url_to_fs(url)
-    return found
+    store, path = url_to_fs(url)
+    # Others write files that an older list of names does not have.
+    store.invalidate_cache()
+    return store, path
 
 
 def open_place(place: str) -> Any:
@@ -82,7 +84,6 @@ def version_of(place: str) -> list[Any]:
         return [stat.st_size, stat.st_mtime_ns]
     with os_errors():
         store, path = filesystem(place)
-        store.invalidate_cache()
         info = store.info(path)
     return [info.get("size"), next((str(info[name]) for name in _VERSIONS if name in info), None)]
 
@@ -210,7 +211,6 @@ class RemoteFolder(Folder):
         """The names in this folder."""
         with os_errors():
             store, path = filesystem(self.url)
-            store.invalidate_cache()
             try:
                 found = store.ls(path, detail=False)
             except FileNotFoundError:
