@@ -85,9 +85,12 @@ def kind(argument: str, place: str) -> Kind:
 def reason(error: BaseException) -> str:
     """The reason in words why a file could not be read or written."""
     number = getattr(error, "errno", None)
-    if number or isinstance(error, FileNotFoundError):
-        return os.strerror(number or errno.ENOENT)
+    if number:
+        return os.strerror(number)
     first_line, _, _ = str(error).strip().partition("\n")
+    # Stores may say only which file they do not have.
+    if isinstance(error, FileNotFoundError) and " " not in first_line:
+        return os.strerror(errno.ENOENT)
     return first_line.rstrip(".")
 
 
