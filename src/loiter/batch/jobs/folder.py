@@ -150,13 +150,15 @@ def _create(path: Any) -> None:
         synchronise(path.parent)
 
 
-def _check_dataset(target: Target, digest: str) -> None:
+def check_dataset(target: Target, digest: str) -> None:
     """Raise `InvalidArgument` if the folder of a dataset has files that are not of the job with this digest."""
+    if not target.is_dataset:
+        return
     others = [name for name in target.folder.names() if not _is_expected(name, digest)]
     if not others:
         return
     number = "a file" if len(others) == 1 else f"{len(others)} files, such as"
-    if all(_PART.fullmatch(name) or name == SUCCESS for name in others):
+    if all(_PART.fullmatch(name) for name in others):
         problem = f"it has parts of a job with another input, option or program, such as {others[0]}"
     else:
         problem = f"it has {number} {others[0]}, which this job did not write"
@@ -185,8 +187,7 @@ def resume(target: Target, description: dict[str, Any]) -> bool | None:
     `InvalidArgument` instead of deleting parts of a dataset.
     """
     work, identity = target.work, digest(description)
-    if target.is_dataset:
-        _check_dataset(target, identity)
+    check_dataset(target, identity)
     left = [name for name in work.names() if _is_scratch(name)]
     if belongs_to(work, identity):
         return True if left else None
@@ -206,6 +207,12 @@ def belongs_to(work: Folder, job_digest: str) -> bool:
         return sha256(work.read(DESCRIPTION)).hexdigest() == job_digest
     except OSError:
         return False
+
+
+def declare_unfinished(target: Target) -> None:
+    """Delete the file that says that the dataset is complete, before parts of it are written again."""
+    if target.is_dataset:
+        target.folder.delete([SUCCESS])
 
 
 def finish(target: Target) -> None:

@@ -21,7 +21,6 @@ from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_ex
 from loiter.batch.tables import files, ingest, outputs
 from loiter.batch.tables.columns import STATUSES, may_drift
 from loiter.batch.tables.joined import Append, check_joined, open_joined
-from loiter.batch.tables.sources import SUCCESS
 from loiter.batch.tables.storage import Folder
 from loiter.errors import InvalidArgument, Unfinished
 
@@ -68,46 +67,32 @@ ReportProgress = Callable[[JobProgress], object]
 def run_request(request: JobRequest, workers: int, scheduler: str | None, report: ReportProgress) -> JobSummary:
     """Run the job, resuming it if possible, and say that the output is complete."""
     started = time.monotonic()
-    target = request.target
-    with _client(scheduler) as client, folder.locked_folder(target) as work, _report_finished_parts(target):
-        description = describe(request)
-        is_same_job = folder.resume(target, description)
-        if client is not None:
-            cluster.check_workers(client, target, folder.digest(description), request.source, request.versions[0])
-        job, parts = _divide(request, description, report)
-        finished = _finished(job, parts)
-        _report_start(is_same_job, work, len(finished), len(parts), report)
-        counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
-        total, earlier, resumed = sum(part.rows for part in parts), counter.rows, len(finished)
-        if target.is_dataset and resumed < len(parts):
-            target.folder.delete([SUCCESS])
-        in_wind = may_drift(request.columns)
-        executors = _executors(client, workers, counter, append_only=resumed == len(parts), in_wind=in_wind)
-        times_counted = 1 if target.is_dataset else 2
-        counts = _write_output(
-            request,
-            job,
-            parts,
-            finished,
-            executors,
-            counter,
-            lambda: report(JobProgress(counter.rows // times_counted, total)),
-        )
-        folder.finish(target)
-    seconds = time.monotonic() - started
-    return JobSummary(total, counts, len(parts), resumed, total - earlier, seconds)
+    target, description = request.target, describe(request)
+    with _client(scheduler) as client, _report_finished_parts(target):
+        # Also before anything is created: a folder that is refused stays as it was.
+        folder.check_dataset(target, folder.digest(description))
+        with folder.locked_folder(target) as work:
+            is_same_job = folder.resume(target, description)
+            if client is not None:
+                cluster.check_workers(client, target, folder.digest(description), request.source, request.versions[0])
+            job, parts = _divide(request, description, report)
+            finished = _finished(job, parts)
+            _report_start(is_same_job, work, len(finished), len(parts), report)
+            if len(finished) < len(parts):
+                folder.declare_unfinished(target)
+            counts = _solve_and_write(request, job, parts, finished, _executors(client, workers), report)
+            folder.finish(target)
+    resumed_rows = sum(part.rows for part in parts if part.number in finished)
+    total, seconds = sum(part.rows for part in parts), time.monotonic() - started
+    return JobSummary(total, counts, len(parts), len(finished), total - resumed_rows, seconds)
 
 
 def _client(scheduler: str | None) -> AbstractContextManager[Any]:
     return nullcontext() if scheduler is None else cluster.open_client(scheduler)
 
 
-def _executors(
-    client: Any, workers: int, counter: RowCounter, *, append_only: bool, in_wind: bool
-) -> AbstractContextManager[Executors]:
-    if client is not None:
-        return cluster.cluster_executors(client, counter)
-    return thread_executors(workers, counter, append_only=append_only, in_wind=in_wind)
+def _executors(client: Any, workers: int) -> Callable[..., AbstractContextManager[Executors]]:
+    return partial(thread_executors, workers) if client is None else partial(cluster.cluster_executors, client)
 
 
 def _divide(request: JobRequest, description: dict[str, Any], report: ReportProgress) -> tuple[Job, list[files.Part]]:
@@ -181,24 +166,39 @@ def _report_start(is_same_job: bool | None, work: Folder, finished: int, parts: 
         report(JobProgress(0, None, note))
 
 
-def _write_output(
+def _solve_and_write(
     request: JobRequest,
     job: Job,
     parts: list[files.Part],
     finished: dict[int, Counts],
-    executors_context: AbstractContextManager[Executors],
-    counter: RowCounter,
-    on_poll: Callable[[], object],
+    open_executors: Callable[..., AbstractContextManager[Executors]],
+    report: ReportProgress,
 ) -> dict[str, int]:
     """Solve the remaining parts and complete the output; returns the number of rows of each status that occurs."""
-    with _open_output(request, sum(part.rows for part in parts)) as append:
-        with executors_context as executors:
-            appended = None
-            if append is not None:
-                appended = partial(append_part, job, append=append, count_rows=counter.count_or_stop)
-            counts = run_parts(job, parts, finished, executors, appended, on_poll)
+    total, in_wind = sum(part.rows for part in parts), may_drift(request.columns)
+    counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
+    with _open_output(request, total) as append:
+        # A row of a file is counted when it is solved, and when it is appended.
+        times_counted = 1 if append is None else 2
+        appended = None
+        if append is not None:
+            appended = partial(append_part, job, append=append, count_rows=counter.count_or_stop)
+        with open_executors(counter, append_only=len(finished) == len(parts), in_wind=in_wind) as executors:
+            counts = run_parts(
+                job,
+                parts,
+                finished,
+                executors,
+                appended,
+                lambda: report(JobProgress(counter.rows // times_counted, total)),
+            )
         if versions_of(request.source) != request.versions:
             raise InvalidArgument("source", f"is {request.source.text!r}: it changed while it was read")
+    return _by_status(job, parts, counts)
+
+
+def _by_status(job: Job, parts: list[files.Part], counts: dict[int, Counts | None]) -> dict[str, int]:
+    """The number of rows of each status that occurs; parts whose rows were not counted here are read."""
     unknown = [part for part in parts if counts[part.number] is None]
     known = [found for found in (counts | _for_each(unknown, partial(counts_of, job))).values() if found is not None]
     return {name: count for code, name in enumerate(STATUSES) if (count := sum(int(c[code]) for c in known))}
