@@ -18,7 +18,7 @@ from loiter.cli.app import main
 # Files of tests that take more than some six seconds, by folder: `make check` leaves them to `make test`.
 SLOW = {
     "arrays": "entries wind",
-    "batch": "cluster files memory resume wind",
+    "batch": "cluster dataset files memory resume urls wind",
     "cli": "errors guide mavlink",
     "compiled": "ufuncs wind_solver",
     "guidance": "campaign following identification jsbsim_aircraft loiter_entry",

@@ -30,12 +30,14 @@ def table(rows: Sequence[Row], runs: Sequence[Run]) -> str:
 
 def _batch(runs: Sequence[Run]) -> list[str]:
     lines = ["## loiter batch, Parquet to Parquet", ""]
-    lines += ["| rows | workers | seconds | rows/s | of one worker | peak memory |", "|---:|---:|---:|---:|---:|---:|"]
-    alone = {run.rows: run.seconds for run in runs if run.workers == 1}
+    lines += ["| rows | output | workers | seconds | rows/s | of one worker | peak memory |"]
+    lines += ["|---:|---|---:|---:|---:|---:|---:|"]
+    alone = {(run.output, run.rows): run.seconds for run in runs if run.workers == 1}
     for run in runs:
-        speed, ratio = run.rows / run.seconds, run.seconds / alone[run.rows]
+        speed, ratio = run.rows / run.seconds, run.seconds / alone[run.output, run.rows]
         cells = (
             f"{run.rows:,}",
+            run.output,
             run.workers,
             f"{run.seconds:.1f}",
             f"{speed:,.0f}",
@@ -109,9 +111,9 @@ def _draw_accuracy(axes: Any, rows: Sequence[Row]) -> None:
 
 
 def _draw_speed(axes: Any, runs: Sequence[Run]) -> None:
-    for workers in sorted({run.workers for run in runs}):
-        here = [run for run in runs if run.workers == workers]
-        label = f"{workers} worker" + ("s" if workers > 1 else "")
+    for output, workers in sorted({(run.output, run.workers) for run in runs}):
+        here = [run for run in runs if (run.output, run.workers) == (output, workers)]
+        label = f"{output}, {workers} worker" + ("s" if workers > 1 else "")
         axes.loglog([run.rows for run in here], [run.rows / run.seconds for run in here], "o-", label=label)
     axes.set(xlabel="rows", ylabel="rows a second", title="loiter batch, Parquet to Parquet")
     axes.grid(alpha=0.3)

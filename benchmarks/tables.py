@@ -1,5 +1,6 @@
 """Rows per second and peak memory of the process `loiter batch`, from 1e5 rows up, with one worker and with two."""
 
+import shutil
 import subprocess
 import sys
 from contextlib import suppress
@@ -11,12 +12,14 @@ from typing import NamedTuple
 import numpy as np
 
 ROW_GROUP = 1 << 20
+OUTPUTS = {"dataset": "out/", "file": "out.parquet"}
 SCENE = ["--orbit", "0", "0", "80", "--airspeed", "18", "--bank", "35"]
 
 
 class Run(NamedTuple):
-    """One run: rows, workers, seconds of the whole process, peak memory in MiB."""
+    """One run: the kind of output, rows, workers, seconds of the whole process, peak memory in MiB."""
 
+    output: str
     rows: int
     workers: int
     seconds: float
@@ -31,7 +34,7 @@ def measure(max_rows: int) -> list[Run]:
         for rows in sizes:
             source = Path(folder) / f"{rows}.parquet"
             write_states(source, rows)
-            runs += [run(source, Path(folder) / "out.parquet", rows, workers) for workers in (1, 2)]
+            runs += [run(source, output, rows, workers) for output in OUTPUTS for workers in (1, 2)]
             source.unlink()
     return runs
 
@@ -50,10 +53,11 @@ def write_states(path: Path, rows: int) -> None:
             writer.write_table(pa.table(list(columns), schema=schema))
 
 
-def run(source: Path, target: Path, rows: int, workers: int) -> Run:
-    """Run the command in a separate process."""
+def run(source: Path, output: str, rows: int, workers: int) -> Run:
+    """Run the command in a separate process, with an output beside the input."""
+    target = f"{source.parent}/{OUTPUTS[output]}"
     loiter = Path(sys.executable).with_name("loiter")
-    command = [str(loiter), "batch", str(source), str(target), *SCENE, "--workers", str(workers)]
+    command = [str(loiter), "batch", str(source), target, *SCENE, "--workers", str(workers)]
     begin = perf_counter()
     process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
     peak = 0
@@ -63,8 +67,8 @@ def run(source: Path, target: Path, rows: int, workers: int) -> Run:
     seconds = perf_counter() - begin
     if process.returncode:
         raise RuntimeError(f"{' '.join(command)} ended with {process.returncode}")
-    target.unlink()
-    return Run(rows, workers, seconds, peak / 1024.0)
+    shutil.rmtree(target) if Path(target).is_dir() else Path(target).unlink()
+    return Run(output, rows, workers, seconds, peak / 1024.0)
 
 
 def peak_memory(pid: int) -> int:

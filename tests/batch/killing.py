@@ -5,6 +5,7 @@ The children are forked from a process that has the kernel loaded, so that a job
 
 import os
 import random
+import shutil
 import signal
 import sys
 import time
@@ -12,8 +13,8 @@ from importlib import import_module
 from pathlib import Path
 
 from loiter.arrays.entries import compile_kernel
-from loiter.batch.jobs import cluster, parts
-from loiter.batch.tables import files, ingest
+from loiter.batch.jobs import cluster
+from loiter.batch.tables import files, ingest, outputs
 from loiter.cli.app import main
 
 
@@ -21,7 +22,7 @@ def small(part_rows=500, batch_rows=100):
     """Makes parts and batches so small that a job of some thousand rows has many, and waits short; heeds interrupts."""
     # A shell that runs the tests in the background has its children ignore them.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    files.PART_ROWS = parts.PART_ROWS = part_rows
+    files.PART_ROWS = outputs.ROW_GROUP_ROWS = part_rows
     files.BATCH_ROWS = ingest.BATCH_ROWS = batch_rows
     ingest.BLOCK_BYTES = 10_000
     cluster.CONNECT_S = cluster.WORKER_S = 2
@@ -42,25 +43,52 @@ def ended(pid):
     return os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
 
 
+def contents(target):
+    """The bytes of the output: of a file, or of each finished part of a dataset; None if there is none."""
+    if target.is_dir():
+        return {path.name: path.read_bytes() for path in target.glob("*.parquet")}
+    return target.read_bytes() if target.exists() else None
+
+
+def is_whole_or_nothing(found, expected):
+    """Whether a killed job left no part that differs from the expected one."""
+    return found is None or found == expected or (isinstance(found, dict) and found.items() <= expected.items())
+
+
+def delete(target):
+    shutil.rmtree(target) if target.is_dir() else target.unlink()
+
+
+def left_over(target):
+    """What a job keeps only until it is finished."""
+    return [*target.parent.glob(f"{target.name}.parts"), *target.glob("_temporary")]
+
+
 def kill(arguments, target, seed, times):
     chance = random.Random(seed)
     assert ended(forked(arguments)) == 0
+    delete(target)
     begin = time.perf_counter()
     assert ended(forked(arguments)) == 0
     whole = time.perf_counter() - begin
-    expected, killed, resumed = target.read_bytes(), 0, 0
+    expected, killed, resumed = contents(target), 0, 0
     for _ in range(times):
-        target.unlink()
+        delete(target)
         pid = forked(arguments)
         time.sleep(chance.uniform(0.0, 1.2 * whole))
         os.kill(pid, signal.SIGKILL)
         killed += ended(pid) == -signal.SIGKILL
-        # The output is there whole or not at all.
-        assert not target.exists() or target.read_bytes() == expected
-        resumed += any(target.with_name(f"{target.name}.parts").glob("part-*.arrow"))
+        # The output, or each of its parts, is there whole or not at all.
+        assert is_whole_or_nothing(contents(target), expected)
+        assert not (target / "_SUCCESS").exists() or contents(target) == expected
+        found = [*target.with_name(f"{target.name}.parts").glob("part-*[!p]"), *target.glob("part-*")]
+        times_written = {path: path.stat().st_mtime_ns for path in target.glob("part-*")}
+        resumed += bool(found)
         assert ended(forked(arguments)) == 0
-        assert target.read_bytes() == expected
-        assert not target.with_name(f"{target.name}.parts").exists()
+        assert contents(target) == expected
+        # What was finished is not solved again.
+        assert {path: path.stat().st_mtime_ns for path in times_written} == times_written
+        assert not left_over(target)
     print(f"{times} times, {killed} killed, {resumed} resumed")
     # By chance a few may all be killed before their first part, or too late.
     assert times < 20 or min(killed, resumed) > 0
@@ -69,14 +97,14 @@ def kill(arguments, target, seed, times):
 def race(arguments, target, times):
     """Two processes on one output at the same time: none spoils it, and at least one is done."""
     assert ended(forked(arguments)) == 0
-    expected = target.read_bytes()
+    expected = contents(target)
     for _ in range(times):
-        target.unlink()
+        delete(target)
         statuses = sorted(ended(pid) for pid in [forked(arguments) for _ in range(3)])
         assert statuses[0] == 0, statuses
         assert set(statuses) <= {0, 2}, statuses
-        assert target.read_bytes() == expected
-        assert not target.with_name(f"{target.name}.parts").exists()
+        assert contents(target) == expected
+        assert not left_over(target)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """A real Dask scheduler and real workers: the same bytes as on one machine, also if workers are lost."""
 
+import gzip
 import os
 import re
 import signal
@@ -13,9 +14,8 @@ import pytest
 
 import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, write
-from loiter.batch.jobs import cluster, folder, job, parts
-from loiter.batch.tables import files
-from loiter.batch.tables.columns import shared_values
+from loiter.batch.jobs import cluster, folder
+from loiter.batch.tables import files, outputs
 
 HERE = Path(__file__).parent
 ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])}
@@ -103,14 +103,18 @@ def expected(source, target):
 
 
 def wait_for_parts(process, at, count):
-    while len(list(at.glob("part-*.arrow"))) < count:
+    while len(list(at.glob("part-*.parquet"))) < count:
         assert process.poll() is None, process.stderr.read()
         time.sleep(0.02)
 
 
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
-    for module, name, value in [(files, "PART_ROWS", 500), (parts, "PART_ROWS", 500), (files, "BATCH_ROWS", 100)]:
+    for module, name, value in [
+        (files, "PART_ROWS", 500),
+        (outputs, "ROW_GROUP_ROWS", 500),
+        (files, "BATCH_ROWS", 100),
+    ]:
         monkeypatch.setattr(module, name, value)
 
 
@@ -148,14 +152,47 @@ def test_a_lost_workers_parts_are_done_by_the_others(cluster_here, place):
     assert not (place / "out.parquet.parts").exists()
 
 
+def parts_of(dataset):
+    return {path.name: path.read_bytes() for path in dataset.glob("*.parquet")}
+
+
+def test_a_dataset_is_written_by_the_workers(cluster_here, place):
+    write(poses(20_000), place / "in.parquet", 500)
+    loiter.batch.run(place / "in.parquet", f"{place}/here/", orbit=ORBIT, aircraft=UAV)
+    for _ in range(2):
+        cluster_here.work()
+    process = cluster_here.batch("in.parquet", "out/")
+    wait_for_parts(process, place / "out", 6)
+    cluster_here.lose()
+    _, err = process.communicate()
+    assert process.returncode == 0, err
+    assert parts_of(place / "out") == parts_of(place / "here")
+    assert [path.name for path in (place / "out").iterdir() if path.suffix != ".parquet"] == ["_SUCCESS"]
+
+
+def test_workers_that_see_other_urls_cannot_take_part(cluster_here, place):
+    # Each process has its own memory://.
+    write(poses(2000), place / "in.parquet", 500)
+    cluster_here.work()
+    process = cluster_here.batch("in.parquet", "memory://out/")
+    _, err = process.communicate()
+    assert process.returncode == 2
+    assert re.fullmatch(
+        r"loiter: --scheduler has a worker tcp://\S+ that cannot take part: it does not see memory://out/_temporary; "
+        r"workers need a file system shared with this machine\n",
+        err,
+    ), err
+
+
 def test_csv_is_read_in_here_and_solved_there(cluster_here, place):
     write(poses(2000), place / "in.csv")
-    bytes_here = expected(place / "in.csv", place / "out-here.csv.gz")
+    text_here = gzip.decompress(expected(place / "in.csv", place / "out-here.csv.gz"))
     cluster_here.work()
     process = cluster_here.batch("in.csv", "out.csv.gz")
     _, err = process.communicate()
     assert process.returncode == 0, err
-    assert (place / "out.csv.gz").read_bytes() == bytes_here
+    # The parts, each compressed by itself, have other sizes here.
+    assert gzip.decompress((place / "out.csv.gz").read_bytes()) == text_here
 
 
 def test_a_job_begun_on_a_cluster_goes_on_without_it(cluster_here, place):
@@ -175,20 +212,22 @@ def test_a_job_begun_on_a_cluster_goes_on_without_it(cluster_here, place):
 
 
 def test_a_worker_that_sees_other_files_cannot_take_part(tmp_path):
-    source = write(poses(5), tmp_path / "in.parquet")
-    asked = job.check_request(source, tmp_path / "out.parquet", shared_values(ORBIT, None, UAV), 0.0)
-    with folder.locked_folder(asked.target) as here:
+    source = str(write(poses(5), tmp_path / "in.parquet"))
+    target = folder.find_target("target", str(tmp_path / "out.parquet"))
+    with folder.locked_folder(target) as work:
         description = {"some": "job"}
-        folder.resume(here, description)
-        one = parts.Job(source, here, asked.columns, asked.schema, folder.digest(description))
-        size = source.stat().st_size
-        assert cluster._worker_problem(one, source, size, loiter.__version__) == ""
-        assert "has loiter" in cluster._worker_problem(one, source, size, "0.0.1")
-        assert f"does not see {source}" in cluster._worker_problem(one, source, size + 1, loiter.__version__)
-        assert "does not see" in cluster._worker_problem(one, tmp_path / "no.parquet", size, loiter.__version__)
-        folder.resume(here, {"another": "job"})
-        (here / folder.DESCRIPTION).unlink()
-        assert f"does not see {here}" in cluster._worker_problem(one, source, size, loiter.__version__)
+        folder.resume(target, description)
+        digest, size = folder.digest(description), Path(source).stat().st_size
+        folders = (target.work, target.parts, digest)
+        assert cluster._worker_problem(*folders, source, size, loiter.__version__) == ""
+        assert "has loiter" in cluster._worker_problem(*folders, source, size, "0.0.1")
+        assert f"does not see {source}" in cluster._worker_problem(*folders, source, size + 1, loiter.__version__)
+        missing = str(tmp_path / "no.parquet")
+        assert "does not see" in cluster._worker_problem(*folders, missing, size, loiter.__version__)
+        folder.resume(target, {"another": "job"})
+        work.delete([folder.DESCRIPTION])
+        unseen = f"does not see {tmp_path / 'out.parquet.parts'}"
+        assert unseen in cluster._worker_problem(*folders, source, size, loiter.__version__)
 
 
 def test_when_every_worker_is_lost_another_may_join(cluster_here, place):

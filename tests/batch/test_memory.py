@@ -14,10 +14,9 @@ pytestmark = pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="
 PEAK = """
 import sys
 from pathlib import Path
-from loiter.batch.jobs import parts
-from loiter.batch.tables import files
+from loiter.batch.tables import files, outputs
 from loiter.cli.app import main
-files.PART_ROWS = parts.PART_ROWS = 1 << 16
+files.PART_ROWS = outputs.ROW_GROUP_ROWS = 1 << 16
 assert main(sys.argv[1:]) == 0
 [peak] = [line.split()[1] for line in Path("/proc/self/status").read_text().splitlines() if line.startswith("VmHWM")]
 print(int(peak) * 1024)

@@ -18,7 +18,9 @@ import loiter
 from batch.making import OPTIONS, ORBIT, UAV, poses, write
 from loiter.batch.jobs import folder, parts
 from loiter.batch.jobs import job as jobs
-from loiter.batch.tables import files
+from loiter.batch.jobs import request as requests
+from loiter.batch.tables import files, outputs
+from loiter.batch.tables.columns import shared_values
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, Unfinished
 
@@ -29,7 +31,7 @@ GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
-    for module, name, value in [(files, "PART_ROWS", 100), (parts, "PART_ROWS", 100), (files, "BATCH_ROWS", 40)]:
+    for module, name, value in [(files, "PART_ROWS", 100), (outputs, "ROW_GROUP_ROWS", 100), (files, "BATCH_ROWS", 40)]:
         monkeypatch.setattr(module, name, value)
 
 
@@ -82,7 +84,7 @@ def test_processes_that_race_for_one_output_do_not_damage_it(tmp_path):
 
 def test_a_second_process_is_refused(job, capsys):
     arguments, _ = job
-    with folder.locked_folder(Path("out.parquet")):
+    with folder.locked_folder(folder.find_target("target", "out.parquet")):
         before = names(".")
         assert main(arguments) == 2
         assert names(".") == before
@@ -99,7 +101,9 @@ def test_a_full_disk_keeps_the_finished_parts(job, capsys, monkeypatch):
     kept = f"4 finished parts stay in {Path('out.parquet.parts').absolute()}"
     assert err == f"loiter: the job stopped: No space left on device; {kept}, and the same command resumes from there\n"
     assert Path("out.parquet").read_bytes() == b"older"
-    assert names("out.parquet.parts") == ["job.json", "lock", *(f"part-{i:05}.arrow" for i in range(4))]
+    *others, _, _, _, _ = names("out.parquet.parts")
+    assert others == ["job.json", "lock"]
+    assert [int(name[5:10]) for name in names("out.parquet.parts")[2:]] == [0, 1, 2, 3]
     assert main(arguments) == 0
     assert "resuming from 4 of 10 parts\n1,000 rows, 600 of them in this run," in capsys.readouterr().err
     assert Path("out.parquet").read_bytes() == expected
@@ -156,7 +160,7 @@ def test_an_interrupt_is_reported_and_what_is_finished_is_kept(tmp_path, workers
     code = INTERRUPTED.format(arguments=[*arguments, "--workers", workers])
     command = [sys.executable, "-c", code]
     child = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, cwd=tmp_path, env=ENVIRONMENT)
-    while not (tmp_path / "out.parquet.parts" / "part-00004.arrow").exists():
+    while not list(tmp_path.glob("out.parquet.parts/part-00004-*")):
         assert child.poll() is None, child.stderr.read()
         time.sleep(0.01)
     child.send_signal(signal.SIGINT)
@@ -167,7 +171,7 @@ def test_an_interrupt_is_reported_and_what_is_finished_is_kept(tmp_path, workers
     assert "finished parts stay in" in line
     left = names(tmp_path / "out.parquet.parts")
     assert left[:2] == ["job.json", "lock"]
-    assert all(name.endswith(".arrow") for name in left[2:])
+    assert all(name.endswith(".parquet") for name in left[2:])
     assert "out.parquet" not in names(tmp_path)
 
 
@@ -188,7 +192,7 @@ def touched_input():
 
 
 def other_program(monkeypatch):
-    monkeypatch.setattr(jobs, "__version__", "9.9.9")
+    monkeypatch.setattr(requests, "__version__", "9.9.9")
 
 
 STALE = {
@@ -223,7 +227,13 @@ def test_the_description_says_what_the_parts_depend_on(job, monkeypatch):
         loiter.batch.run("in.parquet", "out.parquet", workers=1, **GIVEN)
     description = json.loads(Path("out.parquet.parts/job.json").read_text())
     assert description["program"] == loiter.__version__
-    assert description["size"] == Path("in.parquet").stat().st_size
+    assert description["files"] == [
+        {
+            "file": str(Path("in.parquet").resolve()),
+            "size": Path("in.parquet").stat().st_size,
+            "version": Path("in.parquet").stat().st_mtime_ns,
+        }
+    ]
     assert description["columns"]["shared"] == {
         "orbit_east_m": 0.0,
         "orbit_north_m": 0.0,
@@ -242,8 +252,9 @@ def test_a_part_that_lost_its_end_is_done_again(job, monkeypatch):
     with monkeypatch.context() as patch:
         stop_after(patch, 4, OSError(errno.EIO, ""))
         assert main([*arguments, "--workers", "1"]) == 2
-    for name, size in {"part-00001.arrow": 0, "part-00002.arrow": 3000}.items():
-        os.truncate(f"out.parquet.parts/{name}", size)
+    for number, size in {1: 0, 2: 3000}.items():
+        [path] = Path("out.parquet.parts").glob(f"part-{number:05}-*")
+        os.truncate(path, size)
     summary = loiter.batch.run("in.parquet", "out.parquet", **GIVEN)
     assert summary.resumed_parts == 2
     assert Path("out.parquet").read_bytes() == expected
@@ -272,20 +283,13 @@ def test_files_of_others_in_the_folder_are_left_alone(job):
 
 
 def test_a_worker_that_outlives_its_job_writes_nothing(job):
-    description = {"of": "another job"}
+    request = requests.check_request("in.parquet", "out.parquet", shared_values(ORBIT, None, UAV), 0.0)
+    late, [part, *_] = jobs._divide(request, requests.describe(request), lambda progress: None)
     Path("out.parquet.parts").mkdir()
-    assert folder.resume(Path("out.parquet.parts"), description) is None
-    columns = loiter.batch.tables.columns.columns(
-        "source",
-        files.parquet_schema("source", Path("in.parquet")),
-        loiter.batch.tables.columns.shared_values(ORBIT, None, UAV),
-        0.0,
-    )
-    schema = loiter.batch.tables.outputs.part_schema(files.parquet_schema("source", Path("in.parquet")))
-    for digest, written in [("stale", []), (folder.digest(description), ["part-00000.arrow"])]:
-        late = parts.Job(Path("in.parquet"), Path("out.parquet.parts"), columns, schema, digest)
-        parts.solve_part(late, files.parts_of(Path("in.parquet"), 100)[0])
-        assert names("out.parquet.parts") == ["job.json", *written]
+    for description, written in [({"of": "another job"}, 0), (requests.describe(request), 1)]:
+        assert folder.resume(request.target, description) is None
+        parts.solve_part(late, part)
+        assert names("out.parquet.parts") == ["job.json", *[late.name(part)] * written]
 
 
 def test_limits_of_this_process_are_as_they_were():

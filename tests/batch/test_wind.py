@@ -232,7 +232,7 @@ def test_another_wind_starts_the_job_over(tmp_path, monkeypatch, small):
         options = {"orbit": ORBIT, "aircraft": UAV, "wind": wind, "workers": 1}
         return loiter.batch.run(source, "out.parquet", progress=lambda p: notes.append(p.note), **options)
 
-    def stop(*arguments):
+    def stop(*arguments, **options):
         raise OSError("no space")
 
     with monkeypatch.context() as patch:

@@ -113,7 +113,9 @@ def documents():
 
 def tables():
     columns = importlib.import_module("loiter.batch.tables.columns")
+    folder = importlib.import_module("loiter.batch.jobs.folder")
     return {
+        "dataset": [folder.SUCCESS, folder.TEMPORARY, folder.part_name(0, 10, "0123456789", ".parquet")],
         "added": columns.ADDED.names,
         "statuses": list(columns.STATUSES),
     }

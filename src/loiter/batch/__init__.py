@@ -9,7 +9,6 @@ import os
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from loiter.errors import InvalidArgument, MissingPackage
@@ -40,26 +39,31 @@ def run(
 ) -> JobSummary:
     """Plan the fastest entry of every row of a table; docs/batch.md describes the columns of the input and the output.
 
-    `source` and `target` end in .parquet, .csv or .csv.gz. `orbit`, `turn`, `aircraft` and `wind` replace columns that
-    the table does not have; `aircraft` may be incomplete, such as {"airspeed_m_s": 18.0} with a column max_bank_deg.
+    `source` is a file (.parquet, .csv, .csv.gz), a folder of files, a pattern such as "states-*.csv", or the URL of one
+    of these (s3://, gs://, az://, memory://). `target` is a file, a folder of Parquet files (its name ends in a slash,
+    or it exists), or the URL of one of these.
+    `orbit`, `turn`, `aircraft` and `wind` replace columns that the table does not have; `aircraft` may be incomplete,
+    such as {"airspeed_m_s": 18.0} with a column max_bank_deg.
     `orbit_velocity_m_s`, (east, north), is the velocity of circles that are given by columns.
     `workers` is the number of threads, by default that of the cores; `scheduler` is the address of the scheduler of a
     Dask cluster that does the work instead. `progress` is called periodically.
 
-    The target appears whole or not at all. A job that was stopped resumes from its finished parts when it is run again.
-    A bad row gets nan and a status; the other rows are solved.
+    A file appears whole or not at all, and so does each part in a folder, where _SUCCESS says that all parts are there.
+    A job that was stopped resumes from its finished parts when it is run again. A bad row gets nan and a status; the
+    other rows are solved.
 
-    Raises `InvalidArgument` before any work for files, columns and options that cannot be used; `Unfinished` if the
-    work stops, for example because the disk is full; `MissingPackage`.
+    Raises `InvalidArgument` before any work for files, columns and options that cannot be used, and for a folder with
+    files of others; `Unfinished` if the work stops, for example because the disk is full; `MissingPackage`.
     """
     _need_packages("pyarrow", *(["dask", "distributed"] if scheduler is not None else []))
     if find_spec("fcntl") is None:
         raise MissingPackage("a batch job locks its files, which needs Linux or macOS")
     from loiter.batch.jobs import job
+    from loiter.batch.jobs.request import check_request
     from loiter.batch.tables.columns import shared_values
 
     count, given = _workers(workers, scheduler), shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s)
-    request = job.check_request(Path(source), Path(target), given, tolerance_m)
+    request = check_request(os.fspath(source), os.fspath(target), given, tolerance_m)
     return job.run_request(request, count, scheduler, progress)
 
 

@@ -44,7 +44,9 @@ IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, or
 
 OUT has the rows and the columns of IN, in their order, and then duration_s, word, turn (the direction of the plan, cw or ccw, in place of the turn of IN), join_east_m, join_north_m, join_heading_deg, duration_1_s, duration_2_s, duration_3_s and status. A bad row gets nan or empty fields and a status other than ok; the job goes on.
 
-OUT is written whole or not at all. Until then finished parts are kept in OUT.parts: run the same command again to continue an interrupted job.""",
+IN is a file, a folder of files, a pattern such as 'states-*.parquet' in quotes, or a URL of one of these: s3://, gs:// or az://. OUT is a file, or with a slash at the end, OUT/, a folder of Parquet files (a dataset, as Dask, Spark, DuckDB and Polars read it), or a URL of one of these. Many workers fill a folder faster than a file.
+
+A file is written whole or not at all. Until then finished parts are kept in OUT.parts. In a folder each part is written whole or not at all, and _SUCCESS says that all are there. Run the same command again to continue an interrupted job.""",
 )
 app.command(
     "loiter.cli.commands.mavlink:upload",

@@ -14,7 +14,9 @@ EXAMPLES = {
   loiter batch states.parquet entries.parquet --orbit 0 0 80 \
       --airspeed 18 --bank 35
   loiter batch states.csv entries.csv --airspeed 18 --turn-radius 50 \
-      --wind 8 250 --workers 4""",
+      --wind 8 250 --workers 4
+  loiter batch 's3://tables/states-*.parquet' s3://tables/entries/ \
+      --orbit 0 0 80 --airspeed 18 --bank 35""",
     "upload": r"""
   loiter upload --connect udpout:127.0.0.1:14550 --pose-lla 47.1 8.2 90 \
       --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35 --altitude 900

@@ -8,15 +8,19 @@ import re
 from collections.abc import Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from loiter.batch.jobs.folder import belongs_to
+from loiter.batch.jobs.folder import Target, belongs_to
 from loiter.batch.jobs.parts import Job, solve_part
 from loiter.batch.jobs.runner import Executors, RowCounter, thread_pool
 from loiter.batch.tables.files import Part, reason
+from loiter.batch.tables.sources import Source
+from loiter.batch.tables.storage import Folder, LocalFolder, version_of
 from loiter.errors import InvalidArgument
 from loiter.version import __version__
+
+if TYPE_CHECKING:
+    from loiter.batch.tables.outputs import Counts
 
 # Seconds to wait for the scheduler, and for its first worker.
 CONNECT_S = 5
@@ -62,14 +66,15 @@ def _without_logs(*names: str) -> Iterator[None]:
 
 
 @contextmanager
-def cluster_executors(client: Any, counter: RowCounter) -> Iterator[Executors]:
+def cluster_executors(client: Any, counter: RowCounter, *, append_only: bool, in_wind: bool) -> Iterator[Executors]:
     """Executors that solve on the workers of a cluster and append in this process.
 
-    If a worker is lost, the scheduler gives its parts to others.
+    If a worker is lost, the scheduler gives its parts to others. `append_only` and `in_wind` matter to the threads of
+    this process only.
     """
     submitted: set[Any] = set()
 
-    def solve(job: Job, part: Part) -> Future[None]:
+    def solve(job: Job, part: Part) -> Future[Counts | None]:
         task = client.submit(solve_part, job, part, pure=False)
         submitted.add(task)
         solved = _future_of(task)
@@ -93,12 +98,12 @@ def cluster_executors(client: Any, counter: RowCounter) -> Iterator[Executors]:
             client.cancel(list(submitted))
 
 
-def _future_of(task: Any) -> Future[None]:
+def _future_of(task: Any) -> Future[Counts | None]:
     """A future of the standard library that is done when a Dask task is.
 
     The result of a task is a file, so that nothing must be fetched from its worker, which may be lost by then.
     """
-    solved: Future[None] = Future()
+    solved: Future[Counts | None] = Future()
 
     def on_done(task: Any) -> None:
         if task.status == "finished":
@@ -122,24 +127,38 @@ def _cause(error: BaseException) -> BaseException:
     return OSError("several workers died while solving the same part") if isinstance(error, KilledWorker) else error
 
 
-def check_workers(client: Any, job: Job, source: Path) -> None:
-    """Raise `InvalidArgument` if a worker cannot read the input or use the job's folder, or has another version."""
-    size = source.stat().st_size
-    problems = client.run(_worker_problem, job, source.absolute(), size, __version__, on_error="return")
+def check_workers(client: Any, target: Target, digest: str, source: Source, version: list[Any]) -> None:
+    """Raise `InvalidArgument` if a worker cannot read the input or write the parts, or has another version.
+
+    `version` is that of the first file of the input.
+    """
+    [place, *_] = source.files
+    checked = (target.work, target.parts, digest, place, version[0], __version__)
+    problems = client.run(_worker_problem, *checked, on_error="return")
     for worker, problem in problems.items():
         if problem:
             text = problem if isinstance(problem, str) else reason(problem)
             raise InvalidArgument("scheduler", f"has a worker {worker} that cannot take part: {text}")
 
 
-def _worker_problem(job: Job, source: Path, size: int, version: str) -> str:
+def _worker_problem(work: Folder, parts: Folder, digest: str, source: str, size: int, version: str) -> str:
     """Why the worker that runs this cannot take part; "" if it can."""
+    shared = "workers need a file system shared with this machine"
     if __version__ != version:
         return f"it has loiter {__version__}, not {version}"
-    if not source.exists() or source.stat().st_size != size:
-        return f"it does not see {source}; workers need a file system shared with this machine"
-    if not belongs_to(job.folder, job.digest):
-        return f"it does not see {job.folder}; workers need a file system shared with this machine"
-    if not os.access(job.folder, os.W_OK):
-        return f"it cannot write to {job.folder}"
+    if not _sees(source, size):
+        return f"it does not see {source}; {shared}"
+    folder = work.place("").rstrip("/")
+    if not belongs_to(work, digest):
+        return f"it does not see {folder}; {shared}"
+    for path in (work, parts):
+        if isinstance(path, LocalFolder) and not os.access(path.path, os.W_OK):
+            return f"it cannot write to {path.path}"
     return ""
+
+
+def _sees(source: str, size: int) -> bool:
+    try:
+        return bool(version_of(source)[0] == size)
+    except OSError:
+        return False

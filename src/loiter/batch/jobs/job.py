@@ -1,29 +1,39 @@
-"""A batch job from the request to the summary: checked, resumed, run."""
+"""A batch job from the request to the summary: resumed, run, completed."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import asdict, dataclass
-from pathlib import Path
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from functools import partial
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import pyarrow as pa
 
 from loiter.batch.jobs import cluster, folder
-from loiter.batch.jobs.parts import Job, append_part, is_whole
+from loiter.batch.jobs.folder import Target
+from loiter.batch.jobs.parts import Job, append_part, counts_of
+from loiter.batch.jobs.request import JobRequest, describe, row_limits, versions_of
 from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_executors
 from loiter.batch.tables import files, ingest, outputs
-from loiter.batch.tables.columns import STATUSES, Columns, SharedValues, columns, may_drift
+from loiter.batch.tables.columns import STATUSES, may_drift
+from loiter.batch.tables.joined import Append, check_joined, open_joined
+from loiter.batch.tables.storage import Folder
 from loiter.errors import InvalidArgument, Unfinished
-from loiter.version import __version__
+
+if TYPE_CHECKING:
+    from loiter.batch.tables.outputs import Counts
+
+Result = TypeVar("Result")
 
 
 class JobProgress(NamedTuple):
     """The progress of a job: the rows done, of `total` (None while a CSV file is converted), or a note.
 
-    A row that is solved but not yet written counts half.
+    A row that is solved but not yet appended to the output file counts half.
     """
 
     rows: int
@@ -54,160 +64,178 @@ Summary = JobSummary
 ReportProgress = Callable[[JobProgress], object]
 
 
-class JobRequest(NamedTuple):
-    """A job to do: its files and their kinds, the schema of the input and the meaning of its columns."""
-
-    source: Path
-    target: Path
-    source_kind: files.Kind
-    target_kind: files.Kind
-    schema: pa.Schema
-    columns: Columns
-
-
-def check_request(source: Path, target: Path, options: SharedValues, tolerance_m: float) -> JobRequest:
-    """The job to do, checked as far as possible before any work; raises `InvalidArgument`."""
-    source_kind, target_kind = files.kind("source", source), files.kind("target", target)
-    is_text = source_kind != ".parquet"
-    schema = ingest.csv_schema("source", source) if is_text else files.parquet_schema("source", source)
-    meaning = columns("source", schema, options, tolerance_m, text=is_text)
-    outputs.check_columns(target_kind, outputs.output_schema(schema))
-    if target.is_dir():
-        raise InvalidArgument("target", f"is {str(target)!r}: that is a folder")
-    if target.exists() and target.samefile(source):
-        raise InvalidArgument("target", f"is {str(target)!r}: that is the input")
-    return JobRequest(source, target, source_kind, target_kind, schema, meaning)
-
-
 def run_request(request: JobRequest, workers: int, scheduler: str | None, report: ReportProgress) -> JobSummary:
-    """Run the job, resuming it if possible, and move the output to its place."""
+    """Run the job, resuming it if possible, and say that the output is complete."""
     started = time.monotonic()
-    with _client(scheduler) as client, folder.locked_folder(request.target) as here, _report_finished_parts(here):
-        description = _description(request)
-        is_same_job = folder.resume(here, description)
-        # Absolute paths, since workers of a cluster have other working directories.
-        table = request.source.absolute() if request.source_kind == ".parquet" else here / folder.INGESTED
-        part_rows, batch_rows = _sizes(request)
-        schema = outputs.part_schema(request.schema)
-        job = Job(table, here, request.columns, schema, folder.digest(description), batch_rows)
-        if client is not None:
-            cluster.check_workers(client, job, request.source)
-        if not table.exists():
-            _convert_csv(request, table, report)
-        parts = files.parts_of(table, part_rows, cut=may_drift(request.columns))
-        # The folder is listed, since network file systems may cache the fact that a name did not exist.
-        whole = {path for path in folder.finished_parts(here) if is_whole(path)}
-        finished = {part.number for part in parts if folder.part_path(here, part.number) in whole}
-        _report_start(is_same_job, here, len(finished), len(parts), report)
-        counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
-        total, earlier, resumed = sum(part.rows for part in parts), counter.rows, len(finished)
-        in_wind = may_drift(request.columns)
-        executors = _executors(client, workers, counter, append_only=resumed == len(parts), in_wind=in_wind)
-        counts = _write_output(
-            request, job, parts, finished, executors, counter, lambda: report(JobProgress(counter.rows // 2, total))
-        )
-        if _description(request) != description:
-            raise InvalidArgument("source", f"is {str(request.source)!r}: it changed while it was read")
-        folder.finish(here, request.target, workers)
-    seconds = time.monotonic() - started
-    return JobSummary(total, counts, len(parts), resumed, total - earlier, seconds)
+    target, description = request.target, describe(request)
+    with _client(scheduler) as client, _report_finished_parts(target):
+        # Also before anything is created: a folder that is refused stays as it was.
+        folder.check_dataset(target, folder.digest(description))
+        with folder.locked_folder(target) as work:
+            is_same_job = folder.resume(target, description)
+            if client is not None:
+                cluster.check_workers(client, target, folder.digest(description), request.source, request.versions[0])
+            job, parts = _divide(request, description, report)
+            finished = _finished(job, parts)
+            _report_start(is_same_job, work, len(finished), len(parts), report)
+            if len(finished) < len(parts):
+                folder.declare_unfinished(target)
+            counts = _solve_and_write(request, job, parts, finished, _executors(client, workers), report)
+            folder.finish(target)
+    resumed_rows = sum(part.rows for part in parts if part.number in finished)
+    total, seconds = sum(part.rows for part in parts), time.monotonic() - started
+    return JobSummary(total, counts, len(parts), len(finished), total - resumed_rows, seconds)
 
 
 def _client(scheduler: str | None) -> AbstractContextManager[Any]:
     return nullcontext() if scheduler is None else cluster.open_client(scheduler)
 
 
-def _executors(
-    client: Any, workers: int, counter: RowCounter, *, append_only: bool, in_wind: bool
-) -> AbstractContextManager[Executors]:
-    if client is not None:
-        return cluster.cluster_executors(client, counter)
-    return thread_executors(workers, counter, append_only=append_only, in_wind=in_wind)
+def _executors(client: Any, workers: int) -> Callable[..., AbstractContextManager[Executors]]:
+    return partial(thread_executors, workers) if client is None else partial(cluster.cluster_executors, client)
 
 
-def _sizes(request: JobRequest) -> tuple[int, int]:
-    """The number of rows of a part and of a batch."""
-    if may_drift(request.columns):
-        return files.PART_ROWS_IN_WIND, files.BATCH_ROWS_IN_WIND
-    return files.PART_ROWS, files.BATCH_ROWS
+def _divide(request: JobRequest, description: dict[str, Any], report: ReportProgress) -> tuple[Job, list[files.Part]]:
+    """The job and its parts. CSV files are converted to a Parquet file first."""
+    target, tables, sizes, names = request.target, request.source.files, request.sizes, request.schema.names
+    if request.source.kind != ".parquet":
+        converted = target.work.place(folder.INGESTED)
+        _convert_csv(request, report)
+        tables, sizes = (converted,), [files.read_footer(converted).sizes]
+        names = [*names, ingest.MARK.name]
+    part_rows, batch_rows = row_limits(request)
+    parts = files.parts_of(sizes, part_rows, cut=may_drift(request.columns))
+    schema = outputs.output_schema(request.schema)
+    job = Job(
+        tables=tuple(tables),
+        names=tuple(names),
+        work=target.work,
+        parts=target.parts,
+        kind=target.kind,
+        columns=request.columns,
+        schema=schema,
+        dictionaries=tuple(outputs.dictionary_columns(request.schema, tables[0])),
+        digest=folder.digest(description),
+        count=len(parts),
+        batch_rows=batch_rows,
+    )
+    return job, parts
 
 
-def _description(request: JobRequest) -> dict[str, Any]:
-    """The description of a job: a run resumes from the parts of an earlier run with an equal description."""
-    stat, (part_rows, batch_rows) = request.source.stat(), _sizes(request)
-    return {
-        "program": __version__,
-        "source": str(request.source.resolve()),
-        "size": stat.st_size,
-        "mtime_ns": stat.st_mtime_ns,
-        "schema": [f"{field.name}: {field.type}" for field in request.schema],
-        "columns": asdict(request.columns),
-        "part_rows": part_rows,
-        "batch_rows": batch_rows,
-    }
-
-
-def _convert_csv(request: JobRequest, table: Path, report: ReportProgress) -> None:
-    """Convert the CSV file to a Parquet file."""
-    counter = RowCounter()
+def _convert_csv(request: JobRequest, report: ReportProgress) -> None:
+    """Convert the CSV files to a Parquet file in the working folder, unless an earlier run has done it."""
+    work, counter = request.target.work, RowCounter()
+    if folder.INGESTED in work.names():
+        return
 
     def count_rows(rows: int) -> None:
         counter.count(rows)
         report(JobProgress(counter.rows, None))
 
-    ingest.ingest("source", request.source, request.schema, table, count_rows)
+    with work.create(folder.INGESTED, work) as path:
+        ingest.ingest("source", request.source, request.schema, path, count_rows)
 
 
-def _report_start(is_same_job: bool | None, here: Path, finished: int, parts: int, report: ReportProgress) -> None:
+def _finished(job: Job, parts: list[files.Part]) -> dict[int, Counts]:
+    """The rows of each status for each part that an earlier run has finished, by its number."""
+    present = set(job.parts.names())
+    candidates = [part for part in parts if job.name(part) in present]
+
+    def counts(part: files.Part) -> Counts | None:
+        # Where the file system has no fsync(2), the end of a part may be missing after a power failure.
+        try:
+            return counts_of(job, part)
+        except OSError:
+            return None
+
+    return {number: found for number, found in _for_each(candidates, counts).items() if found is not None}
+
+
+def _for_each(parts: list[files.Part], function: Callable[[files.Part], Result]) -> dict[int, Result]:
+    """The results of a function for parts, by their numbers, several at a time, since a store takes long to answer."""
+    with ThreadPoolExecutor(files.FOOTERS_AT_A_TIME) as pool:
+        return dict(zip((part.number for part in parts), pool.map(function, parts), strict=True))
+
+
+def _report_start(is_same_job: bool | None, work: Folder, finished: int, parts: int, report: ReportProgress) -> None:
     if finished:
         report(JobProgress(0, None, f"resuming from {finished} of {parts} parts"))
     elif is_same_job is False:
-        note = f"starting over: the parts in {here.name} belong to a job with another input, option or program"
+        name = PurePosixPath(work.place("")).name
+        note = f"starting over: the parts in {name} belong to a job with another input, option or program"
         report(JobProgress(0, None, note))
 
 
-def _write_output(
+def _solve_and_write(
     request: JobRequest,
     job: Job,
     parts: list[files.Part],
-    finished: set[int],
-    executors_context: AbstractContextManager[Executors],
-    counter: RowCounter,
-    on_poll: Callable[[], object],
+    finished: dict[int, Counts],
+    open_executors: Callable[..., AbstractContextManager[Executors]],
+    report: ReportProgress,
 ) -> dict[str, int]:
-    """Solve the remaining parts and write the output; returns the number of rows of each status that occurs."""
-    dictionaries = outputs.dictionary_columns(request.schema, job.table)
-    schema = outputs.output_schema(request.schema)
-    path = job.folder / folder.OUTPUT
-    with (
-        outputs.open_output(request.target_kind, path, schema, dictionaries) as write,
-        executors_context as executors,
-    ):
-        counts = run_parts(
-            job,
-            parts,
-            finished,
-            executors,
-            lambda part: append_part(job, part, write, counter.count_or_stop),
-            on_poll,
-        )
-    return {name: count for code, name in enumerate(STATUSES) if (count := sum(int(c[code]) for c in counts))}
+    """Solve the remaining parts and complete the output; returns the number of rows of each status that occurs."""
+    total, in_wind = sum(part.rows for part in parts), may_drift(request.columns)
+    counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
+    with _open_output(request, total) as append:
+        # A row of a file is counted when it is solved, and when it is appended.
+        times_counted = 1 if append is None else 2
+        appended = None
+        if append is not None:
+            appended = partial(append_part, job, append=append, count_rows=counter.count_or_stop)
+        with open_executors(counter, append_only=len(finished) == len(parts), in_wind=in_wind) as executors:
+            counts = run_parts(
+                job,
+                parts,
+                finished,
+                executors,
+                appended,
+                lambda: report(JobProgress(counter.rows // times_counted, total)),
+            )
+        if versions_of(request.source) != request.versions:
+            raise InvalidArgument("source", f"is {request.source.text!r}: it changed while it was read")
+    return _by_status(job, parts, counts)
+
+
+def _by_status(job: Job, parts: list[files.Part], counts: dict[int, Counts | None]) -> dict[str, int]:
+    """The number of rows of each status that occurs; parts whose rows were not counted here are read."""
+    unknown = [part for part in parts if counts[part.number] is None]
+    known = [found for found in (counts | _for_each(unknown, partial(counts_of, job))).values() if found is not None]
+    return {name: count for code, name in enumerate(STATUSES) if (count := sum(int(c[code]) for c in known))}
 
 
 @contextmanager
-def _report_finished_parts(here: Path) -> Iterator[None]:
+def _open_output(request: JobRequest, rows: int) -> Iterator[Append | None]:
+    """A context whose value appends a part to the output file; None for a dataset, whose parts are not appended."""
+    target = request.target
+    if target.is_dataset:
+        yield None
+        return
+    with target.folder.create(target.name, target.work) as path:
+        with open_joined(target.kind, path, outputs.output_schema(request.schema)) as append:
+            yield append
+        if target.kind == ".parquet":
+            check_joined(path, rows)
+
+
+@contextmanager
+def _report_finished_parts(target: Target) -> Iterator[None]:
     """If the job stops with an error, add a sentence about the finished parts."""
     try:
         yield
     except (OSError, pa.ArrowException) as error:
-        raise Unfinished(f"the job stopped: {files.reason(error)}; {_finished_parts(here)}") from error
+        raise Unfinished(f"the job stopped: {files.reason(error)}; {_finished_parts(target)}") from error
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"interrupted; {_finished_parts(here)}") from None
+        raise KeyboardInterrupt(f"interrupted; {_finished_parts(target)}") from None
 
 
-def _finished_parts(here: Path) -> str:
-    count = len(folder.finished_parts(here))
+def _finished_parts(target: Target) -> str:
+    try:
+        count = len(folder.finished_parts(target))
+    except OSError:
+        return "the same command resumes from the finished parts"
     if not count:
         return "no part was finished"
+    place = target.parts.place("").rstrip("/")
     parts = "1 finished part stays" if count == 1 else f"{count} finished parts stay"
-    return f"{parts} in {here}, and the same command resumes from there"
+    return f"{parts} in {place}, and the same command resumes from there"

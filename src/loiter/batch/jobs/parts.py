@@ -1,25 +1,24 @@
-"""One part of a job: solved into a file of its own, and appended to the output."""
+"""One part of a job: solved into a file of its own, by the worker that solves it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
-from secrets import token_hex
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
 
 from loiter.batch.answers import solve_batch
-from loiter.batch.jobs.folder import belongs_to, part_path
-from loiter.batch.tables import files
-from loiter.batch.tables.columns import STATUSES, Columns
-from loiter.batch.tables.files import BATCH_ROWS, PART_ROWS, Part
-from loiter.batch.tables.views import to_numpy
+from loiter.batch.jobs.folder import belongs_to, part_name
+from loiter.batch.tables import files, outputs
+from loiter.batch.tables.columns import Columns
+from loiter.batch.tables.files import BATCH_ROWS, Part
+from loiter.batch.tables.joined import Append
+from loiter.batch.tables.storage import Folder
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from loiter.batch.tables.outputs import Counts
 
 # Called with the number of rows that have been processed.
 CountRows = Callable[[int], None]
@@ -32,37 +31,47 @@ KEPT_BYTES = 1 << 24
 class Job:
     """The data that solving a part needs, on this or another machine.
 
-    `table` is the Parquet file to read, `folder` the folder of the parts, `schema` their schema; `digest` identifies
-    the job. `batch_rows` are solved at a time.
+    `tables` are the places of the Parquet files to read, and `names` their columns; `parts` is the folder of the parts,
+    whose files are of a kind, with the columns of `schema`, some of them encoded with dictionaries. `work` is the
+    working folder; `digest` identifies the job, which has `count` parts. `batch_rows` are solved at a time.
     """
 
-    table: Path
-    folder: Path
+    tables: tuple[str, ...]
+    names: tuple[str, ...]
+    work: Folder
+    parts: Folder
+    kind: files.Kind
     columns: Columns
     schema: pa.Schema
+    dictionaries: tuple[str, ...]
     digest: str
+    count: int
     batch_rows: int = BATCH_ROWS
 
+    def name(self, part: Part) -> str:
+        """The name of the file of a part."""
+        return part_name(part.number, self.count, self.digest, self.kind)
 
-def solve_part(job: Job, part: Part, count_rows: CountRows = lambda rows: None) -> None:
+
+def solve_part(job: Job, part: Part, count_rows: CountRows = lambda rows: None) -> Counts:
     """Solve the rows of a part and write them to its file, which appears whole and always has the same bytes.
 
-    `count_rows` is called with the number of rows of each batch.
+    Returns the number of rows of each status, by its code. `count_rows` is called with the number of rows of each
+    batch.
     """
     keep_memory()
-    path = part_path(job.folder, part.number)
-    # Two workers may solve the same part, if the scheduler wrongly counts one of them as lost.
-    unfinished = path.with_name(f"{path.name}.{token_hex(4)}.tmp")
-    try:
-        with pa.OSFile(str(unfinished), "wb") as sink, pa.ipc.new_file(sink, job.schema) as writer:
-            for batch in files.batches(job.table, part, job.batch_rows):
-                writer.write_batch(solve_batch(batch, job.columns))
-                count_rows(batch.num_rows)
-        # The job may have ended before its worker, and the folder may now belong to another job.
-        if belongs_to(job.folder, job.digest):
-            unfinished.replace(path)
-    finally:
-        unfinished.unlink(missing_ok=True)
+    counts = outputs.no_rows()
+    # The job may have ended before its worker, and the folder may now belong to another job.
+    with (
+        job.parts.create(job.name(part), job.work, lambda: belongs_to(job.work, job.digest)) as path,
+        outputs.open_part(job.kind, path, job.schema, job.dictionaries) as write,
+    ):
+        for batch in files.batches(job.tables, part, job.batch_rows):
+            solved = solve_batch(batch.select(job.names), job.columns)
+            write(solved)
+            counts += outputs.count_statuses(solved.column("status"))
+            count_rows(batch.num_rows)
+    return counts
 
 
 def keep_memory() -> None:
@@ -75,39 +84,25 @@ def keep_memory() -> None:
     np.empty(KEPT_BYTES, dtype=np.uint8)
 
 
-def is_whole(path: Path) -> bool:
-    """Whether the file of a part is complete; after a power failure its end may be missing."""
+def counts_of(job: Job, part: Part) -> Counts:
+    """The number of rows of each status, by its code, in a finished part; raises `OSError` if the part is not whole."""
+    place = job.parts.place(job.name(part))
     try:
-        with pa.memory_map(str(path)) as source:
-            pa.ipc.open_file(source)
-    except (OSError, pa.ArrowInvalid):
-        return False
-    return True
+        counts = outputs.status_counts(job.kind, place)
+    except pa.ArrowException as error:
+        raise OSError(f"{place} cannot be read, {files.reason(error)}") from error
+    if int(counts.sum()) != part.rows:
+        raise OSError(f"{place} has {counts.sum()} rows instead of {part.rows}")
+    return counts
 
 
-def tables(path: Path) -> Iterator[pa.Table]:
-    """The rows of a part as tables of up to `PART_ROWS` rows; only one of them is mapped into memory at a time."""
-    index, more = 0, True
-    while more:
-        with pa.memory_map(str(path)) as source:
-            reader = pa.ipc.open_file(source)
-            batches: list[pa.RecordBatch] = []
-            while index < reader.num_record_batches and sum(b.num_rows for b in batches) < PART_ROWS:
-                batches.append(reader.get_batch(index))
-                index += 1
-            more = index < reader.num_record_batches
-            yield pa.Table.from_batches(batches, reader.schema)
+def append_part(job: Job, part: Part, known: Counts | None, append: Append, count_rows: CountRows) -> Counts:
+    """Append a finished part to the output; returns the number of rows of each status, by its code.
 
-
-def append_part(job: Job, part: Part, write: Callable[[pa.Table], None], count_rows: CountRows) -> NDArray[np.int64]:
-    """Append the rows of a finished part to the output; returns the number of rows of each status, by its code.
-
-    `count_rows` is called with the number of rows of each table.
+    `known` is that number, if it is known. `count_rows` is called with the number of rows. Raises `OSError` if the part
+    is not whole.
     """
-    counts = np.zeros(len(STATUSES), dtype=np.int64)
-    for table in tables(part_path(job.folder, part.number)):
-        write(table)
-        for status in table.column("status").chunks:
-            counts += np.bincount(to_numpy(status.indices), minlength=len(STATUSES))
-        count_rows(table.num_rows)
+    counts = counts_of(job, part) if known is None else known
+    append(job.parts.place(job.name(part)))
+    count_rows(part.rows)
     return counts

@@ -7,11 +7,14 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from threading import Lock
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from loiter.arrays.entries import compile_kernel
 from loiter.batch.jobs.parts import Job, solve_part
 from loiter.batch.tables.files import Part
+
+if TYPE_CHECKING:
+    from loiter.batch.tables.outputs import Counts
 
 # Seconds between two checks of the progress.
 POLL_S = 0.1
@@ -22,7 +25,7 @@ class JobStopped(Exception):
 
 
 class RowCounter:
-    """The number of rows done, counted by several threads: each row twice, when it is solved and when it is appended.
+    """The number of rows done, counted by several threads: each row when it is solved and when it is appended.
 
     When `stopped` is set, the next call of `count_or_stop` ends its thread.
     """
@@ -47,11 +50,12 @@ class RowCounter:
 class Executors(NamedTuple):
     """The threads or processes that solve parts, and the executor that appends them.
 
-    `has_capacity` takes the numbers of parts that are being solved and appended, and says whether another one may be
-    started; `check` raises an error if the executors are lost.
+    The rows of each status of a solved part are None where they would have to be fetched from a worker. `has_capacity`
+    takes the numbers of parts that are being solved and appended, and says whether another one may be started; `check`
+    raises an error if the executors are lost.
     """
 
-    solve: Callable[[Job, Part], Future[None]]
+    solve: Callable[[Job, Part], Future[Counts | None]]
     append: Executor
     has_capacity: Callable[[int, int], bool]
     check: Callable[[], None] = lambda: None
@@ -90,31 +94,34 @@ def thread_pool(count: int, counter: RowCounter) -> Iterator[ThreadPoolExecutor]
 def run_parts(
     job: Job,
     parts: list[Part],
-    finished: set[int],
+    finished: dict[int, Counts],
     executors: Executors,
-    append: Callable[[Part], Any],
+    append: Callable[[Part, Counts | None], Counts] | None,
     on_poll: Callable[[], object],
-) -> list[Any]:
-    """Solve the parts that are not finished and append all in order; returns the result of `append` for each.
+) -> dict[int, Counts | None]:
+    """Solve the parts that are not finished, and append all in order, if they are to be appended.
 
-    Appending has priority, so that finished parts do not pile up. `on_poll` is called periodically.
+    Returns the rows of each status for each part, by its number, as far as they are known: `finished` has those of the
+    finished parts, and `append` takes and returns those of a part. Appending has priority, so that finished parts do
+    not pile up. `on_poll` is called periodically.
     """
+    counts: dict[int, Counts | None] = dict(finished)
     waiting = deque(part for part in parts if part.number not in finished)
-    solving: dict[Future[Any], Part] = {}
-    appending: set[Future[Any]] = set()
-    appended: list[Any] = []
-    while len(appended) < len(parts):
-        if not appending and len(appended) in finished:
-            appending.add(executors.append.submit(append, parts[len(appended)]))
+    unappended = deque(parts if append is not None else [])
+    solving: dict[Future[Counts | None], Part] = {}
+    appending: dict[Future[Counts], Part] = {}
+    while waiting or solving or unappended or appending:
+        if append is not None and unappended and not appending and unappended[0].number in counts:
+            part = unappended.popleft()
+            appending[executors.append.submit(append, part, counts[part.number])] = part
         while waiting and executors.has_capacity(len(solving), len(appending)):
             part = waiting.popleft()
             solving[executors.solve(job, part)] = part
-        done, _ = wait({*solving, *appending}, POLL_S, FIRST_COMPLETED)
-        appended += [future.result() for future in done & appending]
-        for future in done - appending:
-            future.result()
-            finished.add(solving.pop(future).number)
-        appending -= done
+        running: list[Future[Any]] = [*solving, *appending]
+        done, _ = wait(running, POLL_S, FIRST_COMPLETED)
+        for future in done:
+            part = appending.pop(future) if future in appending else solving.pop(future)
+            counts[part.number] = future.result()
         executors.check()
         on_poll()
-    return appended
+    return counts

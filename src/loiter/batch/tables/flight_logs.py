@@ -29,5 +29,5 @@ def read_parquet(path: Path) -> dict[str, list[Any]]:
     try:
         table = pq.read_table(path)
     except (OSError, pa.ArrowException) as error:
-        raise unreadable("replay", path, error) from error
+        raise unreadable("replay", str(path), error) from error
     return {name: table.column(name).to_pylist() for name in table.column_names}

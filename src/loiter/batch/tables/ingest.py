@@ -1,15 +1,16 @@
-"""Conversion of a CSV file to a Parquet file of text, which can be divided into parts; the rows keep their order."""
+"""Conversion of CSV files to a Parquet file of text, which can be divided into parts; the rows keep their order."""
 
 from __future__ import annotations
 
 import csv
 import gzip
+import io
 import zlib
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from pathlib import Path
-from typing import IO, Any, cast
+from typing import IO, Any
 
 import numpy as np
 import pyarrow as pa
@@ -18,8 +19,11 @@ import pyarrow.csv
 
 from loiter.batch.tables.files import BATCH_ROWS, unreadable
 from loiter.batch.tables.lines import RepairedLines
-from loiter.batch.tables.outputs import open_output
+from loiter.batch.tables.outputs import open_parquet_output
+from loiter.batch.tables.sources import Source
+from loiter.batch.tables.storage import is_url, open_place
 from loiter.batch.tables.views import from_numpy
+from loiter.errors import InvalidArgument
 
 # The last column of the Parquet file: 1 if the line was malformed. No header of a CSV file has this name.
 MARK = pa.field("\nmalformed\n", pa.int8())
@@ -28,35 +32,45 @@ MARK = pa.field("\nmalformed\n", pa.int8())
 BLOCK_BYTES = 1 << 22
 
 
-def csv_schema(argument: str, path: Path) -> pa.Schema:
-    """The columns of a CSV file, all of them text; raises `InvalidArgument` if it has no header."""
+def csv_schema(argument: str, source: Source) -> pa.Schema:
+    """The columns of CSV files, all of them text; raises `InvalidArgument` if they differ or if there is no header."""
+    first, *others = [_header(argument, source, place) for place in source.files]
+    for place, names in zip(source.files[1:], others, strict=True):
+        if names != first:
+            raise InvalidArgument(argument, f"is {source.text!r}: {place} has another header than the first file")
+    return pa.schema([(name.encode().decode(), pa.string()) for name in first])
+
+
+def _header(argument: str, source: Source, place: str) -> list[str]:
     try:
         # Bytes that are not UTF-8 are allowed here: later they make only their own line malformed.
-        with _text_file(path) as file:
+        with _text_file(place) as file:
             names = next((record for record in csv.reader(file) if record), None)
         if names is None:
             raise ValueError("it has no header")
-        return pa.schema([(name.encode().decode(), pa.string()) for name in names])
+        # A header that is not UTF-8 is refused.
+        "".join(names).encode()
     except (OSError, EOFError, ValueError, csv.Error, zlib.error) as error:
-        raise unreadable(argument, path, error) from error
+        raise unreadable(argument, source.shown(place), error) from error
+    return names
 
 
-def ingest(argument: str, path: Path, schema: pa.Schema, out: Path, count_rows: Callable[[int], None]) -> None:
-    """Convert the CSV file at `path` to a Parquet file at `out`, which appears whole.
+def ingest(argument: str, source: Source, schema: pa.Schema, out: str, count_rows: Callable[[int], None]) -> None:
+    """Convert CSV files to a Parquet file at `out`.
 
     A line that is not UTF-8, or that has more or fewer fields than the header, becomes a row of nulls marked as
-    malformed. `count_rows` is called with the number of rows of each batch. Raises `InvalidArgument` if the file cannot
+    malformed. `count_rows` is called with the number of rows of each batch. Raises `InvalidArgument` if a file cannot
     be read.
     """
-    malformed = MalformedLines(schema.append(MARK))
-    unfinished = out.with_name(f"{out.name}.tmp")
-    batches = _batches(argument, path, schema, malformed)
-    rows = malformed.merge_into(_as_text(batch, malformed.schema) for batch in batches)
-    with open_output(".parquet", unfinished, malformed.schema, []) as write:
-        for table in _tables(rows):
-            write(table)
-            count_rows(table.num_rows)
-    unfinished.replace(out)
+    marked = schema.append(MARK)
+    with open_parquet_output(out, marked, []) as write:
+        for place in source.files:
+            # Line numbers begin anew in each file.
+            malformed = MalformedLines(marked)
+            batches = _batches(argument, source, place, schema, malformed)
+            for table in _tables(malformed.merge_into(_as_text(batch, marked) for batch in batches)):
+                write(table)
+                count_rows(table.num_rows)
 
 
 @dataclass(slots=True)
@@ -111,32 +125,42 @@ class MalformedLines:
             yield pa.RecordBatch.from_arrays([*columns, from_numpy(np.ones(rows, dtype=np.int8))], schema=self.schema)
 
 
-def _is_packed(path: Path) -> bool:
-    return path.name.lower().endswith(".gz")
+def _is_packed(place: str) -> bool:
+    return place.lower().endswith(".gz")
 
 
-def _text_file(path: Path) -> IO[str]:
-    options: dict[str, Any] = {"encoding": "utf-8-sig", "errors": "surrogateescape", "newline": ""}
-    return cast("IO[str]", gzip.open(path, "rt", **options) if _is_packed(path) else path.open(**options))
+@contextmanager
+def _text_file(place: str) -> Iterator[IO[str]]:
+    with open_place(place) as file, ExitStack() as stack:
+        content = stack.enter_context(gzip.GzipFile(fileobj=file)) if _is_packed(place) else file
+        yield stack.enter_context(io.TextIOWrapper(content, "utf-8-sig", "surrogateescape", ""))
 
 
-def _reader(path: Path, schema: pa.Schema, malformed: Callable[[Any], str]) -> Any:
-    stream = pa.input_stream(path, compression="gzip" if _is_packed(path) else None)
-    return pyarrow.csv.open_csv(
-        pa.PythonFile(RepairedLines(stream, len(schema)), "r"),
-        read_options=pyarrow.csv.ReadOptions(use_threads=False, block_size=BLOCK_BYTES),
-        parse_options=pyarrow.csv.ParseOptions(newlines_in_values=True, invalid_row_handler=malformed),
-        # Bytes instead of text, so that a value that is not UTF-8 makes only its own line malformed.
-        convert_options=pyarrow.csv.ConvertOptions(column_types=dict.fromkeys(schema.names, pa.binary())),
-    )
+@contextmanager
+def _reader(place: str, schema: pa.Schema, malformed: Callable[[Any], str]) -> Iterator[Any]:
+    with ExitStack() as stack:
+        # pyarrow reads a local file without Python.
+        file = stack.enter_context(open_place(place)) if is_url(place) else place
+        stream = stack.enter_context(pa.input_stream(file, compression="gzip" if _is_packed(place) else None))
+        yield stack.enter_context(
+            pyarrow.csv.open_csv(
+                pa.PythonFile(RepairedLines(stream, len(schema)), "r"),
+                read_options=pyarrow.csv.ReadOptions(use_threads=False, block_size=BLOCK_BYTES),
+                parse_options=pyarrow.csv.ParseOptions(newlines_in_values=True, invalid_row_handler=malformed),
+                # Bytes instead of text, so that a value that is not UTF-8 makes only its own line malformed.
+                convert_options=pyarrow.csv.ConvertOptions(column_types=dict.fromkeys(schema.names, pa.binary())),
+            )
+        )
 
 
-def _batches(argument: str, path: Path, schema: pa.Schema, malformed: MalformedLines) -> Iterator[pa.RecordBatch]:
+def _batches(
+    argument: str, source: Source, place: str, schema: pa.Schema, malformed: MalformedLines
+) -> Iterator[pa.RecordBatch]:
     try:
-        with _reader(path, schema, malformed.add) as reader:
+        with _reader(place, schema, malformed.add) as reader:
             yield from reader
     except (OSError, pa.ArrowInvalid) as error:
-        raise unreadable(argument, path, error) from error
+        raise unreadable(argument, source.shown(place), error) from error
 
 
 def _as_text(batch: pa.RecordBatch, schema: pa.Schema) -> pa.RecordBatch:

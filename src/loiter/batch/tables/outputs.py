@@ -1,29 +1,47 @@
-"""The three kinds of output files, to which tables are appended; the same rows give the same bytes."""
+"""The kinds of output: their columns, and parts in the encoding of each kind; the same rows give the same bytes."""
 
 from __future__ import annotations
 
 import gzip
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, suppress
-from pathlib import Path
-from typing import Any, BinaryIO
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from os import SEEK_END
+from struct import Struct
+from typing import TYPE_CHECKING, Any, BinaryIO
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
 from loiter.batch.answers import without_dictionary
-from loiter.batch.tables.columns import ADDED, carried_columns, is_text, values_type
+from loiter.batch.tables.columns import ADDED, STATUSES, carried_columns, is_text, values_type
 from loiter.batch.tables.files import Kind, open_parquet
+from loiter.batch.tables.storage import open_place, written_behind
+from loiter.batch.tables.views import to_numpy
 from loiter.errors import InvalidArgument
 
-Write = Callable[[pa.Table], None]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    # The number of rows of each status, by its code.
+    Counts = NDArray[np.int64]
+
+# Called with a batch of answers.
+Write = Callable[[pa.RecordBatch], None]
+
+# Rows of a row group: at a hundred bytes each, what a worker keeps in memory.
+ROW_GROUP_ROWS = 1 << 18
 
 # The level of gzip: a fifth of the time of the usual 6, for a fourteenth more bytes.
 LEVEL = 1
 
 # A column gets a dictionary if its dictionary in the input reduced its size below this share of the plain size.
 DICTIONARY_SHARE = 0.5
+
+# The end of a part of a CSV file, which is not copied: a mark, and the number of rows of each status.
+CSV_MAGIC = b"loiter 1"
+_TRAILER = Struct(f"<8s{len(STATUSES)}q")
 
 _WIDTHS = {"BOOLEAN": 1, "INT32": 4, "FLOAT": 4, "INT64": 8, "DOUBLE": 8, "INT96": 12}
 
@@ -34,12 +52,6 @@ def output_schema(schema: pa.Schema) -> pa.Schema:
     return pa.schema([*kept, *ADDED], metadata=schema.metadata)
 
 
-def part_schema(schema: pa.Schema) -> pa.Schema:
-    """The columns of a part, without dictionaries: an Arrow file can have only one per column, the input several."""
-    kept = [pa.field(field.name, values_type(field.type)) for field in output_schema(schema)]
-    return pa.schema([*kept[: -len(ADDED)], *ADDED])
-
-
 def check_columns(kind: Kind, schema: pa.Schema) -> None:
     """Raise `InvalidArgument` if a column cannot be written to a file of a kind."""
     for field in schema:
@@ -47,7 +59,7 @@ def check_columns(kind: Kind, schema: pa.Schema) -> None:
             raise InvalidArgument("target", f"cannot hold the column {field.name} of {field.type}: Parquet can")
 
 
-def dictionary_columns(schema: pa.Schema, source: Path) -> list[str]:
+def dictionary_columns(schema: pa.Schema, source: str) -> list[str]:
     """The columns that a dictionary makes smaller: text, and those that it made smaller in the file at `source`."""
     columns = [field.name for field in schema if is_text(values_type(field.type))]
     with open_parquet(source) as file:
@@ -58,19 +70,49 @@ def dictionary_columns(schema: pa.Schema, source: Path) -> list[str]:
     return [name for name in dict.fromkeys(columns) if name in schema.names]
 
 
-def open_output(kind: Kind, path: Path, schema: pa.Schema, dictionaries: list[str]) -> AbstractContextManager[Write]:
-    """A context with an open file of a kind; its value is a function that appends a table to the file."""
-    if kind == ".parquet":
-        return _parquet(path, schema, dictionaries)
-    return _csv(path, schema) if kind == ".csv" else _csv_gz(path, schema)
+@contextmanager
+def open_part(kind: Kind, path: str, schema: pa.Schema, dictionaries: Sequence[str]) -> Iterator[Write]:
+    """A context whose value appends a batch of answers to the part at `path`; the same rows give the same bytes."""
+    with ExitStack() as stack:
+        if kind == ".parquet":
+            write_table = stack.enter_context(open_parquet_output(path, schema, dictionaries))
+        else:
+            file = stack.enter_context(open(path, "wb"))  # noqa: PTH123
+            write_lines = stack.enter_context(_csv_part(file, kind))
+        begin_to_write = stack.enter_context(written_behind(path))
+
+        def write(batch: pa.RecordBatch) -> None:
+            if kind == ".parquet":
+                write_table(pa.Table.from_batches([batch]))
+            else:
+                write_lines(batch)
+            begin_to_write()
+
+        yield write
 
 
 @contextmanager
-def _parquet(path: Path, schema: pa.Schema, dictionaries: list[str]) -> Iterator[Write]:
+def open_parquet_output(
+    path: str, schema: pa.Schema, dictionaries: Sequence[str]
+) -> Iterator[Callable[[pa.Table], None]]:
+    """A context whose value appends a table to the Parquet file at `path`, in row groups of some 260,000 rows."""
     # A dictionary of arbitrary doubles would take as long as all the other work, and enlarge the file.
-    writer = pq.ParquetWriter(path, schema, compression="snappy", use_dictionary=dictionaries)
+    writer = pq.ParquetWriter(path, schema, compression="snappy", use_dictionary=list(dictionaries))
+    waiting: list[pa.Table] = []
+
+    def flush() -> None:
+        if waiting:
+            writer.write_table(pa.concat_tables(waiting))
+            waiting.clear()
+
+    def write(table: pa.Table) -> None:
+        waiting.append(table.cast(schema))
+        if sum(table.num_rows for table in waiting) >= ROW_GROUP_ROWS:
+            flush()
+
     try:
-        yield lambda table: writer.write_table(table.cast(schema))
+        yield write
+        flush()
         writer.close()
     finally:
         _abandon(writer)
@@ -84,27 +126,71 @@ def _abandon(writer: Any) -> None:
 
 
 @contextmanager
-def _csv(path: Path, schema: pa.Schema) -> Iterator[Write]:
-    with path.open("wb") as file:
-        yield _writer(file, schema)
+def _csv_part(file: BinaryIO, kind: Kind) -> Iterator[Write]:
+    """A context that writes lines without a header, and then the number of rows of each status."""
+    counts = no_rows()
+    with ExitStack() as stack:
+        lines: Any = file
+        if kind == ".csv.gz":
+            # Without name and time, so that the same rows give the same bytes.
+            lines = stack.enter_context(gzip.GzipFile("", "wb", LEVEL, file, mtime=0))
+
+        def write(batch: pa.RecordBatch) -> None:
+            lines.write(csv_lines(batch))
+            counts[:] += count_statuses(batch.column("status"))
+
+        yield write
+    file.write(_TRAILER.pack(CSV_MAGIC, *counts.tolist()))
 
 
-@contextmanager
-def _csv_gz(path: Path, schema: pa.Schema) -> Iterator[Write]:
-    # Without name and time, so that the same rows give the same bytes.
-    with path.open("wb") as file, gzip.GzipFile("", "wb", LEVEL, file, mtime=0) as compressed:
-        yield _writer(compressed, schema)
+def status_counts(kind: Kind, place: str) -> Counts:
+    """The number of rows of each status, by its code, in a part.
+
+    Raises `OSError` or `ArrowException` if the part is not whole: after a power failure its end may be missing where
+    the file system has no fsync(2).
+    """
+    if kind != ".parquet":
+        with open_place(place) as file:
+            return _csv_counts(file)
+    counts = no_rows()
+    with open_parquet(place) as file:
+        for batch in file.iter_batches(columns=["status"], use_threads=False):
+            counts += count_statuses(batch.column(0))
+    return counts
 
 
-def _writer(file: BinaryIO | gzip.GzipFile, schema: pa.Schema) -> Write:
-    names = pa.array(schema.names)
-    file.write((",".join(_quote(names).to_pylist()) + "\n").encode())
+def no_rows() -> Counts:
+    """No rows of any status."""
+    return np.zeros(len(STATUSES), dtype=np.int64)
 
-    def write(table: pa.Table) -> None:
-        for batch in table.to_batches():
-            file.write(csv_lines(batch))
 
-    return write
+def count_statuses(status: pa.Array) -> Counts:
+    """The number of rows of each status, by its code, in a column of statuses."""
+    names = status.dictionary.to_pylist()
+    counts = no_rows()
+    found = np.bincount(to_numpy(status.indices), minlength=len(names))
+    counts[[STATUSES.index(name) for name in names]] = found[: len(names)]
+    return counts
+
+
+def csv_size(part: BinaryIO) -> int:
+    """The number of bytes of the lines in a part of a CSV file."""
+    return part.seek(0, SEEK_END) - _TRAILER.size
+
+
+def _csv_counts(part: BinaryIO) -> Counts:
+    if csv_size(part) < 0:
+        raise OSError("a part ends too early")
+    part.seek(csv_size(part))
+    magic, *counts = _TRAILER.unpack(part.read(_TRAILER.size))
+    if magic != CSV_MAGIC:
+        raise OSError("a part ends too early")
+    return np.array(counts, dtype=np.int64)
+
+
+def csv_header(schema: pa.Schema) -> bytes:
+    """The first line of a CSV file."""
+    return (",".join(_quote(pa.array(schema.names)).to_pylist()) + "\n").encode()
 
 
 def csv_lines(batch: pa.RecordBatch) -> pa.Buffer:

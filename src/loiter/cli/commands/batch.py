@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Group, Parameter
@@ -27,8 +26,19 @@ work = Group("Work", sort_key=2)
 
 
 def batch(
-    source: Annotated[Path, Parameter(name="IN", help="The table to read: .parquet, .csv or .csv.gz.")],
-    target: Annotated[Path, Parameter(name="OUT", help="The table to write: .parquet, .csv or .csv.gz.")],
+    source: Annotated[
+        str,
+        Parameter(
+            name="IN", help="The table to read: .parquet, .csv or .csv.gz, a folder of such files, a pattern, or a URL."
+        ),
+    ],
+    target: Annotated[
+        str,
+        Parameter(
+            name="OUT",
+            help="The table to write: .parquet, .csv or .csv.gz, OUT/ for a folder of Parquet files, or a URL.",
+        ),
+    ],
     /,
     *,
     orbit: Annotated[
@@ -82,7 +92,7 @@ def batch(
         Parameter(
             group=work,
             metavar="tcp://HOST:PORT",
-            help="Use the Dask cluster with this scheduler; its workers must see IN and OUT under the same paths.",
+            help="Use the Dask cluster with this scheduler; its workers must see IN and OUT at the same places.",
         ),
     ] = None,
 ) -> None:
