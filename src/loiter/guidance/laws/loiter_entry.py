@@ -61,8 +61,9 @@ SWITCH_MARGIN, UPDATE_MARGIN = 0.25, 0.25
 SEARCH_INTERVAL_S = 0.1
 
 # In wind a new plan counts as the same one if it differs only by a first turn back to the path that is no longer than
-# this, turn radii.
-LONGEST_BEND = 0.1
+# `LONGEST_BEND`, turn radii. It is not adopted before the crosstrack error or the change of the time to join exceeds
+# `DEVIATION`, turn radii: each adds such a turn.
+DEVIATION, LONGEST_BEND = 0.1, 0.1
 
 # Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is accepted.
 LOST_OFFSET, LOST_COURSE = 0.5, 1.0
@@ -153,8 +154,8 @@ class LoiterEntry:
         self._side = SIDES[orbit.turn]
         self._observer = Observer(smoothing_s)
         self._route: Route | None = None
-        # The predicted time of joining, seconds.
-        self._join_time_s = inf
+        # The predicted time of joining, seconds, and its value at the beginning of the present plan.
+        self._join_time_s = self._planned_join_time_s = inf
         self._clock, self._last_search_s = Clock(), -inf
         # Whether the wind differs so much from the declared one that the estimated one is planned with.
         self._wind_differs = False
@@ -283,7 +284,7 @@ class LoiterEntry:
 
     def _shift_clock(self, jump_s: float) -> None:
         """Convert all stored times to a clock that has jumped by `jump_s`."""
-        self._join_time_s += jump_s
+        self._join_time_s, self._planned_join_time_s = self._join_time_s + jump_s, self._planned_join_time_s + jump_s
         self._last_search_s += jump_s
         if self._route is not None:
             self._route.shift_clock(jump_s)
@@ -355,9 +356,13 @@ class LoiterEntry:
     def _reconsider(self, route: Route, response: ResponsePoint) -> bool:
         """Search for another plan if that is due; return whether one was adopted."""
         offset, r = response.offset, self._limits.planned_m
-        lost = abs(offset.crosstrack) > LOST_OFFSET * r or abs(offset.course_error) > LOST_COURSE
-        due = lost or not route.is_holding
-        return due and self._search(response.state, None if lost else route)
+        if abs(offset.crosstrack) > LOST_OFFSET * r or abs(offset.course_error) > LOST_COURSE:
+            return self._search(response.state)
+        if route.is_holding:
+            return False
+        later_m = abs(self._join_time_s - self._planned_join_time_s) * self._limits.airspeed_m_s
+        deviates = max(abs(offset.crosstrack), later_m) > DEVIATION * r
+        return self._search(response.state, route, update=deviates or self._wind == (0.0, 0.0))
 
     def _first_search(self, estimate: Estimate) -> None:
         """Adopt the fastest entry from where a command takes effect, which depends on the bank and the first turn."""
@@ -369,16 +374,19 @@ class LoiterEntry:
         bank_deg = -first * self._limit_deg if first is not None else entry.side * self._hold_deg
         self._search(self._relative_state(estimate.after(self._lead_s(estimate.bank_deg, bank_deg))))
 
-    def _search(self, state: RelativeState, route: Route | None = None) -> bool:
-        """Adopt the fastest entry from a state if it is better than `route`; return whether it was adopted."""
+    def _search(self, state: RelativeState, route: Route | None = None, *, update: bool = True) -> bool:
+        """Adopt the fastest entry from a state if it is better than `route`; return whether it was adopted.
+
+        With `update` the same plan from the present state counts as better.
+        """
         if self._clock.time_s - self._last_search_s < SEARCH_INTERVAL_S - ROUNDING_S:
             return False
         self._last_search_s = self._clock.time_s
         entry = self._fastest_entry(state)
-        if entry is None or not (route is None or _is_better(entry, route, self._limits)):
+        if entry is None or not (route is None or _is_better(entry, route, self._limits, update=update)):
             return False
         self._route = Route(state, entry, self._orbit.radius_m)
-        self._join_time_s = state.time_s + entry.duration_s
+        self._join_time_s = self._planned_join_time_s = state.time_s + entry.duration_s
         return True
 
     def _fastest_entry(self, state: RelativeState) -> PlannedEntry | None:
@@ -453,8 +461,10 @@ def _reverses(entry: PlannedEntry) -> bool:
     return bool(controls) and controls[-1] == entry.side
 
 
-def _is_better(entry: PlannedEntry, route: Route, limits: TurnLimits) -> bool:
-    """Whether an entry should replace a route: it is the same plan and not much slower, or it is faster by a margin.
+def _is_better(entry: PlannedEntry, route: Route, limits: TurnLimits, *, update: bool) -> bool:
+    """Whether an entry should replace a route.
+
+    Either `update` holds, and it is the same plan and not much slower; or it is faster by a margin.
 
     In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a different plan.
     The duration of a route that was planned with tighter turns grows with their radius.
@@ -464,6 +474,8 @@ def _is_better(entry: PlannedEntry, route: Route, limits: TurnLimits) -> bool:
     controls = controls_of(entry.word)
     extra = max(len(controls) - len(route.controls), 0)
     same = entry.side == route.side and controls[extra:] == route.controls and sum(entry.times_s[:extra]) <= bend_s
+    if same and not update:
+        return False
     widened = max(1.0, entry.turn_radius_m / route.entry.turn_radius_m) if same else 1.0
     margin_s = (UPDATE_MARGIN if same else -SWITCH_MARGIN) * unit_s
     return entry.duration_s < widened * route.time_to_join_s + margin_s
