@@ -106,8 +106,9 @@ VALLEYS = [
     ),
 ]
 
-# The minimum lies at a jump of the time, or next to a corner. A search whose bracket kept the times of fewer words, or
-# that took a secant across the corner, once stopped short of it: later by 0.05, 0.02, 0.01, 0.006 and 3e-5.
+# The minimum lies at a jump of the time, or next to a corner. A search whose bracket kept the times of fewer words than
+# it knew stopped short of the first four: later by 0.05, 0.02, 0.01 and 0.006. At the last, a secant across the corner
+# leads nowhere, and the corner is later by 3e-5.
 CORNERS = [
     (
         WindProblem(
