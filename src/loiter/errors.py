@@ -19,7 +19,18 @@ class InvalidArgument(LoiterError):
 
 
 class RadiusTooSmall(LoiterError):
-    """The circle is tighter than the aircraft can turn, or than it can hold in this wind."""
+    """The circle is tighter than the aircraft can turn, or than it can hold in this wind.
+
+    `fitted_radius_m` is the least radius that it can hold, metres, as for `Orbit.fitted`.
+    """
+
+    def __init__(self, sentence: str, fitted_radius_m: float) -> None:
+        super().__init__(sentence, fitted_radius_m)
+        self.fitted_radius_m = fitted_radius_m
+
+    def __str__(self) -> str:
+        sentence, _ = self.args
+        return str(sentence)
 
 
 class WindTooStrong(LoiterError):

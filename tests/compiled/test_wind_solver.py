@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from compiled.windy import BAD, drawn
-from kernel.slow_scenes import SLOW, VALLEYS
+from kernel.slow_scenes import CORNERS, SLOW, VALLEYS
 from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.compiled import wind_solver
 from loiter.compiled.wind_solver import PLAIN, WindSolver
@@ -30,7 +30,7 @@ def text(value):
 
 @pytest.mark.parametrize(("seed", "windiest"), [(1, 0.6), (2, 0.95)])
 def test_it_is_plain_python_to_the_last_bit(compiled, seed, windiest):
-    for problem in [*drawn(160, seed, windiest), *BAD, *SLOW, *(problem for problem, _ in VALLEYS)]:
+    for problem in [*drawn(160, seed, windiest), *BAD, *SLOW, *(problem for problem, _ in (*VALLEYS, *CORNERS))]:
         assert text(compiled.fastest(problem)) == text(PLAIN.fastest(problem)), problem
 
 

@@ -1,4 +1,4 @@
-"""Scenes found by optimisation over scenes: those that take longest to solve, and pairs of valleys close together."""
+"""Scenes that are hard for the search: slow ones, valleys close together, minima at corners. With their least times."""
 
 from loiter.kernel.wind_search import WindProblem
 
@@ -103,5 +103,76 @@ VALLEYS = [
             0.11193639826337794,
         ),
         5.055642329870268,
+    ),
+]
+
+# The minimum lies at a jump of the time, or next to a corner. A search whose bracket kept the times of fewer words than
+# it knew stopped short of the first four: later by 0.05, 0.02, 0.01 and 0.006. At the last, a secant across the corner
+# leads nowhere, and the corner is later by 3e-5.
+CORNERS = [
+    (
+        WindProblem(
+            1.9108589193103,
+            -4.3022766901063125,
+            -0.8376555062331776,
+            -0.5461989132882259,
+            6.3327939893058325,
+            0,
+            -0.9099659202280208,
+            -0.2078544506770258,
+        ),
+        3.111730348569734,
+    ),
+    (
+        WindProblem(
+            3.738343416294911,
+            0.6405004695987827,
+            0.35872606476741864,
+            0.9334428801252286,
+            3.792814877306392,
+            -1,
+            -0.3542481011541308,
+            -0.8788020575598186,
+        ),
+        0.03821635462859749,
+    ),
+    (
+        WindProblem(
+            5.9863474205591345,
+            5.6839857685211195,
+            -0.8093466044610214,
+            0.5873313152279683,
+            7.821963732372454,
+            0,
+            0.11125544053424573,
+            -0.9348595619598685,
+        ),
+        0.9714005384227489,
+    ),
+    (
+        WindProblem(
+            3.506638692631085,
+            -3.476833603911655,
+            0.6992730299867042,
+            0.7148546912017951,
+            5.041889392842112,
+            0,
+            0.44406997301052786,
+            0.40887592172903015,
+        ),
+        0.7320712829690422,
+    ),
+    (
+        WindProblem(
+            -2.9099777135964837,
+            -0.3718432152471995,
+            -0.2829226473982496,
+            0.9591427295190043,
+            2.933636743186894,
+            -1,
+            0.6438807524615802,
+            -0.30572567483171037,
+        ),
+        3.0701941284457845,
     ),
 ]

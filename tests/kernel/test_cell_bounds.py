@@ -6,7 +6,7 @@ from random import Random
 import pytest
 
 from compiled.windy import drawn
-from kernel.slow_scenes import SLOW, VALLEYS
+from kernel.slow_scenes import CORNERS, SLOW, VALLEYS
 from loiter.kernel import wind_search
 from loiter.kernel.wind import minimum
 from loiter.kernel.wind.cell_bounds import words_inside
@@ -73,6 +73,6 @@ def test_the_slowest_scenes_found_take_a_bounded_number_of_paths(problem, monkey
     assert len(counted) < 800
 
 
-@pytest.mark.parametrize(("problem", "time"), VALLEYS)
-def test_of_two_valleys_close_together_the_deeper_is_found(problem, time):
+@pytest.mark.parametrize(("problem", "time"), [*VALLEYS, *CORNERS])
+def test_the_deeper_of_two_valleys_and_the_minimum_at_a_corner_are_found(problem, time):
     assert time_of(fastest(problem)) == pytest.approx(time, abs=1e-11)

@@ -300,16 +300,20 @@ def test_on_the_circle_and_along_it_nothing_is_left_to_do(scene, side, phase):
 
 @given(scenes(), one_way, st.floats(0.0, 2.0 * pi), st.sampled_from([-1.0, 1.0]), st.floats(0.1, 1.5))
 def test_a_start_on_the_last_arc_gets_that_arc_alone(scene, side, phase, u, time):
-    """Flown backwards from the circle. T rises with the root of a distance there, so no digit may be lost."""
+    """Flown backwards from the circle. T rises with the root of a distance there, so few digits may be lost.
+
+    The closer the rates of turn of the arc and of the circle, the less distinct is the point where they part.
+    """
     *_, R, wx, wy = scene
     x, y, c, s, _ = hold_pose(phase, side, R, wx, wy)
+    parting = max(1.0 + u * side * hold_rate(phase, side, R, wx, wy), 1e-9)
     back = cos(u * time), -sin(u * time)
     e = complex(c, s)
     e0 = e * complex(*back)
     z = complex(x, y) - complex(wx, wy) * time - (e - e0) / (1j * u)
     found = solved((z.real, z.imag, e0.real, e0.imag, R, wx, wy), side)
     assume(sum(found[3:6]) > time - 1e-4)
-    assert sum(found[3:6]) == pytest.approx(time, abs=1e-11)
+    assert sum(found[3:6]) == pytest.approx(time, abs=1e-11 + 1e-12 / parting)
 
 
 @pytest.mark.parametrize("wind", [5e-324, 1e-310, 1e-200, 1e-17])

@@ -1,5 +1,6 @@
 """Plans in wind and onto circles that move: flown over the ground they end on the circle, and the laws they obey."""
 
+import pickle
 from dataclasses import replace
 from math import atan2, cos, degrees, hypot, inf, nan, radians, sin, sqrt
 
@@ -371,6 +372,10 @@ def test_a_circle_too_tight_for_the_wind_says_what_would_do(solve, uav, orbit, w
     with pytest.raises(RadiusTooSmall) as refused:
         solve(POSE, orbit, uav, wind)
     assert str(refused.value) == f"orbit radius 60 m cannot be held in {need}"
+    assert refused.value.fitted_radius_m == orbit.fitted(uav, wind).radius_m
+    assert solve(POSE, orbit.fitted(uav, wind), uav, wind)
+    copied = pickle.loads(pickle.dumps(refused.value))
+    assert (str(copied), copied.fitted_radius_m) == (str(refused.value), refused.value.fitted_radius_m)
 
 
 def test_what_would_do_does():

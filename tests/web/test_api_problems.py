@@ -93,7 +93,10 @@ def test_the_sentence_is_the_librarys(refused):
     scene = changed(WINDY, orbit__radius_m=60)
     with pytest.raises(loiter.errors.RadiusTooSmall) as error:
         loiter.plan(*arguments(scene))
-    assert refused(422, "POST", "/api/plan", json=scene)["detail"] == str(error.value)
+    problem = refused(422, "POST", "/api/plan", json=scene)
+    assert problem["detail"] == str(error.value)
+    _, orbit, aircraft, wind = arguments(scene)
+    assert problem["fitted_radius_m"] == error.value.fitted_radius_m == orbit.fitted(aircraft, wind).radius_m
 
 
 def subclasses(cls):

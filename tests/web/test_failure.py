@@ -114,6 +114,37 @@ def test_a_refused_scene_is_the_headline_and_switches_off_what_needs_a_plan(page
     assert_shows_the_plan(page)
 
 
+@pytest.mark.parametrize(("wind", "radius"), [("8", "60"), ("0", "40")], ids=["wind", "still air"])
+def test_one_click_takes_the_least_radius_that_can_be_held(page, wind, radius):
+    page.locator("#circle-radius").fill("120")
+    page.locator("#wind-speed").fill(wind)
+    settle(page)
+    assert page.locator("#fit-circle").is_hidden()
+    page.locator("#circle-radius").fill(radius)
+    fail(page, "refused")
+    settle(page)
+    _, orbit, aircraft, air = values(scene(page))
+    fitted = orbit.fitted(aircraft, air)
+    assert page.locator("#fit-circle").inner_text() == f"Use {fitted.radius_m:.6g} m, the least radius"
+    assert_read(page, "#fit-circle")
+    assert grave(page) == []
+    page.locator("#fit-circle").click()
+    settle(page)
+    assert values(scene(page))[1] == fitted
+    said = f"A circle of {radius} m cannot be held; this is the least radius."
+    assert page.locator("#message").inner_text() == said
+    assert_on(page)
+    assert_shows_the_plan(page)
+
+
+def test_no_radius_is_offered_where_none_would_do(page):
+    page.locator("#wind-speed").fill("20")
+    fail(page, "refused")
+    settle(page)
+    assert "its airspeed must be above 20 m/s" in page.locator("#why").inner_text()
+    assert page.locator("#fit-circle").is_hidden()
+
+
 def test_a_ghost_that_flies_lands_where_the_plan_goes(page):
     page.locator("#play").click()
     page.wait_for_function("() => Number(document.getElementById('clock').value) > 20")

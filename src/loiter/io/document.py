@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
 
 from loiter.geo import LocalFrame
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Pose
+from loiter.planning.model import Pose, Segment
 
 
 def answer(best: Sequence[Maneuver], others: Sequence[Maneuver], frame: LocalFrame | None = None) -> dict[str, object]:
@@ -25,7 +24,7 @@ def maneuver_values(maneuver: Maneuver, frame: LocalFrame | None = None) -> dict
         "word": maneuver.word,
         "turn": maneuver.turn.value,
         "join": _pose(maneuver.join, frame),
-        "wind": asdict(maneuver.wind),
+        "wind": {"speed_m_s": maneuver.wind.speed_m_s, "from_deg": maneuver.wind.from_deg},
         "join_over_ground": _join_over_ground(maneuver),
         "hold": {
             "least_bank_deg": maneuver.hold.least_bank_deg,
@@ -33,10 +32,7 @@ def maneuver_values(maneuver: Maneuver, frame: LocalFrame | None = None) -> dict
             "largest_bank_azimuth_deg": maneuver.hold.largest_bank_azimuth_deg,
         },
         "miss_m": maneuver.miss_m,
-        "segments": [
-            asdict(segment) | {"start": _pose(segment.start, frame), "end": _pose(segment.end, frame)}
-            for segment in maneuver.segments
-        ],
+        "segments": [_segment(segment, frame) for segment in maneuver.segments],
         "aircraft": {
             "airspeed_m_s": maneuver.aircraft.airspeed_m_s,
             "turn_radius_m": maneuver.aircraft.turn_radius_m,
@@ -44,11 +40,25 @@ def maneuver_values(maneuver: Maneuver, frame: LocalFrame | None = None) -> dict
     }
 
 
+# `dataclasses.asdict` copies every value, which would take longer than the plan.
+def _segment(segment: Segment, frame: LocalFrame | None) -> dict[str, object]:
+    return {
+        "letter": segment.letter,
+        "start_s": segment.start_s,
+        "duration_s": segment.duration_s,
+        "length_m": segment.length_m,
+        "curvature_per_m": segment.curvature_per_m,
+        "start": _pose(segment.start, frame),
+        "end": _pose(segment.end, frame),
+    }
+
+
 def _pose(pose: Pose, frame: LocalFrame | None) -> dict[str, float]:
+    values = {"east_m": pose.east_m, "north_m": pose.north_m, "heading_deg": pose.heading_deg}
     if frame is None:
-        return asdict(pose)
+        return values
     place = frame.place(pose)
-    return asdict(pose) | {
+    return values | {
         "latitude_deg": place.latitude_deg,
         "longitude_deg": place.longitude_deg,
         "true_heading_deg": place.heading_deg,

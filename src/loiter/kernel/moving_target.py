@@ -96,13 +96,18 @@ def arc_time(rotation: Rotation, radius: float, arc_tolerance: float) -> float:
     return angle(snap_full_turn(rotation, radius * radius, arc_tolerance))
 
 
-def lsl_rsr(u: int, dx: float, dy: float, ends: Ends) -> Path:
-    """LSL (u = +1) or RSR: t1 + t3 is the rotation from start to pose, or a turn more, and t2 an interception."""
+def lsl_rsr(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
+    """The first LSL (u = +1) or RSR whose time is at most `until`.
+
+    t1 + t3 is the rotation from start to pose, or a turn more, and t2 an interception.
+    """
     c0, s0, c, s, wx, wy, arc_tolerance = ends
     rotation = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, arc_tolerance)
     for arcs in (rotation, rotation + TWO_PI):
         ax, ay = dx - wx * arcs, dy - wy * arcs
         straight = interception(ax, ay, wx, wy)
+        if arcs + straight > until + ALMOST:
+            break
         ex, ey = ax - wx * straight, ay - wy * straight
         first = arc_time(arc_rotation(u, c0, s0, ex, ey), 1.0 + straight, arc_tolerance)
         last = max(arcs - first, 0.0)
@@ -211,33 +216,40 @@ def lrl_rlr(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
         rotation = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, arc_tolerance)
         for turns in (-1.0, 0.0, 1.0):
             outside = rotation + TWO_PI * turns
-            middle = middle_arc(dx - wx * outside, dy - wy * outside, wx, wy)
+            limit = min(leave + arc_tolerance, until, best.time)
+            within = 0.5 * (enter - outside) - ALMOST, 0.5 * (limit - outside) + ALMOST
+            middle = middle_arc(dx - wx * outside, dy - wy * outside, wx, wy, within)
             time = outside + 2.0 * middle
-            if inf > time and enter - arc_tolerance <= time <= min(leave + arc_tolerance, until, best.time):
+            if inf > time and enter - arc_tolerance <= time <= limit:
                 path = three_arcs(u, middle, dx - wx * time, dy - wy * time, ends)
                 if abs(path.time - time) < pi:
                     best = path
     return best
 
 
-def middle_arc(dx: float, dy: float, wx: float, wy: float) -> float:
-    """The m in (0, 2 pi) at which h(m) = |d - 2 w m|^2 - 8 (1 - cos m) rises through zero; `inf` where it does not.
+def middle_arc(dx: float, dy: float, wx: float, wy: float, within: Interval) -> float:
+    """The m in (0, 2 pi) at which h(m) = |d - 2 w m|^2 - 8 (1 - cos m) rises through zero.
 
-    h'' = 8 (w^2 - cos m), and h >= 0 at 0 and 2 pi. With i = acos(w^2), h is concave up to i and has no such root
-    there. It is convex up to 2 pi - i and may have one there; if it is negative at 2 pi - i, it has one beyond, where
-    it is concave.
+    `inf` where it does not, or not within an interval. h'' = 8 (w^2 - cos m), and h >= 0 at 0 and 2 pi. With i =
+    acos(w^2), h is concave up to i and has no such root there. It is convex up to 2 pi - i and may have one there; if
+    it is negative at 2 pi - i, it has one beyond, where it is concave.
     """
     inflection = acos(wx * wx + wy * wy)
-    m, concave = TWO_PI - inflection, False
+    least, most = within
+    least, outer = max(least, inflection), TWO_PI - inflection
+    m, concave = min(outer, most), False
     for step in range(NEWTON_STEPS):
-        x, y = dx - 2.0 * m * wx, dy - 2.0 * m * wy
-        half = sin(0.5 * m)
-        h = x * x + y * y - 16.0 * half * half
-        slope = -4.0 * (wx * x + wy * y) - 8.0 * sin(m)
-        if slope <= 0.0 or m < inflection:
+        if m < least and not concave:
             return inf
+        x, y = dx - 2.0 * m * wx, dy - 2.0 * m * wy
+        across, along = sin(0.5 * m), cos(0.5 * m)
+        h = x * x + y * y - 16.0 * across * across
+        slope = -4.0 * (wx * x + wy * y) - 16.0 * across * along
         if step == 0:
             concave = h < 0.0
+        # The root lies beyond `most` where h is still negative there.
+        if slope <= 0.0 or (concave and m >= most):
+            return inf
         before, m = m, m - h / slope
         if m <= before if concave else m >= before:
             break

@@ -138,10 +138,18 @@ def branch_and_bound(side: int, scene: WindScene, best: WindCandidate) -> WindCa
     while visit.number < FIRST_CELLS << visit.level:
         sooner = best.path.time - (hold_slack(scene) if visit.level > LEAF else 0.0)
         possible = words_inside(*middle_of(visit), visit.words & ALL_WORDS, side, scene, sooner)
-        if possible != 0 and visit.level >= COARSE:
+        if possible != 0 and is_examined(visit.level):
             possible, before, best = examined(visit, possible, side, scene, before, best)
         visit = first_half(visit, possible) if possible != 0 else next_cell(visit)
     return best
+
+
+def is_examined(level: int) -> bool:
+    """Whether a path to the end of a cell is sought: at every other level below `LEAF`, as it takes longer than bounds.
+
+    The cells of the level `LAST` are among them.
+    """
+    return level >= COARSE and (level <= LEAF or (LAST - level) % 2 == 0)
 
 
 def examined(

@@ -57,7 +57,8 @@ def check_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> None:
             f"its airspeed must be above {speed:.4g} m/s"
         )
     if status in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
-        raise RadiusTooSmall(too_tight(orbit, aircraft) if air.still else _not_held(orbit, aircraft, air))
+        sentence = too_tight(orbit, aircraft) if air.still else _not_held(orbit, aircraft, air)
+        raise RadiusTooSmall(sentence, _least_radius_m(aircraft, air))
 
 
 def fitted_radius_m(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> float:
@@ -67,9 +68,14 @@ def fitted_radius_m(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> float:
     """
     air = relative_wind(orbit, aircraft, wind)
     if _status(orbit, aircraft, air) in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
-        return tightest_radius(*air) * aircraft.turn_radius_m
+        return _least_radius_m(aircraft, air)
     check_held(orbit, aircraft, air)
     return orbit.radius_m
+
+
+def _least_radius_m(aircraft: Aircraft, air: RelativeWind) -> float:
+    """The least radius, metres, that the aircraft can hold in the wind relative to the circle."""
+    return tightest_radius(*air) * aircraft.turn_radius_m
 
 
 def _status(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> int:

@@ -83,7 +83,7 @@ class Problem:
         reduced = ReducedProblem(x, y, rounded_radius(self.radius), SIDES[orbit.turn], tolerance)
         status = status_of(reduced.x, reduced.y, reduced.R, reduced.tolerance)
         if status == Status.RADIUS_TOO_SMALL:
-            raise RadiusTooSmall(too_tight(orbit, self.aircraft))
+            raise RadiusTooSmall(too_tight(orbit, self.aircraft), r)
         if status != Status.OK or not self._has_durations():
             raise self._too_large()
         return reduced

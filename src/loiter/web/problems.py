@@ -88,6 +88,9 @@ class ProblemDocument(BaseModel):
     detail: str = Field(description="One sentence that says what is wrong with this request.")
     instance: str | None = Field(None, description="The path of the request.")
     errors: list[Detail] = Field(default=[], description="Each error of the request with its place.")
+    fitted_radius_m: float | None = Field(
+        None, description="The least radius that the aircraft can hold, metres; only where the circle is too small."
+    )
 
 
 def problem(
@@ -99,6 +102,7 @@ def problem(
     instance: str | None = None,
     errors: Sequence[Mapping[str, str]] = (),
     headers: Mapping[str, str] | None = None,
+    fitted_radius_m: float | None = None,
 ) -> Response:
     """A problem document as a response; without `kind` its type is about:blank and its title the status's phrase."""
     document: dict[str, Any] = {
@@ -109,6 +113,7 @@ def problem(
     }
     document |= {"instance": instance} if instance else {}
     document |= {"errors": list(errors)} if errors else {}
+    document |= {"fitted_radius_m": fitted_radius_m} if fitted_radius_m is not None else {}
     # In ASCII: the text may quote characters of the request that UTF-8 cannot encode.
     return Response(json.dumps(document).encode("ascii"), int(status), headers, media_type=MEDIA_TYPE)
 
@@ -137,7 +142,16 @@ def _library_error(request: Request, error: Exception) -> Response:
     detail, path = sentence_and_path(error)
     place = {"pointer": f"#/{path}"} if request.method == "POST" else {"parameter": _parameter(request, path)}
     errors = [{"detail": detail, **place}] if path else []
-    return problem(status, detail, kind=kind, title=title, instance=request.url.path, errors=errors)
+    fitted_radius_m = error.fitted_radius_m if isinstance(error, RadiusTooSmall) else None
+    return problem(
+        status,
+        detail,
+        kind=kind,
+        title=title,
+        instance=request.url.path,
+        errors=errors,
+        fitted_radius_m=fitted_radius_m,
+    )
 
 
 def _parameter(request: Request, path: str) -> str:

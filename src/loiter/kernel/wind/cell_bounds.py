@@ -268,17 +268,16 @@ def lrl_rlr_margin(u: int, cell: Cell, time: float) -> float:
         return inf
     arcs = lowest_turn(angle(arc_rotation(u, cell.c0, cell.s0, cell.c, cell.s)), turned)
     shortest = 2.0 * acos(cell.wind)
-    margin = inf
     for turns in (-1.0, 0.0, 1.0, 2.0):
         outside = arcs + TWO_PI * turns
         late = max(outside - turned + 2.0 * shortest, -outside - turned, shortest) - time
-        late = max(late, middle_margin(u, between, cell, outside, time))
-        if late < 0.0 and (
+        if late < 0.0:
+            late = middle_margin(u, between, cell, outside, time)
+        if late < 0.0 and not (
             has_no_middle(between, cell, outside, time) or lrl_rlr_needs_turn(u, between, cell, outside)
         ):
-            late = inf
-        margin = min(margin, late)
-    return margin
+            return late
+    return inf
 
 
 def has_no_middle(between: Centres, cell: Cell, outside: float, time: float) -> bool:
@@ -300,9 +299,9 @@ def has_no_middle(between: Centres, cell: Cell, outside: float, time: float) -> 
             return True
         m = 0.5 * (low + high)
         x, y = between.x - wx * (outside + 2.0 * m), between.y - wy * (outside + 2.0 * m)
-        half = sin(0.5 * m)
-        spare = x * x + y * y - 16.0 * half * half - needed
-        slope = -4.0 * (wx * x + wy * y) - 8.0 * sin(m)
+        across, along = sin(0.5 * m), cos(0.5 * m)
+        spare = x * x + y * y - 16.0 * across * across - needed
+        slope = -4.0 * (wx * x + wy * y) - 16.0 * across * along
         if spare <= 0.0:
             return False
         # By the tangent, h is large enough on the side to which it rises, and for some way to the other side.
@@ -319,7 +318,7 @@ def lrl_rlr_needs_turn(u: int, between: Centres, cell: Cell, outside: float) -> 
     """Whether LRL or RLR with a given T less twice its middle arc has an arc below zero throughout the cell."""
     wx, wy = cell.wx, cell.wy
     wind, turned = cell.wind, cell.fastest_turning * cell.half
-    middle = middle_arc(between.x - wx * outside, between.y - wy * outside, wx, wy)
+    middle = middle_arc(between.x - wx * outside, between.y - wy * outside, wx, wy, (0.0, inf))
     if middle == inf:
         return False
     time = outside + 2.0 * middle

@@ -3,12 +3,12 @@
 from math import inf, pi
 
 from loiter.kernel.angles import length
-from loiter.kernel.moving_target import Path
+from loiter.kernel.moving_target import NO_PATH, Path
 from loiter.kernel.wind.fits import end_miss, fit_two_arcs, two_arc_entry
 from loiter.kernel.wind.paths import JoinPoint, WindCandidate, WindScene, first_path, join_point, join_slope
 from loiter.kernel.words import ALL_WORDS, set_of
 
-# Refinements after which the path is of the word that is the first; the second is rarely needed.
+# Refinements after which no path to the point, or to a point beside it, is faster; the second is rarely needed.
 REFINEMENTS = 4
 
 # Steps, each twice as long as the last, that together go round the circle from a leaf of `wind_search`.
@@ -33,11 +33,22 @@ def refined_minimum(found: WindCandidate, width: float, scene: WindScene) -> Win
     """
     for _ in range(REFINEMENTS):
         found = enclosed_minimum(found, width, scene)
-        first = first_path(found.phase, found.side, scene, found.path.time - scene.arc_tolerance)
-        if first.time == inf:
+        faster = faster_beside(found, scene)
+        if faster.path.time == inf:
             break
-        found = WindCandidate(found.phase, found.side, first)
+        found = faster
     return found
+
+
+def faster_beside(found: WindCandidate, scene: WindScene) -> WindCandidate:
+    """A faster path, of any word, to the point of a candidate or a little before or after it; otherwise `NO_PATH`."""
+    until = found.path.time - scene.arc_tolerance
+    beside = BESIDE * min(found.path.time, 1.0)
+    for shift in (0.0, -beside, beside):
+        path = first_path(found.phase + shift, found.side, scene, until)
+        if path.time < inf:
+            return WindCandidate(found.phase + shift, found.side, path)
+    return WindCandidate(found.phase, found.side, NO_PATH)
 
 
 def enclosed_minimum(found: WindCandidate, width: float, scene: WindScene) -> WindCandidate:
@@ -96,8 +107,11 @@ def has_changed(a: Path, b: Path) -> bool:
 
 
 def secant_phase(a: JoinPoint, b: JoinPoint) -> float:
-    """Where the slope is zero by the secant through two points; `inf` where there is none."""
-    if a.slope == b.slope:
+    """Where the slope is zero by the secant through two points; `inf` where there is none.
+
+    Nor is there one through points on either side of a corner at which the slope does not change its sign.
+    """
+    if a.slope == b.slope or (a.slope * b.slope > 0.0 and has_changed(a.path, b.path)):
         return inf
     return a.phase + (b.phase - a.phase) * (a.slope / (a.slope - b.slope))
 

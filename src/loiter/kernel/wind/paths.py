@@ -46,7 +46,8 @@ def first_path_of(words: int, phase: float, side: int, scene: WindScene, until: 
         # are tried first.
         for u in (1, -1):
             if words & set_of(encode(u, 0, u)):
-                best = faster_path(best, lsl_rsr(u, dx - u * (s - s0), dy + u * (c - c0), ends), until)
+                path = lsl_rsr(u, dx - u * (s - s0), dy + u * (c - c0), ends, min(until, best.time))
+                best = faster_path(best, path, until)
         for u in (1, -1):
             if words & set_of(encode(u, 0, -u)):
                 path = lsr_rsl(u, dx + u * (s + s0), dy - u * (c + c0), ends, min(until, best.time))

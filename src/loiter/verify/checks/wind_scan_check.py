@@ -56,13 +56,16 @@ class ScanDifference:
     missed: float
 
 
-def random_problems(states: int, seed: int) -> Iterator[WindCheckProblem]:
-    """Random problems, the same for the same seed: the places in rotation, still air in one of ten."""
+def random_problems(states: int, seed: int, windiest: float = WINDIEST) -> Iterator[WindCheckProblem]:
+    """Random problems, the same for the same seed: the places in rotation, still air in one of ten.
+
+    The wind is at most `windiest` airspeeds.
+    """
     random = Random(seed)
     places = tuple(PLACES.items())
     for i in range(states):
         place, draw = places[i % len(places)]
-        wind, azimuth = random.choice((0.0, *[random.uniform(0.0, WINDIEST)] * 9)), random.uniform(0.0, 2.0 * pi)
+        wind, azimuth = random.choice((0.0, *[random.uniform(0.0, windiest)] * 9)), random.uniform(0.0, 2.0 * pi)
         east, north = wind * cos(azimuth), wind * sin(azimuth)
         R = tightest_radius(east, north) * random.choice((1.0, random.uniform(1.0, 2.5)))
         yield WindCheckProblem(place, draw(random, R), R, random.choice(tuple(Side)), east, north)

@@ -2,7 +2,7 @@
 /** The page: wires store, requests and views together. */
 import { candidatesView } from "./answer/candidates.js";
 import { factsView } from "./answer/facts.js";
-import { failureView, messageView } from "./answer/notices.js";
+import { failureView, fitView, messageView } from "./answer/notices.js";
 import { verdictView } from "./answer/verdict.js";
 import { copyButtons, exportPanel } from "./export/export_panel.js";
 import { createFields } from "./fields/fields.js";
@@ -35,6 +35,7 @@ factsView(store);
 candidatesView(store, actions);
 verdictView(store);
 failureView(store, actions, requests);
+fitView(store, actions);
 messageView(store);
 mapView(store, actions);
 timelineView(store, actions);

@@ -1,14 +1,16 @@
 // @ts-check
 /**
  * The message over the plan view, and a scene without a plan: the page says why, disables everything that needs the
- * plan, and shows the previous plan faintly.
+ * plan, shows the previous plan faintly, and offers a radius for a circle that is too small.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
  * @typedef {import("../requests/requests.js").Requests} Requests
  * @typedef {import("../requests/retry.js").Attempt} Attempt
  */
+import { withOrbit } from "../scene/scene.js";
 import { byId, show } from "../shared/dom.js";
+import { sixDigits, unitOf } from "../shared/units.js";
 
 /** @param {Store} store */
 export function messageView(store) {
@@ -48,6 +50,36 @@ export function failureView(store, actions, requests) {
       button.textContent = failure?.attempt ? "Try now" : "Try again";
     },
   );
+}
+
+/**
+ * The button that replaces a circle that cannot be held by the circle with the least radius that can be.
+ *
+ * @param {Store} store
+ * @param {Actions} actions
+ */
+export function fitView(store, actions) {
+  const button = byId("fit-circle", HTMLButtonElement);
+  button.addEventListener("click", (event) => {
+    const { scene, failure } = store.get();
+    if (!failure?.fittedRadius_m) return;
+    actions.changeScene(withOrbit(scene, { radius_m: failure.fittedRadius_m }), event);
+    actions.say(`A circle of ${text(scene.orbit.radius_m)} cannot be held; this is the least radius.`);
+  });
+  store.watch(
+    ({ failure, units }) => [failure, units],
+    ({ failure }) => {
+      const radius_m = failure?.fittedRadius_m ?? null;
+      show(button, radius_m !== null);
+      if (radius_m !== null) button.textContent = `Use ${text(radius_m)}, the least radius`;
+    },
+  );
+
+  /** A radius with the digits of its field. @param {number} radius_m */
+  function text(radius_m) {
+    const { name, size } = unitOf("length", store.get().units);
+    return `${sixDigits(radius_m / size)} ${name}`;
+  }
 }
 
 /**

@@ -7,11 +7,13 @@ export class Problem extends Error {
    * @param {string} sentence
    * @param {string} [kind]  the last part of the problem's type: "radius-too-small"
    * @param {string[]} [places]  the parts of the request that it refuses: "aircraft/airspeed_m_s"
+   * @param {number | null} [fittedRadius_m]  the least radius that can be held, if the circle is too small
    */
-  constructor(sentence, kind = "", places = []) {
+  constructor(sentence, kind = "", places = [], fittedRadius_m = null) {
     super(sentence);
     this.kind = kind;
     this.places = places;
+    this.fittedRadius_m = fittedRadius_m;
   }
 }
 
@@ -38,11 +40,11 @@ const TEMPORARY = [429, 502, 503, 504];
  * @param {Response} response
  */
 export async function problemOf(response) {
-  const { type = "", title, detail, errors = [] } = await response.json().catch(() => ({}));
+  const { type = "", title, detail, errors = [], fitted_radius_m } = await response.json().catch(() => ({}));
   const places = errors.flatMap((/** @type {{pointer?: string}} */ { pointer }) => pointer?.replace("#/", "") ?? []);
   const sentence = detail ?? title ?? `The service answered ${response.status}.`;
   if (TEMPORARY.includes(response.status)) return new Unreachable("The service is busy", sentence, waitOf(response));
-  return new Problem(sentence, type.slice(type.lastIndexOf(":") + 1), places);
+  return new Problem(sentence, type.slice(type.lastIndexOf(":") + 1), places, fitted_radius_m);
 }
 
 /** The seconds that a response asks clients to wait; 0 if it names a date instead. @param {Response} response */

@@ -12,33 +12,32 @@
  * @typedef {object} Question
  * @property {Scene} scene
  * @property {number} revision
- * @property {boolean} complete  whether every candidate is wanted, or only the best of each direction
  */
 import { refusalOf } from "../fields/field_names.js";
 import { NO_MESSAGE } from "../state/page_state.js";
-import { Unreachable, newestOnly, post } from "./api.js";
+import { Problem, Unreachable, newestOnly, post } from "./api.js";
 
 /**
  * A function that applies changes to the state and requests the plan of the scene.
  *
  * @param {Store} store
  * @param {Retries} retries
- * @returns {(changes: Partial<PageState>, complete: boolean) => void}
+ * @returns {(changes: Partial<PageState>) => void}
  */
 export function planRequest(store, retries) {
   const send = newestOnly(
-    (/** @type {Question} */ { scene, complete }) => post(complete ? "/api/plan" : "/api/fastest", scene),
+    (/** @type {Question} */ { scene }) => post("/api/plan", scene),
     (/** @type {Answer} */ answer, question) => {
       retries.cancel();
       store.update(answered(store.get(), answer, question));
     },
     (error, { revision }) => store.update(failed(store.get(), error, revision, retries)),
   );
-  return (changes, complete) => {
+  return (changes) => {
     const state = { ...store.get(), ...changes };
     const revision = state.revision + 1;
     // First, so that the service works while the page draws.
-    send({ scene: state.scene, revision, complete });
+    send({ scene: state.scene, revision });
     store.update({ ...changes, revision, requests: { plan: "asking", certificate: "stale", map: "stale" } });
   };
 }
@@ -49,10 +48,9 @@ export function planRequest(store, retries) {
  * @param {Question} question
  * @returns {Partial<PageState>}
  */
-function answered({ requests, faults, fieldErrors, revision: newest }, answer, { revision, complete }) {
+function answered({ requests, faults, fieldErrors, revision: newest }, answer, { revision }) {
   return {
     answer,
-    complete,
     answeredRevision: revision,
     failure: null,
     proof: null,
@@ -90,6 +88,18 @@ function failed({ requests, playback, fieldErrors, failure, message, revision: n
  */
 function failureOf(error, sentence, retries) {
   if (!(error instanceof Unreachable))
-    return { name: "refused", headline: "No plan for this scene", sentence, attempt: null };
-  return { name: "unreachable", headline: error.headline, sentence, attempt: retries.plan(error.wait_s) };
+    return {
+      name: "refused",
+      headline: "No plan for this scene",
+      sentence,
+      attempt: null,
+      fittedRadius_m: error instanceof Problem ? error.fittedRadius_m : null,
+    };
+  return {
+    name: "unreachable",
+    headline: error.headline,
+    sentence,
+    attempt: retries.plan(error.wait_s),
+    fittedRadius_m: null,
+  };
 }

@@ -1,13 +1,12 @@
 // @ts-check
 /**
- * The requests of the page. Each change of the scene requests a plan; its certificate and map are requested when the
- * drag pauses. In wind the slower candidates are also requested then, because they take longer than a frame.
+ * The requests of the page. Each change of the scene requests a plan with every candidate; its certificate and map are
+ * requested when the drag pauses.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {ReturnType<typeof createRequests>} Requests
  */
-import { drifts } from "../scene/scene.js";
 import { PAUSE_MS, debounced } from "../shared/dom.js";
 import { isSettled } from "../state/page_state.js";
 import { certificateRequest, mapRequest } from "./pause_requests.js";
@@ -16,21 +15,15 @@ import { createRetries } from "./retry.js";
 
 /** @param {Store} store */
 export function createRequests(store) {
-  const retries = createRetries(() => askPlan());
-  const request = planRequest(store, retries);
+  const retries = createRetries(() => askPlan({}));
+  const askPlan = planRequest(store, retries);
   const askCertificate = certificateRequest(store, retries);
   const askMap = mapRequest(store, retries);
 
-  /** Apply changes to the state, and request the plan. @param {Partial<PageState>} [changes] */
-  function askPlan(changes = {}) {
-    request(changes, !drifts(changes.scene ?? store.get().scene));
-  }
-
   const pauseLater = debounced(PAUSE_MS, () => {
-    const { requests, failure, answer, complete, revision } = store.get();
+    const { requests, failure, answer, revision } = store.get();
     if (requests.plan === "asking") return pauseLater();
     if (failure || !answer) return store.update({ pausedRevision: revision });
-    if (!complete) return request({}, true);
     store.update({ announced: answer, pausedRevision: revision });
     askMap(answer);
     askCertificate();

@@ -32,6 +32,7 @@
  * @property {string} headline
  * @property {string} sentence
  * @property {Attempt | null} attempt  the next attempt, if there is one
+ * @property {number | null} fittedRadius_m  the least radius that can be held, if the circle is too small
  *
  * @typedef {object} Fault  the reason why a certificate or a map is missing
  * @property {string} sentence
@@ -63,7 +64,6 @@
  * @property {number} pausedRevision  number of the newest request after which a drag has paused
  * @property {Record<"plan" | "certificate" | "map", Status>} requests
  * @property {Answer | null} answer  the newest plan
- * @property {boolean} complete  whether the answer has every candidate, or only the best of each direction
  * @property {Failure | null} failure
  * @property {Answer | null} announced  the plan of the last pause: its text is read out and can be copied
  * @property {Proof | null} proof  the certificate of the plan
@@ -99,7 +99,6 @@ export const INITIAL_STATE = {
   pausedRevision: 0,
   requests: { plan: "idle", certificate: "idle", map: "idle" },
   answer: null,
-  complete: true,
   failure: null,
   announced: null,
   proof: null,

