@@ -88,6 +88,11 @@ app.command(
     help="Compare plans with independent methods: search, 50 digits, collocation, reachability, and a search in wind.",
 )
 app.command(
+    "loiter.cli.commands.prove:prove",
+    help_epilogue=epilogue("prove"),
+    help="Check the lemmas of docs/proof.md on the kernel's own formulas, in exact algebra and ball arithmetic.",
+)
+app.command(
     "loiter.cli.commands.serve:serve",
     help_epilogue=epilogue("serve"),
     help="Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.",

@@ -185,6 +185,11 @@ class Expression:
         """Whether this is 0 at every point."""
         return bool(self.num.is_zero())
 
+    @property
+    def is_number(self) -> bool:
+        """Whether this is the same number at every point."""
+        return bool(self.num.is_constant() and self.den.is_constant())
+
     def __add__(self, other: object) -> Expression:
         b = self.field.of(other)
         return Expression(self.field, self.num * b.den + b.num * self.den, self.den * b.den)

@@ -55,8 +55,8 @@ def positive(name: str, margin: Callable[..., Any], boxes: Sequence[Box]) -> Cer
         if value <= 0 or cases > MOST_BOXES:
             raise NotProved(f"{name}: {value} on {box}")
         widest = max(range(len(box)), key=lambda i: box[i].high - box[i].low)
-        for half in box[widest].halves():
-            waiting.append(((*box[:widest], half, *box[widest + 1 :]), depth + 1))
+        before, after = box[:widest], box[widest + 1 :]
+        waiting += [((*before, half, *after), depth + 1) for half in box[widest].halves()]
     return Certainty(cases, deepest)
 
 
