@@ -331,6 +331,30 @@ def test_an_impossible_maneuver_is_refused_in_a_sentence(change, problem):
         certify(replace(m, **change))
 
 
+@pytest.mark.parametrize(
+    ("scene", "tolerance", "proved"),
+    [
+        (unit_scene(-0.53, 0.31), 0.0, True),
+        (unit_scene(2.0, -1.0, 3.5, "cw"), 0.0, True),
+        (unit_scene(2.0, -1.0, 3.5, "cw"), 0.01, False),
+        ((*unit_scene(2.0, -1.0, 3.5, "cw"), loiter.Wind(0.2, 90.0)), 0.0, False),
+    ],
+    ids=["paper", "wider", "tolerance", "wind"],
+)
+def test_an_optimum_is_claimed_in_still_air_without_a_tolerance(scene, tolerance, proved):
+    certificate = certify(plan(*scene, tolerance_m=tolerance), tolerance_m=tolerance)
+    assert certificate.valid
+    assert (certificate.optimal, certificate.to_dict()["optimal"]) == (proved, proved)
+    assert ("Optimal, up to rounding, by theorem 1 of docs/proof.md." in str(certificate)) == proved
+
+
+def test_no_optimum_is_claimed_for_a_loser():
+    *_, slowest = candidates(*unit_scene(-0.53, 0.31))
+    certificate = certify(slowest)
+    assert not certificate.optimal
+    assert "Optimal" not in str(certificate)
+
+
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match=r"module 'loiter\.verify' has no attribute 'prove'"):
         loiter.verify.prove  # noqa: B018
