@@ -23,6 +23,7 @@ DOCUMENTS = [
 # In still air docs/proof.md proves the optimum; in wind a bound is proved.
 TRUE = [
     "[docs/proof.md](docs/proof.md) proves that this is the optimum for every circle that can be held",
+    "the proof that the fastest of these extremals is the optimum in still air",
     "with a proven bound on how much later than the optimum its answer may be",
     "what is proved of it and what is checked",
     "what is proved of the answer and what is cross-checked",

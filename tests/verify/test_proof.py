@@ -11,6 +11,8 @@ import pytest
 from loiter.cli.app import main
 from loiter.errors import MissingPackage
 from loiter.kernel import extremals, switching_curves
+from loiter.kernel.synthesis import optima
+from loiter.kernel.words import Side
 from loiter.verify.proof import algebra, balls, lemmas, rlr, switching
 from loiter.verify.proof.algebra import Field, NotProved
 from loiter.verify.proof.balls import Interval
@@ -158,6 +160,12 @@ def test_the_document_has_the_table_of_the_program():
     )
     found = [(f.lemma.section, f.lemma.statement, *map(str, f.certainty)) for f in prove()]
     assert rows == found
+
+
+@pytest.mark.parametrize(("R", "count"), [(1.0, 2), (1.5, 2), (2.0, 3), (2.5, 4), (10.0, 4)])
+def test_four_controls_are_optimal_at_the_mirror_image_of_the_target(R, count):
+    """Theorem 3: the one state where a fixed direction has more than three."""
+    assert len(optima(0.0, -R, R, Side.CW, 0.0)) == count
 
 
 # The arithmetic itself
