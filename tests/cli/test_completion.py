@@ -8,7 +8,20 @@ import pytest
 
 from loiter.cli.app import main
 
-COMMANDS = ["plan", "batch", "fly", "upload", "watch", "guide", "synthesis", "figures", "verify", "serve", "completion"]
+COMMANDS = [
+    "plan",
+    "batch",
+    "fly",
+    "upload",
+    "watch",
+    "guide",
+    "synthesis",
+    "figures",
+    "verify",
+    "prove",
+    "serve",
+    "completion",
+]
 LIMITS = ["--turn", "--turn-radius", "--turn-rate"]
 
 # What bash does for Tab: the function that `complete` registered, given the words so far.

@@ -15,8 +15,13 @@ from kernel.worst import drawn
 from kernel.worst import states as worst_states
 from loiter import Aircraft, Orbit, Pose, Turn, candidates, plan, plan_all
 from loiter.errors import InvalidArgument
-from loiter.verify import Certificate, certify
+from loiter.planning.problem import problem_of
+from loiter.verify import Certificate, certify, gradient
+from loiter.verify.accuracy import accuracy_of
+from loiter.verify.adjoints import trajectory_of
 from loiter.verify.checks.oracle_check import random_problems as hard_problems
+from loiter.verify.least_times import least_times
+from loiter.verify.paper_conditions import IN_STILL_AIR
 from strategies import coordinates, radii, scenes, turns
 
 UNIT = Aircraft(1.0, min_turn_radius_m=1.0)
@@ -204,7 +209,7 @@ def test_example_2():
 
 @pytest.mark.parametrize(("x", "count"), [(-3.0, 2), (-SQRT3, 2), (-1.0, 2), (0.0, 2), (1.0, 2), (SQRT3, 4), (3.0, 4)])
 def test_on_the_axis_each_of_the_ties_is_certified(x, count):
-    """y = 0: where first arcs tie T has a corner, and the certificate says so instead of a gradient."""
+    """y = 0: where first arcs tie T has a corner, and the gradient of each lies between its one-sided derivatives."""
     certificates = [certify(m) for m in plan_all(*unit_scene(x, 0.0))]
     assert [c.valid for c in certificates] == [True] * count
     assert all(len(c.ties) == count - 1 for c in certificates)
@@ -212,10 +217,28 @@ def test_on_the_axis_each_of_the_ties_is_certified(x, count):
         # Both sides of the axis fly straight at once, and T is smooth.
         assert all(c.residual("gradient").value < 1e-9 for c in certificates)
         return
+    if x == -SQRT3:
+        # T jumps beside the last arc.
+        assert all("skipped (T has a corner or a jump here" in str(c) for c in certificates)
+        return
     for c in certificates:
-        assert c.residual("gradient").skipped
-        assert "T has a corner or a jump here" in c.residual("gradient").note
-        assert "skipped (T has a corner" in str(c)
+        assert c.residual("bellman").value < 1e-5
+        if len(c.maneuver.segments) == 1:
+            assert c.residual("gradient").skipped
+            continue
+        assert c.residual("gradient").value < c.residual("gradient").bound < 1e-5
+        assert "holds (T has a corner: its one-sided derivatives)" in str(c)
+
+
+def test_at_a_corner_a_wrong_psi_is_noticed():
+    """A psi that is turned has a gradient outside the one-sided derivatives."""
+    m = plan(*unit_scene(1.0, 0.0))
+    right = trajectory_of(m, problem_of(m))
+    wrong = replace(right, pieces=tuple(piece._replace(p=piece.p * (0.6 + 0.8j)) for piece in right.pieces))
+    for trajectory, failed in ((right, False), (wrong, True)):
+        times, accuracy = least_times(trajectory), accuracy_of(trajectory, ())
+        residual, _ = gradient.corner_residuals(IN_STILL_AIR.gradient, trajectory, accuracy, times)
+        assert residual.failed == failed
 
 
 @pytest.mark.parametrize("y", [0.1, 0.5, 0.9, -0.3, -0.9])
@@ -331,6 +354,30 @@ def test_an_impossible_maneuver_is_refused_in_a_sentence(change, problem):
         certify(replace(m, **change))
 
 
+@pytest.mark.parametrize(
+    ("scene", "tolerance", "proved"),
+    [
+        (unit_scene(-0.53, 0.31), 0.0, True),
+        (unit_scene(2.0, -1.0, 3.5, "cw"), 0.0, True),
+        (unit_scene(2.0, -1.0, 3.5, "cw"), 0.01, False),
+        ((*unit_scene(2.0, -1.0, 3.5, "cw"), loiter.Wind(0.2, 90.0)), 0.0, False),
+    ],
+    ids=["paper", "wider", "tolerance", "wind"],
+)
+def test_an_optimum_is_claimed_in_still_air_without_a_tolerance(scene, tolerance, proved):
+    certificate = certify(plan(*scene, tolerance_m=tolerance), tolerance_m=tolerance)
+    assert certificate.valid
+    assert (certificate.optimal, certificate.to_dict()["optimal"]) == (proved, proved)
+    assert ("Optimal, up to rounding, by theorem 1 of docs/proof.md." in str(certificate)) == proved
+
+
+def test_no_optimum_is_claimed_for_a_loser():
+    *_, slowest = candidates(*unit_scene(-0.53, 0.31))
+    certificate = certify(slowest)
+    assert not certificate.optimal
+    assert "Optimal" not in str(certificate)
+
+
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match=r"module 'loiter\.verify' has no attribute 'prove'"):
         loiter.verify.prove  # noqa: B018
@@ -356,6 +403,29 @@ def test_a_lone_arc_begun_beside_its_circle_within_the_tolerance_is_certified():
 def test_no_false_alarm_where_steps_of_quotients_would_cross_a_boundary(x, y, R, turn):
     """T moves there with the square root of a distance that is smaller than the steps."""
     certificate = certify(plan(*unit_scene(x, y, R, turn)))
+    assert certificate.valid, shown(certificate)
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "R", "turn"),
+    [
+        (-0.8364341456335516, 1.5480674735414715, 1.9999999822320698, "ccw"),
+        (-0.05345256406721661, -1.998570408055446, 1.9999999817753102, "cw"),
+        (-0.9597789495221066, -0.719243221273141, 1.9999999996265796, "cw"),
+    ],
+)
+def test_no_false_alarm_where_the_switch_of_lr_is_at_the_centre(x, y, R, turn):
+    """Its two crossings tie there, 1e-8 apart, and psi is parallel to neither with any digit."""
+    for m in candidates(*unit_scene(x, y, R, turn))[:2]:
+        certificate = certify(m)
+        assert certificate.valid, shown(certificate)
+
+
+def test_no_false_alarm_far_from_the_origin_with_a_turn_radius_of_a_millimetre():
+    """Coordinates are rounded there to 1e-9 turn radii, and T is that of a tolerance as large."""
+    pose = Pose(7320.156033591165, -0.005605404694551407, 90.0)
+    orbit = Orbit(7320.156033591165, -0.0026054046945514077, 0.001, "cw")
+    certificate = certify(plan(pose, orbit, Aircraft(1.0, min_turn_radius_m=0.001)))
     assert certificate.valid, shown(certificate)
 
 

@@ -23,7 +23,7 @@ app = App(
     help_format="plaintext",
     help="""The fastest way onto a holding circle for a fixed-wing aircraft.
 
-An aircraft of constant speed turns left or right, no tighter than its minimum turn radius. The plan joins a circle tangentially in the least time and stays on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum for a circle of the minimum turn radius, cross-checked by independent methods for wider ones. In wind, and onto a circle that moves, a search (branch and bound over the point of joining) finds the answer.
+An aircraft of constant speed turns left or right, no tighter than its minimum turn radius. The plan joins a circle tangentially in the least time and stays on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum (docs/proof.md). In wind, and onto a circle that moves, a search (branch and bound over the point of joining) finds the answer.
 
 Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north.""",
     help_epilogue=epilogue("plan", "completion"),
@@ -88,6 +88,11 @@ app.command(
     "loiter.cli.commands.verify:verify",
     help_epilogue=epilogue("verify"),
     help="Compare plans with independent methods: search, 50 digits, collocation, reachability, and a search in wind.",
+)
+app.command(
+    "loiter.cli.commands.prove:prove",
+    help_epilogue=epilogue("prove"),
+    help="Check the lemmas of docs/proof.md on the kernel's own formulas, in exact algebra and ball arithmetic.",
 )
 app.command(
     "loiter.cli.commands.serve:serve",

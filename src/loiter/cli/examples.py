@@ -46,6 +46,8 @@ EXAMPLES = {
     "verify": r"""
   loiter verify --states 1000
   loiter verify --witness wind --states 20""",
+    "prove": r"""
+  loiter prove""",
     "serve": r"""
   loiter serve
   loiter serve --port 8080 --cors http://localhost:8000""",
@@ -58,7 +60,7 @@ EXIT_STATUSES = """
 
 Exit status
   0  done
-  1  a check failed (loiter verify, loiter plan --certify)
+  1  a check failed (loiter verify, loiter prove, loiter plan --certify)
   2  the request cannot be met: one sentence on standard error says why,
      and no file is left half written
   3  the vehicle cannot be reached, does not answer or refuses, or guiding

@@ -72,7 +72,8 @@ def _in_still_air(trajectory: Trajectory, others: Sequence[Candidate]) -> Accura
     pieces, problem, reduced = trajectory.pieces, trajectory.problem, trajectory.problem.reduced()
     length = rounding(reduced.x, reduced.y, reduced.R)
     end = max(reduced.tolerance, length) + length
-    angle = _angle_of_psi(trajectory, end, length)
+    central = _of_switch_at_centre(trajectory, length)
+    angle = _angle_of_psi(trajectory, end, length) + central
     tie = 2.0 * length
     tied = any(abs(other.later_s) <= tie * problem.time_unit_s for other in others)
     choice = sqrt(length) if len(pieces) == 1 or tied else length ** (2.0 / 3.0)
@@ -98,7 +99,7 @@ def _in_still_air(trajectory: Trajectory, others: Sequence[Candidate]) -> Accura
             psi1=angle + choice,
             # The last switch, found from the target, has rounding errors only; a single arc may begin beside its
             # circle.
-            transversality=angle if len(pieces) == 1 else length,
+            transversality=angle if len(pieces) == 1 else length + central,
         ),
         gradient=angle + _turned_by_last_switch(trajectory, end, length),
         tie=tie,
@@ -115,6 +116,18 @@ def _angle_of_psi(trajectory: Trajectory, end: float, length: float) -> float:
         _, second, _ = pieces
         middle = second.radius if second.u else 1.0
     return end * (1.0 + 1.0 / max(middle, length))
+
+
+def _of_switch_at_centre(trajectory: Trajectory, length: float) -> float:
+    """The accuracy of psi after a switch of two arcs at the centre, up to the root of rounding; 0 without one.
+
+    psi is then that of a switch at the centre itself, on a circle of R = 2 (`adjoints`): by the distance of the switch
+    from the centre the arcs, R, and phi at the switch are different.
+    """
+    if len(trajectory.pieces) != 2 or not trajectory.opposed:
+        return 0.0
+    distance = abs(trajectory.last.q)
+    return 4.0 * distance if distance <= sqrt(length) else 0.0
 
 
 def _turned_by_last_switch(trajectory: Trajectory, end: float, length: float) -> float:

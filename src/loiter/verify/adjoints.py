@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from cmath import exp
 from collections.abc import Iterator, Sequence
-from math import atan2, cos, hypot, pi
+from math import atan2, cos, hypot, pi, sqrt
 from typing import NamedTuple
 
-from loiter.kernel.adjoint import adjoint, switching_function
+from loiter.kernel.adjoint import adjoint, switching_function, turn_adjoint
 from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import Entry, rounding
 from loiter.kernel.wind import fits
@@ -60,7 +60,7 @@ def trajectory_of(maneuver: Maneuver, problem: Problem) -> Trajectory:
     controls, durations = [CONTROLS[letter] for letter in word_of(maneuver).letters], durations_of(maneuver)
     if not controls:
         return Trajectory(maneuver, problem, start, 1.0, ())
-    plans = [_in_still_air(start, controls, durations)] if problem.still else _in_wind(start, controls, durations)
+    plans = (_in_still_air if problem.still else _in_wind)(start, controls, durations)
     flown = (Trajectory(maneuver, problem, plan.start, plan.adjoint.lam, tuple(flown_pieces(*plan))) for plan in plans)
     return min(flown, key=lambda trajectory: trajectory.worst_violation)
 
@@ -76,11 +76,11 @@ def _start(problem: Problem, side: int) -> RelativeStart:
 # Still air
 
 
-def _in_still_air(start: RelativeStart, controls: Sequence[int], durations: Sequence[float]) -> FlightPlan:
+def _in_still_air(start: RelativeStart, controls: Sequence[int], durations: Sequence[float]) -> list[FlightPlan]:
     plan = _with_closed_form(start, controls, durations)
-    if len(controls) == 2 and 0 not in controls:
-        return _one_arc(plan) or plan
-    return plan
+    if len(controls) != 2 or 0 in controls:
+        return [plan]
+    return [_one_arc(plan) or plan, *_switch_at_centre(plan)]
 
 
 def _with_closed_form(start: RelativeStart, controls: Sequence[int], durations: Sequence[float]) -> FlightPlan:
@@ -91,6 +91,20 @@ def _with_closed_form(start: RelativeStart, controls: Sequence[int], durations: 
     return FlightPlan(
         start, controls, durations, InitialAdjoint(complex(psi1, psi2), lam, switching_function(x, y, psi1, psi2))
     )
+
+
+def _switch_at_centre(plan: FlightPlan) -> Iterator[FlightPlan]:
+    """The plan with psi = (1, 0) at its switch, where this is at the centre up to the root of rounding.
+
+    The circles of the two arcs touch there, up to rounding: two crossings as far as that from the centre tie, and the
+    direction of the switch from the centre, to which psi is parallel, has no digit left. At the centre any psi is
+    possible.
+    """
+    start, (u, _), (first, _), _ = plan
+    x, y = start.q.real, start.q.imag
+    if hypot(*flow(x, y, u, first)) <= sqrt(rounding(x, y, start.R)):
+        psi1, psi2 = turn_adjoint(1.0, 0.0, u, -first)
+        yield plan._replace(adjoint=InitialAdjoint(complex(psi1, psi2), 1.0, switching_function(x, y, psi1, psi2)))
 
 
 def _one_arc(plan: FlightPlan) -> FlightPlan | None:

@@ -1,11 +1,10 @@
 """A certificate: the conditions of the maximum principle checked one by one, and a comparison with other extremals.
 
 It shows that the maneuver is an extremal, gives lambda and psi for checking this, and shows that no candidate is
-faster; the Hamilton-Jacobi-Bellman equation compares it with the least times of neighbouring starts. A fastest maneuver
-exists (Filippov, paper section 1) and is an extremal. That the candidates include every extremal that can win is proved
-in the paper for R = 1; for R > 1 the words left out, above all RLR, have never been found to win (docs/theory.md,
-section 3; `loiter verify`). Distances, curvatures and start times of segments are not checked: letters, durations and
-the join are.
+faster; the Hamilton-Jacobi-Bellman equation compares it with the least times of neighbouring starts. In still air a
+fastest maneuver is always among the candidates (docs/proof.md, theorem 1), so a valid certificate without a tolerance
+shows that the maneuver is optimal, up to rounding: `Certificate.optimal`. Distances, curvatures and start times of
+segments are not checked: letters, durations and the join are.
 """
 
 from __future__ import annotations
@@ -37,6 +36,7 @@ ARC_BY_ROUNDING = "a single arc (the other is there by rounding alone)"
 STRAIGHT_ENTRY = "that of a straight entry that ends in it, (1, 0) on the axis"
 SWITCH_AT_START = "that of a switch at its start, parallel to the state there"
 UNIQUE_IN_WIND = "the adjoint is unique: the pieces and the condition at the circle fix it"
+BY_THE_THEOREM = "Optimal, up to rounding, by theorem 1 of docs/proof.md."
 ARC_IN_WIND = "a single arc has many adjoints: this is the one that violates the conditions least"
 
 
@@ -67,7 +67,8 @@ class Certificate:
     """The conditions of the maximum principle for a maneuver, and the extremals it was compared with; see `certify`.
 
     `lam` is the multiplier lambda and `psi` the adjoint at the start, None for a start on the circle, which has no
-    pieces; `choice` says whether psi is unique. `others` are the candidates it was compared with, fastest first.
+    pieces; `choice` says whether psi is unique. `others` are the candidates it was compared with, fastest first, and
+    `complete` says that these are proved to include an optimum: in still air, without a tolerance.
     """
 
     maneuver: Maneuver
@@ -79,6 +80,12 @@ class Certificate:
     others: tuple[Candidate, ...]
     pieces: tuple[FlownPiece, ...]
     tie_s: float
+    complete: bool
+
+    @property
+    def optimal(self) -> bool:
+        """Whether the maneuver is optimal, up to rounding, by theorem 1 of docs/proof.md."""
+        return self.complete and self.valid
 
     @property
     def valid(self) -> bool:
@@ -128,6 +135,7 @@ class Certificate:
         """Plain values, for JSON: no nan, no infinity."""
         return {
             "valid": self.valid,
+            "optimal": self.optimal,
             "word": self.maneuver.word,
             "turn": Turn(self.maneuver.turn).value,
             "duration_s": self.maneuver.duration_s,
@@ -178,6 +186,7 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
         others,
         trajectory.pieces,
         accuracy.tie * problem.time_unit_s,
+        complete=problem.still and tolerance_m == 0.0,
     )
 
 
@@ -234,6 +243,7 @@ def _head(certificate: Certificate) -> list[str]:
         psi1, psi2 = certificate.psi
         lines.append(f"lambda = {certificate.lam:.6f}, psi = ({psi1:.6f}, {psi2:.6f}) at the start.")
     lines.append(certificate.choice[:1].upper() + certificate.choice[1:] + ".")
+    lines += [BY_THE_THEOREM] if certificate.optimal else []
     lines += [
         f"{s.letters} at {s.time_s:.6g} s: (x, y) = ({s.x:.6f}, {s.y:.6f}), psi = ({s.psi1:.6f}, {s.psi2:.6f})."
         for s in certificate.switches

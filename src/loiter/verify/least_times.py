@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from cmath import exp
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from math import hypot, inf
 from typing import NamedTuple
 
 from loiter.compiled import wind_solver
 from loiter.kernel import wind_search
 from loiter.kernel.exact import beyond
+from loiter.kernel.motion import flow
 from loiter.kernel.synthesis import WIND_TIE_TOLERANCE, Entry, duration, optimum, rounding
 from loiter.kernel.words import Side, Word
 from loiter.planning.problem import ReducedProblem
-from loiter.verify.trajectory import Trajectory
+from loiter.verify.trajectory import FlownPiece, Trajectory
 
 # Steps of difference quotients of T in still air, each half the one before: from a sixteenth of a turn radius, over
 # which T is rarely linear, to where rounding, 64 units of 2^-52 over the step, uses up what `gradient.RESOLVED` allows.
@@ -26,15 +28,17 @@ STEPS_IN_WIND = (2.0**-6, 2.0**-9, 2.0**-12, 2.0**-15)
 class LeastTimes(NamedTuple):
     """T as a function of displacements of the start by a step along an axis: east, north and, in wind, heading.
 
-    `time(axis, step)` is T at a displacement; `error(T, slope)` is the error of a difference of two T, where T changes
-    at the rate `slope`; `steps` are those of difference quotients, coarse to fine. `by_heading` computes the derivative
-    with respect to the heading, positive to the left, from those along the axes. `motion_size` bounds how fast position
-    and heading change. `not_smooth` explains why quotients do not converge.
+    `time(axis, step)` is T at a displacement, `after(u, step)` after flying the control u for a time `step`; `error(T,
+    slope)` is the error of a difference of two T, where T changes at the rate `slope`; `steps` are those of difference
+    quotients, coarse to fine. `by_heading` computes the derivative with respect to the heading, positive to the left,
+    from those along the axes. `motion_size` bounds how fast position and heading change. `not_smooth` explains why
+    quotients do not converge.
     """
 
     axes: int
     steps: Sequence[float]
     time: Callable[[int, float], float]
+    after: Callable[[int, float], float]
     error: Callable[[float, float], float]
     by_heading: Callable[[Sequence[float]], float]
     motion_size: float
@@ -49,11 +53,17 @@ def least_times(trajectory: Trajectory) -> LeastTimes:
 def _in_wind(trajectory: Trajectory) -> LeastTimes:
     # A tolerance would make T jump where it begins to count a start as on a last arc.
     problem = trajectory.problem.in_wind()._replace(tolerance=0.0)
+    w = complex(problem.wx, problem.wy)
 
     def time(axis: int, step: float) -> float:
         e = complex(problem.c, problem.s) * (exp(1j * step) if axis == 2 else 1.0)
         x, y = problem.x + step * (axis == 0), problem.y + step * (axis == 1)
         return wind_search.time_of(wind_solver.fastest(problem._replace(x=x, y=y, c=e.real, s=e.imag)))
+
+    def after(u: int, step: float) -> float:
+        piece = FlownPiece(u, step, complex(problem.x, problem.y), complex(problem.c, problem.s), 0.0, 1.0 + 0.0j, w)
+        q, e, _, _ = piece.end
+        return wind_search.time_of(wind_solver.fastest(problem._replace(x=q.real, y=q.imag, c=e.real, s=e.imag)))
 
     def by_heading(slopes: Sequence[float]) -> float:
         _, _, slope = slopes
@@ -63,6 +73,7 @@ def _in_wind(trajectory: Trajectory) -> LeastTimes:
         axes=3,
         steps=STEPS_IN_WIND,
         time=time,
+        after=after,
         error=lambda T, slope: 2.0 * WIND_TIE_TOLERANCE * (1.0 + problem.R + T),
         by_heading=by_heading,
         motion_size=4.0,
@@ -73,6 +84,9 @@ def _in_wind(trajectory: Trajectory) -> LeastTimes:
 def _in_still_air(trajectory: Trajectory) -> LeastTimes:
     problem = trajectory.problem.reduced()
     x, y, R, side, tolerance = problem
+    # Far from the origin the rounding of coordinates exceeds that of the reduced state; the kernel counts starts within
+    # it as on a last arc, where T does not depend on the state as elsewhere.
+    rounded = max(rounding(x, y, R), replace(trajectory.problem, tolerance_m=0.0).reduced().tolerance)
 
     def fastest(axis: int, step: float) -> Entry:
         return optimum(x + step * (axis == 0), y + step * (axis == 1), R, side, tolerance)
@@ -92,8 +106,9 @@ def _in_still_air(trajectory: Trajectory) -> LeastTimes:
         axes=2,
         steps=[h for h in STEPS_IN_STILL_AIR if h <= _widest_step(trajectory, problem)],
         time=lambda axis, step: duration(fastest(axis, step)),
+        after=lambda u, step: duration(optimum(*flow(x, y, u, step), R, side, tolerance)),
         # The kernel's T is that of a state with a rounding error, and is itself rounded.
-        error=lambda T, slope: 2.0 * rounding(x, y, R) * (1.0 + slope),
+        error=lambda T, slope: 2.0 * rounded * (1.0 + slope),
         by_heading=by_heading,
         motion_size=1.0 + hypot(x, y),
         not_smooth=not_smooth,

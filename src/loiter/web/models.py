@@ -330,11 +330,12 @@ class Candidate(Answer):
 class Certificate(Answer):
     """The conditions of the maximum principle for a maneuver, checked.
 
-    They are necessary. That they are also sufficient is proved for circles of the turn radius in still air alone (the
-    paper). `lambda` and `psi` are null where the aircraft is on the circle already.
+    They are necessary. `optimal` says that the maneuver is proved to be optimal, up to rounding: it is valid, in still
+    air, without a tolerance. `lambda` and `psi` are null where the aircraft is on the circle already.
     """
 
     valid: bool
+    optimal: bool
     word: str
     turn: Literal["cw", "ccw"]
     duration_s: float

@@ -6,7 +6,6 @@
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../shared/types.js").Certificate} Certificate
  */
-import { isProved } from "../scene/scene.js";
 import { byId } from "../shared/dom.js";
 import { timeDifference } from "../shared/units.js";
 
@@ -29,24 +28,21 @@ export function verdictView(store) {
  * @param {PageState} state
  * @returns {{kind: "unchecked" | "waiting" | "valid" | "invalid", text: string}}
  */
-function verdictOf({ failure, faults, proof, scene, answer }) {
+function verdictOf({ failure, faults, proof, answer }) {
   if (failure) return { kind: "unchecked", text: "–" };
   if (faults.certificate) return { kind: "unchecked", text: faults.certificate.sentence };
   if (!proof || !answer) return { kind: "waiting", text: "…" };
   const { certificate } = proof;
   if (!certificate.valid)
     return { kind: "invalid", text: "A condition of the maximum principle fails: see loiter plan --certify." };
-  return { kind: "valid", text: validText(certificate, isProved(scene, answer.reduced.radius)) };
+  return { kind: "valid", text: validText(certificate) };
 }
 
-/**
- * @param {Certificate} certificate
- * @param {boolean} isProvedByPaper  only for circles of the turn radius in still air
- */
-function validText({ residuals, runner_up, margin_s }, isProvedByPaper) {
+/** @param {Certificate} certificate */
+function validText({ residuals, optimal, runner_up, margin_s }) {
   const count = residuals.filter(({ verdict }) => verdict === "holds").length;
-  const meaning = isProvedByPaper
-    ? "The paper proves that nothing is faster."
+  const meaning = optimal
+    ? "In still air it is proved that nothing is faster."
     : "They are necessary conditions, not a proof of optimality.";
   const hasRunnerUp = runner_up !== null && margin_s !== null;
   const margin = hasRunnerUp ? ` Runner-up ${runner_up}, ${timeDifference(margin_s)} later.` : "";

@@ -28,19 +28,6 @@ export const orbitMoves = ({ orbit }) => orbit.velocity_east_m_s !== 0 || orbit.
  */
 export const drifts = (scene) => scene.wind !== null || orbitMoves(scene);
 
-// R of a circle of the turn radius differs from 1 only by rounding.
-const ROUNDING = 1e-9;
-
-/**
- * Whether the paper proves the optimum of a scene: still air, and a circle of the turn radius at rest.
- *
- * @param {Scene} scene
- * @param {number} radius  of the circle, turn radii
- */
-export function isProved(scene, radius) {
-  return !drifts(scene) && scene.tolerance_m === 0 && Math.abs(radius - 1) < ROUNDING;
-}
-
 const STANDARD_GRAVITY_M_S2 = 9.80665;
 
 /** @type {Limit[]} */

@@ -85,6 +85,7 @@
  *
  * @typedef {object} Certificate
  * @property {boolean} valid
+ * @property {boolean} optimal
  * @property {number | null} lambda
  * @property {string | null} runner_up
  * @property {number | null} margin_s

@@ -1,0 +1,36 @@
+"""`loiter prove`: the lemmas of docs/proof.md, checked in exact algebra and ball arithmetic."""
+
+from rich.console import Console
+from rich.progress import track
+from rich.table import Table
+
+from loiter.cli import report
+from loiter.cli.status import CHECK_FAILED
+from loiter.verify.proof.lemmas import LEMMAS
+from loiter.verify.proof.run import Finding
+from loiter.verify.proof.run import prove as findings_of
+
+
+def prove() -> int:
+    """Check the lemmas of docs/proof.md on the kernel's own formulas; exit status 1 where one is not certain."""
+    results = findings_of()
+    # The progress goes to standard error, so that standard output contains the result only.
+    found = list(track(results, description="prove", total=len(LEMMAS), console=Console(stderr=True)))
+    failures = [finding for finding in found if finding.failure]
+    report.write(table(found), *(f"{finding.lemma.section}: {finding.failure}." for finding in failures))
+    return CHECK_FAILED if failures else 0
+
+
+def table(found: list[Finding]) -> Table:
+    """A table with a row for each lemma."""
+    rows = report.new_table()
+    for heading in ("lemma", "statement"):
+        rows.add_column(heading)
+    for heading in ("cases, boxes", "depth", "seconds"):
+        rows.add_column(heading, justify="right")
+    rows.add_column("verdict")
+    for finding in found:
+        section, statement, _ = finding.lemma
+        cases, depth = finding.certainty
+        rows.add_row(section, statement, str(cases), str(depth), f"{finding.seconds:.2f}", finding.verdict)
+    return rows

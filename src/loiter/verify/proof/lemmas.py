@@ -1,0 +1,34 @@
+"""The lemmas of docs/proof.md as checks: each raises `NotProved`, or says how many cases and boxes it took.
+
+Identities are checked in exact algebra, on the kernel's own functions, inequalities in ball arithmetic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from loiter.verify.proof import arrivals, rlr, selection, switching
+from loiter.verify.proof.balls import Certainty
+
+
+class Lemma(NamedTuple):
+    """A lemma of docs/proof.md: its section, what it says, and its check."""
+
+    section: str
+    statement: str
+    check: Callable[[], Certainty]
+
+
+LEMMAS = (
+    Lemma("lemma 1", "every word but LRL ends at (0, R), and exists where the text says", arrivals.arrivals),
+    Lemma("lemma 3", "R = 2: no straight piece through the centre", arrivals.straight_at_two),
+    Lemma("lemma 4", "switching points of LRL and RLR, and their radii along the curve", switching.switching_points),
+    Lemma("lemma 5", "the kernel's LRL is the extremal, and exists where the text says", switching.kernel_lrl),
+    Lemma("lemma 6", "RL takes at most 2 pi - a", switching.rl_bound),
+    Lemma("lemma 7 a", "the tail of RLR lasts 3 pi - 3 alpha + omega", rlr.rlr_tail),
+    Lemma("lemma 7 b", "E > 0: the tail of RLR lasts more than 2 pi - a", rlr.rlr_excess),
+    Lemma("lemma 7 c", "RL is faster than the tail of RLR, on boxes", rlr.rlr_slower),
+    Lemma("lemma 7 d", "RSR is faster than the tail of RLR for q > 2", rlr.rsr_faster),
+    Lemma("theorem 2", "the words that `fastest` compares are those of the text", selection.selection),
+)

@@ -1,0 +1,44 @@
+"""All lemmas of docs/proof.md, checked one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from time import perf_counter
+from typing import NamedTuple
+
+from loiter.verify.proof.algebra import NotProved, flint
+from loiter.verify.proof.balls import Certainty
+from loiter.verify.proof.lemmas import LEMMAS, Lemma
+
+
+class Finding(NamedTuple):
+    """The result of one lemma: what it took, in cases and seconds, or why it is not certain."""
+
+    lemma: Lemma
+    certainty: Certainty
+    seconds: float
+    failure: str
+
+    @property
+    def verdict(self) -> str:
+        """The verdict in a word or two."""
+        return "NOT CERTAIN" if self.failure else "certain"
+
+
+def prove() -> Iterator[Finding]:
+    """Check every lemma.
+
+    Raises `MissingPackage` at the call, not at the first result, where python-flint is not installed.
+    """
+    flint()
+    return map(check, LEMMAS)
+
+
+def check(lemma: Lemma) -> Finding:
+    """The finding of one lemma."""
+    started, failure, certainty = perf_counter(), "", Certainty(0, 0)
+    try:
+        certainty = lemma.check()
+    except NotProved as reason:
+        failure = str(reason)
+    return Finding(lemma, certainty, perf_counter() - started, failure)

@@ -1,0 +1,204 @@
+"""The lemmas of docs/proof.md: each is certain, and none is with a formula or a boundary changed a little."""
+
+import inspect
+import re
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+
+from loiter.cli.app import main
+from loiter.errors import MissingPackage
+from loiter.kernel import extremals, switching_curves
+from loiter.kernel.synthesis import optima
+from loiter.kernel.words import Side
+from loiter.verify.proof import algebra, balls, lemmas, rlr, switching
+from loiter.verify.proof.algebra import Field, NotProved
+from loiter.verify.proof.balls import Interval
+from loiter.verify.proof.run import check, prove
+
+pytest.importorskip("flint")
+
+NAMES = [lemma.section for lemma in lemmas.LEMMAS]
+PROOF = Path(__file__).parents[2] / "docs" / "proof.md"
+
+# A formula of the kernel, or of the lemma itself, changed by about 1e-6: lemma, module, function, text, replacement.
+FORMULAS = [
+    ("lemma 1", extremals, "rl", "0.25 * sqrt", "0.250001 * sqrt"),
+    ("lemma 1", extremals, "lr", "+ 0.25 * outer, x", "+ 0.250001 * outer, x"),
+    ("lemma 1", extremals, "external_join", "max(c - X, 0.0)", "max(c - X + 1e-6, 0.0)"),
+    ("lemma 1", extremals, "external_join", "(X, 1.0)", "(X, 1.000001)"),
+    ("lemma 1", extremals, "internal_join", "(X, -1.0)", "(X, -1.000001)"),
+    ("lemma 1", extremals, "onto_axis", "rise = y * (y + 2.0)", "rise = y * (y + 2.000001)"),
+    ("lemma 1", extremals, "onto_axis", "gap = rise if", "gap = 1.000001 * rise if"),
+    ("lemma 1", extremals, "l", "(-x, y + 1.0)", "(-x, y + 1.000001)"),
+    ("lemma 1", extremals, "r", "(x, y - 1.0)", "(x, y - 1.000001)"),
+    ("lemma 1", extremals, "start_at", "R, -2.0)", "R, -2.000001)"),
+    ("lemma 3", extremals, "lr", "0.25 * sqrt", "0.250001 * sqrt"),
+    ("lemma 4", switching, "family", "3.0 * s_ - w_", "3.000001 * s_ - w_"),
+    ("lemma 4", switching, "family", "s_ - w_\n", "s_ - 1.000001 * w_\n"),
+    ("lemma 4", switching, "along_curve", "f.w / f.s", "1.000001 * f.w / f.s"),
+    ("lemma 5", extremals, "lrl", "3.0 * d * d", "3.000001 * d * d"),
+    ("lemma 5", extremals, "lrl", "0.0625 * above", "0.06250001 * above"),
+    ("lemma 5", extremals, "lrl", "k + d * q", "k + 1.000001 * d * q"),
+    ("lemma 5", extremals, "lrl", "-0.5 * (w + d) * q", "-0.5000001 * (w + d) * q"),
+    ("lemma 5", switching_curves, "switching_abscissa", "8.0 / (A", "8.000001 / (A"),
+    ("lemma 6", extremals, "rl", "- 1.0 - 0.25 * inner)", "- 1.0 - 0.250001 * inner)"),
+    ("lemma 7 a", extremals, "lr", "- 1.0 + 0.25 * outer)", "- 1.0 + 0.250001 * outer)"),
+    ("lemma 7 a", extremals, "rl", "8.0 * (R + 1.0)", "8.000001 * (R + 1.0)"),
+    ("lemma 7 b", rlr, "rlr_excess", "- 3.0\n", "- 3.000001\n"),
+    ("lemma 7 b", rlr, "rlr_excess", "8.0 * s * s * s * c", "8.000001 * s * s * s * c"),
+    ("lemma 7 c", extremals, "rl", "R + 1.0 - 0.25 * inner)", "R + 1.0 - 0.250001 * inner)"),
+    ("lemma 7 d", extremals, "internal_join", "max(X - c, 0.0)", "max(X - c + 1e-6, 0.0)"),
+    ("lemma 7 d", extremals, "internal_join", "(X, -1.0)", "(X, -1.000001)"),
+    ("theorem 2", extremals, "start_at", "R, 2.0), beyond(x, y, R, -2.0)", "R, 2.000001), beyond(x, y, R, -2.0)"),
+]
+
+# A boundary of a region moved by about 1e-3.
+BOUNDARIES = [
+    ("lemma 1", extremals, "rl", "inner >= 0.0 and", "inner >= 0.001 and"),
+    ("lemma 1", extremals, "rl", "p >= 0.0 else", "p >= 0.001 else"),
+    ("lemma 1", extremals, "lr", "fold >= 0.0", "fold >= -0.001"),
+    ("lemma 1", extremals, "lr", "outer <= 0.0", "outer <= 0.001"),
+    ("lemma 1", extremals, "lr", "R > 1.0", "R > 1.001"),
+    ("lemma 1", extremals, "lsl", "start.outer >= 0.0", "start.outer >= 0.001"),
+    ("lemma 1", extremals, "rsl", "4.0 * start.R", "4.001 * start.R"),
+    ("lemma 1", extremals, "lsr", "<= 0.0", "<= 0.001"),
+    ("lemma 1", extremals, "rsr", "start.inner <= 0.0", "start.inner <= -0.001"),
+    ("lemma 1", extremals, "internal_join", "R >= 2.0", "R >= 2.001"),
+    ("lemma 4", switching, "family", "+ middle\n", "+ 1.001 * middle\n"),
+    ("lemma 5", extremals, "lrl", "fold <= 0.0", "fold <= 0.001"),
+    ("lemma 5", extremals, "lrl", "R <= 3.0", "R <= 3.001"),
+    ("lemma 5", extremals, "lrl", "h < 6.0", "h < 6.001"),
+    ("lemma 6", switching, "rl_bound", "- (R + 1.0 - rm)", "- (R + 1.001 - rm)"),
+    ("lemma 7 a", rlr, "rlr_tail", "(2.0 - q))", "(2.001 - q))"),
+    ("lemma 7 b", rlr, "rlr_excess", "edge = 2.0", "edge = 2.001"),
+    ("lemma 7 c", rlr, "HIGHEST_Q", 2.0, 2.001),
+    ("lemma 7 c", rlr, "LOWEST_Q", 0.2679, 0.2689),
+    ("lemma 7 d", rlr, "LONGEST_X", 2.8285, 2.8275),
+    ("theorem 2", extremals, "right_first", "4.0 * start.R", "4.001 * start.R"),
+    ("theorem 2", extremals, "right_first", "start.inner < 0.0", "start.inner < 0.001"),
+    ("theorem 2", extremals, "left_first", "start.fold <= 0.0", "start.fold <= 0.001"),
+    ("theorem 2", extremals, "left_first", "start.outer >= 0.0", "start.outer >= 0.001"),
+    ("theorem 2", extremals, "detour", "4.0 * start.R", "4.001 * start.R"),
+]
+CHANGES = [*FORMULAS, *BOUNDARIES]
+
+
+def lemma(name):
+    return lemmas.LEMMAS[NAMES.index(name)]
+
+
+def changed(module, function, text, replacement):
+    """A function of a module with a part of its source replaced, which must be there once."""
+    source = textwrap.dedent(inspect.getsource(getattr(module, function)))
+    assert source.count(text) == 1, (function, text, source.count(text))
+    names = module.__dict__
+    kept = names[function]
+    exec(compile(source.replace(text, replacement), module.__file__, "exec"), names)
+    names[function], new = kept, names[function]
+    return new
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_lemma_is_certain(name):
+    finding = check(lemma(name))
+    assert (finding.verdict, finding.failure) == ("certain", "")
+    assert finding.certainty.cases > 0
+
+
+@pytest.mark.parametrize(("name", "module", "part", "text", "replacement"), CHANGES)
+def test_a_lemma_fails_where_a_formula_or_a_boundary_is_changed(name, module, part, text, replacement, monkeypatch):
+    if isinstance(text, float):
+        assert getattr(module, part) == text
+        monkeypatch.setattr(module, part, replacement)
+    else:
+        function = changed(module, part, text, replacement)
+        monkeypatch.setattr(module, part, function)
+        # `LEMMAS` holds the functions themselves.
+        table = tuple(item._replace(check=function) if item.check.__name__ == part else item for item in lemmas.LEMMAS)
+        monkeypatch.setattr(lemmas, "LEMMAS", table)
+    finding = check(lemma(name))
+    assert finding.verdict == "NOT CERTAIN"
+    assert finding.failure
+
+
+def test_every_lemma_is_changed_in_both_ways():
+    assert {change[0] for change in FORMULAS} == set(NAMES)
+    # The one of lemma 3 is a single radius, R = 2.
+    assert {change[0] for change in BOUNDARIES} == set(NAMES) - {"lemma 3"}
+
+
+def test_the_command_prints_a_table(capsys):
+    assert main(["prove"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split("  ")[0] for line in lines[1:]] == NAMES
+    assert all(line.rstrip().endswith("certain") for line in lines[1:])
+
+
+def test_the_command_fails_where_a_lemma_is_not_certain(monkeypatch, capsys):
+    monkeypatch.setattr(rlr, "LONGEST_X", 2.8275)
+    assert main(["prove"]) == 1
+    out = capsys.readouterr().out
+    assert "NOT CERTAIN" in out
+    assert "lemma 7 d: X may be longer." in out
+
+
+def test_without_python_flint_one_sentence_says_so(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "flint", None)
+    with pytest.raises(MissingPackage):
+        prove()
+    assert main(["prove"]) == 2
+    assert capsys.readouterr().err.strip().endswith("pip install python-flint")
+
+
+def test_the_document_has_the_table_of_the_program():
+    """Cases, boxes and depths; the seconds are those of another machine."""
+    rows = re.findall(
+        r"^\| (\S.*?) \| (.*?) \| (\d+) \| (\d+) \| [\d.]+ \| certain \|$", PROOF.read_text(), re.MULTILINE
+    )
+    found = [(f.lemma.section, f.lemma.statement, *map(str, f.certainty)) for f in prove()]
+    assert rows == found
+
+
+@pytest.mark.parametrize(("R", "count"), [(1.0, 2), (1.5, 2), (2.0, 3), (2.5, 4), (10.0, 4)])
+def test_four_controls_are_optimal_at_the_mirror_image_of_the_target(R, count):
+    """Theorem 3: the one state where a fixed direction has more than three."""
+    assert len(optima(0.0, -R, R, Side.CW, 0.0)) == count
+
+
+# The arithmetic itself
+
+
+def test_square_roots_are_found_or_adjoined():
+    field = Field({"x": -3.0})
+    x = field.variable("x")
+    assert field.sqrt(x * x) == -x
+    assert field.sqrt(4.0 * x * x / 9.0).sample == pytest.approx(2.0)
+    root = field.sqrt(x * x + 1.0)
+    assert root * root == x * x + 1.0
+    assert field.sqrt(x * x + 1.0) == root
+    assert not (root - 1.0).is_zero
+    with pytest.raises(NotProved):
+        field.sqrt(x)
+
+
+def test_comparisons_are_recorded():
+    field = Field({"x": -3.0})
+    x = field.variable("x")
+    assert x < 0.0
+    assert not x >= 0.0
+    assert x < algebra.inf
+    assert [compared.sample for compared in field.compared] == [3.0, 3.0]
+    with pytest.raises(NotProved):
+        assert x + 3.0 > 0.0
+
+
+def test_an_inequality_is_certain_only_where_it_holds():
+    unit = [(Interval(-1.0, 1.0),)]
+    assert balls.positive("", lambda x: x * x - x + 0.26, unit).cases > 1
+    with pytest.raises(NotProved):
+        balls.positive("", lambda x: x * x - x + 0.249, unit)
+    with pytest.raises(NotProved):
+        balls.positive("", lambda x: x * x - x + 0.25, unit)
