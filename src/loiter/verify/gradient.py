@@ -134,6 +134,8 @@ def gradient_of(times: LeastTimes) -> Gradient | None:
         if coarse is not None:
             truncation = hypot(*(a - b for a, b in zip(fine, coarse, strict=True)))
             bound = truncation + bend + times.error(T, hypot(*fine)) / h
-            best = Gradient(fine, bound) if best is None or bound < best.bound else best
+            # At a corner the bend may vanish at one step, where it cancels h T''; at a finer one it does not.
+            cancelled = best is not None and bend > best.bound + 2.0 * times.error(T, hypot(*fine)) / h
+            best = Gradient(fine, bound) if best is None or cancelled or bound < best.bound else best
         coarse = fine
     return best if best is not None and best.bound <= RESOLVED * hypot(*best.slopes) else None
