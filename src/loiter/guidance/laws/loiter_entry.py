@@ -424,10 +424,10 @@ class LoiterEntry:
             return -route.control * self._limit_deg
         state, offset, _ = response
         vx, vy = route.velocity(state)
-        gain = self._present_gain()
+        gain, speed = self._present_gain(), hypot(vx, vy)
         bandwidth, turn_rate = 1.0 / (self._response_s + gain * dt), self._limits.airspeed_m_s / self._orbit.radius_m
-        place_gain = HOLD_GAIN * turn_rate if route.is_holding else PLACE_GAIN * bandwidth
-        course = course_rate(offset, gain * bandwidth, place_gain, hypot(vx, vy))
+        place_gain = HOLD_GAIN * speed / self._orbit.radius_m if route.is_holding else PLACE_GAIN * bandwidth
+        course = course_rate(offset, gain * bandwidth, place_gain, speed)
         if route.is_holding:
             course -= self._trimmed(offset.crosstrack, gain * bandwidth, turn_rate, dt)
         rate = -air_rate(course, vx, vy, state.hx, state.hy)
