@@ -31,7 +31,7 @@ TRUE = [
     "**Proven**, up to rounding and except for whole turns as in proof.md, section 9",
     "That nothing is faster is proved in still air, without a tolerance ([proof.md](proof.md))",
     "it says that the conditions are no proof of optimality",
-    "The page says where the paper proves the optimum, for a circle of the turn radius in still air",
+    "proves, for every circle that can be held in still air, that the fastest of the nine words is the optimum",
 ]
 # What the help and the service describe.
 TRUE_HELP = ["in closed form: proved to be the optimum (docs/proof.md)"]

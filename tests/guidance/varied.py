@@ -22,11 +22,12 @@ RUNS, SEED = 500, 17
 
 
 class Result(NamedTuple):
-    """One flight: settling time, duration of the fastest entry, and, over the settled turn, the mean offset from the
-    circle as a share of its radius, and the standard deviations of the course, degrees, and of the command, degrees.
+    """One flight: times of settling and joining, duration of the fastest entry, and, over the settled turn, the mean
+    offset from the circle as a share of its radius, and the standard deviations of course and command, degrees.
     """
 
     settled_s: float
+    joined_s: float
     ideal_s: float
     offset: float
     course_deg: float
@@ -49,6 +50,7 @@ def result(trial: VariedTrial, law: str, gust: float, limit_s: float = LIMIT_S) 
     speed = np.hypot(track.velocity_east_m_s, track.velocity_north_m_s)[turn]
     return Result(
         flight.settled_s,
+        flight.joined_s,
         trial.ideal.duration_s,
         float(np.mean(distance) / orbit.radius_m - 1.0),
         float(np.std(np.degrees(np.arcsin(outward / speed)))),
@@ -88,21 +90,30 @@ def described(trial: VariedTrial, flown: Result) -> str:
     )
 
 
+def compared(optimal: Sequence[Result], other: Sequence[Result]) -> str:
+    """How often the optimal law settles sooner; where neither settles it does not."""
+    pairs = list(zip(optimal, other, strict=True))
+    sooner, neither = sum(a.ratio < b.ratio for a, b in pairs), sum(a.ratio == b.ratio == np.inf for a, b in pairs)
+    return f"  optimal is sooner in {sooner} of {len(optimal)}; neither settles in {neither}"
+
+
 def main() -> None:
     runs, seed = (int(value) for value in sys.argv[1:3]) if len(sys.argv) > 2 else (RUNS, SEED)
     trials = varied_trials(runs, seed)
-    gusty = {law: results(trials, law, 0.05) for law in ("optimal", "l1", "vector-field")}
-    for name, flown in gusty.items():
-        print(line(f"{name}, gusts of 5 %", flown), flush=True)
-        if name != "optimal":
-            pairs = zip(gusty["optimal"], flown, strict=True)
-            print(f"  optimal is sooner in {np.mean([a.ratio < b.ratio for a, b in pairs]):.1%}", flush=True)
     calm = results(trials, "optimal", 0.0)
-    print(line("optimal, calm air", calm))
+    print(line("optimal, calm air", calm), flush=True)
     still = [r for r, trial in zip(calm, trials, strict=True) if trial.ideal.wind.speed_m_s == 0.0]
-    print(line("optimal, calm, no wind", still), f"largest command {max(r.command_deg for r in still):.1f} deg")
-    for trial, flown in sorted(zip(trials, gusty["optimal"], strict=True), key=lambda each: -each[1].ratio)[:10]:
-        print(" ", described(trial, flown))
+    largest = f"largest command {max(r.command_deg for r in still):.1f} deg"
+    print(line("optimal, calm, no wind", still), largest, flush=True)
+    optimal = results(trials, "optimal", 0.05)
+    print(line("optimal, gusts of 5 %", optimal), flush=True)
+    joined = np.sort([r.joined_s / r.ideal_s if r.joined_s == r.joined_s else np.inf for r in optimal])
+    print(f"  joined {np.isfinite(joined).sum()}, ratio {joined[runs // 2]:.3f}, 90 % {joined[int(0.9 * runs)]:.2f}")
+    for trial, flown in sorted(zip(trials, optimal, strict=True), key=lambda each: -each[1].ratio)[:10]:
+        print(" ", described(trial, flown), flush=True)
+    for law in ("l1", "vector-field"):
+        flown = results(trials, law, 0.05)
+        print(line(f"{law}, gusts of 5 %", flown), compared(optimal, flown), sep="\n", flush=True)
 
 
 if __name__ == "__main__":
