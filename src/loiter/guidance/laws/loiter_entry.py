@@ -294,7 +294,8 @@ class LoiterEntry:
         bank_deg, route = self._last_command.bank_deg, self._route
         if self._clock.since_s > BLIND_S:
             bank_deg = self._piece_bank_deg(route, None) if route and route.is_holding else 0.0
-            bank_deg = clip(bank_deg, self.command_limit_deg)
+        # The limit may be lower now than when the last command was given.
+        bank_deg = clip(bank_deg, self.command_limit_deg)
         self._record(bank_deg, dt)
         turn = self._last_command.turn
         return Command(self._turn_rate_deg_s(bank_deg), bank_deg, Phase.NO_DATA, nan, turn, Phase.NO_DATA, nan)

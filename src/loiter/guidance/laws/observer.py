@@ -62,19 +62,10 @@ class Estimate(NamedTuple):
 
     def after(self, time_s: float) -> Estimate:
         """The estimate `time_s` seconds later, with constant bank in a constant wind."""
-        x, y, c, s = constant_turn(self.pose, self.airspeed_m_s, self.turn_rate, time_s)
-        _, _, V, turn_rate, bank_deg, east, north, turning = self
+        then_s, pose, V, turn_rate, bank_deg, east, north, turning = self
         # The constructor: `_replace` takes three times as long.
-        return Estimate(
-            self.time_s + time_s,
-            PlanarPose(x + east * time_s, y + north * time_s, c, s),
-            V,
-            turn_rate,
-            bank_deg,
-            east,
-            north,
-            turning,
-        )
+        pose = _drifted_turn(pose, V, turn_rate, (east, north), time_s)
+        return Estimate(then_s + time_s, pose, V, turn_rate, bank_deg, east, north, turning)
 
     def with_bank(self, bank_deg: float) -> Estimate:
         """The estimate with another bank, which also changes the direction of flight if the vehicle slips."""
@@ -85,15 +76,13 @@ class Estimate(NamedTuple):
 
     def at_present(self, history: BankHistory, delay_s: float) -> Estimate:
         """The estimate extrapolated over the measurement delay, with the banks modelled since then."""
-        bias_deg, turning, V = self.bank_deg - history.delayed_deg(delay_s), self.turning, self.airspeed_m_s
-        mean_rate, bank_deg = turning.rate(history.mean_deg(delay_s) + bias_deg, V), history.current_deg + bias_deg
-        pose = _rotated(self.pose, turning.lead_s * (mean_rate - self.turn_rate))
-        x, y, c, s = constant_turn(pose, V, mean_rate, delay_s)
-        turn_rate, east, north = turning.rate(bank_deg, V), self.air_east_m_s, self.air_north_m_s
-        pose = _rotated(
-            PlanarPose(x + east * delay_s, y + north * delay_s, c, s), turning.lead_s * (turn_rate - mean_rate)
-        )
-        return Estimate(self.time_s + delay_s, pose, V, turn_rate, bank_deg, east, north, turning)
+        time_s, pose, V, last_rate, bank_deg, east, north, turning = self
+        bias_deg = bank_deg - history.delayed_deg(delay_s)
+        mean_rate = turning.rate(history.mean_deg(delay_s) + bias_deg, V)
+        pose = _rotated(pose, turning.lead_s * (mean_rate - last_rate))
+        pose = _drifted_turn(pose, V, mean_rate, (east, north), delay_s)
+        present = Estimate(time_s + delay_s, pose, V, mean_rate, bank_deg, east, north, turning)
+        return present.with_bank(history.current_deg + bias_deg)
 
 
 def is_plausible(state: State) -> bool:
@@ -216,8 +205,7 @@ class Observer:
         bank_deg += share * (state.bank_deg - bank_deg)
         turn_rate = turning.rate(bank_deg, V)
         begin = _rotated(last.pose, turning.lead_s * (turn_rate - last.turn_rate))
-        x, y, c, s = constant_turn(begin, V, turn_rate, dt)
-        predicted = PlanarPose(x + last.air_east_m_s * dt, y + last.air_north_m_s * dt, c, s)
+        predicted = _drifted_turn(begin, V, turn_rate, (last.air_east_m_s, last.air_north_m_s), dt)
         pose = _blended(predicted, _flight_pose(state, turning), share)
         air = self._air.update(state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s, dt)
         self._last = Estimate(state.time_s, pose, V, turn_rate, bank_deg, *air, turning)
@@ -234,13 +222,19 @@ def _blended(pose: PlanarPose, measured: PlanarPose, share: float) -> PlanarPose
 
 def _estimate_from(state: State, turning: Turning) -> Estimate:
     """The estimate from a single measurement."""
-    V, turn_rate, pose = (
-        state.airspeed_m_s,
-        turning.rate(state.bank_deg, state.airspeed_m_s),
-        _flight_pose(state, turning),
-    )
+    V, pose = state.airspeed_m_s, _flight_pose(state, turning)
+    turn_rate = turning.rate(state.bank_deg, V)
     air = state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s
     return Estimate(state.time_s, pose, V, turn_rate, state.bank_deg, *air, turning)
+
+
+def _drifted_turn(
+    pose: PlanarPose, airspeed_m_s: float, turn_rate: float, air: tuple[float, float], time_s: float
+) -> PlanarPose:
+    """The pose after a turn at a constant rate through air that moves with a velocity, east and north."""
+    x, y, c, s = constant_turn(pose, airspeed_m_s, turn_rate, time_s)
+    east, north = air
+    return PlanarPose(x + east * time_s, y + north * time_s, c, s)
 
 
 def _flight_pose(state: State, turning: Turning) -> PlanarPose:

@@ -33,14 +33,14 @@ def refined_minimum(found: WindCandidate, width: float, scene: WindScene) -> Win
     """
     for _ in range(REFINEMENTS):
         found = enclosed_minimum(found, width, scene)
-        faster = faster_beside(found, scene)
+        faster = faster_nearby(found, scene)
         if faster.path.time == inf:
             break
         found = faster
     return found
 
 
-def faster_beside(found: WindCandidate, scene: WindScene) -> WindCandidate:
+def faster_nearby(found: WindCandidate, scene: WindScene) -> WindCandidate:
     """A faster path, of any word, to the point of a candidate or a little before or after it; otherwise `NO_PATH`."""
     until = found.path.time - scene.arc_tolerance
     beside = BESIDE * min(found.path.time, 1.0)
