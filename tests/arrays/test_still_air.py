@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import loiter
+from arrays.overlapping import overlaps
 from golden.paper import EXAMPLES
 from loiter import Aircraft, Orbit, Pose, plan
 from loiter.arrays import Solution
@@ -164,14 +165,7 @@ def test_threads_share_the_work(workers):
     assert np.array_equal(out, loiter.min_time(X, Y))
 
 
-# Where the result lies in the memory of an argument: reversed, one further, one back, every third, the same.
-OVERLAPS = {
-    "reversed": (slice(None, None, -1), slice(None)),
-    "further": (slice(None, -1), slice(1, None)),
-    "back": (slice(1, None), slice(None, -1)),
-    "every third": (slice(0, 1000), slice(0, 3000, 3)),
-    "same": (slice(None), slice(None)),
-}
+OVERLAPS = overlaps(1000)
 
 
 @pytest.mark.parametrize("workers", [1, 2, 3])

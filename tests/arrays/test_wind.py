@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import loiter
+from arrays.overlapping import overlaps
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.arrays import WindSolution
 from loiter.compiled import ufunc
@@ -143,14 +144,7 @@ def test_threads_share_the_work(workers):
     assert times_of(4.0, 4.0, 0.0, turn=0, workers=workers) == times_of(4.0, 4.0, 0.0, turn=0)
 
 
-# Where the result lies in the memory of an argument: reversed, one further, one back, every third, the same.
-OVERLAPS = {
-    "reversed": (slice(None, None, -1), slice(None)),
-    "further": (slice(None, -1), slice(1, None)),
-    "back": (slice(1, None), slice(None, -1)),
-    "every third": (slice(0, 100), slice(0, 300, 3)),
-    "same": (slice(None), slice(None)),
-}
+OVERLAPS = overlaps(100)
 
 
 @pytest.mark.parametrize("workers", [1, 3])

@@ -1,4 +1,6 @@
-"""Tables to plan, and how to read what came of them."""
+"""Tables to plan, how to read what came of them, and jobs that are disturbed."""
+
+import os
 
 import numpy as np
 import pyarrow as pa
@@ -6,6 +8,7 @@ import pyarrow.csv
 import pyarrow.parquet as pq
 
 from loiter import Aircraft, Orbit
+from loiter.batch.jobs import parts
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 ORBIT = Orbit(0.0, 0.0, 80.0)
@@ -71,3 +74,27 @@ def read(path):
     return pyarrow.csv.read_csv(
         path, convert_options=types, parse_options=pyarrow.csv.ParseOptions(newlines_in_values=True)
     ).to_pylist()
+
+
+def stop_after(monkeypatch, count, error):
+    """Let a job raise an error after some parts."""
+    solve, done = parts.solve_part, []
+
+    def solve_part(job, part, *tick):
+        if len(done) == count:
+            raise error
+        done.append(part)
+        solve(job, part, *tick)
+
+    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
+
+
+def change_after_each_part(monkeypatch, path):
+    """Let the time stamp of a file change whenever a part is solved."""
+    solve = parts.solve_part
+
+    def solve_part(job, part, *tick):
+        solve(job, part, *tick)
+        os.utime(path, (1, 1))
+
+    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)

@@ -17,7 +17,7 @@ import pyarrow.parquet as pq
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, poses, read, write
+from batch.making import OPTIONS, ORBIT, UAV, change_after_each_part, poses, read, stop_after, write
 from loiter.batch.jobs import folder, parts
 from loiter.batch.tables import files, outputs
 from loiter.batch.tables.sources import SUCCESS
@@ -61,19 +61,6 @@ def names(place="out"):
 
 def contents(place="out"):
     return {path.name: path.read_bytes() for path in Path(place).iterdir()}
-
-
-def stop_after(monkeypatch, count):
-    """Make a job stop after some parts."""
-    solve, done = parts.solve_part, []
-
-    def solve_part(job, part, *tick):
-        if len(done) == count:
-            raise OSError(5, "")
-        done.append(part)
-        solve(job, part, *tick)
-
-    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
 
 
 def test_a_dataset_has_the_rows_of_a_file(expected):
@@ -284,7 +271,7 @@ def test_headers_of_csv_files_must_agree():
 
 def test_a_stopped_job_resumes_from_its_parts(expected, monkeypatch, capsys):
     with monkeypatch.context() as patch:
-        stop_after(patch, 4)
+        stop_after(patch, 4, OSError(5, ""))
         assert main(["batch", "in.parquet", "out/", *OPTIONS, "--workers", "1"]) == 2
     place = Path("out").absolute()
     kept = f"4 finished parts stay in {place}, and the same command resumes from there"
@@ -300,7 +287,7 @@ def test_a_stopped_job_resumes_from_its_parts(expected, monkeypatch, capsys):
 
 def test_readers_do_not_see_what_is_unfinished(expected, monkeypatch):
     with monkeypatch.context() as patch:
-        stop_after(patch, 4)
+        stop_after(patch, 4, OSError(5, ""))
         with pytest.raises(Unfinished):
             run(workers=1)
     Path("out/_temporary/part-00009-01234567.parquet.0123.tmp").write_bytes(b"half")
@@ -359,7 +346,7 @@ def another_input():
 def test_parts_of_another_job_are_refused(expected, monkeypatch, change, finished):
     with monkeypatch.context() as patch:
         if not finished:
-            stop_after(patch, 4)
+            stop_after(patch, 4, OSError(5, ""))
             with pytest.raises(Unfinished):
                 run(workers=1)
         else:
@@ -392,7 +379,7 @@ def test_a_job_that_cannot_begin_leaves_no_folder(expected):
     with pytest.raises(InvalidArgument, match="its working folder _temporary cannot be created, No such file"):
         run(target="missing/out/")
     with pytest.MonkeyPatch.context() as patch:
-        stop_after(patch, 0)
+        stop_after(patch, 0, OSError(5, ""))
         with pytest.raises(Unfinished, match="no part was finished"):
             run()
     assert names(".") == ["expected.parquet", "in.parquet"]
@@ -430,13 +417,7 @@ def test_a_table_without_rows_becomes_a_part_without_rows():
 
 
 def test_an_input_that_changes_meanwhile_is_reported(expected, monkeypatch):
-    solve = parts.solve_part
-
-    def solve_part(job, part, *tick):
-        solve(job, part, *tick)
-        os.utime("in.parquet", (1, 1))
-
-    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
+    change_after_each_part(monkeypatch, "in.parquet")
     with pytest.raises(InvalidArgument, match="it changed while it was read"):
         run()
     assert SUCCESS not in names()
@@ -492,7 +473,7 @@ def test_the_description_lists_all_files(monkeypatch):
     Path("data").mkdir()
     written("data", 3)
     with monkeypatch.context() as patch:
-        stop_after(patch, 1)
+        stop_after(patch, 1, OSError(5, ""))
         with pytest.raises(Unfinished):
             run("data", workers=1)
     description = json.loads(Path("out/_temporary/job.json").read_text())

@@ -15,7 +15,7 @@ from random import SystemRandom
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, poses, write
+from batch.making import OPTIONS, ORBIT, UAV, change_after_each_part, poses, stop_after, write
 from loiter.batch.jobs import folder, parts
 from loiter.batch.jobs import job as jobs
 from loiter.batch.jobs import request as requests
@@ -42,19 +42,6 @@ def job(tmp_path, monkeypatch):
     write(poses(1000), Path("in.parquet"), 100)
     loiter.batch.run("in.parquet", "expected.parquet", **GIVEN)
     return ["batch", "in.parquet", "out.parquet", *OPTIONS], Path("expected.parquet").read_bytes()
-
-
-def stop_after(monkeypatch, count, error):
-    """Lets a job come to grief after some parts."""
-    solve, done = parts.solve_part, []
-
-    def solve_part(job, part, *tick):
-        if len(done) == count:
-            raise error
-        done.append(part)
-        solve(job, part, *tick)
-
-    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
 
 
 def names(path):
@@ -261,13 +248,7 @@ def test_a_part_that_lost_its_end_is_done_again(job, monkeypatch):
 
 
 def test_an_input_that_changes_meanwhile_is_reported(job, monkeypatch):
-    solve = parts.solve_part
-
-    def solve_part(job, part, *tick):
-        solve(job, part, *tick)
-        os.utime("in.parquet", (1, 1))
-
-    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
+    change_after_each_part(monkeypatch, "in.parquet")
     with pytest.raises(InvalidArgument, match="it changed while it was read"):
         loiter.batch.run("in.parquet", "out.parquet", **GIVEN)
     assert not Path("out.parquet").exists()

@@ -18,7 +18,7 @@ import pyarrow.parquet as pq
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, poses, read, write
+from batch.making import OPTIONS, ORBIT, UAV, poses, read, stop_after, write
 from loiter.batch.jobs import parts
 from loiter.batch.tables import files, outputs, storage
 from loiter.batch.tables.sources import SUCCESS
@@ -87,18 +87,6 @@ def below(url):
 def rows_of(url):
     parts = [name for name in below(url) if name.endswith(".parquet")]
     return [row for name in parts for row in pq.read_table(pa.BufferReader(content(f"{url}/{name}"))).to_pylist()]
-
-
-def stop_after(monkeypatch, count, error):
-    solve, done = parts.solve_part, []
-
-    def solve_part(job, part, *tick):
-        if len(done) == count:
-            raise error
-        done.append(part)
-        solve(job, part, *tick)
-
-    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
 
 
 @pytest.mark.parametrize("target", ["out/", "sub/out.parquet/"])
