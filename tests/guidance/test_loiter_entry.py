@@ -397,3 +397,14 @@ def test_commands_can_be_limited_below_the_bank_limit():
     assert law.estimates.delay_s == pytest.approx(0.1, abs=0.08)
     law.command_limit_deg = 35.0
     assert abs(law.step(aircraft.measured_state(), 0.02).bank_deg) > 30.0
+
+
+def test_a_lower_limit_holds_without_data_too():
+    law, mass = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=2)
+    for _ in range(10):
+        last = law.step(mass.measured_state(), 0.02)
+        mass.advance(last, 0.02)
+    assert abs(last.bank_deg) > 10.0
+    law.command_limit_deg = 5.0
+    blind = law.step(mass.measured_state()._replace(east_m=nan), 0.02)
+    assert (blind.phase, abs(blind.bank_deg)) == ("no data", 5.0)
