@@ -45,6 +45,12 @@ def cached_addresses(names: Sequence[str], sources: Iterable[Path]) -> list[int]
     return None if code is None else _load(code, names)
 
 
+def is_cached(names: Sequence[str], sources: Iterable[Path]) -> bool:
+    """Whether the object file is there and whole, so that `addresses` compiles nothing."""
+    _start()
+    return _read(_path(names, sources)) is not None
+
+
 def _load(code: bytes, names: Sequence[str]) -> list[int]:
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine())
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))

@@ -5,12 +5,12 @@ from __future__ import annotations
 from math import hypot
 from typing import NamedTuple
 
-from loiter.compiled import wind_solver
+from loiter.compiled import still_air_solver, wind_solver
 from loiter.guidance.laws.path_tracking import flight_velocity
 from loiter.kernel import motion, wind_search
 from loiter.kernel.hold import tightest_radius
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import Entry, is_solvable, optimum, rounded_radius
+from loiter.kernel.synthesis import Entry, rounded_radius
 from loiter.kernel.wind_search import WindProblem
 
 # An aircraft that hardly exceeds the wind can hold no circle; wind beyond this share of the airspeed is planned as if
@@ -101,8 +101,8 @@ def fastest_entry(
 def _still_air_entry(
     state: RelativeState, course: tuple[float, float], r: float, radius_m: float, side: int, tolerance: float
 ) -> Entry | None:
-    scene = *motion.reduce(state.x / r, state.y / r, *course), rounded_radius(radius_m / r)
-    return optimum(*scene, side, tolerance) if is_solvable(*scene, tolerance) else None
+    x, y = motion.reduce(state.x / r, state.y / r, *course)
+    return still_air_solver.optimum(x, y, rounded_radius(radius_m / r), side, tolerance)
 
 
 def unit(x: float, y: float) -> tuple[float, float]:

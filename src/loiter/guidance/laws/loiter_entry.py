@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees, hypot, inf, nan
 from typing import NamedTuple
 
-from loiter.compiled import wind_solver
+from loiter.compiled import still_air_solver, wind_solver
 from loiter.errors import not_negative, positive
 from loiter.guidance.identification.vehicle import (
     DeclaredVehicle,
@@ -26,7 +26,7 @@ from loiter.guidance.laws.path_tracking import PathOffset, air_rate, course_rate
 from loiter.guidance.laws.route import Route, controls_of
 from loiter.guidance.protocol import Command, Phase, State, phase_of_control
 from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
+from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll, TurnOnset
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.kernel.words import Side
 from loiter.planning.feasibility import check_held, relative_wind
@@ -70,6 +70,9 @@ LOST_OFFSET, LOST_COURSE = 0.5, 1.0
 
 # Without data the last command is kept for this time, seconds. Older measurements are not averaged with new ones.
 BLIND_S = 1.0
+
+# The delays of changes of bank are computed again when the time constant or the rate of the roll changes by this share.
+ROLL_CHANGED = 0.01
 
 # A piece with less than this left, seconds, is complete but for rounding.
 ROUNDING_S = 1e-9
@@ -147,7 +150,8 @@ class LoiterEntry:
             roll, delay_s, 1.0, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s, aircraft.airspeed_m_s
         )
         self._vehicle: Vehicle = DeclaredVehicle(declared)
-        # A wind may have to be planned with: the compiled search is loaded before the flight.
+        # The machine code is loaded before the flight, where it is compiled; a wind may have to be planned with.
+        still_air_solver.load()
         wind_solver.load()
         if identify:
             self._vehicle = IdentifiedVehicle(declared, self._limit_deg, wind_declared=wind is not None)
@@ -165,8 +169,8 @@ class LoiterEntry:
         self._present: Estimate | None = None
         self._elapsed_s = self._bias_deg = 0.0
         self._last_command = Command(0.0, 0.0, Phase.NO_DATA, nan, orbit.turn, Phase.NO_DATA, nan)
-        # The roll response for which the delays of changes of bank were computed, and these delays.
-        self._roll, self._leads_s = roll, dict[tuple[int, int], float]()
+        # The roll response for which the onsets of changes of bank were computed, and these onsets.
+        self._roll, self._onsets = roll, dict[tuple[int, int], TurnOnset]()
         self._reversal_m = 0.0
         self._update_limits()
 
@@ -249,15 +253,15 @@ class LoiterEntry:
         self._limits = turn_limits(known.airspeed_m_s, tightest_m, self._reserve, self._orbit.radius_m, self._wind)
         self._hold_deg = self._bank_deg(known.airspeed_m_s / self._orbit.radius_m)
         self._planned_deg = self._bank_deg(known.airspeed_m_s / self._limits.planned_m)
-        if known.roll is not self._roll:
-            self._roll, self._leads_s = known.roll, {}
+        if _differs(known.roll, self._roll):
+            self._roll, self._onsets = known.roll, {}
         self._reversal_m = self._reversal_width_m(known)
         self._response_s = self._lead_s(0.0, self._limit_deg) + self._smoothing_s + DELAY_SHARE * known.delay_s
 
     def _reversal_width_m(self, known: VehicleEstimates) -> float:
         """How far an aircraft is displaced towards the circle while it rolls from an opposite planned turn onto it."""
         begin_deg, end_deg = (clip(each, self._limit_deg) for each in (-self._planned_deg, self._hold_deg))
-        onset, V = known.roll.onset(begin_deg, end_deg, self._limit_deg), known.airspeed_m_s
+        onset, V = self._onset(begin_deg, end_deg), known.airspeed_m_s
         return 0.5 * onset.variance_s2 * V * V * (1.0 / self._limits.planned_m + 1.0 / self._orbit.radius_m)
 
     def _planned_wind(self, known: VehicleEstimates) -> tuple[float, float]:
@@ -342,12 +346,17 @@ class LoiterEntry:
         return max(early_s, 0.0)
 
     def _lead_s(self, bank_deg: float, target_deg: float) -> float:
-        """The delay of a change of bank: it is computed for whole half degrees, and kept until the roll is another."""
+        """The delay of a change of bank."""
+        return self._onset(bank_deg, target_deg).lead_s
+
+    def _onset(self, bank_deg: float, target_deg: float) -> TurnOnset:
+        """`Roll.onset`, computed for whole half degrees, and kept until the roll response is another."""
         change = round(2.0 * bank_deg), round(2.0 * target_deg)
-        if change not in self._leads_s:
+        onset = self._onsets.get(change)
+        if onset is None:
             onset = self._roll.onset(0.5 * change[0], 0.5 * change[1], self._limit_deg)
-            self._leads_s[change] = onset.lead_s
-        return self._leads_s[change]
+            self._onsets[change] = onset
+        return onset
 
     def _piece_bank_deg(self, route: Route, control: int | None) -> float:
         """The planned bank, positive to the right, of a piece with this control, or of the circle if it is None."""
@@ -454,6 +463,14 @@ class LoiterEntry:
         self._clock.advance(dt)
         self._elapsed_s += dt
         self._vehicle.record(bank_deg, dt)
+
+
+def _differs(roll: Roll, other: Roll) -> bool:
+    """Whether two roll responses differ by more than `ROLL_CHANGED`."""
+    if roll is other:
+        return False
+    time_differs = abs(roll.time_s - other.time_s) > ROLL_CHANGED * other.time_s
+    return time_differs or abs(roll.rate_deg_s - other.rate_deg_s) > ROLL_CHANGED * other.rate_deg_s
 
 
 def _reverses(entry: PlannedEntry) -> bool:
