@@ -35,7 +35,7 @@ from loiter.planning.sides import SIDES, TURNS
 
 # The values below were tuned in gusts, with 200 to 500 starts each: docs/guidance.md.
 # Planned turns are wider than the tightest turn by this share; the difference is left to correct the last arc.
-RESERVE = 0.1
+RESERVE = 0.2
 
 # The averaging time of measurements, and their dead time, seconds.
 SMOOTHING_S, DELAY_S = 0.5, 0.1
@@ -47,6 +47,9 @@ GAIN, PLACE_GAIN = 4.0, 0.25
 # In calm air the gain of course corrections falls to this share: only noise would be corrected. The air is rough where
 # gusts change the course by this angle in a second, radians (root mean square).
 CALM_GAIN, ROUGH_AIR = 0.75, 0.02
+
+# In heavy gusts it rises in proportion to them, from this angle on and up to this multiple.
+HEAVY_GUSTS, HEAVY_GAIN = 0.04, 1.5
 
 # On the circle crosstrack errors are corrected over an arc of 1/HOLD_GAIN radians, so that the intercept angle depends
 # only on the ratio of the error to the radius.
@@ -448,7 +451,9 @@ class LoiterEntry:
         """The gain for the present air, lower for a vehicle that turns faster than its bank where that changes."""
         known = self._vehicle.estimates
         lively = max(known.quick_turn_ratio / known.turn_ratio, 1.0)
-        return self._gain * max(min(self._observer.roughness / ROUGH_AIR, 1.0), CALM_GAIN) / lively
+        roughness = self._observer.roughness
+        share = max(min(roughness / ROUGH_AIR, 1.0), min(roughness / HEAVY_GUSTS, HEAVY_GAIN), CALM_GAIN)
+        return self._gain * share / lively
 
     def _trimmed(self, crosstrack_m: float, course_gain: float, turn_rate: float, dt: float) -> float:
         """The correction of the rate of turn on the circle after another step, radians per second."""
