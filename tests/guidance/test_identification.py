@@ -14,6 +14,7 @@ from loiter.guidance.identification.vehicle import (
     SLOW_TURNS,
     Average,
     CourseLead,
+    Overshoot,
     TurnRatio,
 )
 from loiter.guidance.laws.loiter_entry import LoiterEntry
@@ -200,3 +201,22 @@ def test_trials_of_unknown_aircraft_do_not_depend_on_their_number():
     responses = [trial.response for trial in varied_trials(40, 5)]
     assert all(isinstance(response, RollResponse) for response in responses)
     assert len({response.time_s for response in responses}) == 40
+
+
+def test_the_overshoot_is_what_lies_beyond_the_limit_and_is_forgotten():
+    overshoot = Overshoot(40.0)
+    assert overshoot.add(55.0, 0.1) == 0.0, "a bank with which the flight begins"
+    assert overshoot.add(47.0, 0.1) == 0.0
+    assert overshoot.add(-58.0, 0.1) == 10.0
+    later = [overshoot.add(30.0, 0.1) for _ in range(600)]
+    assert later == sorted(later, reverse=True)
+    assert later[-1] == pytest.approx(10.0 / np.e, rel=1e-3)
+
+
+def test_an_aircraft_whose_bank_overshoots_its_limit_by_half_of_it_does_not_oscillate():
+    # 0.4 s of dead time, measurements 0.3 s old, and 25 % of overshoot: with commands up to the limit its bank swung
+    # between -78 and 78 degrees for ever.
+    trial = varied_trials(500, 17)[317]
+    flown = result(trial, "optimal", 0.0, limit_s=120.0)
+    assert flown.settled_s < 60.0
+    assert abs(flown.offset) < 0.01

@@ -31,6 +31,9 @@ AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
 # The same for the airspeed in turns with more than this share of the bank limit.
 TIGHT_SHARE, DECLARED_TURN_AIRSPEED_S = 0.7, 0.3
 
+# Of the bank beyond the limit this much, degrees, is normal; the rest is forgotten over the second time, seconds.
+NORMAL_OVERSHOOT_DEG, OVERSHOOT_MEMORY_S = 8.0, 60.0
+
 # Measurements further apart than this, seconds, are not related to each other.
 LARGEST_GAP_S = 1.0
 
@@ -44,7 +47,8 @@ class VehicleEstimates(NamedTuple):
     The roll response; the delay, seconds, between a command and the measurement that first shows it; the turn rate
     divided by g tan(bank)/V, in steady turns and where the bank changes within a second; the time, seconds, by which
     the direction of flight is ahead of the heading in a turn; the steady wind towards the east and the north, and the
-    true airspeed, metres per second, in all and in the tightest turns: autopilots do not hold it exactly there.
+    true airspeed, metres per second, in all and in the tightest turns: autopilots do not hold it exactly there. Last,
+    by how many degrees the bank has lately overshot the bank limit, beyond `NORMAL_OVERSHOOT_DEG`.
     """
 
     roll: Roll
@@ -56,6 +60,7 @@ class VehicleEstimates(NamedTuple):
     wind_north_m_s: float
     airspeed_m_s: float
     turn_airspeed_m_s: float
+    overshoot_deg: float
 
 
 class Vehicle(Protocol):
@@ -100,7 +105,7 @@ class IdentifiedVehicle:
         self._north = Average(declared.wind_north_m_s, wind_s, WIND_MEMORY_S)
         self._airspeed = Average(declared.airspeed_m_s, DECLARED_AIRSPEED_S, AIRSPEED_MEMORY_S)
         self._turn_airspeed = Average(declared.turn_airspeed_m_s, DECLARED_TURN_AIRSPEED_S, AIRSPEED_MEMORY_S)
-        self._tight_deg = TIGHT_SHARE * tightest_deg
+        self._tight_deg, self._overshoot = TIGHT_SHARE * tightest_deg, Overshoot(tightest_deg)
         self._last_s = -inf
 
     def measure(self, state: State) -> bool:
@@ -134,6 +139,7 @@ class IdentifiedVehicle:
             self._north.add(state.velocity_north_m_s - V * (s - off * c), dt),
             self._airspeed.value,
             self._turn_airspeed.value,
+            self._overshoot.add(state.bank_deg, dt),
         )
         return True
 
@@ -164,6 +170,24 @@ class Average:
         self._known_s = min(self._known_s + max(dt, 1e-3), self._memory_s)
         self.value += min(dt / self._known_s, 1.0) * (value - self.value)
         return self.value
+
+
+class Overshoot:
+    """By how much the bank has lately been beyond `limit_deg` and `NORMAL_OVERSHOOT_DEG`, degrees.
+
+    A bank beyond the limit with which the flight begins does not count.
+    """
+
+    def __init__(self, limit_deg: float) -> None:
+        self._normal_deg, self._deg, self._has_begun = limit_deg + NORMAL_OVERSHOOT_DEG, 0.0, False
+
+    def add(self, bank_deg: float, dt: float) -> float:
+        """The overshoot including a bank measured `dt` seconds after the last."""
+        beyond_deg = max(abs(bank_deg) - self._normal_deg, 0.0)
+        self._has_begun = self._has_begun or beyond_deg == 0.0
+        if self._has_begun:
+            self._deg = max(self._deg * exp(-dt / OVERSHOOT_MEMORY_S), beyond_deg)
+        return self._deg
 
 
 class RatioSettings(NamedTuple):

@@ -60,14 +60,12 @@ class PlannedEntry(NamedTuple):
         return sum(self.times_s)
 
 
-def turn_limits(
-    airspeed_m_s: float, tightest_m: float, reserve: float, radius_m: float, wind: tuple[float, float]
-) -> TurnLimits:
-    """The planned turns: wider than the tightest by `reserve`, but no wider than a circle in a wind allows."""
+def widest_turn_m(airspeed_m_s: float, radius_m: float, wind: tuple[float, float]) -> float:
+    """The widest turn radius with which a circle can be held in a wind that moves past it."""
     strength = hypot(*wind) / airspeed_m_s
     limited = min(1.0, STRONGEST_WIND / strength) if strength > 0.0 else 1.0
     wx, wy = (limited * each / airspeed_m_s for each in wind)
-    return TurnLimits(airspeed_m_s, tightest_m, min(tightest_m * (1.0 + reserve), radius_m / tightest_radius(wx, wy)))
+    return radius_m / tightest_radius(wx, wy)
 
 
 def fastest_entry(

@@ -19,7 +19,7 @@ from loiter.guidance.laws.entry_planner import (
     RelativeState,
     TurnLimits,
     fastest_entry,
-    turn_limits,
+    widest_turn_m,
 )
 from loiter.guidance.laws.observer import Estimate, Observer, Turning, is_usable
 from loiter.guidance.laws.path_tracking import PathOffset, air_rate, course_rate
@@ -73,6 +73,9 @@ LOST_OFFSET, LOST_COURSE = 0.5, 1.0
 
 # Without data the last command is kept for this time, seconds. Older measurements are not averaged with new ones.
 BLIND_S = 1.0
+
+# Where the bank overshoots its limit, less than that is commanded, but at least this multiple of the circle's bank.
+LEAST_LIMIT = 1.2
 
 # The delays of changes of bank are computed again when the time constant or the rate of the roll changes by this share.
 ROLL_CHANGED = 0.01
@@ -145,12 +148,13 @@ class LoiterEntry:
         air = CALM if wind is None else wind
         check_held(orbit, aircraft, relative_wind(orbit, aircraft, air))
         self._orbit, self._declared_wind = orbit, air.velocity_m_s
-        self._limit_deg = self.command_limit_deg = aircraft.bank_deg(aircraft.turn_radius_m)
+        # The bank limit, as declared, and at present: lower where the bank overshoots it.
+        self._declared_limit_deg = self._limit_deg = self.command_limit_deg = aircraft.bank_deg(aircraft.turn_radius_m)
         self._gain, self._reserve = positive("gain", gain, "units"), not_negative("reserve", reserve, "one")
         self._smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
         delay_s = not_negative("delay_s", delay_s, "seconds")
         declared = VehicleEstimates(
-            roll, delay_s, 1.0, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s, aircraft.airspeed_m_s
+            roll, delay_s, 1.0, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s, aircraft.airspeed_m_s, 0.0
         )
         self._vehicle: Vehicle = DeclaredVehicle(declared)
         # The machine code is loaded before the flight, where it is compiled; a wind may have to be planned with.
@@ -252,14 +256,23 @@ class LoiterEntry:
         """Set what follows from the estimates of the vehicle: the wind, turn radii, banks and the response time."""
         known = self._vehicle.estimates
         self._wind = self._planned_wind(known)
-        tightest_m = radius_at_bank(known.turn_airspeed_m_s, self._limit_deg) / known.turn_ratio
-        self._limits = turn_limits(known.airspeed_m_s, tightest_m, self._reserve, self._orbit.radius_m, self._wind)
-        self._hold_deg = self._bank_deg(known.airspeed_m_s / self._orbit.radius_m)
-        self._planned_deg = self._bank_deg(known.airspeed_m_s / self._limits.planned_m)
-        if _differs(known.roll, self._roll):
-            self._roll, self._onsets = known.roll, {}
+        V, R = known.airspeed_m_s, self._orbit.radius_m
+        widest_m = widest_turn_m(V, R, self._wind)
+        limit_deg = self._present_limit_deg(widest_m)
+        if _differs(known.roll, self._roll) or limit_deg != self._limit_deg:
+            self._roll, self._limit_deg, self._onsets = known.roll, limit_deg, {}
+        tightest_m = radius_at_bank(known.turn_airspeed_m_s, limit_deg) / known.turn_ratio
+        self._limits = TurnLimits(V, tightest_m, min(tightest_m * (1.0 + self._reserve), widest_m))
+        self._hold_deg = self._bank_deg(V / R)
+        self._planned_deg = self._bank_deg(V / self._limits.planned_m)
         self._reversal_m = self._reversal_width_m(known)
         self._response_s = self._lead_s(0.0, self._limit_deg) + self._smoothing_s + DELAY_SHARE * known.delay_s
+
+    def _present_limit_deg(self, widest_m: float) -> float:
+        """The bank limit, lowered by what the bank overshoots it, but not below what turns of `widest_m` need."""
+        known, declared_deg = self._vehicle.estimates, self._declared_limit_deg
+        least_deg = LEAST_LIMIT * self._bank_deg(known.airspeed_m_s / widest_m)
+        return max(declared_deg - known.overshoot_deg, min(least_deg, declared_deg))
 
     def _reversal_width_m(self, known: VehicleEstimates) -> float:
         """How far an aircraft is displaced towards the circle while it rolls from an opposite planned turn onto it."""
