@@ -47,8 +47,9 @@ class VehicleEstimates(NamedTuple):
     The roll response; the delay, seconds, between a command and the measurement that first shows it; the turn rate
     divided by g tan(bank)/V, in steady turns and where the bank changes within a second; the time, seconds, by which
     the direction of flight is ahead of the heading in a turn; the steady wind towards the east and the north, and the
-    true airspeed, metres per second, in all and in the tightest turns: autopilots do not hold it exactly there. Last,
-    by how many degrees the bank has lately overshot the bank limit, beyond `NORMAL_OVERSHOOT_DEG`.
+    true airspeed, metres per second, in all and in the tightest turns: autopilots do not hold it exactly there. By
+    how many degrees the bank has lately overshot the bank limit, beyond `NORMAL_OVERSHOOT_DEG`; and the share of what
+    is declared in the airspeed of tight turns, 1 before the first one.
     """
 
     roll: Roll
@@ -61,6 +62,7 @@ class VehicleEstimates(NamedTuple):
     airspeed_m_s: float
     turn_airspeed_m_s: float
     overshoot_deg: float
+    turns_unknown: float
 
 
 class Vehicle(Protocol):
@@ -140,6 +142,7 @@ class IdentifiedVehicle:
             self._airspeed.value,
             self._turn_airspeed.value,
             self._overshoot.add(state.bank_deg, dt),
+            self._turn_airspeed.declared_share,
         )
         return True
 
@@ -162,6 +165,12 @@ class Average:
 
     def __init__(self, value: float, known_s: float, memory_s: float) -> None:
         self.value, self._known_s, self._memory_s = value, known_s, memory_s
+        self._declared_s = known_s
+
+    @property
+    def declared_share(self) -> float:
+        """The share of the first value in the average, if that counts at all."""
+        return self._declared_s / self._known_s
 
     def add(self, value: float, dt: float) -> float:
         """The average including a value measured `dt` seconds after the last."""

@@ -34,8 +34,9 @@ from loiter.planning.model import CALM, Aircraft, Orbit, Wind, radius_at_bank
 from loiter.planning.sides import SIDES, TURNS
 
 # The values below were tuned in gusts, with 200 to 500 starts each: docs/guidance.md.
-# Planned turns are wider than the tightest turn by this share; the difference is left to correct the last arc.
-RESERVE = 0.2
+# Planned turns are wider than the tightest turn by this share; the difference is left to correct the last arc. It is up
+# to twice as large until the vehicle has flown a tight turn, which may be wider than declared.
+RESERVE = 0.1
 
 # The averaging time of measurements, and their dead time, seconds.
 SMOOTHING_S, DELAY_S = 0.5, 0.1
@@ -114,9 +115,10 @@ class LoiterEntry:
     vehicle while it flies, from the commands that it gives and the measurements: the roll response, the delay of
     measurements, the ratio of turn rates, the steady wind and the airspeed. `wind`, `roll` and `delay_s` are first
     guesses; without `wind` it is taken from the first measurements. With `identify` False the vehicle is as declared.
-    `reserve` is the share by which planned turns are wider than the tightest, `smoothing_s` the averaging time of
-    measurements, `gain` the gain of course corrections. `command_limit_deg`, which may be set at any time, limits the
-    commanded banks further, but not the turns that are planned. Call `step` 10 to 400 times a second.
+    `reserve` is the share by which planned turns are wider than the tightest (up to twice that until one was flown),
+    `smoothing_s` the averaging time of measurements, `gain` the gain of course corrections. `command_limit_deg`, which
+    may be set at any time, limits the commanded banks further, but not the turns that are planned. Call `step` 10 to
+    400 times a second.
 
     The law keeps one plan, with its direction and its word, until another is faster by a margin or the aircraft is
     lost, so that noise causes neither switching between plans nor a go-around. docs/guidance.md describes the method
@@ -154,7 +156,7 @@ class LoiterEntry:
         self._smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
         delay_s = not_negative("delay_s", delay_s, "seconds")
         declared = VehicleEstimates(
-            roll, delay_s, 1.0, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s, aircraft.airspeed_m_s, 0.0
+            roll, delay_s, 1.0, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s, aircraft.airspeed_m_s, 0.0, 0.0
         )
         self._vehicle: Vehicle = DeclaredVehicle(declared)
         # The machine code is loaded before the flight, where it is compiled; a wind may have to be planned with.
@@ -262,7 +264,8 @@ class LoiterEntry:
         if _differs(known.roll, self._roll) or limit_deg != self._limit_deg:
             self._roll, self._limit_deg, self._onsets = known.roll, limit_deg, {}
         tightest_m = radius_at_bank(known.turn_airspeed_m_s, limit_deg) / known.turn_ratio
-        self._limits = TurnLimits(V, tightest_m, min(tightest_m * (1.0 + self._reserve), widest_m))
+        reserve = self._reserve * (1.0 + known.turns_unknown)
+        self._limits = TurnLimits(V, tightest_m, min(tightest_m * (1.0 + reserve), widest_m))
         self._hold_deg = self._bank_deg(V / R)
         self._planned_deg = self._bank_deg(V / self._limits.planned_m)
         self._reversal_m = self._reversal_width_m(known)
