@@ -220,3 +220,14 @@ def test_an_aircraft_whose_bank_overshoots_its_limit_by_half_of_it_does_not_osci
     flown = result(trial, "optimal", 0.0, limit_s=120.0)
     assert flown.settled_s < 60.0
     assert abs(flown.offset) < 0.01
+
+
+def test_tight_turns_are_unknown_until_one_was_flown():
+    aircraft, law = PointMass(Pose(-2000.0, 120.0, 90.0), UAV, seed=3, gust=0.0), LoiterEntry(ORBIT, UAV)
+    unknown = []
+    for _ in range(7000):
+        aircraft.advance(law.step(aircraft.measured_state(), 0.02), 0.02)
+        unknown.append(law.estimates.turns_unknown)
+    assert unknown[100] == 1.0, "flying straight"
+    assert unknown[-1] < 0.3, "after the last arc"
+    assert unknown == sorted(unknown, reverse=True)
