@@ -78,7 +78,7 @@ def test_six_degrees_of_freedom(shown):
         (f"{SCENE} --sim kinematic --gust 0.05", "--gust has no effect with --sim kinematic"),
         (f"{SCENE} --airframe j3cub", "--airframe has no effect with --sim point"),
         (f"{SCENE} --workers 2", "--workers has no effect without --runs"),
-        (f"{SCENE} --sim jsbsim", "--airframe has its own airspeed and bank limit"),
+        (f"{SCENE} --sim jsbsim", "--sim jsbsim flies an airframe with its own limits: --airspeed has no effect"),
         (f"{SCENE} --wind 30 0", "in a wind of 30 m/s an aircraft"),
         (f"--runs 3 --workers 0 {UAV}", "--workers is 0"),
         (f"--pose 0 0 0 --orbit 0 0 30 {UAV}", "orbit radius 30 m is tighter"),

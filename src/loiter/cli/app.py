@@ -10,6 +10,7 @@ from cyclopts import App, CycloptsError, Parameter
 
 import loiter
 from loiter.cli.examples import epilogue
+from loiter.cli.numbers import split_lists
 from loiter.cli.sentences import sentence
 from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR
 from loiter.errors import LinkFailed, LoiterError
@@ -17,6 +18,7 @@ from loiter.errors import LinkFailed, LoiterError
 app = App(
     name="loiter",
     version=loiter.__version__,
+    version_flags=["--version", "-V"],
     usage="Usage: loiter COMMAND [OPTIONS]",
     default_parameter=Parameter(negative=""),
     suppress_keyboard_interrupt=False,
@@ -25,7 +27,7 @@ app = App(
 
 An aircraft of constant speed turns left or right, no tighter than its minimum turn radius. The plan joins a circle tangentially in the least time and stays on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum (docs/proof.md). In wind, and onto a circle that moves, a search (branch and bound over the point of joining) finds the answer.
 
-Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north.""",
+Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north. Speeds are in metres per second and lengths in metres, or have a unit: 35kn, 65km/h, 3000ft, 2NM. Latitudes and longitudes may be written 47.1N or 47°06'N. Commas may separate the numbers of an option.""",
     help_epilogue=epilogue("plan", "completion"),
 )  # fmt: skip
 
@@ -116,7 +118,12 @@ def completion(shell: Literal["bash", "zsh", "fish"], /) -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit status; an error prints one sentence to standard error."""
     try:
-        status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+        status = app(
+            split_lists(sys.argv[1:] if arguments is None else arguments),
+            exit_on_error=False,
+            print_error=False,
+            result_action="return_value",
+        )
         sys.stdout.flush()
     except (BrokenPipeError, SystemExit):
         # The reader of a pipe, such as `head`, has closed it: no error. In the help, rich raises SystemExit for it.

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from cyclopts import Group, Parameter
 
+from loiter.cli.numbers import any_case, latitude, longitude, metres, metres_per_second, one, plain, several
 from loiter.errors import InvalidArgument, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
 from loiter.geo.placed import PlacedProblem
@@ -38,6 +39,7 @@ class StartOptions:
         tuple[float, float, float] | None,
         Parameter(
             group=scene,
+            converter=several(metres, metres, plain),
             metavar="EAST NORTH HEADING",
             help="Pose of the aircraft: metres, and heading in degrees clockwise from north.",
         ),
@@ -46,6 +48,7 @@ class StartOptions:
         tuple[float, float, float] | None,
         Parameter(
             group=scene,
+            converter=several(latitude, longitude, plain),
             metavar="LAT LON HEADING",
             help="Pose of the aircraft: WGS84 degrees, and heading in degrees clockwise from true north.",
         ),
@@ -57,7 +60,9 @@ class StartOptions:
 class PlacedStartOptions(StartOptions):
     """The pose of the aircraft in degrees, for commands that need places on Earth; --pose is parsed, but hidden."""
 
-    pose: Annotated[tuple[float, float, float] | None, Parameter(show=False)] = None
+    pose: Annotated[
+        tuple[float, float, float] | None, Parameter(show=False, converter=several(metres, metres, plain))
+    ] = None
 
 
 @Parameter(name="*")
@@ -71,6 +76,7 @@ class OrbitOptions:
             group=scene,
             consume_multiple=True,
             show_default=False,
+            converter=several(metres, metres, metres),
             metavar="EAST NORTH RADIUS",
             help="The circle: centre and radius, metres.",
         ),
@@ -81,6 +87,7 @@ class OrbitOptions:
             group=scene,
             consume_multiple=True,
             show_default=False,
+            converter=several(latitude, longitude, metres),
             metavar="LAT LON RADIUS",
             help="The circle: centre in WGS84 degrees, radius in metres; the radius may come from --params.",
         ),
@@ -89,6 +96,7 @@ class OrbitOptions:
         TurnName | None,
         Parameter(
             group=scene,
+            converter=any_case,
             help="Direction of flight around the circle, seen from above. If absent: the direction in --params, otherwise the faster one.",
         ),
     ] = None
@@ -96,6 +104,7 @@ class OrbitOptions:
         tuple[float, float],
         Parameter(
             group=air,
+            converter=several(metres_per_second, metres_per_second),
             metavar="EAST NORTH",
             help="Velocity of the circle over the ground, metres per second; --orbit is its position at the start.",
         ),
@@ -123,7 +132,9 @@ class OrbitOptions:
 class PlacedOrbitOptions(OrbitOptions):
     """The circle in degrees; otherwise like `PlacedStartOptions`."""
 
-    orbit: Annotated[tuple[float, ...], Parameter(show=False, consume_multiple=True)] = ()
+    orbit: Annotated[
+        tuple[float, ...], Parameter(show=False, consume_multiple=True, converter=several(metres, metres, metres))
+    ] = ()
 
 
 @Parameter(name="*")
@@ -132,19 +143,27 @@ class AircraftOptions:
     """The aircraft, from options or from the parameters of its autopilot, and the density of the air."""
 
     airspeed: Annotated[
-        float | None, Parameter(group=aircraft, metavar="M_PER_S", help="True airspeed, metres per second.")
+        float | None,
+        Parameter(
+            group=aircraft,
+            converter=one(metres_per_second),
+            metavar="M_PER_S",
+            help="True airspeed, metres per second, or with a unit: 35kn.",
+        ),
     ] = None
     indicated_airspeed: Annotated[
         float | None,
         Parameter(
             group=aircraft,
+            converter=one(metres_per_second),
             metavar="M_PER_S",
             help="Instead of --airspeed: indicated airspeed, metres per second; --altitude converts it to true airspeed.",
         ),
     ] = None
     bank: Annotated[float | None, Parameter(group=aircraft, metavar="DEGREES", help="Largest bank, degrees.")] = None
     turn_radius: Annotated[
-        float | None, Parameter(group=aircraft, metavar="METRES", help="Smallest turn radius, metres.")
+        float | None,
+        Parameter(group=aircraft, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
     ] = None
     turn_rate: Annotated[
         float | None, Parameter(group=aircraft, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
@@ -161,8 +180,9 @@ class AircraftOptions:
         float | None,
         Parameter(
             group=aircraft,
+            converter=one(metres),
             metavar="METRES",
-            help="Altitude above mean sea level, or above --altitude-reference. It is used to convert an indicated airspeed (in thin air the true airspeed is higher), and is written to missions and maps.",
+            help="Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is used to convert an indicated airspeed (in thin air the true airspeed is higher), and is written to missions and maps.",
         ),
     ] = None
     temperature: Annotated[
@@ -173,6 +193,11 @@ class AircraftOptions:
             help="Outside air temperature; that of the standard atmosphere if absent.",
         ),
     ] = None
+
+    @property
+    def names_given(self) -> list[str]:
+        """The options given, as they are written on the command line."""
+        return [f"--{field.name.replace('_', '-')}" for field in fields(self) if getattr(self, field.name) is not None]
 
     def preset(self) -> Preset | None:
         """The values of the parameter file; None without one."""
@@ -251,6 +276,7 @@ class WindOptions:
         tuple[float, float] | None,
         Parameter(
             group=air,
+            converter=several(metres_per_second, plain),
             metavar="SPEED FROM",
             help="Wind speed, metres per second, and the compass direction that the wind comes from; with places in degrees, clockwise from true north at the circle.",
         ),
@@ -310,6 +336,7 @@ class MissionOptions:
         float | None,
         Parameter(
             group=missions,
+            converter=one(metres),
             metavar="METRES",
             help="Altitude of the home position above mean sea level; needed for altitudes above home or ground.",
         ),

@@ -52,7 +52,9 @@ def print_tables(
     lines += [weather(first)] if _windy(first) else []
     for maneuver in best if everything else [first]:
         lines += _description(maneuver, frame)
-    lines.append(other_direction(best, others))
+    # A plan that is shown does not need a line on what it costs.
+    if not everything or len({maneuver.turn for maneuver in best}) == 1:
+        lines.append(other_direction(best, others))
     if ties and not everything:
         lines.append(f"{len(best)} maneuvers are optimal; --all shows each.")
     write(*lines)

@@ -52,6 +52,7 @@ OPTIONS = {
     "replay": "--replay",
     "true_radius": "--true-radius",
     "runs": "--runs",
+    "sim": "--sim",
     "gust": "--gust",
     "airframe": "--airframe",
     "seed": "--seed",

@@ -14,7 +14,7 @@ from rich.progress import Progress as Bar
 from rich.text import Text
 
 import loiter
-from loiter.cli.numbers import whole
+from loiter.cli.numbers import any_case, metres, metres_per_second, one, plain, several, whole
 from loiter.kernel.statuses import Status
 from loiter.planning.model import Orbit, Turn, TurnName, Wind
 
@@ -43,18 +43,34 @@ def batch(
     *,
     orbit: Annotated[
         tuple[float, float, float] | None,
-        Parameter(group=shared, metavar="EAST NORTH RADIUS", help="The circle: its centre and its radius, metres."),
+        Parameter(
+            group=shared,
+            converter=several(metres, metres, metres),
+            metavar="EAST NORTH RADIUS",
+            help="The circle: its centre and its radius, metres.",
+        ),
     ] = None,
     turn: Annotated[
         TurnName | None,
-        Parameter(group=shared, help="Direction in which the circle is held; the faster one if absent."),
+        Parameter(
+            group=shared,
+            converter=any_case,
+            help="Direction in which the circle is held; the faster one if absent.",
+        ),
     ] = None,
     airspeed: Annotated[
-        float | None, Parameter(group=shared, metavar="M_PER_S", help="True airspeed, metres per second.")
+        float | None,
+        Parameter(
+            group=shared,
+            converter=one(metres_per_second),
+            metavar="M_PER_S",
+            help="True airspeed, metres per second, or with a unit: 35kn.",
+        ),
     ] = None,
     bank: Annotated[float | None, Parameter(group=shared, metavar="DEGREES", help="Largest bank, degrees.")] = None,
     turn_radius: Annotated[
-        float | None, Parameter(group=shared, metavar="METRES", help="Smallest turn radius, metres.")
+        float | None,
+        Parameter(group=shared, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
     ] = None,
     turn_rate: Annotated[
         float | None, Parameter(group=shared, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
@@ -63,6 +79,7 @@ def batch(
         tuple[float, float] | None,
         Parameter(
             group=shared,
+            converter=several(metres_per_second, plain),
             metavar="SPEED FROM",
             help="Wind speed, metres per second, and the direction that it comes from; still air if absent.",
         ),
@@ -71,6 +88,7 @@ def batch(
         tuple[float, float] | None,
         Parameter(
             group=shared,
+            converter=several(metres_per_second, metres_per_second),
             metavar="EAST NORTH",
             help="Velocity of the circle over the ground, metres per second; at rest if absent.",
         ),

@@ -128,16 +128,16 @@ class SimulationOptions:
         runs = self.runs
         if self.sim != "varied":
             return campaign.trials(runs, self.seed, self.aircraft(uav), air.moving_air)
-        if (uav, air) != (AircraftOptions(), WindOptions()):
-            raise InvalidArgument("sim", "varied draws aircraft and wind at random: options for them have no effect")
+        if given := [*uav.names_given, *(["--wind"] if air.wind is not None else [])]:
+            raise InvalidArgument("sim", f"varied draws aircraft and wind at random: {given[0]} has no effect")
         return varied.varied_trials(runs, self.seed)
 
     def aircraft(self, uav: AircraftOptions) -> Aircraft:
         """The aircraft of the options, or that of the airframe, which has its own airspeed and bank limit."""
         if self.sim != "jsbsim":
             return uav.aircraft(uav.preset())
-        if uav != AircraftOptions():
-            raise InvalidArgument("airframe", "has its own airspeed and bank limit: options for them have no effect")
+        if given := uav.names_given:
+            raise InvalidArgument("sim", f"jsbsim flies an airframe with its own limits: {given[0]} has no effect")
         return self._airframe().aircraft
 
     def _airframe(self) -> Airframe:

@@ -9,7 +9,7 @@ from rich.table import Table
 
 from loiter.arrays.partition import Boundary, Partition, boundaries, partition
 from loiter.cli import report
-from loiter.cli.numbers import whole
+from loiter.cli.numbers import any_case, whole
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
 from loiter.plot import files
@@ -27,7 +27,9 @@ MEANINGS = {
 def synthesis(
     *,
     radius: Annotated[float, Parameter(metavar="TURN_RADII", help="Radius of the circle, at least 1.")] = 1.0,
-    turn: Annotated[TurnName, Parameter(help="Direction of flight around the circle, seen from above.")] = "either",
+    turn: Annotated[
+        TurnName, Parameter(converter=any_case, help="Direction of flight around the circle, seen from above.")
+    ] = "either",
     reach: Annotated[
         float | None,
         Parameter(
