@@ -13,7 +13,7 @@ SCENE = f"--pose -300 120 90 --orbit 0 0 80 {UAV}"
 
 def rows(text):
     """The rows of the table of laws, by law."""
-    split = [re.split(r"\s{2,}", line.strip()) for line in text.splitlines()]
+    split = [re.split(r"\s{2,}", line.strip()) for line in text.splitlines() if not line.startswith("Wrote ")]
     head = next(i for i, cells in enumerate(split) if cells[0] == "law")
     return {cells[0]: dict(zip(split[head], cells, strict=False)) for cells in split[head + 1 :]}
 

@@ -2,8 +2,9 @@
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import atan2, degrees, hypot
+from pathlib import Path
 
 from rich.console import Console, RenderableType
 from rich.table import Table
@@ -33,6 +34,19 @@ def print_json(document: dict[str, object]) -> None:
     """Print one JSON object."""
     json.dump(document, sys.stdout, indent=2, allow_nan=False)
     sys.stdout.write("\n")
+
+
+def files_line(written: Iterable[Path]) -> list[str]:
+    """A line with the files that were written, if there are any: "Wrote entry.plan and entry.png."."""
+    *first, last = [str(path) for path in written] or [""]
+    names = f"{', '.join(first)} and {last}" if first else last
+    return [f"Wrote {names}."] if names else []
+
+
+def files_member(written: Iterable[Path]) -> dict[str, object]:
+    """The files that were written as a member of a JSON object; empty without files."""
+    names = [str(path) for path in written]
+    return {"files": names} if names else {}
 
 
 def print_tables(

@@ -78,15 +78,20 @@ def save(
     ending, missing arguments, impossible numbers and a file that cannot be written, and otherwise like `mission`.
     """
     path = Path(path)
-    check_format(path)
-    if altitude_m is not None:
-        altitude_m = datum.checked(altitude_m)
-    if autopilot not in tuple(Autopilot):
-        known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
-        raise InvalidArgument("autopilot", f"is {autopilot!r}: it must be {known}")
     arguments = SaveArguments(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path)
-    content = _content(path.suffix.lower(), arguments)
+    content = file_content(path, arguments)
     write_whole("save", path, lambda file: file.write(content))
+
+
+def file_content(path: Path, arguments: SaveArguments) -> bytes:
+    """The content that `save` writes to `path`; it raises the errors of `save`, but for those of writing."""
+    check_format(path)
+    if arguments.altitude_m is not None:
+        arguments = arguments._replace(altitude_m=arguments.datum.checked(arguments.altitude_m))
+    if arguments.autopilot not in tuple(Autopilot):
+        known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
+        raise InvalidArgument("autopilot", f"is {arguments.autopilot!r}: it must be {known}")
+    return _content(path.suffix.lower(), arguments)
 
 
 def read_mission(path: str | Path) -> Mission:

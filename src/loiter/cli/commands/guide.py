@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Group, Parameter
 
 import loiter
-from loiter.cli import report
-from loiter.cli.commands.mavlink import Connect, System, Timeout, connection
+from loiter.cli import report, vehicles
+from loiter.cli.commands.mavlink import Connect, JsonLines, System, Timeout, connection
 from loiter.cli.numbers import any_case, latitude, longitude, metres, metres_per_second, one, several
 from loiter.cli.options import PlacedOrbitOptions, WindOptions, output, scene
 from loiter.errors import InvalidArgument
@@ -121,6 +121,7 @@ def guide(
             group=output, metavar="FILE", help="Write every step to a .csv or .parquet; loiter fly --replay plots it."
         ),
     ] = None,
+    json: JsonLines = False,
 ) -> None:
     """Guide a vehicle in flight onto the circle by bank commands, then hand it over to its own hold."""
     if not circle.orbit_lla:
@@ -145,6 +146,9 @@ def guide(
     with _ending_signals(), closing(reports):
         try:
             for vehicle in reports:
+                if json:
+                    vehicles.print_line(vehicles.guided(vehicle))
+                    continue
                 report.write(*vehicle.notices, line(vehicle))
                 sys.stdout.flush()
         except KeyboardInterrupt as interrupt:

@@ -5,17 +5,18 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import asdict
 from functools import partial
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 from cyclopts import Group, Parameter
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 import loiter
-from loiter.cli import report
+from loiter.cli import report, vehicles
 from loiter.cli.numbers import whole
 from loiter.cli.options import (
     AircraftOptions,
@@ -26,9 +27,12 @@ from loiter.cli.options import (
     PlacedStartOptions,
     StartOptions,
     WindOptions,
+    output,
     read_options,
 )
 from loiter.errors import InvalidArgument
+from loiter.geo import LocalFrame
+from loiter.io.document import maneuver_values
 from loiter.io.missions.items import Mission
 from loiter.mavlink.connection.link import check_connection
 from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
@@ -63,6 +67,7 @@ Timeout = Annotated[
     float,
     Parameter(group=connection, metavar="SECONDS", help="Give up after this time without progress."),
 ]
+JsonLines = Annotated[bool, Parameter(group=output, help="Print a JSON object a line instead of text.")]
 TrueRadius = Annotated[
     bool,
     Parameter(
@@ -95,6 +100,9 @@ def upload(
     air: WindOptions = WindOptions(),
     fit: Fit = False,
     waypoints: MissionOptions = MissionOptions(),
+    json: Annotated[
+        bool, Parameter(group=output, help="Print one JSON object: the plan, and what the vehicle has now.")
+    ] = False,
 ) -> None:
     """Send the fastest entry to a vehicle as a mission, and read it back, item by item, to verify it."""
     # These checks come before anything is planned or printed.
@@ -102,8 +110,12 @@ def upload(
     check_target(system, 1, timeout)
     options = (pose, circle, uav, air, waypoints)
     to_send: Mission | Callable[[int], Mission]
+    plan: dict[str, object] = {}
     if mission is None:
-        to_send = _plan_mission(*options, fit=fit)
+        planned = _plan_mission(*options, fit=fit)
+        to_send, plan = planned.to_mission, {"plan": maneuver_values(planned.maneuver, planned.frame)}
+        if not json:
+            report.write(*planned.lines)
     elif fit or any(given != type(given)() for given in options):
         raise InvalidArgument("mission", "FILE is sent as it is: options of a scene have no effect with it")
     else:
@@ -118,6 +130,9 @@ def upload(
             true_radius=true_radius,
             start=start,
         )
+    if json:
+        report.print_json({"vehicle": asdict(summary)} | plan)
+        return
     kept = ", each as sent" if not summary.cut else ""
     vehicle = f"Vehicle {summary.system} ({summary.autopilot})"
     lines = [
@@ -128,6 +143,15 @@ def upload(
     report.write(*lines, *summary.cut, *summary.remarks)
 
 
+class PlannedMission(NamedTuple):
+    """A maneuver, its frame, the function that makes it a mission for an autopilot, and lines to print."""
+
+    maneuver: Maneuver
+    frame: LocalFrame
+    to_mission: Callable[[int], Mission]
+    lines: list[str]
+
+
 def _plan_mission(
     pose: StartOptions,
     circle: OrbitOptions,
@@ -136,8 +160,8 @@ def _plan_mission(
     waypoints: MissionOptions,
     *,
     fit: bool,
-) -> Callable[[int], Mission]:
-    """Print the scene's fastest entry; returns a function that converts it to a mission for an autopilot."""
+) -> PlannedMission:
+    """The scene's fastest entry, to be sent."""
     if pose.pose_lla is None or not circle.orbit_lla:
         raise InvalidArgument("pose_lla", "and --orbit-lla are needed: a vehicle's mission is in degrees")
     if uav.altitude is None:
@@ -158,8 +182,8 @@ def _plan_mission(
     )
     # An entry that cannot become a mission is refused before anything is printed.
     to_mission()
-    report.write(*([remark] if remark else []), report.headline(best), *([report.ALONG_PATH] if along_path else []))
-    return lambda autopilot: to_mission(autopilot=autopilot)
+    lines = [*([remark] if remark else []), report.headline(best), *([report.ALONG_PATH] if along_path else [])]
+    return PlannedMission(best, frame, lambda autopilot: to_mission(autopilot=autopilot), lines)
 
 
 TRANSFER_STEPS = {"read": "Reading its mission", "send": "Sending", "check": "Reading back"}
@@ -208,6 +232,7 @@ def watch(
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
+    json: JsonLines = False,
 ) -> None:
     """Receive the telemetry of a vehicle and print, live, the fastest entry from its position."""
     if not circle.orbit_lla:
@@ -231,6 +256,10 @@ def watch(
         altitude_m=uav.altitude if send else None,
         true_radius=true_radius,
     )
+    if json:
+        for vehicle in islice(vehicle_reports, reports):
+            vehicles.print_line(vehicles.watched(vehicle))
+        return
     if remark := uav.remark(preset):
         report.write(remark)
     commanded = False

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, BinaryIO
 
 from cyclopts import Parameter
 
@@ -24,12 +26,13 @@ from loiter.cli.options import (
 from loiter.cli.status import CHECK_FAILED
 from loiter.geo import LocalFrame
 from loiter.io.document import answer
-from loiter.io.files import is_mission
+from loiter.io.files import SaveArguments, file_content, is_mission
 from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import best_and_others
 from loiter.plot import files
+from loiter.writing import write_whole
 
 # The options of the command, in the order of its help.
 Tolerance = Annotated[
@@ -49,7 +52,13 @@ Json = Annotated[
     ),
 ]
 Plot = Annotated[
-    Path | None, Parameter(group=output, metavar="FILE", help="Draw the plan to a file: .png, .svg or .pdf.")
+    tuple[Path, ...],
+    Parameter(
+        group=output,
+        show_default=False,
+        metavar="FILE",
+        help="Draw the plan to a file: .png, .svg or .pdf; may be repeated.",
+    ),
 ]
 Certify = Annotated[
     bool,
@@ -59,11 +68,12 @@ Certify = Annotated[
     ),
 ]
 Save = Annotated[
-    Path | None,
+    tuple[Path, ...],
     Parameter(
         group=output,
+        show_default=False,
         metavar="FILE",
-        help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) or .waypoints (QGC WPL 110) for autopilots.",
+        help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) or .waypoints (QGC WPL 110) for autopilots; may be repeated.",
     ),
 ]
 AutopilotChoice = Annotated[AutopilotName, Parameter(group=missions, help="The autopilot that a mission is for.")]
@@ -79,9 +89,9 @@ def plan(
     tolerance: Tolerance = 0.0,
     all_: All = False,
     json: Json = False,
-    plot: Plot = None,
+    plot: Plot = (),
     certify: Certify = False,
-    save: Save = None,
+    save: Save = (),
     waypoints: MissionOptions = MissionOptions(),
     autopilot: AutopilotChoice = "ardupilot",
 ) -> int:
@@ -90,53 +100,54 @@ def plan(
         start, circle, uav, air, tolerance_m=tolerance, fit=fit, datum=waypoints.datum
     )
     _check_formats(plot, save)
-    along_path = save is not None and is_mission(save) and waypoints.along_path
+    along_path = any(map(is_mission, save)) and waypoints.along_path
     best, others = best_and_others(problem)
     first, *ties = best
     shown = best if all_ else [first]
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
-    # The file is written before the picture: it has more requirements, and if it fails, neither is left.
-    if save is not None:
-        _save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot])
-    if plot is not None:
-        slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
-        files.save(plot, shown, slower if all_ else [*ties, *slower], frame=frame)
-        certificates.save_picture(plot, certified)
+    # Files are written before pictures: they have more requirements, and if one fails, no picture is left.
+    written = [*_save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot])]
+    slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
+    for picture in plot:
+        files.save(picture, shown, slower if all_ else [*ties, *slower], frame=frame)
+        written += [picture, *certificates.save_picture(picture, certified)]
     if json:
         fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
-        report.print_json(answer(best, others, frame) | fitted | certificates.document(certified))
+        members = fitted | certificates.document(certified) | report.files_member(written)
+        report.print_json(answer(best, others, frame) | members)
     else:
         report.print_tables(best, others, everything=all_, frame=frame, remark=remark)
         certificates.print_text(certified)
-        report.write(*([report.ALONG_PATH] if along_path else []))
+        report.write(*([report.ALONG_PATH] if along_path else []), *report.files_line(written))
     return 0 if all(certificate.valid for certificate in certified) else CHECK_FAILED
 
 
-def _check_formats(plot: Path | None, save: Path | None) -> None:
+def _check_formats(plot: Sequence[Path], save: Sequence[Path]) -> None:
     """Raise `InvalidArgument` for a file name whose format cannot be written."""
-    if plot is not None:
-        files.check_format(plot)
-    if save is not None:
-        loiter.io.check_format(save)
+    for picture in plot:
+        files.check_format(picture)
+    for path in save:
+        loiter.io.check_format(path)
 
 
 def _save(
-    path: Path,
+    paths: Sequence[Path],
     maneuver: Maneuver,
     frame: LocalFrame | None,
     uav: AircraftOptions,
     waypoints: MissionOptions,
     autopilot: Autopilot,
-) -> None:
-    """Write the maneuver to a file for maps or autopilots."""
-    loiter.io.save(
-        maneuver,
-        path,
-        frame=frame,
-        altitude_m=uav.altitude,
-        datum=waypoints.datum,
-        spacing_m=waypoints.spacing,
-        chord_error_m=waypoints.chord_error_m,
-        autopilot=autopilot,
-        along_path=is_mission(path) and waypoints.along_path,
-    )
+) -> Sequence[Path]:
+    """Write the maneuver to files for maps or autopilots, once the contents of all are known; returns the files."""
+    common = (uav.altitude, waypoints.datum, waypoints.spacing, waypoints.chord_error_m, autopilot)
+    contents = [
+        file_content(path, SaveArguments(maneuver, frame, *common, is_mission(path) and waypoints.along_path))
+        for path in paths
+    ]
+    for path, content in zip(paths, contents, strict=True):
+        write_whole("save", path, partial(_write, content))
+    return paths
+
+
+def _write(content: bytes, file: BinaryIO) -> None:
+    file.write(content)
