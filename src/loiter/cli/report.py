@@ -95,6 +95,12 @@ def write(*lines: RenderableType) -> None:
     sys.stdout.write(capture.get())
 
 
+def write_now(line: str) -> None:
+    """Print a line and flush standard output, which a pipe would buffer."""
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()
+
+
 def new_table() -> Table:
     """An empty table without lines, its columns two spaces apart."""
     return Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
