@@ -78,7 +78,7 @@ def test_an_indicated_airspeed_is_a_higher_true_one_in_thin_air(planned, shown):
     [
         (f"--orbit-lla 47 8 120 {UAV}", "--pose or --pose-lla is needed, and not both"),
         (f"{PLACED} --pose 1 2 3 {UAV}", "--pose or --pose-lla is needed, and not both"),
-        (f"--pose 1 2 3 {UAV}", "--orbit or --orbit-lla is needed, and not both"),
+        (f"--pose 1 2 3 {UAV}", "--orbit or --orbit-lla or --orbit-from is needed, and only one of them"),
         (f"--pose 1 2 3 --orbit-lla 47 8 120 {UAV}", "--pose-lla and --orbit-lla go together"),
         (f"--pose-lla 47 8 3 --orbit 1 2 120 {UAV}", "--pose-lla and --orbit-lla go together"),
         (f"--pose-lla 47 8 3 --orbit-lla 47 8 {UAV}", "--orbit-lla needs 3 numbers, centre and radius"),

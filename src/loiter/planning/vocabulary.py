@@ -34,6 +34,7 @@ OPTIONS = {
     "pose_lla": "--pose-lla",
     "orbit": "--orbit",
     "orbit_lla": "--orbit-lla",
+    "orbit_from": "--orbit-from",
     "spacing_m": "--spacing",
     "chord_error_m": "--chord-error",
     "host": "--host",

@@ -124,7 +124,7 @@ def guide(
     json: JsonLines = False,
 ) -> None:
     """Guide a vehicle in flight onto the circle by bank commands, then hand it over to its own hold."""
-    if not circle.orbit_lla:
+    if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
     orbit, frame = circle.circle(None)
     assert frame is not None  # the circle is in degrees

@@ -27,6 +27,7 @@ from loiter.cli.options import (
     PlacedStartOptions,
     StartOptions,
     WindOptions,
+    fence_check,
     output,
     read_options,
 )
@@ -162,12 +163,13 @@ def _plan_mission(
     fit: bool,
 ) -> PlannedMission:
     """The scene's fastest entry, to be sent."""
-    if pose.pose_lla is None or not circle.orbit_lla:
+    datum = waypoints.datum(circle.site)
+    if pose.pose_lla is None or not circle.placed:
         raise InvalidArgument("pose_lla", "and --orbit-lla are needed: a vehicle's mission is in degrees")
     if uav.altitude is None:
-        raise InvalidArgument("altitude_m", f"is needed: a vehicle's mission has one, {waypoints.datum.unit}")
+        raise InvalidArgument("altitude_m", f"is needed: a vehicle's mission has one, {datum.unit}")
     along_path = waypoints.along_path
-    (problem, frame), remark = read_options(pose, circle, uav, air, fit=fit, datum=waypoints.datum)
+    (problem, frame), remark = read_options(pose, circle, uav, air, fit=fit, datum=datum)
     assert frame is not None  # both places are in degrees
     best = fastest(problem)
     to_mission = partial(
@@ -177,12 +179,18 @@ def _plan_mission(
         uav.altitude,
         spacing_m=waypoints.spacing,
         chord_error_m=waypoints.chord_error_m,
-        datum=waypoints.datum,
+        datum=datum,
         along_path=along_path,
     )
     # An entry that cannot become a mission is refused before anything is printed.
     to_mission()
-    lines = [*([remark] if remark else []), report.headline(best), *([report.ALONG_PATH] if along_path else [])]
+    checked = fence_check(circle.site, best, frame, any_inclusion=False)
+    lines = [
+        *([remark] if remark else []),
+        report.headline(best),
+        *([report.ALONG_PATH] if along_path else []),
+        *([checked.sentence] if checked else []),
+    ]
     return PlannedMission(best, frame, lambda autopilot: to_mission(autopilot=autopilot), lines)
 
 
@@ -235,7 +243,7 @@ def watch(
     json: JsonLines = False,
 ) -> None:
     """Receive the telemetry of a vehicle and print, live, the fastest entry from its position."""
-    if not circle.orbit_lla:
+    if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
     preset = uav.preset()
     orbit, frame = circle.circle(preset)

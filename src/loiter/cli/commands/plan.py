@@ -18,6 +18,7 @@ from loiter.cli.options import (
     OrbitOptions,
     StartOptions,
     WindOptions,
+    fence_check,
     missions,
     output,
     read_options,
@@ -28,6 +29,7 @@ from loiter.geo import LocalFrame
 from loiter.io.document import answer
 from loiter.io.files import SaveArguments, file_content, is_mission
 from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
+from loiter.io.missions.site import Site
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import best_and_others
@@ -97,7 +99,7 @@ def plan(
 ) -> int:
     """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off."""
     (problem, frame), remark = read_options(
-        start, circle, uav, air, tolerance_m=tolerance, fit=fit, datum=waypoints.datum
+        start, circle, uav, air, tolerance_m=tolerance, fit=fit, datum=waypoints.datum(circle.site)
     )
     _check_formats(plot, save)
     along_path = any(map(is_mission, save)) and waypoints.along_path
@@ -106,19 +108,23 @@ def plan(
     shown = best if all_ else [first]
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
     # Files are written before pictures: they have more requirements, and if one fails, no picture is left.
-    written = [*_save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot])]
+    site = circle.site
+    checked = fence_check(site, first, frame, any_inclusion=autopilot == "px4")
+    written = [*_save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot], site)]
     slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
     for picture in plot:
         files.save(picture, shown, slower if all_ else [*ties, *slower], frame=frame)
         written += [picture, *certificates.save_picture(picture, certified)]
     if json:
         fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
-        members = fitted | certificates.document(certified) | report.files_member(written)
+        fence = {"fence": checked._asdict()} if checked else {}
+        members = fitted | certificates.document(certified) | fence | report.files_member(written)
         report.print_json(answer(best, others, frame) | members)
     else:
         report.print_tables(best, others, everything=all_, frame=frame, remark=remark)
         certificates.print_text(certified)
-        report.write(*([report.ALONG_PATH] if along_path else []), *report.files_line(written))
+        lines = [*([report.ALONG_PATH] if along_path else []), *([checked.sentence] if checked else [])]
+        report.write(*lines, *report.files_line(written))
     return 0 if all(certificate.valid for certificate in certified) else CHECK_FAILED
 
 
@@ -137,11 +143,12 @@ def _save(
     uav: AircraftOptions,
     waypoints: MissionOptions,
     autopilot: Autopilot,
+    site: Site | None,
 ) -> Sequence[Path]:
     """Write the maneuver to files for maps or autopilots, once the contents of all are known; returns the files."""
-    common = (uav.altitude, waypoints.datum, waypoints.spacing, waypoints.chord_error_m, autopilot)
+    common = (uav.altitude, waypoints.datum(site), waypoints.spacing, waypoints.chord_error_m, autopilot)
     contents = [
-        file_content(path, SaveArguments(maneuver, frame, *common, is_mission(path) and waypoints.along_path))
+        file_content(path, SaveArguments(maneuver, frame, *common, is_mission(path) and waypoints.along_path, site))
         for path in paths
     ]
     for path, content in zip(paths, contents, strict=True):
