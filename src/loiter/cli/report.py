@@ -159,6 +159,12 @@ def _convergence_deg(pose: Pose, frame: LocalFrame | None) -> float:
     return 0.0 if frame is None else pose.heading_deg - frame.place(pose).heading_deg
 
 
+def begins(maneuver: Maneuver, lead_s: float, frame: LocalFrame | None) -> str:
+    """One line: where a plan begins that does not begin now."""
+    place = _place(maneuver, maneuver.start, frame)
+    return f"Fly straight on for {lead_s:g} s; the plan, and its times, begin then, at {place}."
+
+
 def weather(maneuver: Maneuver) -> str:
     """One line: the wind, and the velocity of a moving circle."""
     wind, orbit = maneuver.wind, maneuver.orbit

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from loiter.geo import LocalFrame
+from loiter.io.maps.places import DECIMALS
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Pose, Segment
 
@@ -59,8 +60,8 @@ def _pose(pose: Pose, frame: LocalFrame | None) -> dict[str, float]:
         return values
     place = frame.place(pose)
     return values | {
-        "latitude_deg": place.latitude_deg,
-        "longitude_deg": place.longitude_deg,
+        "latitude_deg": round(place.latitude_deg, DECIMALS),
+        "longitude_deg": round(place.longitude_deg, DECIMALS),
         "true_heading_deg": place.heading_deg,
     }
 

@@ -14,6 +14,7 @@ from loiter.kernel.wind_search import WindProblem
 from loiter.kernel.words import Side
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import RelativeWind, check_held, radius_in_turns, relative_wind, too_tight
+from loiter.planning.flight import flown_from
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.sides import SIDES
 
@@ -69,6 +70,17 @@ class Problem:
     def with_turn(self, turn: Turn) -> Problem:
         """The same problem with another direction of the hold."""
         return replace(self, orbit=replace(self.orbit, turn=turn))
+
+    def later(self, time_s: float) -> Problem:
+        """The problem `time_s` seconds later, if the aircraft flies straight on until then, on its present heading.
+
+        The wind carries the aircraft along, and a circle that moves moves on. Raises `InvalidArgument` for a time that
+        is negative or not finite.
+        """
+        time_s = not_negative("lead_s", time_s, "seconds")
+        flown_m = time_s * self.aircraft.airspeed_m_s
+        pose = flown_from(self.pose, 0, flown_m, self.aircraft, self.wind)
+        return replace(self, pose=pose, orbit=self.orbit.after(time_s))
 
     def reduced(self) -> ReducedProblem:
         """The kernel's arguments in still air.

@@ -18,6 +18,7 @@ OPTIONS = {
     "min_turn_radius_m": "--turn-radius",
     "max_turn_rate_deg_s": "--turn-rate",
     "tolerance_m": "--tolerance",
+    "lead_s": "--lead",
     "turn": "--turn",
     "plot": "--plot",
     "states": "--states",

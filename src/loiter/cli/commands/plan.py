@@ -45,6 +45,14 @@ Tolerance = Annotated[
         help="A start up to this many metres beyond the last arc counts as on it, so that noise does not add a full turn.",
     ),
 ]
+Lead = Annotated[
+    float,
+    Parameter(
+        group=scene,
+        metavar="SECONDS",
+        help="Plan from where the aircraft will be after this time, if it flies straight on until then, on its heading and in the wind; a circle that moves moves on too. Times in the plan count from then.",
+    ),
+]
 All = Annotated[bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")]
 Json = Annotated[
     bool,
@@ -89,6 +97,7 @@ def plan(
     air: WindOptions = WindOptions(),
     fit: Fit = False,
     tolerance: Tolerance = 0.0,
+    lead: Lead = 0.0,
     all_: All = False,
     json: Json = False,
     plot: Plot = (),
@@ -101,6 +110,8 @@ def plan(
     (problem, frame), remark = read_options(
         start, circle, uav, air, tolerance_m=tolerance, fit=fit, datum=waypoints.datum(circle.site)
     )
+    if lead:
+        problem = problem.later(lead)
     _check_formats(plot, save)
     along_path = any(map(is_mission, save)) and waypoints.along_path
     best, others = best_and_others(problem)
@@ -117,11 +128,13 @@ def plan(
         written += [picture, *certificates.save_picture(picture, certified)]
     if json:
         fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
+        led = {"lead_s": lead} if lead else {}
         fence = {"fence": checked._asdict()} if checked else {}
-        members = fitted | certificates.document(certified) | fence | report.files_member(written)
+        members = fitted | certificates.document(certified) | led | fence | report.files_member(written)
         report.print_json(answer(best, others, frame) | members)
     else:
-        report.print_tables(best, others, everything=all_, frame=frame, remark=remark)
+        remarks = [*([remark] if remark else []), *([report.begins(first, lead, frame)] if lead else [])]
+        report.print_tables(best, others, everything=all_, frame=frame, remark="\n".join(remarks))
         certificates.print_text(certified)
         lines = [*([report.ALONG_PATH] if along_path else []), *([checked.sentence] if checked else [])]
         report.write(*lines, *report.files_line(written))
