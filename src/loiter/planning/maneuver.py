@@ -74,6 +74,7 @@ class Maneuver:
         switching instant the curvatures are those of the piece that begins. Headings are in [0, 360).
         Raises `InvalidArgument` for a step that is not positive, or so small that the samples would exceed the memory.
         """
-        if self.duration_s / positive("step_s", step_s, "seconds") > MAX_SAMPLES:
+        step_s = positive("step_s", step_s, "seconds")
+        if self.duration_s / step_s > MAX_SAMPLES:
             raise InvalidArgument("step_s", f"is {step_s}: it would take more than {MAX_SAMPLES} samples")
         return sampled(self.start, self.segments, self.aircraft, self.wind, step_s)

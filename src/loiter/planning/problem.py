@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
-from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, not_negative
+from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, instance, not_negative
 from loiter.kernel import motion, wind_search
 from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import REACH, ROUNDING, rounded_radius, status_of
@@ -38,7 +38,7 @@ class Problem:
 
     `tolerance_m` is the distance, metres, by which a start may lie beyond the last arc and still count as on it.
     `relative_wind` is the velocity of the air relative to the circle, divided by the airspeed.
-    Raises `InvalidArgument` for a tolerance that is negative or not finite.
+    Raises `InvalidArgument` for a tolerance that is negative or not finite, and for a value of another class.
     """
 
     pose: Pose
@@ -49,6 +49,8 @@ class Problem:
     relative_wind: RelativeWind = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        for name, kind in (("pose", Pose), ("orbit", Orbit), ("aircraft", Aircraft), ("wind", Wind)):
+            instance(name, getattr(self, name), kind)
         object.__setattr__(self, "tolerance_m", not_negative("tolerance_m", self.tolerance_m, "metres"))
         object.__setattr__(self, "relative_wind", relative_wind(self.orbit, self.aircraft, self.wind))
 
