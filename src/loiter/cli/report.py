@@ -13,7 +13,7 @@ from rich.text import Text
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
 from loiter.planning.compass import wrapped
-from loiter.planning.maneuver import Maneuver
+from loiter.planning.maneuver import Maneuver, decimals_of
 from loiter.planning.model import Orbit, Pose
 from loiter.planning.vocabulary import ACTIONS
 
@@ -76,7 +76,7 @@ def print_tables(
 
 def _description(maneuver: Maneuver, frame: LocalFrame | None) -> list[RenderableType]:
     """Headline, table and remarks of a maneuver."""
-    lines: list[RenderableType] = [Text(headline(maneuver), style="bold")]
+    lines: list[RenderableType] = [Text(str(maneuver), style="bold")]
     if maneuver.segments:
         lines += [table(maneuver, frame), peel_off(maneuver, frame)]
     if _windy(maneuver):
@@ -104,16 +104,6 @@ def write_now(line: str) -> None:
 def new_table() -> Table:
     """An empty table without lines, its columns two spaces apart."""
     return Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-
-
-def headline(maneuver: Maneuver) -> str:
-    """One line: the word, the direction, the time to join and the distance."""
-    if not maneuver.segments:
-        return f"On the circle already, {maneuver.turn.described}: nothing to fly."
-    return (
-        f"{maneuver.word}, {maneuver.turn.described}: joins in {_seconds(maneuver, maneuver.duration_s)} "
-        f"after {_metres(maneuver, maneuver.length_m)}{' through the air' if _windy(maneuver) else ''}"
-    )
 
 
 def table(maneuver: Maneuver, frame: LocalFrame | None = None) -> Table:
@@ -232,17 +222,12 @@ def _difference(seconds: float) -> str:
 
 def _seconds(maneuver: Maneuver, seconds: float) -> str:
     """A time of the maneuver as text."""
-    return f"{seconds:.{_decimals(maneuver)}f} s"
+    return f"{seconds:.{decimals_of(maneuver.orbit)}f} s"
 
 
 def _metres(maneuver: Maneuver, metres: float) -> str:
     """A length of the maneuver as text."""
-    return f"{metres:.{_decimals(maneuver)}f} m"
-
-
-def _decimals(maneuver: Maneuver) -> int:
-    """Decimals of times and lengths: more for small circles."""
-    return 1 if maneuver.orbit.radius_m >= 10.0 else 3
+    return f"{metres:.{decimals_of(maneuver.orbit)}f} m"
 
 
 def _degrees(value: float) -> str:

@@ -272,7 +272,7 @@ def _fly_once(trial: Trial, setting: Setting, names: Sequence[str], wanted: Outp
             files.save_figure("plot", path, figure)
     _save(wanted.save, _steps(flights))
     first, *_ = flights.values()
-    lines = [f"Fastest entry: {report.headline(trial.ideal)}", *shown.time_line(first)]
+    lines = [f"Fastest entry: {trial.ideal}", *shown.time_line(first)]
     wanted.show(shown.flights_document(trial, flights), *lines, shown.flights_table(trial, flights))
 
 

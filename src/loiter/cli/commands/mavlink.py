@@ -187,7 +187,7 @@ def _plan_mission(
     checked = fence_check(circle.site, best, frame, any_inclusion=False)
     lines = [
         *([remark] if remark else []),
-        report.headline(best),
+        str(best),
         *([report.ALONG_PATH] if along_path else []),
         *([checked.sentence] if checked else []),
     ]
