@@ -19,7 +19,7 @@ from loiter.cli.app import main
 SLOW = {
     "arrays": "entries wind",
     "batch": "cluster dataset files memory resume urls wind",
-    "cli": "errors guide mavlink",
+    "cli": "errors guide json man mavlink",
     "compiled": "ufuncs wind_solver",
     "guidance": "campaign following identification jsbsim_aircraft loiter_entry",
     "kernel": "cell_bounds wind_search",

@@ -91,3 +91,27 @@ def test_a_watch_can_be_closed_and_the_former_names_are_types(checked):
         "def renamed(a: Progress, b: Summary, c: UploadSummary, d: Command) -> None:",
         "    same: tuple[JobProgress, JobSummary, MissionSummary, MavCommand] = a, b, c, d",
     ) == (["Success: no issues found in 1 source file"], 0)
+
+
+def test_array_functions_have_types(checked):
+    """Numbers give numbers, sequences and NumPy arrays give arrays, and arrays of other libraries are not known."""
+    assert checked(
+        "from typing import Any, assert_type",
+        "import loiter, numpy as np",
+        "from loiter import Aircraft, Orbit, Solution",
+        "from numpy.typing import NDArray",
+        "orbit, uav = Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0)",
+        "many, lazy = np.zeros(3), object()",
+        "assert_type(loiter.min_time(4.0, 4), np.float64)",
+        "assert_type(loiter.min_time([4.0, 1], 4.0), NDArray[np.float64])",
+        "assert_type(loiter.min_time(many, 0.0, turn=['cw', 'ccw', 'cw']), NDArray[np.float64])",
+        "assert_type(loiter.min_time(lazy, many), Any)",
+        "assert_type(loiter.control(0.0, 1.0, 1.5, 'cw'), np.float64)",
+        "assert_type(loiter.control(many, many, out=many), NDArray[np.float64])",
+        "assert_type(loiter.min_time_in_wind(0.0, 1.0, 0.0, 3.0, 'cw', 0.1, 0.2), np.float64)",
+        "assert_type(loiter.min_time_in_wind(many, 1.0, 0.0, 3.0, 'cw', 0.1, 0.2), NDArray[np.float64])",
+        "assert_type(loiter.reduce(0.0, 1.0, 90.0, orbit, uav), tuple[np.float64, np.float64])",
+        "assert_type(loiter.reduce(many, many, 90.0, orbit, uav), tuple[NDArray[np.float64], NDArray[np.float64]])",
+        "answers: Solution = loiter.solve(many, many)",
+        "assert_type(answers.words, NDArray[np.str_])",
+    ) == (["Success: no issues found in 1 source file"], 0)

@@ -16,9 +16,19 @@ if TYPE_CHECKING:
     from loiter import guidance as guidance
     from loiter import io as io
     from loiter import mavlink as mavlink
+    from loiter import plot as plot
     from loiter import verify as verify
     from loiter import web as web
-    from loiter.arrays import control, min_time, min_time_in_wind, reduce, solve, solve_in_wind
+    from loiter.arrays import (
+        Solution,
+        WindSolution,
+        control,
+        min_time,
+        min_time_in_wind,
+        reduce,
+        solve,
+        solve_in_wind,
+    )
 
 __all__ = [
     "Aircraft",
@@ -26,8 +36,10 @@ __all__ = [
     "Orbit",
     "Pose",
     "Segment",
+    "Solution",
     "Turn",
     "Wind",
+    "WindSolution",
     "candidates",
     "control",
     "errors",
@@ -42,16 +54,29 @@ __all__ = [
 ]
 
 
+# Loaded when first used: they need NumPy.
+ARRAY_NAMES = {
+    "Solution",
+    "WindSolution",
+    "control",
+    "min_time",
+    "min_time_in_wind",
+    "reduce",
+    "solve",
+    "solve_in_wind",
+}
+
+
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
 
 
 def __getattr__(name: str) -> Any:
     # The array functions need NumPy, which a single plan does not load.
-    if name in {"control", "min_time", "min_time_in_wind", "reduce", "solve", "solve_in_wind"}:
+    if name in ARRAY_NAMES:
         from loiter import arrays
 
         return getattr(arrays, name)
-    if name in {"batch", "geo", "guidance", "io", "mavlink", "verify", "web"}:
+    if name in {"batch", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"}:
         return import_module(f"loiter.{name}")
     raise AttributeError(f"module 'loiter' has no attribute {name!r}")

@@ -2,7 +2,7 @@
 
 from math import inf, isfinite, nan
 from numbers import Real
-from typing import NoReturn
+from typing import Any, NoReturn
 
 
 class LoiterError(ValueError):
@@ -61,21 +61,48 @@ class LinkFailed(LoiterError):
 
 
 def number(argument: str, value: object, unit: str) -> float:
-    """`value` as a finite float."""
-    x = as_float(value)
+    """`value` as a finite float, in `unit` where it is a quantity of pint."""
+    x = as_float(in_unit(value, unit))
     return x if isfinite(x) else _refuse(argument, value, f"a finite number of {unit}")
 
 
 def positive(argument: str, value: object, unit: str) -> float:
-    """`value` as a finite float above zero."""
-    x = as_float(value)
+    """`value` as a finite float above zero, in `unit` where it is a quantity of pint."""
+    x = as_float(in_unit(value, unit))
     return x if 0.0 < x < inf else _refuse(argument, value, f"a positive, finite number of {unit}")
 
 
 def not_negative(argument: str, value: object, unit: str) -> float:
-    """`value` as a finite float, zero or above."""
-    x = as_float(value)
+    """`value` as a finite float, zero or above, in `unit` where it is a quantity of pint."""
+    x = as_float(in_unit(value, unit))
     return x if 0.0 <= x < inf else _refuse(argument, value, f"zero or a positive, finite number of {unit}")
+
+
+def in_unit(value: Any, unit: str) -> Any:
+    """The magnitude in `unit` of a quantity of pint, a number or an array; any other value as it is.
+
+    A quantity of another dimension is returned as it is too, so that the checks of numbers refuse it.
+    """
+    # pint is not imported: only its quantities have this method.
+    magnitude_in = None if type(value) is float else getattr(value, "m_as", None)
+    if magnitude_in is None:
+        return value
+    # The units of errors say more than pint reads: "metres above home".
+    plain_unit, _, _ = unit.partition(" above ")
+    try:
+        return magnitude_in(PINT_UNITS.get(plain_unit, plain_unit))
+    except (TypeError, ValueError, AttributeError):
+        return value
+
+
+# Units that pint calls by other names.
+PINT_UNITS = {"degrees Celsius": "degC"}
+
+
+def instance(argument: str, value: object, kind: type) -> None:
+    """Raise `InvalidArgument` for a value that is not of a class of this package, such as a tuple for a pose."""
+    if not isinstance(value, kind):
+        raise InvalidArgument(argument, f"is {value!r}: it must be a loiter.{kind.__name__}")
 
 
 def as_float(value: object) -> float:
@@ -92,5 +119,5 @@ def as_float(value: object) -> float:
 
 
 def _refuse(argument: str, value: object, need: str) -> NoReturn:
-    shown = value if isinstance(value, Real) else repr(value)
+    shown = value if isinstance(value, Real) or hasattr(value, "m_as") else repr(value)
     raise InvalidArgument(argument, f"is {shown}: it must be {need}")

@@ -36,6 +36,29 @@ def same(table):
     return table
 
 
+HINTS = {
+    "semicolons": ("east_m;north_m;heading_deg\n1;2;3\n", "separated by semicolons: they must be separated by commas"),
+    "tabs": ("east_m\tnorth_m\theading_deg\n1\t2\t3\n", "separated by tabs"),
+    "capital": ("East_m,north_m,heading_deg\n1,2,3\n", "rename 'East_m'"),
+    "space": ("east_m, north_m,heading_deg\n1,2,3\n", "rename ' north_m'"),
+    "short": ("east_m,north_m,heading\n1,2,3\n", "rename 'heading'"),
+}
+
+
+@pytest.mark.parametrize(("text", "hint"), HINTS.values(), ids=HINTS)
+def test_a_header_that_is_nearly_right_gets_a_hint(tmp_path, capsys, text, hint):
+    (tmp_path / "in.csv").write_text(text)
+    assert main(["batch", str(tmp_path / "in.csv"), str(tmp_path / "out.csv"), *OPTIONS]) == 2
+    assert hint in capsys.readouterr().err
+    assert not (tmp_path / "out.csv").exists()
+
+
+def test_a_header_that_is_far_from_right_gets_none(tmp_path, capsys):
+    (tmp_path / "in.csv").write_text("x,y,psi\n1,2,3\n")
+    assert main(["batch", str(tmp_path / "in.csv"), str(tmp_path / "out.csv"), *OPTIONS]) == 2
+    assert capsys.readouterr().err.endswith("it needs east_m, north_m, heading_deg\n")
+
+
 ZERO = [0.0] * 5
 TABLES = {
     "missing column": (dropped("heading_deg"), OPTIONS, ["IN", "no column heading_deg"]),

@@ -20,6 +20,7 @@ COMMANDS = [
     "verify",
     "prove",
     "serve",
+    "warm-up",
     "completion",
 ]
 LIMITS = ["--turn", "--turn-radius", "--turn-rate"]

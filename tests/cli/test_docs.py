@@ -28,4 +28,4 @@ def test_a_command_line_is_understood(line):
     program, *words = shlex.split(line.replace("\\\n", " "), comments=True)
     assert program == "loiter"
     command, _, _ = app.parse_args(words, exit_on_error=False, print_error=False)
-    assert command.__name__ == words[0]
+    assert command.__name__.replace("_", "-") == words[0]

@@ -133,13 +133,15 @@ def test_a_log_is_replayed_and_drawn(tmp_path, capsys):
         assert abs(miss_m(vehicle, type("Circle", (), {"east_m": 0.0, "north_m": 0.0, "radius_m": 80.0}))) < 5.0
         plot = log.with_suffix(".svg")
         assert main(["fly", "--replay", str(log), "--plot", str(plot)]) == 0
-        texts.append(capsys.readouterr().out)
+        *text, wrote = capsys.readouterr().out.splitlines()
+        assert wrote == f"Wrote {plot}."
+        texts.append(text)
         svg = plot.read_text()
         assert {f'id="{name}"' for name in ("circle", "joining", "on the circle", "command_deg", "bank_deg")} <= set(
             re.findall(r'id="[^"]+"', svg)
         )
     assert texts[0] == texts[1]
-    first, *_, last = texts[0].splitlines()
+    first, *_, last = texts[0]
     assert re.fullmatch(r" +0\.\d s  joining: turn right, bank \d+ deg commanded", first)
     assert re.fullmatch(
         r"\d+ steps in \d+\.\d s; on the circle \d\.\d m (in|out)side in the mean, \d\.\d m at most\.", last
@@ -149,9 +151,9 @@ def test_a_log_is_replayed_and_drawn(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        ("--pose 0 0 0", "--replay shows a flight that was flown: it takes no option but --plot"),
-        ("--runs 3", "it takes no option but --plot"),
-        ("--save x.csv", "it takes no option but --plot"),
+        ("--pose 0 0 0", "--replay shows a flight that was flown: it takes no options but --plot and --json"),
+        ("--runs 3", "it takes no options but --plot"),
+        ("--save x.csv", "it takes no options but --plot"),
         ("--plot x.txt", "--plot is 'x.txt': the file name must end in .png, .svg, .pdf"),
         ("", "it has no steps"),
     ],

@@ -29,7 +29,7 @@ def understood(example):
     program, *words = shlex.split(example.removeprefix('eval "$(').removesuffix(')"').partition(" > ")[0])
     assert program == "loiter"
     command, _, _ = app.parse_args(words, exit_on_error=False, print_error=False)
-    return command.__name__
+    return command.__name__.replace("_", "-")
 
 
 @pytest.mark.parametrize("command", COMMANDS)

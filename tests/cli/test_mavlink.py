@@ -143,7 +143,7 @@ def test_a_file_is_sent_as_it_is(shown, tmp_path, ending):
             2,
             "--altitude is needed",
         ),
-        (PLACED, 2, "--connect needs a value, LINK"),
+        (PLACED, 2, "--connect LINK is needed"),
         (f"{PLACED} --chord-error 0.1 --connect udpin:127.0.0.1:PORT", 2, "--chord-error goes with --path: without it"),
         ("entry.plan --path --connect udpin:127.0.0.1:PORT", 2, "mission FILE is sent as it is: options of a"),
     ],

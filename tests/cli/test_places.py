@@ -78,7 +78,7 @@ def test_an_indicated_airspeed_is_a_higher_true_one_in_thin_air(planned, shown):
     [
         (f"--orbit-lla 47 8 120 {UAV}", "--pose or --pose-lla is needed, and not both"),
         (f"{PLACED} --pose 1 2 3 {UAV}", "--pose or --pose-lla is needed, and not both"),
-        (f"--pose 1 2 3 {UAV}", "--orbit or --orbit-lla is needed, and not both"),
+        (f"--pose 1 2 3 {UAV}", "--orbit or --orbit-lla or --orbit-from is needed, and only one of them"),
         (f"--pose 1 2 3 --orbit-lla 47 8 120 {UAV}", "--pose-lla and --orbit-lla go together"),
         (f"--pose-lla 47 8 3 --orbit 1 2 120 {UAV}", "--pose-lla and --orbit-lla go together"),
         (f"--pose-lla 47 8 3 --orbit-lla 47 8 {UAV}", "--orbit-lla needs 3 numbers, centre and radius"),
@@ -238,3 +238,16 @@ def test_what_cannot_be_saved(capsys, tmp_path, monkeypatch, options, sentence):
     assert (out, err.count("\n")) == ("", 1)
     assert err.startswith(f"loiter: {sentence}")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_far_away_places_have_no_digits_of_rounding(shown, planned, tmp_path):
+    """47.1 was written as 47.099999999999994 from 90 km away."""
+    far = f"--pose-lla 47.1 8.2 90 --orbit-lla 47.9 8.23 120 {UAV}"
+    shown(f"plan {far} --altitude 900 --save {tmp_path / 'a.plan'} --save {tmp_path / 'a.geojson'}")
+    document = json.loads((tmp_path / "a.plan").read_text())
+    assert document["mission"]["plannedHomePosition"][:2] == [47.1, 8.2]
+    assert document["mission"]["items"][-1]["params"][4:6] == [47.9, 8.23]
+    features = json.loads((tmp_path / "a.geojson").read_text())["features"]
+    assert "[8.2, 47.1" in json.dumps(features)
+    start = planned(far)["segments"][0]["start"]
+    assert (start["latitude_deg"], start["longitude_deg"]) == (47.1, 8.2)

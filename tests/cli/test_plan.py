@@ -292,7 +292,7 @@ def test_the_installed_program_answers(planned):
 
 def test_json_and_a_picture_come_together(planned, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert planned(f"{FAR} --plot entry.svg") == planned(FAR)
+    assert planned(f"{FAR} --plot entry.svg") == planned(FAR) | {"files": ["entry.svg"]}
     assert [path.name for path in tmp_path.iterdir()] == ["entry.svg"]
 
 

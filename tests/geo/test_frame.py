@@ -150,7 +150,10 @@ def test_arrays_broadcast():
 @pytest.mark.parametrize(
     ("place", "problem"),
     [
-        ((91.0, 0.0), "origin latitude_deg is 91.0: it must be between -90 and 90 degrees"),
+        (
+            (91.0, 0.0),
+            "origin latitude_deg is 91.0: it must be between -90 and 90 degrees; are latitude and longitude swapped?",
+        ),
         ((math.nan, 0.0), "origin latitude_deg is nan: it must be a finite number of degrees"),
         ((0.0, 361.0), "origin longitude_deg is 361.0: it must be between -360 and 360 degrees"),
         (("47", 0.0), "origin latitude_deg is '47': it must be a finite number of degrees"),

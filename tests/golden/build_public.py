@@ -15,7 +15,16 @@ from cyclopts import App
 
 import loiter
 
-PACKAGES = ["loiter", "loiter.batch", "loiter.geo", "loiter.guidance", "loiter.io", "loiter.mavlink", "loiter.verify"]
+PACKAGES = [
+    "loiter",
+    "loiter.batch",
+    "loiter.geo",
+    "loiter.guidance",
+    "loiter.io",
+    "loiter.mavlink",
+    "loiter.plot",
+    "loiter.verify",
+]
 
 # Import paths that the documentation has given, with the names found there.
 DOCUMENTED = {

@@ -3,6 +3,7 @@
 import json
 import shlex
 from dataclasses import replace
+from unittest.mock import ANY
 
 import numpy as np
 import pytest
@@ -346,7 +347,7 @@ def test_a_mission_has_the_requested_altitude_reference(client, tmp_path, format
 
 
 def test_healthz_reports_the_version(client):
-    assert client.get("/healthz").json() == {"status": "ok", "version": loiter.__version__}
+    assert client.get("/healthz").json() == {"status": "ok", "version": loiter.__version__, "ready": ANY}
 
 
 def test_the_page_and_its_files_are_served(client):

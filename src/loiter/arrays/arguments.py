@@ -12,7 +12,14 @@ from loiter.planning.model import Turn
 from loiter.planning.sides import SIDES
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    # Arguments whose results are NumPy arrays: numbers, nested sequences of numbers, and NumPy arrays.
+    Numbers = Sequence[float] | Sequence[Sequence[float]] | Sequence[Sequence[Sequence[float]]]
+    NumbersLike = float | Numbers | NDArray[np.floating[Any]] | NDArray[np.integer[Any]]
+    TurnLike = str | Side
 
 
 def side_codes(turn: ArrayLike) -> Any:

@@ -3,21 +3,42 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from loiter.arrays.arguments import is_lazy, refuse_lazy_out
 from loiter.compiled import ufunc
 from loiter.compiled.rebinding import Function, rebound
+from loiter.errors import in_unit, instance
 from loiter.kernel import motion
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import Aircraft, Orbit
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
+
+    from loiter.arrays.arguments import NumbersLike
 
 
+@overload
+def reduce(  # type: ignore[overload-overlap]
+    east_m: float, north_m: float, heading_deg: float, orbit: Orbit, aircraft: Aircraft, *, out: None = ...
+) -> tuple[np.float64, np.float64]: ...
+@overload
+def reduce(
+    east_m: NumbersLike,
+    north_m: NumbersLike,
+    heading_deg: NumbersLike,
+    orbit: Orbit,
+    aircraft: Aircraft,
+    *,
+    out: tuple[NDArray[np.float64], NDArray[np.float64]] | None = ...,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+@overload
+def reduce(
+    east_m: Any, north_m: Any, heading_deg: Any, orbit: Orbit, aircraft: Aircraft, *, out: Any = ...
+) -> tuple[Any, Any]: ...
 def reduce(
     east_m: ArrayLike,
     north_m: ArrayLike,
@@ -27,11 +48,23 @@ def reduce(
     *,
     out: tuple[Any, Any] | None = None,
 ) -> tuple[Any, Any]:
-    """Reduced states (x, y), equation (2), in turn radii, of aircraft at local positions with compass headings.
+    """Reduced states (x, y), equation (2) of docs/theory.md, in turn radii, of aircraft around a circle.
 
-    Arguments broadcast, `out` is two arrays to fill; Dask arrays, pandas columns and xarray's arrays give results of
-    the same kind. The circle's radius for the other functions is `orbit.radius_m / aircraft.turn_radius_m`.
+    `east_m` and `north_m` are local positions in metres, `heading_deg` compass headings in degrees; they broadcast to
+    a shape (...), and x and y are float64 of that shape. `out` is two arrays to fill. Dask arrays, pandas columns and
+    xarray's arrays give results of the same kind. The circle's radius for the other functions is
+    `orbit.radius_m / aircraft.turn_radius_m`. Raises `InvalidArgument` for an `orbit` or `aircraft` of another class,
+    and for an `out` with Dask arrays.
+
+    >>> from loiter import Aircraft, Orbit
+    >>> x, y = loiter.reduce([90.0], [60.0], [100.0], Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=50.0))
+    >>> x.round(3), y.round(3)
+    (array([1.564]), array([1.494]))
     """
+    instance("orbit", orbit, Orbit)
+    instance("aircraft", aircraft, Aircraft)
+    east_m, north_m = in_unit(east_m, "metres"), in_unit(north_m, "metres")
+    heading_deg = in_unit(heading_deg, "degrees")
     r = aircraft.turn_radius_m
     east: Any = np.subtract(east_m, orbit.east_m, dtype=np.float64) / r
     north: Any = np.subtract(north_m, orbit.north_m, dtype=np.float64) / r

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
 from loiter.arrays.application import apply, apply_solver
 from loiter.arrays.arguments import side_codes
+from loiter.arrays.letters import word_letters
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
+    from loiter.arrays.arguments import NumbersLike, TurnLike
+
 
 class Solution(NamedTuple):
     """Optimal maneuvers of an array of states, shape (...) as broadcast; durations are (..., 3), in flying order.
 
-    `word` holds `loiter.kernel.words.Word`, `status` `Status`, `side` `Side` codes (int8); where the status is not `OK`
-    the floats are nan. `miss` is the distance from the target at which the durations end when flown exactly.
+    Times and durations are in turn radii over airspeed, the circle being held clockwise where `side` is 1, and
+    counter-clockwise where it is -1. `words` gives the words as text; `word` holds their codes, `status` is 0 where
+    there is an answer (int8); where there is none the floats are nan. `miss` is the distance, in turn radii, from the
+    target at which the durations end when flown exactly.
     """
 
     time: NDArray[np.float64]
@@ -26,7 +31,56 @@ class Solution(NamedTuple):
     side: NDArray[np.int8]
     miss: NDArray[np.float64]
 
+    @property
+    def words(self) -> NDArray[np.str_]:
+        """The letters of the words in the order flown, "RSL", as an array of text; "" on the circle and where unsolved.
 
+        >>> loiter.solve([4.0, -3.0], [4.0, 0.0]).words.tolist()
+        ['RSL', 'SL']
+        """
+        return word_letters(self.word)
+
+
+# What the overloads describe: numbers give numbers, sequences and NumPy arrays give NumPy arrays, and arrays of other
+# libraries give arrays of their kind, which type checkers cannot know.
+
+
+@overload
+def min_time(  # type: ignore[overload-overlap]
+    x: float,
+    y: float,
+    radius: float = ...,
+    turn: TurnLike = ...,
+    tolerance: float = ...,
+    *,
+    out: None = ...,
+    where: Literal[True] = ...,
+    workers: int = ...,
+) -> np.float64: ...
+@overload
+def min_time(
+    x: NumbersLike,
+    y: NumbersLike,
+    radius: NumbersLike = ...,
+    turn: ArrayLike = ...,
+    tolerance: NumbersLike = ...,
+    *,
+    out: NDArray[np.float64] | None = ...,
+    where: ArrayLike = ...,
+    workers: int = ...,
+) -> NDArray[np.float64]: ...
+@overload
+def min_time(
+    x: Any,
+    y: Any,
+    radius: Any = ...,
+    turn: Any = ...,
+    tolerance: Any = ...,
+    *,
+    out: Any = ...,
+    where: Any = ...,
+    workers: int = ...,
+) -> Any: ...
 def min_time(
     x: ArrayLike,
     y: ArrayLike,
@@ -57,6 +111,42 @@ def min_time(
     return apply("min_time", (x, y, radius, side_codes(turn), tolerance), out, where, workers)
 
 
+@overload
+def control(  # type: ignore[overload-overlap]
+    x: float,
+    y: float,
+    radius: float = ...,
+    turn: TurnLike = ...,
+    tolerance: float = ...,
+    *,
+    out: None = ...,
+    where: Literal[True] = ...,
+    workers: int = ...,
+) -> np.float64: ...
+@overload
+def control(
+    x: NumbersLike,
+    y: NumbersLike,
+    radius: NumbersLike = ...,
+    turn: ArrayLike = ...,
+    tolerance: NumbersLike = ...,
+    *,
+    out: NDArray[np.float64] | None = ...,
+    where: ArrayLike = ...,
+    workers: int = ...,
+) -> NDArray[np.float64]: ...
+@overload
+def control(
+    x: Any,
+    y: Any,
+    radius: Any = ...,
+    turn: Any = ...,
+    tolerance: Any = ...,
+    *,
+    out: Any = ...,
+    where: Any = ...,
+    workers: int = ...,
+) -> Any: ...
 def control(
     x: ArrayLike,
     y: ArrayLike,
@@ -70,8 +160,10 @@ def control(
 ) -> Any:
     """The feedback law: first control of the optimum at (x, y), -1 (right), 0 or +1 (left), as float64.
 
-    At the target itself it is the turn rate that holds the circle: -1/radius clockwise, +1/radius counter-clockwise.
-    Arguments, nan and errors as for `min_time`.
+    The control is the turn rate over the largest one, of the shape (...) to which the arguments broadcast. At the
+    target itself it is the turn rate that holds the circle: -1/radius clockwise, +1/radius counter-clockwise.
+    Arguments in turn radii, kinds of arrays and nan as for `min_time`. Raises `InvalidArgument` for an unknown turn or
+    number of workers, and for `where` without `out`.
 
     >>> loiter.control([4.0, -0.53, -3.0], [4.0, 0.31, 0.0])
     array([-1.,  1.,  0.])
@@ -90,10 +182,12 @@ def solve(
     where: ArrayLike = True,
     workers: int = 1,
 ) -> Solution:
-    """Optimal maneuvers from reduced states (x, y): time, word, durations, status. Arguments as for `min_time`.
+    """Optimal maneuvers from reduced states (x, y): time, word, durations, status, side and miss.
 
-    Dask arrays give Dask arrays, all other arguments NumPy arrays; `out` is a `Solution` to fill. Raises the errors of
-    `min_time`, and `InvalidArgument` for an `out` with Dask arrays.
+    Arguments, in turn radii, as for `min_time`; they broadcast to a shape (...). The fields of the `Solution` have that
+    shape, `durations` (..., 3), with times in turn radii over airspeed; `.words` are the words as text. Dask arrays
+    give Dask arrays, all other arguments NumPy arrays; `out` is a `Solution` to fill. Raises `InvalidArgument` for an
+    unknown turn or number of workers, for `where` without `out`, and for an `out` with Dask arrays.
 
     >>> loiter.solve(4.0, 4.0).durations.round(4)
     array([2.6994, 3.1669, 1.0472])

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
 import numpy as np
 
 from loiter.arrays.application import apply, apply_solver
 from loiter.arrays.arguments import side_codes
+from loiter.arrays.letters import word_letters
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+
+    from loiter.arrays.arguments import NumbersLike, TurnLike
 
 
 class WindSolution(NamedTuple):
     """Optimal maneuvers in wind, shape (...) as broadcast; durations are (..., 3), in flying order.
 
-    Fields as in `Solution`; `azimuth` is that of the point of joining, radians counter-clockwise from x.
+    Fields and `words` as in `Solution`; `azimuth` is that of the point of joining, radians counter-clockwise from x.
     """
 
     time: NDArray[np.float64]
@@ -27,7 +30,57 @@ class WindSolution(NamedTuple):
     azimuth: NDArray[np.float64]
     miss: NDArray[np.float64]
 
+    @property
+    def words(self) -> NDArray[np.str_]:
+        """The words as an array of text, as in `Solution`."""
+        return word_letters(self.word)
 
+
+@overload
+def min_time_in_wind(  # type: ignore[overload-overlap]
+    x: float,
+    y: float,
+    angle: float,
+    radius: float,
+    turn: TurnLike,
+    wind_x: float,
+    wind_y: float,
+    tolerance: float = ...,
+    *,
+    out: None = ...,
+    where: Literal[True] = ...,
+    workers: int = ...,
+) -> np.float64: ...
+@overload
+def min_time_in_wind(
+    x: NumbersLike,
+    y: NumbersLike,
+    angle: NumbersLike,
+    radius: NumbersLike,
+    turn: ArrayLike,
+    wind_x: NumbersLike,
+    wind_y: NumbersLike,
+    tolerance: NumbersLike = ...,
+    *,
+    out: NDArray[np.float64] | None = ...,
+    where: ArrayLike = ...,
+    workers: int = ...,
+) -> NDArray[np.float64]: ...
+@overload
+def min_time_in_wind(
+    x: Any,
+    y: Any,
+    angle: Any,
+    radius: Any,
+    turn: Any,
+    wind_x: Any,
+    wind_y: Any,
+    tolerance: Any = ...,
+    *,
+    out: Any = ...,
+    where: Any = ...,
+    workers: int = ...,
+) -> Any: ...
 def min_time_in_wind(
     x: ArrayLike,
     y: ArrayLike,
@@ -46,9 +99,10 @@ def min_time_in_wind(
 
     `x`, `y` are the position from the circle's centre and `radius` its radius, in turn radii; `angle` is the direction
     of the heading in radians, counter-clockwise from x; `wind_x`, `wind_y` the velocity of the air past the circle (the
-    wind less the circle's own velocity) over the airspeed; `turn`, `tolerance`, `out`, `where`, `workers`, the kinds of
-    arrays and the errors as for `min_time`. A state takes some 60 microseconds. The first call on a machine compiles
-    the search, which takes about twenty seconds.
+    wind less the circle's own velocity) over the airspeed; all of them broadcast, and the result has their shape.
+    `turn`, `tolerance` (turn radii), `out`, `where`, `workers` and the kinds of arrays are as for `min_time`. Raises
+    `InvalidArgument` for an unknown turn or number of workers, and for `where` without `out`. A state takes some 60
+    microseconds. The first call on a machine compiles the search, which takes about twenty seconds.
 
     >>> round(float(loiter.min_time_in_wind(-10.0, 0.0, 0.0, 3.0, "cw", 0.3, 0.0)), 4)
     5.9162

@@ -79,7 +79,13 @@ def plan(
 ) -> Any:
     """The fastest entries of the rows of a pandas or Dask data frame: the frame with added columns and the same index.
 
-    A Dask frame stays lazy. Columns, options and errors are those of `run`; word, turn and status are categories.
+    The frame has columns as docs/batch.md describes them: `east_m`, `north_m` in metres, `heading_deg` in degrees, and
+    others in place of the arguments. The added columns are those of `run`: times in seconds, the point of joining in
+    metres and degrees; word, turn and status are categories. A Dask frame stays lazy. The arguments are those of `run`,
+    `orbit_velocity_m_s` in metres per second and `tolerance_m` in metres.
+
+    A row that cannot be solved gets nan and a status. Raises `InvalidArgument` for something that is no data frame, for
+    columns that are missing, given twice or of another type, and for arguments that cannot be used; `MissingPackage`.
     """
     _need_packages("pyarrow")
     from loiter.batch.frames import plan_frame

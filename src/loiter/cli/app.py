@@ -10,13 +10,16 @@ from cyclopts import App, CycloptsError, Parameter
 
 import loiter
 from loiter.cli.examples import epilogue
+from loiter.cli.numbers import split_lists
 from loiter.cli.sentences import sentence
 from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR
+from loiter.compiled import announce_with
 from loiter.errors import LinkFailed, LoiterError
 
 app = App(
     name="loiter",
     version=loiter.__version__,
+    version_flags=["--version", "-V"],
     usage="Usage: loiter COMMAND [OPTIONS]",
     default_parameter=Parameter(negative=""),
     suppress_keyboard_interrupt=False,
@@ -25,7 +28,7 @@ app = App(
 
 An aircraft of constant speed turns left or right, no tighter than its minimum turn radius. The plan joins a circle tangentially in the least time and stays on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum (docs/proof.md). In wind, and onto a circle that moves, a search (branch and bound over the point of joining) finds the answer.
 
-Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north.""",
+Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north. Speeds are in metres per second and lengths in metres, or have a unit: 35kn, 65km/h, 3000ft, 2NM. Latitudes and longitudes may be written 47.1N or 47°06'N. Commas may separate the numbers of an option.""",
     help_epilogue=epilogue("plan", "completion"),
 )  # fmt: skip
 
@@ -99,6 +102,13 @@ app.command(
     help_epilogue=epilogue("serve"),
     help="Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.",
 )
+app.command(
+    "loiter.cli.commands.warm_up:warm_up",
+    help_epilogue=epilogue("warm-up"),
+    help="""Compile for this machine, once, what commands would otherwise compile when they first need it.
+
+Batches, synthesis, the page, many flights and arrays use machine code that is compiled on each machine, once for each version of the program, and kept in the user's cache folder. That takes up to half a minute. Without this command it happens when the code is first needed, and a line on standard error says so if that is a terminal.""",
+)
 
 
 @app.command(help_epilogue=epilogue("completion"))
@@ -115,8 +125,15 @@ def completion(shell: Literal["bash", "zsh", "fish"], /) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit status; an error prints one sentence to standard error."""
+    if sys.stderr.isatty():
+        announce_with(lambda line: print(f"loiter: {line} (loiter warm-up does it beforehand)", file=sys.stderr))  # noqa: T201
     try:
-        status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+        status = app(
+            split_lists(sys.argv[1:] if arguments is None else arguments),
+            exit_on_error=False,
+            print_error=False,
+            result_action="return_value",
+        )
         sys.stdout.flush()
     except (BrokenPipeError, SystemExit):
         # The reader of a pipe, such as `head`, has closed it: no error. In the help, rich raises SystemExit for it.

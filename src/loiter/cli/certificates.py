@@ -27,11 +27,15 @@ def picture_path(plot: Path) -> Path:
     return plot.with_name(f"{plot.stem}-certificate{plot.suffix}")
 
 
-def save_picture(plot: Path, certificates: Sequence[Certificate]) -> None:
-    """Draw u, phi and psi of the first certificate, if any, to a file beside the plan's; errors as for `files.save`."""
+def save_picture(plot: Path, certificates: Sequence[Certificate]) -> list[Path]:
+    """Draw u, phi and psi of the first certificate, if any, to a file beside the plan's; errors as for `files.save`.
+
+    Returns the files written: one or none.
+    """
     if not certificates:
-        return
+        return []
     from loiter.plot.certificate import draw
 
     first, *_ = certificates
     files.save_figure("plot", picture_path(plot), draw(first))
+    return [picture_path(plot)]

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from cyclopts import Group, Parameter
 
+from loiter.cli.numbers import any_case, latitude, longitude, metres, metres_per_second, one, plain, several
 from loiter.errors import InvalidArgument, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
 from loiter.geo.placed import PlacedProblem
@@ -17,7 +19,10 @@ from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, W
 from loiter.planning.problem import Problem
 
 if TYPE_CHECKING:
+    from loiter.io.missions.fence import FenceCheck
     from loiter.io.missions.parameters import Preset
+    from loiter.io.missions.site import Site
+    from loiter.planning.maneuver import Maneuver
 
 scene = Group("Scene", sort_key=1)
 aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sort_key=2)
@@ -38,6 +43,7 @@ class StartOptions:
         tuple[float, float, float] | None,
         Parameter(
             group=scene,
+            converter=several(metres, metres, plain),
             metavar="EAST NORTH HEADING",
             help="Pose of the aircraft: metres, and heading in degrees clockwise from north.",
         ),
@@ -46,6 +52,7 @@ class StartOptions:
         tuple[float, float, float] | None,
         Parameter(
             group=scene,
+            converter=several(latitude, longitude, plain),
             metavar="LAT LON HEADING",
             help="Pose of the aircraft: WGS84 degrees, and heading in degrees clockwise from true north.",
         ),
@@ -57,7 +64,9 @@ class StartOptions:
 class PlacedStartOptions(StartOptions):
     """The pose of the aircraft in degrees, for commands that need places on Earth; --pose is parsed, but hidden."""
 
-    pose: Annotated[tuple[float, float, float] | None, Parameter(show=False)] = None
+    pose: Annotated[
+        tuple[float, float, float] | None, Parameter(show=False, converter=several(metres, metres, plain))
+    ] = None
 
 
 @Parameter(name="*")
@@ -71,6 +80,7 @@ class OrbitOptions:
             group=scene,
             consume_multiple=True,
             show_default=False,
+            converter=several(metres, metres, metres),
             metavar="EAST NORTH RADIUS",
             help="The circle: centre and radius, metres.",
         ),
@@ -81,21 +91,32 @@ class OrbitOptions:
             group=scene,
             consume_multiple=True,
             show_default=False,
+            converter=several(latitude, longitude, metres),
             metavar="LAT LON RADIUS",
             help="The circle: centre in WGS84 degrees, radius in metres; the radius may come from --params.",
         ),
     ] = ()
+    orbit_from: Annotated[
+        Path | None,
+        Parameter(
+            group=scene,
+            metavar="FILE",
+            help="Instead of --orbit-lla: the circle of an existing mission, .plan or .waypoints, that of its first loiter item, in its direction. Missions keep its home and its fence, and a line says whether the plan stays inside the fence.",
+        ),
+    ] = None
     turn: Annotated[
         TurnName | None,
         Parameter(
             group=scene,
-            help="Direction of flight around the circle, seen from above. If absent: the direction in --params, otherwise the faster one.",
+            converter=any_case,
+            help="Direction of flight around the circle, seen from above. If absent: that of --orbit-from or --params, otherwise the faster one.",
         ),
     ] = None
     orbit_velocity: Annotated[
         tuple[float, float],
         Parameter(
             group=air,
+            converter=several(metres_per_second, metres_per_second),
             metavar="EAST NORTH",
             help="Velocity of the circle over the ground, metres per second; --orbit is its position at the start.",
         ),
@@ -103,19 +124,54 @@ class OrbitOptions:
 
     def circle(self, preset: Preset | None) -> tuple[Orbit, LocalFrame | None]:
         """The circle, and the local frame about its centre if it is in degrees; `InvalidArgument` without a circle."""
-        radius = None if preset is None else preset.loiter_radius_m
-        if bool(self.orbit) == bool(self.orbit_lla):
-            raise InvalidArgument("orbit", "or --orbit-lla is needed, and not both")
+        radius, turn = (None, None) if preset is None else (preset.loiter_radius_m, preset.turn)
+        if sum(map(bool, (self.orbit, self.orbit_lla, self.orbit_from))) != 1:
+            raise InvalidArgument("orbit", "or --orbit-lla or --orbit-from is needed, and only one of them")
         if self.orbit:
             east, north, radius = _with_radius("orbit", self.orbit, radius)
-            return Orbit(east, north, radius, self._turn(preset), *self.orbit_velocity), None
-        lat, lon, radius = _with_radius("orbit_lla", self.orbit_lla, radius)
-        return Orbit(0.0, 0.0, radius, self._turn(preset), *self.orbit_velocity), LocalFrame(lat, lon)
+            return Orbit(east, north, radius, self._turn(turn), *self.orbit_velocity), None
+        if self.orbit_lla:
+            lat, lon, radius = _with_radius("orbit_lla", self.orbit_lla, radius)
+        else:
+            lat, lon, own_radius, own_turn = self._first_circle()
+            radius, turn = own_radius or radius, own_turn or turn
+        if radius is None:
+            raise InvalidArgument("orbit_from", "has a loiter without a radius, which --params with a radius gives")
+        return Orbit(0.0, 0.0, radius, self._turn(turn), *self.orbit_velocity), LocalFrame(lat, lon)
 
-    def _turn(self, preset: Preset | None) -> Turn:
+    @property
+    def placed(self) -> bool:
+        """Whether the circle is in degrees."""
+        return bool(self.orbit_lla) or self.orbit_from is not None
+
+    @cached_property
+    def site(self) -> Site | None:
+        """The circles, the home and the fence of the mission; None without one. Raises `InvalidArgument`."""
+        if self.orbit_from is None:
+            return None
+        from loiter.io.missions.site import read_site
+
+        return read_site(self.orbit_from, "orbit_from")
+
+    def site_remark(self) -> str:
+        """A line on the circle taken from a mission; otherwise empty."""
+        if self.site is None:
+            return ""
+        first, *others = self.site.circles
+        which = f", the first of {len(others) + 1} circles" if others else ""
+        return f"Circle of item {first.item} in {self.orbit_from}{which}."
+
+    def _first_circle(self) -> tuple[float, float, float | None, Turn | None]:
+        assert self.site is not None  # it is the only circle given
+        if not self.site.circles:
+            raise InvalidArgument("orbit_from", f"is {str(self.orbit_from)!r}: its mission has no loiter")
+        first, *_ = self.site.circles
+        return first.latitude_deg, first.longitude_deg, first.radius_m, first.turn
+
+    def _turn(self, otherwise: Turn | None) -> Turn:
         if self.turn is not None:
             return Turn(self.turn)
-        return Turn.EITHER if preset is None or preset.turn is None else preset.turn
+        return Turn.EITHER if otherwise is None else otherwise
 
 
 @Parameter(name="*")
@@ -123,7 +179,9 @@ class OrbitOptions:
 class PlacedOrbitOptions(OrbitOptions):
     """The circle in degrees; otherwise like `PlacedStartOptions`."""
 
-    orbit: Annotated[tuple[float, ...], Parameter(show=False, consume_multiple=True)] = ()
+    orbit: Annotated[
+        tuple[float, ...], Parameter(show=False, consume_multiple=True, converter=several(metres, metres, metres))
+    ] = ()
 
 
 @Parameter(name="*")
@@ -132,19 +190,27 @@ class AircraftOptions:
     """The aircraft, from options or from the parameters of its autopilot, and the density of the air."""
 
     airspeed: Annotated[
-        float | None, Parameter(group=aircraft, metavar="M_PER_S", help="True airspeed, metres per second.")
+        float | None,
+        Parameter(
+            group=aircraft,
+            converter=one(metres_per_second),
+            metavar="M_PER_S",
+            help="True airspeed, metres per second, or with a unit: 35kn.",
+        ),
     ] = None
     indicated_airspeed: Annotated[
         float | None,
         Parameter(
             group=aircraft,
+            converter=one(metres_per_second),
             metavar="M_PER_S",
             help="Instead of --airspeed: indicated airspeed, metres per second; --altitude converts it to true airspeed.",
         ),
     ] = None
     bank: Annotated[float | None, Parameter(group=aircraft, metavar="DEGREES", help="Largest bank, degrees.")] = None
     turn_radius: Annotated[
-        float | None, Parameter(group=aircraft, metavar="METRES", help="Smallest turn radius, metres.")
+        float | None,
+        Parameter(group=aircraft, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
     ] = None
     turn_rate: Annotated[
         float | None, Parameter(group=aircraft, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
@@ -161,8 +227,9 @@ class AircraftOptions:
         float | None,
         Parameter(
             group=aircraft,
+            converter=one(metres),
             metavar="METRES",
-            help="Altitude above mean sea level, or above --altitude-reference. It is used to convert an indicated airspeed (in thin air the true airspeed is higher), and is written to missions and maps.",
+            help="Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is used to convert an indicated airspeed (in thin air the true airspeed is higher), and is written to missions and maps.",
         ),
     ] = None
     temperature: Annotated[
@@ -173,6 +240,11 @@ class AircraftOptions:
             help="Outside air temperature; that of the standard atmosphere if absent.",
         ),
     ] = None
+
+    @property
+    def names_given(self) -> list[str]:
+        """The options given, as they are written on the command line."""
+        return [f"--{field.name.replace('_', '-')}" for field in fields(self) if getattr(self, field.name) is not None]
 
     def preset(self) -> Preset | None:
         """The values of the parameter file; None without one."""
@@ -251,6 +323,7 @@ class WindOptions:
         tuple[float, float] | None,
         Parameter(
             group=air,
+            converter=several(metres_per_second, plain),
             metavar="SPEED FROM",
             help="Wind speed, metres per second, and the compass direction that the wind comes from; with places in degrees, clockwise from true north at the circle.",
         ),
@@ -310,15 +383,18 @@ class MissionOptions:
         float | None,
         Parameter(
             group=missions,
+            converter=one(metres),
             metavar="METRES",
-            help="Altitude of the home position above mean sea level; needed for altitudes above home or ground.",
+            help="Altitude of the home position above mean sea level; needed for altitudes above home or ground, unless --orbit-from has a home.",
         ),
     ] = None
 
-    @property
-    def datum(self) -> AltitudeDatum:
-        """The reference of --altitude."""
-        return AltitudeDatum(AltitudeReference(self.altitude_reference), self.home_altitude)
+    def datum(self, site: Site | None = None) -> AltitudeDatum:
+        """The reference of --altitude; the altitude of home may come from an existing mission."""
+        home_m = self.home_altitude
+        if home_m is None and site is not None and self.altitude_reference != "msl":
+            _, _, home_m = site.home
+        return AltitudeDatum(AltitudeReference(self.altitude_reference), home_m)
 
     @property
     def along_path(self) -> bool:
@@ -361,7 +437,7 @@ def read_options(
     uav = aircraft.aircraft(preset)
     planned = circle.fitted(uav, wind.moving_air) if fit else circle
     problem = Problem(pose, planned, uav, wind.moving_air, tolerance_m)
-    remarks = [aircraft.remark(preset), _fit_remark(circle, planned)]
+    remarks = [orbit.site_remark(), aircraft.remark(preset), _fit_remark(circle, planned)]
     return OptionsRead(PlacedProblem(problem, frame), "\n".join(filter(None, remarks)))
 
 
@@ -385,6 +461,15 @@ def placed(
         return frame.pose(*start.pose_lla), circle, frame
     assert start.pose is not None  # one of them is given
     return Pose(*start.pose), circle, None
+
+
+def fence_check(
+    site: Site | None, maneuver: Maneuver, frame: LocalFrame | None, *, any_inclusion: bool
+) -> FenceCheck | None:
+    """Whether a plan stays inside the fence of an existing mission; None without a fence."""
+    if site is None or frame is None:
+        return None
+    return site.fence.check(maneuver, frame, any_inclusion=any_inclusion)
 
 
 def _with_radius(argument: str, numbers: Sequence[float], radius_m: float | None) -> tuple[float, float, float]:

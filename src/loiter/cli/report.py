@@ -2,8 +2,9 @@
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import atan2, degrees, hypot
+from pathlib import Path
 
 from rich.console import Console, RenderableType
 from rich.table import Table
@@ -12,7 +13,7 @@ from rich.text import Text
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
 from loiter.planning.compass import wrapped
-from loiter.planning.maneuver import Maneuver
+from loiter.planning.maneuver import Maneuver, decimals_of
 from loiter.planning.model import Orbit, Pose
 from loiter.planning.vocabulary import ACTIONS
 
@@ -35,6 +36,19 @@ def print_json(document: dict[str, object]) -> None:
     sys.stdout.write("\n")
 
 
+def files_line(written: Iterable[Path]) -> list[str]:
+    """A line with the files that were written, if there are any: "Wrote entry.plan and entry.png."."""
+    *first, last = [str(path) for path in written] or [""]
+    names = f"{', '.join(first)} and {last}" if first else last
+    return [f"Wrote {names}."] if names else []
+
+
+def files_member(written: Iterable[Path]) -> dict[str, object]:
+    """The files that were written as a member of a JSON object; empty without files."""
+    names = [str(path) for path in written]
+    return {"files": names} if names else {}
+
+
 def print_tables(
     best: Sequence[Maneuver],
     others: Sequence[Maneuver],
@@ -52,7 +66,9 @@ def print_tables(
     lines += [weather(first)] if _windy(first) else []
     for maneuver in best if everything else [first]:
         lines += _description(maneuver, frame)
-    lines.append(other_direction(best, others))
+    # A plan that is shown does not need a line on what it costs.
+    if not everything or len({maneuver.turn for maneuver in best}) == 1:
+        lines.append(other_direction(best, others))
     if ties and not everything:
         lines.append(f"{len(best)} maneuvers are optimal; --all shows each.")
     write(*lines)
@@ -60,7 +76,7 @@ def print_tables(
 
 def _description(maneuver: Maneuver, frame: LocalFrame | None) -> list[RenderableType]:
     """Headline, table and remarks of a maneuver."""
-    lines: list[RenderableType] = [Text(headline(maneuver), style="bold")]
+    lines: list[RenderableType] = [Text(str(maneuver), style="bold")]
     if maneuver.segments:
         lines += [table(maneuver, frame), peel_off(maneuver, frame)]
     if _windy(maneuver):
@@ -79,19 +95,15 @@ def write(*lines: RenderableType) -> None:
     sys.stdout.write(capture.get())
 
 
+def write_now(line: str) -> None:
+    """Print a line and flush standard output, which a pipe would buffer."""
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()
+
+
 def new_table() -> Table:
     """An empty table without lines, its columns two spaces apart."""
     return Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-
-
-def headline(maneuver: Maneuver) -> str:
-    """One line: the word, the direction, the time to join and the distance."""
-    if not maneuver.segments:
-        return f"On the circle already, {maneuver.turn.described}: nothing to fly."
-    return (
-        f"{maneuver.word}, {maneuver.turn.described}: joins in {_seconds(maneuver, maneuver.duration_s)} "
-        f"after {_metres(maneuver, maneuver.length_m)}{' through the air' if _windy(maneuver) else ''}"
-    )
 
 
 def table(maneuver: Maneuver, frame: LocalFrame | None = None) -> Table:
@@ -135,6 +147,12 @@ def _directions(maneuver: Maneuver, pose: Pose, frame: LocalFrame | None) -> lis
 def _convergence_deg(pose: Pose, frame: LocalFrame | None) -> float:
     """The heading in the local plane less the true heading, degrees; 0 without a frame."""
     return 0.0 if frame is None else pose.heading_deg - frame.place(pose).heading_deg
+
+
+def begins(maneuver: Maneuver, lead_s: float, frame: LocalFrame | None) -> str:
+    """One line: where a plan begins that does not begin now."""
+    place = _place(maneuver, maneuver.start, frame)
+    return f"Fly straight on for {lead_s:g} s; the plan, and its times, begin then, at {place}."
 
 
 def weather(maneuver: Maneuver) -> str:
@@ -204,17 +222,12 @@ def _difference(seconds: float) -> str:
 
 def _seconds(maneuver: Maneuver, seconds: float) -> str:
     """A time of the maneuver as text."""
-    return f"{seconds:.{_decimals(maneuver)}f} s"
+    return f"{seconds:.{decimals_of(maneuver.orbit)}f} s"
 
 
 def _metres(maneuver: Maneuver, metres: float) -> str:
     """A length of the maneuver as text."""
-    return f"{metres:.{_decimals(maneuver)}f} m"
-
-
-def _decimals(maneuver: Maneuver) -> int:
-    """Decimals of times and lengths: more for small circles."""
-    return 1 if maneuver.orbit.radius_m >= 10.0 else 3
+    return f"{metres:.{decimals_of(maneuver.orbit)}f} m"
 
 
 def _degrees(value: float) -> str:

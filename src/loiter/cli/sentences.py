@@ -37,22 +37,26 @@ def _problem(error: InvalidArgument) -> str:
 def _usage_sentence(error: CycloptsError) -> str:
     """The message for an option or a value that the command does not take."""
     if isinstance(error, CoercionError) and error.token is not None and error.target_type in (int, float):
-        kind = "a whole number" if error.target_type is int else "a number"
-        return f"{_option(error)} is {error.token.value!r}: it must be {kind}"
+        need = f"it must be {'a whole number' if error.target_type is int else 'a number'}"
+        return f"{_option(error)} is {error.token.value!r}: {error.msg or need}"
     if isinstance(error, MissingArgumentError) and error.argument is not None:
-        return f"{_option(error)} needs {_missing_values(error, error.argument)}"
+        return _missing(error, error.argument)
     if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
         return f"{' '.join(error.unused_tokens)!r} is one argument too many; loiter --help lists commands and options"
     return str(error)
 
 
-def _missing_values(error: MissingArgumentError, argument: Argument) -> str:
-    """What an option needs: "3 numbers, EAST NORTH HEADING: 2 were given"."""
+def _missing(error: MissingArgumentError, argument: Argument) -> str:
+    """What is missing: an argument, an option, its value, or some of its numbers."""
+    name, metavar = argument.name, argument.parameter.metavar or argument.name
     count, _ = argument.token_count()
-    name = argument.parameter.metavar or argument.name
+    if error.keyword is None and not name.startswith("-"):
+        return f"{name} is missing: loiter {' '.join(error.command_chain or ())} --help shows what it means"
+    if error.keyword is None:
+        return f"{name} {metavar} is needed"
     if count <= 1:
-        return f"a value, {name}"
-    return f"{count} numbers, {name}: {len(error.tokens_so_far) % count} were given"
+        return f"{name} needs a value, {metavar}"
+    return f"{name} needs {count} numbers, {metavar}: {len(error.tokens_so_far) % count} were given"
 
 
 def _option(error: CycloptsError) -> str:

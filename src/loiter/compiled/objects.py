@@ -17,23 +17,30 @@ from typing import Any
 
 import llvmlite.binding as llvm
 
+from loiter.compiled import announce
+
 # Functions of the C library that compiled code may call.
 C_LIBRARY = {"acos", "atan2", "cos", "feclearexcept", "sin", "sqrt"}
 
 DIGEST = hashlib.sha256().digest_size
 
 
-def addresses(names: Sequence[str], sources: Iterable[Path], build: Callable[[], Any]) -> list[int]:
+def addresses(
+    names: Sequence[str], sources: Iterable[Path], build: Callable[[], Any], what: str = "functions"
+) -> list[int]:
     """The addresses of the functions `names` in memory, loaded from the object file for `sources`.
 
     If there is no such file, or it is damaged, it is made from `build()`, an LLVM module that contains all functions;
     if its folder cannot be written, every process compiles for itself. The code stays loaded until the process ends.
+    Before a compilation `compiled.announce` says `what` is compiled.
     """
     _start()
     path = _path(names, sources)
     code = _read(path)
     if code is None:
+        announce(f"compiling the {what} for this machine, once; this takes ten to thirty seconds")
         code = _emit(build(), names)
+        _MADE.append(path)
         _publish(path, code)
     return _load(code, names)
 
@@ -49,6 +56,11 @@ def is_cached(names: Sequence[str], sources: Iterable[Path]) -> bool:
     """Whether the object file is there and whole, so that `addresses` compiles nothing."""
     _start()
     return _read(_path(names, sources)) is not None
+
+
+def compilations() -> int:
+    """How many object files this process has made."""
+    return len(_MADE)
 
 
 def _load(code: bytes, names: Sequence[str]) -> list[int]:
@@ -134,3 +146,6 @@ def _emit(module: Any, names: Sequence[str]) -> bytes:
 
 # The engines own the loaded code.
 _ENGINES: list[Any] = []
+
+# The object files that this process has made.
+_MADE: list[Path] = []

@@ -19,6 +19,10 @@ OPERANDS = {
 }
 
 
+# The functions in the object file.
+NAMES = tuple(OPERANDS)
+
+
 def _build() -> Any:
     from loiter.compiled.loops import build
 
@@ -26,5 +30,5 @@ def _build() -> Any:
 
 
 min_time, control, reduce, solve = map(
-    new_ufunc, OPERANDS, OPERANDS.values(), addresses(tuple(OPERANDS), kernel_sources(), _build)
+    new_ufunc, OPERANDS, OPERANDS.values(), addresses(NAMES, kernel_sources(), _build, "array functions")
 )

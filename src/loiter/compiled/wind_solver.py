@@ -63,7 +63,12 @@ def prepare() -> None:
 
     with _STATE.lock:
         if _STATE.solver is None:
-            _STATE.use(addresses(NAMES, kernel_sources(), _build))
+            _STATE.use(addresses(NAMES, kernel_sources(), _build, "search in wind"))
+
+
+def is_loaded() -> bool:
+    """Whether this process has loaded the machine code."""
+    return _STATE.solver is not None
 
 
 def loops() -> tuple[int, ...]:

@@ -93,7 +93,7 @@ class LocalFrame:
         heading = number("pose true heading_deg", heading_deg, "degrees")
         east, north, convergence = (float(value) for value in self._rays(lat, lon))
         if east != east:
-            raise self._too_far(f"{lat:g} {lon:g}")
+            raise self._too_far(f"{lat:g} {lon:g}", self._swapped_hint(lat, lon))
         return Pose(east, north, wrapped(heading) + convergence)
 
     def place(self, pose: Pose) -> Place:
@@ -107,11 +107,23 @@ class LocalFrame:
         heading = wrapped(pose.heading_deg) - float(self.convergence_deg(latitude, longitude))
         return Place(latitude, longitude, wrapped(heading))
 
-    def _too_far(self, where: str) -> OutOfRange:
+    def _too_far(self, where: str, hint: str = "") -> OutOfRange:
         return OutOfRange(
             f"the place {where} is more than {REACH_M / 1000.0:g} km from the origin {self.latitude_deg:g} "
-            f"{self.longitude_deg:g}: the plane is not a good model of the Earth at that distance"
+            f"{self.longitude_deg:g}: the plane is not a good model of the Earth at that distance{hint}"
         )
+
+    def _swapped_hint(self, latitude_deg: float, longitude_deg: float) -> str:
+        """A question where the place would be near if its coordinates, or those of the origin, were swapped."""
+        near = self._reaches(longitude_deg, latitude_deg) or (
+            abs(self.longitude_deg) <= 90.0
+            and LocalFrame(self.longitude_deg, self.latitude_deg)._reaches(latitude_deg, longitude_deg)
+        )
+        return "; are latitude and longitude swapped in one of them?" if near else ""
+
+    def _reaches(self, latitude_deg: float, longitude_deg: float) -> bool:
+        east_m, _ = self.to_local(latitude_deg, longitude_deg)
+        return not bool(east_m != east_m)
 
     def _rays(self, latitude_deg: Any, longitude_deg: Any) -> tuple[NDArray[float64], ...]:
         """East, north and convergence of places; nan for invalid places and beyond 100 km."""
@@ -143,7 +155,10 @@ def checked_place(argument: str, latitude_deg: object, longitude_deg: object) ->
     lat = number(f"{argument} latitude_deg", latitude_deg, "degrees")
     lon = number(f"{argument} longitude_deg", longitude_deg, "degrees")
     if abs(lat) > 90.0:
-        raise InvalidArgument(f"{argument} latitude_deg", f"is {latitude_deg}: it must be between -90 and 90 degrees")
+        swapped = "; are latitude and longitude swapped?" if abs(lon) <= 90.0 else ""
+        raise InvalidArgument(
+            f"{argument} latitude_deg", f"is {latitude_deg}: it must be between -90 and 90 degrees{swapped}"
+        )
     if abs(lon) > 360.0:
         raise InvalidArgument(
             f"{argument} longitude_deg", f"is {longitude_deg}: it must be between -360 and 360 degrees"

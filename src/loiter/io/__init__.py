@@ -3,8 +3,10 @@
 from loiter.io.files import FORMATS, check_format, read_mission, save
 from loiter.io.mission import mission
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
+from loiter.io.missions.fence import Fence, FenceCheck, FenceCircle, FencePolygon
 from loiter.io.missions.items import Autopilot, Command, Frame, MavCommand, Mission, MissionItem
 from loiter.io.missions.parameters import Preset, read_parameters
+from loiter.io.missions.site import MissionCircle, Site, read_site
 
 __all__ = [
     "FORMATS",
@@ -13,14 +15,21 @@ __all__ = [
     "AltitudeReference",
     "Autopilot",
     "Command",
+    "Fence",
+    "FenceCheck",
+    "FenceCircle",
+    "FencePolygon",
     "Frame",
     "MavCommand",
     "Mission",
+    "MissionCircle",
     "MissionItem",
     "Preset",
+    "Site",
     "check_format",
     "mission",
     "read_mission",
     "read_parameters",
+    "read_site",
     "save",
 ]

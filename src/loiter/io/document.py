@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from loiter.geo import LocalFrame
+from loiter.io.maps.places import DECIMALS
+from loiter.planning.display import values
+from loiter.planning.display.values import pose_values
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Pose, Segment
+from loiter.planning.model import Pose
 
 
 def answer(best: Sequence[Maneuver], others: Sequence[Maneuver], frame: LocalFrame | None = None) -> dict[str, object]:
@@ -18,60 +22,13 @@ def answer(best: Sequence[Maneuver], others: Sequence[Maneuver], frame: LocalFra
 
 def maneuver_values(maneuver: Maneuver, frame: LocalFrame | None = None) -> dict[str, object]:
     """A maneuver as plain values; with a frame its poses have latitude, longitude and true heading too."""
-    return {
-        "duration_s": maneuver.duration_s,
-        "length_m": maneuver.length_m,
-        "word": maneuver.word,
-        "turn": maneuver.turn.value,
-        "join": _pose(maneuver.join, frame),
-        "wind": {"speed_m_s": maneuver.wind.speed_m_s, "from_deg": maneuver.wind.from_deg},
-        "join_over_ground": _join_over_ground(maneuver),
-        "hold": {
-            "least_bank_deg": maneuver.hold.least_bank_deg,
-            "largest_bank_deg": maneuver.hold.largest_bank_deg,
-            "largest_bank_azimuth_deg": maneuver.hold.largest_bank_azimuth_deg,
-        },
-        "miss_m": maneuver.miss_m,
-        "segments": [_segment(segment, frame) for segment in maneuver.segments],
-        "aircraft": {
-            "airspeed_m_s": maneuver.aircraft.airspeed_m_s,
-            "turn_radius_m": maneuver.aircraft.turn_radius_m,
-        },
-    }
+    return values.maneuver_values(maneuver, partial(_placed_values, frame) if frame is not None else pose_values)
 
 
-# `dataclasses.asdict` copies every value, which would take longer than the plan.
-def _segment(segment: Segment, frame: LocalFrame | None) -> dict[str, object]:
-    return {
-        "letter": segment.letter,
-        "start_s": segment.start_s,
-        "duration_s": segment.duration_s,
-        "length_m": segment.length_m,
-        "curvature_per_m": segment.curvature_per_m,
-        "start": _pose(segment.start, frame),
-        "end": _pose(segment.end, frame),
-    }
-
-
-def _pose(pose: Pose, frame: LocalFrame | None) -> dict[str, float]:
-    values = {"east_m": pose.east_m, "north_m": pose.north_m, "heading_deg": pose.heading_deg}
-    if frame is None:
-        return values
+def _placed_values(frame: LocalFrame, pose: Pose) -> dict[str, float]:
     place = frame.place(pose)
-    return values | {
-        "latitude_deg": place.latitude_deg,
-        "longitude_deg": place.longitude_deg,
+    return pose_values(pose) | {
+        "latitude_deg": round(place.latitude_deg, DECIMALS),
+        "longitude_deg": round(place.longitude_deg, DECIMALS),
         "true_heading_deg": place.heading_deg,
-    }
-
-
-def _join_over_ground(maneuver: Maneuver) -> dict[str, float]:
-    """Track and ground speed where the circle is joined, and the position of its centre then."""
-    track_deg, speed = maneuver.over_ground(maneuver.join)
-    centre = maneuver.orbit_at_join
-    return {
-        "track_deg": track_deg,
-        "ground_speed_m_s": speed,
-        "centre_east_m": centre.east_m,
-        "centre_north_m": centre.north_m,
     }

@@ -18,6 +18,7 @@ from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, Altitude
 from loiter.io.missions.items import Autopilot, Mission
 from loiter.io.missions.mission import mission
 from loiter.io.missions.qgcplan import qgcplan, read_qgcplan
+from loiter.io.missions.site import Site
 from loiter.io.missions.wpl import MARK, read_wpl, wpl
 from loiter.io.reading import Source
 from loiter.planning.maneuver import Maneuver
@@ -40,6 +41,7 @@ class SaveArguments(NamedTuple):
     chord_error_m: float
     autopilot: Autopilot
     along_path: bool
+    site: Site | None = None
 
 
 def check_format(path: Path) -> None:
@@ -64,6 +66,7 @@ def save(
     chord_error_m: float = 1.0,
     autopilot: Autopilot = Autopilot.ARDUPILOT,
     along_path: bool = False,
+    site: Site | None = None,
 ) -> None:
     """Write a maneuver to `path`, in the format of its ending.
 
@@ -73,20 +76,26 @@ def save(
     `altitude_m`, which is above mean sea level unless `datum` says otherwise; in maps and tables altitudes are above
     mean sea level. Points are at most `spacing_m` metres apart, if it is given, and the track is nowhere further than
     `chord_error_m` metres from the line between two of them. `autopilot` is the one for which a mission is written.
+    `site` is that of an existing mission (`read_site`), whose home, and whose fence in a .plan, the new one keeps.
 
     The file appears whole or not at all; an older file stays until then. Raises `InvalidArgument` for an unknown
     ending, missing arguments, impossible numbers and a file that cannot be written, and otherwise like `mission`.
     """
     path = Path(path)
-    check_format(path)
-    if altitude_m is not None:
-        altitude_m = datum.checked(altitude_m)
-    if autopilot not in tuple(Autopilot):
-        known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
-        raise InvalidArgument("autopilot", f"is {autopilot!r}: it must be {known}")
-    arguments = SaveArguments(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path)
-    content = _content(path.suffix.lower(), arguments)
+    arguments = SaveArguments(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path, site)
+    content = file_content(path, arguments)
     write_whole("save", path, lambda file: file.write(content))
+
+
+def file_content(path: Path, arguments: SaveArguments) -> bytes:
+    """The content that `save` writes to `path`; it raises the errors of `save`, but for those of writing."""
+    check_format(path)
+    if arguments.altitude_m is not None:
+        arguments = arguments._replace(altitude_m=arguments.datum.checked(arguments.altitude_m))
+    if arguments.autopilot not in tuple(Autopilot):
+        known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
+        raise InvalidArgument("autopilot", f"is {arguments.autopilot!r}: it must be {known}")
+    return _content(path.suffix.lower(), arguments)
 
 
 def read_mission(path: str | Path) -> Mission:
@@ -137,9 +146,14 @@ def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> b
         along_path=arguments.along_path,
         autopilot=arguments.autopilot,
     )
+    site = arguments.site
+    if site is not None:
+        plan = plan._replace(home=site.home)
     if ending != ".plan":
         # Some programs fly to the home as a waypoint: unless its altitude is given, it has that of the flight.
-        return wpl(plan if datum.home_altitude_m is not None else _with_home_at(plan, altitude_m))
+        known = site is not None or datum.home_altitude_m is not None
+        return wpl(plan if known else _with_home_at(plan, altitude_m))
     if arguments.autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
         raise InvalidArgument("altitude_reference", "is ground: PX4 flies no missions with altitudes above the ground")
-    return qgcplan(plan, arguments.autopilot, arguments.maneuver.aircraft.airspeed_m_s)
+    fence = None if site is None else site.fence_document
+    return qgcplan(plan, arguments.autopilot, arguments.maneuver.aircraft.airspeed_m_s, fence)

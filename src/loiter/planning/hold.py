@@ -86,7 +86,8 @@ class Hold:
         """
         import numpy as np
 
-        if positive("step_deg", step_deg, "degrees") < FINEST_DEG:
+        step_deg = positive("step_deg", step_deg, "degrees")
+        if step_deg < FINEST_DEG:
             raise InvalidArgument("step_deg", f"is {step_deg}: it must be at least {FINEST_DEG:g} degrees")
         return Round(*np.array([self.at(azimuth) for azimuth in np.arange(0.0, 360.0, step_deg).tolist()]).T)
 

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
 
-from loiter.errors import InvalidArgument, positive
+from loiter.errors import InvalidArgument, MissingPackage, positive
+from loiter.planning.display import drawing
+from loiter.planning.display.values import maneuver_values
 from loiter.planning.flight import over_ground, sampled
 from loiter.planning.hold import Hold
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Samples, Segment, Turn, Wind
@@ -74,6 +78,47 @@ class Maneuver:
         switching instant the curvatures are those of the piece that begins. Headings are in [0, 360).
         Raises `InvalidArgument` for a step that is not positive, or so small that the samples would exceed the memory.
         """
-        if self.duration_s / positive("step_s", step_s, "seconds") > MAX_SAMPLES:
+        step_s = positive("step_s", step_s, "seconds")
+        if self.duration_s / step_s > MAX_SAMPLES:
             raise InvalidArgument("step_s", f"is {step_s}: it would take more than {MAX_SAMPLES} samples")
         return sampled(self.start, self.segments, self.aircraft, self.wind, step_s)
+
+    def to_dict(self) -> dict[str, object]:
+        """The maneuver as plain values for JSON: the members of `loiter plan --json`, in metres, seconds, degrees."""
+        return maneuver_values(self)
+
+    def to_dataframe(self, step_s: float) -> Any:
+        """The samples of `sample` every `step_s` seconds as a pandas data frame, a column for each field of `Samples`.
+
+        Raises `InvalidArgument` like `sample`, and `MissingPackage` without pandas.
+        """
+        samples = self.sample(step_s)
+        try:
+            pandas: Any = import_module("pandas")
+        except ImportError as error:
+            raise MissingPackage("a data frame needs pandas: pip install pandas brings it") from error
+        return pandas.DataFrame(samples._asdict())
+
+    def __str__(self) -> str:
+        """One line: the word, the direction, the time to join and the distance."""
+        if not self.segments:
+            return f"On the circle already, {self.turn.described}: nothing to fly."
+        decimals = decimals_of(self.orbit)
+        windy = self.wind.speed_m_s > 0.0 or self.orbit.moves
+        return (
+            f"{self.word}, {self.turn.described}: joins in {self.duration_s:.{decimals}f} s "
+            f"after {self.length_m:.{decimals}f} m{' through the air' if windy else ''}"
+        )
+
+    def _repr_svg_(self) -> str:
+        """A drawing, for notebooks."""
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        """A drawing with a caption, for notebooks."""
+        return drawing.html(self)
+
+
+def decimals_of(orbit: Orbit) -> int:
+    """Decimals of times and lengths in text: more for small circles."""
+    return 1 if orbit.radius_m >= 10.0 else 3

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
-from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, not_negative
+from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, instance, not_negative
 from loiter.kernel import motion, wind_search
 from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import REACH, ROUNDING, rounded_radius, status_of
@@ -14,6 +14,7 @@ from loiter.kernel.wind_search import WindProblem
 from loiter.kernel.words import Side
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import RelativeWind, check_held, radius_in_turns, relative_wind, too_tight
+from loiter.planning.flight import flown_from
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.sides import SIDES
 
@@ -37,7 +38,7 @@ class Problem:
 
     `tolerance_m` is the distance, metres, by which a start may lie beyond the last arc and still count as on it.
     `relative_wind` is the velocity of the air relative to the circle, divided by the airspeed.
-    Raises `InvalidArgument` for a tolerance that is negative or not finite.
+    Raises `InvalidArgument` for a tolerance that is negative or not finite, and for a value of another class.
     """
 
     pose: Pose
@@ -48,6 +49,8 @@ class Problem:
     relative_wind: RelativeWind = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        for name, kind in (("pose", Pose), ("orbit", Orbit), ("aircraft", Aircraft), ("wind", Wind)):
+            instance(name, getattr(self, name), kind)
         object.__setattr__(self, "tolerance_m", not_negative("tolerance_m", self.tolerance_m, "metres"))
         object.__setattr__(self, "relative_wind", relative_wind(self.orbit, self.aircraft, self.wind))
 
@@ -69,6 +72,17 @@ class Problem:
     def with_turn(self, turn: Turn) -> Problem:
         """The same problem with another direction of the hold."""
         return replace(self, orbit=replace(self.orbit, turn=turn))
+
+    def later(self, time_s: float) -> Problem:
+        """The problem `time_s` seconds later, if the aircraft flies straight on until then, on its present heading.
+
+        The wind carries the aircraft along, and a circle that moves moves on. Raises `InvalidArgument` for a time that
+        is negative or not finite.
+        """
+        time_s = not_negative("lead_s", time_s, "seconds")
+        flown_m = time_s * self.aircraft.airspeed_m_s
+        pose = flown_from(self.pose, 0, flown_m, self.aircraft, self.wind)
+        return replace(self, pose=pose, orbit=self.orbit.after(time_s))
 
     def reduced(self) -> ReducedProblem:
         """The kernel's arguments in still air.

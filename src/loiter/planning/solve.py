@@ -52,8 +52,11 @@ def plan(
 def plan_all(
     pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, tolerance_m: float = 0.0
 ) -> tuple[Maneuver, ...]:
-    """All optimal maneuvers, equally fast up to rounding, the fastest first. Arguments and errors as for `plan`.
+    """All optimal maneuvers, equally fast up to rounding, the fastest first.
 
+    Arguments and their units are those of `plan`: a pose and a circle in metres, a wind in metres per second,
+    `tolerance_m` in metres. Raises `RadiusTooSmall`, `WindTooStrong`, `OutOfRange`, `InvalidArgument` and
+    `NotConverged` as `plan` does.
     For a circle of the turn radius, held in either direction in still air, there are 1, 2 or 4 (paper, section 6); for
     other circles there may be 3. In wind ties are rare except in scenes that are their own mirror image.
     """
@@ -65,7 +68,9 @@ def candidates(
 ) -> tuple[Maneuver, ...]:
     """All extremals of docs/theory.md, section 3, in the direction `orbit.turn`, the fastest first.
 
-    Arguments and errors as for `plan`. In wind: the maneuvers to the points of joining at which the time has a local
+    Arguments and their units are those of `plan`: a pose and a circle in metres, a wind in metres per second,
+    `tolerance_m` in metres. Raises `RadiusTooSmall`, `WindTooStrong`, `OutOfRange`, `InvalidArgument` and
+    `NotConverged` as `plan` does. In wind: the maneuvers to the points of joining at which the time has a local
     minimum, as far as 128 points round the circle resolve the minima.
     """
     return extremals(Problem(pose, orbit, aircraft, CALM if wind is None else wind, tolerance_m))

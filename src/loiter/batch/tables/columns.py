@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields
+from difflib import get_close_matches
 from typing import NamedTuple
 
 import pyarrow as pa
@@ -162,7 +163,7 @@ def carried_columns(names: Iterable[str]) -> list[str]:
 def _check_names(argument: str, names: list[str]) -> None:
     for name in POSE:
         if name not in names:
-            raise InvalidArgument(argument, f"has no column {name}: it needs {', '.join(POSE)}")
+            raise InvalidArgument(argument, f"has no column {name}: it needs {', '.join(POSE)}{_hint(name, names)}")
     for name, count in Counter(names).items():
         if count > 1:
             raise InvalidArgument(argument, f"has two columns named {name!r}")
@@ -171,11 +172,22 @@ def _check_names(argument: str, names: list[str]) -> None:
             raise InvalidArgument(argument, f"has a column {name}, a name that the output needs: rename it")
 
 
+def _hint(name: str, names: list[str]) -> str:
+    """A sentence on what the table has instead of a column: another separator, or a name that differs slightly."""
+    separators = {";": "semicolons", "\t": "tabs", "|": "vertical bars"}
+    for separator, described in separators.items():
+        if len(names) == 1 and separator in names[0]:
+            return f"; its fields are separated by {described}: they must be separated by commas"
+    alike = {other.strip().strip("\ufeff").lower(): other for other in names}
+    close = get_close_matches(name, alike, n=1, cutoff=0.7)
+    return f"; rename {alike[close[0]]!r}, if that is it" if close else ""
+
+
 def _require(argument: str, names: list[str], given: Mapping[str, float], option: str, needed: tuple[str, ...]) -> None:
     """Raise `InvalidArgument` if neither the option nor its columns are given."""
     if not _is_given(argument, names, given, option, needed):
         first, *_ = needed
-        raise InvalidArgument(option, f"is needed: the table has no column {first}")
+        raise InvalidArgument(option, f"is needed: the table has no column {first}{_hint(first, names)}")
 
 
 def _zeros_unless_given(

@@ -5,16 +5,19 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Group, Parameter
 from rich.console import Console
 from rich.progress import BarColumn, ProgressColumn, Task, TextColumn, TimeRemainingColumn
 from rich.progress import Progress as Bar
+from rich.table import Column
 from rich.text import Text
 
 import loiter
-from loiter.cli.numbers import whole
+from loiter.cli.numbers import any_case, metres, metres_per_second, one, plain, several, whole
+from loiter.cli.report import print_json
 from loiter.kernel.statuses import Status
 from loiter.planning.model import Orbit, Turn, TurnName, Wind
 
@@ -43,18 +46,34 @@ def batch(
     *,
     orbit: Annotated[
         tuple[float, float, float] | None,
-        Parameter(group=shared, metavar="EAST NORTH RADIUS", help="The circle: its centre and its radius, metres."),
+        Parameter(
+            group=shared,
+            converter=several(metres, metres, metres),
+            metavar="EAST NORTH RADIUS",
+            help="The circle: its centre and its radius, metres.",
+        ),
     ] = None,
     turn: Annotated[
         TurnName | None,
-        Parameter(group=shared, help="Direction in which the circle is held; the faster one if absent."),
+        Parameter(
+            group=shared,
+            converter=any_case,
+            help="Direction in which the circle is held; the faster one if absent.",
+        ),
     ] = None,
     airspeed: Annotated[
-        float | None, Parameter(group=shared, metavar="M_PER_S", help="True airspeed, metres per second.")
+        float | None,
+        Parameter(
+            group=shared,
+            converter=one(metres_per_second),
+            metavar="M_PER_S",
+            help="True airspeed, metres per second, or with a unit: 35kn.",
+        ),
     ] = None,
     bank: Annotated[float | None, Parameter(group=shared, metavar="DEGREES", help="Largest bank, degrees.")] = None,
     turn_radius: Annotated[
-        float | None, Parameter(group=shared, metavar="METRES", help="Smallest turn radius, metres.")
+        float | None,
+        Parameter(group=shared, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
     ] = None,
     turn_rate: Annotated[
         float | None, Parameter(group=shared, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
@@ -63,6 +82,7 @@ def batch(
         tuple[float, float] | None,
         Parameter(
             group=shared,
+            converter=several(metres_per_second, plain),
             metavar="SPEED FROM",
             help="Wind speed, metres per second, and the direction that it comes from; still air if absent.",
         ),
@@ -71,6 +91,7 @@ def batch(
         tuple[float, float] | None,
         Parameter(
             group=shared,
+            converter=several(metres_per_second, metres_per_second),
             metavar="EAST NORTH",
             help="Velocity of the circle over the ground, metres per second; at rest if absent.",
         ),
@@ -95,6 +116,9 @@ def batch(
             help="Use the Dask cluster with this scheduler; its workers must see IN and OUT at the same places.",
         ),
     ] = None,
+    json: Annotated[
+        bool, Parameter(group=work, help="Print one JSON object at the end: the numbers of rows, and of each status.")
+    ] = False,
 ) -> None:
     """Plan the fastest entry of every row of a table."""
     limits = {"max_bank_deg": bank, "min_turn_radius_m": turn_radius, "max_turn_rate_deg_s": turn_rate}
@@ -113,15 +137,24 @@ def batch(
             scheduler=scheduler,
             progress=report,
         )
-    sys.stderr.write(summary_lines(summary))
+    if json:
+        print_json(asdict(summary) | {"files": [target]})
+    else:
+        sys.stderr.write(summary_lines(summary))
 
 
 @contextmanager
 def shown_progress() -> Iterator[Callable[[JobProgress], None]]:
     """A context whose value shows progress on standard error: notes always, and a bar on a terminal."""
     console = Console(stderr=True, highlight=False)
-    columns = (TextColumn("{task.description}"), BarColumn(), Rows(), TimeRemainingColumn())
-    with Bar(*columns, console=console, disable=not console.is_terminal) as bar:
+    # The bar takes the width that is left.
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=None),
+        Rows(table_column=Column(no_wrap=True)),
+        TimeRemainingColumn(),
+    )
+    with Bar(*columns, console=console, expand=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("", total=None)
 
         def report(progress: JobProgress) -> None:

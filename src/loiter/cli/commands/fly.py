@@ -9,12 +9,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from cyclopts import Group, Parameter
-from rich.console import Console
+from rich.console import Console, RenderableType
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-from rich.table import Table
 
 import loiter
 from loiter.cli import report
@@ -39,6 +38,49 @@ LawName = Literal["optimal", "l1", "vector-field", "tangent"]
 AIRFRAME, GUST = "aerosonde", 0.05
 
 simulation = Group("Simulation", sort_key=0)
+
+
+Json = Annotated[
+    bool,
+    Parameter(
+        group=output,
+        help="Print one JSON object: the fastest entry and each law's flight, or summaries of many flights.",
+    ),
+]
+Plot = Annotated[
+    tuple[Path, ...],
+    Parameter(
+        group=output,
+        show_default=False,
+        metavar="FILE",
+        help="Draw one flight, or its comparison: .png, .svg or .pdf; may be repeated.",
+    ),
+]
+Save = Annotated[
+    tuple[Path, ...],
+    Parameter(
+        group=output,
+        show_default=False,
+        metavar="FILE",
+        help="Write a .csv: each step of one flight, or a row for each of many; may be repeated.",
+    ),
+]
+
+
+class Output(NamedTuple):
+    """What to print and to write."""
+
+    json: bool
+    plot: tuple[Path, ...]
+    save: tuple[Path, ...]
+
+    def show(self, document: dict[str, object], *lines: RenderableType) -> None:
+        """Print the document or the lines, with the files that were written."""
+        written = [*self.plot, *self.save]
+        if self.json:
+            report.print_json(document | report.files_member(written))
+        else:
+            report.write(*lines, *report.files_line(written))
 
 
 @Parameter(name="*")
@@ -128,16 +170,16 @@ class SimulationOptions:
         runs = self.runs
         if self.sim != "varied":
             return campaign.trials(runs, self.seed, self.aircraft(uav), air.moving_air)
-        if (uav, air) != (AircraftOptions(), WindOptions()):
-            raise InvalidArgument("sim", "varied draws aircraft and wind at random: options for them have no effect")
+        if given := [*uav.names_given, *(["--wind"] if air.wind is not None else [])]:
+            raise InvalidArgument("sim", f"varied draws aircraft and wind at random: {given[0]} has no effect")
         return varied.varied_trials(runs, self.seed)
 
     def aircraft(self, uav: AircraftOptions) -> Aircraft:
         """The aircraft of the options, or that of the airframe, which has its own airspeed and bank limit."""
         if self.sim != "jsbsim":
             return uav.aircraft(uav.preset())
-        if uav != AircraftOptions():
-            raise InvalidArgument("airframe", "has its own airspeed and bank limit: options for them have no effect")
+        if given := uav.names_given:
+            raise InvalidArgument("sim", f"jsbsim flies an airframe with its own limits: {given[0]} has no effect")
         return self._airframe().aircraft
 
     def _airframe(self) -> Airframe:
@@ -161,60 +203,55 @@ def fly(
     circle: OrbitOptions = OrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
-    plot: Annotated[
-        Path | None,
-        Parameter(group=output, metavar="FILE", help="Draw one flight, or its comparison: .png, .svg or .pdf."),
-    ] = None,
-    save: Annotated[
-        Path | None,
-        Parameter(
-            group=output, metavar="FILE", help="Write a .csv: each step of one flight, or a row for each of many."
-        ),
-    ] = None,
+    json: Json = False,
+    plot: Plot = (),
+    save: Save = (),
 ) -> None:
     """Fly the fastest entry in closed loop, compared with the laws that autopilots use today."""
     from loiter.guidance.trials import campaign
 
+    wanted = Output(json, plot, save)
     if replay is not None:
-        _replay(replay, (simulated, start, circle, uav, air, save), plot)
+        _replay(replay, (simulated, start, circle, uav, air), wanted)
         return
     simulated.check()
-    _check_files(plot, save, simulated.runs)
+    _check_files(wanted, simulated.runs)
     if simulated.runs is None:
         pose, orbit, _ = placed(start, circle, uav.preset())
         trial = campaign.Trial(loiter.plan(pose, orbit, simulated.aircraft(uav), air.moving_air), simulated.seed)
-        _fly_once(trial, simulated.setting(), simulated.laws, plot, save)
+        _fly_once(trial, simulated.setting(), simulated.laws, wanted)
         return
     if (start, circle) != (StartOptions(), OrbitOptions()):
         raise InvalidArgument("runs", "selects random starts and circles: --pose and --orbit have no effect")
-    _fly_many(simulated.trials(uav, air), simulated.setting(), simulated.laws, simulated.workers, save)
+    _fly_many(simulated.trials(uav, air), simulated.setting(), simulated.laws, simulated.workers, wanted)
 
 
-def _replay(log: Path, others: tuple[object, ...], plot: Path | None) -> None:
+def _replay(log: Path, others: tuple[object, ...], wanted: Output) -> None:
     """Replay a log; `others` are the options that have no effect with it."""
     from loiter.cli.commands.replay import replay
 
-    if any(option is not None and option != type(option)() for option in others):
-        raise InvalidArgument("replay", "shows a flight that was flown: it takes no option but --plot")
-    _check_files(plot, None, None)
-    replay(log, plot)
+    if wanted.save or any(option != type(option)() for option in others):
+        raise InvalidArgument("replay", "shows a flight that was flown: it takes no options but --plot and --json")
+    _check_files(wanted, None)
+    replay(log, wanted)
 
 
-def _check_files(plot: Path | None, save: Path | None, runs: int | None) -> None:
+def _check_files(wanted: Output, runs: int | None) -> None:
     """Raise `InvalidArgument` before anything flies if a file could not be written."""
-    if plot is not None:
-        files.check_format(plot)
+    for path in wanted.plot:
+        files.check_format(path)
         if runs is not None:
             raise InvalidArgument("plot", "draws one flight, not the many of --runs")
-        check_writable("plot", plot)
-    if save is not None:
-        if save.suffix.lower() != ".csv":
-            raise InvalidArgument("save", f"is {str(save)!r}: the file name must end in .csv")
-        check_writable("save", save)
+        check_writable("plot", path)
+    for path in wanted.save:
+        if path.suffix.lower() != ".csv":
+            raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in .csv")
+        check_writable("save", path)
 
 
-def _fly_once(trial: Trial, setting: Setting, names: Sequence[str], plot: Path | None, save: Path | None) -> None:
+def _fly_once(trial: Trial, setting: Setting, names: Sequence[str], wanted: Output) -> None:
     """Fly laws from one start: write the time line of the first law, and a table with a row for each."""
+    from loiter.cli import flights as shown
     from loiter.guidance.trials.flight import fly as fly_law
 
     flights = {
@@ -227,43 +264,16 @@ def _fly_once(trial: Trial, setting: Setting, names: Sequence[str], plot: Path |
         )
         for name in names
     }
-    if plot is not None:
+    if wanted.plot:
         from loiter.plot.flown import draw
 
-        files.save_figure("plot", plot, draw(trial.ideal, flights))
-    if save is not None:
-        _save(save, _steps(flights))
+        figure = draw(trial.ideal, flights)
+        for path in wanted.plot:
+            files.save_figure("plot", path, figure)
+    _save(wanted.save, _steps(flights))
     first, *_ = flights.values()
-    report.write(f"Fastest entry: {report.headline(trial.ideal)}", *_time_line(first), _flights_table(trial, flights))
-
-
-def _time_line(flight: Flight) -> Iterator[str]:
-    """The time at which each phase begins, and the settling time."""
-    previous = None
-    for time_s, phase, bank in zip(flight.track.elapsed_s, flight.phases, flight.track.bank_deg, strict=False):
-        if phase != previous:
-            yield f"{time_s:6.1f} s  {phase}, bank {round(bank)} deg"
-        previous = phase
-    yield (
-        f"{flight.settled_s:6.1f} s  settled: start of a full turn within the band"
-        if flight.settled
-        else "Not settled."
-    )
-
-
-def _flights_table(trial: Trial, flights: Mapping[str, Flight]) -> Table:
-    rows = _table("law", "settled", "of the fastest", "overshoot", "bank activity", "distance")
-    for name, flight in flights.items():
-        ideal_s = trial.ideal.duration_s
-        rows.add_row(
-            name,
-            f"{flight.settled_s:.1f} s" if flight.settled else "never",
-            f"{flight.settled_s / ideal_s:.2f}" if flight.settled and ideal_s > 0.0 else "",
-            f"{flight.overshoot_m:.1f} m",
-            f"{flight.bank_rate_deg_s:.1f} deg/s",
-            f"{flight.distance_m:.0f} m",
-        )
-    return rows
+    lines = [f"Fastest entry: {trial.ideal}", *shown.time_line(first)]
+    wanted.show(shown.flights_document(trial, flights), *lines, shown.flights_table(trial, flights))
 
 
 def _steps(flights: Mapping[str, Flight]) -> Iterator[Sequence[object]]:
@@ -279,9 +289,10 @@ def _steps(flights: Mapping[str, Flight]) -> Iterator[Sequence[object]]:
 
 
 def _fly_many(
-    starts: Sequence[Trial], setting: Setting, names: Sequence[str], workers: int | None, save: Path | None
+    starts: Sequence[Trial], setting: Setting, names: Sequence[str], workers: int | None, wanted: Output
 ) -> None:
     """Fly laws from many starts, and write a table with a row for each law."""
+    from loiter.cli import flights as shown
     from loiter.compiled import wind_solver
     from loiter.guidance.trials.campaign import campaign
 
@@ -291,33 +302,8 @@ def _fly_many(
     laws = {name: setting.laws[name] for name in names}
     with _progress_bar() as progress:
         outcomes = campaign(laws, setting.simulator, starts, band=setting.band, workers=workers, progress=progress)
-    report.write(_campaign_table(outcomes))
-    if save is not None:
-        _save(save, _rows(starts, outcomes))
-
-
-def _campaign_table(outcomes: Mapping[str, Sequence[Outcome]]) -> Table:
-    """A row for each law: its settling times relative to the fastest entries, and how often the first law is sooner."""
-    from loiter.guidance.trials.summary import summary
-
-    first = next(iter(outcomes))
-    names = ["law", "settled", "round again", "of the fastest", "90 %", "late", "99 %", "overshoot", "bank activity"]
-    rows = _table(*names, *([f"{first} is sooner"] * (len(outcomes) > 1)))
-    for name, flown in outcomes.items():
-        s = summary(flown)
-        rows.add_row(
-            name,
-            f"{s.settled} of {s.flights}",
-            f"{s.round_again}",
-            f"{s.median_ratio:.3f}",
-            f"{s.ninth_decile_ratio:.2f}",
-            f"{s.median_late_s:.2f} s",
-            f"{s.percentile_99_late_s:.1f} s",
-            f"{s.median_overshoot_m:.1f} m",
-            f"{s.bank_rate_deg_s:.1f} deg/s",
-            *([f"{summary(outcomes[first], flown).sooner:.1%}" if name != first else ""] * (len(outcomes) > 1)),
-        )
-    return rows
+    _save(wanted.save, _rows(starts, outcomes))
+    wanted.show(shown.campaign_document(outcomes), shown.campaign_table(outcomes))
 
 
 def _rows(starts: Sequence[Trial], outcomes: Mapping[str, Sequence[Outcome]]) -> Iterator[Sequence[object]]:
@@ -331,18 +317,14 @@ def _rows(starts: Sequence[Trial], outcomes: Mapping[str, Sequence[Outcome]]) ->
             yield [name, pose.east_m, pose.north_m, pose.heading_deg, trial.ideal.orbit.radius_m, *outcome]
 
 
-def _table(*names: str) -> Table:
-    rows = report.new_table()
-    for name in names:
-        rows.add_column(name, justify="left" if name == "law" else "right")
-    return rows
-
-
-def _save(path: Path, rows: Iterator[Sequence[object]]) -> None:
+def _save(paths: Sequence[Path], rows: Iterator[Sequence[object]]) -> None:
     """Write rows as CSV; an error leaves no partial file."""
+    if not paths:
+        return
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(rows)
-    write_whole("save", path, lambda file: file.write(text.getvalue().encode()))
+    for path in paths:
+        write_whole("save", path, lambda file: file.write(text.getvalue().encode()))
 
 
 @contextmanager

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Group, Parameter
 
 import loiter
-from loiter.cli import report
-from loiter.cli.commands.mavlink import Connect, System, Timeout, connection
+from loiter.cli import report, vehicles
+from loiter.cli.commands.mavlink import Connect, JsonLines, System, Timeout, connection
+from loiter.cli.numbers import any_case, latitude, longitude, metres, metres_per_second, one, several
 from loiter.cli.options import PlacedOrbitOptions, WindOptions, output, scene
 from loiter.errors import InvalidArgument
 from loiter.mavlink.missions.exchange import TIMEOUT_S
@@ -45,6 +46,7 @@ class GuidedOrbitOptions(PlacedOrbitOptions):
             group=scene,
             consume_multiple=True,
             show_default=False,
+            converter=several(latitude, longitude, metres),
             metavar="LAT LON RADIUS",
             help="The circle: centre in WGS84 degrees, radius in metres.",
         ),
@@ -52,10 +54,14 @@ class GuidedOrbitOptions(PlacedOrbitOptions):
     turn: Annotated[
         TurnName | None,
         Parameter(
-            group=scene, help="Direction of flight around the circle, seen from above; the faster one if absent."
+            group=scene,
+            converter=any_case,
+            help="Direction of flight around the circle, seen from above; the faster one if absent.",
         ),
     ] = None
-    orbit_velocity: Annotated[tuple[float, float], Parameter(show=False)] = (0.0, 0.0)
+    orbit_velocity: Annotated[
+        tuple[float, float], Parameter(show=False, converter=several(metres_per_second, metres_per_second))
+    ] = (0.0, 0.0)
 
 
 @Parameter(name="*")
@@ -64,7 +70,13 @@ class GuidedVehicleOptions:
     """The vehicle, as far as its own parameters are not to be used."""
 
     airspeed: Annotated[
-        float | None, Parameter(group=vehicle_limits, metavar="M_PER_S", help="True airspeed, metres per second.")
+        float | None,
+        Parameter(
+            group=vehicle_limits,
+            converter=one(metres_per_second),
+            metavar="M_PER_S",
+            help="True airspeed, metres per second, or with a unit: 35kn.",
+        ),
     ] = None
     bank: Annotated[
         float | None,
@@ -74,8 +86,9 @@ class GuidedVehicleOptions:
         float | None,
         Parameter(
             group=vehicle_limits,
+            converter=one(metres),
             metavar="METRES",
-            help="Altitude above mean sea level at which the circle is flown; the present one if absent.",
+            help="Altitude above mean sea level at which the circle is flown, metres, or with a unit: 3000ft; the present one if absent.",
         ),
     ] = None
 
@@ -108,9 +121,10 @@ def guide(
             group=output, metavar="FILE", help="Write every step to a .csv or .parquet; loiter fly --replay plots it."
         ),
     ] = None,
+    json: JsonLines = False,
 ) -> None:
     """Guide a vehicle in flight onto the circle by bank commands, then hand it over to its own hold."""
-    if not circle.orbit_lla:
+    if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
     orbit, frame = circle.circle(None)
     assert frame is not None  # the circle is in degrees
@@ -132,6 +146,9 @@ def guide(
     with _ending_signals(), closing(reports):
         try:
             for vehicle in reports:
+                if json:
+                    vehicles.print_line(vehicles.guided(vehicle))
+                    continue
                 report.write(*vehicle.notices, line(vehicle))
                 sys.stdout.flush()
         except KeyboardInterrupt as interrupt:

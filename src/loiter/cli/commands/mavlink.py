@@ -5,17 +5,18 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import asdict
 from functools import partial
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 from cyclopts import Group, Parameter
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 import loiter
-from loiter.cli import report
+from loiter.cli import report, vehicles
 from loiter.cli.numbers import whole
 from loiter.cli.options import (
     AircraftOptions,
@@ -26,9 +27,13 @@ from loiter.cli.options import (
     PlacedStartOptions,
     StartOptions,
     WindOptions,
+    fence_check,
+    output,
     read_options,
 )
 from loiter.errors import InvalidArgument
+from loiter.geo import LocalFrame
+from loiter.io.document import maneuver_values
 from loiter.io.missions.items import Mission
 from loiter.mavlink.connection.link import check_connection
 from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
@@ -63,6 +68,7 @@ Timeout = Annotated[
     float,
     Parameter(group=connection, metavar="SECONDS", help="Give up after this time without progress."),
 ]
+JsonLines = Annotated[bool, Parameter(group=output, help="Print a JSON object a line instead of text.")]
 TrueRadius = Annotated[
     bool,
     Parameter(
@@ -95,6 +101,9 @@ def upload(
     air: WindOptions = WindOptions(),
     fit: Fit = False,
     waypoints: MissionOptions = MissionOptions(),
+    json: Annotated[
+        bool, Parameter(group=output, help="Print one JSON object: the plan, and what the vehicle has now.")
+    ] = False,
 ) -> None:
     """Send the fastest entry to a vehicle as a mission, and read it back, item by item, to verify it."""
     # These checks come before anything is planned or printed.
@@ -102,8 +111,12 @@ def upload(
     check_target(system, 1, timeout)
     options = (pose, circle, uav, air, waypoints)
     to_send: Mission | Callable[[int], Mission]
+    plan: dict[str, object] = {}
     if mission is None:
-        to_send = _plan_mission(*options, fit=fit)
+        planned = _plan_mission(*options, fit=fit)
+        to_send, plan = planned.to_mission, {"plan": maneuver_values(planned.maneuver, planned.frame)}
+        if not json:
+            report.write(*planned.lines)
     elif fit or any(given != type(given)() for given in options):
         raise InvalidArgument("mission", "FILE is sent as it is: options of a scene have no effect with it")
     else:
@@ -118,6 +131,9 @@ def upload(
             true_radius=true_radius,
             start=start,
         )
+    if json:
+        report.print_json({"vehicle": asdict(summary)} | plan)
+        return
     kept = ", each as sent" if not summary.cut else ""
     vehicle = f"Vehicle {summary.system} ({summary.autopilot})"
     lines = [
@@ -128,6 +144,15 @@ def upload(
     report.write(*lines, *summary.cut, *summary.remarks)
 
 
+class PlannedMission(NamedTuple):
+    """A maneuver, its frame, the function that makes it a mission for an autopilot, and lines to print."""
+
+    maneuver: Maneuver
+    frame: LocalFrame
+    to_mission: Callable[[int], Mission]
+    lines: list[str]
+
+
 def _plan_mission(
     pose: StartOptions,
     circle: OrbitOptions,
@@ -136,14 +161,15 @@ def _plan_mission(
     waypoints: MissionOptions,
     *,
     fit: bool,
-) -> Callable[[int], Mission]:
-    """Print the scene's fastest entry; returns a function that converts it to a mission for an autopilot."""
-    if pose.pose_lla is None or not circle.orbit_lla:
+) -> PlannedMission:
+    """The scene's fastest entry, to be sent."""
+    datum = waypoints.datum(circle.site)
+    if pose.pose_lla is None or not circle.placed:
         raise InvalidArgument("pose_lla", "and --orbit-lla are needed: a vehicle's mission is in degrees")
     if uav.altitude is None:
-        raise InvalidArgument("altitude_m", f"is needed: a vehicle's mission has one, {waypoints.datum.unit}")
+        raise InvalidArgument("altitude_m", f"is needed: a vehicle's mission has one, {datum.unit}")
     along_path = waypoints.along_path
-    (problem, frame), remark = read_options(pose, circle, uav, air, fit=fit, datum=waypoints.datum)
+    (problem, frame), remark = read_options(pose, circle, uav, air, fit=fit, datum=datum)
     assert frame is not None  # both places are in degrees
     best = fastest(problem)
     to_mission = partial(
@@ -153,13 +179,19 @@ def _plan_mission(
         uav.altitude,
         spacing_m=waypoints.spacing,
         chord_error_m=waypoints.chord_error_m,
-        datum=waypoints.datum,
+        datum=datum,
         along_path=along_path,
     )
     # An entry that cannot become a mission is refused before anything is printed.
     to_mission()
-    report.write(*([remark] if remark else []), report.headline(best), *([report.ALONG_PATH] if along_path else []))
-    return lambda autopilot: to_mission(autopilot=autopilot)
+    checked = fence_check(circle.site, best, frame, any_inclusion=False)
+    lines = [
+        *([remark] if remark else []),
+        str(best),
+        *([report.ALONG_PATH] if along_path else []),
+        *([checked.sentence] if checked else []),
+    ]
+    return PlannedMission(best, frame, lambda autopilot: to_mission(autopilot=autopilot), lines)
 
 
 TRANSFER_STEPS = {"read": "Reading its mission", "send": "Sending", "check": "Reading back"}
@@ -208,9 +240,10 @@ def watch(
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
+    json: JsonLines = False,
 ) -> None:
     """Receive the telemetry of a vehicle and print, live, the fastest entry from its position."""
-    if not circle.orbit_lla:
+    if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
     preset = uav.preset()
     orbit, frame = circle.circle(preset)
@@ -231,6 +264,10 @@ def watch(
         altitude_m=uav.altitude if send else None,
         true_radius=true_radius,
     )
+    if json:
+        for vehicle in islice(vehicle_reports, reports):
+            vehicles.print_line(vehicles.watched(vehicle))
+        return
     if remark := uav.remark(preset):
         report.write(remark)
     commanded = False

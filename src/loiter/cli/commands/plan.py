@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, BinaryIO
 
 from cyclopts import Parameter
 
@@ -16,6 +18,7 @@ from loiter.cli.options import (
     OrbitOptions,
     StartOptions,
     WindOptions,
+    fence_check,
     missions,
     output,
     read_options,
@@ -24,12 +27,14 @@ from loiter.cli.options import (
 from loiter.cli.status import CHECK_FAILED
 from loiter.geo import LocalFrame
 from loiter.io.document import answer
-from loiter.io.files import is_mission
+from loiter.io.files import SaveArguments, file_content, is_mission
 from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
+from loiter.io.missions.site import Site
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import best_and_others
 from loiter.plot import files
+from loiter.writing import write_whole
 
 # The options of the command, in the order of its help.
 Tolerance = Annotated[
@@ -38,6 +43,14 @@ Tolerance = Annotated[
         group=scene,
         metavar="METRES",
         help="A start up to this many metres beyond the last arc counts as on it, so that noise does not add a full turn.",
+    ),
+]
+Lead = Annotated[
+    float,
+    Parameter(
+        group=scene,
+        metavar="SECONDS",
+        help="Plan from where the aircraft will be after this time, if it flies straight on until then, on its heading and in the wind; a circle that moves moves on too. Times in the plan count from then.",
     ),
 ]
 All = Annotated[bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")]
@@ -49,7 +62,13 @@ Json = Annotated[
     ),
 ]
 Plot = Annotated[
-    Path | None, Parameter(group=output, metavar="FILE", help="Draw the plan to a file: .png, .svg or .pdf.")
+    tuple[Path, ...],
+    Parameter(
+        group=output,
+        show_default=False,
+        metavar="FILE",
+        help="Draw the plan to a file: .png, .svg or .pdf; may be repeated.",
+    ),
 ]
 Certify = Annotated[
     bool,
@@ -59,11 +78,12 @@ Certify = Annotated[
     ),
 ]
 Save = Annotated[
-    Path | None,
+    tuple[Path, ...],
     Parameter(
         group=output,
+        show_default=False,
         metavar="FILE",
-        help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) or .waypoints (QGC WPL 110) for autopilots.",
+        help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) or .waypoints (QGC WPL 110) for autopilots; may be repeated.",
     ),
 ]
 AutopilotChoice = Annotated[AutopilotName, Parameter(group=missions, help="The autopilot that a mission is for.")]
@@ -77,66 +97,77 @@ def plan(
     air: WindOptions = WindOptions(),
     fit: Fit = False,
     tolerance: Tolerance = 0.0,
+    lead: Lead = 0.0,
     all_: All = False,
     json: Json = False,
-    plot: Plot = None,
+    plot: Plot = (),
     certify: Certify = False,
-    save: Save = None,
+    save: Save = (),
     waypoints: MissionOptions = MissionOptions(),
     autopilot: AutopilotChoice = "ardupilot",
 ) -> int:
     """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off."""
     (problem, frame), remark = read_options(
-        start, circle, uav, air, tolerance_m=tolerance, fit=fit, datum=waypoints.datum
+        start, circle, uav, air, tolerance_m=tolerance, fit=fit, datum=waypoints.datum(circle.site)
     )
+    if lead:
+        problem = problem.later(lead)
     _check_formats(plot, save)
-    along_path = save is not None and is_mission(save) and waypoints.along_path
+    along_path = any(map(is_mission, save)) and waypoints.along_path
     best, others = best_and_others(problem)
     first, *ties = best
     shown = best if all_ else [first]
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
-    # The file is written before the picture: it has more requirements, and if it fails, neither is left.
-    if save is not None:
-        _save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot])
-    if plot is not None:
-        slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
-        files.save(plot, shown, slower if all_ else [*ties, *slower], frame=frame)
-        certificates.save_picture(plot, certified)
+    # Files are written before pictures: they have more requirements, and if one fails, no picture is left.
+    site = circle.site
+    checked = fence_check(site, first, frame, any_inclusion=autopilot == "px4")
+    written = [*_save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot], site)]
+    slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
+    for picture in plot:
+        files.save(picture, shown, slower if all_ else [*ties, *slower], frame=frame)
+        written += [picture, *certificates.save_picture(picture, certified)]
     if json:
         fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
-        report.print_json(answer(best, others, frame) | fitted | certificates.document(certified))
+        led = {"lead_s": lead} if lead else {}
+        fence = {"fence": checked._asdict()} if checked else {}
+        members = fitted | certificates.document(certified) | led | fence | report.files_member(written)
+        report.print_json(answer(best, others, frame) | members)
     else:
-        report.print_tables(best, others, everything=all_, frame=frame, remark=remark)
+        remarks = [*([remark] if remark else []), *([report.begins(first, lead, frame)] if lead else [])]
+        report.print_tables(best, others, everything=all_, frame=frame, remark="\n".join(remarks))
         certificates.print_text(certified)
-        report.write(*([report.ALONG_PATH] if along_path else []))
+        lines = [*([report.ALONG_PATH] if along_path else []), *([checked.sentence] if checked else [])]
+        report.write(*lines, *report.files_line(written))
     return 0 if all(certificate.valid for certificate in certified) else CHECK_FAILED
 
 
-def _check_formats(plot: Path | None, save: Path | None) -> None:
+def _check_formats(plot: Sequence[Path], save: Sequence[Path]) -> None:
     """Raise `InvalidArgument` for a file name whose format cannot be written."""
-    if plot is not None:
-        files.check_format(plot)
-    if save is not None:
-        loiter.io.check_format(save)
+    for picture in plot:
+        files.check_format(picture)
+    for path in save:
+        loiter.io.check_format(path)
 
 
 def _save(
-    path: Path,
+    paths: Sequence[Path],
     maneuver: Maneuver,
     frame: LocalFrame | None,
     uav: AircraftOptions,
     waypoints: MissionOptions,
     autopilot: Autopilot,
-) -> None:
-    """Write the maneuver to a file for maps or autopilots."""
-    loiter.io.save(
-        maneuver,
-        path,
-        frame=frame,
-        altitude_m=uav.altitude,
-        datum=waypoints.datum,
-        spacing_m=waypoints.spacing,
-        chord_error_m=waypoints.chord_error_m,
-        autopilot=autopilot,
-        along_path=is_mission(path) and waypoints.along_path,
-    )
+    site: Site | None,
+) -> Sequence[Path]:
+    """Write the maneuver to files for maps or autopilots, once the contents of all are known; returns the files."""
+    common = (uav.altitude, waypoints.datum(site), waypoints.spacing, waypoints.chord_error_m, autopilot)
+    contents = [
+        file_content(path, SaveArguments(maneuver, frame, *common, is_mission(path) and waypoints.along_path, site))
+        for path in paths
+    ]
+    for path, content in zip(paths, contents, strict=True):
+        write_whole("save", path, partial(_write, content))
+    return paths
+
+
+def _write(content: bytes, file: BinaryIO) -> None:
+    file.write(content)

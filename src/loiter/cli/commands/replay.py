@@ -5,24 +5,51 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from math import isnan
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from loiter.cli import report
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.io.flight_log import check_columns, read_log
 from loiter.plot import files
 
+if TYPE_CHECKING:
+    from loiter.cli.commands.fly import Output
 
-def replay(log: Path, plot: Path | None) -> None:
-    """Print the time line of a log, and draw it if `plot` is a file."""
+
+class StageStart(NamedTuple):
+    """The time at which a stage or phase of a guided flight begins, and the bank commanded then, degrees."""
+
+    time_s: float
+    stage: str
+    phase: str
+    commanded_bank_deg: float
+
+
+class Held(NamedTuple):
+    """How far the vehicle was from the circle while it was held, metres: in the mean, positive outside, and at most."""
+
+    mean_outside_m: float
+    most_off_m: float
+
+
+def replay(log: Path, wanted: Output) -> None:
+    """Show the time line of a log, and draw it to the files of `wanted`."""
     columns = _read(log)
     if not columns["time_s"]:
         raise InvalidArgument("replay", f"is {str(log)!r}: it has no steps")
-    if plot is not None:
+    if wanted.plot:
         from loiter.plot.guided import draw
 
-        files.save_figure("plot", plot, draw(columns))
-    report.write(*_time_line(columns), _summary(columns))
+        figure = draw(columns)
+        for path in wanted.plot:
+            files.save_figure("plot", path, figure)
+    starts, held = list(_stage_starts(columns)), _held(columns)
+    document = {
+        "steps": len(columns["time_s"]),
+        "duration_s": columns["time_s"][-1] - columns["time_s"][0],
+        "phases": [start._asdict() for start in starts],
+        "circle": None if held is None else held._asdict(),
+    }
+    wanted.show(document, *map(_line, starts), _summary(columns, held))
 
 
 def _read(path: Path) -> Mapping[str, Sequence[Any]]:
@@ -37,28 +64,37 @@ def _read(path: Path) -> Mapping[str, Sequence[Any]]:
     return columns
 
 
-def _time_line(log: Mapping[str, Sequence[Any]]) -> Iterator[str]:
-    """The time at which each stage and phase begins."""
+def _stage_starts(log: Mapping[str, Sequence[Any]]) -> Iterator[StageStart]:
+    """The beginning of each stage and phase."""
     previous: tuple[str, str] | None = None
     for time_s, stage, phase, command in zip(
         log["time_s"], log["stage"], log["phase"], log["command_deg"], strict=True
     ):
         if (stage, phase) != previous:
-            yield f"{time_s:6.1f} s  {stage}: {phase}, bank {command:.0f} deg commanded"
+            yield StageStart(time_s, stage, phase, command)
         previous = stage, phase
 
 
-def _summary(log: Mapping[str, Sequence[Any]]) -> str:
-    """The steps, and the mean distance from the circle while it was held."""
-    held = [
+def _line(start: StageStart) -> str:
+    return f"{start.time_s:6.1f} s  {start.stage}: {start.phase}, bank {start.commanded_bank_deg:.0f} deg commanded"
+
+
+def _held(log: Mapping[str, Sequence[Any]]) -> Held | None:
+    """The distances from the circle while it was held; None if it was not reached."""
+    outside_m = [
         outside
         for outside, stage in zip(log["outside_m"], log["stage"], strict=True)
         if stage == "holding" and not isnan(outside)
     ]
+    return Held(sum(outside_m) / len(outside_m), max(map(abs, outside_m))) if outside_m else None
+
+
+def _summary(log: Mapping[str, Sequence[Any]], held: Held | None) -> str:
+    """The steps, and the mean distance from the circle while it was held."""
     time_s = log["time_s"][-1] - log["time_s"][0]
     steps = f"{len(log['time_s'])} steps in {time_s:.1f} s"
-    if not held:
+    if held is None:
         return f"{steps}; the circle was not reached."
-    mean_m = sum(held) / len(held)
-    side = "outside" if mean_m >= 0.0 else "inside"
-    return f"{steps}; on the circle {abs(mean_m):.1f} m {side} in the mean, {max(map(abs, held)):.1f} m at most."
+    side = "outside" if held.mean_outside_m >= 0.0 else "inside"
+    mean_m, most_m = abs(held.mean_outside_m), held.most_off_m
+    return f"{steps}; on the circle {mean_m:.1f} m {side} in the mean, {most_m:.1f} m at most."

@@ -1,12 +1,12 @@
 """`loiter serve`: the page and the HTTP service."""
 
-import sys
 from typing import Annotated
 
 from cyclopts import Parameter
 
 import loiter
 from loiter.cli.numbers import whole
+from loiter.cli.report import write_now
 
 
 def serve(
@@ -21,10 +21,4 @@ def serve(
     ] = None,
 ) -> None:
     """Serve the page, and plans for programs, over HTTP until Ctrl-C."""
-    loiter.web.serve(host, port, cors, print_line)
-
-
-def print_line(line: str) -> None:
-    """Print a line and flush standard output, which a pipe would buffer."""
-    sys.stdout.write(f"{line}\n")
-    sys.stdout.flush()
+    loiter.web.serve(host, port, cors, write_now)

@@ -1,5 +1,6 @@
 """`loiter synthesis`: the optimal synthesis of the reduced plane, as a table, a picture and arrays."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -9,7 +10,7 @@ from rich.table import Table
 
 from loiter.arrays.partition import Boundary, Partition, boundaries, partition
 from loiter.cli import report
-from loiter.cli.numbers import whole
+from loiter.cli.numbers import any_case, whole
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
 from loiter.plot import files
@@ -27,7 +28,9 @@ MEANINGS = {
 def synthesis(
     *,
     radius: Annotated[float, Parameter(metavar="TURN_RADII", help="Radius of the circle, at least 1.")] = 1.0,
-    turn: Annotated[TurnName, Parameter(help="Direction of flight around the circle, seen from above.")] = "either",
+    turn: Annotated[
+        TurnName, Parameter(converter=any_case, help="Direction of flight around the circle, seen from above.")
+    ] = "either",
     reach: Annotated[
         float | None,
         Parameter(
@@ -41,30 +44,48 @@ def synthesis(
             help="What the picture shows: the optimal word, the least time, or what a free choice of direction saves."
         ),
     ] = "words",
-    plot: Annotated[Path | None, Parameter(metavar="FILE", help="Draw the map to a file: .png, .svg or .pdf.")] = None,
+    json: Annotated[bool, Parameter(help="Print one JSON object: the map's settings, and its curves.")] = False,
+    plot: Annotated[
+        tuple[Path, ...],
+        Parameter(
+            show_default=False,
+            metavar="FILE",
+            help="Draw the map to a file: .png, .svg or .pdf; may be repeated.",
+        ),
+    ] = (),
     save: Annotated[
-        Path | None, Parameter(metavar="FILE", help="Write the map and the curves as arrays: .npz.")
-    ] = None,
+        tuple[Path, ...],
+        Parameter(
+            show_default=False, metavar="FILE", help="Write the map and the curves as arrays: .npz; may be repeated."
+        ),
+    ] = (),
 ) -> None:
     """Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between them."""
     _check_options(turn, show, plot, save)
     regions = partition(radius, turn, reach=reach, cells=cells)
     curves = boundaries(regions)
-    if plot is not None:
+    if plot:
         from loiter.plot.synthesis import draw
 
-        files.save_figure("plot", plot, draw(regions, curves, show))
-    if save is not None:
-        write_arrays(save, regions, curves)
-    report.write(table(curves))
+        figure = draw(regions, curves, show)
+        for path in plot:
+            files.save_figure("plot", path, figure)
+    for path in save:
+        write_arrays(path, regions, curves)
+    written = [*plot, *save]
+    if json:
+        report.print_json(document(regions, curves) | report.files_member(written))
+    else:
+        report.write(table(curves), *report.files_line(written))
 
 
-def _check_options(turn: TurnName, show: str, plot: Path | None, save: Path | None) -> None:
+def _check_options(turn: TurnName, show: str, plot: Sequence[Path], save: Sequence[Path]) -> None:
     """Raise `InvalidArgument` for file names and options that cannot be used."""
-    if plot is not None:
-        files.check_format(plot)
-    if save is not None and save.suffix.lower() != ".npz":
-        raise InvalidArgument("save", f"is {str(save)!r}: the file name must end in .npz")
+    for path in plot:
+        files.check_format(path)
+    for path in save:
+        if path.suffix.lower() != ".npz":
+            raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in .npz")
     if show == "worth" and turn == "either":
         raise InvalidArgument(
             "show",
@@ -84,6 +105,25 @@ def table(curves: tuple[Boundary, ...]) -> Table:
         rise = f"{curve.rise.min():.3f} to {curve.rise.max():.3f}" if curve.kind == "jump" else ""
         rows.add_row(*curve.words, MEANINGS[curve.kind], str(len(curve.points)), rise)
     return rows
+
+
+def document(regions: Partition, curves: tuple[Boundary, ...]) -> dict[str, object]:
+    """The settings of a map and its curves as plain values; `rise` is by how much T jumps, at least and at most."""
+    return {
+        "radius": float(regions.radius),
+        "turn": str(regions.turn),
+        "reach": float(regions.x.max() + 0.5 * (regions.x[1] - regions.x[0])),
+        "cells": int(regions.x.size),
+        "curves": [
+            {
+                "words": list(curve.words),
+                "kind": curve.kind,
+                "points": len(curve.points),
+                "rise": [float(curve.rise.min()), float(curve.rise.max())] if curve.kind == "jump" else None,
+            }
+            for curve in curves
+        ],
+    }
 
 
 def write_arrays(path: Path, regions: Partition, curves: tuple[Boundary, ...]) -> None:

@@ -1,6 +1,7 @@
 """`loiter verify`: the answers compared with independent methods, four in still air and one in wind."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from math import isfinite
 from typing import Annotated, Any, Literal, NamedTuple
 
 from cyclopts import Parameter
@@ -24,12 +25,50 @@ DEFAULTS: tuple[Method, ...] = ("search", "digits", "collocation", "reachability
 STATES, WINDY_STATES = 2000, 20
 
 
-class Findings(NamedTuple):
-    """The result of one method: a table with a note, and whether all answers agree."""
+Row = dict[str, str | int | float | bool]
 
-    table: Table
+
+class Findings(NamedTuple):
+    """The result of one method: rows with the same keys, a note on them, and whether all answers agree.
+
+    The keys are the headings of the table, with underscores.
+    """
+
+    rows: list[Row]
     note: str
     passed: bool
+
+    def document(self, method: str) -> dict[str, object]:
+        """The result as plain values; an unknown number is None."""
+        rows = [{key: _known(value) for key, value in row.items()} for row in self.rows]
+        return {"method": method, "agrees": self.passed, "rows": rows, "note": self.note}
+
+    def table(self) -> Table:
+        """The result as a table, its columns with numbers on the right."""
+        table, (first, *_) = report.new_table(), self.rows
+        for key in first:
+            table.add_column(key.replace("_", " "), justify="left" if key == next(iter(first)) else "right")
+        for row in self.rows:
+            table.add_row(*(_shown(key, value) for key, value in row.items()))
+        return table
+
+
+# Decimals of the numbers that are not tiny, by key; the others have an exponent.
+DECIMALS = {"spacing": 3, "mean_difference": 3}
+
+
+def _shown(key: str, value: str | int | float | bool) -> str:
+    """A value as text in a table."""
+    if isinstance(value, bool):
+        return "yes" if value else "NO"
+    if isinstance(value, float):
+        return f"{value:.{DECIMALS[key]}f}" if key in DECIMALS else f"{value:.1e}"
+    return str(value)
+
+
+def _known(value: str | int | float | bool) -> str | int | float | bool | None:
+    """A value for JSON, which has neither nan nor infinity."""
+    return None if isinstance(value, float) and not isfinite(value) else value
 
 
 def verify(
@@ -48,6 +87,7 @@ def verify(
     witness: Annotated[
         list[Method] | None, Parameter(metavar="NAME", help="Compare with this method only; may be repeated.")
     ] = None,
+    json: Annotated[bool, Parameter(help="Print one JSON object with the results of all methods.")] = False,
 ) -> int:
     """Compare plans with independent methods; exit status 1 where one of them disagrees.
 
@@ -59,10 +99,15 @@ def verify(
     names = witness or DEFAULTS
     # Each method raises where its packages are not installed, before the first one starts.
     comparisons = [_METHODS[name](_states(name, states), cases, seed) for name in names]
-    findings = [compare() for compare in comparisons]
-    for name, found in zip(names, findings, strict=True):
-        report.write(f"{name}: {'agrees' if found.passed else 'DISAGREES'}", found.table, found.note, "")
-    return 0 if all(found.passed for found in findings) else CHECK_FAILED
+    findings = {name: compare() for name, compare in zip(names, comparisons, strict=True)}
+    passed = all(found.passed for found in findings.values())
+    if json:
+        methods = [found.document(name) for name, found in findings.items()]
+        report.print_json({"agrees": passed, "methods": methods})
+    else:
+        for name, found in findings.items():
+            report.write(f"{name}: {'agrees' if found.passed else 'DISAGREES'}", found.table(), found.note, "")
+    return 0 if passed else CHECK_FAILED
 
 
 def _states(method: Method, states: int | None) -> int:
@@ -84,11 +129,11 @@ def _search(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
     def compare() -> Findings:
         found: list[OracleDifference] = list(_tracked("search", results, states))
-        rows = _table("place", "scenes", "plan later by", "search later by", "beyond")
+        rows: list[Row] = []
         for place, here in _by_place([(d.problem.place, d) for d in found]):
             later, earlier = max(d.later for d in here), max(d.earlier for d in here)
             beyond = sum(max(d.later, d.earlier) > RESOLUTION for d in here)
-            rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", str(beyond))
+            rows.append(_scenes(place, here, later, earlier, beyond))
         passed = all(max(d.later, d.earlier) <= RESOLUTION for d in found)
         note = f"Largest differences, over turn radius plus length; the search resolves {RESOLUTION:.0e}."
         return Findings(rows, note, passed)
@@ -103,10 +148,11 @@ def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
     def compare() -> Findings:
         found: list[RoundingError] = list(_tracked("digits", results, states))
-        rows = _table("next to", "states", "largest error", "beyond")
+        rows: list[Row] = []
         for place, here in _by_place([(r.place, r) for r in found]):
             beyond = sum(not r.passed for r in here)
-            rows.add_row(place, str(len(here)), f"{max(r.error for r in here):.1e}", str(beyond))
+            error = max(r.error for r in here)
+            rows.append({"next_to": place, "states": len(here), "largest_error": float(error), "beyond": beyond})
         note = f"Rounding of T, relative, within 1e-12 to 1e-7 of each boundary; {WORST:.0e} is allowed."
         return Findings(rows, note, all(r.passed for r in found))
 
@@ -120,11 +166,12 @@ def _collocation(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
     def compare() -> Findings:
         found: list[CollocationDifference] = list(_tracked("collocation", results, cases + 2))
-        rows = _table("scene", "solves", "plan later by", "program later by", "same structure")
+        rows: list[Row] = []
         for place, here in _by_place([(c.problem.place, c) for c in found]):
             later, earlier = max(0.0, *(c.later for c in here)), max(0.0, *(-c.later for c in here))
             same = sum(c.same_structure for c in here)
-            rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", f"{same} of {len(here)}")
+            times: Row = {"plan_later_by": later, "program_later_by": earlier}
+            rows.append({"scene": place, "solves": len(here), **times, "same_structure": same})
         note = "Largest differences in turn radii over airspeed, each within the program's own error bound."
         return Findings(rows, note, all(c.passed for c in found))
 
@@ -138,11 +185,11 @@ def _reachability(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
     def compare() -> Findings:
         found: list[ReachabilityDifference] = list(_tracked("reachability", results, len(CELLS) * len(MAPS)))
-        rows = _table("map", "spacing", "nodes", "where T is steep", "mean difference", "within bounds")
+        rows: list[Row] = []
         for m in found:
-            bounds = "yes" if m.passed else "NO"
-            name = f"R = {m.radius:g}, {m.turn.value}"
-            rows.add_row(name, f"{m.spacing:.3f}", str(m.nodes), str(m.beside_jumps), f"{m.difference:.3f}", bounds)
+            grid: Row = {"map": f"R = {m.radius:g}, {m.turn.value}", "spacing": float(m.spacing), "nodes": int(m.nodes)}
+            difference: Row = {"where_T_is_steep": int(m.beside_jumps), "mean_difference": float(m.difference)}
+            rows.append({**grid, **difference, "within_bounds": bool(m.passed)})
         note = "Mean difference of T from the grid's, whose error falls with the spacing to the power 5/6 at kinks."
         return Findings(rows, note, all(m.passed for m in found))
 
@@ -156,12 +203,12 @@ def _wind(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
     def compare() -> Findings:
         found: list[ScanDifference] = list(_tracked("wind", results, states))
-        rows = _table("place", "scenes", "plan later by", "search later by", "beyond", "ends off by")
+        rows: list[Row] = []
         for place, here in _by_place([(d.problem.place, d) for d in found]):
             later, earlier = max(d.later for d in here), max(d.earlier for d in here)
             beyond = sum(max(d.later, d.earlier) > RESOLUTION for d in here)
-            missed = f"{max(d.missed for d in here):.1e}"
-            rows.add_row(place, str(len(here)), f"{later:.1e}", f"{earlier:.1e}", str(beyond), missed)
+            missed = max(d.missed for d in here)
+            rows.append({**_scenes(place, here, later, earlier, beyond), "ends_off_by": missed})
         passed = all(max(d.later, d.earlier) <= RESOLUTION for d in found)
         note = f"Largest differences of T over 1 + T in wind up to {WINDIEST:g} of the airspeed;"
         return Findings(rows, f"{note} the search resolves {RESOLUTION:.0e}.", passed)
@@ -187,9 +234,7 @@ def _by_place(found: Sequence[tuple[str, Any]]) -> Iterator[tuple[str, list[Any]
         yield "all", [result for _, result in found]
 
 
-def _table(first: str, *headings: str) -> Table:
-    rows = report.new_table()
-    rows.add_column(first)
-    for heading in headings:
-        rows.add_column(heading, justify="right")
-    return rows
+def _scenes(place: str, here: Sequence[Any], later: float, earlier: float, beyond: int) -> Row:
+    """A row on the scenes at one place: how much later the plan and the search are, and how many differences count."""
+    times: Row = {"plan_later_by": float(later), "search_later_by": float(earlier)}
+    return {"place": place, "scenes": len(here), **times, "beyond": int(beyond)}

@@ -121,8 +121,8 @@ def fly(
     `exact_switches` ends a step early where the law reports that its next phase begins, as in the theory; a real
     autopilot switches at the next step. Raises `InvalidArgument` for times that are not positive.
     """
-    positive("step_s", step_s, "seconds")
-    positive("limit_s", limit_s, "seconds")
+    step_s = positive("step_s", step_s, "seconds")
+    limit_s = positive("limit_s", limit_s, "seconds")
     monitor, state = SettlingMonitor(orbit, band), simulator.true_state()
     monitor.update(state)
     start_s, states, commands = state.time_s, [state], list[Command]()

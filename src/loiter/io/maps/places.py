@@ -13,6 +13,11 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 
+# Decimals of degrees in files and JSON: 0.1 micrometres. Far from the origin, conversion to metres and back would turn
+# 47.1 degrees into 47.099999999999994.
+DECIMALS = 12
+
+
 def degrees(frame: LocalFrame, east_m: ArrayLike, north_m: ArrayLike) -> tuple[list[float], list[float]]:
     """Latitudes and longitudes, WGS84 degrees. Raises `OutOfRange` for places too far from the frame's origin."""
     import numpy as np
@@ -23,7 +28,7 @@ def degrees(frame: LocalFrame, east_m: ArrayLike, north_m: ArrayLike) -> tuple[l
             f"the maneuver goes more than {REACH_M / 1000.0:g} km from the frame's origin {frame.latitude_deg:g} "
             f"{frame.longitude_deg:g}: take the circle's centre as the origin"
         )
-    return latitude.tolist(), longitude.tolist()
+    return latitude.round(DECIMALS).tolist(), longitude.round(DECIMALS).tolist()
 
 
 def true_headings(frame: LocalFrame, heading_deg: ArrayLike, latitude: ArrayLike, longitude: ArrayLike) -> list[float]:

@@ -6,6 +6,7 @@ A DO_JUMP item of a plan names its target by `doJumpId`; that is converted to an
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from math import isfinite, isnan, nan
 from typing import Any
 
@@ -23,13 +24,19 @@ LONGEST_INTEGER = 20
 ALTITUDE_MODES = {Frame.ABOVE_SEA: 2, Frame.ABOVE_HOME: 1, Frame.ABOVE_TERRAIN: 4}
 
 
-def qgcplan(mission: Mission, autopilot: Autopilot, airspeed_m_s: float) -> bytes:
-    """The file. `airspeed_m_s` is the cruise speed from which QGroundControl computes the duration of the mission."""
+NO_FENCE: dict[str, Any] = {"circles": [], "polygons": [], "version": 2}
+
+
+def qgcplan(mission: Mission, autopilot: Autopilot, airspeed_m_s: float, fence: dict[str, Any] | None = None) -> bytes:
+    """The file. `airspeed_m_s` is the cruise speed from which QGroundControl computes the duration of the mission.
+
+    `fence` is the geoFence of another plan, which is kept as it is.
+    """
     document = {
         "fileType": "Plan",
         "version": 1,
         "groundStation": "QGroundControl",
-        "geoFence": {"circles": [], "polygons": [], "version": 2},
+        "geoFence": NO_FENCE if fence is None else fence,
         "rallyPoints": {"points": [], "version": 2},
         "mission": {
             "version": 2,
@@ -47,20 +54,40 @@ def qgcplan(mission: Mission, autopilot: Autopilot, airspeed_m_s: float) -> byte
 
 def read_qgcplan(source: Source, text: str) -> Mission:
     """The mission in the text of a file. Raises `InvalidArgument`."""
+    document = read_document(source, text)
+    home = read_home(source, document)
+    numbered_items = [_item(source, f"item {number}", item) for number, item in _items(source, document)]
+    return checked_mission(source, Mission(_with_jump_targets(source, numbered_items), home))
+
+
+def read_document(source: Source, text: str) -> dict[str, Any]:
+    """The JSON document of a plan, with a mission, in versions that are known. Raises `InvalidArgument`."""
     document = _parsed(source, text)
     if document.get("fileType") != "Plan":
         raise source.fault(f"fileType is {shown(document.get('fileType'))}: it must be 'Plan'")
     _version(source, "version", document, 1)
-    mission = _kind(source, "mission", document.get("mission"), dict, "an object")
+    mission = kind(source, "mission", document.get("mission"), dict, "an object")
     _version(source, "the version of mission", mission, 2)
-    latitude, longitude, altitude = _numbers(source, "plannedHomePosition", mission.get("plannedHomePosition"), 3)
+    return document
+
+
+def read_home(source: Source, document: dict[str, Any]) -> tuple[float, float, float]:
+    """The planned home: latitude and longitude, degrees, metres above the sea. Raises `InvalidArgument`."""
+    home = document["mission"].get("plannedHomePosition")
+    latitude, longitude, altitude = numbers(source, "plannedHomePosition", home, 3)
     check_place(source, "plannedHomePosition", latitude, longitude, altitude)
-    numbered_items = [
-        _item(source, f"item {number}", item)
-        for number, item in enumerate(_kind(source, "items", mission.get("items"), list, "a list"), start=1)
-    ]
-    items = _with_jump_targets(source, numbered_items)
-    return checked_mission(source, Mission(items, (latitude, longitude, altitude)))
+    return latitude, longitude, altitude
+
+
+def simple_items(source: Source, document: dict[str, Any]) -> Iterator[tuple[int, MissionItem]]:
+    """The simple items of a plan with their numbers; complex ones are passed over. Raises `InvalidArgument`."""
+    for number, item in _items(source, document):
+        if not isinstance(item, dict) or item.get("type") == "SimpleItem":
+            yield number, _item(source, f"item {number}", item)[1]
+
+
+def _items(source: Source, document: dict[str, Any]) -> Iterator[tuple[int, Any]]:
+    return enumerate(kind(source, "items", document["mission"].get("items"), list, "a list"), start=1)
 
 
 def _common_mode(mission: Mission) -> int:
@@ -107,12 +134,13 @@ def _parsed(source: Source, text: str) -> dict[str, Any]:
         raise source.fault(f"it is not JSON, {error.msg.lower()} in line {error.lineno}") from error
     except RecursionError as error:
         raise source.fault("its lists and objects are nested too deeply") from error
-    checked: dict[str, Any] = _kind(source, "its JSON", document, dict, "an object")
+    checked: dict[str, Any] = kind(source, "its JSON", document, dict, "an object")
     return checked
 
 
-def _kind(source: Source, where: str, value: Any, kind: type, wanted: str) -> Any:
-    if not isinstance(value, kind):
+def kind(source: Source, where: str, value: Any, type_: type, wanted: str) -> Any:
+    """The value, if it is of a type; `InvalidArgument`, which names the place, otherwise."""
+    if not isinstance(value, type_):
         raise source.fault(f"{where} is {shown(value)}: it must be {wanted}")
     return value
 
@@ -123,17 +151,19 @@ def _version(source: Source, where: str, document: dict[str, Any], wanted: int) 
         raise source.fault(f"{where} is {shown(version)}: only {wanted} is read")
 
 
-def _numbers(source: Source, where: str, value: Any, count: int) -> list[float]:
+def numbers(source: Source, where: str, value: Any, count: int) -> list[float]:
+    """A list of finite numbers; `InvalidArgument`, which names the place, otherwise."""
     if not isinstance(value, list) or len(value) != count:
         raise source.fault(f"{where} is not a list of {count} numbers")
-    return [_number(source, where, number) for number in value]
+    return [number(source, where, one) for one in value]
 
 
-def _number(source: Source, where: str, value: Any) -> float:
-    number = as_float(value)
-    if not isfinite(number):
+def number(source: Source, where: str, value: Any) -> float:
+    """A finite number; `InvalidArgument`, which names the place, otherwise."""
+    found = as_float(value)
+    if not isfinite(found):
         raise source.fault(f"{where} has {shown(value)}: it must be a finite number")
-    return number
+    return found
 
 
 def _integer(source: Source, where: str, value: Any, largest: int) -> int:
@@ -144,19 +174,19 @@ def _integer(source: Source, where: str, value: Any, largest: int) -> int:
 
 def _item(source: Source, where: str, value: Any) -> tuple[int | None, MissionItem]:
     """An item and its `doJumpId`."""
-    item = _kind(source, where, value, dict, "an object")
+    item = kind(source, where, value, dict, "an object")
     if item.get("type") != "SimpleItem":
         what = item.get("complexItemType", item.get("type"))
         raise source.fault(f"{where} is {shown(what)}: only simple items are read; save the plan as waypoints")
     command = _integer(source, f"{where}: command", item.get("command"), MAX_COMMAND)
     frame = _integer(source, f"{where}: frame", item.get("frame"), 255)
-    autocontinue = _kind(source, f"{where}: autoContinue", item.get("autoContinue"), bool, "true or false")
+    autocontinue = kind(source, f"{where}: autoContinue", item.get("autoContinue"), bool, "true or false")
     params = item.get("params")
     if not isinstance(params, list) or len(params) != 7:
         raise source.fault(f"{where}: params is not a list of 7 numbers")
     # null is nan, which leaves the choice to the autopilot; a place must have numbers.
-    p1, p2, p3, p4 = (nan if value is None else _number(source, f"{where}: params", value) for value in params[:4])
-    latitude, longitude, altitude = (_number(source, f"{where}: params", value) for value in params[4:])
+    p1, p2, p3, p4 = (nan if value is None else number(source, f"{where}: params", value) for value in params[:4])
+    latitude, longitude, altitude = (number(source, f"{where}: params", value) for value in params[4:])
     jump = item.get("doJumpId")
     jump_id = None if jump is None else _integer(source, f"{where}: doJumpId", jump, MAX_COMMAND)
     read = MissionItem(command, frame, (p1, p2, p3, p4), latitude, longitude, altitude, autocontinue)

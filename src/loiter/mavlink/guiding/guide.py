@@ -65,13 +65,13 @@ def guide(
     check_connection(connection)
     check_target(system, component, timeout_s)
     dialect()
-    positive("period_s", period_s, "seconds")
+    period_s = positive("period_s", period_s, "seconds")
     if airspeed_m_s is not None:
-        positive("airspeed_m_s", airspeed_m_s, "metres per second")
+        airspeed_m_s = positive("airspeed_m_s", airspeed_m_s, "metres per second")
     if max_bank_deg is not None:
-        positive("max_bank_deg", max_bank_deg, "degrees")
+        max_bank_deg = positive("max_bank_deg", max_bank_deg, "degrees")
     if altitude_m is not None:
-        number("altitude_m", altitude_m, "metres")
+        altitude_m = number("altitude_m", altitude_m, "metres")
     if orbit.moves:
         raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
     path = None if log is None else Path(log)

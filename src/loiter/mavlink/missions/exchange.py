@@ -136,7 +136,11 @@ def download(
     timeout_s: float = TIMEOUT_S,
     on_progress: ReportProgress | None = None,
 ) -> Mission:
-    """The mission that a vehicle has; arguments and errors as for `upload`.
+    """The mission that a vehicle has, without home: places in WGS84 degrees, altitudes in metres (`loiter.io.Mission`).
+
+    `connection`, `system`, `component`, `timeout_s` (seconds without progress) and `on_progress` are those of `upload`.
+    Raises `LinkFailed` if the vehicle is not found or does not answer; `InvalidArgument` for arguments that cannot be
+    used, and `MissingPackage` without pymavlink.
 
     The home is that of ArduPilot's item 0. Other autopilots do not store it with the mission, so it is nan.
     """

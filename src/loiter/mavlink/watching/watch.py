@@ -144,10 +144,10 @@ def watch(
     check_connection(connection)
     check_target(system, component, timeout_s)
     dialect()
-    positive("period_s", period_s, "seconds")
-    not_negative("tolerance_m", tolerance_m, "metres")
+    period_s = positive("period_s", period_s, "seconds")
+    tolerance_m = not_negative("tolerance_m", tolerance_m, "metres")
     if altitude_m is not None:
-        number("altitude_m", altitude_m, "metres")
+        altitude_m = number("altitude_m", altitude_m, "metres")
     if send and orbit.moves:
         raise InvalidArgument("send", "commands a vehicle to hold a circle at rest: this one moves")
     if true_radius and not send:

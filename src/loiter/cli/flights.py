@@ -1,0 +1,145 @@
+"""Flights in closed loop as text and as JSON: `loiter fly`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, replace
+from itertools import groupby
+from math import isfinite
+from operator import itemgetter
+from statistics import median
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from rich.table import Table
+
+from loiter.cli import report
+from loiter.guidance.trials.summary import CampaignSummary, summary
+from loiter.io.document import maneuver_values
+
+if TYPE_CHECKING:
+    from loiter.guidance.trials.campaign import Outcome, Trial
+    from loiter.guidance.trials.flight import Flight
+
+
+class PhaseFlown(NamedTuple):
+    """The time at which a phase begins, and the bank commanded during it, the median, degrees, positive to the right.
+
+    The first command of a phase would be no help: to leave a turn quickly, the law commands the opposite bank.
+    """
+
+    time_s: float
+    phase: str
+    commanded_bank_deg: float
+
+
+def phases_flown(flight: Flight) -> Iterator[PhaseFlown]:
+    """The phases in the order flown."""
+    steps = zip(flight.phases, flight.track.elapsed_s.tolist(), flight.track.commanded_bank_deg.tolist(), strict=False)
+    for phase, run in groupby(steps, key=itemgetter(0)):
+        _, times_s, banks_deg = zip(*run, strict=True)
+        yield PhaseFlown(times_s[0], phase.value, median(banks_deg))
+
+
+def time_line(flight: Flight) -> Iterator[str]:
+    """The time at which each phase begins, and the settling time."""
+    for time_s, phase, bank in phases_flown(flight):
+        yield f"{time_s:6.1f} s  {phase}, commanded bank {round(bank)} deg"
+    yield (
+        f"{flight.settled_s:6.1f} s  settled: start of a full turn within the band"
+        if flight.settled
+        else "Not settled."
+    )
+
+
+def flights_table(trial: Trial, flights: Mapping[str, Flight]) -> Table:
+    """A table with a row for each law."""
+    rows = _table("law", "settled", "of the fastest", "overshoot", "bank activity", "distance")
+    for name, flight in flights.items():
+        ratio = _ratio(trial, flight)
+        rows.add_row(
+            name,
+            f"{flight.settled_s:.1f} s" if flight.settled else "never",
+            f"{ratio:.2f}" if ratio is not None else "",
+            f"{flight.overshoot_m:.1f} m",
+            f"{flight.bank_rate_deg_s:.1f} deg/s",
+            f"{flight.distance_m:.0f} m",
+        )
+    return rows
+
+
+def flights_document(trial: Trial, flights: Mapping[str, Flight]) -> dict[str, object]:
+    """The fastest entry, and the flight of each law, as plain values."""
+    return {"fastest": maneuver_values(trial.ideal), "laws": [_flight(trial, *item) for item in flights.items()]}
+
+
+def _flight(trial: Trial, name: str, flight: Flight) -> dict[str, object]:
+    return {
+        "law": name,
+        "settled_s": _known(flight.settled_s),
+        "of_the_fastest": _ratio(trial, flight),
+        "overshoot_m": flight.overshoot_m,
+        "bank_rate_deg_s": flight.bank_rate_deg_s,
+        "distance_m": flight.distance_m,
+        "phases": [phase._asdict() for phase in phases_flown(flight)],
+    }
+
+
+def campaign_table(outcomes: Mapping[str, Sequence[Outcome]]) -> Table:
+    """A row for each law: its settling times relative to the fastest entries, and how often the first law is sooner."""
+    names = ["law", "settled", "round again", "of the fastest", "90 %", "late", "99 %", "overshoot", "bank activity"]
+    rows = _table(*names, *([f"{next(iter(outcomes))} is sooner"] * (len(outcomes) > 1)))
+    for name, s in _summaries(outcomes).items():
+        rows.add_row(
+            name,
+            f"{s.settled} of {s.flights}",
+            f"{s.round_again}",
+            f"{s.median_ratio:.3f}",
+            f"{s.ninth_decile_ratio:.2f}",
+            f"{s.median_late_s:.2f} s",
+            f"{s.percentile_99_late_s:.1f} s",
+            f"{s.median_overshoot_m:.1f} m",
+            f"{s.bank_rate_deg_s:.1f} deg/s",
+            *([f"{s.sooner:.1%}" if isfinite(s.sooner) else ""] * (len(outcomes) > 1)),
+        )
+    return rows
+
+
+def campaign_document(outcomes: Mapping[str, Sequence[Outcome]]) -> dict[str, object]:
+    """The fields of `CampaignSummary` for each law, with `sooner` as the share in which the first law is sooner."""
+    return {"laws": [{"law": name, **_fields(s)} for name, s in _summaries(outcomes).items()]}
+
+
+def _summaries(outcomes: Mapping[str, Sequence[Outcome]]) -> dict[str, CampaignSummary]:
+    """The summary of each law; `sooner` is how often the first law settled sooner than it, nan for the first."""
+    first, *_ = outcomes
+    summaries = {}
+    for name, flown in outcomes.items():
+        compared = summary(outcomes[first], flown).sooner if name != first else float("nan")
+        summaries[name] = replace(summary(flown), sooner=compared)
+    return summaries
+
+
+def _fields(s: CampaignSummary) -> dict[str, Any]:
+    return {
+        name: value if isinstance(value, int) else _known(value)
+        for name in (field.name for field in fields(s))
+        for value in [getattr(s, name)]
+    }
+
+
+def _ratio(trial: Trial, flight: Flight) -> float | None:
+    """The settling time over the duration of the fastest entry; None where one of them is missing or 0."""
+    ideal_s = trial.ideal.duration_s
+    return flight.settled_s / ideal_s if flight.settled and ideal_s > 0.0 else None
+
+
+def _known(value: float) -> float | None:
+    """A number for JSON, which has neither nan nor infinity."""
+    return value if isfinite(value) else None
+
+
+def _table(*names: str) -> Table:
+    rows = report.new_table()
+    for name in names:
+        rows.add_column(name, justify="left" if name == "law" else "right")
+    return rows

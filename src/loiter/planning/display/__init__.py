@@ -1,0 +1,1 @@
+"""Maneuvers as plain values, and as drawings for notebooks."""

@@ -1,0 +1,200 @@
+"""`--orbit-from`: circle, fence and home of an existing mission."""
+
+import json
+
+import pytest
+
+import loiter
+from loiter.cli.app import main
+from loiter.io import Fence, FenceCircle, FencePolygon, MissionCircle, read_site
+from mavlink.vehicle import Vehicle, flying
+
+UAV = "--airspeed 18 --bank 35"
+START = "--pose-lla 47.1 8.2 90"
+FRAME = loiter.geo.LocalFrame(47.11, 8.23)
+
+
+def box(metres, inclusion=True):
+    """A square fence about the circle, as QGroundControl writes it."""
+    corners = [(-metres, -metres), (metres, -metres), (metres, metres), (-metres, metres)]
+    latitude, longitude = FRAME.to_geodetic(*zip(*corners, strict=True))
+    return {
+        "inclusion": inclusion,
+        "polygon": [list(c) for c in zip(latitude.tolist(), longitude.tolist(), strict=True)],
+        "version": 1,
+    }
+
+
+def ring(metres, inclusion=True):
+    return {"circle": {"center": [47.11, 8.23], "radius": metres}, "inclusion": inclusion, "version": 1}
+
+
+@pytest.fixture
+def existing(tmp_path, shown):
+    """A plan of QGroundControl with a survey, a circle held counter-clockwise, a home and a fence."""
+
+    def written(circles=(), polygons=(), change=lambda document: None):
+        path = tmp_path / "existing.plan"
+        shown(f"plan {START} --orbit-lla 47.11 8.23 120 --turn ccw {UAV} --altitude 900 --save {path}")
+        document = json.loads(path.read_text())
+        document["geoFence"] = {"circles": list(circles), "polygons": list(polygons), "version": 2}
+        document["mission"]["plannedHomePosition"] = [47.09, 8.21, 450.0]
+        document["mission"]["items"].insert(0, {"type": "ComplexItem", "complexItemType": "survey"})
+        change(document)
+        path.write_text(json.dumps(document))
+        return path
+
+    return written
+
+
+def test_the_circle_and_its_direction_are_those_of_the_mission(existing, shown, planned):
+    path = existing()
+    same = planned(f"{START} --orbit-lla 47.11 8.23 120 --turn ccw {UAV}")
+    got = planned(f"{START} --orbit-from {path} {UAV}")
+    assert (got["word"], got["turn"]) == (same["word"], same["turn"])
+    assert got["duration_s"] == pytest.approx(same["duration_s"], abs=1e-6)
+    text = shown(f"plan {START} --orbit-from {path} {UAV}")
+    assert text.splitlines()[0] == f"Circle of item 3 in {path}."
+    assert "counter-clockwise: joins in" in text
+    assert "fence" not in text
+    assert planned(f"{START} --orbit-from {path} --turn cw {UAV}")["turn"] == "cw"
+
+
+def test_a_file_of_waypoints_has_a_circle_too(tmp_path, shown, planned):
+    path = tmp_path / "existing.waypoints"
+    shown(f"plan {START} --orbit-lla 47.11 8.23 120 --turn ccw {UAV} --altitude 900 --save {path}")
+    assert planned(f"{START} --orbit-from {path} {UAV}")["turn"] == "ccw"
+
+
+def test_home_and_fence_are_kept(existing, shown, tmp_path):
+    path = existing([ring(4000.0)], [box(5000.0)])
+    new = tmp_path / "new.plan"
+    above_home = "--altitude 120 --altitude-reference home"
+    text = shown(
+        f"plan {START} --orbit-from {path} {UAV} {above_home} --save {new} --save {tmp_path / 'new.waypoints'}"
+    )
+    before, after = (json.loads(file.read_text()) for file in (path, new))
+    assert after["geoFence"] == before["geoFence"]
+    assert after["mission"]["plannedHomePosition"] == [47.09, 8.21, 450.0]
+    assert {item["frame"] for item in after["mission"]["items"]} == {3}
+    assert loiter.io.read_mission(tmp_path / "new.waypoints").home == (47.09, 8.21, 450.0)
+    assert "The plan stays inside the fence, " in text
+
+
+@pytest.mark.parametrize(
+    ("circles", "polygons", "options", "leaves", "margin"),
+    [
+        ([ring(3000.0)], [], "", False, 3000.0 - 2534.1),
+        ([], [box(3000.0)], "", False, None),
+        ([ring(2000.0)], [], "", True, 2000.0 - 2534.1),
+        ([], [box(1000.0)], "", True, None),
+        ([ring(50.0, inclusion=False)], [], "", False, 70.0),
+        ([ring(150.0, inclusion=False)], [], "", True, -30.0),
+        ([], [box(60.0, inclusion=False)], "", False, 120.0 - 60.0 * 2**0.5),
+        ([], [box(300.0, inclusion=False)], "", True, None),
+        ([ring(3000.0), ring(200.0)], [], "", True, 200.0 - 2534.1),
+        ([ring(3000.0), ring(200.0)], [], "--autopilot px4", False, 3000.0 - 2534.1),
+    ],
+)
+def test_a_sentence_says_whether_the_plan_leaves_the_fence(
+    existing, shown, planned, circles, polygons, options, leaves, margin
+):
+    path = existing(circles, polygons)
+    scene = f"{START} --orbit-from {path} {UAV} {options}"
+    checked = planned(scene)["fence"]
+    assert checked["inside"] == (not leaves)
+    assert (checked["leaves_in_s"] is None) == (not leaves)
+    assert (checked["margin_m"] < 0.0) == leaves
+    if margin is not None:
+        assert checked["margin_m"] == pytest.approx(margin, abs=1.0)
+    last = shown(f"plan {scene}").splitlines()[-1]
+    if leaves:
+        assert last.startswith(f"The plan leaves the fence in {checked['leaves_in_s']:.1f} s, by up to ")
+    else:
+        assert last == f"The plan stays inside the fence, {checked['margin_m']:.0f} m from it at least."
+
+
+def test_it_leaves_when_it_crosses_the_edge(existing, planned):
+    """An exclusion of 1000 m about the circle: the plan flies towards it at 18.0 m/s, from 2534 m away."""
+    path = existing([ring(1000.0, inclusion=False)])
+    assert planned(f"{START} --orbit-from {path} {UAV}")["fence"]["leaves_in_s"] == pytest.approx(86.0, abs=1.5)
+
+
+def test_a_polygon_may_be_concave():
+    """An L of two strips: its notch is outside."""
+    corners = [(0, 0), (300, 0), (300, 100), (100, 100), (100, 300), (0, 300)]
+    latitude, longitude = FRAME.to_geodetic(*zip(*corners, strict=True))
+    fence = Fence(polygons=(FencePolygon(tuple(zip(latitude.tolist(), longitude.tolist(), strict=True)), True),))
+    uav = loiter.Aircraft(5.0, min_turn_radius_m=10.0)
+
+    def margin(east_m, north_m):
+        pose = loiter.Pose(east_m, north_m + 10.0, 90.0)
+        here = loiter.plan(pose, loiter.Orbit(east_m, north_m, 10.0, "cw"), uav)
+        return fence.check(here, FRAME).margin_m
+
+    assert margin(50.0, 50.0) == pytest.approx(40.0, abs=0.1)
+    assert margin(200.0, 50.0) == pytest.approx(40.0, abs=0.1)
+    assert margin(200.0, 200.0) == pytest.approx(-(100.0 + 10.0 / 2**0.5), abs=0.1)
+    assert margin(110.0, 110.0) < 0.0
+
+
+def test_an_upload_says_it_too(existing, shown):
+    path = existing([ring(2000.0)])
+    with flying(Vehicle([])) as vehicle:
+        text = shown(f"upload --connect {vehicle.connection} {START} --orbit-from {path} {UAV} --altitude 900")
+    assert "The plan leaves the fence in 0.0 s, by up to 534 m." in text
+    assert vehicle.mission[-1][2][2] == -120.0
+
+
+def test_a_site_is_read(existing):
+    site = read_site(existing([ring(500.0, inclusion=False)], [box(3000.0)]))
+    assert site.home == (47.09, 8.21, 450.0)
+    [circle] = site.circles
+    assert circle == MissionCircle(3, pytest.approx(47.11), pytest.approx(8.23), 120.0, loiter.Turn.CCW)
+    assert site.fence.circles == (FenceCircle(47.11, 8.23, 500.0, False),)
+    assert len(site.fence.polygons[0].corners) == 4
+
+
+def first_area(kind, key, value):
+    def change(document):
+        document["geoFence"][kind][0][key] = value
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        (lambda d: d.update(geoFence=3), "geoFence is 3: it must be an object"),
+        (first_area("circles", "inclusion", "yes"), "geoFence: circle 1: inclusion is 'yes': it must be true or false"),
+        (first_area("circles", "circle", {"center": [147, 8], "radius": 1}), "geoFence: circle 1: the latitude is 147"),
+        (first_area("circles", "circle", {"center": [47, 8], "radius": 0}), "radius is 0: it must be positive"),
+        (first_area("polygons", "polygon", [[47, 8], [47, 9]]), "geoFence: polygon 1: it has 2 corners"),
+        (first_area("polygons", "polygon", [[47], [47, 9], [48, 8]]), "geoFence: polygon 1 is not a list of 2 numbers"),
+        (lambda d: d["mission"].pop("plannedHomePosition"), "plannedHomePosition is not a list of 3 numbers"),
+        (lambda d: d["mission"].update(items=d["mission"]["items"][:1]), "its mission has no loiter"),
+    ],
+)
+def test_what_cannot_be_read_is_named(existing, capsys, change, problem):
+    path = existing([ring(500.0)], [box(500.0)], change)
+    assert main(["plan", *START.split(), "--orbit-from", str(path), *UAV.split()]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert problem in err
+    assert str(path) in err
+
+
+def test_a_loiter_without_a_radius_needs_one(existing, capsys):
+    def change(document):
+        document["mission"]["items"][-1]["params"][2] = None
+
+    path = existing(change=change)
+    assert main(["plan", *START.split(), "--orbit-from", str(path), *UAV.split()]) == 2
+    assert "--orbit-from has a loiter without a radius, which --params with a radius gives" in capsys.readouterr().err
+
+
+def test_only_one_circle_is_given(existing, capsys):
+    path = existing()
+    scene = [*START.split(), "--orbit-from", str(path), "--orbit-lla", "47", "8", "120", *UAV.split()]
+    assert main(["plan", *scene]) == 2
+    assert "--orbit or --orbit-lla or --orbit-from is needed, and only one of them" in capsys.readouterr().err
