@@ -28,14 +28,18 @@ from collections.abc import Sequence
 from math import hypot, radians, sin, sqrt
 from typing import NamedTuple
 
-from loiter.kernel.synthesis import ROUNDING, WIND_TIE_TOLERANCE, rounding
+from loiter.kernel.synthesis import ROUNDING, rounding
 from loiter.planning.maneuver import Maneuver
 from loiter.verify.residual import Candidate
-from loiter.verify.trajectory import MaximumPrinciple, Trajectory
+from loiter.verify.trajectory import MaximumPrinciple, Trajectory, inner
 
 # Steps of central differences of functions known to their last digits, whose third derivative is of the size of the
 # function: truncation step^2/6 and rounding ROUNDING/step, 1e-9 and 4e-10 of the size, nearly balance.
 STEP = 2.0**-15
+
+# How much later than another maneuver the answer in wind may be, as a share of 1 + R + T: the search ends at two arcs
+# where the time 1e-7 beside them is not lower, though one with a short straight piece may be (docs/wind.md, section 6).
+SEARCH = 1e-11
 
 
 class Accuracy(NamedTuple):
@@ -176,8 +180,21 @@ def _in_wind(trajectory: Trajectory) -> Accuracy:
             transversality=choice,
         ),
         gradient=choice,
-        tie=WIND_TIE_TOLERANCE * (1.0 + start.R + T) + 2.0 * length,
+        tie=SEARCH * (1.0 + start.R + T) + 2.0 * _time_of_rounding(trajectory, length),
     )
+
+
+def _time_of_rounding(trajectory: Trajectory, length: float) -> float:
+    """By how much rounding of the end can change T in wind: its length over lambda + p.w, but at most its root.
+
+    A displacement of the start, or of the end, changes T by its component along p over lambda + p.w. That vanishes where
+    the circles of two arcs touch; there T changes with the root of a displacement.
+    """
+    if not trajectory.pieces:
+        return length
+    first = trajectory.first
+    steep = trajectory.lam + inner(first.p, first.w)
+    return max(length, min(length / max(steep, length), sqrt(length)))
 
 
 def _length_of_direction(trajectory: Trajectory) -> float:
