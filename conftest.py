@@ -28,7 +28,7 @@ SLOW = {
     "planning": "wind",
     "plot": "picture",
     "": "make types",
-    "verify": "certificate certificate_in_wind collocation oracle_check proof reachability wind_scan",
+    "verify": "certificate certificate_in_wind collocation oracle_check proof reachability rounding wind_scan",
     "web": "api failure fields limits load missions page schema serve touch",
 }
 

@@ -13,7 +13,7 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
+from math import atan2, cos, degrees, hypot, pi, radians, sin
 from random import Random
 from typing import NamedTuple
 
@@ -23,13 +23,11 @@ from kernel.worst import drawn as worst_drawn
 from kernel.worst import states as worst_states
 from loiter import Aircraft, Maneuver, Orbit, Pose, Turn, Wind, candidates, plan
 from loiter.compiled import wind_solver
-from loiter.kernel.synthesis import WIND_TIE_TOLERANCE, rounding
+from loiter.kernel.synthesis import WIND_TIE_TOLERANCE, Entry, rounding
+from loiter.kernel.words import Word
+from loiter.planning.model import CONTROLS
 from loiter.planning.problem import problem_of
 from loiter.planning.scaling import maneuver as scaled
-from loiter.kernel.synthesis import Entry
-from loiter.planning.model import CONTROLS
-from loiter.kernel.words import Word
-from loiter.verify.adjoints import trajectory_of
 from loiter.verify import Certificate, certify
 
 UNIT = Aircraft(1.0, min_turn_radius_m=1.0)
@@ -117,7 +115,10 @@ def at_curve(random: Random) -> Scene:
 
 def at_axis(random: Random) -> Scene:
     """Next to the axis y = 0, or on it."""
-    R, off = radius(random), random.choice((0.0, 10.0 ** random.uniform(-17.0, -1.0), -(10.0 ** random.uniform(-17.0, -1.0))))
+    R, off = (
+        radius(random),
+        random.choice((0.0, 10.0 ** random.uniform(-17.0, -1.0), -(10.0 ** random.uniform(-17.0, -1.0)))),
+    )
     return unit_scene(random.uniform(-3.0, 3.0) * R, off, R, random.choice(TURNS))
 
 
@@ -174,7 +175,7 @@ BOUNDARIES_IN_WIND = {"ties in wind": at_windy_tie}
 
 
 def wrong_ones(random: Random, scene: Scene) -> Iterator[tuple[str, Maneuver]]:
-    """One loser, one maneuver with a duration moved by 1e-6, one with letters exchanged; those that are not wrong not.
+    """One loser, one maneuver with a duration moved by 1e-6, and one of another word, as far as they are wrong.
 
     A maneuver is wrong if it ends off the circle by more than rounding, or takes longer than the optimum by more than a
     tie.
@@ -217,7 +218,7 @@ def is_wrong(maneuver: Maneuver, best: Maneuver) -> bool:
 
 
 def flown(maneuver: Maneuver) -> tuple[complex, complex, complex, float]:
-    """Position and heading at the end, relative to the circle; the velocity of the air past it; R: by plain formulas."""
+    """Position and heading at the end, relative to the circle, the velocity of the air past it, and R: recomputed."""
     r, V, start, orbit = maneuver.aircraft.turn_radius_m, maneuver.aircraft.airspeed_m_s, maneuver.start, maneuver.orbit
     q = complex(start.east_m - orbit.east_m, start.north_m - orbit.north_m) / r
     angle = radians(90.0 - start.heading_deg)
@@ -233,8 +234,10 @@ def flown(maneuver: Maneuver) -> tuple[complex, complex, complex, float]:
 
 # Runs
 
+Check = Callable[[str, int, Random, "Scene", Counter[str]], None]
 
-def run(kinds: dict[str, Callable[[Random], Scene]], seed: int, first: int, count: int, check: Callable) -> None:
+
+def run(kinds: dict[str, Callable[[Random], Scene]], seed: int, first: int, count: int, check: Check) -> None:
     """Check `count` scenes of the kinds in turn."""
     names = list(kinds)
     tally: Counter[str] = Counter()

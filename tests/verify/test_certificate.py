@@ -1,8 +1,10 @@
 """Certificates: every optimum has a valid one, no loser has, and what is altered is noticed."""
 
 import json
+from collections import Counter
 from dataclasses import replace
 from math import cos, hypot, isfinite, pi, sin, sqrt
+from random import Random
 
 import numpy as np
 import pytest
@@ -23,6 +25,7 @@ from loiter.verify.checks.oracle_check import random_problems as hard_problems
 from loiter.verify.least_times import least_times
 from loiter.verify.paper_conditions import IN_STILL_AIR
 from strategies import coordinates, radii, scenes, turns
+from verify.certificates import at_axis, at_curve, at_tie, real, reduced, wrong_ones
 
 UNIT = Aircraft(1.0, min_turn_radius_m=1.0)
 SQRT3 = sqrt(3.0)
@@ -60,6 +63,33 @@ def test_every_optimum_of_the_reduced_plane_has_a_valid_certificate(x, y, R, tur
     for m in plan_all(*unit_scene(x, y, R, turn)):
         certificate = certify(m)
         assert certificate.valid, shown(certificate)
+
+
+@pytest.mark.parametrize("i", [2199, 5808, 6825, 7728, 12723, 18018])
+def test_no_false_alarm_at_a_corner_with_a_small_change_of_slope(i):
+    """On a wide circle, where it meets the axis: the slopes of T differ by less than a thousandth."""
+    certificate = certify(plan(*at_curve(Random(f"0 curves {i}"))))
+    assert certificate.valid, shown(certificate)
+    assert certificate.residual("gradient").skipped
+
+
+@pytest.mark.parametrize("draw", [at_curve, at_axis, at_tie])
+def test_next_to_boundaries_and_ties_plans_have_valid_certificates(draw):
+    for i in range(100):
+        certificate = certify(plan(*draw(Random(f"1 {i}"))))
+        assert certificate.valid, shown(certificate)
+
+
+@pytest.mark.parametrize("draw", [real, reduced, at_curve, at_axis, at_tie])
+def test_no_wrong_maneuver_is_accepted(draw):
+    """Losers, durations moved by 1e-6, words exchanged."""
+    found = Counter()
+    for i in range(40):
+        random = Random(f"2 {i}")
+        for kind, maneuver in wrong_ones(random, draw(random)):
+            found[kind] += 1
+            assert not certify(maneuver).valid, (kind, maneuver)
+    assert min(found[kind] for kind in ("loser", "duration", "word")) > 20
 
 
 @pytest.mark.parametrize("seed", [7, 8])

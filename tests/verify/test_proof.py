@@ -1,9 +1,7 @@
 """The lemmas of docs/proof.md: each is certain, and none is with a formula or a boundary changed a little."""
 
-import inspect
 import re
 import sys
-import textwrap
 from pathlib import Path
 
 import pytest
@@ -17,6 +15,7 @@ from loiter.verify.proof import algebra, balls, lemmas, rlr, switching
 from loiter.verify.proof.algebra import Field, NotProved
 from loiter.verify.proof.balls import Interval
 from loiter.verify.proof.run import check, prove
+from verify.changing import changed
 
 pytest.importorskip("flint")
 
@@ -88,17 +87,6 @@ CHANGES = [*FORMULAS, *BOUNDARIES]
 
 def lemma(name):
     return lemmas.LEMMAS[NAMES.index(name)]
-
-
-def changed(module, function, text, replacement):
-    """A function of a module with a part of its source replaced, which must be there once."""
-    source = textwrap.dedent(inspect.getsource(getattr(module, function)))
-    assert source.count(text) == 1, (function, text, source.count(text))
-    names = module.__dict__
-    kept = names[function]
-    exec(compile(source.replace(text, replacement), module.__file__, "exec"), names)
-    names[function], new = kept, names[function]
-    return new
 
 
 @pytest.mark.parametrize("name", NAMES)

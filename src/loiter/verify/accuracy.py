@@ -187,8 +187,8 @@ def _in_wind(trajectory: Trajectory) -> Accuracy:
 def _time_of_rounding(trajectory: Trajectory, length: float) -> float:
     """By how much rounding of the end can change T in wind: its length over lambda + p.w, but at most its root.
 
-    A displacement of the start, or of the end, changes T by its component along p over lambda + p.w. That vanishes where
-    the circles of two arcs touch; there T changes with the root of a displacement.
+    A displacement of the start, or of the end, changes T by its component along p over lambda + p.w. Where the circles
+    of two arcs touch that is 0, and T changes with the root of a displacement.
     """
     if not trajectory.pieces:
         return length

@@ -6,9 +6,10 @@ Identities are checked in exact algebra, on the kernel's own functions, inequali
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
-from loiter.verify.proof import arrivals, rlr, selection, switching
+from loiter.verify.proof import arrivals, rlr, rounding, selection, switching
 from loiter.verify.proof.balls import Certainty
 
 
@@ -31,4 +32,17 @@ LEMMAS = (
     Lemma("lemma 7 c", "RL is faster than the tail of RLR, on boxes", rlr.rlr_slower),
     Lemma("lemma 7 d", "RSR is faster than the tail of RLR for q > 2", rlr.rsr_faster),
     Lemma("theorem 2", "the words that `fastest` compares are those of the text", selection.selection),
+)
+
+
+def _of_word(region: rounding.Region) -> Lemma:
+    statement = f"{region.word}: T is off by at most {region.limit:g} units"
+    return Lemma("theorem 4", statement, partial(rounding.bounded, region))
+
+
+# Theorem 4, for `loiter prove --rounding`: it takes minutes.
+ROUNDING = (
+    Lemma("theorem 4", "the lengths of rotations in closed form", rounding.lengths),
+    Lemma("theorem 4", "the sum of three angles is off by at most 40 x 2^-52", rounding.sum_of_angles),
+    *map(_of_word, rounding.regions()),
 )
