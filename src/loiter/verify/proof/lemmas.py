@@ -40,7 +40,7 @@ def _of_word(region: rounding.Region) -> Lemma:
     return Lemma("theorem 4", statement, partial(rounding.bounded, region))
 
 
-# Theorem 4, for `loiter prove --rounding`: it takes minutes.
+# Theorem 4, for `loiter prove --rounding`.
 ROUNDING = (
     Lemma("theorem 4", "the lengths of rotations in closed form", rounding.lengths),
     Lemma("theorem 4", "the sum of three angles is off by at most 40 x 2^-52", rounding.sum_of_angles),

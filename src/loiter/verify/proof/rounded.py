@@ -94,7 +94,7 @@ class Rounded:
     the double the same sign.
     """
 
-    __slots__ = ("error", "length", "relative", "sign", "value")
+    __slots__ = ("error", "length", "relative", "sign", "total", "value")
 
     # Bounds are not compared.
     __hash__ = None  # type: ignore[assignment]
@@ -103,6 +103,8 @@ class Rounded:
         self.value = value
         # Of a component of a rotation: a lower bound on the length of the vector, where one is known.
         self.length = 0.0
+        # Of the abscissa x and of x x: the exact values of x x + y (y + 2), where they are known.
+        self.total: Any = None
         self.sign = sign or (1 if value >= 0 else -1 if value <= 0 else 0)
         self.relative = 0.0 if error == 0.0 else relative
         if error > 0.0:
@@ -132,6 +134,8 @@ class Rounded:
         if b.exact and b.value == 0:
             return self
         value = self.value + b.value
+        if self.total is not None:
+            value = value.intersection(self.total)
         before = (self.error + b.error) * WIDEN
         error = (before + UNIT * (highest(value) + before) + SUBNORMAL) * WIDEN
         same = self.sign * b.sign > 0
@@ -153,7 +157,9 @@ class Rounded:
             value = self.value * b.value
         error = self.highest * b.error + b.highest * self.error + self.error * b.error
         error = ((error + UNIT * (highest(value) + error)) * WIDEN + SUBNORMAL) * WIDEN
-        return Rounded(value, error, compounded(self.relative, b.relative) if sign else inf, sign)
+        result = Rounded(value, error, compounded(self.relative, b.relative) if sign else inf, sign)
+        result.total = self.total if self is other else None
+        return result
 
     def __truediv__(self, other: Any) -> Rounded:
         b = Rounded.of(other)

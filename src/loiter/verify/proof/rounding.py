@@ -50,7 +50,7 @@ BEYOND = 2.0**-51
 # The range: R up to 2^10; words with a straight piece up to 2^10 times the radius of the last circle.
 OCTAVES = 10
 
-# The distance from the centre of the first arc, and the length of c, from which on bounds hold.
+# The distance from the centre of the first arc from which on bounds hold.
 APART = 2.0**-4
 
 
@@ -170,6 +170,9 @@ def lengths() -> Certainty:
             zero(f"the last rotation of {case.word.__name__}", square_of(extremal.middle) - last * last)
             scale = field.constant(1.0)
         else:
+            (onto_axis,) = exact(field, kernel.onto_axis)
+            _, c = onto_axis(x, y if from_left else -y, 1.0, 0.0)
+            zero("c", c * c - (square - 1.0))
             end = -1.0 if case.word in (kernel.lsl, kernel.rsl) else 1.0
             along = end * x
             scale = field.sqrt(square - 1.0) + along if along.sample > 0.0 else field.constant(1.0)
@@ -191,7 +194,19 @@ def word_functions() -> Callable[[Function], Function]:
     """Rebinds a function of the kernel to `Rounded` numbers; a turn counts as full only where it is."""
     names = arithmetic()
     known = with_length(rebinding(names)(angles.rotation))
-    return rebinding(names | {"snap_full_turn": without_tolerance, "total_angle": total_angle, "rotation": known})
+    return rebinding(
+        names
+        | {
+            "snap_full_turn": without_tolerance,
+            "squared_distance": not_used,
+            "total_angle": total_angle,
+            "rotation": known,
+        }
+    )
+
+
+def not_used(*numbers: Any) -> None:
+    """In place of a function of the kernel whose result serves `snap_full_turn` alone."""
 
 
 def halves(box: Box, weights: Sequence[float]) -> list[Box]:
@@ -227,6 +242,8 @@ def smallest_scale(state: State) -> float:
 def time_of(region: Region, copied: Callable[[Function], Function], state: State) -> tuple[Rounded, ...]:
     """The time of a word, as `fastest` compares it and as the sum of its durations; none where it is absent."""
     start: Any = kernel.Start(*map(Rounded, state[:3]), 0.0, *state[4:])  # type: ignore[arg-type, call-arg]
+    # By `lengths`, x x + y (y + 2), or that with -y where the first arc is R, is the squared distance less 1.
+    start.x.total = state.distance * state.distance - 1
     extremal = region.function(copied, start)
     if not isinstance(extremal.straight, Rounded) and extremal.straight != 0.0:
         return ()
@@ -325,10 +342,15 @@ def left_right_detour(angle: Any, share: Any, R: Any) -> State | None:
     return State(*left_of(angle, distance), R, distance, outer=signed(outer, -1), fold=signed(fold, 1))
 
 
-def left_right_left(angle: Any, share: Any, R: Any) -> State:
-    """States of LRL with rp from 1 to 3 - R."""
+def left_right_left(angle: Any, share: Any, R: Any) -> State | None:
+    """States of LRL with rp from 1 to 3 - R; None where the radius of the middle arc is small, by (P2)."""
     distance = 1 + (2 - R) * share
     outer, fold = (distance - R - 1) * (distance + R + 1), (2 - R) * (share - 1) * (distance + 3 - R)
+    K = R * (R + 2)
+    h, d = K + outer / 2, outer / 4
+    s2 = (h + (h * h - 3 * d * d).nonnegative_part().sqrt()) / 6
+    if 4 * s2 - 4 * (s2 * (s2 + K)).sqrt() + (R + 1) * (R + 1) < SMALLEST_MIDDLE * SMALLEST_MIDDLE:
+        return None
     return State(*left_of(angle, distance), R, distance, outer=signed(outer, -1), fold=signed(fold, -1))
 
 
@@ -359,7 +381,10 @@ def of_arc(end: float) -> Callable[[State], tuple[Any]]:
 
 
 # Weights of the coordinates: an arc onto the axis depends on the place, a crossing on the two radii.
-BY_PLACE, BY_CROSSING, BY_CURVE = (1.0, 1.0, 0.1), (0.001, 1.0, 1.0), (0.3, 1.0, 1.0)
+BY_PLACE, BY_CROSSING, BY_CURVE = (0.01, 1.0, 0.1), (0.001, 1.0, 1.0), (0.01, 1.0, 1.0)
+
+# The radius of the middle arc of LRL from which on bounds hold.
+SMALLEST_MIDDLE = 2.0**-2
 
 # Angles all the way round.
 ROUND = (Interval(-3.1416, 0.0), Interval(0.0, 3.1416))
@@ -384,8 +409,8 @@ def regions() -> list[Region]:
     """The regions of the nine words, LR with the right crossing in two parts."""
     radii, wide = octaves(0, OCTAVES), octaves(1, OCTAVES)
     external = boxes(ROUND, octaves(1, 2 * OCTAVES), radii)
-    # c is at least 1/2, so R - 2 is more than 1/16.
-    internal = boxes(ROUND, octaves(-1, OCTAVES), octaves(-4, OCTAVES))
+    # c is at least 1/8, so R - 2 is more than 2^-8.
+    internal = boxes(ROUND, octaves(-3, OCTAVES), octaves(-8, OCTAVES))
     return [
         Region(
             "LSL",
@@ -410,6 +435,7 @@ def regions() -> list[Region]:
             lambda f, s: f(kernel.internal_join)(Word.LSR, s.y, s, True),
             BY_PLACE,
             of_arc(1.0),
+            2.0 * LIMIT,
         ),
         Region(
             "RSR",
@@ -418,6 +444,7 @@ def regions() -> list[Region]:
             lambda f, s: f(kernel.internal_join)(Word.RSR, -s.y, s, True),
             BY_PLACE,
             of_arc(1.0),
+            2.0 * LIMIT,
         ),
         Region(
             "RL, left crossing",
