@@ -12,7 +12,7 @@ from loiter.web.app import create_app
 from web.test_api_problems import requester
 
 ROOT = Path(__file__).parents[1]
-# docs/proof.md is the proof itself; what it claims is its theorems, and what it leaves open it says in section 9.
+# docs/proof.md is the proof itself; what it claims is its theorems, and what it leaves open it says in sections 8 to 11.
 PROOF = ROOT / "docs" / "proof.md"
 DOCUMENTS = [
     ROOT / "README.md",
@@ -27,8 +27,8 @@ TRUE = [
     "with a proven bound on how much later than the optimum its answer may be",
     "what is proved of it and what is checked",
     "what is proved of the answer and what is cross-checked",
-    "[proof.md](proof.md), section 9, proves it with one exception",
-    "**Proven**, up to rounding and except for whole turns as in proof.md, section 9",
+    "[proof.md](proof.md), section 10, proves it with one exception",
+    "**Proven**, up to rounding and except for whole turns as in proof.md, section 10",
     "That nothing is faster is proved in still air, without a tolerance ([proof.md](proof.md))",
     "it says that the conditions are no proof of optimality",
     "proves, for every circle that can be held in still air, that the fastest of the nine words is the optimum",

@@ -17,7 +17,8 @@ from loiter.verify.proof.run import prove as findings_of
 def prove(
     *,
     rounding: Annotated[
-        bool, Parameter(negative="", help="Bound the rounding error of T instead (theorem 4), which takes half a minute.")
+        bool,
+        Parameter(negative="", help="Bound the rounding error of T instead (theorem 4), which takes half a minute."),
     ] = False,
 ) -> int:
     """Check the lemmas of docs/proof.md on the kernel's own formulas; exit status 1 where one is not certain."""
