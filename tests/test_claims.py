@@ -12,7 +12,7 @@ from loiter.web.app import create_app
 from web.test_api_problems import requester
 
 ROOT = Path(__file__).parents[1]
-# docs/proof.md is the proof itself; what it claims is its theorems, and what it leaves open it says in sections 8 to 11.
+# docs/proof.md is the proof itself; what it claims is its theorems, what it leaves open is in sections 8 to 11.
 PROOF = ROOT / "docs" / "proof.md"
 DOCUMENTS = [
     ROOT / "README.md",

@@ -44,7 +44,7 @@ def test_no_false_alarm_where_a_corner_cancels_the_curvature_of_t_at_one_step():
     for m in plan_all(Pose(-7.01787641882672, 0.0, 90.0), Orbit(0.0, 0.0, 2.0178677490703363), UNIT, wind):
         certificate = certify(m)
         assert certificate.valid, str(certificate)
-        assert certificate.residual("gradient").bound > 1e-4
+        assert certificate.residual("gradient").note == "T has a corner: its one-sided derivatives"
 
 
 def test_no_false_alarm_where_the_search_once_missed_a_minimum():
