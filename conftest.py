@@ -16,7 +16,7 @@ import loiter
 from loiter.cli.app import main
 
 # The site's settings and scripts, which its build runs, and what it writes.
-collect_ignore = ["docs/conf.py", "docs/gallery", "docs/pictures", "docs/reference", "build"]
+collect_ignore = ["paper", "docs/conf.py", "docs/gallery", "docs/pictures", "docs/reference", "build"]
 
 # Files of tests that take more than some six seconds, by folder: `make check` leaves them to `make test`.
 SLOW = {
