@@ -69,7 +69,7 @@ def ignored(name):
 @checkout
 def test_the_wheel_has_the_library_and_nothing_else(built, tracked):
     with zipfile.ZipFile(built[1]) as archive:
-        names = {name for name in archive.namelist() if ".dist-info/" not in name}
+        names = {name for name in archive.namelist() if not re.search(r"\.(dist-info|data)/", name)}
         assert any(name.endswith(".dist-info/licenses/LICENSE") for name in archive.namelist())
     library = {name.removeprefix("src/") for name in tracked | untracked() if name.startswith("src/")}
     assert names == library
