@@ -3,6 +3,8 @@
 # make test   the same with all tests, and the page in a browser: ten to fifteen minutes
 # make bench  times of the answers and of other methods: table and plot in benchmarks/results; ROWS=0 skips the tables
 # make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
+# make docs   the documentation site, in build/docs: every warning and every broken link is an error
+# make notebooks  run the notebooks of docs/notebooks and write their outputs
 # make pins   rewrite the requirement files from pyproject.toml
 PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin
@@ -25,6 +27,11 @@ $(BIN)/python:
 	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/dev.txt
 	@touch $@
 
+# What the site needs, a small part of what the tests need.
+.venv/docs.stamp: .venv/base.stamp requirements/docs.txt
+	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/docs.txt
+	@touch $@
+
 # Tools that check the page: TypeScript and axe. No lock file is needed: the versions are exact.
 .venv/node.stamp: .venv/dev.stamp tests/web/package.json
 	@mkdir -p .venv/node && cp tests/web/package.json .venv/node/
@@ -35,7 +42,7 @@ $(BIN)/python:
 /usr/bin/chromium:
 	@requirements/apt-install chromium
 
-.PHONY: demo check test bench verify pins lint
+.PHONY: demo check test bench verify docs notebooks pins lint
 demo: .venv/base.stamp
 	$(BIN)/loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 --plot demo.png
 
@@ -60,7 +67,16 @@ verify: .venv/dev.stamp
 	$(BIN)/loiter verify --states 100000
 	$(BIN)/loiter verify --witness wind --states 1000
 
+docs: .venv/docs.stamp
+	rm -rf build/docs docs/pictures
+	$(BIN)/sphinx-build -q -W --keep-going -b html -d build/doctrees docs build/docs
+	@echo "open build/docs/index.html"
+
+notebooks: .venv/dev.stamp
+	cd tests && ../$(BIN)/python -m documents.notebooks
+
 pins: .venv/dev.stamp
 	$(BIN)/python -m pip install -q uv
 	$(BIN)/uv pip compile -q --universal --python-version 3.11 --no-header --no-annotate --no-emit-index-url --no-emit-find-links pyproject.toml -o requirements/base.txt
 	$(BIN)/uv pip compile -q --universal --python-version 3.11 --no-header --no-annotate --no-emit-index-url --no-emit-find-links --group dev -c requirements/base.txt pyproject.toml -o requirements/dev.txt
+	$(BIN)/uv pip compile -q --universal --python-version 3.11 --no-header --no-annotate --no-emit-index-url --no-emit-find-links --all-extras --group docs -c requirements/dev.txt pyproject.toml -o requirements/docs.txt

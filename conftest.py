@@ -15,12 +15,16 @@ from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
 import loiter
 from loiter.cli.app import main
 
+# The site's settings and scripts, which its build runs, and what it writes.
+collect_ignore = ["paper", "docs/conf.py", "docs/gallery", "docs/pictures", "docs/reference", "build"]
+
 # Files of tests that take more than some six seconds, by folder: `make check` leaves them to `make test`.
 SLOW = {
     "arrays": "entries wind",
     "batch": "cluster dataset files memory resume urls wind",
     "cli": "errors guide json man mavlink",
     "compiled": "ufuncs wind_solver",
+    "documents": "notebooks package site",
     "guidance": "campaign following identification jsbsim_aircraft loiter_entry",
     "kernel": "cell_bounds wind_search",
     "mavlink": "guide guide_misbehaving peers upload watch",

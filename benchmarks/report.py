@@ -23,7 +23,8 @@ def table(rows: Sequence[Row], runs: Sequence[Run]) -> str:
         for row in rows:
             if row.task == task:
                 errors = f"{error(row.largest)} | {error(row.mean)}"
-                lines.append(f"| {row.contender} | {duration(row.seconds)} | {share(row.ratio)} | {errors} |")
+                name = row.contender.replace("|", "\\|")
+                lines.append(f"| {name} | {duration(row.seconds)} | {share(row.ratio)} | {errors} |")
         lines.append("")
     return "\n".join(lines + (_batch(runs) if runs else []))
 

@@ -17,7 +17,7 @@ PROOF = ROOT / "docs" / "proof.md"
 DOCUMENTS = [
     ROOT / "README.md",
     ROOT / "CHANGELOG.md",
-    *(path for path in sorted((ROOT / "docs").glob("*.md")) if path != PROOF),
+    *(path for path in sorted((ROOT / "docs").rglob("*.md")) if path != PROOF and path.name != "commands.md"),
 ]
 
 # In still air docs/proof.md proves the optimum; in wind a bound is proved.
@@ -40,7 +40,9 @@ TRUE_OF_SERVICE = [
 ]
 CLAIM = re.compile(r"\b(proofs?|prov(?:e|es|ed|en|ing)|witness\w*)\b", re.IGNORECASE)
 # Names of an option, a command, a document and a folder.
-NAMED = re.compile(r"--witness \w+|loiter prove|prove Check|prove\.py|(docs/)?proof\.md|verify/proof\b")
+NAMED = re.compile(
+    r"--witness \w+|loiter prove|prove Check|prove\.py|theory proof paper|(docs/)?proof\.md|verify/proof\b"
+)
 
 
 def claims(text):

@@ -1,0 +1,153 @@
+"""The files that are distributed, and what stands about the project in several places."""
+
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+import tomllib
+import zipfile
+from email import message_from_bytes
+from pathlib import Path
+
+import pytest
+import yaml
+
+import loiter
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+HOME = PROJECT["project"]["urls"]["Repository"]
+
+checkout = pytest.mark.skipif(
+    shutil.which("git") is None or not (ROOT / ".git").exists(), reason="needs the list of files in git"
+)
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """The sdist and the wheel, built from it."""
+    folder = tmp_path_factory.mktemp("dist")
+    done = subprocess.run(
+        [sys.executable, "-m", "build", "--no-isolation", "--outdir", folder, ROOT],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
+    (sdist,), (wheel,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
+    return sdist, wheel
+
+
+@pytest.fixture(scope="module")
+def tracked():
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True)
+    return set(listed.stdout.split("\n")) - {""}
+
+
+@checkout
+def test_the_sdist_has_every_file_of_the_project(built, tracked):
+    with tarfile.open(built[0]) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    assert {name for name in tracked - names if not name.startswith(".ci/")} == set()
+    assert {name for name in names - tracked if (ROOT / name).is_file() and not ignored(name)} <= untracked()
+    assert {"conftest.py", "Makefile", "requirements/dev.txt", "benchmarks/__main__.py", "PKG-INFO"} <= names
+
+
+def untracked():
+    """Files that are neither in git nor ignored by it: those of somebody who works."""
+    listed = subprocess.run(
+        ["git", "ls-files", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    return set(listed.stdout.split("\n"))
+
+
+def ignored(name):
+    return name == ".gitignore"
+
+
+@checkout
+def test_the_wheel_has_the_library_and_nothing_else(built, tracked):
+    with zipfile.ZipFile(built[1]) as archive:
+        names = {name for name in archive.namelist() if not re.search(r"\.(dist-info|data)/", name)}
+        assert any(name.endswith(".dist-info/licenses/LICENSE") for name in archive.namelist())
+    library = {name.removeprefix("src/") for name in tracked | untracked() if name.startswith("src/")}
+    assert names == library
+    assert "loiter/py.typed" in names
+
+
+def metadata(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        (name,) = (name for name in archive.namelist() if name.endswith(".dist-info/METADATA"))
+        return message_from_bytes(archive.read(name))
+
+
+def test_the_metadata_name_authors_addresses_and_versions(built):
+    known = metadata(built[1])
+    assert known["Author"] == "The loiter authors"
+    assert known["Requires-Python"] == ">=3.11"
+    assert known["License-Expression"] == "MIT"
+    assert {line.split(", ")[0] for line in known.get_all("Project-URL")} >= {"Repository", "Documentation", "Issues"}
+    classifiers = known.get_all("Classifier")
+    for minor in range(11, 15):
+        assert f"Programming Language :: Python :: 3.{minor}" in classifiers
+
+
+def test_pictures_and_links_of_the_description_are_absolute(built):
+    """In README they are relative, so that checkouts and forks show their own."""
+    text = metadata(built[1]).get_payload(decode=True).decode()
+    targets = re.findall(r"\]\(([^)\s]+)\)", text)
+    pictures = re.findall(r"!\[[^\]]*\]\(([^)\s]+)\)", text)
+    assert len(pictures) >= 3
+    assert all(picture.startswith(f"{HOME}/raw/main/docs/") for picture in pictures)
+    assert [target for target in targets if not target.startswith(("https://", "http://", "#"))] == []
+    for target in targets:
+        if target.startswith(HOME):
+            assert (ROOT / target.partition("/main/")[2].partition("#")[0]).is_file(), target
+
+
+def test_the_address_of_the_project_is_one():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
+    assert citation["repository-code"] == HOME
+    assert citation["version"] == loiter.__version__
+    assert citation["authors"] == [{"name": "The loiter authors"}]
+    text = (ROOT / "pyproject.toml").read_text("utf-8")
+    own = {address for address in re.findall(r"https://[^\s\"')]+", text) if "loiter" in address}
+    assert [address for address in own if not address.startswith(HOME)] == []
+
+
+WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
+def test_actions_are_pinned_to_a_commit(path):
+    used = re.findall(r"uses: (\S+)(.*)", path.read_text("utf-8"))
+    assert used
+    assert [name for name, note in used if not (re.search(r"@[0-9a-f]{40}$", name) and re.search(r"# v\d", note))] == []
+
+
+def test_every_supported_python_and_system_is_tried():
+    jobs = yaml.safe_load((ROOT / ".github/workflows/test.yml").read_text("utf-8"))["jobs"]
+    matrix = jobs["install"]["strategy"]["matrix"]
+    assert matrix["python"] == ["3.11", "3.12", "3.13", "3.14"]
+    assert [system.partition("-")[0] for system in matrix["os"]] == ["ubuntu", "macos", "windows"]
+
+
+@pytest.mark.parametrize("name", ["ruff", "mypy"])
+def test_the_hooks_use_the_versions_of_the_tests(name):
+    hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text("utf-8"))["repos"]
+    revisions = {hook["id"].partition("-")[0]: repo["rev"] for repo in hooks for hook in repo["hooks"]}
+    pinned = re.search(rf"^{name}==(\S+)$", (ROOT / "requirements/dev.txt").read_text("utf-8"), re.MULTILINE)
+    assert revisions[name] == f"v{pinned[1]}"
+
+
+def test_a_bare_python_runs_the_examples_of_readme():
+    """The script that tries wheels; with this Python."""
+    done = subprocess.run(
+        [sys.executable, ROOT / "tests/documents/examples.py", ROOT / "README.md"],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert re.search(r"^(1\d|[2-9]\d) examples, 0 failed$", done.stdout, re.MULTILINE)
