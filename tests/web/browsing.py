@@ -108,6 +108,16 @@ def middle(page, handle):
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
+def drag(page, handle, dx, dy, steps=5):
+    """Drag a handle with the mouse."""
+    x, y = middle(page, handle)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + dx, y + dy, steps=steps)
+    page.mouse.up()
+    settle(page)
+
+
 def changed(before, after):
     """The names of the numbers that differ, by part of the scene."""
     return {

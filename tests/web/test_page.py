@@ -18,6 +18,7 @@ from web.browsing import (
     PHONE,
     assert_shows_the_plan,
     changed,
+    drag,
     fly_at,
     grave,
     located,
@@ -28,15 +29,6 @@ from web.browsing import (
     to_metres,
     values,
 )
-
-
-def drag(page, handle, dx, dy, steps=5):
-    x, y = middle(page, handle)
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + dx, y + dy, steps=steps)
-    page.mouse.up()
-    settle(page)
 
 
 def told(page):
@@ -108,7 +100,7 @@ def test_every_candidate_is_listed_with_what_it_loses(page):
     row = rows.nth(1).locator("button")
     row.focus()
     later = known[1].duration_s - known[0].duration_s
-    assert page.locator("#plan .callout").text_content() == f"{known[1].word} {known[1].turn}: {later:.3g} s later"
+    assert page.locator("#plan .callout").text_content() == f"{known[1].word} {known[1].turn}: {later:.2f} s later"
     assert page.locator("#plan .others .lit").count() == 1
 
 
@@ -134,7 +126,7 @@ def test_a_handle_dragged_changes_the_path_to_the_librarys(page):
 
 
 def test_the_wind_is_dragged_too(page):
-    drag(page, "wind", 14, 5)
+    drag(page, "wind", 7, 3)
     wind = scene(page)["wind"]
     assert wind["speed_m_s"] > 1.0
     assert 270.0 < wind["from_deg"] < 300.0

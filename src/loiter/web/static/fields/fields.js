@@ -32,7 +32,7 @@ export function createFields(store, actions, camera) {
       camera.keepInView();
     }),
     ...originFields(store, actions),
-    ...altitudeFields(store),
+    ...altitudeFields(store, actions),
   };
   unitsChoice(store);
   markErrors(store, fields, "scene");
@@ -85,8 +85,7 @@ export function originFields(store, actions) {
     get: () => store.get().place[name],
     set(value, event) {
       const place = { ...store.get().place, [name]: value };
-      store.update({ place });
-      actions.changeScene({ ...store.get().scene, origin: originOf(place) }, event);
+      actions.changeScene({ ...store.get().scene, origin: originOf(place) }, event, { place });
     },
     optional: true,
   });
@@ -105,16 +104,16 @@ export function originFields(store, actions) {
 const originOf = ({ latitude_deg, longitude_deg }) =>
   latitude_deg !== undefined && longitude_deg !== undefined ? { latitude_deg, longitude_deg } : null;
 
-/** @param {Store} store */
-export function altitudeFields(store) {
-  /** @param {Altitude} changes */
-  const change = (changes) => store.update({ altitude: { ...store.get().altitude, ...changes } });
+/** @param {Store} store @param {Actions} actions */
+export function altitudeFields(store, actions) {
+  /** @param {Altitude} changes @param {Event} [event] */
+  const change = (changes, event) => actions.changeAltitude({ ...store.get().altitude, ...changes }, event);
   /** @param {"altitude_m" | "home_altitude_m"} name @returns {Source} */
   const sourceOf = (name) => ({
     quantity: () => "length",
     units: () => store.get().units,
     get: () => store.get().altitude[name],
-    set: (value) => change({ [name]: value }),
+    set: (value, event) => change({ [name]: value }, event),
     optional: true,
   });
   const fields = {

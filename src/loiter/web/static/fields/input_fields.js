@@ -31,7 +31,7 @@ import { parseNumber } from "./number_text.js";
 export function errorLine(field) {
   const line = html("p", { id: `${field.id}-fault`, class: "fault", role: "alert" });
   (field.closest("label, .pair") ?? field).after(line);
-  field.setAttribute("aria-describedby", line.id);
+  field.setAttribute("aria-describedby", `${field.getAttribute("aria-describedby") ?? ""} ${line.id}`.trim());
   return line;
 }
 

@@ -61,6 +61,9 @@
  * @property {Opening | null} opening
  * @property {number} revision  number of the newest request for a plan
  * @property {number} answeredRevision  number of the newest request that was answered or has failed
+ * @property {number} step  number of the step of the user that led here, for undo and the browser's Back
+ * @property {number} lastStep  the newest step; larger than `step` after an undo
+ * @property {boolean} isLate  whether the answer to the newest request is awaited for longer than a moment
  * @property {number} pausedRevision  number of the newest request after which a drag has paused
  * @property {Record<"plan" | "certificate" | "map", Status>} requests
  * @property {Answer | null} answer  the newest plan
@@ -97,6 +100,9 @@ export const INITIAL_STATE = {
   revision: 0,
   answeredRevision: 0,
   pausedRevision: 0,
+  step: 0,
+  lastStep: 0,
+  isLate: false,
   requests: { plan: "idle", certificate: "idle", map: "idle" },
   answer: null,
   failure: null,
