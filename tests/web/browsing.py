@@ -16,6 +16,7 @@ CHORDS, PIXELS = 0.002, 0.0071
 
 AXE = Path(sys.prefix) / "node" / "node_modules" / "axe-core" / "axe.min.js"
 DESK = {"width": 1440, "height": 900}
+TABLET = {"viewport": {"width": 820, "height": 1180}}
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
 HANDLES = {
     "aircraft": ("pose", {"east_m", "north_m"}),

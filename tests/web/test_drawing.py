@@ -5,9 +5,8 @@ import re
 import pytest
 
 import loiter
-from web.browsing import DESK, PHONE, assert_shows_the_plan, middle, press, scene, settle, values
+from web.browsing import DESK, PHONE, TABLET, assert_shows_the_plan, middle, press, scene, settle, values
 
-TABLET = {"viewport": {"width": 820, "height": 1180}}
 DEVICES = {"desk": {"viewport": DESK}, "tablet": TABLET, "phone": PHONE}
 HANDLES = ("aircraft", "heading", "centre", "radius")
 

@@ -10,6 +10,7 @@
  */
 import { byId, html } from "../shared/dom.js";
 import { DIRECTIONS, DIRECTION_ARROWS, isAllowed, splitAnswer, wordLabel } from "../shared/maneuver.js";
+import { roving } from "../shared/roving.js";
 import { signedTimeDifference, timeText } from "../shared/units.js";
 
 /**
@@ -18,9 +19,13 @@ import { signedTimeDifference, timeText } from "../shared/units.js";
  */
 export function candidatesView(store, actions) {
   const list = byId("candidates", HTMLElement);
+  const markStop = roving(list);
   store.watch(
     ({ answer }) => [answer],
-    (state) => list.replaceChildren(...rowsOf(state, actions.highlight)),
+    (state) => {
+      list.replaceChildren(...rowsOf(state, actions.highlight));
+      markStop();
+    },
   );
   store.watch(
     ({ highlighted, answer }) => [highlighted, answer],

@@ -28,6 +28,7 @@ export function mapView(store, actions) {
   root.append(...Object.values(layers), ghost, state);
 
   observeSize(byId("map", HTMLElement), (side) => {
+    if (side === 0) return; // while it is hidden
     setSize(root, side, side);
     store.update({ mapSide: side });
   });

@@ -52,6 +52,7 @@
  * @property {Scene} scene
  * @property {Units} units
  * @property {Theme} theme
+ * @property {boolean} theory  whether verdict, phi, psi and the reduced plane are shown
  * @property {Altitude} altitude
  * @property {Partial<Origin>} place  latitude and longitude as far as they are typed
  * @property {Camera} camera  of the plan view
@@ -90,6 +91,7 @@ export const INITIAL_STATE = {
   scene: PRESETS[0].scene,
   units: "metric",
   theme: "light",
+  theory: true,
   altitude: {},
   place: {},
   camera: { view: { scale: 1, east: 0, north: 0, width: 800, height: 600 }, moved: false },
