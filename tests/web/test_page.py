@@ -492,6 +492,22 @@ def test_the_link_reproduces_the_scene(page, opened, address):
     assert_shows_the_plan(again)
 
 
+def test_links_from_dragged_and_converted_numbers_are_short_and_give_the_same_plan(page, opened, address):
+    page.locator("#units").select_option("aviation")
+    page.locator("#airspeed").fill("40")
+    page.locator("#circle-radius").fill("333")
+    drag(page, "state", -33, 21)
+    page.locator("#course").fill("12,34")
+    settle(page)
+    page.wait_for_function("heading => location.hash.includes(heading)", arg=",12.34&")
+    numbers = browsing.re.findall(r"[\d.]+", page.url.partition("#")[2])
+    assert max(map(len, numbers)) <= 10
+    again = opened(page.url.removeprefix(address))
+    for shown in ("#time", "#word", "#optimal", "#other"):
+        assert again.locator(shown).inner_text() == page.locator(shown).inner_text()
+    assert_shows_the_plan(again)
+
+
 # For everyone
 
 

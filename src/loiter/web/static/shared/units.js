@@ -152,6 +152,15 @@ export function tidy(value, resolution) {
   return whole + 0;
 }
 
+/** Like `tidy`, but never below the value. @param {number} value @param {number} resolution */
+export function tidyAbove(value, resolution) {
+  const nearest = tidy(value, resolution);
+  return nearest >= value ? nearest : tidy(nearest + resolution, resolution);
+}
+
+/** The power of ten that is at most this share of a size. @param {number} size @param {number} share */
+export const powerBelow = (size, share) => 10 ** Math.floor(Math.log10(Math.max(Math.abs(size) * share, 1e-12)));
+
 /**
  * The smallest number of the form 1, 2 or 5 times a power of ten that is not below `least`.
  *
