@@ -197,3 +197,42 @@ def test_during_a_drag_the_path_looks_old_only_if_no_answer_arrives_for_a_while(
     settle(page)
     assert not late.is_visible()
     assert_shows_the_plan(page)
+
+
+# The first start on a machine
+
+
+def test_a_service_that_compiles_says_so_in_place_of_the_map(page):
+    health = {"status": "ok", "version": "0", "ready": False}
+    page.route("**/healthz", lambda route: route.fulfill(json=health))
+    held = []
+
+    def hold(route):
+        if health["ready"]:
+            route.continue_()
+        else:
+            held.append(route)
+
+    page.route("**/api/synthesis*", hold)
+    wait = page.locator("#map-wait")
+    page.locator("#presets button").nth(4).click()
+    expect(wait).to_have_text("The solver is being compiled, some 20 s, once per machine.")
+    assert wait.is_visible()
+    # The plan, which needs no machine code, is there.
+    assert_shows_the_plan(page)
+    page.route("**/api/plan", hold)
+    page.locator("#presets button").nth(5).click()
+    expect(page.locator("#late")).to_contain_text("The solver is being compiled, some 20 s, once per machine.")
+    health["ready"] = True
+    for route in held:
+        route.continue_()
+    settle(page)
+    expect(wait).to_have_text("")
+    assert not wait.is_visible()
+    assert not page.locator("#late").is_visible()
+
+
+def test_a_quick_service_is_not_asked_whether_it_is_ready(page):
+    press(page, "Paper, example 1")
+    page.wait_for_timeout(1000)
+    assert [url for url in page.watched.requests if url.endswith("/healthz")] == []

@@ -10,6 +10,9 @@ import { byId, show } from "../shared/dom.js";
 
 const MOMENT_MS = 120; // a shorter wait is not seen as one
 
+/** Why the first answers of a service on a new machine take long. */
+export const COMPILING = "The solver is being compiled, some 20 s, once per machine.";
+
 /** Keep `isLate` up to date. @param {Store} store */
 export function watchDelay(store) {
   let timer = 0;
@@ -34,11 +37,12 @@ export function watchDelay(store) {
 export function lateView(store) {
   const note = byId("late", HTMLElement);
   store.watch(
-    ({ isLate, answer }) => [isLate, answer === null],
-    ({ isLate, answer, failure }) => {
+    ({ isLate, answer, isCompiling }) => [isLate, answer === null, isCompiling],
+    ({ isLate, answer, failure, isCompiling }) => {
       byId("main", HTMLElement).classList.toggle("late", isLate);
       show(note, isLate && failure === null);
-      note.textContent = answer ? "Waiting for the service. This is the previous plan." : "Waiting for the service.";
+      const reason = isCompiling ? COMPILING : "Waiting for the service.";
+      note.textContent = answer ? `${reason} This is the previous plan.` : reason;
     },
   );
 }

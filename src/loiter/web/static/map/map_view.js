@@ -8,6 +8,7 @@
  * @typedef {import("../shared/types.js").Synthesis} Synthesis
  * @typedef {import("../shared/geometry.js").View} View
  */
+import { COMPILING } from "../answer/late.js";
 import { byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { toScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
@@ -36,6 +37,7 @@ export function mapView(store, actions) {
   drawPlan(layers, ghost, store);
   stateHandle(state, root, store, actions);
   drawNotes(store);
+  drawWait(store);
 }
 
 /**
@@ -95,6 +97,18 @@ function drawPlan(layers, ghost, store) {
       if (!instant) return;
       const [cx, cy] = toScreen(mapViewOf(state), instant.x, instant.y);
       setAttributes(ghost, { cx: cx.toFixed(2), cy: cy.toFixed(2) });
+    },
+  );
+}
+
+/** Why the map is not there yet: it takes long only while the service compiles. @param {Store} store */
+function drawWait(store) {
+  const note = byId("map-wait", HTMLElement);
+  store.watch(
+    ({ requests, isCompiling, synthesis }) => [requests.map, isCompiling, synthesis === null],
+    ({ requests, isCompiling, synthesis }) => {
+      const text = isCompiling ? COMPILING : synthesis ? "" : "The map is being computed.";
+      note.textContent = requests.map === "asking" ? text : "";
     },
   );
 }
