@@ -36,6 +36,8 @@ class Watched:
 
     def __init__(self):
         self.requests, self.complaints = [], []
+        # Servers that a test switches on; nothing else may be asked.
+        self.allowed = []
 
     def watch(self, page):
         page.on("request", lambda request: self.requests.append(request.url))
@@ -63,7 +65,8 @@ def opened(browser, address):
     yield open_page
     for context in contexts:
         context.close()
-    assert {url for url in watched.requests if not url.startswith((address, "blob:" + address))} == set()
+    allowed = (address, "blob:" + address, *watched.allowed)
+    assert {url for url in watched.requests if not url.startswith(allowed)} == set()
     assert watched.complaints == []
 
 

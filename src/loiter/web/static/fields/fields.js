@@ -15,8 +15,11 @@
  */
 import { REFERENCES } from "../scene/link.js";
 import { byId, show } from "../shared/dom.js";
+import { tidy } from "../shared/units.js";
 import { needsHome } from "./altitude.js";
+import { pairProblem, parseAngle, parsePair } from "./coordinates.js";
 import { choiceField, numberField } from "./input_fields.js";
+import { placeFields } from "./place_fields.js";
 import { sceneFields } from "./scene_fields.js";
 
 /**
@@ -32,6 +35,10 @@ export function createFields(store, actions, camera) {
       camera.keepInView();
     }),
     ...originFields(store, actions),
+    ...placeFields(store, (scene, event, more) => {
+      actions.changeScene(scene, event, more);
+      camera.keepInView();
+    }),
     ...altitudeFields(store, actions),
   };
   unitsChoice(store);
@@ -83,6 +90,14 @@ export function originFields(store, actions) {
     quantity: () => "degrees",
     units: () => store.get().units,
     get: () => store.get().place[name],
+    parse: (text) => parseAngle(text, name),
+    shown: (value) => tidy(value, 1e-7), // 1 cm
+    takeAll(text, event) {
+      const pair = isOneNumber(text) ? null : parsePair(text);
+      if (!pair || pairProblem(pair)) return false;
+      actions.changeScene({ ...store.get().scene, origin: pair }, event, { place: pair });
+      return true;
+    },
     set(value, event) {
       const place = { ...store.get().place, [name]: value };
       actions.changeScene({ ...store.get().scene, origin: originOf(place) }, event, { place });
@@ -99,6 +114,9 @@ export function originFields(store, actions) {
   );
   return fields;
 }
+
+/** Whether a text is one number, such as 47,1 with a decimal comma, and no pair. @param {string} text */
+const isOneNumber = (text) => /^\s*[+-]?\d+(,\d*)?\s*°?\s*$/.test(text.replace("−", "-"));
 
 /** The origin, or null while a number is missing. @param {Partial<Origin>} place @returns {Origin | null} */
 const originOf = ({ latitude_deg, longitude_deg }) =>

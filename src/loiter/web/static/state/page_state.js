@@ -55,6 +55,7 @@
  * @property {boolean} theory  whether verdict, phi, psi and the reduced plane are shown
  * @property {Altitude} altitude
  * @property {Partial<Origin>} place  latitude and longitude as far as they are typed
+ * @property {string | null} tiles  the address of the map tiles that the user has switched on
  * @property {Camera} camera  of the plan view
  * @property {number} mapSide  of the map, pixels
  * @property {number} timelineWidth  pixels
@@ -95,6 +96,7 @@ export const INITIAL_STATE = {
   theory: true,
   altitude: {},
   place: {},
+  tiles: null,
   camera: { view: { scale: 1, east: 0, north: 0, width: 800, height: 600 }, moved: false },
   mapSide: 380,
   timelineWidth: 700,
