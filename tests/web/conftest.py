@@ -2,9 +2,13 @@
 
 import httpx
 import pytest
+from playwright.sync_api import expect
 
 from web import browsing
 from web.serving import serving
+
+# A busy machine needs more than the 5 s that Playwright waits.
+expect.set_options(timeout=30_000)
 
 
 @pytest.fixture(scope="session")
@@ -55,7 +59,7 @@ def opened(browser, address):
     def open_page(fragment="", **options):
         contexts.append(browser.new_context(**({"viewport": browsing.DESK} | options)))
         page = contexts[-1].new_page()
-        page.set_default_timeout(15_000)
+        page.set_default_timeout(60_000)
         watched.watch(page)
         page.watched = watched
         page.goto(address + fragment)

@@ -30,8 +30,15 @@ function drawHeadline({ answer, failure }) {
   const text = failure?.headline ?? answer?.instruction ?? "";
   // What to do, then how to hold, each on lines of its own; a unit stays beside its number.
   const parts = text.replaceAll(/(\d) s\b/g, "$1\u00a0s").split(/(?<=\.) (?=Hold )/);
-  headline.replaceChildren(...parts.flatMap((part, i) => (i ? [" ", html("span", { class: "hold" }, [part])] : [part])));
+  const hold = (/** @type {string} */ part) => html("span", { class: "hold" }, [part + (failure ? "" : tieText(answer))]);
+  headline.replaceChildren(...parts.flatMap((part, i) => (i ? [" ", hold(part)] : [part])));
   headline.classList.toggle("bad", failure !== null);
+}
+
+/** That the other direction takes the same time, if it does. @param {Answer | null} answer */
+function tieText(answer) {
+  const other = answer && splitAnswer(answer).best.find(({ turn }) => turn !== answer.turn);
+  return other ? ` To hold ${DIRECTIONS[other.turn]} takes the same time.` : "";
 }
 
 /** @param {PageState} state */

@@ -6,6 +6,8 @@
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
  * @typedef {import("../shared/types.js").Synthesis} Synthesis
+ * @typedef {import("../state/page_state.js").PageState} PageState
+ * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("../shared/geometry.js").View} View
  */
 import { COMPILING } from "../answer/late.js";
@@ -14,7 +16,7 @@ import { toScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
 import { ghostOf } from "../state/page_state.js";
 import { drawAxes, drawCurve, drawReducedPath, drawTargets } from "./map_lines.js";
-import { drawRegionLabels, paintRegions } from "./regions.js";
+import { drawRegionLabels, paintRegions, regionLabels } from "./regions.js";
 import { stateHandle } from "./state_handle.js";
 
 /**
@@ -35,6 +37,7 @@ export function mapView(store, actions) {
   });
   drawSynthesis(layers, store);
   drawPlan(layers, ghost, store);
+  drawWords(layers.words, store);
   stateHandle(state, root, store, actions);
   drawNotes(store);
   drawWait(store);
@@ -70,7 +73,6 @@ function drawSynthesis(layers, store) {
       const view = mapViewOf(state);
       layers.axes.replaceChildren(...drawAxes(view));
       layers.curves.replaceChildren(...synthesis.curves.map((curve) => drawCurve(view, curve)));
-      layers.words.replaceChildren(...drawRegionLabels(view, synthesis));
       layers.targets.replaceChildren(...drawTargets(view, synthesis));
     },
   );
@@ -111,6 +113,36 @@ function drawWait(store) {
       note.textContent = requests.map === "asking" ? text : "";
     },
   );
+}
+
+/**
+ * The words of the regions, beside the path and the state.
+ *
+ * @param {SVGGElement} layer
+ * @param {Store} store
+ */
+function drawWords(layer, store) {
+  /** @type {ReturnType<typeof regionLabels>} */
+  let labels = [];
+  store.watch(
+    ({ synthesis, mapSide }) => [synthesis, mapSide],
+    (state) => (labels = state.synthesis ? regionLabels(mapViewOf(state), state.synthesis) : []),
+  );
+  store.watch(
+    ({ answer, synthesis, mapSide }) => [answer, synthesis, mapSide],
+    (state) => layer.replaceChildren(...drawRegionLabels(labels, statePoint(state), pathPoints(state))),
+  );
+}
+
+/** Where the state is drawn. @param {PageState} state @returns {Point | null} */
+const statePoint = (state) =>
+  state.answer && toScreen(mapViewOf(state), state.answer.reduced.x, state.answer.reduced.y);
+
+/** Points on the optimal paths. @param {PageState} state @returns {Point[]} */
+function pathPoints(state) {
+  const view = mapViewOf(state);
+  const tracks = state.answer ? splitAnswer(state.answer).best.map(({ track }) => track) : [];
+  return tracks.flatMap(({ x, y }) => x.map((value, i) => toScreen(view, value, y[i])));
 }
 
 /** The title of the map, and the notes where it does not fit the scene. @param {Store} store */

@@ -31,5 +31,9 @@ export function watchReadiness(store) {
   );
 }
 
-/** Whether an answer is under way. @param {PageState} state */
-const isWaiting = ({ requests }) => Object.values(requests).includes("asking");
+/**
+ * Whether an answer is awaited. During a drag a plan always is; it counts once it is late.
+ *
+ * @param {PageState} state
+ */
+const isWaiting = ({ isLate, requests }) => isLate || requests.certificate === "asking" || requests.map === "asking";

@@ -78,7 +78,7 @@ function watchTime(cursor, reads, store) {
     (state) => [shownTime(state), state.answer, state.proof, state.timelineWidth, state.theory],
     (state) => {
       const time = shownTime(state);
-      cursor.setAttribute("d", `M${scaleNow(store).x(time).toFixed(1)} 0V${scaleNow(store).axis - 6}`);
+      cursor.setAttribute("d", `M${scaleNow(store).x(time).toFixed(1)} 0V${scaleNow(store).axis - 10}`);
       show(reads, state.proof !== null);
       if (state.proof) reads.replaceChildren(...drawReadings(state.proof, time, scaleNow(store)));
     },
