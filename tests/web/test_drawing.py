@@ -131,7 +131,7 @@ def test_the_direction_of_the_wind_says_why_it_is_disabled(page):
     field, hint = page.locator("#wind-from"), page.locator("#wind-calm")
     assert field.is_disabled()
     assert "wind-calm" in field.get_attribute("aria-describedby").split()
-    assert hint.inner_text() == "Calm air has no direction: set a speed first."
+    assert hint.inner_text() == "Calm air: set a speed first."
     page.locator("#wind-speed").fill("5")
     settle(page)
     assert field.is_enabled()

@@ -21,7 +21,7 @@ import { byId } from "../shared/dom.js";
 import { tidy } from "../shared/units.js";
 import { numberField } from "./input_fields.js";
 
-const CALM = "Calm air has no direction: set a speed first."; // why the direction of the wind is disabled
+const CALM = "Calm air: set a speed first."; // why the direction of the wind is disabled
 
 /** @param {Quantity} quantity @param {keyof Scene["pose"]} name @returns {Part} */
 const posePart = (quantity, name) => ({

@@ -138,11 +138,24 @@ function drawWords(layer, store) {
 const statePoint = (state) =>
   state.answer && toScreen(mapViewOf(state), state.answer.reduced.x, state.answer.reduced.y);
 
+const STEP_PX = 8;
+
+/** The points of a polyline, and more between those that are far apart. @param {Point[]} points @returns {Point[]} */
+const between = (points) =>
+  points.flatMap(([x, y], i) => {
+    const [nextX, nextY] = points[i + 1] ?? [x, y];
+    const count = Math.min(200, 1 + Math.floor(Math.hypot(nextX - x, nextY - y) / STEP_PX));
+    return Array.from({ length: count }, (_, k) => {
+      const share = k / count;
+      return /** @type {Point} */ ([x + share * (nextX - x), y + share * (nextY - y)]);
+    });
+  });
+
 /** Points on the optimal paths. @param {PageState} state @returns {Point[]} */
 function pathPoints(state) {
   const view = mapViewOf(state);
   const tracks = state.answer ? splitAnswer(state.answer).best.map(({ track }) => track) : [];
-  return tracks.flatMap(({ x, y }) => x.map((value, i) => toScreen(view, value, y[i])));
+  return tracks.flatMap(({ x, y }) => between(x.map((value, i) => toScreen(view, value, y[i]))));
 }
 
 /** The title of the map, and the notes where it does not fit the scene. @param {Store} store */
