@@ -33,7 +33,7 @@ SLOW = {
     "plot": "picture",
     "": "make types",
     "verify": "certificate certificate_in_wind collocation oracle_check proof reachability rounding wind_scan",
-    "web": "api failure fields limits load missions page schema serve touch",
+    "web": "api drawing failure fields history layout limits load missions page places schema serve tiles touch",
 }
 
 

@@ -16,6 +16,7 @@ CHORDS, PIXELS = 0.002, 0.0071
 
 AXE = Path(sys.prefix) / "node" / "node_modules" / "axe-core" / "axe.min.js"
 DESK = {"width": 1440, "height": 900}
+TABLET = {"viewport": {"width": 820, "height": 1180}}
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
 HANDLES = {
     "aircraft": ("pose", {"east_m", "north_m"}),
@@ -106,6 +107,16 @@ def assert_shows_the_plan(page):
 def middle(page, handle):
     box = page.locator(f"#{handle} .touch").bounding_box()
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def drag(page, handle, dx, dy, steps=5):
+    """Drag a handle with the mouse."""
+    x, y = middle(page, handle)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + dx, y + dy, steps=steps)
+    page.mouse.up()
+    settle(page)
 
 
 def changed(before, after):

@@ -2,9 +2,13 @@
 
 import httpx
 import pytest
+from playwright.sync_api import expect
 
 from web import browsing
 from web.serving import serving
+
+# A busy machine needs more than the 5 s that Playwright waits.
+expect.set_options(timeout=30_000)
 
 
 @pytest.fixture(scope="session")
@@ -36,6 +40,8 @@ class Watched:
 
     def __init__(self):
         self.requests, self.complaints = [], []
+        # Servers that a test switches on; nothing else may be asked.
+        self.allowed = []
 
     def watch(self, page):
         page.on("request", lambda request: self.requests.append(request.url))
@@ -53,7 +59,7 @@ def opened(browser, address):
     def open_page(fragment="", **options):
         contexts.append(browser.new_context(**({"viewport": browsing.DESK} | options)))
         page = contexts[-1].new_page()
-        page.set_default_timeout(15_000)
+        page.set_default_timeout(60_000)
         watched.watch(page)
         page.watched = watched
         page.goto(address + fragment)
@@ -63,7 +69,8 @@ def opened(browser, address):
     yield open_page
     for context in contexts:
         context.close()
-    assert {url for url in watched.requests if not url.startswith((address, "blob:" + address))} == set()
+    allowed = (address, "blob:" + address, *watched.allowed)
+    assert {url for url in watched.requests if not url.startswith(allowed)} == set()
     assert watched.complaints == []
 
 

@@ -17,6 +17,7 @@ def main():
             ("page-dark.png", "dark", "Paper, example 2", "450"),
         ):
             page = browser.new_page(viewport={"width": 1440, "height": 900}, color_scheme=scheme)
+            page.set_default_timeout(300_000)
             page.goto(address)
             browsing.settle(page)
             browsing.press(page, preset)

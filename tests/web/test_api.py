@@ -153,20 +153,20 @@ def test_the_fastest_each_way_is_the_plan_without_the_other_candidates(post, sce
 @pytest.mark.parametrize(
     ("scene", "sentence"),
     [
-        (STILL, "Turn right now, then fly straight in 0.8 s."),
+        (STILL, "Turn right now, then fly straight in 0.78 s. Hold clockwise from 19.77 s."),
         (
             STILL | {"pose": {"east_m": 90, "north_m": 60, "heading_deg": 100}},
-            "Turn right now, then turn left in 7.3 s.",
+            "Turn right now, then turn left in 7.28 s. Hold clockwise from 9.14 s.",
         ),
         (ON_IT, "Hold clockwise: you are on the circle."),
         # Straight to X = sqrt(R (R + 2)) turn radii from the centre (docs/theory.md, section 3): 118.1 m.
         (
             STILL | {"pose": {"east_m": -400, "north_m": 0, "heading_deg": 90}},
-            "Fly straight now, then turn left in 15.7 s.",
+            "Fly straight now, then turn left in 15.66 s. Hold clockwise from 18.78 s.",
         ),
     ],
 )
-def test_the_instruction_names_this_action_and_the_next(post, scene, sentence):
+def test_the_instruction_names_this_action_the_next_and_the_direction_of_the_hold(post, scene, sentence):
     assert post("/api/plan", scene)["instruction"] == sentence
 
 
@@ -179,7 +179,7 @@ def test_a_last_arc_is_followed_by_the_hold(post):
     pose = {name: float(getattr(track, name)[here]) for name in ("east_m", "north_m", "heading_deg")}
     document = post("/api/plan", STILL | {"pose": pose, "orbit": STILL["orbit"] | {"turn": "cw"}, "tolerance_m": 1e-6})
     assert (last.letter, document["word"]) == ("L", "L")
-    assert document["instruction"] == "Turn left now, then hold clockwise in 0.5 s."
+    assert document["instruction"] == "Turn left now, then hold clockwise in 0.49 s."
 
 
 # Tracks

@@ -6,8 +6,9 @@ from urllib.parse import parse_qsl
 
 import pytest
 
+import loiter
 from loiter.web.app import STATIC
-from web.browsing import NODE
+from web.browsing import NODE, values
 
 SCENE = {
     "pose": {"east_m": -400, "north_m": 120, "heading_deg": 90},
@@ -66,3 +67,48 @@ def test_a_link_is_read_back_whole():
 def test_the_other_limits_have_these_keys(key, limit):
     read = run(json.dumps(f"#pose=0,0,0&orbit=0,0,80&airspeed=18&{key}=50").join(["fromLink(", ")"]))
     assert read["scene"]["aircraft"] == {"airspeed_m_s": 18, limit: 50}
+
+
+# Numbers with 16 and 17 digits, as conversions and rotations leave them.
+LONG = {
+    "knots and feet": SCENE
+    | {
+        "pose": {"east_m": -121.92000000000002, "north_m": 36.57600000000001, "heading_deg": 89.99999999999999},
+        "aircraft": {"airspeed_m_s": 18.005555555555556, "max_bank_deg": 35.00000000000001},
+        "wind": {"speed_m_s": 4.115555555555556, "from_deg": 250.00000000000003},
+        "tolerance_m": 0,
+    },
+    "the least radius": SCENE
+    | {
+        "orbit": SCENE["orbit"] | {"radius_m": 47.18430393502829, "velocity_east_m_s": 0, "velocity_north_m_s": 0},
+        "wind": None,
+        "tolerance_m": 0,
+    },
+    "turn radius 1": SCENE
+    | {
+        "pose": {"east_m": -0.53000000000000014, "north_m": 0.3100000000000001, "heading_deg": 90},
+        "orbit": SCENE["orbit"] | {"east_m": 0, "north_m": 0, "radius_m": 1, "turn": "either"}
+        | {"velocity_east_m_s": 0, "velocity_north_m_s": 0},
+        "aircraft": {"airspeed_m_s": 1, "min_turn_radius_m": 0.99999999999999989},
+        "wind": None,
+        "tolerance_m": 0,
+    },
+    "turn rate": SCENE | {"aircraft": {"airspeed_m_s": 18, "max_turn_rate_deg_s": 21.857142857142858}},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("asked", LONG.values(), ids=LONG)
+def test_a_link_has_short_numbers_that_give_the_same_plan(asked):
+    link = run(f"toLink({json.dumps(LINKED | {'scene': asked})})")
+    numbers = [number for _, value in parse_qsl(link.removeprefix("#")) for number in value.split(",")]
+    assert max(len(number.lstrip("-").replace(".", "")) for number in numbers) <= 10
+    read = run(f"fromLink({json.dumps(link)})")["scene"]
+    plans = [loiter.plan(*values(scene), tolerance_m=scene["tolerance_m"]) for scene in (asked, read)]
+    assert plans[1].word == plans[0].word
+    assert plans[1].turn == plans[0].turn
+    assert plans[1].duration_s == pytest.approx(plans[0].duration_s, rel=2e-6)
+
+
+def test_numbers_that_were_typed_are_in_the_link_as_they_are():
+    typed = SCENE | {"pose": {"east_m": -1200.25, "north_m": 0.001, "heading_deg": 359.5}}
+    assert "pose=-1200.25,0.001,359.5" in run(f"toLink({json.dumps(LINKED | {'scene': typed})})")

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Annotated, Any, Literal
+from urllib.parse import urlsplit
 
 from fastapi import Depends, FastAPI, HTTPException, Query, Request
 from fastapi.exceptions import RequestValidationError
@@ -14,12 +16,13 @@ from starlette.middleware.cors import CORSMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from loiter.compiled.warming import is_loaded
+from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
 from loiter.version import __version__
 from loiter.web import models, openapi, problems
 from loiter.web.answers import exports, plans
 from loiter.web.answers.synthesis import DEFAULT_CELLS, MAX_CELLS, synthesis
-from loiter.web.headers import SecurityHeaders
+from loiter.web.headers import SecurityHeaders, map_headers
 from loiter.web.limits import Limits
 from loiter.web.pool import BoundedPool
 
@@ -147,6 +150,22 @@ def _add_exports(api: FastAPI, pool: BoundedPool, picture_pool: BoundedPool) -> 
         return await attachment(format, _options_of_link(scene))
 
 
+def tile_origin(template: str) -> str:
+    """The origin of a tile server; raises `InvalidArgument` unless `template` is a URL with {z}, {x} and {y}."""
+    problem = "it must be a URL with {z}, {x} and {y}, such as https://tile.openstreetmap.org/{z}/{x}/{y}.png"
+    try:
+        parts = urlsplit(template)
+        host, port = parts.hostname or "", parts.port
+    except ValueError:
+        raise InvalidArgument("tiles", f"is {template!r}: {problem}") from None
+    # The origin becomes part of a header: nothing but a plain host name may enter it.
+    known = parts.scheme in ("http", "https") and re.fullmatch(r"[A-Za-z0-9.-]+|[0-9A-Fa-f:]*:[0-9A-Fa-f:.]*", host)
+    if not known or not all(part in f"{parts.path}?{parts.query}" for part in ("{z}", "{x}", "{y}")):
+        raise InvalidArgument("tiles", f"is {template!r}: {problem}")
+    name = f"[{host}]" if ":" in host else host
+    return f"{parts.scheme}://{name}" + (f":{port}" if port is not None else "")
+
+
 def _without_parameters(media_type: str) -> str:
     name, _, _ = media_type.partition(";")
     return name
@@ -164,5 +183,10 @@ def _add_page(api: FastAPI) -> None:
     @api.api_route("/", methods=["GET", "HEAD"], include_in_schema=False)
     async def page() -> FileResponse:
         return FileResponse(STATIC / "index.html")
+
+    @api.get("/map", include_in_schema=False)
+    async def map_tiles(tiles: str) -> FileResponse:
+        """The document behind the plan view that draws map tiles, once the user has switched them on."""
+        return FileResponse(STATIC / "tiles" / "tiles.html", headers=map_headers(tile_origin(tiles)))
 
     api.mount("/static", StaticFiles(directory=STATIC))

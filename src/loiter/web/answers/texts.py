@@ -9,14 +9,15 @@ from loiter.planning.vocabulary import ACTIONS, OPTIONS
 
 
 def instruction(maneuver: Maneuver) -> str:
-    """What to do now and what next: "Turn right now, then fly straight in 1.7 s."."""
+    """What to do now, what next, and how to hold: "Turn right now, ... Hold clockwise from 9.14 s."."""
     hold = f"hold {maneuver.turn.described}"
     if not maneuver.segments:
         return f"{hold.capitalize()}: you are on the circle."
     first, *later = maneuver.segments
-    next_action = next((ACTIONS[segment.letter] for segment in later), hold)
-    decimals = 1 if maneuver.orbit.radius_m >= 10.0 else 3
-    return f"{ACTIONS[first.letter].capitalize()} now, then {next_action} in {first.duration_s:.{decimals}f} s."
+    decimals = 2 if maneuver.orbit.radius_m >= 10.0 else 3
+    next_action = ACTIONS[later[0].letter] if later else hold
+    now = f"{ACTIONS[first.letter].capitalize()} now, then {next_action} in {first.duration_s:.{decimals}f} s."
+    return f"{now} {hold.capitalize()} from {maneuver.duration_s:.{decimals}f} s." if later else now
 
 
 def command(problem: Problem) -> str:

@@ -5,10 +5,11 @@
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../shared/types.js").Answer} Answer
+ * @typedef {import("../shared/types.js").Scene} Scene
  */
 import { byId, html } from "../shared/dom.js";
 import { DIRECTIONS, DIRECTION_ARROWS, splitAnswer, wordLabel } from "../shared/maneuver.js";
-import { decimalsFor, fixed, quantityText, signedTimeDifference } from "../shared/units.js";
+import { decimalsFor, fixed, quantityText, signedTimeDifference, timeText } from "../shared/units.js";
 
 const TIE_S = 1e-9; // durations closer than this count as ties
 
@@ -26,8 +27,18 @@ export function factsView(store) {
 /** @param {PageState} state */
 function drawHeadline({ answer, failure }) {
   const headline = byId("instruction", HTMLElement);
-  headline.textContent = failure?.headline ?? answer?.instruction ?? "";
+  const text = failure?.headline ?? answer?.instruction ?? "";
+  // What to do, then how to hold, each on lines of its own; a unit stays beside its number.
+  const parts = text.replaceAll(/(\d) s\b/g, "$1\u00a0s").split(/(?<=\.) (?=Hold )/);
+  const hold = (/** @type {string} */ part) => html("span", { class: "hold" }, [part + (failure ? "" : tieText(answer))]);
+  headline.replaceChildren(...parts.flatMap((part, i) => (i ? [" ", hold(part)] : [part])));
   headline.classList.toggle("bad", failure !== null);
+}
+
+/** That the other direction takes the same time, if it does. @param {Answer | null} answer */
+function tieText(answer) {
+  const other = answer && splitAnswer(answer).best.find(({ turn }) => turn !== answer.turn);
+  return other ? ` To hold ${DIRECTIONS[other.turn]} takes the same time.` : "";
 }
 
 /** @param {PageState} state */
@@ -35,10 +46,10 @@ function drawFacts({ answer, scene, units }) {
   if (!answer) return;
   const { radius_m } = scene.orbit;
   const path = quantityText(answer.length_m, "length", units, decimalsFor(radius_m, units));
-  setFact("time", `${fixed(answer.duration_s, Math.max(2, decimalsFor(radius_m, "metric")))} s`);
+  setFact("time", timeText(answer.duration_s, scene));
   setFact("path", path, answer.wind.speed_m_s > 0 ? "through the air" : "");
   setFact("word", wordLabel(answer.word), DIRECTIONS[answer.turn]);
-  setFact("other", otherDirectionText(answer));
+  setFact("other", otherDirectionText(answer, scene));
   setFact("optimal", String(answer.optimal), optimalText(answer));
   setFact("bank-on-circle", bankText(answer));
 }
@@ -52,11 +63,11 @@ function setFact(id, value, note = "") {
   byId(id, HTMLElement).replaceChildren(value, ...(note ? [html("small", {}, [note])] : []));
 }
 
-/** How much later a hold in the other direction is joined. @param {Answer} answer */
-function otherDirectionText({ other_turn_later_s }) {
+/** How much later a hold in the other direction is joined. @param {Answer} answer @param {Scene} scene */
+function otherDirectionText({ other_turn_later_s }, scene) {
   if (other_turn_later_s === null) return "cannot be held";
   if (Math.abs(other_turn_later_s) < TIE_S) return "the same time";
-  return signedTimeDifference(other_turn_later_s);
+  return signedTimeDifference(other_turn_later_s, scene);
 }
 
 /** The optimal maneuvers. @param {Answer} answer */

@@ -10,7 +10,7 @@
  */
 import { withOrbit } from "../scene/scene.js";
 import { byId, show } from "../shared/dom.js";
-import { sixDigits, unitOf } from "../shared/units.js";
+import { powerBelow, sixDigits, tidyAbove, unitOf } from "../shared/units.js";
 
 /** @param {Store} store */
 export function messageView(store) {
@@ -63,7 +63,7 @@ export function fitView(store, actions) {
   button.addEventListener("click", (event) => {
     const { scene, failure } = store.get();
     if (!failure?.fittedRadius_m) return;
-    actions.changeScene(withOrbit(scene, { radius_m: failure.fittedRadius_m }), event);
+    actions.changeScene(withOrbit(scene, { radius_m: rounded(failure.fittedRadius_m) }), event);
     actions.say(`A circle of ${text(scene.orbit.radius_m)} cannot be held; this is the least radius.`);
   });
   store.watch(
@@ -71,9 +71,12 @@ export function fitView(store, actions) {
     ({ failure }) => {
       const radius_m = failure?.fittedRadius_m ?? null;
       show(button, radius_m !== null);
-      if (radius_m !== null) button.textContent = `Use ${text(radius_m)}, the least radius`;
+      if (radius_m !== null) button.textContent = `Use ${text(rounded(radius_m))}, the least radius`;
     },
   );
+
+  /** The least radius, rounded up to some 5 digits. @param {number} radius_m */
+  const rounded = (radius_m) => tidyAbove(radius_m, powerBelow(radius_m, 1e-4));
 
   /** A radius with the digits of its field. @param {number} radius_m */
   function text(radius_m) {

@@ -5,6 +5,7 @@
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../shared/types.js").Certificate} Certificate
+ * @typedef {import("../shared/types.js").Scene} Scene
  */
 import { byId } from "../shared/dom.js";
 import { timeDifference } from "../shared/units.js";
@@ -28,23 +29,23 @@ export function verdictView(store) {
  * @param {PageState} state
  * @returns {{kind: "unchecked" | "waiting" | "valid" | "invalid", text: string}}
  */
-function verdictOf({ failure, faults, proof, answer }) {
+function verdictOf({ failure, faults, proof, answer, scene }) {
   if (failure) return { kind: "unchecked", text: "–" };
   if (faults.certificate) return { kind: "unchecked", text: faults.certificate.sentence };
   if (!proof || !answer) return { kind: "waiting", text: "…" };
   const { certificate } = proof;
   if (!certificate.valid)
     return { kind: "invalid", text: "A condition of the maximum principle fails: see loiter plan --certify." };
-  return { kind: "valid", text: validText(certificate) };
+  return { kind: "valid", text: validText(certificate, scene) };
 }
 
-/** @param {Certificate} certificate */
-function validText({ residuals, optimal, runner_up, margin_s }) {
+/** @param {Certificate} certificate @param {Scene} scene */
+function validText({ residuals, optimal, runner_up, margin_s }, scene) {
   const count = residuals.filter(({ verdict }) => verdict === "holds").length;
   const meaning = optimal
     ? "In still air it is proved that nothing is faster."
     : "They are necessary conditions, not a proof of optimality.";
   const hasRunnerUp = runner_up !== null && margin_s !== null;
-  const margin = hasRunnerUp ? ` Runner-up ${runner_up}, ${timeDifference(margin_s)} later.` : "";
+  const margin = hasRunnerUp ? ` Runner-up ${runner_up}, ${timeDifference(margin_s, scene)} later.` : "";
   return `All ${count} conditions hold. ${meaning}${margin}`;
 }

@@ -15,8 +15,11 @@
  */
 import { REFERENCES } from "../scene/link.js";
 import { byId, show } from "../shared/dom.js";
+import { tidy } from "../shared/units.js";
 import { needsHome } from "./altitude.js";
+import { pairProblem, parseAngle, parsePair } from "./coordinates.js";
 import { choiceField, numberField } from "./input_fields.js";
+import { placeFields } from "./place_fields.js";
 import { sceneFields } from "./scene_fields.js";
 
 /**
@@ -32,7 +35,11 @@ export function createFields(store, actions, camera) {
       camera.keepInView();
     }),
     ...originFields(store, actions),
-    ...altitudeFields(store),
+    ...placeFields(store, (scene, event, more) => {
+      actions.changeScene(scene, event, more);
+      camera.keepInView();
+    }),
+    ...altitudeFields(store, actions),
   };
   unitsChoice(store);
   markErrors(store, fields, "scene");
@@ -83,10 +90,17 @@ export function originFields(store, actions) {
     quantity: () => "degrees",
     units: () => store.get().units,
     get: () => store.get().place[name],
+    parse: (text) => parseAngle(text, name),
+    shown: (value) => tidy(value, 1e-7), // 1 cm
+    takeAll(text, event) {
+      const pair = isOneNumber(text) ? null : parsePair(text);
+      if (!pair || pairProblem(pair)) return false;
+      actions.changeScene({ ...store.get().scene, origin: pair }, event, { place: pair });
+      return true;
+    },
     set(value, event) {
       const place = { ...store.get().place, [name]: value };
-      store.update({ place });
-      actions.changeScene({ ...store.get().scene, origin: originOf(place) }, event);
+      actions.changeScene({ ...store.get().scene, origin: originOf(place) }, event, { place });
     },
     optional: true,
   });
@@ -101,20 +115,23 @@ export function originFields(store, actions) {
   return fields;
 }
 
+/** Whether a text is one number, such as 47,1 with a decimal comma, and no pair. @param {string} text */
+const isOneNumber = (text) => /^\s*[+-]?\d+(,\d*)?\s*°?\s*$/.test(text.replace("−", "-"));
+
 /** The origin, or null while a number is missing. @param {Partial<Origin>} place @returns {Origin | null} */
 const originOf = ({ latitude_deg, longitude_deg }) =>
   latitude_deg !== undefined && longitude_deg !== undefined ? { latitude_deg, longitude_deg } : null;
 
-/** @param {Store} store */
-export function altitudeFields(store) {
-  /** @param {Altitude} changes */
-  const change = (changes) => store.update({ altitude: { ...store.get().altitude, ...changes } });
+/** @param {Store} store @param {Actions} actions */
+export function altitudeFields(store, actions) {
+  /** @param {Altitude} changes @param {Event} [event] */
+  const change = (changes, event) => actions.changeAltitude({ ...store.get().altitude, ...changes }, event);
   /** @param {"altitude_m" | "home_altitude_m"} name @returns {Source} */
   const sourceOf = (name) => ({
     quantity: () => "length",
     units: () => store.get().units,
     get: () => store.get().altitude[name],
-    set: (value) => change({ [name]: value }),
+    set: (value, event) => change({ [name]: value }, event),
     optional: true,
   });
   const fields = {

@@ -12,6 +12,9 @@
  * @property {() => number | undefined} get  in metres, metres per second or degrees; undefined if there is none
  * @property {(value: number | undefined, event: Event) => void} set
  * @property {boolean} [optional]  whether the field may be empty
+ * @property {(text: string) => import("./number_text.js").Entry} [parse]  reads a text that is no plain number
+ * @property {(value: number) => number} [shown]  the number as it is shown; six digits by default
+ * @property {(text: string, event: Event) => boolean} [takeAll]  takes a text that sets several fields, or returns false
  *
  * @typedef {object} Field
  * @property {() => void} draw  show the present number
@@ -31,7 +34,7 @@ import { parseNumber } from "./number_text.js";
 export function errorLine(field) {
   const line = html("p", { id: `${field.id}-fault`, class: "fault", role: "alert" });
   (field.closest("label, .pair") ?? field).after(line);
-  field.setAttribute("aria-describedby", line.id);
+  field.setAttribute("aria-describedby", `${field.getAttribute("aria-describedby") ?? ""} ${line.id}`.trim());
   return line;
 }
 
@@ -76,7 +79,7 @@ class NumberField {
     if (value === this.known && (this.textError !== "" || this.hasFocus())) return this.mark();
     [this.textError, this.known] = ["", value];
     this.mark();
-    input.value = value === undefined ? "" : String(sixDigits(value / size));
+    input.value = value === undefined ? "" : String((source.shown ?? sixDigits)(value / size));
   }
 
   /** @param {string | null} sentence */
@@ -96,13 +99,26 @@ class NumberField {
   /** Use the number that is typed. @param {Event} event */
   read(event) {
     const { input, source } = this;
+    if (source.takeAll?.(input.value, event)) return this.redraw();
     const isEmpty = source.optional && input.value.trim() === "";
-    const entry = isEmpty ? { value: undefined } : parseNumber(input.value, source.quantity(), source.units());
+    const entry = isEmpty ? { value: undefined } : this.parse(input.value);
     this.textError = "problem" in entry ? `${nameOf(input)} ${entry.problem}` : "";
     this.numberError = "";
     this.known = "value" in entry ? entry.value : source.get();
     this.mark();
     if ("value" in entry) source.set(entry.value, event);
+  }
+
+  /** @param {string} text @returns {import("./number_text.js").Entry} */
+  parse(text) {
+    const { source } = this;
+    return source.parse ? source.parse(text) : parseNumber(text, source.quantity(), source.units());
+  }
+
+  /** Show the present number in place of the text. */
+  redraw() {
+    [this.textError, this.numberError, this.known] = ["", "", NaN];
+    this.draw();
   }
 
   /** Change the number with the arrow keys. @param {KeyboardEvent} event */

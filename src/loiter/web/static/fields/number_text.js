@@ -32,7 +32,7 @@ export function parseNumber(text, quantity, units) {
   if (problem) return { problem: `is "${typed}": ${problem}` };
   const size = suffix === "" ? unitOf(quantity, units).size : acceptedUnits(quantity).get(suffix.toLowerCase());
   if (size === undefined) return { problem: `is "${typed}": the accepted units are ${unitList(quantity)}.` };
-  const value = withPoint(digits + power) * size;
+  const value = thirteenDigits(withPoint(digits + power) * size);
   return Number.isFinite(value) ? { value } : { problem: `is "${typed}": that is too large.` };
 }
 
@@ -47,6 +47,9 @@ function digitsProblem(digits, suffix) {
   if (AMBIGUOUS.test(digits)) return `write ${withPoint(digits)} or ${digits.replace(",", "")}.`;
   return "";
 }
+
+/** A product without the rounding of its last digits: 91.44 m for 300 ft. @param {number} value */
+const thirteenDigits = (value) => Number(value.toPrecision(13));
 
 /** The number of digits with a decimal point or comma. @param {string} digits */
 const withPoint = (digits) => Number(digits.replace(",", "."));

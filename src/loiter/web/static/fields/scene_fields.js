@@ -21,6 +21,8 @@ import { byId } from "../shared/dom.js";
 import { tidy } from "../shared/units.js";
 import { numberField } from "./input_fields.js";
 
+const CALM = "Calm air: set a speed first."; // why the direction of the wind is disabled
+
 /** @param {Quantity} quantity @param {keyof Scene["pose"]} name @returns {Part} */
 const posePart = (quantity, name) => ({
   quantity,
@@ -96,6 +98,7 @@ export function sceneFields(store, change) {
     ({ scene, units }) => [scene, units],
     ({ scene }) => {
       byId("wind-from", HTMLInputElement).disabled = scene.wind === null;
+      byId("wind-calm", HTMLElement).textContent = scene.wind ? "" : CALM;
       for (const field of Object.values(fields)) field.draw();
     },
   );

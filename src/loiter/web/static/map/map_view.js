@@ -6,14 +6,17 @@
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
  * @typedef {import("../shared/types.js").Synthesis} Synthesis
+ * @typedef {import("../state/page_state.js").PageState} PageState
+ * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("../shared/geometry.js").View} View
  */
+import { COMPILING } from "../answer/late.js";
 import { byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { toScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
 import { ghostOf } from "../state/page_state.js";
 import { drawAxes, drawCurve, drawReducedPath, drawTargets } from "./map_lines.js";
-import { drawRegionLabels, paintRegions } from "./regions.js";
+import { drawRegionLabels, paintRegions, regionLabels } from "./regions.js";
 import { stateHandle } from "./state_handle.js";
 
 /**
@@ -28,13 +31,16 @@ export function mapView(store, actions) {
   root.append(...Object.values(layers), ghost, state);
 
   observeSize(byId("map", HTMLElement), (side) => {
+    if (side === 0) return; // while it is hidden
     setSize(root, side, side);
     store.update({ mapSide: side });
   });
   drawSynthesis(layers, store);
   drawPlan(layers, ghost, store);
+  drawWords(layers.words, store);
   stateHandle(state, root, store, actions);
   drawNotes(store);
+  drawWait(store);
 }
 
 /**
@@ -67,7 +73,6 @@ function drawSynthesis(layers, store) {
       const view = mapViewOf(state);
       layers.axes.replaceChildren(...drawAxes(view));
       layers.curves.replaceChildren(...synthesis.curves.map((curve) => drawCurve(view, curve)));
-      layers.words.replaceChildren(...drawRegionLabels(view, synthesis));
       layers.targets.replaceChildren(...drawTargets(view, synthesis));
     },
   );
@@ -96,6 +101,61 @@ function drawPlan(layers, ghost, store) {
       setAttributes(ghost, { cx: cx.toFixed(2), cy: cy.toFixed(2) });
     },
   );
+}
+
+/** Why the map is not there yet: it takes long only while the service compiles. @param {Store} store */
+function drawWait(store) {
+  const note = byId("map-wait", HTMLElement);
+  store.watch(
+    ({ requests, isCompiling, synthesis }) => [requests.map, isCompiling, synthesis === null],
+    ({ requests, isCompiling, synthesis }) => {
+      const text = isCompiling ? COMPILING : synthesis ? "" : "The map is being computed.";
+      note.textContent = requests.map === "asking" ? text : "";
+    },
+  );
+}
+
+/**
+ * The words of the regions, beside the path and the state.
+ *
+ * @param {SVGGElement} layer
+ * @param {Store} store
+ */
+function drawWords(layer, store) {
+  /** @type {ReturnType<typeof regionLabels>} */
+  let labels = [];
+  store.watch(
+    ({ synthesis, mapSide }) => [synthesis, mapSide],
+    (state) => (labels = state.synthesis ? regionLabels(mapViewOf(state), state.synthesis) : []),
+  );
+  store.watch(
+    ({ answer, synthesis, mapSide }) => [answer, synthesis, mapSide],
+    (state) => layer.replaceChildren(...drawRegionLabels(labels, statePoint(state), pathPoints(state))),
+  );
+}
+
+/** Where the state is drawn. @param {PageState} state @returns {Point | null} */
+const statePoint = (state) =>
+  state.answer && toScreen(mapViewOf(state), state.answer.reduced.x, state.answer.reduced.y);
+
+const STEP_PX = 8;
+
+/** The points of a polyline, and more between those that are far apart. @param {Point[]} points @returns {Point[]} */
+const between = (points) =>
+  points.flatMap(([x, y], i) => {
+    const [nextX, nextY] = points[i + 1] ?? [x, y];
+    const count = Math.min(200, 1 + Math.floor(Math.hypot(nextX - x, nextY - y) / STEP_PX));
+    return Array.from({ length: count }, (_, k) => {
+      const share = k / count;
+      return /** @type {Point} */ ([x + share * (nextX - x), y + share * (nextY - y)]);
+    });
+  });
+
+/** Points on the optimal paths. @param {PageState} state @returns {Point[]} */
+function pathPoints(state) {
+  const view = mapViewOf(state);
+  const tracks = state.answer ? splitAnswer(state.answer).best.map(({ track }) => track) : [];
+  return tracks.flatMap(({ x, y }) => between(x.map((value, i) => toScreen(view, value, y[i]))));
 }
 
 /** The title of the map, and the notes where it does not fit the scene. @param {Store} store */

@@ -4,6 +4,7 @@
  * words.
  *
  * @typedef {import("../shared/types.js").Synthesis} Synthesis
+ * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("../shared/geometry.js").View} View
  *
  * @typedef {[number, number, number, number]} Colour  red, green, blue, alpha; 0 to 255
@@ -69,45 +70,77 @@ function colourOf(word) {
 }
 
 const LEAST_DEPTH_PX = 12; // regions that are narrower have no label, only a colour
+const PLACES = 8; // of a label, of which the first that is free is used
+const APART_PX = 20; // between two places of a label
+const STATE_PX = 9; // radius of the dot of the state
+const HALF_LABEL_PX = { width: 18, height: 9 };
 
 /**
- * The word of each region, where it is farthest from the border, in each half of the plane.
+ * The words of the regions, each with the places where its label may be, in each half of the plane, deepest inside the
+ * region first.
  *
  * @param {View} view
  * @param {Synthesis} synthesis
+ * @returns {{word: string, places: Point[]}[]}
  */
-export function drawRegionLabels(view, { region, words, x, y }) {
+export function regionLabels(view, { region, words, x, y }) {
   const middle = y.length >> 1;
   const halves = [
     { rows: region.slice(0, middle), first: 0 },
     { rows: region.slice(middle), first: middle },
   ];
+  const cell_px = (x[1] - x[0]) * view.scale;
   return words.flatMap((word, index) =>
-    halves.flatMap(({ rows, first }) => {
-      const { depth, row, column } = deepestCell(rows, index);
-      if (depth * (x[1] - x[0]) * view.scale < LEAST_DEPTH_PX) return [];
-      const [left, top] = toScreen(view, x[column], y[first + row]);
-      return [svg("text", { x: left, y: top + 4, "text-anchor": "middle" }, [word])];
-    }),
+    halves.map(({ rows, first }) => ({
+      word,
+      places: deepestCells(rows, index, LEAST_DEPTH_PX / cell_px, APART_PX / cell_px).map(({ row, column }) =>
+        toScreen(view, x[column], y[first + row]),
+      ),
+    })),
   );
 }
 
 /**
- * The cell of a region that is farthest from the other regions, and its depth: the number of steps along rows and
- * columns to the nearest cell outside.
+ * Draw the labels where they cover neither the state nor the paths, or at least not the state; a label without such a
+ * place is left out.
+ *
+ * @param {{word: string, places: Point[]}[]} labels
+ * @param {Point | null} state
+ * @param {Point[]} paths
+ */
+export function drawRegionLabels(labels, state, paths) {
+  const { width, height } = HALF_LABEL_PX;
+  const isClear = (/** @type {Point} */ [left, top], /** @type {Point} */ [x, y], /** @type {number} */ radius) =>
+    Math.abs(x - left) > width + radius || Math.abs(y - top) > height + radius;
+  return labels.flatMap(({ word, places }) => {
+    const beside = places.filter((place) => state === null || isClear(place, state, STATE_PX));
+    const place = beside.find((one) => paths.every((point) => isClear(one, point, 0))) ?? beside[0];
+    return place ? [svg("text", { x: place[0], y: place[1] + 4, "text-anchor": "middle" }, [word])] : [];
+  });
+}
+
+/**
+ * The cells of a region that are farthest from the other regions, at most `PLACES` of them, with a distance between
+ * them. The depth of a cell is the number of steps along rows and columns to the nearest cell outside.
  *
  * @param {number[][]} rows
  * @param {number} index
+ * @param {number} least  depth, cells
+ * @param {number} apart  distance, cells
  */
-function deepestCell(rows, index) {
-  const depths = depthsOf(rows, index);
-  let deepest = { depth: 0, row: 0, column: 0 };
-  depths.forEach((values, row) =>
-    values.forEach((depth, column) => {
-      if (depth >= deepest.depth && depth > 0) deepest = { depth, row, column };
-    }),
+function deepestCells(rows, index, least, apart) {
+  const cells = depthsOf(rows, index).flatMap((values, row) =>
+    values.flatMap((depth, column) => (depth >= least && depth > 0 ? [{ depth, row, column }] : [])),
   );
-  return deepest;
+  /** @type {{depth: number, row: number, column: number}[]} */
+  const found = [];
+  let left = cells;
+  while (left.length > 0 && found.length < PLACES) {
+    const best = left.reduce((deepest, cell) => (cell.depth >= deepest.depth ? cell : deepest));
+    found.push(best);
+    left = left.filter(({ row, column }) => Math.hypot(row - best.row, column - best.column) > apart);
+  }
+  return found;
 }
 
 /**

@@ -36,7 +36,11 @@ export function stateHandle(group, root, store, actions) {
   /** @param {number} x @param {number} y @param {Event} event */
   function move(x, y, event) {
     const { scene, failure } = store.get();
-    if (!failure) actions.changeScene(withPose(scene, positionOf(x, y, scene)), event);
+    if (failure) return;
+    const { east_m, north_m } = positionOf(x, y, scene);
+    // Finer than the map, so that the dot stays under the pointer.
+    const resolution = (0.01 * turnRadiusOf(scene.aircraft)) / view().scale;
+    actions.changeScene(withPose(scene, { east_m: tidy(east_m, resolution), north_m: tidy(north_m, resolution) }), event);
   }
   makeHandle(group, root, "State in the reduced plane", {
     position,

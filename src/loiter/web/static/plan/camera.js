@@ -4,12 +4,14 @@
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/page_state.js").Camera} Camera
+ * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Answer} Answer
  * @typedef {import("../shared/geometry.js").View} View
  * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {ReturnType<typeof createCamera>} PlanCamera
  */
+import { turnRadiusOf } from "../scene/scene.js";
 import { contains, fitted, unitVector, zoomed } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
 import { tidy } from "../shared/units.js";
@@ -39,6 +41,10 @@ export function createCamera(store) {
   const move = (view) => store.update({ camera: { view, moved: true } });
   const fit = () => store.update(fitState(store.get()));
 
+  /** The present view, zoomed about a point as far as the limits allow. @param {Point} point @param {number} factor */
+  const zoomAt = (point, factor, view = viewNow()) =>
+    move(zoomed(view, point, allowedScale(view.scale * factor, view.scale, store.get()) / view.scale));
+
   return {
     view: viewNow,
     /** Show a view that the user has chosen. */
@@ -48,7 +54,8 @@ export function createCamera(store) {
     /** Show all of the scene, unless it is in view. */
     keepInView: () => isInView() || fit(),
     /** @param {number} factor */
-    zoom: (factor) => move(zoomed(viewNow(), middleOf(viewNow()), factor)),
+    zoom: (factor) => zoomAt(middleOf(viewNow()), factor),
+    zoomAt,
     /** @param {number[]} span middle east and north, width; metres */
     showSpan: ([east, north, wide]) => move({ ...viewNow(), east, north, scale: viewNow().width / wide }),
     /** A function that goes back to the present view. */
@@ -64,6 +71,34 @@ export function createCamera(store) {
       if (!moved && !isInView()) fit();
     },
   };
+}
+
+// The view is at most this many times as wide as the scene, and at least this share of the smaller radius.
+const WIDEST = 20;
+const NARROWEST = 0.02;
+
+/**
+ * The least and the largest scale of the plan view: the scene never becomes a dot, and never one white screen.
+ *
+ * @param {PageState} state
+ */
+export function scaleLimits(state) {
+  const { camera, scene } = state;
+  const radius = Math.min(Math.abs(scene.orbit.radius_m), turnRadiusOf(scene.aircraft));
+  const [least, most] = [fitState(state).camera.view.scale / WIDEST, camera.view.width / (NARROWEST * radius)];
+  return Number.isFinite(most) ? { least, most: Math.max(least, most) } : { least, most: Infinity };
+}
+
+/**
+ * A scale within the limits. Where the present scale is beyond a limit, zooming back is all that is allowed.
+ *
+ * @param {number} wanted
+ * @param {number} now
+ * @param {PageState} state
+ */
+function allowedScale(wanted, now, state) {
+  const { least, most } = scaleLimits(state);
+  return Math.min(Math.max(wanted, Math.min(least, now)), Math.max(most, now));
 }
 
 /** The middle of a view, pixels. @param {View} view @returns {Point} */

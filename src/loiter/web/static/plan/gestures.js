@@ -2,12 +2,11 @@
 /**
  * Gestures and keys that move the plan view.
  *
- * @typedef {import("../shared/geometry.js").View} View
  * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("./camera.js").PlanCamera} PlanCamera
  */
 import { POINTER_ENDS, isShortcut, pointOf } from "../shared/draggable.js";
-import { panned, zoomed } from "../shared/geometry.js";
+import { panned } from "../shared/geometry.js";
 
 const KEY_PAN_PX = 60;
 const LINE_PX = 16; // of a wheel that counts lines
@@ -48,7 +47,7 @@ export function gestures(root, camera) {
 function zoomWithWheel(event, root, camera) {
   event.preventDefault();
   const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_PX : 1);
-  camera.move(zoomed(camera.view(), pointOf(root, event), Math.exp(-pixels / 500)));
+  camera.zoomAt(pointOf(root, event), Math.exp(-pixels / 500));
 }
 
 /**
@@ -73,7 +72,7 @@ function followPointers(root, camera) {
     const to = pointOf(root, event);
     pointers.set(event.pointerId, to);
     const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
-    camera.move(movedView(camera.view(), from, to, other));
+    moveView(camera, from, to, other);
   });
   // The browser uses the move for scrolling: undo the pan of its first pixels.
   root.addEventListener("pointercancel", (event) => pointers.has(event.pointerId) && pointers.size === 1 && goBack());
@@ -84,20 +83,19 @@ function followPointers(root, camera) {
 }
 
 /**
- * The view after a pointer has moved. With a second pointer the point midway between them stays there, and the scale
+ * Move the view after a pointer has moved. With a second pointer the point midway between them stays there, and the scale
  * follows their distance.
  *
- * @param {View} view
+ * @param {PlanCamera} camera
  * @param {Point} from
  * @param {Point} to
  * @param {Point} [other]  where the second pointer is
- * @returns {View}
  */
-function movedView(view, from, to, other) {
+function moveView(camera, from, to, other) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-  if (!other) return panned(view, dx, dy);
+  if (!other) return camera.move(panned(camera.view(), dx, dy));
   const distance = (/** @type {Point} */ [x, y]) => Math.max(1, Math.hypot(x - other[0], y - other[1]));
   /** @type {Point} */
   const middle = [(to[0] + other[0]) / 2, (to[1] + other[1]) / 2];
-  return zoomed(panned(view, dx / 2, dy / 2), middle, distance(to) / distance(from));
+  camera.zoomAt(middle, distance(to) / distance(from), panned(camera.view(), dx / 2, dy / 2));
 }

@@ -3,6 +3,7 @@
  * The handles on the plan view, the line to the handle of the heading, and the dial of the wind.
  *
  * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../state/actions.js").Actions} Actions
  * @typedef {import("./handles.js").Handle} Handle
  * @typedef {import("./handles.js").Stage} Stage
@@ -37,6 +38,7 @@ export function createHandles(root, layer, store, actions) {
         placeHandle(group, handle.position(stage()), handle.value(scene), handle.text(scene, units));
       rotate(layer, "#aircraft .aeroplane", scene.pose.heading_deg);
       rotate(layer, "#wind .tip", (scene.wind?.from_deg ?? 180) + 180);
+      layer.querySelector("#wind")?.classList.toggle("calm", scene.wind === null);
       lever.setAttribute("d", leverOf(stage()));
       dial.draw(stage());
     },
@@ -44,8 +46,10 @@ export function createHandles(root, layer, store, actions) {
 }
 
 /** @param {Store} store @returns {Stage} */
-function stageOf(store) {
-  const { camera, scene, units, radiusBearing_deg } = store.get();
+const stageOf = (store) => stageAt(store.get());
+
+/** What handles depend on. @param {PageState} state @returns {Stage} */
+export function stageAt({ camera, scene, units, radiusBearing_deg }) {
   return { view: camera.view, scene, units, radiusBearing_deg };
 }
 

@@ -134,6 +134,20 @@ export const CENTRE = {
   text: (scene, units) => positionText(scene.orbit, scene, units),
 };
 
+/** Where the handle of the radius is. @param {Stage} stage */
+function radiusPoint(stage) {
+  const radius_px = Math.abs(stage.scene.orbit.radius_m) * stage.view.scale;
+  return pointAt(centrePoint(stage), stage.radiusBearing_deg, Math.max(LEAST_RADIUS_PX, radius_px));
+}
+
+/** Where the handles of aircraft and circle are. @param {Stage} stage */
+export const handlePoints = (stage) => [
+  aircraftPoint(stage),
+  HEADING.position(stage),
+  centrePoint(stage),
+  radiusPoint(stage),
+];
+
 /**
  * The handle of the radius. It may be anywhere on the circle, but never too near to the centre: on a tiny circle it
  * lies outside, by a distance in pixels that a drag must not add to the radius.
@@ -147,8 +161,7 @@ export function radiusHandle() {
     id: "radius",
     label: "Radius of the circle",
     parts: handleParts(20, 12, knob()),
-    position: (stage) =>
-      pointAt(centrePoint(stage), stage.radiusBearing_deg, Math.max(LEAST_RADIUS_PX, radius_px(stage))),
+    position: radiusPoint,
     dragBegins: (stage) => (outside_px = Math.max(0, LEAST_RADIUS_PX - radius_px(stage))),
     bearing: (stage, point) => bearingBetween(centrePoint(stage), point),
     dragTo: (stage, point) => {

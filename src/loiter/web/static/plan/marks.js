@@ -1,40 +1,78 @@
 // @ts-check
 /**
- * Marks on a path, where the control changes and where the circle is joined, with labels that cover as little as
- * possible.
+ * Marks on the optimal paths, where the control changes and where the circle is joined, with labels that cover as
+ * little as possible, and never each other.
  *
  * @typedef {import("../shared/types.js").Maneuver} Maneuver
  * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../shared/geometry.js").Box} Box
  * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("../shared/geometry.js").View} View
  */
 import { svg } from "../shared/dom.js";
-import { pointAt, positionToScreen, toScreen, unitVector } from "../shared/geometry.js";
+import { overlaps, pointAt, positionToScreen, toScreen, unitVector } from "../shared/geometry.js";
 import { stateAt } from "../shared/maneuver.js";
-import { decimalsFor, fixed } from "../shared/units.js";
+import { timeText } from "../shared/units.js";
 
 // Pixels: a label at the start of the last segment is left out if its point is nearer than this to another.
 const LEAST_DISTANCE = { join: 26, aircraft: 30 };
 
-const CHARACTER_PX = 6.6; // mean width
+// Pixels: mean width of a character, half the height of a label, and the strips with the numbers of the grid.
+const CHARACTER_PX = 6.6;
+const HALF_HEIGHT_PX = 9;
+const GRID_NUMBERS_PX = { left: 44, bottom: 22 };
+
+// What it costs to cover a point, a label or a control of the page, or the edge of the view.
+const COST = { point: 1, box: 100, edge: 1000 };
 
 /**
  * @param {View} view
+ * @param {Maneuver[]} best
+ * @param {Scene} scene
+ * @param {Box[]} boxes  that no label may cover: the dial of the wind, buttons, the key
+ */
+export function drawMarks(view, best, scene, boxes) {
+  const flown = best.filter(({ segments }) => segments.length > 0);
+  const covered = flown.flatMap((maneuver) => coveredPoints(view, maneuver, scene));
+  const taken = [...boxes, ...numberStrips(view)];
+  const dots = flown.flatMap((maneuver) => [
+    ...switchesOf(view, maneuver).map((point) => dot(point, 4.5, "switch")),
+    dot(positionToScreen(view, maneuver.join), 6, "join"),
+  ]);
+  const joins = flown.map(({ join, duration_s }) => ({
+    point: positionToScreen(view, join),
+    text: `join ${timeText(duration_s, scene)}`,
+    most: Infinity,
+  }));
+  const others = flown.flatMap((maneuver) => peelOffLabels(view, maneuver, scene));
+  return [...dots, ...[...joins, ...others].flatMap((one) => label(view, one, covered, taken))];
+}
+
+/** Where the control changes. @param {View} view @param {Maneuver} maneuver */
+const switchesOf = (view, { segments }) => segments.slice(1).map(({ start }) => positionToScreen(view, start));
+
+/**
+ * The label at the start of the last segment, if there is room.
+ *
+ * @param {View} view
  * @param {Maneuver} maneuver
  * @param {Scene} scene
+ * @returns {Label[]}
  */
-export function drawMarks(view, maneuver, scene) {
-  const { segments, join, duration_s } = maneuver;
-  if (segments.length === 0) return [];
-  const decimals = decimalsFor(scene.orbit.radius_m, "metric");
-  const joined = positionToScreen(view, join);
-  const switches = segments.slice(1).map(({ start }) => positionToScreen(view, start));
-  const covered = coveredPoints(view, maneuver, scene);
-  const labels = [label(view, joined, covered, `join ${fixed(duration_s, decimals)} s`)];
-  const last = switches.at(-1);
-  if (last && !isCrowded(last, joined, positionToScreen(view, scene.pose)))
-    labels.push(label(view, last, covered, `peel off ${fixed(segments[segments.length - 1].start_s, decimals)} s`));
-  return [...switches.map((point) => dot(point, 4.5, "switch")), dot(joined, 6, "join"), ...labels];
+function peelOffLabels(view, maneuver, scene) {
+  const { segments, join } = maneuver;
+  const point = switchesOf(view, maneuver).at(-1);
+  if (!point || isCrowded(point, positionToScreen(view, join), positionToScreen(view, scene.pose))) return [];
+  return [{ point, text: `peel off ${timeText(segments[segments.length - 1].start_s, scene)}`, most: COST.box }];
+}
+
+/** The strips with the numbers of the grid. @param {View} view @returns {Box[]} */
+function numberStrips({ width, height }) {
+  const { left, bottom } = GRID_NUMBERS_PX;
+  return [
+    { left: 0, right: left, top: 0, bottom: height },
+    { left: 0, right: width, top: height - bottom, bottom: height },
+  ];
 }
 
 /** @param {Point} point @param {number} r @param {string} kind */
@@ -67,22 +105,32 @@ function coveredPoints(view, { track, duration_s, join, join_over_ground }, { po
 }
 
 /**
- * A text beside a point, on the side where it covers the fewest points.
+ * @typedef {object} Label
+ * @property {Point} point
+ * @property {string} text
+ * @property {number} most  the label is left out if its best place costs as much
+ */
+
+/**
+ * A text beside a point, on the side where it covers least. The place is added to `taken`.
  *
  * @param {View} view
- * @param {Point} point
+ * @param {Label} one
  * @param {Point[]} covered
- * @param {string} text
+ * @param {Box[]} taken
  */
-function label(view, point, covered, text) {
+function label(view, { point, text, most }, covered, taken) {
   const width = CHARACTER_PX * text.length;
-  const places = [0, 45, 90, 135, 180, 225, 270, 315].map((bearing) => {
-    const place = placeAt(point, bearing, width);
-    const isCut = place.left < 4 || place.left + width > view.width - 4;
-    return { ...place, cost: countCovered(place, width, covered) + (isCut ? 1000 : 0) };
-  });
-  const best = places.reduce((least, place) => (place.cost < least.cost ? place : least));
-  return svg("text", { x: best.left, y: best.middle + 4, class: "halo" }, [text]);
+  const places = [1, 2].flatMap((far) =>
+    [0, 45, 90, 135, 180, 225, 270, 315].map((bearing) => {
+      const box = placeAt(point, bearing, width, far);
+      return { box, cost: costOf(box, view, covered, taken) + far / 100 };
+    }),
+  );
+  const { box, cost } = places.reduce((least, place) => (place.cost < least.cost ? place : least));
+  if (cost >= most) return [];
+  taken.push(box);
+  return [svg("text", { x: box.left, y: box.top + HALF_HEIGHT_PX + 4, class: "halo" }, [text])];
 }
 
 /**
@@ -91,13 +139,21 @@ function label(view, point, covered, text) {
  * @param {Point} point
  * @param {number} bearing
  * @param {number} width
+ * @param {number} far  1 beside the point, 2 twice as far
+ * @returns {Box}
  */
-function placeAt([x, y], bearing, width) {
+function placeAt([x, y], bearing, width, far) {
   const [east, north] = unitVector(bearing);
   const isCentred = Math.abs(east) < 0.1;
-  return { left: x + 13 * east + (width / 2) * (isCentred ? -1 : Math.sign(east) - 1), middle: y - 17 * north };
+  const left = x + 13 * far * east + (width / 2) * (isCentred ? -1 : Math.sign(east) - 1);
+  const middle = y - 17 * far * north;
+  return { left, right: left + width, top: middle - HALF_HEIGHT_PX, bottom: middle + HALF_HEIGHT_PX };
 }
 
-/** @param {{left: number, middle: number}} place @param {number} width @param {Point[]} points */
-const countCovered = ({ left, middle }, width, points) =>
-  points.filter(([x, y]) => x > left - 4 && x < left + width + 4 && Math.abs(y - middle) < 10).length;
+/** @param {Box} box @param {View} view @param {Point[]} covered @param {Box[]} taken */
+function costOf(box, { width, height }, covered, taken) {
+  const points = covered.filter(([x, y]) => overlaps(box, { left: x - 4, right: x + 4, top: y - 1, bottom: y + 1 }));
+  const boxes = taken.filter((other) => overlaps(box, other));
+  const isCut = box.left < 4 || box.right > width - 4 || box.top < 2 || box.bottom > height - 2;
+  return COST.point * points.length + COST.box * boxes.length + (isCut ? COST.edge : 0);
+}

@@ -105,10 +105,11 @@ export function drawOther(view, other, index, scene, highlight) {
  * @param {SVGTextElement} label
  * @param {View} view
  * @param {Alternative} other
+ * @param {Scene} scene
  */
-export function placeCallout(label, view, { track, word, turn, later_s }) {
+export function placeCallout(label, view, { track, word, turn, later_s }, scene) {
   const [[x, y]] = pointsOf(view, track, [track.time_s.length >> 1]);
   const inside = { x: Math.min(view.width - 90, Math.max(90, x)), y: Math.min(view.height - 30, Math.max(24, y - 12)) };
   setAttributes(label, { ...inside, "text-anchor": "middle" });
-  label.textContent = `${word} ${turn}: ${timeDifference(later_s)} ${later_s < 0 ? "sooner" : "later"}`;
+  label.textContent = `${word} ${turn}: ${timeDifference(later_s, scene)} ${later_s < 0 ? "sooner" : "later"}`;
 }

@@ -5,19 +5,21 @@
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../state/actions.js").Actions} Actions
+ * @typedef {import("../shared/geometry.js").Box} Box
  * @typedef {import("./camera.js").PlanCamera} PlanCamera
  */
-import { byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
+import { boxWithin, byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { positionToScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
 import { ghostOf, shownTime } from "../state/page_state.js";
 import { drawCircle, drawGrid } from "./background.js";
-import { showOpenedScenes } from "./camera.js";
+import { scaleLimits, showOpenedScenes } from "./camera.js";
 import { gestures } from "./gestures.js";
-import { createHandles } from "./handle_layer.js";
+import { createHandles, stageAt } from "./handle_layer.js";
 import { AEROPLANE } from "./handles.js";
 import { drawMarks } from "./marks.js";
 import { drawBest, drawOther, placeCallout } from "./paths.js";
+import { dialBox } from "./wind_handle.js";
 
 /**
  * @param {Store} store
@@ -32,25 +34,38 @@ export function planView(store, actions, camera) {
   const callout = svg("text", { class: "halo callout" });
   root.append(...Object.values(below), ghost, callout, handles);
 
-  observeSize(byId("plan-box", HTMLElement), (width, height) => {
+  const box = byId("plan-box", HTMLElement);
+  /** @type {Box[]} */
+  let overlays = [];
+  observeSize(box, (width, height) => {
     setSize(root, width, height);
+    overlays = [...box.querySelectorAll(".zoom, .key")].map((element) => boxWithin(element, box));
     camera.resize(width, height);
   });
   camera.fit();
   gestures(root, camera);
-  zoomButtons(camera);
+  zoomButtons(store, camera);
   createHandles(root, handles, store, actions);
-  watchScene(root, layers, store, actions);
+  watchScene(root, layers, store, actions, () => overlays);
   watchHighlight(root, layers.others, callout, store);
   watchGhost(ghost, store);
   showOpenedScenes(store, camera);
 }
 
-/** @param {PlanCamera} camera */
-function zoomButtons(camera) {
+/** @param {Store} store @param {PlanCamera} camera */
+function zoomButtons(store, camera) {
   byId("fit", HTMLButtonElement).addEventListener("click", camera.fit);
   byId("zoom-in", HTMLButtonElement).addEventListener("click", () => camera.zoom(1.4));
   byId("zoom-out", HTMLButtonElement).addEventListener("click", () => camera.zoom(1 / 1.4));
+  store.watch(
+    ({ camera }) => [camera],
+    (state) => {
+      const { least, most } = scaleLimits(state);
+      const { scale } = state.camera.view;
+      const isAt = { "zoom-in": scale >= most * (1 - 1e-9), "zoom-out": scale <= least * (1 + 1e-9) };
+      for (const [id, is] of Object.entries(isAt)) byId(id, HTMLElement).setAttribute("aria-disabled", String(is));
+    },
+  );
 }
 
 /**
@@ -58,8 +73,9 @@ function zoomButtons(camera) {
  * @param {Record<string, SVGGElement>} layers
  * @param {Store} store
  * @param {Actions} actions
+ * @param {() => Box[]} overlays
  */
-function watchScene(root, layers, store, actions) {
+function watchScene(root, layers, store, actions, overlays) {
   store.watch(
     ({ camera, units }) => [camera, units],
     ({ camera: { view }, units }) => {
@@ -77,7 +93,7 @@ function watchScene(root, layers, store, actions) {
   // Not after a change of the scene: the paths are drawn when its answer arrives.
   store.watch(
     ({ camera, answer }) => [camera, answer],
-    (state) => drawPaths(layers, state, actions.highlight),
+    (state) => drawPaths(layers, state, actions.highlight, overlays),
   );
 }
 
@@ -85,13 +101,19 @@ function watchScene(root, layers, store, actions) {
  * @param {Record<string, SVGGElement>} layers
  * @param {PageState} state
  * @param {(index: number | null) => void} highlight
+ * @param {() => Box[]} overlays
  */
-function drawPaths(layers, { camera: { view }, scene, answer }, highlight) {
+function drawPaths(layers, state, highlight, overlays) {
+  const {
+    camera: { view },
+    scene,
+    answer,
+  } = state;
   if (!answer) return;
   const { best, others } = splitAnswer(answer);
   layers.best.replaceChildren(...best.flatMap((maneuver) => drawBest(view, maneuver)));
   layers.others.replaceChildren(...others.map((other, i) => drawOther(view, other, i, scene, highlight)));
-  layers.marks.replaceChildren(...best.flatMap((maneuver) => drawMarks(view, maneuver, scene)));
+  layers.marks.replaceChildren(...drawMarks(view, best, scene, [dialBox(stageAt(state)), ...overlays()]));
 }
 
 /**
@@ -105,12 +127,12 @@ function drawPaths(layers, { camera: { view }, scene, answer }, highlight) {
 function watchHighlight(root, others, callout, store) {
   store.watch(
     ({ highlighted, answer, camera }) => [highlighted, answer, camera],
-    ({ highlighted, answer, camera }) => {
+    ({ highlighted, answer, camera, scene }) => {
       const other = answer && highlighted !== null ? splitAnswer(answer).others[highlighted] : undefined;
       Array.from(others.children).forEach((child, i) => child.classList.toggle("lit", i === highlighted));
       root.classList.toggle("comparing", other !== undefined);
       show(callout, other !== undefined);
-      if (other) placeCallout(callout, camera.view, other);
+      if (other) placeCallout(callout, camera.view, other, scene);
     },
   );
 }

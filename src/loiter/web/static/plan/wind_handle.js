@@ -4,35 +4,75 @@
  *
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/geometry.js").View} View
+ * @typedef {import("../shared/geometry.js").Box} Box
  * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("./handles.js").Handle} Handle
  * @typedef {import("./handles.js").Stage} Stage
  */
 import { withWind } from "../scene/scene.js";
 import { polyline, setAttributes, svg } from "../shared/dom.js";
-import { headingOf, pointAt, unitVector } from "../shared/geometry.js";
+import { headingOf, overlaps, pointAt, unitVector } from "../shared/geometry.js";
 import { fixed, quantityText, tidy } from "../shared/units.js";
-import { handleParts } from "./handles.js";
+import { handleParts, handlePoints } from "./handles.js";
 
-const DIAL_PX = { small: 28, large: 42 }; // radius; it stands for half the airspeed
+const DIAL_PX = { small: 30, large: 42 }; // radius; it stands for the airspeed
 const NARROW_PX = 500; // narrower views get the small dial
-const RIGHT_PX = 64; // from the middle to the edge: half the width of the longest label
+const TEXT_PX = { half: 64, above: 22, below: 24 }; // half the width of the longest text, the lines above and below
+const REACH_PX = 26; // of a finger around a handle
+
+// Room for the buttons on the left, for the numbers of the grid and the key below.
+const EDGES_PX = { left: 56, right: 4, top: 6, bottom: 52 };
 
 /** The radius of the dial, pixels. @param {View} view */
 const dialRadius = (view) => (view.width < NARROW_PX ? DIAL_PX.small : DIAL_PX.large);
 
-/** The middle of the dial. @param {View} view @returns {Point} */
-function dialMiddle(view) {
+/** The box of a dial and its texts. @param {View} view @param {Point} middle @returns {Box} */
+function boxAround(view, [x, y]) {
   const r = dialRadius(view);
-  return [view.width - RIGHT_PX, r + (r === DIAL_PX.large ? 30 : 14)];
+  const { half, above, below } = TEXT_PX;
+  return { left: x - half, right: x + half, top: y - r - above, bottom: y + r + below };
 }
+
+/** The places of the dial, best first. @param {View} view @returns {Point[]} */
+function dialPlaces(view) {
+  const { width, height } = view;
+  const r = dialRadius(view);
+  const [left, right] = [EDGES_PX.left + TEXT_PX.half, width - EDGES_PX.right - TEXT_PX.half];
+  const [top, bottom] = [EDGES_PX.top + TEXT_PX.above + r, height - EDGES_PX.bottom - TEXT_PX.below - r];
+  const [middle, half] = [(left + right) / 2, (top + bottom) / 2];
+  return [
+    [right, top],
+    [left, bottom],
+    [left, top],
+    [right, bottom],
+    [right, half],
+    [left, half],
+    [middle, top],
+    [middle, bottom],
+  ];
+}
+
+/** The middle of the dial: the first place where it lies over no handle. @param {Stage} stage @returns {Point} */
+function dialMiddle(stage) {
+  const handles = handlePoints(stage);
+  const isFree = (/** @type {Point} */ place) => {
+    const { left, right, top, bottom } = boxAround(stage.view, place);
+    const grown = { left: left - REACH_PX, right: right + REACH_PX, top: top - REACH_PX, bottom: bottom + REACH_PX };
+    return handles.every(([x, y]) => !overlaps(grown, { left: x, right: x, top: y, bottom: y }));
+  };
+  const places = dialPlaces(stage.view);
+  return places.find(isFree) ?? places[0];
+}
+
+/** The box of the dial and its texts. @param {Stage} stage */
+export const dialBox = (stage) => boxAround(stage.view, dialMiddle(stage));
 
 // Keeps the scale of the dial finite while no airspeed is typed.
 const LEAST_AIRSPEED_M_S = 1e-9;
 
 /** Pixels on the dial per metre per second. @param {Stage} stage */
 const dialScale = ({ view, scene }) =>
-  (2 * dialRadius(view)) / Math.max(scene.aircraft.airspeed_m_s, LEAST_AIRSPEED_M_S);
+  dialRadius(view) / Math.max(scene.aircraft.airspeed_m_s, LEAST_AIRSPEED_M_S);
 
 /** The wind of a scene, with zero speed in still air. @param {Scene} scene */
 const windOf = ({ wind }) => wind ?? { speed_m_s: 0, from_deg: 0 };
@@ -54,17 +94,21 @@ function withAirMotion(scene, east, north) {
 export const WIND = {
   id: "wind",
   label: "Wind",
-  parts: handleParts(18, 12, svg("path", { d: "M0-9 6.5 5H-6.5Z", class: "tip" })),
+  // An arrowhead only in wind: in calm air it would look like a north arrow.
+  parts: [
+    ...handleParts(18, 12, svg("circle", { r: 6.5, class: "knob" })),
+    svg("path", { d: "M0-9 6.5 5H-6.5Z", class: "tip" }),
+  ],
   position: (stage) => {
     const { speed_m_s, from_deg } = windOf(stage.scene);
-    const distance = Math.min(speed_m_s * dialScale(stage), 2 * dialRadius(stage.view));
-    return pointAt(dialMiddle(stage.view), from_deg + 180, distance);
+    const distance = Math.min(speed_m_s * dialScale(stage), dialRadius(stage.view));
+    return pointAt(dialMiddle(stage), from_deg + 180, distance);
   },
   dragTo: (stage, [x, y]) => {
-    const [left, top] = dialMiddle(stage.view);
+    const [left, top] = dialMiddle(stage);
     const distance = Math.hypot(x - left, y - top);
     // Calm next to the middle; at most 95 % of the airspeed.
-    const share = distance < 3 ? 0 : Math.min(1, (1.9 * dialRadius(stage.view)) / distance);
+    const share = distance < 3 ? 0 : Math.min(1, (0.95 * dialRadius(stage.view)) / distance);
     const speed = share / dialScale(stage);
     return withAirMotion(stage.scene, (x - left) * speed, (top - y) * speed);
   },
@@ -79,21 +123,23 @@ export const WIND = {
     wind ? `${quantityText(wind.speed_m_s, "speed", units, 1)} from ${fixed(wind.from_deg, 0)}°` : "calm",
 };
 
-/** The dial: the outer ring is half the airspeed, the inner one a quarter. */
+/** The dial: the outer ring is the airspeed, the inner one half of it. */
 export function windDial() {
   const rings = [svg("circle"), svg("circle", { class: "half" })];
   const dial = svg("g", { class: "dial" }, rings);
   const shaft = svg("path", { class: "shaft" });
+  const title = svg("text", { class: "dialtitle halo", "text-anchor": "middle" }, ["wind"]);
   const text = svg("text", { class: "dialtext halo", "text-anchor": "middle" });
   /** @param {Stage} stage */
   function draw(stage) {
-    const [x, y] = dialMiddle(stage.view);
+    const [x, y] = dialMiddle(stage);
     const r = dialRadius(stage.view);
     rings.forEach((ring, i) => ring.setAttribute("r", String(r / (i + 1))));
     dial.setAttribute("transform", `translate(${x} ${y})`);
     shaft.setAttribute("d", polyline([[x, y], WIND.position(stage)]));
+    setAttributes(title, { x, y: y - r - 8 });
     setAttributes(text, { x, y: y + r + 18 });
-    text.textContent = stage.scene.wind ? WIND.text(stage.scene, stage.units) : "wind: calm";
+    text.textContent = WIND.text(stage.scene, stage.units);
   }
-  return { group: svg("g", { class: "air" }, [dial, text, shaft]), draw };
+  return { group: svg("g", { class: "air" }, [dial, title, text, shaft]), draw };
 }

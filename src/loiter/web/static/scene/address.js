@@ -1,13 +1,16 @@
 // @ts-check
 /**
- * The address of the page is a link to what it shows.
+ * The address of the page is a link to what it shows. Each step of the user is an entry in the history of the browser,
+ * so that Back, and the button that undoes, return to the state before.
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../state/actions.js").Actions} Actions
+ *
+ * @typedef {Pick<PageState, "step" | "scene" | "place" | "altitude" | "camera">} Entry  of the history
  */
 import { spanOf } from "../plan/camera.js";
-import { PAUSE_MS, debounced } from "../shared/dom.js";
+import { PAUSE_MS, byId, debounced } from "../shared/dom.js";
 import { fromLink, toLink } from "./link.js";
 import { PRESETS } from "./presets.js";
 
@@ -21,24 +24,98 @@ const fragmentOf = ({ scene, units, altitude, camera }) => toLink({ scene, units
 export const linkOf = (state) => location.origin + location.pathname + fragmentOf(state);
 
 /**
- * Open the link in the address, now and whenever it changes.
+ * Open the link in the address: now, whenever the user changes it, and after Back and Forward.
  *
+ * @param {Store} store
  * @param {Actions} actions
  */
-export function openAddress(actions) {
-  addEventListener("hashchange", () => open(actions));
+export function openAddress(store, actions) {
+  addEventListener("popstate", ({ state }) => isEntry(state) && actions.returnTo(state));
+  // Back and Forward change the address too, but have an entry.
+  addEventListener("hashchange", () => isEntry(history.state) || open(actions));
+  // After a reload the steps before can still be undone.
+  const { step } = isEntry(history.state) ? history.state : { step: 0 };
   open(actions);
+  store.update({ step, lastStep: step });
 }
 
+/** @param {unknown} state @returns {state is Entry} */
+const isEntry = (state) => typeof state === "object" && state !== null && "step" in state && "scene" in state;
+
 /**
- * Keep the address up to date.
+ * Keep address and history up to date: a new entry for each step, the same entry for other changes.
  *
  * @param {Store} store
  */
 export function writeAddress(store) {
-  const write = debounced(PAUSE_MS, () => history.replaceState(null, "", fragmentOf(store.get())));
-  store.watch(({ scene, units, altitude, camera }) => [scene, units, altitude, camera], write);
+  let last = store.get();
+  let isWritten = false;
+
+  /** @param {PageState} state */
+  function write(state) {
+    const { step, scene, place, altitude, camera } = state;
+    /** @type {Entry} */
+    const entry = { step, scene, place, altitude, camera };
+    // An entry without a state is new: the user has opened the page, or a link on it.
+    if (isEntry(history.state) && step > history.state.step) history.pushState(entry, "", fragmentOf(state));
+    else history.replaceState(entry, "", fragmentOf(state));
+    isWritten = true;
+  }
+  const writeLater = debounced(PAUSE_MS, () => isWritten || write(last));
+  store.watch(
+    ({ scene, units, altitude, camera, place, step }) => [scene, units, altitude, camera, place, step],
+    (state) => {
+      // The state before a step is complete; it must not be lost because the step follows at once.
+      if (state.step > last.step && !isWritten) write(last);
+      [last, isWritten] = [state, false];
+      writeLater();
+    },
+  );
+  return { flush: () => isWritten || write(last) };
 }
+
+/**
+ * The buttons that undo and redo a step, and their keys: ctrl Z, ctrl Y and ctrl shift Z.
+ *
+ * @param {Store} store
+ * @param {{flush: () => void}} address
+ */
+export function undoButtons(store, { flush }) {
+  /** @param {"back" | "forward"} direction */
+  function go(direction) {
+    const { step, lastStep } = store.get();
+    if (direction === "back" ? step === 0 : step === lastStep) return;
+    flush();
+    history[direction]();
+  }
+  const buttons = { back: byId("undo", HTMLButtonElement), forward: byId("redo", HTMLButtonElement) };
+  buttons.back.addEventListener("click", () => go("back"));
+  buttons.forward.addEventListener("click", () => go("forward"));
+  addEventListener("keydown", (event) => {
+    const direction = directionOf(event);
+    // In a field these keys undo the typing.
+    if (!direction || isTyping(event.target)) return;
+    go(direction);
+    event.preventDefault();
+  });
+  store.watch(
+    ({ step, lastStep }) => [step, lastStep],
+    ({ step, lastStep }) => {
+      buttons.back.setAttribute("aria-disabled", String(step === 0));
+      buttons.forward.setAttribute("aria-disabled", String(step === lastStep));
+    },
+  );
+}
+
+/** @param {KeyboardEvent} event @returns {"back" | "forward" | null} */
+function directionOf({ key, ctrlKey, metaKey, altKey, shiftKey }) {
+  if (!(ctrlKey || metaKey) || altKey) return null;
+  if (key.toLowerCase() === "z") return shiftKey ? "forward" : "back";
+  return key.toLowerCase() === "y" ? "forward" : null;
+}
+
+/** @param {EventTarget | null} target */
+const isTyping = (target) => target instanceof HTMLInputElement && target.type === "text";
 
 /** @param {Actions} actions */
 function open(actions) {

@@ -3,6 +3,7 @@
  * Links to a scene: its numbers as the fragment of the address, named like the options of the command line.
  *
  * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../shared/types.js").Aircraft} Aircraft
  * @typedef {import("../shared/types.js").Altitude} Altitude
  * @typedef {import("../shared/types.js").Limit} Limit
  * @typedef {import("../shared/types.js").Reference} Reference
@@ -15,7 +16,8 @@
  * @property {Altitude} altitude
  * @property {number[] | null} view  middle east and north, width: metres; null unless the user has moved the view
  */
-import { LIMITS, limitOf, orbitMoves, withWind } from "./scene.js";
+import { powerBelow, tidy, tidyAbove } from "../shared/units.js";
+import { LIMITS, limitOf, orbitMoves, turnRadiusOf, withWind } from "./scene.js";
 
 /** @type {Record<Limit, string>} */
 const LIMIT_KEYS = { max_bank_deg: "bank", min_turn_radius_m: "turn-radius", max_turn_rate_deg_s: "turn-rate" };
@@ -36,30 +38,61 @@ export function toLink({ scene, units, altitude, view }) {
   return `#${parts.join("&")}`;
 }
 
+// Share of turn radius and airspeed to which a link rounds lengths and speeds: 1 micrometre, for a turn radius of 47 m.
+const PRECISION = 1e-7;
+const ANGLE_DEG = 1e-7; // at a distance of 1 km, 2 micrometres
+const PLACE_DEG = 1e-9; // 0.1 mm on the ground
+const ALTITUDE_M = 1e-4;
+
+/**
+ * Numbers of a link, with the fewest decimals that still give the same plan.
+ *
+ * @param {number[]} values
+ * @param {number} resolution
+ */
+const joined = (values, resolution) => values.map((value) => tidy(value, resolution)).join();
+
 /** @param {Scene} scene */
 function sceneParts(scene) {
   const { pose, orbit, aircraft, wind, tolerance_m, origin } = scene;
   const limit = limitOf(aircraft);
+  const length = powerBelow(turnRadiusOf(aircraft), PRECISION);
+  const speed = powerBelow(aircraft.airspeed_m_s, PRECISION);
+  const [centre, heading] = [joined([orbit.east_m, orbit.north_m], length), joined([pose.heading_deg], ANGLE_DEG)];
   const parts = [
-    `pose=${pose.east_m},${pose.north_m},${pose.heading_deg}`,
-    `orbit=${orbit.east_m},${orbit.north_m},${orbit.radius_m}`,
+    `pose=${joined([pose.east_m, pose.north_m], length)},${heading}`,
+    // Upwards, so that a circle of the least radius can still be held.
+    `orbit=${centre},${tidyAbove(orbit.radius_m, length)}`,
     `turn=${orbit.turn}`,
-    `airspeed=${aircraft.airspeed_m_s}`,
-    `${LIMIT_KEYS[limit]}=${aircraft[limit]}`,
+    `airspeed=${joined([aircraft.airspeed_m_s], speed)}`,
+    `${LIMIT_KEYS[limit]}=${limitNumber(aircraft, limit, length)}`,
   ];
-  if (wind) parts.push(`wind=${wind.speed_m_s},${wind.from_deg}`);
-  if (orbitMoves(scene)) parts.push(`orbit-velocity=${orbit.velocity_east_m_s},${orbit.velocity_north_m_s}`);
+  if (wind) parts.push(`wind=${joined([wind.speed_m_s], speed)},${joined([wind.from_deg], ANGLE_DEG)}`);
+  if (orbitMoves(scene))
+    parts.push(`orbit-velocity=${joined([orbit.velocity_east_m_s, orbit.velocity_north_m_s], speed)}`);
   if (tolerance_m !== 0) parts.push(`tolerance=${tolerance_m}`);
-  if (origin) parts.push(`origin=${origin.latitude_deg},${origin.longitude_deg}`);
+  if (origin) parts.push(`origin=${joined([origin.latitude_deg, origin.longitude_deg], PLACE_DEG)}`);
   return parts;
+}
+
+/**
+ * The limit of an aircraft, rounded towards tighter turns, so that the circle can still be held.
+ *
+ * @param {Aircraft} aircraft
+ * @param {Limit} limit
+ * @param {number} length  resolution of lengths
+ */
+function limitNumber(aircraft, limit, length) {
+  const value = aircraft[limit] ?? 0;
+  return limit === "min_turn_radius_m" ? -tidyAbove(-value, length) : tidyAbove(value, ANGLE_DEG);
 }
 
 /** @param {Altitude} altitude */
 function altitudeParts({ altitude_m, altitude_reference, home_altitude_m }) {
   const parts = [];
-  if (altitude_m !== undefined) parts.push(`altitude=${altitude_m}`);
+  if (altitude_m !== undefined) parts.push(`altitude=${joined([altitude_m], ALTITUDE_M)}`);
   if (altitude_reference) parts.push(`altitude-reference=${altitude_reference}`);
-  if (home_altitude_m !== undefined) parts.push(`home-altitude=${home_altitude_m}`);
+  if (home_altitude_m !== undefined) parts.push(`home-altitude=${joined([home_altitude_m], ALTITUDE_M)}`);
   return parts;
 }
 

@@ -119,6 +119,13 @@ export function observeSize(box, resized) {
   measure();
 }
 
+/** The box of an element on another, pixels from its upper left corner. @param {Element} element @param {Element} on */
+export function boxWithin(element, on) {
+  const { left, right, top, bottom } = element.getBoundingClientRect();
+  const origin = on.getBoundingClientRect();
+  return { left: left - origin.left, right: right - origin.left, top: top - origin.top, bottom: bottom - origin.top };
+}
+
 /** Milliseconds without a change after which a drag counts as paused. */
 export const PAUSE_MS = 140;
 

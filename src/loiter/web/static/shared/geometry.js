@@ -10,6 +10,8 @@
  * @property {number} width  pixels
  * @property {number} height
  * @typedef {[number, number]} Point
+ *
+ * @typedef {{left: number, right: number, top: number, bottom: number}} Box  on the screen, pixels
  */
 
 /** Radians per degree. */
@@ -144,6 +146,9 @@ export function fitted(view, points, { left, right, top, bottom }) {
     north: north.middle + (top - bottom) / 2 / scale,
   };
 }
+
+/** Whether two boxes have common points. @param {Box} a @param {Box} b */
+export const overlaps = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
 /** @param {number[]} values */
 function rangeOf(values) {

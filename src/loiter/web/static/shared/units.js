@@ -2,6 +2,7 @@
 /**
  * Units and formats of the numbers that are shown and typed. All other code uses metres, seconds and degrees.
  *
+ * @typedef {import("./types.js").Scene} Scene
  * @typedef {import("./types.js").Units} Units
  * @typedef {"length" | "speed" | "degrees" | "rate"} Quantity
  */
@@ -112,18 +113,29 @@ export function quantityText(value, quantity, units, decimals) {
 export const sixDigits = (value) => Number(value.toPrecision(6));
 
 /**
- * A difference of times without its sign, with three digits as on the command line.
+ * The number of decimals of all times of a scene, so that a time reads the same wherever it is shown.
+ *
+ * @param {{orbit: {radius_m: number}}} scene
+ */
+const timeDecimals = ({ orbit }) => (orbit.radius_m < 10 ? 3 : 2);
+
+/** A time of a scene: "9.14 s". @param {number} seconds @param {Scene} scene */
+export const timeText = (seconds, scene) => `${fixed(seconds, timeDecimals(scene))} s`;
+
+/**
+ * A difference of times without its sign: "4.91 s", or "< 0.01 s" where it would read as none.
  *
  * @param {number} seconds
+ * @param {Scene} scene
  */
-export function timeDifference(seconds) {
+export function timeDifference(seconds, scene) {
+  const least = 10 ** -timeDecimals(scene);
   const size = Math.abs(seconds);
-  if (size < 1e-3) return "< 1 ms";
-  return `${size >= 100 ? size.toFixed(0) : String(Number(size.toPrecision(3)))} s`;
+  return size < least / 2 ? `< ${least} s` : timeText(size, scene);
 }
 
-/** A difference of times with its sign: "+4.91 s". @param {number} seconds */
-export const signedTimeDifference = (seconds) => `${seconds < 0 ? "−" : "+"}${timeDifference(seconds)}`;
+/** A difference of times with its sign: "+4.91 s". @param {number} seconds @param {Scene} scene */
+export const signedTimeDifference = (seconds, scene) => `${seconds < 0 ? "−" : "+"}${timeDifference(seconds, scene)}`;
 
 /**
  * The value with the fewest decimals that is at most `resolution` away. Drags use it to keep links and commands short.
@@ -139,6 +151,15 @@ export function tidy(value, resolution) {
     decimals >= 0 ? Math.round(value * 10 ** decimals) / 10 ** decimals : Math.round(value / unitSize) * unitSize;
   return whole + 0;
 }
+
+/** Like `tidy`, but never below the value. @param {number} value @param {number} resolution */
+export function tidyAbove(value, resolution) {
+  const nearest = tidy(value, resolution);
+  return nearest >= value ? nearest : tidy(nearest + resolution, resolution);
+}
+
+/** The power of ten that is at most this share of a size. @param {number} size @param {number} share */
+export const powerBelow = (size, share) => 10 ** Math.floor(Math.log10(Math.max(Math.abs(size) * share, 1e-12)));
 
 /**
  * The smallest number of the form 1, 2 or 5 times a power of ten that is not below `least`.

@@ -10,6 +10,7 @@
  * @typedef {ReturnType<typeof createActions>} Actions
  */
 import { NO_MESSAGE, durationOf } from "./page_state.js";
+import { createStepper } from "./steps.js";
 
 /**
  * @param {Store} store
@@ -20,15 +21,23 @@ export function createActions(store, requests, latency) {
   /** @param {Partial<PageState["playback"]>} changes */
   const setPlayback = (changes) => store.update({ playback: { ...store.get().playback, ...changes } });
 
+  const continues = createStepper();
+  /** The changes of the state that begin a step, unless an event continues the last one. @param {Event} [event] */
+  function stepOf(event) {
+    const { step, lastStep } = store.get();
+    return continues(event) ? { step, lastStep } : { step: step + 1, lastStep: step + 1 };
+  }
+
   return {
     /**
      * Change the scene, and request its plan.
      *
      * @param {Scene} scene
      * @param {Event} [event] that changed it
+     * @param {Partial<PageState>} [more] that changes with it
      */
-    changeScene(scene, event) {
-      requests.askPlan({ scene, message: NO_MESSAGE });
+    changeScene(scene, event, more = {}) {
+      requests.askPlan({ ...more, ...stepOf(event), scene, message: NO_MESSAGE });
       if (event instanceof PointerEvent) latency.moved(store.get().revision, event);
     },
 
@@ -41,12 +50,36 @@ export function createActions(store, requests, latency) {
     openScene(changes, span = null) {
       const { revision, playback } = store.get();
       requests.askPlan({
+        ...stepOf(),
         ...changes,
         message: NO_MESSAGE,
         opening: { revision: revision + 1, span },
         playback: { ...playback, playing: false, time_s: 0 },
       });
     },
+
+    /**
+     * Show the state before a step, or after it.
+     *
+     * @param {Partial<PageState> & {scene: Scene, step: number}} changes
+     */
+    returnTo(changes) {
+      const { playback, camera, lastStep, revision } = store.get();
+      const { width, height } = camera.view;
+      const { view, moved } = changes.camera ?? camera;
+      const isResized = view.width !== width || view.height !== height;
+      requests.askPlan({
+        ...changes,
+        camera: { view: { ...view, width, height }, moved },
+        lastStep: Math.max(lastStep, changes.step),
+        message: NO_MESSAGE,
+        opening: !moved && isResized ? { revision: revision + 1, span: null } : null,
+        playback: { ...playback, playing: false, time_s: 0 },
+      });
+    },
+
+    /** Change the altitude of missions. @param {PageState["altitude"]} altitude @param {Event} [event] */
+    changeAltitude: (altitude, event) => store.update({ ...stepOf(event), altitude }),
 
     /** @param {boolean} playing */
     play(playing) {

@@ -52,8 +52,10 @@
  * @property {Scene} scene
  * @property {Units} units
  * @property {Theme} theme
+ * @property {boolean} theory  whether verdict, phi, psi and the reduced plane are shown
  * @property {Altitude} altitude
  * @property {Partial<Origin>} place  latitude and longitude as far as they are typed
+ * @property {string | null} tiles  the address of the map tiles that the user has switched on
  * @property {Camera} camera  of the plan view
  * @property {number} mapSide  of the map, pixels
  * @property {number} timelineWidth  pixels
@@ -61,6 +63,10 @@
  * @property {Opening | null} opening
  * @property {number} revision  number of the newest request for a plan
  * @property {number} answeredRevision  number of the newest request that was answered or has failed
+ * @property {number} step  number of the step of the user that led here, for undo and the browser's Back
+ * @property {number} lastStep  the newest step; larger than `step` after an undo
+ * @property {boolean} isLate  whether the answer to the newest request is awaited for longer than a moment
+ * @property {boolean} isCompiling  whether the service compiles its machine code, so that answers take long
  * @property {number} pausedRevision  number of the newest request after which a drag has paused
  * @property {Record<"plan" | "certificate" | "map", Status>} requests
  * @property {Answer | null} answer  the newest plan
@@ -87,8 +93,10 @@ export const INITIAL_STATE = {
   scene: PRESETS[0].scene,
   units: "metric",
   theme: "light",
+  theory: true,
   altitude: {},
   place: {},
+  tiles: null,
   camera: { view: { scale: 1, east: 0, north: 0, width: 800, height: 600 }, moved: false },
   mapSide: 380,
   timelineWidth: 700,
@@ -97,6 +105,10 @@ export const INITIAL_STATE = {
   revision: 0,
   answeredRevision: 0,
   pausedRevision: 0,
+  step: 0,
+  lastStep: 0,
+  isLate: false,
+  isCompiling: false,
   requests: { plan: "idle", certificate: "idle", map: "idle" },
   answer: null,
   failure: null,

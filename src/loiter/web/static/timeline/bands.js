@@ -18,23 +18,21 @@ const RIGHT = 74;
 const STRIP = { top: 4, height: 22 };
 const PHI = { top: 36, height: 52 };
 const PSI = { top: 98, height: 52 };
-const AXIS = 166;
+const AXIS = { plain: 46, theory: 166 }; // without and with the bands of phi and psi
 const TICK_SPACING = 64;
 const LEAST_WIDTH = { letter: 16, word: 64 }; // of a bar with a label
 
-/** The lower end of the cursor. */
-export const BOTTOM = AXIS - 6;
-
-/** The height of the time line. */
-export const HEIGHT = AXIS + 8;
+/** The height of the time line. @param {boolean} theory */
+export const heightOf = (theory) => (theory ? AXIS.theory : AXIS.plain) + 8;
 
 /**
  * Pixels from times, and times from pixels.
  *
  * @param {number} width
  * @param {number} duration_s
+ * @param {boolean} theory  whether the bands of phi and psi are shown
  */
-export function timeScale(width, duration_s) {
+export function timeScale(width, duration_s, theory) {
   const [end, length] = [duration_s || 1, width - LEFT - RIGHT];
   return {
     x: (/** @type {number} */ time) => LEFT + (Math.min(time, end) / end) * length,
@@ -42,6 +40,7 @@ export function timeScale(width, duration_s) {
     end,
     right: width - RIGHT,
     length,
+    axis: theory ? AXIS.theory : AXIS.plain,
   };
 }
 
@@ -76,19 +75,19 @@ function drawBar(letter, from, to) {
  * @param {Segment[]} segments
  * @param {TimeScale} scale
  */
-export function drawSwitches(segments, { x }) {
-  const line = (/** @type {number} */ time) => `M${x(time)} ${STRIP.top}V${AXIS - 12}`;
+export function drawSwitches(segments, { x, axis }) {
+  const line = (/** @type {number} */ time) => `M${x(time)} ${STRIP.top}V${axis - 12}`;
   return segments.slice(1).map(({ start_s }) => svg("path", { d: line(start_s), class: "switchline" }));
 }
 
 /** The numbers of the time axis. @param {TimeScale} scale */
-export function drawAxis({ x, end, length }) {
+export function drawAxis({ x, end, length, axis }) {
   const step = roundStep((end * TICK_SPACING) / length);
   // The end itself may be off by rounding.
   const count = Math.floor(end / step + 1e-9);
   const text = (/** @type {number} */ k) => fixed(k * step, decimalsOfStep(step)) + (k === count ? " s" : "");
   return Array.from({ length: count + 1 }, (_, k) =>
-    svg("text", { x: x(k * step), y: AXIS + 3, "text-anchor": "middle", class: "tick" }, [text(k)]),
+    svg("text", { x: x(k * step), y: axis + 3, "text-anchor": "middle", class: "tick" }, [text(k)]),
   );
 }
 

@@ -10,7 +10,7 @@
 import { byId, observeSize, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { pointOf } from "../shared/draggable.js";
 import { durationOf, shownTime } from "../state/page_state.js";
-import { BOTTOM, HEIGHT, drawAxis, drawControls, drawReadings, drawSeries, drawSwitches, timeScale } from "./bands.js";
+import { drawAxis, drawControls, drawReadings, drawSeries, drawSwitches, heightOf, timeScale } from "./bands.js";
 
 const LEAST_WIDTH_PX = 260;
 
@@ -24,17 +24,22 @@ export function timelineView(store, actions) {
   const cursor = svg("path", { class: "cursor" });
   root.append(...Object.values(below), cursor, reads);
   observeSize(byId("line-box", HTMLElement), (boxWidth) => {
-    const width = Math.max(LEAST_WIDTH_PX, boxWidth);
-    setSize(root, width, HEIGHT);
-    store.update({ timelineWidth: width });
+    store.update({ timelineWidth: Math.max(LEAST_WIDTH_PX, boxWidth) });
   });
+  store.watch(
+    ({ timelineWidth, theory }) => [timelineWidth, theory],
+    ({ timelineWidth, theory }) => {
+      setSize(root, timelineWidth, heightOf(theory));
+      root.classList.toggle("plain", !theory);
+    },
+  );
   watchPlan(root, below, store);
   watchTime(cursor, reads, store);
   seekWithPointer(root, store, actions);
 }
 
 /** @param {Store} store */
-const scaleNow = (store) => timeScale(store.get().timelineWidth, durationOf(store.get()));
+const scaleNow = (store) => timeScale(store.get().timelineWidth, durationOf(store.get()), store.get().theory);
 
 /**
  * @param {SVGSVGElement} root
@@ -43,7 +48,7 @@ const scaleNow = (store) => timeScale(store.get().timelineWidth, durationOf(stor
  */
 function watchPlan(root, { back, strip, lines, ticks }, store) {
   store.watch(
-    ({ answer, timelineWidth }) => [answer, timelineWidth],
+    ({ answer, timelineWidth, theory }) => [answer, timelineWidth, theory],
     ({ answer }) => {
       if (!answer) return;
       strip.replaceChildren(...drawControls(answer.segments, scaleNow(store)));
@@ -70,10 +75,10 @@ function watchPlan(root, { back, strip, lines, ticks }, store) {
  */
 function watchTime(cursor, reads, store) {
   store.watch(
-    (state) => [shownTime(state), state.answer, state.proof, state.timelineWidth],
+    (state) => [shownTime(state), state.answer, state.proof, state.timelineWidth, state.theory],
     (state) => {
       const time = shownTime(state);
-      cursor.setAttribute("d", `M${scaleNow(store).x(time).toFixed(1)} 0V${BOTTOM}`);
+      cursor.setAttribute("d", `M${scaleNow(store).x(time).toFixed(1)} 0V${scaleNow(store).axis - 10}`);
       show(reads, state.proof !== null);
       if (state.proof) reads.replaceChildren(...drawReadings(state.proof, time, scaleNow(store)));
     },

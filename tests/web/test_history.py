@@ -1,0 +1,238 @@
+"""Undo, redo and the browser's Back, which return to the state before; a plan that is late looks old."""
+
+import pytest
+from playwright.sync_api import expect
+
+from web.browsing import assert_shows_the_plan, drag, fly_at, located, middle, press, scene, settle
+
+
+def returned(page, expected):
+    """Wait until the page shows a scene again, and its plan."""
+    page.wait_for_function("expected => plan.dataset.scene === expected", arg=expected)
+    settle(page)
+    assert_shows_the_plan(page)
+
+
+def shown(page):
+    return page.locator("#plan").get_attribute("data-scene")
+
+
+def view(page):
+    return page.locator("#plan").evaluate("({dataset}) => [dataset.east, dataset.north, dataset.scale]")
+
+
+WAYS = {
+    "button": lambda page: page.locator("#undo").click(),
+    "key": lambda page: page.keyboard.press("Control+z"),
+    "back": lambda page: page.go_back(),
+}
+
+
+@pytest.mark.parametrize("undo", WAYS.values(), ids=WAYS)
+def test_each_way_returns_to_the_state_before(page, undo):
+    states, urls = [shown(page)], [page.url]
+    for change in (
+        lambda: drag(page, "aircraft", -40, 30, steps=12),
+        lambda: press(page, "In wind"),
+        lambda: drag(page, "centre", 20, 10),
+    ):
+        change()
+        page.wait_for_function("url => location.href !== url", arg=urls[-1])
+        states.append(shown(page))
+        urls.append(page.url)
+    assert len(set(states)) == 4
+    page.evaluate("document.activeElement.blur()")
+    for state, url in list(zip(states, urls, strict=True))[-2::-1]:
+        undo(page)
+        returned(page, state)
+        expect(page).to_have_url(url)
+    assert page.locator("#undo").get_attribute("aria-disabled") == "true"
+    for state in states[1:]:
+        page.locator("#redo").click()
+        returned(page, state)
+    assert page.locator("#redo").get_attribute("aria-disabled") == "true"
+
+
+def test_a_drag_is_one_step_even_with_pauses(page):
+    before = shown(page)
+    box = page.locator("#aircraft .touch").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for k in range(1, 4):
+        page.mouse.move(x - 15 * k, y + 9 * k, steps=3)
+        settle(page)
+        page.wait_for_timeout(500)
+    page.mouse.up()
+    settle(page)
+    assert shown(page) != before
+    page.locator("#undo").click()
+    returned(page, before)
+    assert page.locator("#undo").get_attribute("aria-disabled") == "true"
+
+
+def test_a_number_that_is_typed_is_one_step_and_so_are_keys_in_a_row(page):
+    before = shown(page)
+    page.locator("#circle-radius").fill("")
+    page.locator("#circle-radius").press_sequentially("125")
+    settle(page)
+    typed = shown(page)
+    page.locator("#aircraft").focus()
+    for _ in range(4):
+        page.keyboard.press("ArrowLeft")
+    settle(page)
+    page.locator("#undo").click()
+    returned(page, typed)
+    page.locator("#undo").click()
+    returned(page, before)
+    # The first digit alone is the radius of a circle that cannot be held.
+    assert all("422" in text for text in page.watched.complaints)
+    page.watched.complaints.clear()
+
+
+def test_a_change_after_an_undo_takes_the_place_of_what_was_undone(page):
+    first = shown(page)
+    press(page, "Far away")
+    page.locator("#undo").click()
+    returned(page, first)
+    press(page, "Inside the circle")
+    assert page.locator("#redo").get_attribute("aria-disabled") == "true"
+    page.locator("#undo").click()
+    returned(page, first)
+
+
+def test_undo_at_once_loses_nothing(page):
+    """The address is written after a pause; two steps within it are still two steps."""
+    before = shown(page)
+    page.locator("#presets button").nth(1).click()
+    page.locator("#presets button").nth(2).click()
+    third = scene(page)
+    page.locator("#undo").click()
+    settle(page)
+    assert scene(page) != third
+    page.locator("#undo").click()
+    returned(page, before)
+
+
+def test_the_view_comes_back_too_and_altitude_and_units_stay(page):
+    located(page)
+    fly_at(page, "620", "msl")
+    settle(page)
+    page.locator("#units").select_option("aviation")
+    page.get_by_role("button", name="Zoom in").click()
+    zoomed = view(page)
+    press(page, "Far away")
+    assert view(page) != zoomed
+    page.locator("#undo").click()
+    page.wait_for_function("scale => plan.dataset.scale === scale", arg=zoomed[2])
+    settle(page)
+    assert view(page) == zoomed
+    assert page.locator("#altitude-reference").input_value() == "msl"
+    assert page.locator("#latitude").input_value() == "47.1"
+    assert page.locator("#units").input_value() == "aviation"
+
+
+def test_steps_can_be_undone_after_a_reload(page):
+    before = shown(page)
+    press(page, "Far away")
+    page.wait_for_function("() => history.state.step === 1")
+    page.reload()
+    settle(page)
+    page.locator("#undo").click()
+    returned(page, before)
+
+
+def test_a_scene_without_a_plan_can_be_undone(page):
+    before = shown(page)
+    page.locator("#circle-radius").fill("40")
+    page.wait_for_function("() => plan.dataset.failure === 'refused'")
+    page.locator("#undo").click()
+    returned(page, before)
+    assert all("422" in text for text in page.watched.complaints)
+    page.watched.complaints.clear()
+
+
+# A slow line
+
+
+def test_a_plan_that_is_late_looks_old_until_the_new_one_is_there(page):
+    held = []
+    page.route("**/api/plan", lambda route: held.append(route))
+    late, path = page.locator("#late"), page.locator("#plan .best")
+    assert not late.is_visible()
+    page.locator("#circle-radius").fill("150")
+    expect(late).to_have_text("Waiting for the service. This is the previous plan.")
+    expect(path).to_have_css("opacity", "0.25")
+    expect(page.locator(".facts")).to_have_css("opacity", "0.45")
+    assert "late" in page.locator("#main").get_attribute("class")
+    held[0].continue_()
+    settle(page)
+    assert not late.is_visible()
+    expect(path).to_have_css("opacity", "1")
+    assert_shows_the_plan(page)
+
+
+def test_during_a_drag_the_path_looks_old_only_if_no_answer_arrives_for_a_while(page):
+    page.clock.install(time=0)
+    page.clock.pause_at(3_600)
+    late, held = page.locator("#late"), []
+    page.route("**/api/plan", lambda route: held.append(route))
+    x, y = middle(page, "aircraft")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 5, y)
+    for k in range(2, 8):
+        # An answer is always under way, and each is for the move before the last.
+        page.mouse.move(x + 5 * k, y)
+        page.clock.run_for(80)
+        assert not late.is_visible()
+        page.wait_for_function("k => plan.dataset.asked - plan.dataset.drawn === 2 && plan.dataset.asked > k", arg=k)
+        held.pop(0).continue_()
+        page.wait_for_function("() => plan.dataset.asked - plan.dataset.drawn === 1")
+    page.clock.run_for(130)
+    assert late.is_visible()
+    page.unroute("**/api/plan")  # which lets go what is held
+    page.mouse.up()
+    page.clock.resume()
+    settle(page)
+    assert not late.is_visible()
+    assert_shows_the_plan(page)
+
+
+# The first start on a machine
+
+
+def test_a_service_that_compiles_says_so_in_place_of_the_map(page):
+    health = {"status": "ok", "version": "0", "ready": False}
+    page.route("**/healthz", lambda route: route.fulfill(json=health))
+    held = []
+
+    def hold(route):
+        if health["ready"]:
+            route.continue_()
+        else:
+            held.append(route)
+
+    page.route("**/api/synthesis*", hold)
+    wait = page.locator("#map-wait")
+    page.locator("#presets button").nth(4).click()
+    expect(wait).to_have_text("The solver is being compiled, some 20 s, once per machine.")
+    assert wait.is_visible()
+    # The plan, which needs no machine code, is there.
+    assert_shows_the_plan(page)
+    page.route("**/api/plan", hold)
+    page.locator("#presets button").nth(5).click()
+    expect(page.locator("#late")).to_contain_text("The solver is being compiled, some 20 s, once per machine.")
+    health["ready"] = True
+    for route in held:
+        route.continue_()
+    settle(page)
+    expect(wait).to_have_text("")
+    assert not wait.is_visible()
+    assert not page.locator("#late").is_visible()
+
+
+def test_a_quick_service_is_not_asked_whether_it_is_ready(page):
+    press(page, "Paper, example 1")
+    page.wait_for_timeout(1000)
+    assert [url for url in page.watched.requests if url.endswith("/healthz")] == []
