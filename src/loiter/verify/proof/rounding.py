@@ -245,7 +245,8 @@ def time_of(region: Region, copied: Callable[[Function], Function], state: State
     # By `lengths`, x x + y (y + 2), or that with -y where the first arc is R, is the squared distance less 1.
     start.x.total = state.distance * state.distance - 1
     extremal = region.function(copied, start)
-    if not isinstance(extremal.straight, Rounded) and extremal.straight != 0.0:
+    straight: Any = extremal.straight
+    if not isinstance(straight, Rounded) and straight != 0.0:
         return ()
     for rotation, length in zip((extremal.first, extremal.middle), region.lengths(state), strict=False):
         for part in rotation:
