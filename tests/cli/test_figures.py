@@ -86,7 +86,7 @@ def test_where_nothing_can_be_written_one_sentence_says_why(refused, out, why):
 @pytest.mark.parametrize(
     ("arguments", "named"),
     [
-        ([], "--out needs a value"),
+        ([], "--out DIR is needed"),
         (["--out"], "--out"),
         (["--out", "new", "--format", "gif"], "--format"),
         (["--out", "new", "more"], "'more'"),
