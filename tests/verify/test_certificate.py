@@ -399,6 +399,7 @@ def test_an_optimum_is_claimed_in_still_air_without_a_tolerance(scene, tolerance
     assert certificate.valid
     assert (certificate.optimal, certificate.to_dict()["optimal"]) == (proved, proved)
     assert ("Optimal, up to rounding, by theorem 1 of docs/proof.md." in str(certificate)) == proved
+    assert ("Not proved to be optimal: these conditions are necessary ones" in str(certificate)) == (not proved)
 
 
 def test_no_optimum_is_claimed_for_a_loser():

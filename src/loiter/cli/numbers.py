@@ -60,9 +60,9 @@ def any_case(type_: type, tokens: Sequence[Token]) -> str:
 
 
 def plain(token: Token) -> float:
-    """A number without a unit."""
+    """A number without a unit; degrees may end in deg or °."""
     try:
-        return float(token.value)
+        return float(token.value.removesuffix("deg").removesuffix("°"))
     except ValueError as error:
         raise _refused(token, "it must be a number") from error
 

@@ -30,7 +30,7 @@ class Status(IntEnum):
 _MESSAGES = {
     Status.OK: "solved",
     Status.NOT_FINITE: "the state, the radius or the wind is nan or infinite",
-    Status.RADIUS_TOO_SMALL: "the circle is tighter than the minimum turn radius: R must be at least 1",
+    Status.RADIUS_TOO_SMALL: "the circle is tighter than the minimum turn radius",
     Status.OUT_OF_RANGE: "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn",
     Status.BAD_TOLERANCE: "the tolerance must be zero or positive, and below 2**52 turn radii",
     Status.BAD_AIRCRAFT: "airspeed and turn limit must be positive, finite numbers, and a bank below 90 degrees",
@@ -39,7 +39,7 @@ _MESSAGES = {
     Status.BAD_POSE: "east, north and heading must be finite numbers",
     Status.MALFORMED: "the line has more or fewer fields than the header, or is not UTF-8",
     Status.WIND_TOO_STRONG: "the wind relative to the circle is as fast as the aircraft: |w| must be below 1",
-    Status.NOT_HELD: "the circle is too tight to be held in this wind: R must be at least (1 + |w|)**2",
+    Status.NOT_HELD: "the circle is too tight to be held in this wind",
     Status.NOT_CONVERGED: "no maneuver was found that ends on the circle when flown",
     Status.BAD_WIND: "the wind needs a finite speed, zero or positive, and a finite direction",
 }

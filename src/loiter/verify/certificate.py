@@ -37,6 +37,7 @@ STRAIGHT_ENTRY = "that of a straight entry that ends in it, (1, 0) on the axis"
 SWITCH_AT_START = "that of a switch at its start, parallel to the state there"
 UNIQUE_IN_WIND = "the adjoint is unique: the pieces and the condition at the circle fix it"
 BY_THE_THEOREM = "Optimal, up to rounding, by theorem 1 of docs/proof.md."
+NOT_PROVED = "Not proved to be optimal: these conditions are necessary ones, and no extremal that was found is faster."
 ARC_IN_WIND = "a single arc has many adjoints: this is the one that violates the conditions least"
 
 
@@ -239,11 +240,12 @@ def _head(certificate: Certificate) -> list[str]:
     maneuver = certificate.maneuver
     verdict = "valid" if certificate.valid else f"NOT VALID, {len(certificate.failed)} conditions FAILED"
     lines = [f"Certificate of {maneuver.word or 'a start on the circle'}, {Turn(maneuver.turn).described}: {verdict}."]
+    if certificate.valid:
+        lines.append(BY_THE_THEOREM if certificate.optimal else NOT_PROVED)
     if certificate.lam is not None and certificate.psi is not None:
         psi1, psi2 = certificate.psi
         lines.append(f"lambda = {certificate.lam:.6f}, psi = ({psi1:.6f}, {psi2:.6f}) at the start.")
     lines.append(certificate.choice[:1].upper() + certificate.choice[1:] + ".")
-    lines += [BY_THE_THEOREM] if certificate.optimal else []
     lines += [
         f"{s.letters} at {s.time_s:.6g} s: (x, y) = ({s.x:.6f}, {s.y:.6f}), psi = ({s.psi1:.6f}, {s.psi2:.6f})."
         for s in certificate.switches

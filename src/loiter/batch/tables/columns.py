@@ -26,6 +26,9 @@ KNOWN = (*POSE, *ORBIT, AIRSPEED, *TURN_LIMITS, TURN, *WIND, *VELOCITY)
 
 _TEXT = pa.dictionary(pa.int8(), pa.string())
 
+# At most this many columns are listed in a message.
+LISTED = 8
+
 # The columns that the output has in addition to those of the input, in this order.
 ADDED = pa.schema(
     [
@@ -163,7 +166,9 @@ def carried_columns(names: Iterable[str]) -> list[str]:
 def _check_names(argument: str, names: list[str]) -> None:
     for name in POSE:
         if name not in names:
-            raise InvalidArgument(argument, f"has no column {name}: it needs {', '.join(POSE)}{_hint(name, names)}")
+            there = f"its columns are {', '.join(names[:LISTED])}{', ...' if len(names) > LISTED else ''}"
+            hint = _hint(name, names) or f"; {there}: is the first line a header?"
+            raise InvalidArgument(argument, f"has no column {name}: it needs {', '.join(POSE)}{hint}")
     for name, count in Counter(names).items():
         if count > 1:
             raise InvalidArgument(argument, f"has two columns named {name!r}")
