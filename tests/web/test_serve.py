@@ -1,6 +1,7 @@
 """`loiter serve` as a program: its address, its messages, its end."""
 
 import asyncio
+import logging
 import signal
 import socket
 import subprocess
@@ -86,7 +87,8 @@ def test_a_connection_accepted_while_it_ends_does_not_delay_the_end(caplog):
         return late.shutdowns
 
     assert asyncio.run(scenario()) == 2
-    assert not caplog.records
+    # A test before may have switched on the server's own notices.
+    assert not [record for record in caplog.records if record.levelno >= logging.WARNING]
 
 
 @pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="a file of Linux")

@@ -53,6 +53,11 @@ def scrolled(page):
     return page.evaluate("scrollY")
 
 
+def room_below(page):
+    """How far the page can be scrolled."""
+    return page.evaluate("document.documentElement.scrollHeight - innerHeight")
+
+
 def reopen(page, link):
     """Open a link on a page that is open."""
     page.evaluate(
@@ -74,16 +79,18 @@ def bring(page, handle):
 @pytest.mark.parametrize("dy", [-72, 72], ids=["up", "down"])
 def test_a_finger_drags_each_handle_up_and_down(opened, device, dy):
     page = opened(**device)
+    # The dot in the reduced plane is behind it.
+    page.locator("#theory").click()
     fingers = Fingers(page)
-    room = page.evaluate("document.documentElement.scrollHeight - innerHeight")
-    assert room > 100
+    assert room_below(page) > 100
     for handle in [*HANDLES, "wind"]:
         reopen(page, WIDE)
         x, y = bring(page, handle)
         before, above = scene(page), scrolled(page)
         kinds = fingers.swipe(x, y, 0, dy)
         assert kinds == ["pointerdown", *["pointermove"] * 12, "pointerup"], handle
-        assert scrolled(page) == above
+        # The list of candidates, and with it the page, may be shorter than before.
+        assert scrolled(page) == min(above, room_below(page))
         settle(page)
         if handle == "wind":
             # Down blows towards the south.
