@@ -31,10 +31,15 @@ MAP_WIND, MAP_REACH = 0.4, 8.0
 
 # Colours for differences from a tenth to several; differences below SAME_TIME are due to rounding.
 SCALE, SAME_TIME = SymLogNorm(0.1, vmin=-4.5, vmax=4.5), 1e-9
+
+# Where the sign of the difference changes by more than this between neighbours of the map, one of the times jumps: the
+# two directions do not tie there. Away from the jumps neighbours of the drawn map differ by much less.
+JUMP = 0.3
+
 TIE_COLOUR = ListedColormap(["#a6dcc8"])
 
 
-def draw(cells: int = 100) -> Figure:
+def draw(cells: int = 300) -> Figure:
     """Draw entries from one start in winds of several speeds, and maps of the faster direction, without and with wind.
 
     Lengths are in turn radii, times in turn radii over airspeed; the maps have `cells` points a side.
@@ -96,9 +101,25 @@ def _draw_worth(axes: Axes, wind: float, cells: int) -> Any:
         axes.pcolormesh(line, line, shown, cmap=TIE_COLOUR, shading="nearest", rasterized=True, gid="tied")
         axes.text(-MAP_REACH + 0.4, -MAP_REACH + 0.4, "tied", fontsize="medium", color="black")
     else:
-        axes.contour(line, line, later, levels=[0.0], colors="black", linewidths=1.8)
+        draw_ties(axes, line, later)
     _draw_circle(axes)
     return mesh
+
+
+def draw_ties(axes: Axes, line: NDArray[np.float64], later: NDArray[np.float64]) -> None:
+    """Draw where a difference (n, n) on the grid of coordinates `line` (n,) is 0, and not where it jumps past 0."""
+    ties = np.ma.masked_where(_jumps(later), later)
+    axes.contour(line, line, ties, levels=[0.0], colors="black", linewidths=1.8)
+
+
+def _jumps(later: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which points have a neighbour of the other sign across a jump."""
+    found = np.zeros(later.shape, dtype=bool)
+    for here, there in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
+        jump = (later[here] * later[there] < 0.0) & (np.abs(later[here] - later[there]) > JUMP)
+        found[here] |= jump
+        found[there] |= jump
+    return found
 
 
 def _draw_circle(axes: Axes) -> None:
