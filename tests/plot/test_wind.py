@@ -49,8 +49,11 @@ def test_in_wind_the_ties_of_still_air_are_gone():
 
 def test_a_tie_is_drawn_where_the_difference_passes_through_zero_and_not_where_it_jumps():
     line = np.linspace(-1.0, 1.0, 40)
-    east, north = np.meshgrid(line, line)
-    later = np.where(north > 0.0, 0.5 * east, np.where(east > 0.0, 2.0, -2.0))
+
+    def later(east, north):
+        """Steep, as next to a region's border, but continuous above the axis; a jump below it."""
+        return np.where(north > 0.0, np.sign(east) * np.sqrt(np.abs(east)), np.where(east > 0.0, 2.0, -2.0))
+
     axes = Figure().add_subplot()
     draw_ties(axes, line, later)
     [drawn] = axes.collections
