@@ -4,13 +4,14 @@ import errno
 import re
 from xml.etree import ElementTree
 
+import matplotlib as mpl
 import pytest
 from matplotlib.figure import Figure
 from PIL import Image
 
 from loiter import Aircraft, Orbit, Pose, plan_all
 from loiter.errors import InvalidArgument, LoiterError
-from loiter.plot.files import FORMATS, check_format, save
+from loiter.plot.files import FORMATS, SETTINGS, check_format, save
 
 BEST = plan_all(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0))
 
@@ -40,6 +41,37 @@ def test_a_pdf_has_one_page_from_header_to_trailer(tmp_path, name):
     assert written.startswith(b"%PDF-")
     assert written.rstrip().endswith(b"%%EOF")
     assert len(re.findall(rb"/Type /Page\b", written)) == 1
+
+
+def test_a_pdf_embeds_truetype_fonts(tmp_path):
+    """Journals refuse Type 3 fonts."""
+    save(tmp_path / "entry.pdf", BEST)
+    written = (tmp_path / "entry.pdf").read_bytes()
+    assert b"/Type3" not in written
+    assert b"/CIDFontType2" in written
+
+
+def test_an_svg_keeps_text_as_text(tmp_path):
+    save(tmp_path / "entry.svg", BEST)
+    root = ElementTree.parse(tmp_path / "entry.svg").getroot()
+    assert {"east (m)", "north (m)", "holding circle"} <= {
+        "".join(element.itertext()) for element in root.iter("{http://www.w3.org/2000/svg}text")
+    }
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_the_same_picture_gives_the_same_file(tmp_path, ending):
+    first, second = tmp_path / f"first{ending}", tmp_path / f"second{ending}"
+    save(first, BEST)
+    save(second, BEST)
+    assert first.read_bytes() == second.read_bytes()
+    assert not re.search(rb"/CreationDate|<dc:date>", first.read_bytes())
+
+
+def test_saving_leaves_the_users_settings_alone(tmp_path):
+    before = {name: mpl.rcParams[name] for name in SETTINGS}
+    save(tmp_path / "entry.pdf", BEST)
+    assert {name: mpl.rcParams[name] for name in SETTINGS} == before != SETTINGS
 
 
 def test_a_path_may_be_a_string(tmp_path):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from loiter import Aircraft, Orbit, Pose, plan
+from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.guidance.trials import settings
 from loiter.guidance.trials.campaign import Trial
 from loiter.guidance.trials.flight import fly
@@ -48,3 +48,25 @@ def test_who_has_not_settled_is_said_so():
     axes = draw(TRIAL.ideal, {"l1": short}).axes[0]
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["fastest entry", "l1: not settled"]
     assert not [artist for artist in axes.get_lines() if artist.get_gid() == "settled l1"]
+
+
+def test_the_title_says_what_was_flown_and_the_axis_where_the_bank_is_positive(flights):
+    tracks, bank, _ = draw(TRIAL.ideal, flights).axes
+    circle = f"onto a circle of 80 m, {TRIAL.ideal.turn.described}, at 18 m/s"
+    assert tracks.get_title() == f"Laws optimal and l1 in closed loop\n{circle}"
+    assert "right positive" in bank.get_ylabel()
+    one = draw(TRIAL.ideal, {"l1": flights["l1"]}).axes[0]
+    assert one.get_title().startswith("Law l1 in closed loop\n")
+
+
+def test_the_wind_is_in_the_title(flights):
+    ideal = plan(TRIAL.ideal.start, TRIAL.ideal.orbit, TRIAL.ideal.aircraft, Wind(4.0, from_deg=250.0))
+    assert draw(ideal, flights).axes[0].get_title().endswith("at 18 m/s, wind 4 m/s from 250 deg")
+    assert "right positive" in draw(ideal, flights).axes[1].get_ylabel()
+
+
+def test_a_right_turn_has_positive_bank(flights):
+    track = flights["optimal"].track
+    right = np.argmax(track.bank_deg)
+    assert track.bank_deg[right] > 20.0
+    assert np.diff(np.unwrap(track.heading_deg, period=360.0))[right - 1] > 0.0

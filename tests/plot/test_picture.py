@@ -1,5 +1,6 @@
 """What the picture shows, read back from the artists on its axes."""
 
+import re
 from dataclasses import replace
 from math import cos, hypot, radians, sin
 
@@ -281,6 +282,29 @@ def test_the_soonest_losers_are_labelled_with_their_cost(scene):
         told = "as fast" if cost < 1e-9 else f"{cost:.3g} s later"
         assert f"{other.word} {other.turn.value}: {told}" in labels
     assert (f"{len(others) - 3} more, slower still" in labels) == (len(others) > 3)
+
+
+@each_scene
+def test_each_labelled_loser_has_a_line_of_its_own(scene):
+    """In the picture as in the legend; greys and dashes are told apart without seeing colours."""
+    axes, _, others = drawn(scene)
+    found = axes.get_legend()
+    labelled = [
+        (line.get_color(), line.is_dashed(), text.get_text())
+        for text, line in zip(found.get_texts(), found.get_lines(), strict=True)
+        if re.search(r" (cw|ccw): ", text.get_text())
+    ]
+    lines = [(line.get_color(), line.is_dashed()) for line in artists(axes, "candidate")]
+    assert [style[:2] for style in labelled] == lines[:3]
+    assert len({colour for colour, _ in lines[:3]}) == len(labelled) == min(3, len(others))
+    assert sum(dashed for _, dashed in lines) == max(0, len(labelled) - 1)
+
+
+@each_scene
+def test_the_aircraft_hides_no_path(scene):
+    axes, _, _ = drawn(scene)
+    [start] = artists(axes, "start")
+    assert all(start.get_zorder() < line.get_zorder() for line in segment_lines(axes))
 
 
 def test_without_others_no_loser_is_drawn_or_labelled():

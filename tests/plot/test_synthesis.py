@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from loiter.arrays.partition import boundaries, partition
+from loiter.arrays.partition import boundaries, lines, partition
 from loiter.plot.synthesis import draw
 
 
@@ -48,3 +48,21 @@ def test_a_curve_is_drawn_in_order():
     line = next(line for line in axes.lines if line.get_gid() == "same RL RSL").get_xydata()
     steps = np.hypot(*np.diff(line, axis=0).T)
     assert np.nanmax(steps) < 0.4
+
+
+@pytest.mark.parametrize(("radius", "turn"), [(1.0, "either"), (1.5, "cw")])
+def test_a_connected_region_has_one_label(radius, turn):
+    regions = partition(radius, turn, cells=80)
+    labels = [text.get_text() for text in draw(regions, ()).axes[0].texts]
+    assert len(labels) == len(set(labels)) >= 5
+
+
+def test_an_arc_that_begins_in_the_middle_has_no_gap():
+    """The leftmost point of the circle around (0, 1), where the search for neighbours begins, is not an end."""
+    regions = partition(1.5, "cw", cells=80)
+    [curve] = [curve for curve in boundaries(regions) if curve.kind == "same" and curve.words == ("RL", "RSL")]
+    [arc] = lines(regions, curve)
+    assert np.hypot(*np.diff(arc, axis=0).T).max() < 3.0 * (regions.x[1] - regions.x[0])
+    ends = arc[[0, -1]]
+    assert np.abs(ends[:, 1]).max() < 0.2
+    assert len(arc) == len(curve.points)

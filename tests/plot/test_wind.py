@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from loiter import Orbit, Wind, plan
-from loiter.plot.wind import AIRCRAFT, CIRCLE_RADIUS, MAP_WIND, SAME_TIME, SPEEDS, START, differences, draw
+from loiter.plot.wind import AIRCRAFT, CIRCLE_RADIUS, MAP_WIND, SAME_TIME, SPEEDS, START, differences, draw, draw_ties
 
 
 def artists(axes, gid):
@@ -44,3 +45,19 @@ def test_in_wind_the_ties_of_still_air_are_gone():
     assert np.count_nonzero(np.abs(still) < SAME_TIME) > 30
     assert np.count_nonzero(np.abs(windy) < 1e-3) == 0
     assert np.allclose(line, -line[::-1])
+
+
+def test_a_tie_is_drawn_where_the_difference_passes_through_zero_and_not_where_it_jumps():
+    line = np.linspace(-1.0, 1.0, 40)
+
+    def later(east, north):
+        """Steep, as next to a region's border, but continuous above the axis; a jump below it."""
+        return np.where(north > 0.0, np.sign(east) * np.sqrt(np.abs(east)), np.where(east > 0.0, 2.0, -2.0))
+
+    axes = Figure().add_subplot()
+    draw_ties(axes, line, later)
+    [drawn] = axes.collections
+    points = np.concatenate([path.vertices for path in drawn.get_paths()])
+    assert np.abs(points[:, 0]).max() < 1e-9
+    assert points[:, 1].min() > 0.0
+    assert points[:, 1].max() == 1.0

@@ -121,22 +121,32 @@ def _boundary(kind: str, words: tuple[str, str], rows: list[tuple[float, float, 
 def lines(regions: Partition, curve: Boundary) -> list[Floats]:
     """The points of a curve as lines (n, 2): each point is followed by the nearest of the remaining ones.
 
-    A new line begins where the nearest one is too far away.
+    A line is extended at both ends; a new one begins where the nearest point is too far from both. A line whose ends
+    are close is closed.
     """
     gap = LARGEST_GAP * _grid_step(regions)
     remaining = curve.points[np.argsort(curve.points[:, 0])]
-    here, remaining = _take(remaining, 0)
-    line = [here]
-    found = [line]
+    found = []
     while len(remaining):
-        distance = np.hypot(*(remaining - here).T)
+        start, remaining = _take(remaining, 0)
+        forward, remaining = _extended([start], remaining, gap)
+        line, remaining = _extended(forward[::-1], remaining, gap)
+        closed = len(line) > LARGEST_GAP and np.hypot(*(line[-1] - line[0])) <= gap
+        found.append(np.array([*line, line[0]] if closed else line))
+    return found
+
+
+def _extended(line: list[Floats], remaining: Floats, gap: float) -> tuple[list[Floats], Floats]:
+    """A line with the nearest of the remaining points appended while it is within `gap`, and the others."""
+    line = list(line)
+    while len(remaining):
+        distance = np.hypot(*(remaining - line[-1]).T)
         nearest = int(distance.argmin())
         if distance[nearest] > gap:
-            line, nearest = [], 0
-            found.append(line)
+            break
         here, remaining = _take(remaining, nearest)
         line.append(here)
-    return [np.array(points) for points in found]
+    return line, remaining
 
 
 def _take(points: Floats, i: int) -> tuple[Floats, Floats]:

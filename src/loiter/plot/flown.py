@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,15 @@ from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
 from loiter.guidance.trials.flight import Flight
+from loiter.planning.compass import wrapped
 from loiter.planning.maneuver import Maneuver
 from loiter.plot.picture import FAINT
 
 # From the palette of Okabe and Ito.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+
+# The sign of the bank, as autopilots count it.
+BANK_LABEL = "bank (deg,\nright positive)"
 
 
 def draw(ideal: Maneuver, flights: Mapping[str, Flight]) -> Figure:
@@ -29,11 +33,12 @@ def draw(ideal: Maneuver, flights: Mapping[str, Flight]) -> Figure:
     layout: Any = [["tracks"], ["bank"], ["join"]]
     axes = figure.subplot_mosaic(layout, height_ratios=[6, 2, 2])
     _draw_tracks(axes["tracks"], ideal, flights)
+    axes["tracks"].set_title(_title(ideal, list(flights)), fontsize="medium")
     for (name, flight), colour in zip(flights.items(), COLOURS, strict=False):
         track, time_s = flight.track, flight.track.elapsed_s
         axes["bank"].plot(time_s, track.bank_deg, color=colour, linewidth=1.2, gid=f"bank {name}")
         axes["join"].plot(time_s, track.time_to_join_s, color=colour, linewidth=1.2, gid=f"join {name}")
-    axes["bank"].set_ylabel("bank (deg)")
+    axes["bank"].set_ylabel(BANK_LABEL)
     axes["join"].set_ylabel("time to join (s)")
     axes["join"].set_xlabel("time (s)")
     axes["join"].sharex(axes["bank"])
@@ -41,6 +46,15 @@ def draw(ideal: Maneuver, flights: Mapping[str, Flight]) -> Figure:
         panel.grid(color="#e6e6e6", linewidth=0.8)
         panel.set_axisbelow(True)
     return figure
+
+
+def _title(ideal: Maneuver, names: Sequence[str]) -> str:
+    """What was flown: the laws, then the circle, the airspeed and the wind."""
+    laws = f"Laws {', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else f"Law {names[0]}"
+    circle = f"a circle of {ideal.orbit.radius_m:.4g} m, {ideal.turn.described}"
+    air = f", wind {ideal.wind.speed_m_s:.3g} m/s from {wrapped(ideal.wind.from_deg):.0f} deg"
+    scene = f"{circle}, at {ideal.aircraft.airspeed_m_s:.4g} m/s"
+    return f"{laws} in closed loop\nonto {scene}{air if ideal.wind.speed_m_s > 0.0 else ''}"
 
 
 def _draw_tracks(axes: Axes, ideal: Maneuver, flights: Mapping[str, Flight]) -> None:

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from loiter.plot.flown import COLOURS
+from loiter.plot.flown import BANK_LABEL, COLOURS
 from loiter.plot.picture import FAINT
 
 Columns = Mapping[str, Sequence[Any]]
@@ -25,6 +25,7 @@ def draw(log: Columns) -> Figure:
     layout: Any = [["track"], ["offset"], ["bank"]]
     axes = figure.subplot_mosaic(layout, height_ratios=[6, 2, 2])
     _draw_track(axes["track"], log)
+    axes["track"].set_title(f"Guided flight onto a circle of {log['orbit_radius_m'][-1]:.4g} m", fontsize="medium")
     time_s = np.asarray(log["time_s"], float)
     for name, label, colour in (
         ("outside_m", "outside the circle", COLOURS[0]),
@@ -36,7 +37,7 @@ def draw(log: Columns) -> Figure:
     for name, label, colour in (("command_deg", "commanded", COLOURS[1]), ("bank_deg", "measured", COLOURS[0])):
         axes["bank"].plot(time_s, np.asarray(log[name], float), color=colour, linewidth=1.2, label=label, gid=name)
     axes["offset"].set_ylabel("distance (m)")
-    axes["bank"].set_ylabel("bank (deg)")
+    axes["bank"].set_ylabel(BANK_LABEL)
     axes["bank"].set_xlabel("time (s)")
     axes["offset"].sharex(axes["bank"])
     for panel in axes.values():

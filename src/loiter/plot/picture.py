@@ -26,6 +26,14 @@ from loiter.planning.model import Orbit, Pose, Segment, Turn, Wind
 COLOURS = {"L": "#009E73", "S": "#0072B2", "R": "#D55E00"}
 MEANINGS = {"L": "left turn", "S": "straight", "R": "right turn"}
 FAINT = "#b0b0b0"
+
+# The slower maneuvers in the legend differ in dashes and shade, not in hue: hues show the turns. The rest are faint.
+SLOWER: tuple[dict[str, Any], ...] = (
+    {"color": "#606060", "linestyle": "-"},
+    {"color": "#505050", "linestyle": (0, (6, 2))},
+    {"color": "#404040", "linestyle": (0, (1, 1.5))},
+)
+STILL_SLOWER: dict[str, Any] = {"color": FAINT, "linestyle": "-"}
 AT_THE_START: dict[str, Any] = {"color": FAINT, "linewidth": 1.2, "linestyle": "--"}
 
 ARROW: dict[str, Any] = {"arrowstyle": "-|>", "shrinkA": 0.0, "shrinkB": 0.0}
@@ -43,7 +51,7 @@ CHORD_RAD = math.radians(2.0)
 
 
 def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: LocalFrame | None = None) -> Figure:
-    """Draw maneuvers from one start: `best` coloured by segment, `others` faint; start, switches and join marked.
+    """Draw maneuvers from one start: `best` coloured by segment, `others` thin and grey; start, switches, join marked.
 
     East is to the right, north up, axes equal, in metres, with a scale bar; with a frame the axes are labelled with its
     origin on Earth. The first of `best` gives the title. In wind, tracks are ground tracks, and an arrow beside the
@@ -58,8 +66,9 @@ def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: Lo
     axes.ticklabel_format(useOffset=False, style="plain")
     axes.grid(color="#e6e6e6", linewidth=0.8)
     axes.set_axisbelow(True)
-    for maneuver in (other for other in others if other.segments):
-        axes.plot(*_track(maneuver), color=FAINT, linewidth=1.0, alpha=0.6, zorder=1, gid="candidate")
+    for i, maneuver in enumerate(others):
+        if maneuver.segments:
+            axes.plot(*_track(maneuver), **_slower_style(i), linewidth=1.0, alpha=0.8, zorder=1, gid="candidate")
     if first.orbit.moves:
         _draw_movement(axes, first)
     _draw_circle(axes, first.orbit_at_join, {maneuver.turn for maneuver in best})
@@ -75,8 +84,13 @@ def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: Lo
     axes.margins(0.08)
     _draw_north(axes)
     _draw_scale(axes)
-    axes.legend(handles=_legend(best, others), loc="best", fontsize="small", framealpha=0.9)
+    axes.legend(handles=_legend(best, others), loc="best", fontsize="small", handlelength=2.6, framealpha=0.9)
     return figure
+
+
+def _slower_style(i: int) -> dict[str, Any]:
+    """The colour and dashes of the slower maneuver with index i."""
+    return SLOWER[i] if i < len(SLOWER) else STILL_SLOWER
 
 
 def _title(best: Sequence[Maneuver]) -> str:
@@ -98,7 +112,8 @@ def _draw_path(axes: Axes, maneuver: Maneuver) -> None:
 
 
 def _mark(axes: Axes, pose: Pose, **style: Any) -> None:
-    axes.plot([pose.east_m], [pose.north_m], color="black", linestyle="none", zorder=5, **style)
+    mark: dict[str, Any] = {"color": "black", "linestyle": "none", "zorder": 5} | style
+    axes.plot([pose.east_m], [pose.north_m], **mark)
 
 
 def _draw_circle(axes: Axes, orbit: Orbit, turns: set[Turn]) -> None:
@@ -186,10 +201,10 @@ def _arrow(
 
 
 def _draw_aircraft(axes: Axes, pose: Pose) -> None:
-    # A dart that points along the heading, wide enough to show it.
+    # A dart along the heading, wide enough to show it, under the path, whose first turn may be short.
     e, n = heading_vector(pose.heading_deg)
     outline = np.array([[1.0, 0.0], [-0.7, 0.6], [-0.35, 0.0], [-0.7, -0.6]]) @ np.array([[e, n], [-n, e]])
-    _mark(axes, pose, marker=outline, markersize=18, gid="start")
+    _mark(axes, pose, marker=outline, markersize=16, zorder=2.5, gid="start")
 
 
 def _segment_track(segment: Segment, maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -213,11 +228,12 @@ def _legend(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> list[Line2D
         handles.append(Line2D([], [], label="circle at the start", **AT_THE_START))
     handles += [Line2D([], [], color="black", linestyle="none", **style, label=label) for label, style in MARKS.items()]
     handles += [
-        Line2D([], [], color=FAINT, label=f"{other.word} {other.turn.value}: {_later(other, best)}")
-        for other in others[:3]
+        Line2D([], [], **style, linewidth=1.0, label=f"{other.word} {other.turn.value}: {_later(other, best)}")
+        for other, style in zip(others, SLOWER, strict=False)
     ]
-    if len(others) > 3:
-        handles.append(Line2D([], [], color=FAINT, label=f"{len(others) - 3} more, slower still"))
+    if len(others) > len(SLOWER):
+        label = f"{len(others) - len(SLOWER)} more, slower still"
+        handles.append(Line2D([], [], **STILL_SLOWER, linewidth=1.0, label=label))
     return handles
 
 

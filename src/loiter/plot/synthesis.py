@@ -83,10 +83,17 @@ def _paint_values(figure: Figure, axes: Axes, regions: Partition, show: str) -> 
 
 
 def _middles(regions: Partition, word: Word) -> list[tuple[float, float]]:
-    """The positions of labels in a region, above and below the axis: the cells farthest from the border."""
+    """The positions of the labels of a word: in each part, the cell farthest from the border.
+
+    A region that crosses the axis is one part; if it does not, those above and below the axis are two.
+    """
+    inside = regions.word == word
+    upper = regions.y[:, np.newaxis] > 0.0
+    below, above = inside[len(regions.y) // 2 - 1], inside[len(regions.y) // 2]
+    parts = [inside] if np.any(below & above) else [inside & upper, inside & ~upper]
     found = []
-    for half in (regions.y > 0.0, regions.y < 0.0):
-        depth = _depth((regions.word == word) & half[:, np.newaxis])
+    for part in parts:
+        depth = _depth(part)
         # Below a fiftieth of the map a region is narrower than its label.
         if depth.max() >= 0.02 * len(regions.x):
             row, column = np.unravel_index(int(depth.argmax()), depth.shape)

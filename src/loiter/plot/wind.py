@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,8 @@ from loiter.planning.solve import plan
 from loiter.plot.files import save_figure
 from loiter.plot.picture import MARKS
 
+Floats = NDArray[np.float64]
+
 # In turn radii and airspeeds, so that the pictures apply to every aircraft. The circle can be held in all these winds.
 AIRCRAFT, CIRCLE_RADIUS = Aircraft(1.0, min_turn_radius_m=1.0), 2.7
 FASTEST_WIND = 0.6
@@ -31,10 +35,15 @@ MAP_WIND, MAP_REACH = 0.4, 8.0
 
 # Colours for differences from a tenth to several; differences below SAME_TIME are due to rounding.
 SCALE, SAME_TIME = SymLogNorm(0.1, vmin=-4.5, vmax=4.5), 1e-9
+
+# A sign change of the difference is located by HALVINGS of a step of the map. If the difference still changes by more
+# than JUMP there, one of the times jumps, and the two directions do not tie.
+HALVINGS, JUMP = 30, 1e-3
+
 TIE_COLOUR = ListedColormap(["#a6dcc8"])
 
 
-def draw(cells: int = 100) -> Figure:
+def draw(cells: int = 200) -> Figure:
     """Draw entries from one start in winds of several speeds, and maps of the faster direction, without and with wind.
 
     Lengths are in turn radii, times in turn radii over airspeed; the maps have `cells` points a side.
@@ -83,8 +92,13 @@ def differences(wind: float, cells: int) -> tuple[NDArray[np.float64], NDArray[n
     # An even number of points avoids the axes.
     line = np.linspace(-MAP_REACH, MAP_REACH, cells)
     east, north = np.meshgrid(line, line)
+    return line, difference(wind, east, north)
+
+
+def difference(wind: float, east: NDArray[np.float64], north: NDArray[np.float64]) -> NDArray[np.float64]:
+    """T clockwise less T counter-clockwise at points, heading east in a wind that blows north."""
     cw, ccw = (min_time_in_wind(east, north, 0.0, CIRCLE_RADIUS, turn, 0.0, wind) for turn in ("cw", "ccw"))
-    return line, cw - ccw
+    return cw - ccw
 
 
 def _draw_worth(axes: Axes, wind: float, cells: int) -> Any:
@@ -96,9 +110,34 @@ def _draw_worth(axes: Axes, wind: float, cells: int) -> Any:
         axes.pcolormesh(line, line, shown, cmap=TIE_COLOUR, shading="nearest", rasterized=True, gid="tied")
         axes.text(-MAP_REACH + 0.4, -MAP_REACH + 0.4, "tied", fontsize="medium", color="black")
     else:
-        axes.contour(line, line, later, levels=[0.0], colors="black", linewidths=1.8)
+        draw_ties(axes, line, partial(difference, wind))
     _draw_circle(axes)
     return mesh
+
+
+def draw_ties(axes: Axes, line: Floats, later: Callable[[Floats, Floats], Floats]) -> None:
+    """Draw where a function of east and north is 0, and not where it jumps past 0, on the grid of `line` (n,)."""
+    values = later(*np.meshgrid(line, line))
+    ties = np.ma.masked_where(_jumps(line, values, later), values)
+    axes.contour(line, line, ties, levels=[0.0], colors="black", linewidths=1.8)
+
+
+def _jumps(line: Floats, values: Floats, later: Callable[[Floats, Floats], Floats]) -> NDArray[np.bool_]:
+    """Which points of the grid have a neighbour of the other sign across a jump."""
+    points = np.stack(np.meshgrid(line, line), axis=-1)
+    found = np.zeros(values.shape, dtype=bool)
+    for here, there in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
+        change = values[here] * values[there] < 0.0
+        first, second, sign = points[here][change], points[there][change], np.sign(values[here][change])
+        for _ in range(HALVINGS):
+            middle = 0.5 * (first + second)
+            same = (later(*middle.T) * sign > 0.0)[:, np.newaxis]
+            first, second = np.where(same, middle, first), np.where(same, second, middle)
+        jump = np.zeros(change.shape, dtype=bool)
+        jump[change] = np.abs(later(*first.T) - later(*second.T)) > JUMP
+        found[here] |= jump
+        found[there] |= jump
+    return found
 
 
 def _draw_circle(axes: Axes) -> None:

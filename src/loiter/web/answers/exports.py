@@ -78,6 +78,7 @@ def _check_points(maneuver: Maneuver, options: ExportOptions) -> None:
 
 def picture(request: ExportRequest) -> bytes:
     """The picture that `loiter plan --plot` draws; to be called in one thread only (matplotlib)."""
+    from loiter.plot.files import write_figure
     from loiter.plot.picture import draw
 
     problem, frame = request.options.placed()
@@ -85,5 +86,5 @@ def picture(request: ExportRequest) -> bytes:
     losers = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
     file = BytesIO()
     figure = draw(best[:1], [*best[1:], *losers], frame=frame)
-    figure.savefig(file, format=request.format, dpi=150)
+    write_figure(file, figure, request.format)
     return file.getvalue()
