@@ -40,7 +40,7 @@ def table(found: list[Finding]) -> Table:
         rows.add_column(heading, justify="right")
     rows.add_column("verdict")
     for finding in found:
-        section, statement, _ = finding.lemma
+        section, statement, *_ = finding.lemma
         cases, depth = finding.certainty
         rows.add_row(section, statement, str(cases), str(depth), f"{finding.seconds:.2f}", finding.verdict)
     return rows

@@ -22,7 +22,9 @@ class Finding(NamedTuple):
     @property
     def verdict(self) -> str:
         """The verdict in a word or two."""
-        return "NOT CERTAIN" if self.failure else "certain"
+        if self.failure:
+            return "NOT CERTAIN"
+        return "certain on samples" if self.lemma.sampled else "certain"
 
 
 def prove(lemmas: Sequence[Lemma] = LEMMAS) -> Iterator[Finding]:
