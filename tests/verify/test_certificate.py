@@ -358,7 +358,8 @@ def test_a_certificate_is_frozen_and_reads_as_a_table():
         certificate.lam = 0.0
     lines = str(certificate).splitlines()
     assert lines[0] == "Certificate of LRL, clockwise: valid."
-    assert lines[1] == "lambda = 0.605670, psi = (0.058455, 0.998290) at the start."
+    assert lines[1] == "Optimal, up to rounding, by theorem 1 of docs/proof.md."
+    assert lines[2] == "lambda = 0.605670, psi = (0.058455, 0.998290) at the start."
     assert sum(line.endswith("holds") for line in lines) == len(certificate.residuals)
     assert lines[-1] == "Compared with 4 other extremals; the runner-up RL cw takes 0.647 s more."
 
