@@ -21,6 +21,11 @@ def write_whole(argument: str, path: Path, write: Callable[[BinaryIO], object]) 
         part.replace(path)
 
 
+def write_content(argument: str, path: Path, content: bytes) -> None:
+    """Write a file with this content; errors as for `write_whole`."""
+    write_whole(argument, path, lambda file: file.write(content))
+
+
 def check_writable(argument: str, path: Path) -> None:
     """Raise the error of `write_whole` where `path` cannot be written; for a check before long work."""
     with _beside(argument, path) as part:

@@ -75,7 +75,7 @@ def flights_document(trial: Trial, flights: Mapping[str, Flight]) -> dict[str, o
 def _flight(trial: Trial, name: str, flight: Flight) -> dict[str, object]:
     return {
         "law": name,
-        "settled_s": _known(flight.settled_s),
+        "settled_s": report.json_value(flight.settled_s),
         "of_the_fastest": _ratio(trial, flight),
         "overshoot_m": flight.overshoot_m,
         "bank_rate_deg_s": flight.bank_rate_deg_s,
@@ -120,22 +120,13 @@ def _summaries(outcomes: Mapping[str, Sequence[Outcome]]) -> dict[str, CampaignS
 
 
 def _fields(s: CampaignSummary) -> dict[str, Any]:
-    return {
-        name: value if isinstance(value, int) else _known(value)
-        for name in (field.name for field in fields(s))
-        for value in [getattr(s, name)]
-    }
+    return {field.name: report.json_value(getattr(s, field.name)) for field in fields(s)}
 
 
 def _ratio(trial: Trial, flight: Flight) -> float | None:
     """The settling time over the duration of the fastest entry; None where one of them is missing or 0."""
     ideal_s = trial.ideal.duration_s
     return flight.settled_s / ideal_s if flight.settled and ideal_s > 0.0 else None
-
-
-def _known(value: float) -> float | None:
-    """A number for JSON, which has neither nan nor infinity."""
-    return value if isfinite(value) else None
 
 
 def _table(*names: str) -> Table:

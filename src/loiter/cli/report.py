@@ -3,7 +3,7 @@
 import json
 import sys
 from collections.abc import Iterable, Sequence
-from math import atan2, degrees, hypot
+from math import atan2, degrees, hypot, isfinite
 from pathlib import Path
 
 from rich.console import Console, RenderableType
@@ -34,6 +34,11 @@ def print_json(document: dict[str, object]) -> None:
     """Print one JSON object."""
     json.dump(document, sys.stdout, indent=2, allow_nan=False)
     sys.stdout.write("\n")
+
+
+def json_value(value: str | int | float | bool) -> str | int | float | bool | None:
+    """A value for JSON, which has neither nan nor infinity: these are None."""
+    return None if isinstance(value, float) and not isfinite(value) else value
 
 
 def files_line(written: Iterable[Path]) -> list[str]:

@@ -10,6 +10,7 @@ from typing import Any
 
 from loiter.compiled.numpy_api import Operands, new_ufunc
 from loiter.compiled.objects import addresses, kernel_sources
+from loiter.compiled.still_air_solver import NAMES
 
 OPERANDS = {
     "min_time": Operands("ddddd", "d"),
@@ -17,10 +18,6 @@ OPERANDS = {
     "reduce": Operands("dddd", "dd"),
     "solve": Operands("dddddd", "dbdbbd", "(),(),(),(),(),(n)->(),(),(n),(),(),()"),
 }
-
-
-# The functions in the object file.
-NAMES = tuple(OPERANDS)
 
 
 def _build() -> Any:

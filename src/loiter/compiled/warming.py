@@ -6,7 +6,7 @@ from importlib import import_module
 from time import perf_counter
 from typing import NamedTuple
 
-from loiter.compiled import objects, wind_solver
+from loiter.compiled import objects, still_air_solver, wind_solver
 
 
 class WarmedPart(NamedTuple):
@@ -27,9 +27,8 @@ def warm_up() -> Iterator[WarmedPart]:
 
 def is_kept() -> bool:
     """Whether the machine code is on disk, where other processes find it."""
-    from loiter.compiled import ufuncs
-
-    return all(objects.is_cached(names, objects.kernel_sources()) for names in (ufuncs.NAMES, wind_solver.NAMES))
+    solvers = (still_air_solver, wind_solver)
+    return all(objects.is_cached(solver.NAMES, objects.kernel_sources()) for solver in solvers)
 
 
 def is_loaded() -> bool:

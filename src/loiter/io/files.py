@@ -22,7 +22,7 @@ from loiter.io.missions.site import Site
 from loiter.io.missions.wpl import MARK, read_wpl, wpl
 from loiter.io.reading import Source
 from loiter.planning.maneuver import Maneuver
-from loiter.writing import write_whole
+from loiter.writing import write_content
 
 MAPS: dict[str, Callable[[Chart], bytes]] = {".geojson": geojson, ".kml": kml, ".gpx": gpx}
 MISSIONS = (".plan", ".waypoints", ".txt")
@@ -84,7 +84,7 @@ def save(
     path = Path(path)
     arguments = SaveArguments(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path, site)
     content = file_content(path, arguments)
-    write_whole("save", path, lambda file: file.write(content))
+    write_content("save", path, content)
 
 
 def file_content(path: Path, arguments: SaveArguments) -> bytes:

@@ -8,7 +8,7 @@ from cyclopts import Parameter
 from loiter.cli import report
 from loiter.errors import InvalidArgument
 from loiter.plot import files
-from loiter.writing import write_whole
+from loiter.writing import write_content
 
 
 def figures(
@@ -32,7 +32,7 @@ def figures(
         first_sentence, _, _ = caption.partition(". ")
         rows.add_row(name, first_sentence)
     captions = "\n".join(f"![Fig. {n}]({name})\n\nFig. {n}. {text}\n" for name, (n, text, _) in pictures.items())
-    write_whole("out", out / "captions.md", lambda file: file.write(captions.encode()))
+    write_content("out", out / "captions.md", captions.encode())
     rows.add_row("captions.md", "What each figure shows")
     report.write(rows)
 

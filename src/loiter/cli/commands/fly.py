@@ -23,7 +23,7 @@ from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
 from loiter.planning.problem import problem_of
 from loiter.plot import files
-from loiter.writing import check_writable, write_whole
+from loiter.writing import check_writable, write_content
 
 if TYPE_CHECKING:
     from loiter.guidance.simulators.airframes import Airframe
@@ -324,7 +324,7 @@ def _save(paths: Sequence[Path], rows: Iterator[Sequence[object]]) -> None:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(rows)
     for path in paths:
-        write_whole("save", path, lambda file: file.write(text.getvalue().encode()))
+        write_content("save", path, text.getvalue().encode())
 
 
 @contextmanager

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
-from typing import Annotated, BinaryIO
+from typing import Annotated
 
 from cyclopts import Parameter
 
@@ -34,7 +33,7 @@ from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import best_and_others
 from loiter.plot import files
-from loiter.writing import write_whole
+from loiter.writing import write_content
 
 # The options of the command, in the order of its help.
 Tolerance = Annotated[
@@ -159,15 +158,22 @@ def _save(
     site: Site | None,
 ) -> Sequence[Path]:
     """Write the maneuver to files for maps or autopilots, once the contents of all are known; returns the files."""
-    common = (uav.altitude, waypoints.datum(site), waypoints.spacing, waypoints.chord_error_m, autopilot)
+    of_a_map = SaveArguments(
+        maneuver=maneuver,
+        frame=frame,
+        altitude_m=uav.altitude,
+        datum=waypoints.datum(site),
+        spacing_m=waypoints.spacing,
+        chord_error_m=waypoints.chord_error_m,
+        autopilot=autopilot,
+        along_path=False,
+        site=site,
+    )
+    # `along_path` refuses options that only fit a path, so it is asked for missions alone.
     contents = [
-        file_content(path, SaveArguments(maneuver, frame, *common, is_mission(path) and waypoints.along_path, site))
+        file_content(path, of_a_map._replace(along_path=waypoints.along_path) if is_mission(path) else of_a_map)
         for path in paths
     ]
     for path, content in zip(paths, contents, strict=True):
-        write_whole("save", path, partial(_write, content))
+        write_content("save", path, content)
     return paths
-
-
-def _write(content: bytes, file: BinaryIO) -> None:
-    file.write(content)

@@ -1,7 +1,6 @@
 """`loiter verify`: the answers compared with independent methods, four in still air and one in wind."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from math import isfinite
 from typing import Annotated, Any, Literal, NamedTuple
 
 from cyclopts import Parameter
@@ -40,7 +39,7 @@ class Findings(NamedTuple):
 
     def document(self, method: str) -> dict[str, object]:
         """The result as plain values; an unknown number is None."""
-        rows = [{key: _known(value) for key, value in row.items()} for row in self.rows]
+        rows = [{key: report.json_value(value) for key, value in row.items()} for row in self.rows]
         return {"method": method, "agrees": self.passed, "rows": rows, "note": self.note}
 
     def table(self) -> Table:
@@ -64,11 +63,6 @@ def _shown(key: str, value: str | int | float | bool) -> str:
     if isinstance(value, float):
         return f"{value:.{DECIMALS[key]}f}" if key in DECIMALS else f"{value:.1e}"
     return str(value)
-
-
-def _known(value: str | int | float | bool) -> str | int | float | bool | None:
-    """A value for JSON, which has neither nan nor infinity."""
-    return None if isinstance(value, float) and not isfinite(value) else value
 
 
 def verify(

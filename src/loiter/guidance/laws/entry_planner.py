@@ -100,7 +100,7 @@ def _still_air_entry(
     state: RelativeState, course: tuple[float, float], r: float, radius_m: float, side: int, tolerance: float
 ) -> Entry | None:
     x, y = motion.reduce(state.x / r, state.y / r, *course)
-    return still_air_solver.optimum(x, y, rounded_radius(radius_m / r), side, tolerance)
+    return still_air_solver.optimum(x, y, radius_m / r, side, tolerance)
 
 
 def unit(x: float, y: float) -> tuple[float, float]:

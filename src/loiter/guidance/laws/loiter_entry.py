@@ -155,8 +155,19 @@ class LoiterEntry:
         self._gain, self._reserve = positive("gain", gain, "units"), not_negative("reserve", reserve, "one")
         self._smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
         delay_s = not_negative("delay_s", delay_s, "seconds")
+        wind_east_m_s, wind_north_m_s = air.velocity_m_s
         declared = VehicleEstimates(
-            roll, delay_s, 1.0, 1.0, 0.0, *air.velocity_m_s, aircraft.airspeed_m_s, aircraft.airspeed_m_s, 0.0, 0.0
+            roll=roll,
+            delay_s=delay_s,
+            turn_ratio=1.0,
+            quick_turn_ratio=1.0,
+            course_lead_s=0.0,
+            wind_east_m_s=wind_east_m_s,
+            wind_north_m_s=wind_north_m_s,
+            airspeed_m_s=aircraft.airspeed_m_s,
+            turn_airspeed_m_s=aircraft.airspeed_m_s,
+            overshoot_deg=0.0,
+            turns_unknown=0.0,
         )
         self._vehicle: Vehicle = DeclaredVehicle(declared)
         # The machine code is loaded before the flight, where it is compiled; a wind may have to be planned with.
@@ -488,8 +499,6 @@ class LoiterEntry:
 
 def _differs(roll: Roll, other: Roll) -> bool:
     """Whether two roll responses differ by more than `ROLL_CHANGED`."""
-    if roll is other:
-        return False
     time_differs = abs(roll.time_s - other.time_s) > ROLL_CHANGED * other.time_s
     return time_differs or abs(roll.rate_deg_s - other.rate_deg_s) > ROLL_CHANGED * other.rate_deg_s
 
