@@ -78,8 +78,9 @@ def switch_on(page, tiles):
 
 def document(page):
     """The document that draws the tiles."""
-    page.wait_for_selector("#tiles")
-    return next(frame for frame in page.frames if "/map?" in frame.url)
+    frame = page.wait_for_selector("#tiles").content_frame()
+    frame.wait_for_url("**/map?*")  # the frame is there before its document
+    return frame
 
 
 def loaded(page):
