@@ -109,6 +109,23 @@ def test_a_mission_goes_over_tcp():
     assert vehicle.mission == kept(NEW)
 
 
+def test_what_is_sent_last_arrives_though_what_the_vehicle_sent_is_not_read():
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = link.open_port(f"tcp:127.0.0.1:{server.getsockname()[1]}", 1.0)
+        vehicle, _ = server.accept()
+    with vehicle:
+        vehicle.sendall(b"telemetry")
+        port.mav.send(link.heartbeat())
+        closing = threading.Thread(target=port.close)
+        closing.start()
+        closing.join(0.1)
+        # ArduPlane's simulator writes before it reads, and gives up a connection that was reset.
+        vehicle.sendall(b"telemetry")
+        assert vehicle.recv(4096)[:1] == b"\xfd"
+        assert vehicle.recv(4096) == b""
+    closing.join()
+
+
 def test_a_mission_goes_over_a_serial_line():
     with flying(Vehicle()) as vehicle, wired(vehicle) as device:
         upload(NEW, f"{device},115200", system=1)

@@ -31,6 +31,9 @@ HEARTBEAT_S = 1.0
 # Seconds to listen for the heartbeat of a second vehicle before the first is taken for the only one.
 SECOND_VEHICLE_S = 1.5
 
+# Seconds to wait at the end of a TCP connection until the other end has taken what was sent.
+CLOSING_S = 0.5
+
 # The port from which `udpout` sends is `LOCAL_PORTS` plus the last four digits of the remote port. It must stay the
 # same: PX4 answers only the first port that has sent to it, until it restarts (mavlink_receiver.cpp).
 LOCAL_PORTS, LAST_DIGITS = 20000, 10000
@@ -295,6 +298,17 @@ def _tcp(address: str, timeout_s: float) -> Any:
             raise ConnectionResetError("the other end closed the connection")
 
         handle_disconnect = handle_eof
+
+        def close(self) -> None:
+            # Closing with unread data resets a connection, and the other end may then lose what was sent last.
+            with suppress(OSError):
+                self.port.shutdown(socket.SHUT_WR)
+                deadline = monotonic() + CLOSING_S
+                while (left := deadline - monotonic()) > 0.0:
+                    self.port.settimeout(left)
+                    if not self.port.recv(65536):
+                        break
+            super().close()
 
     return Tcp(address)
 
