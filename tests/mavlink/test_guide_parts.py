@@ -16,6 +16,7 @@ from loiter.geo import LocalFrame
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle.turning import PlanarPose, constant_turn
 from loiter.io.flight_log import TEXTS, LogRow, read_log
 from loiter.io.missions.items import Autopilot
 from loiter.mavlink.autopilots.acceleration_sign import CAUTIOUS_DEG, AccelerationSign, sign_of_version
@@ -29,12 +30,13 @@ from loiter.mavlink.connection.round_trip import RoundTrip
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
 from loiter.mavlink.guiding.report import GuideReport, Stage
-from loiter.mavlink.guiding.settling import SteadyHoldDetector, circle_position
+from loiter.mavlink.guiding.settling import MeanPosition, SteadyHoldDetector, circle_position
 from loiter.mavlink.guiding.step_log import log_row, step_log
 from mavlink.vehicle import mavlink
 
 FRAME = LocalFrame(47.0, 8.0)
 CIRCLE = Orbit(0.0, 0.0, 80.0, "cw")
+CENTRED = MeanPosition(0.0, 0.0)
 VEHICLE = Vehicle(1, 1, Autopilot.PX4)
 
 
@@ -407,6 +409,30 @@ def test_a_steady_hold_takes_time_and_a_quarter_of_the_circle():
     assert not steady.settled
 
 
+def test_a_quiet_moment_is_waited_for_half_a_circle():
+    # Three degrees off in the mean until 14 s, or for ever.
+    for until_s, expected_s in ((14.0, 14.0), (math.inf, 90.0 / 12.9 + 180.0 / 12.9)):
+        steady = SteadyHoldDetector(CIRCLE)
+        for i in range(400):
+            course_error_deg = 3.0 if 0.1 * i < until_s else 0.0
+            steady.update(on_circle(1.29 * i, course_error_deg=course_error_deg, time_s=0.1 * i))
+            if steady.settled:
+                break
+        assert 0.1 * i == pytest.approx(expected_s, abs=1.0)
+
+
+@pytest.mark.parametrize("turn", [1.0, -1.0])
+def test_the_turn_ratio_is_measured_on_the_circle(turn):
+    steady = SteadyHoldDetector(Orbit(0.0, 0.0, 80.0, "cw" if turn > 0.0 else "ccw"))
+    bank_deg = turn * degrees(math.atan(18.0**2 / 80.0 / 9.80665 / 0.8))
+    for i in range(100):
+        assert (steady.turn_ratio is None) == (0.1 * i * 12.9 < 90.0 + 1.29)
+        # The bank oscillates; the headings are those of the circle.
+        state = on_circle(turn * degrees(18.0 / 80.0 * 0.1 * i), time_s=0.1 * i, turn=turn)
+        steady.update(state._replace(bank_deg=bank_deg + 5.0 * math.sin(2.0 * i)))
+    assert steady.turn_ratio == pytest.approx(0.8, rel=0.02)
+
+
 def test_in_gusts_the_band_doubles_after_a_full_circle():
     steady = SteadyHoldDetector(CIRCLE)
     settled = []
@@ -448,17 +474,47 @@ def test_a_correction_of_the_radius_has_a_bound():
 
 
 def test_the_last_bank_is_that_of_the_circle_a_little_ahead():
-    assert last_bank_deg(CIRCLE, on_circle(0.0), estimates(), 40.0) == pytest.approx(22.4, abs=0.05)
-    slipping = last_bank_deg(CIRCLE, on_circle(0.0), estimates(0.75), 40.0)
+    assert last_bank_deg(CIRCLE, on_circle(0.0), CENTRED, estimates(), 40.0) == pytest.approx(22.4, abs=0.05)
+    slipping = last_bank_deg(CIRCLE, on_circle(0.0), CENTRED, estimates(0.75), 40.0)
     assert tan(radians(slipping)) * 0.75 == pytest.approx(18.0**2 / 80.0 / 9.80665)
-    other = last_bank_deg(Orbit(0.0, 0.0, 80.0, "ccw"), on_circle(0.0, turn=-1.0), estimates(), 20.0)
+    other = last_bank_deg(Orbit(0.0, 0.0, 80.0, "ccw"), on_circle(0.0, turn=-1.0), CENTRED, estimates(), 20.0)
     assert other == -20.0
-    windy = last_bank_deg(CIRCLE, on_circle(90.0), estimates(wind=(4.0, -3.0)), 60.0)
+    windy = last_bank_deg(CIRCLE, on_circle(90.0), CENTRED, estimates(wind=(4.0, -3.0)), 60.0)
     ahead = 90.0 + degrees(1.5 * 18.0 / 80.0)
     exact = hold(CIRCLE, Aircraft(18.0, min_turn_radius_m=20.0), Wind(5.0, degrees(math.atan2(-4.0, 3.0)))).at(ahead)
     assert windy == pytest.approx(exact.bank_deg, abs=1e-6)
     # A wind in which no circle can be held.
-    assert last_bank_deg(CIRCLE, on_circle(0.0), estimates(wind=(30.0, 0.0)), 60.0) == pytest.approx(22.4, abs=0.05)
+    assert last_bank_deg(CIRCLE, on_circle(0.0), CENTRED, estimates(wind=(30.0, 0.0)), 60.0) == pytest.approx(
+        22.4, abs=0.05
+    )
+
+
+@pytest.mark.parametrize("turn", [1.0, -1.0])
+@pytest.mark.parametrize(("outside_m", "course_error_deg"), [(1.0, 0.0), (-2.0, 2.0), (1.5, -3.0), (0.0, 2.0)])
+def test_the_last_bank_corrects_offset_and_course(turn, outside_m, course_error_deg):
+    orbit = Orbit(0.0, 0.0, 80.0, "cw" if turn > 0.0 else "ccw")
+    mean = MeanPosition(outside_m, course_error_deg)
+    state = on_circle(0.0, 80.0 + outside_m, course_error_deg, turn=turn)
+    bank_deg = last_bank_deg(orbit, state, mean, estimates(), 60.0)
+
+    def left_m(bank_deg):
+        """What is left after three seconds with a bank: the offset, and where the course leads in two seconds more."""
+        rate = -9.80665 * tan(radians(bank_deg)) / 18.0
+        x, y, c, s = constant_turn(PlanarPose(0.0, 80.0 + outside_m, *heading(state)), 18.0, rate, 3.0)
+        distance = math.hypot(x, y)
+        return math.hypot(distance - 80.0, 2.0 * 18.0 * (c * x + s * y) / distance)
+
+    assert left_m(bank_deg) < left_m(turn * 22.43)
+    assert left_m(bank_deg) < 1.02 * min(left_m(bank_deg + change) for change in (-1.0, 1.0))
+
+
+def heading(state):
+    return state.velocity_east_m_s / 18.0, state.velocity_north_m_s / 18.0
+
+
+def test_the_last_bank_corrects_no_more_than_a_share():
+    far = last_bank_deg(CIRCLE, on_circle(0.0), MeanPosition(40.0, -20.0), estimates(), 60.0)
+    assert tan(radians(far)) == pytest.approx(1.3 * 18.0**2 / 80.0 / 9.80665)
 
 
 # Logs.

@@ -73,9 +73,12 @@ class RollIdentifier:
         self._change = np.zeros(len(times))
         self._decay, self._dt = np.ones(len(times)), 0.0
         self._largest = self._least = np.zeros(len(times))
-        # Before the first step the banks are those at which the models begin.
-        self._stored_times, self._stored = np.arange(STORED) - EARLIER_S, np.zeros((STORED, len(times)))
-        self._next, self._time_s, self._stored_s, self._measured_s = 0, 0.0, -np.inf, -np.inf
+        # The last `STORED` predictions, in the order of their times, end before the row `_next`. Before the first step
+        # the banks are those at which the models begin.
+        self._stored_times, self._stored = np.arange(2.0 * STORED) - EARLIER_S, np.zeros((2 * STORED, len(times)))
+        self._next, self._time_s, self._stored_s, self._measured_s = STORED, 0.0, -np.inf, -np.inf
+        # Matrix products with these are sums over all models and all delays.
+        self._each_model, self._each_delay = np.ones(len(times)), np.ones(len(DELAYS_S))
         self._model_weights = np.empty(0)
         self.estimate = RollEstimate(declared, delay_s)
         self._weigh()
@@ -103,9 +106,16 @@ class RollIdentifier:
         self._banks += self._change
         self._time_s += dt
         if self._time_s >= self._stored_s + STORED_S:
-            self._stored_s = self._time_s
-            self._stored_times[self._next], self._stored[self._next] = self._time_s, self._banks
-            self._next = (self._next + 1) % STORED
+            self._store()
+
+    def _store(self) -> None:
+        """Store the present predictions."""
+        if self._next == 2 * STORED:
+            self._stored_times[:STORED], self._stored[:STORED] = self._stored_times[STORED:], self._stored[STORED:]
+            self._next = STORED
+        self._stored_s = self._stored_times[self._next] = self._time_s
+        self._stored[self._next] = self._banks
+        self._next += 1
 
     def measure(self, bank_deg: float) -> None:
         """Take a measured bank that has just arrived."""
@@ -115,7 +125,7 @@ class RollIdentifier:
         self._measured_s = self._time_s
         since_s = min(since_s, CORRELATION_S)
         error = self._predictions()
-        mean = float(error.sum()) / error.size
+        mean = float(self._each_delay @ error @ self._each_model) / error.size
         variance = max(float(np.vdot(error, error)) / error.size - mean * mean, 0.0)
         excitation = variance / (variance + EXCITED_DEG * EXCITED_DEG)
         self._misfit *= exp(-excitation * since_s / MEMORY_S)
@@ -128,22 +138,28 @@ class RollIdentifier:
 
     def _predictions(self) -> np.ndarray:
         """The bank that each model predicts for each delay ago: an array of delays by models."""
-        split, wanted = self._next, self._time_s - DELAYS_S
-        # The stored predictions in the order of their times.
-        times = np.concatenate((self._stored_times[split:], self._stored_times[:split]))
-        after = np.minimum(np.maximum(times.searchsorted(wanted), 1), STORED - 1)
-        early, late = times[after - 1], times[after]
-        share = np.clip((wanted - early) / (late - early), 0.0, 1.0)[:, None]
-        first, second = self._stored[(after - 1 + split) % STORED], self._stored[(after + split) % STORED]
-        predictions: np.ndarray = first + share * (second - first)
+        begin, wanted = self._next - STORED, self._time_s - DELAYS_S
+        times, stored = self._stored_times[begin : self._next], self._stored[begin : self._next]
+        after = times.searchsorted(wanted)
+        np.minimum(np.maximum(after, 1, out=after), STORED - 1, out=after)
+        before = after - 1
+        early, late = times.take(before), times.take(after)
+        share = np.minimum(np.maximum((wanted - early) / (late - early), 0.0), 1.0)
+        predictions, later = stored.take(before, axis=0), stored.take(after, axis=0)
+        later -= predictions
+        later *= share[:, None]
+        predictions += later
         return predictions
 
     def _weigh(self) -> None:
         """Set the weights of the models, and the estimate, from the misfits."""
-        cost = self._prior + self._misfit
-        weights = np.exp(-0.5 * (cost - cost.min()))
-        weights /= weights.sum()
-        self._model_weights, delay_weights = weights.sum(axis=0), weights.sum(axis=1)
+        weights = self._prior + self._misfit
+        weights -= weights.min()
+        weights *= -0.5
+        np.exp(weights, out=weights)
+        delay_weights = weights @ self._each_model
+        total = delay_weights.sum()
+        self._model_weights, delay_weights = (self._each_delay @ weights) / total, delay_weights / total
         log_time, log_rate = self._log_time.mean(self._model_weights), self._log_rate.mean(self._model_weights)
         delay_s = max(self._delay.mean(delay_weights), 0.0)
         self.estimate = RollEstimate(Roll(exp(log_time), exp(log_rate)), delay_s)
@@ -157,15 +173,15 @@ class _Unknown:
     """
 
     def __init__(self, values: np.ndarray, declared: float, spread: float) -> None:
-        self.values, self._squares = values, values * values
+        self._moments = np.stack((values, values * values))
         self.cost = ((values - declared) / spread) ** 2
         weights = np.exp(-0.5 * self.cost)
         weights /= weights.sum()
-        mean = float(weights @ values)
-        self._excess, self._variance = mean - declared, float(weights @ self._squares) - mean * mean
+        mean, square = (self._moments @ weights).tolist()
+        self._excess, self._variance = mean - declared, square - mean * mean
 
     def mean(self, weights: np.ndarray) -> float:
         """The weighted mean."""
-        mean = float(weights @ self.values)
-        left = (float(weights @ self._squares) - mean * mean) / self._variance
-        return mean - min(max(left, 0.0), 1.0) * self._excess
+        mean, square = (self._moments @ weights).tolist()
+        left: float = (square - mean * mean) / self._variance
+        return float(mean - min(max(left, 0.0), 1.0) * self._excess)

@@ -250,8 +250,13 @@ class TurnRatio:
         measured_deg = self._measured_mean.filtered(self._measured.changed(measured_turn_deg, dt), dt)
         computed_deg = self._computed_mean.filtered(self._computed.changed(computed_turn_deg, dt), dt)
         weight = 1.0 / max(abs(computed_deg) / self._settings.saturation_deg, 1.0) ** 2
-        low, high = TURN_RATIO_BOUNDS
-        self.ratio = min(max(self._fit.ratio(measured_deg, computed_deg, weight, dt), low), high)
+        self.ratio = bounded_turn_ratio(self._fit.ratio(measured_deg, computed_deg, weight, dt))
+
+
+def bounded_turn_ratio(ratio: float) -> float:
+    """A ratio of turns, within `TURN_RATIO_BOUNDS`."""
+    low, high = TURN_RATIO_BOUNDS
+    return min(max(ratio, low), high)
 
 
 class CourseLead:

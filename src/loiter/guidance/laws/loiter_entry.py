@@ -28,10 +28,9 @@ from loiter.guidance.protocol import Command, Phase, State, phase_of_control
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll, TurnOnset
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
-from loiter.kernel.words import Side
 from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind, radius_at_bank
-from loiter.planning.sides import SIDES, TURNS
+from loiter.planning.sides import SIDES
 
 # The values below were tuned in gusts, with 200 to 500 starts each: docs/guidance.md.
 # Planned turns are wider than the tightest turn by this share; the difference is left to correct the last arc. It is up
@@ -450,7 +449,7 @@ class LoiterEntry:
             bank_deg,
             phase_of_control(route.control),
             max(self._join_time_s - present.time_s, 0.0),
-            TURNS[Side(route.side)],
+            route.turn,
             phase_of_control(route.next_control),
             inf if route.is_holding else route.remaining_s - response.early_s,
         )

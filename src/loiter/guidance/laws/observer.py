@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from math import cos, exp, hypot, sin, sqrt
+from math import cos, degrees, exp, hypot, sin, sqrt
 from typing import NamedTuple
 
 from loiter.guidance.identification.bank_history import BankHistory
@@ -64,7 +64,7 @@ class Estimate(NamedTuple):
         """The estimate `time_s` seconds later, with constant bank in a constant wind."""
         then_s, pose, V, turn_rate, bank_deg, east, north, turning = self
         # The constructor: `_replace` takes three times as long.
-        pose = _drifted_turn(pose, V, turn_rate, (east, north), time_s)
+        pose = constant_turn(pose, V, turn_rate, time_s, (east, north))
         return Estimate(then_s + time_s, pose, V, turn_rate, bank_deg, east, north, turning)
 
     def with_bank(self, bank_deg: float) -> Estimate:
@@ -79,10 +79,13 @@ class Estimate(NamedTuple):
         time_s, pose, V, last_rate, bank_deg, east, north, turning = self
         bias_deg = bank_deg - history.delayed_deg(delay_s)
         mean_rate = turning.rate(history.mean_deg(delay_s) + bias_deg, V)
+        present_deg = history.current_deg + bias_deg
+        present_rate = turning.rate(present_deg, V)
+        # The slip changes with the turn rate, and with it the direction of flight.
         pose = _rotated(pose, turning.lead_s * (mean_rate - last_rate))
-        pose = _drifted_turn(pose, V, mean_rate, (east, north), delay_s)
-        present = Estimate(time_s + delay_s, pose, V, mean_rate, bank_deg, east, north, turning)
-        return present.with_bank(history.current_deg + bias_deg)
+        pose = constant_turn(pose, V, mean_rate, delay_s, (east, north))
+        pose = _rotated(pose, turning.lead_s * (present_rate - mean_rate))
+        return Estimate(time_s + delay_s, pose, V, present_rate, present_deg, east, north, turning)
 
 
 def is_plausible(state: State) -> bool:
@@ -115,6 +118,8 @@ class AirVelocityFilter:
         # The mean square differences of neighbours and over the lag, and the mean times between them.
         self._near = _Difference(0.02, 2.0 * FIRST_NOISE)
         self._far = _Difference(GUST_LAG_S, 2.0 * FIRST_NOISE + FIRST_GUST * GUST_LAG_S)
+        # The mean square change of each component of the air's velocity in a second, (m/s)^2.
+        self.gust = self._present_gust()
 
     def reset(self, east_m_s: float, north_m_s: float) -> None:
         """Restart the average from a velocity."""
@@ -141,10 +146,9 @@ class AirVelocityFilter:
             square = 0.5 * ((east_m_s - east) ** 2 + (north_m_s - north) ** 2)
             difference.add(self._time_s - time_s, square, weight)
         recent.append((self._time_s, east_m_s, north_m_s))
+        self.gust = self._present_gust()
 
-    @property
-    def gust(self) -> float:
-        """The mean square change of each component of the air's velocity in a second, (m/s)^2."""
+    def _present_gust(self) -> float:
         near, far = self._near, self._far
         return max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
 
@@ -205,7 +209,7 @@ class Observer:
         bank_deg += share * (state.bank_deg - bank_deg)
         turn_rate = turning.rate(bank_deg, V)
         begin = _rotated(last.pose, turning.lead_s * (turn_rate - last.turn_rate))
-        predicted = _drifted_turn(begin, V, turn_rate, (last.air_east_m_s, last.air_north_m_s), dt)
+        predicted = constant_turn(begin, V, turn_rate, dt, (last.air_east_m_s, last.air_north_m_s))
         pose = _blended(predicted, _flight_pose(state, turning), share)
         air = self._air.update(state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s, dt)
         self._last = Estimate(state.time_s, pose, V, turn_rate, bank_deg, *air, turning)
@@ -228,19 +232,10 @@ def _estimate_from(state: State, turning: Turning) -> Estimate:
     return Estimate(state.time_s, pose, V, turn_rate, state.bank_deg, *air, turning)
 
 
-def _drifted_turn(
-    pose: PlanarPose, airspeed_m_s: float, turn_rate: float, air: tuple[float, float], time_s: float
-) -> PlanarPose:
-    """The pose after a turn at a constant rate through air that moves with a velocity, east and north."""
-    x, y, c, s = constant_turn(pose, airspeed_m_s, turn_rate, time_s)
-    east, north = air
-    return PlanarPose(x + east * time_s, y + north * time_s, c, s)
-
-
 def _flight_pose(state: State, turning: Turning) -> PlanarPose:
     """The measured position, with the direction of flight through the air."""
-    heading = PlanarPose(state.east_m, state.north_m, *heading_vector(state.heading_deg))
-    return _rotated(heading, turning.lead_s * turning.rate(state.bank_deg, state.airspeed_m_s))
+    ahead_deg = degrees(turning.lead_s * turning.rate(state.bank_deg, state.airspeed_m_s))
+    return PlanarPose(state.east_m, state.north_m, *heading_vector(state.heading_deg - ahead_deg))
 
 
 def _rotated(pose: PlanarPose, angle: float) -> PlanarPose:

@@ -15,7 +15,8 @@ from loiter.guidance.laws.path_tracking import (
 )
 from loiter.kernel.angles import TWO_PI, angle, arc_rotation
 from loiter.kernel.motion import fly
-from loiter.kernel.words import ABSENT, controls
+from loiter.kernel.words import ABSENT, Side, controls
+from loiter.planning.sides import TURNS
 
 Controls = tuple[int, ...]
 
@@ -33,11 +34,11 @@ class RoutePiece(NamedTuple):
 class Route:
     """The rest of a plan that begins at `state`, onto a circle of `radius_m` metres.
 
-    `side` is the direction in which the circle is held, `remaining_s` the time left of the current piece.
+    `side` and `turn` are the direction in which the circle is held, `remaining_s` the time left of the current piece.
     """
 
     def __init__(self, state: RelativeState, entry: PlannedEntry, radius_m: float) -> None:
-        self.side, self.entry = entry.side, entry
+        self.side, self.turn, self.entry = entry.side, TURNS[Side(entry.side)], entry
         self._start_s = state.time_s
         self._circle = holding_circle(self.side, radius_m)
         self._later = route_pieces(self._in_air(state), entry)
@@ -63,7 +64,7 @@ class Route:
     @property
     def next_control(self) -> int | None:
         """The control of the next piece; none where the circle is next."""
-        return next((piece.u for piece in self._later), None)
+        return self._later[0].u if self._later else None
 
     @property
     def last_control(self) -> int | None:
@@ -73,14 +74,15 @@ class Route:
     @property
     def straight_between_s(self) -> float | None:
         """The duration of the straight line between the current turn and an opposite one, if that is next, seconds."""
-        if len(self.controls) < 3 or self._later[0].u != 0 or self._later[1].u == self.control:
+        later = self._later
+        if self._current is None or len(later) < 2 or later[0].u != 0 or later[1].u == self._current.u:
             return None
-        return self._later[0].time_s
+        return later[0].time_s
 
     @property
     def time_to_join_s(self) -> float:
         """The time until the aircraft joins the circle."""
-        return self.remaining_s + sum(piece.time_s for piece in self._later)
+        return self.remaining_s + self._later_s
 
     def update_remaining(self, state: RelativeState) -> float:
         """Set `remaining_s` to the time left of the current piece at a state, and return it."""
@@ -92,6 +94,7 @@ class Route:
     def drop_piece(self) -> None:
         """Make the next piece the current one."""
         self._current = self._later.pop(0) if self._later else None
+        self._later_s = sum(piece.time_s for piece in self._later)
         self.remaining_s = 0.0 if self._current is None else self._current.time_s
 
     def shift_clock(self, jump_s: float) -> None:

@@ -42,6 +42,5 @@ class Kinematic:
         """
         not_negative("dt", dt, "seconds")
         self._rate = clip(-radians(command.turn_rate_deg_s), self._limit)
-        (x, y, c, s), (e, n) = constant_turn(self._pose, self._airspeed_m_s, self._rate, dt), self._wind
-        self._pose = PlanarPose(x + e * dt, y + n * dt, c, s)
+        self._pose = constant_turn(self._pose, self._airspeed_m_s, self._rate, dt, self._wind)
         self._time_s += dt

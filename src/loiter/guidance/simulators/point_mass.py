@@ -72,9 +72,7 @@ class PointMass:
         halfway_deg = self._roll.advance(clip(command.bank_deg, self._limit_deg), dt)
         # The turn rate at half time is used for the whole step: the error is of third order.
         rate = -self._turn_ratio * rate_at_bank(halfway_deg, self._airspeed_m_s)
-        e, n = self._air_velocity()
-        x, y, c, s = constant_turn(self._pose, self._airspeed_m_s, rate, dt)
-        self._pose = PlanarPose(x + e * dt, y + n * dt, c, s)
+        self._pose = constant_turn(self._pose, self._airspeed_m_s, rate, dt, self._air_velocity())
         self._gusts.advance(dt)
         self._time_s += dt
         self._sensors.measure(self.true_state())

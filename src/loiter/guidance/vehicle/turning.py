@@ -8,6 +8,9 @@ from loiter.planning.model import STANDARD_GRAVITY_M_S2
 # A turn through a smaller angle, radians, is flown as a straight line: the difference is below the rounding error.
 SMALLEST_TURN = 2.0**-54
 
+# The velocity of still air, east and north.
+STILL = 0.0, 0.0
+
 
 class PlanarPose(NamedTuple):
     """A position, metres east (x) and north (y), and the heading as a unit vector (c, s), east and north."""
@@ -18,13 +21,17 @@ class PlanarPose(NamedTuple):
     s: float
 
 
-def constant_turn(pose: PlanarPose, speed: float, rate: float, time: float) -> PlanarPose:
+def constant_turn(
+    pose: PlanarPose, speed: float, rate: float, time: float, air: tuple[float, float] = STILL
+) -> PlanarPose:
     """The exact pose after `time` at constant speed and turn rate (radians per second, positive to the left).
 
-    The displacement is the chord of the arc, along the velocity at half time: `kernel.motion.fly`, but the heading
-    turns twice by half the angle, which needs one sine and one cosine, since a law turns poses several times a step.
+    The air moves with the velocity `air`, east and north. The displacement through it is the chord of the arc, along
+    the velocity at half time: `kernel.motion.fly`, but the heading turns twice by half the angle, which needs one sine
+    and one cosine, since a law turns poses several times a step.
     """
-    x, y, c, s = pose
+    (x, y, c, s), (east, north) = pose, air
+    x, y = x + east * time, y + north * time
     half = 0.5 * rate * time
     if abs(half) < SMALLEST_TURN:
         return PlanarPose(x + speed * time * c, y + speed * time * s, c, s)

@@ -31,8 +31,8 @@ HEARTBEAT_S = 1.0
 # Seconds to listen for the heartbeat of a second vehicle before the first is taken for the only one.
 SECOND_VEHICLE_S = 1.5
 
-# Seconds to wait at the end of a TCP connection until the other end has taken what was sent.
-CLOSING_S = 0.5
+# Seconds for which a TCP connection stays open after its last use, so that the other end can process what was sent.
+CLOSING_S = 0.2
 
 # The port from which `udpout` sends is `LOCAL_PORTS` plus the last four digits of the remote port. It must stay the
 # same: PX4 answers only the first port that has sent to it, until it restarts (mavlink_receiver.cpp).
@@ -300,10 +300,10 @@ def _tcp(address: str, timeout_s: float) -> Any:
         handle_disconnect = handle_eof
 
         def close(self) -> None:
-            # Closing with unread data resets a connection, and the other end may then lose what was sent last.
+            # ArduPlane's simulator drops what it has not processed when a connection ends. And closing with unread data
+            # resets a connection: the other end may then lose what was sent last.
+            deadline = monotonic() + CLOSING_S
             with suppress(OSError):
-                self.port.shutdown(socket.SHUT_WR)
-                deadline = monotonic() + CLOSING_S
                 while (left := deadline - monotonic()) > 0.0:
                     self.port.settimeout(left)
                     if not self.port.recv(65536):

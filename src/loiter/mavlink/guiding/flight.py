@@ -9,6 +9,7 @@ from time import monotonic
 from typing import Any
 
 from loiter.errors import LinkFailed, LoiterError
+from loiter.guidance.identification.vehicle import VehicleEstimates, bounded_turn_ratio
 from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.vehicle.limits import clip
@@ -257,7 +258,8 @@ class Flight:
         if contact.flies_px4 or contact.steering is None or limit_deg is None:
             return
         on_circle = self._report.phase == Phase.HOLD
-        bank_deg = last_bank_deg(self.orbit, self._state, self._law.estimates, limit_deg) if on_circle else 0.0
+        mean, estimates = self._steady.mean, self._measured_estimates()
+        bank_deg = last_bank_deg(self.orbit, self._state, mean, estimates, limit_deg) if on_circle else 0.0
         contact.steering.send(contact.link, bank_deg, self._state.bank_deg, monotonic())
 
     def _keep_steering(self, *, measured: bool, levelled: bool) -> bool:
@@ -365,10 +367,15 @@ class Flight:
     def _hold_mode(self) -> int:
         return HOLD if self._contact.flies_px4 else GUIDED
 
+    def _measured_estimates(self) -> VehicleEstimates:
+        """The estimates of the law, with the ratio of turn rates measured on the circle where it has been held."""
+        estimates, ratio = self._law.estimates, self._steady.turn_ratio
+        return estimates if ratio is None else estimates._replace(turn_ratio=bounded_turn_ratio(ratio))
+
     def _hold_command(self) -> Any:
         """The command to hold the circle, with the radius with which the vehicle flies that of the orbit."""
         altitude_m = self._setup.altitude_m
-        estimates = self._law.estimates if self._steered else None
+        estimates = self._measured_estimates() if self._steered else None
         radius_m = sent_radius_m(self.orbit, altitude_m, self._contact.parameters.known, estimates)
         latitude_deg, longitude_deg = self._request.frame.to_geodetic(self.orbit.east_m, self.orbit.north_m)
         place = float(latitude_deg), float(longitude_deg), altitude_m

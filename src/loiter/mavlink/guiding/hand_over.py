@@ -14,7 +14,8 @@ from math import atan, degrees, hypot, pi, radians, tan
 from loiter.errors import LoiterError
 from loiter.guidance.identification.vehicle import VehicleEstimates
 from loiter.guidance.protocol import State
-from loiter.mavlink.guiding.settling import circle_position
+from loiter.guidance.vehicle.limits import clip
+from loiter.mavlink.guiding.settling import MeanPosition, circle_position
 from loiter.mavlink.missions.flown_radius import loiter_scaling
 from loiter.planning.hold import hold
 from loiter.planning.model import Aircraft, Orbit, Turn, wind_from_velocity
@@ -25,8 +26,12 @@ PERIOD = "NAVL1_PERIOD"
 # The largest share of the radius by which it is corrected.
 LARGEST_SHARE = 0.3
 
-# Half of the time, seconds, for which ArduPlane keeps the last bank: it suits the middle of that time.
-HALF_KEPT_S = 1.5
+# The time, seconds, for which ArduPlane keeps the last bank: it suits the middle of that time.
+KEPT_S = 3.0
+
+# A course error at the end of that time counts as the offset to which it leads within this time, seconds. The turn rate
+# is corrected by this share at most.
+RECOVERY_S, LARGEST_CORRECTION = 2.0, 0.3
 
 
 def sent_radius_m(
@@ -45,12 +50,18 @@ def sent_radius_m(
     return scaling.sent_whole_m(radius_m, altitude_m)
 
 
-def last_bank_deg(orbit: Orbit, state: State, estimates: VehicleEstimates, limit_deg: float) -> float:
-    """The bank, degrees, that keeps an aircraft on its circle over the next seconds, in the wind that is estimated."""
+def last_bank_deg(
+    orbit: Orbit, state: State, mean: MeanPosition, estimates: VehicleEstimates, limit_deg: float
+) -> float:
+    """The bank, degrees, that keeps an aircraft on its circle over the next seconds, in the wind that is estimated.
+
+    It corrects the mean offset and course as far as a constant bank can.
+    """
     azimuth_deg = circle_position(state, orbit).azimuth_deg
     side = 1.0 if orbit.turn == Turn.CW else -1.0
     speed = hypot(state.velocity_east_m_s, state.velocity_north_m_s)
-    ahead_deg = azimuth_deg + side * degrees(HALF_KEPT_S * speed / orbit.radius_m)
+    turn_rate = speed / orbit.radius_m
+    ahead_deg = azimuth_deg + side * degrees(0.5 * KEPT_S * turn_rate)
     aircraft = Aircraft(estimates.airspeed_m_s, min_turn_radius_m=orbit.radius_m)
     wind = wind_from_velocity(estimates.wind_east_m_s, estimates.wind_north_m_s)
     try:
@@ -59,8 +70,25 @@ def last_bank_deg(orbit: Orbit, state: State, estimates: VehicleEstimates, limit
         coordinated_deg = hold(orbit, tight, wind).at(ahead_deg).bank_deg
     except LoiterError:
         coordinated_deg = aircraft.bank_deg(orbit.radius_m)
-    bank_deg = degrees(atan(tan(radians(coordinated_deg)) / estimates.turn_ratio))
+    inward = side * radians(mean.course_error_deg)
+    # Outside the circle its tangent turns more slowly.
+    slower = mean.outside_m / orbit.radius_m
+    correction = _correction(mean.outside_m, inward, speed) / turn_rate - slower
+    factor = 1.0 + clip(correction, LARGEST_CORRECTION)
+    bank_deg = degrees(atan(factor * tan(radians(coordinated_deg)) / estimates.turn_ratio))
     return side * min(bank_deg, limit_deg)
+
+
+def _correction(outside_m: float, inward: float, speed: float) -> float:
+    """The change of the turn rate towards the circle over `KEPT_S`, radians per second, after which least is left.
+
+    `inward` is the angle, radians, by which the course points into the circle. With the change d, T = `KEPT_S` and
+    L = `RECOVERY_S` times the speed V, the offset will be e = outside - V (T inward + T^2 d/2), the angle
+    i = inward + T d, and the least e^2 + (L i)^2 is that of a linear equation.
+    """
+    T, L = KEPT_S, RECOVERY_S * speed
+    offset_m, gained_m = outside_m - speed * T * inward, 0.5 * speed * T * T
+    return (gained_m * offset_m - L * T * L * inward) / (gained_m * gained_m + L * T * L * T)
 
 
 def _steady_error_m(radius_m: float, airspeed_m_s: float, turn_ratio: float, period_s: float) -> float:

@@ -1,11 +1,12 @@
-"""Whether a vehicle in flight holds its circle steadily: the condition for handing it over to its autopilot."""
+"""Whether a vehicle in flight holds its circle steadily, and how fast it turns there: for the hand-over."""
 
 from __future__ import annotations
 
-from math import atan2, degrees, hypot, nan, remainder
+from math import atan2, degrees, exp, hypot, nan, remainder
 from typing import NamedTuple
 
 from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.turning import rate_at_bank
 from loiter.planning.model import Orbit, Turn
 
 # The band: a share of the radius, and degrees between the track and the tangent; how long and how far the vehicle must
@@ -14,6 +15,10 @@ RADIAL, COURSE_DEG, STAY_S, STAY_DEG = 0.05, 5.0, 5.0, 90.0
 
 # Near the circle for this much of it, degrees, without having settled: gusts are strong, and the band doubles.
 GUSTY_DEG, NEAR = 360.0, 4.0
+
+# Then a quiet moment is waited for, no longer than this much of the circle, degrees: the mean position and course of
+# the last time, seconds, are within these shares of the band.
+LONGEST_WAIT_DEG, MEAN_S, QUIET = 180.0, 1.0, 0.3
 
 
 class CirclePosition(NamedTuple):
@@ -33,14 +38,42 @@ def circle_position(state: State, orbit: Orbit) -> CirclePosition:
     return CirclePosition(hypot(x, y) - orbit.radius_m, remainder(track_deg - tangent_deg, 360.0), azimuth_deg)
 
 
+class MeanPosition(NamedTuple):
+    """Metres outside the circle and degrees between track and tangent, averaged over the last second."""
+
+    outside_m: float
+    course_error_deg: float
+
+
 class SteadyHoldDetector:
-    """Whether the circle is held steadily; `update` is called with every new state."""
+    """Whether the circle is held steadily; `update` is called with every new state.
+
+    `settled`: it has been held for a while, and this is a moment to hand the vehicle over.
+    """
 
     def __init__(self, orbit: Orbit) -> None:
         self._orbit = orbit
+        self._last: State | None = None
         self._azimuth_deg = nan
-        self._since_s, self._flown_deg, self._near_deg = nan, 0.0, 0.0
-        self.settled = False
+        self._near_deg = 0.0
+        # The mean position relative to the circle.
+        self.mean = MeanPosition(nan, nan)
+        self._leave()
+
+    def _leave(self) -> None:
+        """Begin again: the vehicle is outside the band."""
+        self._since_s, self.settled = nan, False
+        self._flown_deg = self._waited_deg = self._heading_deg = self._coordinated_deg = 0.0
+
+    @property
+    def turn_ratio(self) -> float | None:
+        """The angle that the heading has turned on the circle, divided by that of coordinated turns with that bank.
+
+        None where the circle has not been held for a while.
+        """
+        if self._flown_deg < STAY_DEG or abs(self._coordinated_deg) < 0.5 * STAY_DEG:
+            return None
+        return self._heading_deg / self._coordinated_deg
 
     def update(self, state: State) -> CirclePosition:
         """Process a state; returns its position relative to the circle."""
@@ -49,15 +82,31 @@ class SteadyHoldDetector:
         turned_deg = turned_deg if turned_deg == turned_deg else 0.0
         self._azimuth_deg = position.azimuth_deg
         self._near_deg = self._near_deg + turned_deg if self._is_within(position, NEAR) else 0.0
+        self._average(state, position)
         if not self._is_within(position, 2.0 if self._near_deg > GUSTY_DEG else 1.0):
-            self._since_s, self._flown_deg, self.settled = nan, 0.0, False
+            self._leave()
         elif self._since_s != self._since_s:
             self._since_s = state.time_s
         else:
             self._flown_deg += turned_deg
-            self.settled = state.time_s - self._since_s >= STAY_S and self._flown_deg >= STAY_DEG
+            if state.time_s - self._since_s >= STAY_S and self._flown_deg >= STAY_DEG:
+                self._waited_deg += turned_deg
+                self.settled = self._is_within(self.mean, QUIET) or self._waited_deg >= LONGEST_WAIT_DEG
         return position
 
-    def _is_within(self, position: CirclePosition, factor: float) -> bool:
+    def _average(self, state: State, position: CirclePosition) -> None:
+        """Update the mean position, and the angles turned."""
+        last, self._last = self._last, state
+        if last is None:
+            self.mean = MeanPosition(position.outside_m, position.course_error_deg)
+            return
+        dt = max(state.time_s - last.time_s, 0.0)
+        share = 1.0 - exp(-dt / MEAN_S)
+        pairs = zip(self.mean, position, strict=False)
+        self.mean = MeanPosition(*(mean + share * (now - mean) for mean, now in pairs))
+        self._heading_deg += remainder(state.heading_deg - last.heading_deg, 360.0)
+        self._coordinated_deg += degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s)) * dt
+
+    def _is_within(self, position: CirclePosition | MeanPosition, factor: float) -> bool:
         near = abs(position.outside_m) <= factor * RADIAL * self._orbit.radius_m
         return near and abs(position.course_error_deg) <= factor * COURSE_DEG
