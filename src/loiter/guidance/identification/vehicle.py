@@ -38,7 +38,7 @@ NORMAL_OVERSHOOT_DEG, OVERSHOOT_MEMORY_S = 8.0, 60.0
 LARGEST_GAP_S = 1.0
 
 # Measurements that follow each other sooner than this, seconds, are left out: identification needs no more.
-SHORTEST_GAP_S = 0.075
+SHORTEST_GAP_S = 0.095
 
 
 class VehicleEstimates(NamedTuple):

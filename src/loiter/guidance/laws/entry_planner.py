@@ -62,10 +62,11 @@ class PlannedEntry(NamedTuple):
 
 def widest_turn_m(airspeed_m_s: float, radius_m: float, wind: tuple[float, float]) -> float:
     """The widest turn radius with which a circle can be held in a wind that moves past it."""
-    strength = hypot(*wind) / airspeed_m_s
-    limited = min(1.0, STRONGEST_WIND / strength) if strength > 0.0 else 1.0
-    wx, wy = (limited * each / airspeed_m_s for each in wind)
-    return radius_m / tightest_radius(wx, wy)
+    if wind == (0.0, 0.0):
+        return radius_m
+    (east, north), strength = wind, hypot(*wind) / airspeed_m_s
+    scale = min(1.0, STRONGEST_WIND / strength) / airspeed_m_s
+    return radius_m / tightest_radius(scale * east, scale * north)
 
 
 def fastest_entry(

@@ -284,6 +284,8 @@ class LoiterEntry:
     def _present_limit_deg(self, widest_m: float) -> float:
         """The bank limit, lowered by what the bank overshoots it, but not below what turns of `widest_m` need."""
         known, declared_deg = self._vehicle.estimates, self._declared_limit_deg
+        if known.overshoot_deg == 0.0:
+            return declared_deg
         least_deg = LEAST_LIMIT * self._bank_deg(known.airspeed_m_s / widest_m)
         return max(declared_deg - known.overshoot_deg, min(least_deg, declared_deg))
 

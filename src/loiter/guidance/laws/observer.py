@@ -137,15 +137,14 @@ class AirVelocityFilter:
         return self._east, self._north
 
     def _measure_differences(self, east_m_s: float, north_m_s: float, dt: float) -> None:
-        weight = 1.0 - exp(-dt / GUST_AVERAGE_S)
-        recent = self._recent
-        while len(recent) > 1 and self._time_s - recent[1][0] >= GUST_LAG_S:
+        weight, recent, now_s = 1.0 - exp(-dt / GUST_AVERAGE_S), self._recent, self._time_s
+        while len(recent) > 1 and now_s - recent[1][0] >= GUST_LAG_S:
             recent.popleft()
-        for then, difference in ((recent[-1], self._near), (recent[0], self._far)):
-            time_s, east, north = then
-            square = 0.5 * ((east_m_s - east) ** 2 + (north_m_s - north) ** 2)
-            difference.add(self._time_s - time_s, square, weight)
-        recent.append((self._time_s, east_m_s, north_m_s))
+        for (time_s, east, north), mean in ((recent[-1], self._near), (recent[0], self._far)):
+            e, n = east_m_s - east, north_m_s - north
+            mean.time_s += weight * (now_s - time_s - mean.time_s)
+            mean.square += weight * (0.5 * (e * e + n * n) - mean.square)
+        recent.append((now_s, east_m_s, north_m_s))
         self.gust = self._present_gust()
 
     def _present_gust(self) -> float:
@@ -162,15 +161,10 @@ class AirVelocityFilter:
 
 
 class _Difference:
-    """The mean square difference of measurements, averaged, and the mean time between them."""
+    """The mean square difference of measurements, and the mean time between them."""
 
     def __init__(self, time_s: float, square: float) -> None:
         self.time_s, self.square = time_s, square
-
-    def add(self, time_s: float, square: float, weight: float) -> None:
-        """Include a difference with a weight between 0 and 1."""
-        self.time_s += weight * (time_s - self.time_s)
-        self.square += weight * (square - self.square)
 
 
 class Observer:

@@ -11,7 +11,7 @@ from loiter.planning.model import Orbit, Turn
 
 # The band: a share of the radius, and degrees between the track and the tangent; how long and how far the vehicle must
 # stay in it, seconds and degrees around the circle.
-RADIAL, COURSE_DEG, STAY_S, STAY_DEG = 0.05, 5.0, 5.0, 90.0
+RADIAL, COURSE_DEG, STAY_S, STAY_DEG = 0.05, 5.0, 8.0, 90.0
 
 # Near the circle for this much of it, degrees, without having settled: gusts are strong, and the band doubles.
 GUSTY_DEG, NEAR = 360.0, 4.0
@@ -19,6 +19,10 @@ GUSTY_DEG, NEAR = 360.0, 4.0
 # Then a quiet moment is waited for, no longer than this much of the circle, degrees: the mean position and course of
 # the last time, seconds, are within these shares of the band.
 LONGEST_WAIT_DEG, MEAN_S, QUIET = 180.0, 1.0, 0.3
+
+# The turn ratio on the circle is averaged over this time, seconds: it changes for some seconds after an aircraft has
+# begun to turn, while its sideslip settles. The coordinated turn must be at least this, degrees.
+RATIO_S, LEAST_TURN_DEG = 3.0, 10.0
 
 
 class CirclePosition(NamedTuple):
@@ -67,11 +71,11 @@ class SteadyHoldDetector:
 
     @property
     def turn_ratio(self) -> float | None:
-        """The angle that the heading has turned on the circle, divided by that of coordinated turns with that bank.
+        """The angle that the heading has lately turned, divided by that of coordinated turns with that bank.
 
         None where the circle has not been held for a while.
         """
-        if self._flown_deg < STAY_DEG or abs(self._coordinated_deg) < 0.5 * STAY_DEG:
+        if self._flown_deg < STAY_DEG or abs(self._coordinated_deg) < LEAST_TURN_DEG:
             return None
         return self._heading_deg / self._coordinated_deg
 
@@ -104,8 +108,13 @@ class SteadyHoldDetector:
         share = 1.0 - exp(-dt / MEAN_S)
         pairs = zip(self.mean, position, strict=False)
         self.mean = MeanPosition(*(mean + share * (now - mean) for mean, now in pairs))
-        self._heading_deg += remainder(state.heading_deg - last.heading_deg, 360.0)
-        self._coordinated_deg += degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s)) * dt
+        turned_deg = remainder(state.heading_deg - last.heading_deg, 360.0)
+        coordinated_deg = degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s)) * dt
+        kept = exp(-dt / RATIO_S)
+        self._heading_deg, self._coordinated_deg = (
+            kept * self._heading_deg + turned_deg,
+            kept * self._coordinated_deg + coordinated_deg,
+        )
 
     def _is_within(self, position: CirclePosition | MeanPosition, factor: float) -> bool:
         near = abs(position.outside_m) <= factor * RADIAL * self._orbit.radius_m
