@@ -62,6 +62,21 @@ def test_noise_is_averaged_without_lag_in_a_turn():
     assert np.abs(settled.mean(axis=0)).max() < 0.1
 
 
+@pytest.mark.parametrize(
+    ("gust", "step_s", "expected_s"),
+    [(0.0, 0.02, 1.6 * 0.5), (0.1, 0.02, 0.5), (0.0, 1.0 / 6.0, 1.6 * 5.0 / 6.0), (0.1, 1.0 / 6.0, 5.0 / 6.0)],
+)
+def test_averages_take_longer_in_calm_air_and_where_measurements_are_rare(gust, step_s, expected_s):
+    noise = Noise(delay_s=0.0)
+    mass, observer = PointMass(Pose(0.0, 0.0, 0.0), UAV, seed=3, gust=gust, noise=noise), Observer(0.5)
+    times = []
+    for _ in range(round(120.0 / step_s)):
+        observer.update(mass.measured_state(), mass.true_state().bank_deg)
+        times.append(observer.smoothing_s)
+        mass.advance(turning(0.0, 20.0), step_s)
+    assert np.median(times[len(times) // 2 :]) == pytest.approx(expected_s, rel=0.15)
+
+
 def averaged_gusts(gust_m_s, seed):
     """The filter after a minute of measured gusts, and its averages."""
     random = np.random.default_rng(seed)

@@ -115,9 +115,9 @@ class LoiterEntry:
     measurements, the ratio of turn rates, the steady wind and the airspeed. `wind`, `roll` and `delay_s` are first
     guesses; without `wind` it is taken from the first measurements. With `identify` False the vehicle is as declared.
     `reserve` is the share by which planned turns are wider than the tightest (up to twice that until one was flown),
-    `smoothing_s` the averaging time of measurements, `gain` the gain of course corrections. `command_limit_deg`, which
-    may be set at any time, limits the commanded banks further, but not the turns that are planned. Call `step` 10 to
-    400 times a second.
+    `smoothing_s` the shortest averaging time of measurements, `gain` the gain of course corrections.
+    `command_limit_deg`, which may be set at any time, limits the commanded banks further, but not the turns that are
+    planned. Call `step` 10 to 400 times a second.
 
     The law keeps one plan, with its direction and its word, until another is faster by a margin or the aircraft is
     lost, so that noise causes neither switching between plans nor a go-around. docs/guidance.md describes the method
@@ -152,7 +152,7 @@ class LoiterEntry:
         # The bank limit, as declared, and at present: lower where the bank overshoots it.
         self._declared_limit_deg = self._limit_deg = self.command_limit_deg = aircraft.bank_deg(aircraft.turn_radius_m)
         self._gain, self._reserve = positive("gain", gain, "units"), not_negative("reserve", reserve, "one")
-        self._smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
+        smoothing_s = not_negative("smoothing_s", smoothing_s, "seconds")
         delay_s = not_negative("delay_s", delay_s, "seconds")
         wind_east_m_s, wind_north_m_s = air.velocity_m_s
         declared = VehicleEstimates(
@@ -279,7 +279,7 @@ class LoiterEntry:
         self._hold_deg = self._bank_deg(V / R)
         self._planned_deg = self._bank_deg(V / self._limits.planned_m)
         self._reversal_m = self._reversal_width_m(known)
-        self._response_s = self._lead_s(0.0, self._limit_deg) + self._smoothing_s + DELAY_SHARE * known.delay_s
+        self._lag_s = self._lead_s(0.0, self._limit_deg) + DELAY_SHARE * known.delay_s
 
     def _present_limit_deg(self, widest_m: float) -> float:
         """The bank limit, lowered by what the bank overshoots it, but not below what turns of `widest_m` need."""
@@ -466,7 +466,8 @@ class LoiterEntry:
         state, offset, _ = response
         vx, vy = route.velocity(state)
         gain, speed = self._present_gain(), hypot(vx, vy)
-        bandwidth, turn_rate = 1.0 / (self._response_s + gain * dt), self._limits.airspeed_m_s / self._orbit.radius_m
+        response_s = self._lag_s + self._observer.smoothing_s + gain * dt
+        bandwidth, turn_rate = 1.0 / response_s, self._limits.airspeed_m_s / self._orbit.radius_m
         place_gain = HOLD_GAIN * speed / self._orbit.radius_m if route.is_holding else PLACE_GAIN * bandwidth
         course = course_rate(offset, gain * bandwidth, place_gain, speed)
         if route.is_holding:

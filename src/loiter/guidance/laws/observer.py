@@ -19,6 +19,11 @@ GUST_LAG_S, GUST_AVERAGE_S = 1.0, 10.0
 # second, and noise of 0.4 m/s; (m/s)^2.
 FIRST_GUST, FIRST_NOISE = 0.6, 0.16
 
+# In calm air, where gusts turn the course by less than `CALM_COURSE` in a second, radians, only noise is left: averages
+# take longer, up to this multiple. They have at least this many measurements; of their mean interval each is this
+# share, and a longer one, seconds, counts as that.
+CALM_COURSE, CALM_MULTIPLE, LEAST_COUNT, INTERVAL_SHARE, LONGEST_INTERVAL_S = 0.02, 1.6, 5.0, 0.05, 0.3
+
 # Bounds of a plausible measurement: the largest value in metres, degrees or metres per second, the least airspeed.
 LARGEST_VALUE, LEAST_AIRSPEED_M_S = 1e9, 0.1
 
@@ -170,13 +175,15 @@ class _Difference:
 class Observer:
     """Smooths measurements by dead reckoning: a step extrapolates the last estimate and corrects it by a small share.
 
-    Position and heading are thus averages over about `smoothing_s` seconds that do not lag in a turn. The velocity of
-    the air, which is the measured velocity less the airspeed along the heading, is averaged over a shorter time
-    (`AirVelocityFilter`). A smoothing time of 0 disables smoothing.
+    Position and heading are thus averages over about `smoothing_s` seconds that do not lag in a turn: a time that is
+    given, and longer in calm air and where measurements are rare. The velocity of the air, which is the measured
+    velocity less the airspeed along the heading, is averaged over a shorter time (`AirVelocityFilter`). A smoothing
+    time of 0 disables smoothing.
     """
 
     def __init__(self, smoothing_s: float) -> None:
-        self._smoothing_s, self._air = smoothing_s, AirVelocityFilter(smoothing_s)
+        self.smoothing_s = self._shortest_s = smoothing_s
+        self._air, self._interval_s = AirVelocityFilter(smoothing_s), 0.0
         self._last: Estimate | None = None
 
     @property
@@ -193,12 +200,13 @@ class Observer:
 
         `bank_deg` is the bank that the roll model predicts for that time.
         """
-        if self._last is None or self._smoothing_s == 0.0:
+        if self._last is None or self._shortest_s == 0.0:
             self._last = measured = _estimate_from(state, turning)
             self._air.reset(measured.air_east_m_s, measured.air_north_m_s)
             return measured
         last, dt = self._last, state.time_s - self._last.time_s
-        share = 1.0 - exp(-dt / self._smoothing_s)
+        self._adapt(dt)
+        share = 1.0 - exp(-dt / self.smoothing_s)
         V = last.airspeed_m_s + share * (state.airspeed_m_s - last.airspeed_m_s)
         bank_deg += share * (state.bank_deg - bank_deg)
         turn_rate = turning.rate(bank_deg, V)
@@ -208,6 +216,14 @@ class Observer:
         air = self._air.update(state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s, dt)
         self._last = Estimate(state.time_s, pose, V, turn_rate, bank_deg, *air, turning)
         return self._last
+
+    def _adapt(self, dt: float) -> None:
+        """Set the smoothing time for the present air and the interval of the measurements."""
+        dt = min(dt, LONGEST_INTERVAL_S)
+        self._interval_s += (INTERVAL_SHARE if self._interval_s > 0.0 else 1.0) * (dt - self._interval_s)
+        calm = 1.0 - min(self.roughness / CALM_COURSE, 1.0)
+        multiple = 1.0 + (CALM_MULTIPLE - 1.0) * calm
+        self.smoothing_s = multiple * max(self._shortest_s, LEAST_COUNT * self._interval_s)
 
 
 def _blended(pose: PlanarPose, measured: PlanarPose, share: float) -> PlanarPose:
