@@ -28,6 +28,10 @@ BAD_VALUES = [
     *((plan(bank=None, turn_rate=value), ["--turn-rate", str(float(value))]) for value in NOT_POSITIVE),
     *((plan(orbit=f"0 0 {value}"), ["--orbit", "RADIUS", str(float(value))]) for value in NOT_POSITIVE),
     *((plan(tolerance=value), ["--tolerance", str(float(value))]) for value in ["nan", "inf", "-1"]),
+    *(
+        (plan(pose=None, pose_lla="47 8 90", orbit=None, orbit_lla=f"47 8 {r}"), ["--orbit-lla RADIUS", str(float(r))])
+        for r in NOT_POSITIVE
+    ),
     (plan(pose="nan 120 90"), ["--pose", "EAST", "nan"]),
     (plan(pose="-400 inf 90"), ["--pose", "NORTH", "inf"]),
     (plan(pose="-400 120 -inf"), ["--pose", "HEADING", "-inf"]),
@@ -69,7 +73,8 @@ BAD_SHAPES = [
     (plan(bank=None), ["--bank", "--turn-radius", "--turn-rate", "none"]),
     (plan(turn_radius="50"), ["--bank and --turn-radius"]),
     (plan(turn_rate="20", turn_radius="50"), ["--bank and --turn-radius and --turn-rate"]),
-    ([*plan(), "--airspeed", "19"], ["--airspeed"]),
+    ([*plan(), "--airspeed", "19"], ["--airspeed is given twice"]),
+    ([*plan(), "--json", "--json"], ["--json is given twice"]),
     (plan(speed="18"), ["--speed"]),
     ([*plan(), "--quiet"], ["--quiet"]),
     ([*plan(), "extra"], ["extra"]),

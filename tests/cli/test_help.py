@@ -52,3 +52,17 @@ def test_the_first_examples_can_be_run(examples, example, tmp_path, monkeypatch,
     monkeypatch.chdir(tmp_path)
     assert main(shlex.split(examples("plan")[example])[1:]) == 0
     assert "joins in" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_flags_have_no_default(command, capsys):
+    assert main([command, "--help"]) == 0
+    assert "False" not in capsys.readouterr().out
+
+
+def test_defaults_are_written_as_on_the_command_line(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    assert main(["plan", "--help"]) == 0
+    out = capsys.readouterr().out
+    assert "[default: 0 0]" in out
+    assert "[default: ardupilot]" in out

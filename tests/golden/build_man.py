@@ -11,7 +11,7 @@ from pathlib import Path
 from cyclopts import App
 from cyclopts.argument import Argument
 
-from loiter.cli.app import app
+from loiter.cli.app import app, shown_default
 from loiter.cli.examples import EXAMPLES, EXIT_STATUSES
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "loiter.1"
@@ -50,12 +50,9 @@ def option(argument: Argument) -> str:
     choices = argument.get_choices() or ()
     flag = argument.is_flag()
     metavar = argument.parameter.metavar or ("" if flag or not argument.name.startswith("-") else "|".join(choices))
-    default, shown = argument.field_info.default, argument.parameter.show_default is not False
-    plain = shown and not flag and not argument.required and default not in (None, ())
-    values = " ".join(map(str, default)) if isinstance(default, tuple) else str(default)
-    help_text = roff(" ".join((argument.parameter.help or "").split())) + (
-        f" Default: {roff(values)}." if plain else ""
-    )
+    default = None if argument.required else shown_default(argument.field_info.default)
+    help_text = roff(" ".join((argument.parameter.help or "").split()))
+    help_text += f" Default: {roff(default)}." if default else ""
     return f".TP\n{names}{f' {italic(metavar)}' if metavar else ''}\n{help_text}"
 
 

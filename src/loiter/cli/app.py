@@ -4,7 +4,7 @@ import os
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import Literal
+from typing import Any, Literal
 
 from cyclopts import App, CycloptsError, Parameter
 
@@ -16,12 +16,21 @@ from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR
 from loiter.compiled import announce_with
 from loiter.errors import LinkFailed, LoiterError
 
+
+def shown_default(value: Any) -> str | None:
+    """A default as the help shows it: "0 0" for two numbers; None for flags, whose default is their absence."""
+    if isinstance(value, bool) or value in (None, ()):
+        return None
+    values = value if isinstance(value, tuple) else (value,)
+    return " ".join(f"{each:g}" if isinstance(each, float) else str(each) for each in values)
+
+
 app = App(
     name="loiter",
     version=loiter.__version__,
     version_flags=["--version", "-V"],
     usage="Usage: loiter COMMAND [OPTIONS]",
-    default_parameter=Parameter(negative=""),
+    default_parameter=Parameter(negative="", show_default=shown_default),
     suppress_keyboard_interrupt=False,
     help_format="plaintext",
     help="""The fastest way onto a holding circle for a fixed-wing aircraft.

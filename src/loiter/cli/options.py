@@ -79,7 +79,6 @@ class OrbitOptions:
         Parameter(
             group=scene,
             consume_multiple=True,
-            show_default=False,
             converter=several(metres, metres, metres),
             metavar="EAST NORTH RADIUS",
             help="The circle: centre and radius, metres.",
@@ -90,7 +89,6 @@ class OrbitOptions:
         Parameter(
             group=scene,
             consume_multiple=True,
-            show_default=False,
             converter=several(latitude, longitude, metres),
             metavar="LAT LON RADIUS",
             help="The circle: centre in WGS84 degrees, radius in metres; the radius may come from --params.",
@@ -137,6 +135,7 @@ class OrbitOptions:
             radius, turn = own_radius or radius, own_turn or turn
         if radius is None:
             raise InvalidArgument("orbit_from", "has a loiter without a radius, which --params with a radius gives")
+        positive("origin radius_m", radius, "metres")
         return Orbit(0.0, 0.0, radius, self._turn(turn), *self.orbit_velocity), LocalFrame(lat, lon)
 
     @property

@@ -1,6 +1,13 @@
 """Errors as one sentence for the user, with the names of options in place of arguments."""
 
-from cyclopts import Argument, CoercionError, CycloptsError, MissingArgumentError, UnusedCliTokensError
+from cyclopts import (
+    Argument,
+    CoercionError,
+    CycloptsError,
+    MissingArgumentError,
+    RepeatArgumentError,
+    UnusedCliTokensError,
+)
 
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TURN_LIMITS
@@ -41,6 +48,8 @@ def _usage_sentence(error: CycloptsError) -> str:
         return f"{_option(error)} is {error.token.value!r}: {error.msg or need}"
     if isinstance(error, MissingArgumentError) and error.argument is not None:
         return _missing(error, error.argument)
+    if isinstance(error, RepeatArgumentError):
+        return f"{error.token.keyword} is given twice"
     if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
         return f"{' '.join(error.unused_tokens)!r} is one argument too many; loiter --help lists commands and options"
     return str(error)

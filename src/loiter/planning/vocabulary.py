@@ -69,6 +69,7 @@ OPTIONS = {
     "pose true heading_deg": "--pose-lla HEADING",
     "origin latitude_deg": "--orbit-lla LAT",
     "origin longitude_deg": "--orbit-lla LON",
+    "origin radius_m": "--orbit-lla RADIUS",
     "orbit east_m": "--orbit EAST",
     "orbit north_m": "--orbit NORTH",
     "orbit radius_m": "--orbit RADIUS",

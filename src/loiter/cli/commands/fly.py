@@ -51,7 +51,6 @@ Plot = Annotated[
     tuple[Path, ...],
     Parameter(
         group=output,
-        show_default=False,
         metavar="FILE",
         help="Draw one flight, or its comparison: .png, .svg or .pdf; may be repeated.",
     ),
@@ -60,7 +59,6 @@ Save = Annotated[
     tuple[Path, ...],
     Parameter(
         group=output,
-        show_default=False,
         metavar="FILE",
         help="Write a .csv: each step of one flight, or a row for each of many; may be repeated.",
     ),

@@ -45,7 +45,6 @@ class GuidedOrbitOptions(PlacedOrbitOptions):
         Parameter(
             group=scene,
             consume_multiple=True,
-            show_default=False,
             converter=several(latitude, longitude, metres),
             metavar="LAT LON RADIUS",
             help="The circle: centre in WGS84 degrees, radius in metres.",

@@ -64,7 +64,6 @@ Plot = Annotated[
     tuple[Path, ...],
     Parameter(
         group=output,
-        show_default=False,
         metavar="FILE",
         help="Draw the plan to a file: .png, .svg or .pdf; may be repeated.",
     ),
@@ -80,7 +79,6 @@ Save = Annotated[
     tuple[Path, ...],
     Parameter(
         group=output,
-        show_default=False,
         metavar="FILE",
         help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) or .waypoints (QGC WPL 110) for autopilots; may be repeated.",
     ),

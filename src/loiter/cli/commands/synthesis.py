@@ -48,16 +48,13 @@ def synthesis(
     plot: Annotated[
         tuple[Path, ...],
         Parameter(
-            show_default=False,
             metavar="FILE",
             help="Draw the map to a file: .png, .svg or .pdf; may be repeated.",
         ),
     ] = (),
     save: Annotated[
         tuple[Path, ...],
-        Parameter(
-            show_default=False, metavar="FILE", help="Write the map and the curves as arrays: .npz; may be repeated."
-        ),
+        Parameter(metavar="FILE", help="Write the map and the curves as arrays: .npz; may be repeated."),
     ] = (),
 ) -> None:
     """Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between them."""
