@@ -1,7 +1,10 @@
 """`loiter guide`: what it prints, and how it ends; and `loiter fly --replay` of its logs."""
 
+import csv
+import json
 import re
 import signal
+from math import nan
 from types import SimpleNamespace
 
 import pytest
@@ -10,6 +13,7 @@ from loiter.cli.app import main
 from loiter.cli.commands.guide import line
 from loiter.guidance.protocol import Phase, State
 from loiter.guidance.vehicle.rolling import Roll
+from loiter.io.flight_log import LogRow
 from loiter.mavlink import GuideReport, Stage
 from loiter.planning.model import Turn
 from mavlink.flyer import FlightPort, GuidedPlane, OffboardPx4, miss_m, simulated_time
@@ -142,10 +146,48 @@ def test_a_log_is_replayed_and_drawn(tmp_path, capsys):
         )
     assert texts[0] == texts[1]
     first, *_, last = texts[0]
-    assert re.fullmatch(r" +0\.\d s  joining: turn right, bank \d+ deg commanded", first)
+    assert re.fullmatch(r" +0\.\d s  joining: turn right, commanded bank \d+ deg", first)
     assert re.fullmatch(
         r"\d+ steps in \d+\.\d s; on the circle \d\.\d m (in|out)side in the mean, \d\.\d m at most\.", last
     )
+
+
+def logged(path, *steps):
+    """A log with some steps: their stage, phase and commanded bank; otherwise zeros."""
+    zeros = dict.fromkeys(LogRow._fields, 0.0) | {"turn": "cw", "orbit_radius_m": 80.0}
+    rows = [
+        zeros | {"time_s": 0.1 * i, "stage": stage, "phase": phase, "command_deg": bank}
+        for i, (stage, phase, bank) in enumerate(steps)
+    ]
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, LogRow._fields)
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def test_a_replay_shows_the_median_of_the_commanded_banks(tmp_path, capsys):
+    """The first command of a phase leaves the turn before it, and is of the other sign."""
+    log = tmp_path / "flight.csv"
+    right, left = ("joining", "turn right"), ("joining", "turn left")
+    steps = [
+        (*right, -40),
+        (*right, 44),
+        (*right, 45),
+        (*left, 45),
+        (*left, -43),
+        (*left, -43),
+        ("holding", "hold", nan),
+    ]
+    logged(log, *steps)
+    assert main(["fly", "--replay", str(log)]) == 0
+    assert capsys.readouterr().out.splitlines()[:3] == [
+        "   0.0 s  joining: turn right, commanded bank 44 deg",
+        "   0.3 s  joining: turn left, commanded bank -43 deg",
+        "   0.6 s  holding: hold, no bank commanded",
+    ]
+    assert main(["fly", "--replay", str(log), "--json"]) == 0
+    phases = json.loads(capsys.readouterr().out)["phases"]
+    assert [phase["commanded_bank_deg"] for phase in phases] == [44.0, -43.0, None]
 
 
 @pytest.mark.parametrize(
@@ -159,8 +201,6 @@ def test_a_log_is_replayed_and_drawn(tmp_path, capsys):
     ],
 )
 def test_a_replay_takes_only_a_plot(arguments, sentence, tmp_path, capsys):
-    from loiter.io.flight_log import LogRow
-
     log = tmp_path / "flight.csv"
     log.write_text(",".join(LogRow._fields) + "\n")
     assert main(["fly", "--replay", str(log), *arguments.split()]) == 2

@@ -6,6 +6,8 @@ from math import inf, nan
 
 import gpxpy
 import pytest
+from fastkml.validator import validate
+from lxml import etree
 from pymavlink import mavwp
 
 from earth import FRAME, entry
@@ -93,20 +95,36 @@ def test_maps_and_tables_hold_altitudes_above_home_as_above_the_sea(tmp_path):
     assert {row["altitude_m"] for row in rows} == {"570.0"}
 
 
+@pytest.mark.parametrize("datum", [GROUND, AltitudeDatum("ground")])
+def test_kml_holds_altitudes_above_the_ground_as_they_are(tmp_path, datum):
+    path = tmp_path / "a.kml"
+    save(M, path, frame=FRAME, altitude_m=120.0, datum=datum)
+    assert validate(file_to_validate=path) is True
+    tree = etree.parse(path)
+    assert {element.text for element in tree.findall(".//{*}altitudeMode")} == {"relativeToGround"}
+    positions = [where for element in tree.findall(".//{*}coordinates") for where in element.text.split()]
+    assert {where.split(",")[2] for where in positions} == {"120.0"}
+    names = {element.get("name") for element in tree.findall(".//{*}Data")}
+    assert "altitude_above_ground_m" in names
+    assert "altitude_m" not in names
+
+
 # Refusals
 
 
 @pytest.mark.parametrize("ending", MAPS)
-@pytest.mark.parametrize(
-    ("datum", "sentence"),
-    [
-        (AltitudeDatum("home"), r"^home_altitude_m is missing: altitudes above home cannot be converted without it$"),
-        (GROUND, r"^altitude_reference is ground: how high that is above mean sea level is not known$"),
-    ],
-)
-def test_maps_need_to_know_how_high_above_the_sea(tmp_path, ending, datum, sentence):
+def test_maps_need_the_altitude_of_home_for_altitudes_above_it(tmp_path, ending):
+    sentence = r"^home_altitude_m is missing: altitudes above home cannot be converted without it$"
     with pytest.raises(InvalidArgument, match=sentence):
-        save(M, tmp_path / f"a{ending}", frame=FRAME, altitude_m=120.0, datum=datum)
+        save(M, tmp_path / f"a{ending}", frame=FRAME, altitude_m=120.0, datum=AltitudeDatum("home"))
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("ending", [ending for ending in MAPS if ending != ".kml"])
+def test_other_maps_need_to_know_how_high_above_the_sea(tmp_path, ending):
+    sentence = r"^altitude_reference is ground: how high that is above mean sea level is not known$"
+    with pytest.raises(InvalidArgument, match=sentence):
+        save(M, tmp_path / f"a{ending}", frame=FRAME, altitude_m=120.0, datum=GROUND)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -228,7 +228,7 @@ class AircraftOptions:
             group=aircraft,
             converter=one(metres),
             metavar="METRES",
-            help="Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is used to convert an indicated airspeed (in thin air the true airspeed is higher), and is written to missions and maps.",
+            help="Altitude above mean sea level, metres, or with a unit: 3000ft. It converts an indicated airspeed to true airspeed, which is higher in thin air.",
         ),
     ] = None
     temperature: Annotated[
@@ -315,6 +315,22 @@ class AircraftOptions:
 
 @Parameter(name="*")
 @dataclass(frozen=True)
+class PlannedAircraftOptions(AircraftOptions):
+    """The aircraft; its altitude is written to files, and may be measured from --altitude-reference."""
+
+    altitude: Annotated[
+        float | None,
+        Parameter(
+            group=aircraft,
+            converter=one(metres),
+            metavar="METRES",
+            help="Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is written to missions and maps, and converts an indicated airspeed to true airspeed, which is higher in thin air.",
+        ),
+    ] = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
 class WindOptions:
     """The wind option."""
 
@@ -375,7 +391,7 @@ class MissionOptions:
         Literal["msl", "home", "ground"],
         Parameter(
             group=missions,
-            help="Reference of --altitude: mean sea level, the home position, or the ground below (ArduPilot only).",
+            help="Reference of --altitude: mean sea level, the home position, or the ground below (only in missions of ArduPilot, and in .kml).",
         ),
     ] = "msl"
     home_altitude: Annotated[

@@ -27,6 +27,8 @@ from loiter.writing import write_content
 MAPS: dict[str, Callable[[Chart], bytes]] = {".geojson": geojson, ".kml": kml, ".gpx": gpx}
 MISSIONS = (".plan", ".waypoints", ".txt")
 TABLES = (".csv",)
+# The maps that can give altitudes above the ground.
+ABOVE_GROUND = (".kml",)
 FORMATS = (*MAPS, *TABLES, *MISSIONS)
 
 
@@ -74,9 +76,10 @@ def save(
     .waypoints or .txt (`QGC WPL 110`) are missions as `io.mission` makes them. All positions and tracks are over the
     ground. `frame` says where on Earth the maneuver is: without it only .csv can be written. Missions need
     `altitude_m`, which is above mean sea level unless `datum` says otherwise; in maps and tables altitudes are above
-    mean sea level. Points are at most `spacing_m` metres apart, if it is given, and the track is nowhere further than
-    `chord_error_m` metres from the line between two of them. `autopilot` is the one for which a mission is written.
-    `site` is that of an existing mission (`read_site`), whose home, and whose fence in a .plan, the new one keeps.
+    mean sea level, and in .kml above the ground where `datum` says so. Points are at most `spacing_m` metres apart, if
+    it is given, and the track is nowhere further than `chord_error_m` metres from the line between two of them.
+    `autopilot` is the one for which a mission is written. `site` is that of an existing mission (`read_site`), whose
+    home, and whose fence in a .plan, the new one keeps.
 
     The file appears whole or not at all; an older file stays until then. Raises `InvalidArgument` for an unknown
     ending, missing arguments, impossible numbers and a file that cannot be written, and otherwise like `mission`.
@@ -114,16 +117,29 @@ def read_mission(path: str | Path) -> Mission:
 
 
 def _content(ending: str, arguments: SaveArguments) -> bytes:
-    maneuver, frame, altitude_m = arguments.maneuver, arguments.frame, arguments.altitude_m
-    above_sea_m = None if altitude_m is None or ending in MISSIONS else arguments.datum.above_sea_m(altitude_m)
+    maneuver, frame = arguments.maneuver, arguments.frame
     if ending in TABLES:
         counts = step_counts(maneuver, arguments.spacing_m, arguments.chord_error_m)
-        return table(vertices(maneuver, counts), frame, above_sea_m)
+        return table(vertices(maneuver, counts), frame, _map_altitude_m(ending, arguments))
     if frame is None:
         raise InvalidArgument("frame", f"is missing: a {ending} file needs places on Earth; .csv does not")
-    if ending in MAPS:
-        return MAPS[ending](chart(maneuver, frame, above_sea_m, arguments.spacing_m, arguments.chord_error_m))
-    return _mission_file(ending, frame, arguments)
+    if ending in MISSIONS:
+        return _mission_file(ending, frame, arguments)
+    altitude_m = _map_altitude_m(ending, arguments)
+    shown = chart(maneuver, frame, altitude_m, arguments.spacing_m, arguments.chord_error_m)
+    return MAPS[ending](shown._replace(above_ground=_is_above_ground(ending, arguments.datum)))
+
+
+def _map_altitude_m(ending: str, arguments: SaveArguments) -> float | None:
+    """The altitude in a map or a table: above mean sea level or, in KML, above the ground where it was given so."""
+    altitude_m, datum = arguments.altitude_m, arguments.datum
+    if altitude_m is None or _is_above_ground(ending, datum):
+        return altitude_m
+    return datum.above_sea_m(altitude_m)
+
+
+def _is_above_ground(ending: str, datum: AltitudeDatum) -> bool:
+    return ending in ABOVE_GROUND and datum.reference == AltitudeReference.GROUND
 
 
 def _with_home_at(plan: Mission, altitude_m: float) -> Mission:

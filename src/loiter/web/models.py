@@ -138,7 +138,7 @@ class ExportOptions(Scene):
     altitude_m: Number | None = Field(None, description="Altitude above altitude_reference, metres; missions need it.")
     altitude_reference: Literal["msl", "home", "ground"] = Field(
         "msl",
-        description="The reference of altitude_m: mean sea level, home, or the ground (missions of ArduPilot only).",
+        description="The reference of altitude_m: mean sea level, home, or the ground (ArduPilot and KML only).",
     )
     home_altitude_m: Number | None = Field(
         None, description="Altitude of home above mean sea level, metres; missions above home or ground need it."

@@ -87,7 +87,7 @@ class GuidedVehicleOptions:
             group=vehicle_limits,
             converter=one(metres),
             metavar="METRES",
-            help="Altitude above mean sea level at which the circle is flown, metres, or with a unit: 3000ft; the present one if absent.",
+            help="Altitude at which the circle is flown, always above mean sea level; metres, or with a unit: 3000ft. The present one if absent.",
         ),
     ] = None
 

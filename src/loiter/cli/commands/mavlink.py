@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from functools import partial
 from itertools import islice
 from pathlib import Path
@@ -17,7 +17,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 import loiter
 from loiter.cli import report, vehicles
-from loiter.cli.numbers import whole
+from loiter.cli.numbers import metres, one, whole
 from loiter.cli.options import (
     AircraftOptions,
     Fit,
@@ -25,8 +25,10 @@ from loiter.cli.options import (
     OrbitOptions,
     PlacedOrbitOptions,
     PlacedStartOptions,
+    PlannedAircraftOptions,
     StartOptions,
     WindOptions,
+    aircraft,
     fence_check,
     output,
     read_options,
@@ -97,7 +99,7 @@ def upload(
     ] = False,
     pose: PlacedStartOptions = PlacedStartOptions(),
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
-    uav: AircraftOptions = AircraftOptions(),
+    uav: PlannedAircraftOptions = PlannedAircraftOptions(),
     air: WindOptions = WindOptions(),
     fit: Fit = False,
     waypoints: MissionOptions = MissionOptions(),
@@ -217,6 +219,22 @@ def _progress_bars() -> Iterator[Callable[[str, int, int], None]]:
         yield on_progress
 
 
+@Parameter(name="*")
+@dataclass(frozen=True)
+class WatchedAircraftOptions(AircraftOptions):
+    """The aircraft; with --send it is commanded to fly at the altitude."""
+
+    altitude: Annotated[
+        float | None,
+        Parameter(
+            group=aircraft,
+            converter=one(metres),
+            metavar="METRES",
+            help="Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air.",
+        ),
+    ] = None
+
+
 def watch(
     *,
     connect: Connect,
@@ -238,7 +256,7 @@ def watch(
     ] = False,
     true_radius: TrueRadius = False,
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
-    uav: AircraftOptions = AircraftOptions(),
+    uav: WatchedAircraftOptions = WatchedAircraftOptions(),
     air: WindOptions = WindOptions(),
     json: JsonLines = False,
 ) -> None:

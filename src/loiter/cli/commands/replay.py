@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import isnan
+from itertools import groupby
+from math import isnan, nan
+from operator import itemgetter
 from pathlib import Path
+from statistics import median
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from loiter.cli.report import json_value
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.io.flight_log import check_columns, read_log
 from loiter.plot import files
@@ -15,8 +19,11 @@ if TYPE_CHECKING:
     from loiter.cli.commands.fly import Output
 
 
-class StageStart(NamedTuple):
-    """The time at which a stage or phase of a guided flight begins, and the bank commanded then, degrees."""
+class StageFlown(NamedTuple):
+    """The time at which a stage or phase of a guided flight begins, and the bank commanded during it, degrees.
+
+    The bank is the median, as in `cli.flights.PhaseFlown`; nan if nothing was commanded.
+    """
 
     time_s: float
     stage: str
@@ -42,14 +49,14 @@ def replay(log: Path, wanted: Output) -> None:
         figure = draw(columns)
         for path in wanted.plot:
             files.save_figure("plot", path, figure)
-    starts, held = list(_stage_starts(columns)), _held(columns)
+    stages, held = list(_stages_flown(columns)), _held(columns)
     document = {
         "steps": len(columns["time_s"]),
         "duration_s": columns["time_s"][-1] - columns["time_s"][0],
-        "phases": [start._asdict() for start in starts],
+        "phases": [{name: json_value(value) for name, value in stage._asdict().items()} for stage in stages],
         "circle": None if held is None else held._asdict(),
     }
-    wanted.show(document, *map(_line, starts), _summary(columns, held))
+    wanted.show(document, *map(_line, stages), _summary(columns, held))
 
 
 def _read(path: Path) -> Mapping[str, Sequence[Any]]:
@@ -64,19 +71,19 @@ def _read(path: Path) -> Mapping[str, Sequence[Any]]:
     return columns
 
 
-def _stage_starts(log: Mapping[str, Sequence[Any]]) -> Iterator[StageStart]:
-    """The beginning of each stage and phase."""
-    previous: tuple[str, str] | None = None
-    for time_s, stage, phase, command in zip(
-        log["time_s"], log["stage"], log["phase"], log["command_deg"], strict=True
-    ):
-        if (stage, phase) != previous:
-            yield StageStart(time_s, stage, phase, command)
-        previous = stage, phase
+def _stages_flown(log: Mapping[str, Sequence[Any]]) -> Iterator[StageFlown]:
+    """The stages and phases in the order flown."""
+    steps = zip(log["stage"], log["phase"], log["time_s"], log["command_deg"], strict=True)
+    for (stage, phase), run in groupby(steps, key=itemgetter(0, 1)):
+        _, _, times_s, banks_deg = zip(*run, strict=True)
+        commanded = [bank for bank in banks_deg if not isnan(bank)]
+        yield StageFlown(times_s[0], stage, phase, median(commanded) if commanded else nan)
 
 
-def _line(start: StageStart) -> str:
-    return f"{start.time_s:6.1f} s  {start.stage}: {start.phase}, bank {start.commanded_bank_deg:.0f} deg commanded"
+def _line(flown: StageFlown) -> str:
+    bank = flown.commanded_bank_deg
+    commanded = "no bank commanded" if isnan(bank) else f"commanded bank {round(bank)} deg"
+    return f"{flown.time_s:6.1f} s  {flown.stage}: {flown.phase}, {commanded}"
 
 
 def _held(log: Mapping[str, Sequence[Any]]) -> Held | None:

@@ -42,7 +42,7 @@ class Chart(NamedTuple):
     """A maneuver on the Earth, in WGS84 degrees.
 
     `circle` has the latitudes and longitudes of a closed polygon that runs counter-clockwise; a circle that moves is
-    shown where it is joined.
+    shown where it is joined. `altitude_m` is above mean sea level or, with `above_ground`, above the ground.
     """
 
     maneuver: Maneuver
@@ -52,6 +52,7 @@ class Chart(NamedTuple):
     circle: tuple[list[float], list[float]]
     centre_latitude_deg: float
     centre_longitude_deg: float
+    above_ground: bool = False
 
 
 def chart(

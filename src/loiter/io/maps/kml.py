@@ -55,15 +55,16 @@ def _view(parent: ET.Element, chart: Chart) -> None:
 
 
 def _placemark(
-    parent: ET.Element, name: str, style: str | None, properties: Mapping[str, object], chart: Chart
+    parent: ET.Element, title: str, style: str | None, properties: Mapping[str, object], chart: Chart
 ) -> ET.Element:
     """A new placemark at the end of `parent`, without a geometry."""
     mark = child(parent, "Placemark")
-    child(mark, "name", name)
+    child(mark, "name", title)
     if style is not None:
         child(mark, "styleUrl", f"#{style}")
     data = child(mark, "ExtendedData")
-    altitude = {} if chart.altitude_m is None else {"altitude_m": chart.altitude_m}
+    name = "altitude_above_ground_m" if chart.above_ground else "altitude_m"
+    altitude = {} if chart.altitude_m is None else {name: chart.altitude_m}
     for key, value in {**properties, **altitude}.items():
         child(child(data, "Data", name=key), "value", value)
     return mark
@@ -89,4 +90,6 @@ def _position(chart: Chart, longitude: float, latitude: float) -> str:
 
 def _mode(chart: Chart) -> str:
     """KML's altitude mode: absolute altitudes are above the sea (EGM96)."""
-    return "clampToGround" if chart.altitude_m is None else "absolute"
+    if chart.altitude_m is None:
+        return "clampToGround"
+    return "relativeToGround" if chart.above_ground else "absolute"
