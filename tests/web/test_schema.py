@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, settings
 from schemathesis.specs.openapi.checks import positive_data_acceptance
 
 from loiter.web.app import create_app
-from loiter.web.models import EXAMPLE, IN_WIND, Scene
+from loiter.web.models import EXAMPLE, IN_WIND, Health, Scene
 from loiter.web.openapi import REFUSALS
 
 DOCS = Path(__file__).parents[2] / "docs" / "service.md"
@@ -50,3 +50,8 @@ def test_requests_forbid_unknown_fields(name):
 @pytest.mark.parametrize("example", [EXAMPLE, IN_WIND])
 def test_the_examples_can_be_planned(example):
     assert Scene.model_validate(example).placed().problem.aircraft.turn_radius_m > 0.0
+
+
+def test_the_documentation_names_every_field_of_healthz():
+    (row,) = (line for line in DOCS.read_text("utf-8").splitlines() if line.startswith("| `GET /healthz`"))
+    assert [field for field in Health.model_fields if f"`{field}`" not in row] == []
