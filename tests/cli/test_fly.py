@@ -34,6 +34,34 @@ def test_the_same_seed_flies_the_same(shown):
     assert shown(f"fly {SCENE} --seed 5") != once
 
 
+@pytest.mark.parametrize(
+    ("options", "flown_with"),
+    [
+        ("", "--sim point --gust 0.05 --seed 0: a point mass with"),
+        ("--gust 0.1 --seed 7", "--sim point --gust 0.1 --seed 7: a point mass with"),
+        ("--sim kinematic", "--sim kinematic: the vehicle of the theory"),
+    ],
+)
+def test_a_line_says_how_it_was_flown(shown, options, flown_with):
+    text = shown(f"fly {SCENE} {options}")
+    line = text.splitlines()[1]
+    assert line.startswith(f"Flown with {flown_with}")
+    repeated = line.partition("Flown with ")[2].partition(":")[0]
+    assert shown(f"fly {SCENE} {repeated}") == text
+
+
+@pytest.mark.parametrize(
+    ("options", "flown_with"),
+    [
+        ("--sim kinematic --seed 3 --airspeed 18 --bank 35", "--sim kinematic --seed 3: "),
+        ("--sim varied", "--sim varied --gust 0.05 --seed 0: "),
+        ("--sim jsbsim --gust 0", "--sim jsbsim --airframe aerosonde --gust 0 --seed 0: "),
+    ],
+)
+def test_many_flights_say_so_too(shown, options, flown_with):
+    assert shown(f"fly --runs 1 --workers 1 {options}").startswith(f"Flown with {flown_with}")
+
+
 def test_laws_are_compared_and_written(shown, tmp_path):
     text = shown(f"fly {SCENE} --compare --save {tmp_path / 'f.csv'} --plot {tmp_path / 'f.png'}")
     table = rows(text)

@@ -39,7 +39,8 @@ def answered(shown):
 def test_a_flight(answered, planned, tmp_path):
     files = [tmp_path / "f.csv", tmp_path / "f.svg", tmp_path / "f.png"]
     document = answered(f"fly {SCENE} --compare --save {files[0]} --plot {files[1]} --plot {files[2]}")
-    assert set(document) == {"fastest", "laws", "files"}
+    assert set(document) == {"fastest", "laws", "simulation", "files"}
+    assert document["simulation"] == {"sim": "point", "airframe": None, "gust": 0.05, "seed": 0}
     assert document["fastest"]["duration_s"] == planned(SCENE)["duration_s"]
     assert [law["law"] for law in document["laws"]] == ["optimal", "l1", "vector-field", "tangent"]
     first = document["laws"][0]

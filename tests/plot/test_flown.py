@@ -55,6 +55,8 @@ def test_the_title_says_what_was_flown_and_the_axis_where_the_bank_is_positive(f
     circle = f"onto a circle of 80 m, {TRIAL.ideal.turn.described}, at 18 m/s"
     assert tracks.get_title() == f"Laws optimal and l1 in closed loop\n{circle}"
     assert "right positive" in bank.get_ylabel()
+    simulator = "simulator point, gusts 0.05 of the airspeed, seed 0"
+    assert draw(TRIAL.ideal, flights, conditions=simulator).axes[0].get_title().endswith(f"m/s\n{simulator}")
     one = draw(TRIAL.ideal, {"l1": flights["l1"]}).axes[0]
     assert one.get_title().startswith("Law l1 in closed loop\n")
 

@@ -21,6 +21,52 @@ if TYPE_CHECKING:
     from loiter.guidance.trials.flight import Flight
 
 
+# The simulators of --sim.
+SIMULATORS = {
+    "kinematic": "the vehicle of the theory, which banks at once, in calm air",
+    "point": "a point mass with roll response, noise and delay",
+    "varied": "point masses drawn at random, of which the law knows airspeed and bank limit alone",
+    "jsbsim": "six degrees of freedom in JSBSim, with noise and delay",
+}
+
+
+class Conditions(NamedTuple):
+    """How flights were simulated: with the same values and the same scene they can be repeated.
+
+    `gust` is the standard deviation of the gusts over the airspeed. None stands for what has no effect.
+    """
+
+    sim: str
+    airframe: str | None
+    gust: float | None
+    seed: int | None
+
+    @property
+    def line(self) -> str:
+        """One line: "Flown with --sim point --gust 0.05 --seed 0: a point mass with roll response, ..."."""
+        options = " ".join(f"--{name} {_plain(value)}" for name, value in self._given)
+        return f"Flown with {options}: {SIMULATORS[self.sim]}."
+
+    @property
+    def title(self) -> str:
+        """The same in a few words, for a picture: "simulator point, gusts 0.05 of the airspeed, seed 0"."""
+        words = {
+            "sim": "simulator {}",
+            "airframe": "airframe {}",
+            "gust": "gusts {} of the airspeed",
+            "seed": "seed {}",
+        }
+        return ", ".join(words[name].format(_plain(value)) for name, value in self._given)
+
+    @property
+    def _given(self) -> list[tuple[str, str | float | int]]:
+        return [(name, value) for name, value in self._asdict().items() if value is not None]
+
+
+def _plain(value: str | float | int) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
 class PhaseFlown(NamedTuple):
     """The time at which a phase begins, and the bank commanded during it, the median, degrees, positive to the right.
 

@@ -331,6 +331,22 @@ class PlannedAircraftOptions(AircraftOptions):
 
 @Parameter(name="*")
 @dataclass(frozen=True)
+class WatchedAircraftOptions(AircraftOptions):
+    """The aircraft; with --send it is commanded to fly at the altitude."""
+
+    altitude: Annotated[
+        float | None,
+        Parameter(
+            group=aircraft,
+            converter=one(metres),
+            metavar="METRES",
+            help="Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air.",
+        ),
+    ] = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
 class WindOptions:
     """The wind option."""
 

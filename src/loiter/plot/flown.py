@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
-from numpy.typing import NDArray
 
 from loiter.guidance.trials.flight import Flight
 from loiter.planning.compass import wrapped
@@ -23,17 +22,17 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 BANK_LABEL = "bank (deg,\nright positive)"
 
 
-def draw(ideal: Maneuver, flights: Mapping[str, Flight]) -> Figure:
+def draw(ideal: Maneuver, flights: Mapping[str, Flight], *, conditions: str = "") -> Figure:
     """A figure with the tracks of laws from one start and the fastest entry; below, bank and reported time to join.
 
     A dot marks the beginning of the full turn in which the aircraft settled. A moving circle is drawn where the fastest
-    entry joins it.
+    entry joins it. `conditions`, such as the simulator and its seed, are the last line of the title.
     """
     figure = Figure(figsize=(8.0, 8.6), layout="constrained")
     layout: Any = [["tracks"], ["bank"], ["join"]]
     axes = figure.subplot_mosaic(layout, height_ratios=[6, 2, 2])
     _draw_tracks(axes["tracks"], ideal, flights)
-    axes["tracks"].set_title(_title(ideal, list(flights)), fontsize="medium")
+    axes["tracks"].set_title("\n".join(filter(None, [_title(ideal, list(flights)), conditions])), fontsize="medium")
     for (name, flight), colour in zip(flights.items(), COLOURS, strict=False):
         track, time_s = flight.track, flight.track.elapsed_s
         axes["bank"].plot(time_s, track.bank_deg, color=colour, linewidth=1.2, gid=f"bank {name}")
@@ -73,12 +72,6 @@ def _draw_tracks(axes: Axes, ideal: Maneuver, flights: Mapping[str, Flight]) -> 
     axes.set_xlabel("east (m)")
     axes.set_ylabel("north (m)")
     axes.legend(loc="best", fontsize="small", framealpha=0.9)
-
-
-def _elapsed_s(flight: Flight) -> NDArray[np.float64]:
-    """Seconds since the start of the track."""
-    times = flight.track.time_s
-    return times - times[:1]
 
 
 def _label(name: str, flight: Flight) -> str:

@@ -26,6 +26,7 @@ from loiter.plot import files
 from loiter.writing import check_writable, write_content
 
 if TYPE_CHECKING:
+    from loiter.cli.flights import Conditions
     from loiter.guidance.simulators.airframes import Airframe
     from loiter.guidance.trials.campaign import Outcome, Trial
     from loiter.guidance.trials.flight import Flight
@@ -160,6 +161,17 @@ class SimulationOptions:
             return settings.point_mass_setting(gust)
         return settings.jsbsim_setting(self._airframe(), gust)
 
+    @property
+    def conditions(self) -> Conditions:
+        """The simulator, airframe, gusts and seed of the flights."""
+        from loiter.cli.flights import Conditions
+
+        airframe = (self.airframe or AIRFRAME) if self.sim == "jsbsim" else None
+        if self.sim == "kinematic":
+            # Its flights are all the same; only the random starts of --runs differ.
+            return Conditions(self.sim, airframe, None, None if self.runs is None else self.seed)
+        return Conditions(self.sim, airframe, GUST if self.gust is None else self.gust, self.seed)
+
     def trials(self, uav: AircraftOptions, air: WindOptions) -> Sequence[Trial]:
         """The random starts of --runs; with --sim varied each has its own aircraft and wind."""
         from loiter.guidance.trials import campaign, varied
@@ -217,11 +229,11 @@ def fly(
     if simulated.runs is None:
         pose, orbit, _ = placed(start, circle, uav.preset())
         trial = campaign.Trial(loiter.plan(pose, orbit, simulated.aircraft(uav), air.moving_air), simulated.seed)
-        _fly_once(trial, simulated.setting(), simulated.laws, wanted)
+        _fly_once(trial, simulated, wanted)
         return
     if (start, circle) != (StartOptions(), OrbitOptions()):
         raise InvalidArgument("runs", "selects random starts and circles: --pose and --orbit have no effect")
-    _fly_many(simulated.trials(uav, air), simulated.setting(), simulated.laws, simulated.workers, wanted)
+    _fly_many(simulated.trials(uav, air), simulated, wanted)
 
 
 def _replay(log: Path, others: tuple[object, ...], wanted: Output) -> None:
@@ -247,11 +259,12 @@ def _check_files(wanted: Output, runs: int | None) -> None:
         check_writable("save", path)
 
 
-def _fly_once(trial: Trial, setting: Setting, names: Sequence[str], wanted: Output) -> None:
+def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output) -> None:
     """Fly laws from one start: write the time line of the first law, and a table with a row for each."""
     from loiter.cli import flights as shown
     from loiter.guidance.trials.flight import fly as fly_law
 
+    setting, conditions = simulated.setting(), simulated.conditions
     flights = {
         name: fly_law(
             setting.laws[name](trial),
@@ -260,18 +273,19 @@ def _fly_once(trial: Trial, setting: Setting, names: Sequence[str], wanted: Outp
             band=setting.band,
             exact_switches=setting.exact_switches,
         )
-        for name in names
+        for name in simulated.laws
     }
     if wanted.plot:
         from loiter.plot.flown import draw
 
-        figure = draw(trial.ideal, flights)
+        figure = draw(trial.ideal, flights, conditions=conditions.title)
         for path in wanted.plot:
             files.save_figure("plot", path, figure)
     _save(wanted.save, _steps(flights))
     first, *_ = flights.values()
-    lines = [f"Fastest entry: {trial.ideal}", *shown.time_line(first)]
-    wanted.show(shown.flights_document(trial, flights), *lines, shown.flights_table(trial, flights))
+    lines = [f"Fastest entry: {trial.ideal}", conditions.line, *shown.time_line(first)]
+    document = shown.flights_document(trial, flights) | {"simulation": conditions._asdict()}
+    wanted.show(document, *lines, shown.flights_table(trial, flights))
 
 
 def _steps(flights: Mapping[str, Flight]) -> Iterator[Sequence[object]]:
@@ -286,9 +300,7 @@ def _steps(flights: Mapping[str, Flight]) -> Iterator[Sequence[object]]:
             yield [name, *row, phase.value]
 
 
-def _fly_many(
-    starts: Sequence[Trial], setting: Setting, names: Sequence[str], workers: int | None, wanted: Output
-) -> None:
+def _fly_many(starts: Sequence[Trial], simulated: SimulationOptions, wanted: Output) -> None:
     """Fly laws from many starts, and write a table with a row for each law."""
     from loiter.cli import flights as shown
     from loiter.compiled import wind_solver
@@ -297,11 +309,13 @@ def _fly_many(
     if not problem_of(starts[0].ideal).still:
         wind_solver.prepare()
 
-    laws = {name: setting.laws[name] for name in names}
+    setting, conditions, workers = simulated.setting(), simulated.conditions, simulated.workers
+    laws = {name: setting.laws[name] for name in simulated.laws}
     with _progress_bar() as progress:
         outcomes = campaign(laws, setting.simulator, starts, band=setting.band, workers=workers, progress=progress)
     _save(wanted.save, _rows(starts, outcomes))
-    wanted.show(shown.campaign_document(outcomes), shown.campaign_table(outcomes))
+    document = shown.campaign_document(outcomes) | {"simulation": conditions._asdict()}
+    wanted.show(document, conditions.line, shown.campaign_table(outcomes))
 
 
 def _rows(starts: Sequence[Trial], outcomes: Mapping[str, Sequence[Outcome]]) -> Iterator[Sequence[object]]:

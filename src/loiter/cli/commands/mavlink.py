@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from functools import partial
 from itertools import islice
 from pathlib import Path
@@ -17,9 +17,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 import loiter
 from loiter.cli import report, vehicles
-from loiter.cli.numbers import metres, one, whole
+from loiter.cli.numbers import whole
 from loiter.cli.options import (
-    AircraftOptions,
     Fit,
     MissionOptions,
     OrbitOptions,
@@ -27,8 +26,8 @@ from loiter.cli.options import (
     PlacedStartOptions,
     PlannedAircraftOptions,
     StartOptions,
+    WatchedAircraftOptions,
     WindOptions,
-    aircraft,
     fence_check,
     output,
     read_options,
@@ -158,7 +157,7 @@ class PlannedMission(NamedTuple):
 def _plan_mission(
     pose: StartOptions,
     circle: OrbitOptions,
-    uav: AircraftOptions,
+    uav: PlannedAircraftOptions,
     air: WindOptions,
     waypoints: MissionOptions,
     *,
@@ -217,22 +216,6 @@ def _progress_bars() -> Iterator[Callable[[str, int, int], None]]:
             bars.update(tasks[phase], completed=done, total=total, visible=True)
 
         yield on_progress
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class WatchedAircraftOptions(AircraftOptions):
-    """The aircraft; with --send it is commanded to fly at the altitude."""
-
-    altitude: Annotated[
-        float | None,
-        Parameter(
-            group=aircraft,
-            converter=one(metres),
-            metavar="METRES",
-            help="Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air.",
-        ),
-    ] = None
 
 
 def watch(
