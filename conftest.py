@@ -30,7 +30,7 @@ SLOW = {
     "mavlink": "guide guide_misbehaving peers upload watch",
     "mutation": "mutation",
     "planning": "wind",
-    "plot": "picture",
+    "plot": "picture sizes",
     "": "make types",
     "verify": "certificate certificate_in_wind collocation oracle_check proof reachability rounding wind_scan",
     "web": "api drawing failure fields history layout limits load missions page places schema serve tiles touch",

@@ -10,11 +10,12 @@ from math import hypot, pi, sqrt
 from pathlib import Path
 
 import pytest
+from matplotlib.figure import Figure
 
 import loiter
 from golden.paper import ADMISSIBLE, EXAMPLES
 from loiter.cli.app import main
-from loiter.plot import files
+from loiter.plot import picture
 
 SCRIPT = Path(sys.executable).with_name("loiter")
 UAV = "--orbit 0 0 80 --airspeed 18 --bank 35"
@@ -305,9 +306,17 @@ def test_json_and_a_picture_come_together(planned, tmp_path, monkeypatch):
         ("--turn ccw --all", 2, ["LR", "LSR", "RSR"]),
     ],
 )
-def test_the_picture_shows_one_optimum_or_each_over_the_rest_of_the_direction(shown, monkeypatch, options, bold, words):
-    drawn = []
-    monkeypatch.setattr(files, "save", lambda _, best, others, frame: drawn.extend((best, others)))
+def test_the_picture_shows_one_optimum_or_each_over_the_rest_of_the_direction(
+    shown, monkeypatch, tmp_path, options, bold, words
+):
+    drawn, figure = [], Figure()
+
+    def draw(best, others, frame):
+        drawn.extend((best, others))
+        return figure
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(picture, "draw", draw)
     shown(f"plan --pose 3 0 90 {UNIT} --plot entry.png {options}")
     best, others = drawn
     assert len(best) == bold

@@ -2,9 +2,10 @@
 
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from loiter.plot import files
+from loiter.cli.options import PictureOptions
 from loiter.verify.certificate import Certificate
 
 
@@ -27,15 +28,15 @@ def picture_path(plot: Path) -> Path:
     return plot.with_name(f"{plot.stem}-certificate{plot.suffix}")
 
 
-def save_picture(plot: Path, certificates: Sequence[Certificate]) -> list[Path]:
-    """Draw u, phi and psi of the first certificate, if any, to a file beside the plan's; errors as for `files.save`.
+def save_pictures(pictures: PictureOptions, certificates: Sequence[Certificate]) -> list[Path]:
+    """Draw u, phi and psi of the first certificate, if any, to files beside the plan's; errors as for `files.save`.
 
-    Returns the files written: one or none.
+    Returns the files of the plan and of the certificate.
     """
     if not certificates:
-        return []
+        return [*pictures.plot]
     from loiter.plot.certificate import draw
 
     first, *_ = certificates
-    files.save_figure("plot", picture_path(plot), draw(first))
-    return [picture_path(plot)]
+    replace(pictures, plot=tuple(map(picture_path, pictures.plot))).save(draw(first))
+    return [file for path in pictures.plot for file in (path, picture_path(path))]

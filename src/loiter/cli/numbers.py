@@ -11,12 +11,14 @@ from cyclopts import CoercionError, Token
 
 from loiter.planning.model import TurnName
 
-# Units that values may end in, upper or lower case, in metres per second and in metres. A nautical mile has 1852 m.
+# Units that values may end in, upper or lower case, in metres per second, in metres and, for pictures, in millimetres.
+# A nautical mile has 1852 m.
 SPEEDS = {"m/s": 1.0, "km/h": 1.0 / 3.6, "kn": 1852.0 / 3600.0, "kt": 1852.0 / 3600.0}
+LENGTHS_ON_PAPER = {"mm": 1.0, "cm": 10.0, "in": 25.4}
 LENGTHS = {"km": 1000.0, "nm": 1852.0, "ft": 0.3048, "m": 1.0}
 
 # The options whose numbers may be separated by commas.
-LISTS = ("--pose", "--pose-lla", "--orbit", "--orbit-lla", "--orbit-velocity", "--wind")
+LISTS = ("--pose", "--pose-lla", "--orbit", "--orbit-lla", "--orbit-velocity", "--wind", "--size")
 
 # Degrees, and minutes and seconds below 60, which may be absent, and the hemisphere.
 NUMBER, UNDER_60 = r"(\d+(?:\.\d*)?)", r"([0-5]?\d(?:\.\d*)?)"
@@ -75,6 +77,11 @@ def metres(token: Token) -> float:
 def metres_per_second(token: Token) -> float:
     """A speed in metres per second, from metres per second or with a unit: 35kn."""
     return _with_unit(token, SPEEDS, "it must be a number of metres per second, or end in m/s, km/h or kn")
+
+
+def millimetres(token: Token) -> float:
+    """A length on paper in millimetres, from millimetres or with a unit: 3.5in."""
+    return _with_unit(token, LENGTHS_ON_PAPER, "it must be a number of millimetres, or end in mm, cm or in")
 
 
 def latitude(token: Token) -> float:

@@ -10,15 +10,29 @@ from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from cyclopts import Group, Parameter
 
-from loiter.cli.numbers import any_case, latitude, longitude, metres, metres_per_second, one, plain, several
+from loiter.cli.numbers import (
+    any_case,
+    latitude,
+    longitude,
+    metres,
+    metres_per_second,
+    millimetres,
+    one,
+    plain,
+    several,
+)
 from loiter.errors import InvalidArgument, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
 from loiter.geo.placed import PlacedProblem
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind
 from loiter.planning.problem import Problem
+from loiter.plot import files
+from loiter.plot.sizes import PictureFormat
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from loiter.io.missions.fence import FenceCheck
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
@@ -439,6 +453,84 @@ class MissionOptions:
     def chord_error_m(self) -> float:
         """The largest chord error, metres."""
         return CHORD_ERROR_M if self.chord_error is None else self.chord_error
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class PictureOptions:
+    """The pictures of a command: their files, their size and their resolution."""
+
+    plot: Annotated[
+        tuple[Path, ...],
+        Parameter(
+            group=output,
+            metavar="FILE",
+            help="Draw a picture to a file: .png, .svg or .pdf; may be repeated.",
+        ),
+    ] = ()
+    size: Annotated[
+        tuple[float, float] | None,
+        Parameter(
+            group=output,
+            converter=several(millimetres, millimetres),
+            metavar="WIDTH HEIGHT",
+            help="Size of the picture, millimetres, or with a unit: 3.5in. A column of a journal is some 84 wide, a page 174; text stays at 7 points or more.",
+        ),
+    ] = None
+    dpi: Annotated[
+        float | None,
+        Parameter(
+            group=output, metavar="N", help="Dots per inch of a .png; 150 if absent. Journals ask for 300 to 1200."
+        ),
+    ] = None
+
+    @property
+    def format(self) -> PictureFormat:
+        """The size and the resolution; raises `InvalidArgument` where they cannot be used."""
+        return PictureFormat(self.size, self.dpi)
+
+    def check(self) -> None:
+        """Raise `InvalidArgument` for a format, a size or a resolution that cannot be used, or has no effect."""
+        PictureFormat(self.size, self.dpi)
+        for path in self.plot:
+            files.check_format(path)
+        for argument, value in {"size_mm": self.size, "dpi": self.dpi}.items():
+            if value is not None and not self.plot:
+                raise InvalidArgument(argument, "has no effect without --plot: there is no picture")
+        # The regions of a map are pixels also in .svg and .pdf.
+        if self.dpi is not None and not self.has_pixels and all(path.suffix.lower() != ".png" for path in self.plot):
+            raise InvalidArgument("dpi", "has no effect: only a .png has pixels, .svg and .pdf have lines")
+
+    @property
+    def has_pixels(self) -> bool:
+        """Whether the picture has pixels in every format."""
+        return False
+
+    def save(self, figure: Figure) -> None:
+        """Write a figure to every file."""
+        self.format.apply(figure)
+        for path in self.plot:
+            files.save_figure("plot", path, figure, self.format.resolution)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class MapPictureOptions(PictureOptions):
+    """The pictures of a map, whose regions are pixels in every format."""
+
+    dpi: Annotated[
+        float | None,
+        Parameter(
+            group=output,
+            metavar="N",
+            help="Dots per inch of a .png, and of the regions in .svg and .pdf; 150 if absent.",
+        ),
+    ] = None
+
+    @property
+    def has_pixels(self) -> bool:
+        """Whether the picture has pixels in every format."""
+        return True
 
 
 class OptionsRead(NamedTuple):

@@ -9,6 +9,7 @@ from typing import IO, TYPE_CHECKING, Any
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.planning.maneuver import Maneuver
+from loiter.plot.sizes import DPI, PictureFormat
 from loiter.writing import write_whole
 
 if TYPE_CHECKING:
@@ -31,28 +32,38 @@ def check_format(path: Path) -> None:
 
 
 def save(
-    path: str | Path, best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: LocalFrame | None = None
+    path: str | Path,
+    best: Sequence[Maneuver],
+    others: Sequence[Maneuver] = (),
+    *,
+    frame: LocalFrame | None = None,
+    size_mm: tuple[float, float] | None = None,
+    dpi: float | None = None,
 ) -> None:
-    """Write the picture of `picture.draw` to `path`, in the format of its ending: .png, .svg or .pdf.
+    """Write the picture of `plot.draw` to `path`, in the format of its ending: .png, .svg or .pdf.
 
-    The file is replaced atomically. Raises `InvalidArgument` for another ending and for a file that cannot be written.
+    `size_mm` is its width and height, `dpi` the resolution of a .png, 150 if absent. The file is replaced atomically.
+    Raises `InvalidArgument` for another ending, for a size or a resolution that `plot.draw` refuses, and for a file
+    that cannot be written.
     """
-    path = Path(path)
+    path, chosen = Path(path), PictureFormat(size_mm, dpi)
     check_format(path)
     from loiter.plot.picture import draw
 
-    save_figure("plot", path, draw(best, others, frame=frame))
+    figure = draw(best, others, frame=frame)
+    chosen.apply(figure)
+    save_figure("plot", path, figure, chosen.resolution)
 
 
-def save_figure(argument: str, path: Path, figure: Figure) -> None:
+def save_figure(argument: str, path: Path, figure: Figure, dpi: float = DPI) -> None:
     """Write a figure in the format of the ending of `path`; `argument` is the name of the option that gave it."""
     ending = path.suffix.removeprefix(".").lower()
-    write_whole(argument, path, lambda file: write_figure(file, figure, ending))
+    write_whole(argument, path, lambda file: write_figure(file, figure, ending, dpi))
 
 
-def write_figure(file: IO[bytes], figure: Figure, ending: str) -> None:
+def write_figure(file: IO[bytes], figure: Figure, ending: str, dpi: float = DPI) -> None:
     """Write a figure to an open file, as "png", "svg" or "pdf"; PDF embeds TrueType fonts, SVG keeps text as text."""
     import matplotlib as mpl
 
     with mpl.rc_context(SETTINGS):
-        figure.savefig(file, format=ending, dpi=150, metadata=METADATA.get(ending))
+        figure.savefig(file, format=ending, dpi=dpi, metadata=METADATA.get(ending))

@@ -18,11 +18,10 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 import loiter
 from loiter.cli import report
 from loiter.cli.numbers import whole
-from loiter.cli.options import AircraftOptions, OrbitOptions, StartOptions, WindOptions, output, placed
+from loiter.cli.options import AircraftOptions, OrbitOptions, PictureOptions, StartOptions, WindOptions, output, placed
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
 from loiter.planning.problem import problem_of
-from loiter.plot import files
 from loiter.writing import check_writable, write_content
 
 if TYPE_CHECKING:
@@ -48,14 +47,6 @@ Json = Annotated[
         help="Print one JSON object: the fastest entry and each law's flight, or summaries of many flights.",
     ),
 ]
-Plot = Annotated[
-    tuple[Path, ...],
-    Parameter(
-        group=output,
-        metavar="FILE",
-        help="Draw one flight, or its comparison: .png, .svg or .pdf; may be repeated.",
-    ),
-]
 Save = Annotated[
     tuple[Path, ...],
     Parameter(
@@ -70,12 +61,12 @@ class Output(NamedTuple):
     """What to print and to write."""
 
     json: bool
-    plot: tuple[Path, ...]
+    pictures: PictureOptions
     save: tuple[Path, ...]
 
     def show(self, document: dict[str, object], *lines: RenderableType) -> None:
         """Print the document or the lines, with the files that were written."""
-        written = [*self.plot, *self.save]
+        written = [*self.pictures.plot, *self.save]
         if self.json:
             report.print_json(document | report.files_member(written))
         else:
@@ -214,13 +205,13 @@ def fly(
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
     json: Json = False,
-    plot: Plot = (),
+    pictures: PictureOptions = PictureOptions(),
     save: Save = (),
 ) -> None:
     """Fly the fastest entry in closed loop, compared with the laws that autopilots use today."""
     from loiter.guidance.trials import campaign
 
-    wanted = Output(json, plot, save)
+    wanted = Output(json, pictures, save)
     if replay is not None:
         _replay(replay, (simulated, start, circle, uav, air), wanted)
         return
@@ -241,15 +232,17 @@ def _replay(log: Path, others: tuple[object, ...], wanted: Output) -> None:
     from loiter.cli.commands.replay import replay
 
     if wanted.save or any(option != type(option)() for option in others):
-        raise InvalidArgument("replay", "shows a flight that was flown: it takes no options but --plot and --json")
+        raise InvalidArgument(
+            "replay", "shows a flight that was flown: it takes no options but --plot, --size, --dpi and --json"
+        )
     _check_files(wanted, None)
     replay(log, wanted)
 
 
 def _check_files(wanted: Output, runs: int | None) -> None:
     """Raise `InvalidArgument` before anything flies if a file could not be written."""
-    for path in wanted.plot:
-        files.check_format(path)
+    wanted.pictures.check()
+    for path in wanted.pictures.plot:
         if runs is not None:
             raise InvalidArgument("plot", "draws one flight, not the many of --runs")
         check_writable("plot", path)
@@ -275,12 +268,10 @@ def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output) -> Non
         )
         for name in simulated.laws
     }
-    if wanted.plot:
+    if wanted.pictures.plot:
         from loiter.plot.flown import draw
 
-        figure = draw(trial.ideal, flights, conditions=conditions.title)
-        for path in wanted.plot:
-            files.save_figure("plot", path, figure)
+        wanted.pictures.save(draw(trial.ideal, flights, conditions=conditions.title))
     _save(wanted.save, _steps(flights))
     first, *_ = flights.values()
     lines = [f"Fastest entry: {trial.ideal}", conditions.line, *shown.time_line(first)]

@@ -15,6 +15,7 @@ from loiter.cli.options import (
     Fit,
     MissionOptions,
     OrbitOptions,
+    PictureOptions,
     PlannedAircraftOptions,
     StartOptions,
     WindOptions,
@@ -33,7 +34,6 @@ from loiter.io.missions.site import Site
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import best_and_others
-from loiter.plot import files
 from loiter.writing import write_content
 
 # The options of the command, in the order of its help.
@@ -59,14 +59,6 @@ Json = Annotated[
     Parameter(
         group=output,
         help="Print one JSON object; its alternatives hold the other optimal maneuvers and the slower extremals.",
-    ),
-]
-Plot = Annotated[
-    tuple[Path, ...],
-    Parameter(
-        group=output,
-        metavar="FILE",
-        help="Draw the plan to a file: .png, .svg or .pdf; may be repeated.",
     ),
 ]
 Certify = Annotated[
@@ -98,7 +90,7 @@ def plan(
     lead: Lead = 0.0,
     all_: All = False,
     json: Json = False,
-    plot: Plot = (),
+    pictures: PictureOptions = PictureOptions(),
     certify: Certify = False,
     save: Save = (),
     waypoints: MissionOptions = MissionOptions(),
@@ -110,7 +102,8 @@ def plan(
     )
     if lead:
         problem = problem.later(lead)
-    _check_formats(plot, save)
+    pictures.check()
+    _check_formats(save)
     along_path = any(map(is_mission, save)) and waypoints.along_path
     best, others = best_and_others(problem)
     first, *ties = best
@@ -121,9 +114,11 @@ def plan(
     checked = fence_check(site, first, frame, any_inclusion=autopilot == "px4")
     written = [*_save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot], site)]
     slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
-    for picture in plot:
-        files.save(picture, shown, slower if all_ else [*ties, *slower], frame=frame)
-        written += [picture, *certificates.save_picture(picture, certified)]
+    if pictures.plot:
+        from loiter.plot.picture import draw
+
+        pictures.save(draw(shown, slower if all_ else [*ties, *slower], frame=frame))
+        written += certificates.save_pictures(pictures, certified)
     if json:
         fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
         led = {"lead_s": lead} if lead else {}
@@ -139,10 +134,8 @@ def plan(
     return 0 if all(certificate.valid for certificate in certified) else CHECK_FAILED
 
 
-def _check_formats(plot: Sequence[Path], save: Sequence[Path]) -> None:
+def _check_formats(save: Sequence[Path]) -> None:
     """Raise `InvalidArgument` for a file name whose format cannot be written."""
-    for picture in plot:
-        files.check_format(picture)
     for path in save:
         loiter.io.check_format(path)
 

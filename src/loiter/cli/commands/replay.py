@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from loiter.cli.report import json_value
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.io.flight_log import check_columns, read_log
-from loiter.plot import files
 
 if TYPE_CHECKING:
     from loiter.cli.commands.fly import Output
@@ -39,16 +38,14 @@ class Held(NamedTuple):
 
 
 def replay(log: Path, wanted: Output) -> None:
-    """Show the time line of a log, and draw it to the files of `wanted`."""
+    """Show the time line of a log, and draw it to the pictures of `wanted`."""
     columns = _read(log)
     if not columns["time_s"]:
         raise InvalidArgument("replay", f"is {str(log)!r}: it has no steps")
-    if wanted.plot:
+    if wanted.pictures.plot:
         from loiter.plot.guided import draw
 
-        figure = draw(columns)
-        for path in wanted.plot:
-            files.save_figure("plot", path, figure)
+        wanted.pictures.save(draw(columns))
     stages, held = list(_stages_flown(columns)), _held(columns)
     document = {
         "steps": len(columns["time_s"]),

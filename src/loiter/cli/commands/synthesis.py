@@ -11,9 +11,9 @@ from rich.table import Table
 from loiter.arrays.partition import Boundary, Partition, boundaries, partition
 from loiter.cli import report
 from loiter.cli.numbers import any_case, whole
+from loiter.cli.options import MapPictureOptions, output
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
-from loiter.plot import files
 from loiter.writing import write_whole
 
 MEANINGS = {
@@ -44,42 +44,35 @@ def synthesis(
             help="What the picture shows: the optimal word, the least time, or what a free choice of direction saves."
         ),
     ] = "words",
-    json: Annotated[bool, Parameter(help="Print one JSON object: the map's settings, and its curves.")] = False,
-    plot: Annotated[
-        tuple[Path, ...],
-        Parameter(
-            metavar="FILE",
-            help="Draw the map to a file: .png, .svg or .pdf; may be repeated.",
-        ),
-    ] = (),
+    json: Annotated[
+        bool, Parameter(group=output, help="Print one JSON object: the map's settings, and its curves.")
+    ] = False,
+    pictures: MapPictureOptions = MapPictureOptions(),
     save: Annotated[
         tuple[Path, ...],
-        Parameter(metavar="FILE", help="Write the map and the curves as arrays: .npz; may be repeated."),
+        Parameter(group=output, metavar="FILE", help="Write the map and the curves as arrays: .npz; may be repeated."),
     ] = (),
 ) -> None:
     """Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between them."""
-    _check_options(turn, show, plot, save)
+    pictures.check()
+    _check_options(turn, show, save)
     regions = partition(radius, turn, reach=reach, cells=cells)
     curves = boundaries(regions)
-    if plot:
+    if pictures.plot:
         from loiter.plot.synthesis import draw
 
-        figure = draw(regions, curves, show)
-        for path in plot:
-            files.save_figure("plot", path, figure)
+        pictures.save(draw(regions, curves, show))
     for path in save:
         write_arrays(path, regions, curves)
-    written = [*plot, *save]
+    written = [*pictures.plot, *save]
     if json:
         report.print_json(document(regions, curves) | report.files_member(written))
     else:
         report.write(table(curves), *report.files_line(written))
 
 
-def _check_options(turn: TurnName, show: str, plot: Sequence[Path], save: Sequence[Path]) -> None:
+def _check_options(turn: TurnName, show: str, save: Sequence[Path]) -> None:
     """Raise `InvalidArgument` for file names and options that cannot be used."""
-    for path in plot:
-        files.check_format(path)
     for path in save:
         if path.suffix.lower() != ".npz":
             raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in .npz")

@@ -1,0 +1,132 @@
+"""The size and the resolution of pictures, as journals ask for them: width and height in millimetres, dots per inch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from loiter.errors import InvalidArgument, number
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MM_PER_INCH = 25.4
+
+# In smaller pictures the axes have no room beside their labels; columns of journals are some 84 mm wide. The largest
+# side is that of A0 paper.
+LEAST_WIDTH_MM, LEAST_HEIGHT_MM, LARGEST_MM = 80.0, 60.0, 1189.0
+
+# The resolution where none is given, and its limits: journals ask for at most 1200.
+DPI = 150.0
+LEAST_DPI, LARGEST_DPI = 30.0, 1200.0
+
+# A larger PNG would need more than 800 MB of memory while it is written: A0 at 300 dots per inch has 140e6.
+MOST_PIXELS = 200e6
+
+# Text shrinks in narrow pictures, but not below 7 points, the least that journals accept.
+LEAST_SHRINKING, LEAST_POINTS = 0.7, 7.0
+
+# In a narrow picture a legend with more entries than this would hide what it explains.
+MOST_ENTRIES = 3
+
+# From this width on a legend below the figure has three columns.
+WIDE_LEGEND_MM = 120.0
+
+
+@dataclass(frozen=True)
+class PictureFormat:
+    """The width and height of a picture, millimetres, and its resolution, dots per inch; None: its own, and `DPI`.
+
+    Raises `InvalidArgument` for a size or a resolution beyond the limits above, and for too many pixels.
+    """
+
+    size_mm: tuple[float, float] | None = None
+    dpi: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.dpi is not None:
+            object.__setattr__(self, "dpi", _within("dpi", self.dpi, LEAST_DPI, LARGEST_DPI, "dots per inch"))
+        if self.size_mm is None:
+            return
+        width_mm, height_mm = _sides(self.size_mm)
+        object.__setattr__(self, "size_mm", (width_mm, height_mm))
+        pixels = width_mm * height_mm * (self.resolution / MM_PER_INCH) ** 2
+        if pixels > MOST_PIXELS:
+            raise InvalidArgument(
+                "dpi",
+                f"is {self.resolution:g}: with a size of {width_mm:g} x {height_mm:g} mm a picture would have "
+                f"{pixels / 1e6:.0f} million pixels, and may have {MOST_PIXELS / 1e6:.0f} million",
+            )
+
+    @property
+    def resolution(self) -> float:
+        """Dots per inch: as given, or `DPI`."""
+        return DPI if self.dpi is None else self.dpi
+
+    def apply(self, figure: Figure) -> None:
+        """Give a figure this size and, where it is given, this resolution."""
+        if self.size_mm is not None:
+            resize(figure, *self.size_mm)
+        if self.dpi is not None:
+            figure.set_dpi(self.dpi)
+
+
+def resize(figure: Figure, width_mm: float, height_mm: float) -> None:
+    """Give a figure another width and height, in which its text stays legible.
+
+    If it becomes narrower, text, lines and marks shrink to 70 % at the least, text not below 7 points, and long legends
+    move below the figure. Raises `InvalidArgument` for a width below 80 mm, a height below 60 mm, and above 1189 mm.
+    """
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import FancyArrowPatch
+    from matplotlib.text import Text
+
+    width_mm, height_mm = _sides((width_mm, height_mm))
+    before_mm = figure.get_figwidth() * MM_PER_INCH
+    shrinking = min(1.0, max(LEAST_SHRINKING, width_mm / before_mm))
+    figure.set_size_inches(width_mm / MM_PER_INCH, height_mm / MM_PER_INCH)
+    if shrinking < 1.0:
+        _move_legends(figure)
+    for text in figure.findobj(Text):
+        points = float(text.get_fontsize())  # a number, also where the size was set by name
+        text.set_fontsize(max(min(LEAST_POINTS, points), shrinking * points))
+    for line in figure.findobj(Line2D):
+        line.set_linewidth(shrinking * line.get_linewidth())
+        line.set_markersize(shrinking * line.get_markersize())
+    for arrow in figure.findobj(FancyArrowPatch):
+        arrow.set_mutation_scale(shrinking * arrow.get_mutation_scale())
+    for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+        # For ticks that are added when the figure is drawn.
+        first, *_ = axis.get_major_ticks(1)
+        axis.set_tick_params(labelsize=first.label1.get_fontsize())
+
+
+def _move_legends(figure: Figure) -> None:
+    """Move the legends with many entries from their axes to below the figure, in columns."""
+    for axes in figure.axes:
+        legend = axes.get_legend()
+        if legend is not None and len(legend.get_texts()) > MOST_ENTRIES:
+            labels = [text.get_text() for text in legend.get_texts()]
+            columns = 2 if figure.get_figwidth() * MM_PER_INCH < WIDE_LEGEND_MM else 3
+            handles = [handle for handle in legend.legend_handles if handle is not None]
+            figure.legend(handles, labels, loc="outside lower center", ncols=columns, fontsize="small")
+            legend.remove()
+
+
+def _sides(size_mm: tuple[float, float]) -> tuple[float, float]:
+    """The width and the height, checked."""
+    try:
+        width_mm, height_mm = size_mm
+    except (TypeError, ValueError):
+        raise InvalidArgument("size_mm", f"is {size_mm!r}: it must be a width and a height, millimetres") from None
+    return (
+        _within("size_mm width", width_mm, LEAST_WIDTH_MM, LARGEST_MM, "millimetres"),
+        _within("size_mm height", height_mm, LEAST_HEIGHT_MM, LARGEST_MM, "millimetres"),
+    )
+
+
+def _within(argument: str, value: object, least: float, largest: float, unit: str) -> float:
+    checked = number(argument, value, unit)
+    if not least <= checked <= largest:
+        raise InvalidArgument(argument, f"is {checked:g}: it must be from {least:g} to {largest:g} {unit}")
+    return checked
