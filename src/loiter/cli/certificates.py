@@ -2,10 +2,10 @@
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from loiter.cli.options import PictureOptions
+from loiter.plot import files
 from loiter.verify.certificate import Certificate
 
 
@@ -38,5 +38,5 @@ def save_pictures(pictures: PictureOptions, certificates: Sequence[Certificate])
     from loiter.plot.certificate import draw
 
     first, *_ = certificates
-    replace(pictures, plot=tuple(map(picture_path, pictures.plot))).save(draw(first))
+    files.save_pictures(map(picture_path, pictures.plot), draw(first), pictures.format)
     return [file for path in pictures.plot for file in (path, picture_path(path))]

@@ -31,8 +31,6 @@ from loiter.plot import files
 from loiter.plot.sizes import PictureFormat
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from loiter.io.missions.fence import FenceCheck
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
@@ -505,12 +503,6 @@ class PictureOptions:
     def has_pixels(self) -> bool:
         """Whether the picture has pixels in every format."""
         return False
-
-    def save(self, figure: Figure) -> None:
-        """Write a figure to every file."""
-        self.format.apply(figure)
-        for path in self.plot:
-            files.save_figure("plot", path, figure, self.format.resolution)
 
 
 @Parameter(name="*")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
@@ -50,9 +50,14 @@ def save(
     check_format(path)
     from loiter.plot.picture import draw
 
-    figure = draw(best, others, frame=frame)
+    save_pictures([path], draw(best, others, frame=frame), chosen)
+
+
+def save_pictures(paths: Iterable[Path], figure: Figure, chosen: PictureFormat) -> None:
+    """Write a figure, in the chosen size and resolution, to the files of --plot."""
     chosen.apply(figure)
-    save_figure("plot", path, figure, chosen.resolution)
+    for path in paths:
+        save_figure("plot", path, figure, chosen.resolution)
 
 
 def save_figure(argument: str, path: Path, figure: Figure, dpi: float = DPI) -> None:

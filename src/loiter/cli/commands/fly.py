@@ -22,6 +22,7 @@ from loiter.cli.options import AircraftOptions, OrbitOptions, PictureOptions, St
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
 from loiter.planning.problem import problem_of
+from loiter.plot import files
 from loiter.writing import check_writable, write_content
 
 if TYPE_CHECKING:
@@ -271,7 +272,8 @@ def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output) -> Non
     if wanted.pictures.plot:
         from loiter.plot.flown import draw
 
-        wanted.pictures.save(draw(trial.ideal, flights, conditions=conditions.title))
+        figure = draw(trial.ideal, flights, conditions=conditions.title)
+        files.save_pictures(wanted.pictures.plot, figure, wanted.pictures.format)
     _save(wanted.save, _steps(flights))
     first, *_ = flights.values()
     lines = [f"Fastest entry: {trial.ideal}", conditions.line, *shown.time_line(first)]

@@ -34,6 +34,7 @@ from loiter.io.missions.site import Site
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import best_and_others
+from loiter.plot import files
 from loiter.writing import write_content
 
 # The options of the command, in the order of its help.
@@ -117,7 +118,8 @@ def plan(
     if pictures.plot:
         from loiter.plot.picture import draw
 
-        pictures.save(draw(shown, slower if all_ else [*ties, *slower], frame=frame))
+        figure = draw(shown, slower if all_ else [*ties, *slower], frame=frame)
+        files.save_pictures(pictures.plot, figure, pictures.format)
         written += certificates.save_pictures(pictures, certified)
     if json:
         fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}

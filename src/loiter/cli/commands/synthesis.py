@@ -14,6 +14,7 @@ from loiter.cli.numbers import any_case, whole
 from loiter.cli.options import MapPictureOptions, output
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
+from loiter.plot import files
 from loiter.writing import write_whole
 
 MEANINGS = {
@@ -61,7 +62,7 @@ def synthesis(
     if pictures.plot:
         from loiter.plot.synthesis import draw
 
-        pictures.save(draw(regions, curves, show))
+        files.save_pictures(pictures.plot, draw(regions, curves, show), pictures.format)
     for path in save:
         write_arrays(path, regions, curves)
     written = [*pictures.plot, *save]
