@@ -43,10 +43,11 @@ HALVINGS, JUMP = 30, 1e-3
 TIE_COLOUR = ListedColormap(["#a6dcc8"])
 
 
-def draw(cells: int = 200) -> Figure:
+def draw(cells: int = 540) -> Figure:
     """Draw entries from one start in winds of several speeds, and maps of the faster direction, without and with wind.
 
-    Lengths are in turn radii, times in turn radii over airspeed; the maps have `cells` points a side.
+    Lengths are in turn radii, times in turn radii over airspeed; the maps have `cells` points a side, by default one
+    for each pixel of the PNG, which takes a minute.
     """
     figure = Figure(figsize=(9.4, 8.0), layout="constrained")
     rows: list[Any] = [["tracks", "tracks"], ["still", "windy"]]
