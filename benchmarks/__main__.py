@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from benchmarks import report, states, tables
+from loiter.plot.files import save_figure
 
 RESULTS = Path(__file__).parent / "results"
 
@@ -16,7 +17,7 @@ def main() -> None:
     RESULTS.mkdir(exist_ok=True)
     text = report.table(rows, runs)
     (RESULTS / "table.md").write_text(text)
-    report.draw(rows, runs, RESULTS / "plot.png")
+    save_figure("plot", RESULTS / "plot.png", report.draw(rows, runs))
     print(text)
     print(f"written: {RESULTS / 'table.md'}, {RESULTS / 'plot.png'}")
 

@@ -1,13 +1,23 @@
-"""The table and the plot of the results."""
+"""The table and the plot of the results.
+
+`python -m benchmarks.report docs/performance.md docs/performance.png` draws the plot of the tables in a document.
+"""
 
 import os
 import platform
+import re
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
 from benchmarks.states import Row
 from benchmarks.tables import Run
+from loiter.plot.files import save_figure
+from loiter.plot.picture import COLOURS
 
 
 def table(rows: Sequence[Row], runs: Sequence[Run]) -> str:
@@ -80,18 +90,63 @@ def error(value: float) -> str:
     return "" if value != value else f"{value:.1e}"
 
 
-def draw(rows: Sequence[Row], runs: Sequence[Run], path: Path) -> None:
-    """Plot the accuracy over seconds per state, and the rows per second over rows."""
-    from matplotlib.figure import Figure
+def read(text: str) -> tuple[list[Row], list[Run]]:
+    """The results in a document with the tables of `table`; numbers have as many digits as there."""
+    rows: list[Row] = []
+    runs: list[Run] = []
+    task, in_batch = "", False
+    for line in text.splitlines():
+        if line.startswith("## "):
+            task, in_batch = line.removeprefix("## "), "loiter batch" in line
+        if not line.startswith("|"):
+            continue
+        cells = [cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", line.strip().strip("|"))]
+        if in_batch and len(cells) == 7 and cells[0].replace(",", "").isdigit():
+            number, output, workers, seconds, _, _, peak = cells
+            size = int(number.replace(",", ""))
+            runs.append(Run(output, size, int(workers), float(seconds), float(peak.removesuffix(" MiB"))))
+        elif not in_batch and len(cells) == 5 and cells[0] and not cells[0].startswith("---"):
+            contender, seconds, ratio, largest, mean = cells
+            rows.append(Row(task, contender, _seconds(seconds), _ratio(ratio), *map(_error, (largest, mean))))
+    return rows, runs
 
-    figure = Figure(figsize=(11.0, 4.6), layout="constrained")
-    left, right = figure.subplots(1, 2)
+
+def _seconds(text: str) -> float:
+    number, unit = text.split()
+    return float(number) * {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9}[unit]
+
+
+def _ratio(text: str) -> float:
+    return 1.0 / float(text.removeprefix("1/").replace(",", "")) if text.startswith("1/") else float(text)
+
+
+def _error(text: str) -> float:
+    return float(text) if text else float("nan")
+
+
+# The colours of the other pictures.
+OURS, OTHERS = COLOURS["S"], "#606060"
+OUTPUT_COLOURS = {"dataset": COLOURS["L"], "file": COLOURS["R"]}
+DASHES: dict[int, Any] = {1: (0, (4, 2)), 2: "-"}
+
+# Offsets of labels, points: the exact methods are close together.
+LABELS = {"plain formulas, Numba": (0, 12), "plain formulas, NumPy": (8, -3), "loiter.min_time": (-4, 24)}
+
+
+def draw(rows: Sequence[Row], runs: Sequence[Run]) -> Figure:
+    """Plot the accuracy over the time per state and, where tables were measured, the rows per second over rows."""
+    figure = Figure(figsize=(10.0, 4.4), layout="constrained")
+    left, *right = figure.subplots(1, 2 if runs else 1, squeeze=False)[0]
     _draw_accuracy(left, rows)
-    _draw_speed(right, runs)
-    figure.savefig(path, dpi=150)
+    for axes in right:
+        _draw_speed(axes, runs)
+    for axes in (left, *right):
+        axes.grid(color="#e6e6e6", linewidth=0.8)
+        axes.set_axisbelow(True)
+    return figure
 
 
-def _draw_accuracy(axes: Any, rows: Sequence[Row]) -> None:
+def _draw_accuracy(axes: Axes, rows: Sequence[Row]) -> None:
     hidden = ("control", "solve", "threads")
     shown = {
         row.contender: row
@@ -99,24 +154,37 @@ def _draw_accuracy(axes: Any, rows: Sequence[Row]) -> None:
         if row.task.startswith("R = 1") and "< 40" not in row.task and not any(word in row.contender for word in hidden)
     }
     for name, row in shown.items():
+        place = (row.seconds, max(row.mean, 1e-17))
         ours = name.startswith("loiter")
-        axes.loglog(row.seconds, max(row.mean, 1e-17), "o" if ours else "s", color="C0" if ours else "0.5")
-        # The points of the three exact methods are close together: their labels are at different heights.
-        height = 20 if ours else -11 if "NumPy" in name else 5
-        place = {"xytext": (0 if ours else 6, height), "textcoords": "offset points", "fontsize": 8}
-        axes.annotate(name, (row.seconds, max(row.mean, 1e-17)), **place)
-    axes.set(xlabel="seconds a state", ylabel="mean error of T", title="R = 1, either way")
-    left, right = axes.get_xlim()
-    axes.set_xlim(left, right * 100.0)
-    axes.grid(alpha=0.3)
+        style = {"marker": "o" if ours else "s", "color": OURS if ours else OTHERS, "markersize": 8 if ours else 6}
+        axes.loglog(*place, linestyle="none", gid=name, **style)
+        colour = OURS if ours else "black"
+        offset = LABELS.get(name, (8, -3))
+        axes.annotate(name, place, offset, textcoords="offset points", fontsize="small", color=colour)
+    axes.set(xlabel="time per state (s)", ylabel="mean error of T (turn radii over airspeed)")
+    axes.set_title("Accuracy and time: R = 1, either direction", fontsize="medium")
+    axes.set_xlim(3e-9, 1e3)
+    axes.set_ylim(1e-17, 1e1)
 
 
-def _draw_speed(axes: Any, runs: Sequence[Run]) -> None:
+def _draw_speed(axes: Axes, runs: Sequence[Run]) -> None:
     for output, workers in sorted({(run.output, run.workers) for run in runs}):
         here = [run for run in runs if (run.output, run.workers) == (output, workers)]
-        label = f"{output}, {workers} worker" + ("s" if workers > 1 else "")
-        axes.loglog([run.rows for run in here], [run.rows / run.seconds for run in here], "o-", label=label)
-    axes.set(xlabel="rows", ylabel="rows a second", title="loiter batch, Parquet to Parquet")
-    axes.grid(alpha=0.3)
-    if runs:
-        axes.legend(frameon=False)
+        axes.semilogx(
+            [run.rows for run in here],
+            [1e-6 * run.rows / run.seconds for run in here],
+            marker="o",
+            color=OUTPUT_COLOURS[output],
+            linestyle=DASHES.get(workers, "-"),
+            label=f"{output}, {workers} worker" + ("s" if workers > 1 else ""),
+            gid=f"{output} {workers}",
+        )
+    axes.set(xlabel="rows of the table", ylabel="rows per second (millions)")
+    axes.set_title("loiter batch, Parquet to Parquet", fontsize="medium")
+    axes.set_ylim(bottom=0.0)
+    axes.legend(loc="best", fontsize="small", framealpha=0.9, handlelength=3.2)
+
+
+if __name__ == "__main__":
+    _, document, picture = sys.argv
+    save_figure("plot", Path(picture), draw(*read(Path(document).read_text("utf-8"))))
