@@ -7,7 +7,7 @@ wind.
 """
 
 from loiter import Aircraft, Orbit, Pose, Wind, plan
-from loiter.plot.picture import draw
+from loiter.plot import draw
 
 uav, orbit = Aircraft(airspeed_m_s=18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, radius_m=120.0)
-figure = draw([plan(Pose(-400.0, 120.0, 350.0), orbit, uav, Wind(speed_m_s=8.0, from_deg=250.0))])
+figure = draw(plan(Pose(-400.0, 120.0, 350.0), orbit, uav, Wind(speed_m_s=8.0, from_deg=250.0)))

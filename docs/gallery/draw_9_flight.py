@@ -17,4 +17,4 @@ uav, orbit = Aircraft(airspeed_m_s=18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, rad
 start = Pose(east_m=-300.0, north_m=-150.0, heading_deg=30.0)
 laws = {"optimal": LoiterEntry(orbit, uav), "l1": L1(orbit, uav, period_s=15.0)}
 flights = {name: fly(law, PointMass(start, uav, seed=1), orbit) for name, law in laws.items()}
-figure = draw(plan(start, orbit, uav), flights)
+figure = draw(plan(start, orbit, uav), flights, conditions="point mass, gusts 0.05 of the airspeed, seed 1")
