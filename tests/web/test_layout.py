@@ -1,5 +1,7 @@
 """The order of the page on each screen, the theory behind "Why", and the way through the page by keys."""
 
+from itertools import pairwise
+
 import pytest
 
 from web.browsing import DESK, PHONE, TABLET, assert_shows_the_plan, grave, settle
@@ -70,6 +72,20 @@ def test_nothing_is_wider_than_the_screen(opened, device):
     width = device["viewport"]["width"]
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     assert grave(page) == []
+
+
+@pytest.mark.parametrize("preset", ["Beside the circle", "In wind"])
+def test_on_a_laptop_scene_and_export_fit_without_scrolling(page, preset):
+    page.locator("#presets button", has_text=preset).click()
+    settle(page)
+    for column in (".column", "html"):
+        overflow = page.locator(column).evaluate("element => element.scrollHeight - element.clientHeight")
+        assert overflow <= 0, column
+    # The rows stay apart, and large enough for a pointer.
+    boxes = [box.bounding_box() for box in page.locator(".column .box:visible").all()]
+    assert len(boxes) >= 8
+    assert min(box["height"] for box in boxes) >= 24
+    assert all(above["y"] + above["height"] + 2 <= below["y"] for above, below in pairwise(boxes))
 
 
 # Keys
