@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import Any, Literal
 
-from cyclopts import App, CycloptsError, Parameter
+from cyclopts import App, CycloptsError, Group, Parameter
 
 import loiter
 from loiter.cli.examples import epilogue
@@ -25,8 +25,14 @@ def shown_default(value: Any) -> str | None:
     return " ".join(f"{each:g}" if isinstance(each, float) else str(each) for each in values)
 
 
+planning = Group("Plans", sort_key=1)
+flights = Group("Flights: simulated, and of vehicles over MAVLink", sort_key=2)
+theory = Group("Theory: maps, figures and independent checks", sort_key=3)
+program = Group("The program", sort_key=4)
+
 app = App(
     name="loiter",
+    group_commands=program,
     version=loiter.__version__,
     version_flags=["--version", "-V"],
     usage="Usage: loiter COMMAND [OPTIONS]",
@@ -37,18 +43,26 @@ app = App(
 
 An aircraft of constant speed turns left or right, no tighter than its minimum turn radius. The plan joins a circle tangentially in the least time and stays on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum (docs/proof.md). In wind, and onto a circle that moves, a search (branch and bound over the point of joining) finds the answer.
 
-Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north. Speeds are in metres per second and lengths in metres, or have a unit: 35kn, 65km/h, 3000ft, 2NM. Latitudes and longitudes may be written 47.1N or 47°06'N. Commas may separate the numbers of an option.""",
+Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north. Speeds are in metres per second and lengths in metres, or have a unit: 35kn, 65km/h, 3000ft, 2NM. Latitudes and longitudes may be written 47.1N or 47°06'N. Commas may separate the numbers of an option.
+
+loiter COMMAND --help shows the options of a command.""",
     help_epilogue=epilogue("plan", "completion"),
 )  # fmt: skip
 
 # The module of a command is imported when the command runs.
 app.command(
     "loiter.cli.commands.plan:plan",
+    group=planning,
+    sort_key=0,
     help_epilogue=epilogue("plan"),
-    help="Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off.",
+    help="""Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off.
+
+It needs a start (--pose), a circle (--orbit), the airspeed, and one limit on the turn (--bank, --turn-radius or --turn-rate). Everything else is optional.""",
 )
 app.command(
     "loiter.cli.commands.batch:batch",
+    group=planning,
+    sort_key=1,
     help_epilogue=epilogue("batch"),
     help="""Plan the fastest entry for every row of a table: Parquet or CSV, any size.
 
@@ -62,16 +76,22 @@ A file is written whole or not at all. Until then finished parts are kept in OUT
 )
 app.command(
     "loiter.cli.commands.mavlink:upload",
+    group=flights,
+    sort_key=4,
     help_epilogue=epilogue("upload"),
     help="Send the fastest entry to a vehicle as a mission, then read the mission back and compare it item by item.",
 )
 app.command(
     "loiter.cli.commands.mavlink:watch",
+    group=flights,
+    sort_key=5,
     help_epilogue=epilogue("watch"),
     help="Listen to a vehicle and print, live, the fastest entry from its position.",
 )
 app.command(
     "loiter.cli.commands.guide:guide",
+    group=flights,
+    sort_key=6,
     help_epilogue=epilogue("guide"),
     help="""Guide a vehicle in flight onto the circle in least time, then hand it over to its own hold of the circle.
 
@@ -81,16 +101,24 @@ Guiding stops at once, and one sentence says why, if the link or the telemetry i
 )
 app.command(
     "loiter.cli.commands.fly:fly",
+    group=flights,
+    sort_key=3,
     help_epilogue=epilogue("fly"),
-    help="Fly the fastest entry in closed loop, and compare it with the laws that autopilots use today.",
+    help="""Simulate flights: a guidance law flies the fastest entry in closed loop, compared with the laws that autopilots use today.
+
+One flight needs the same options as loiter plan; --runs flies from random starts. No vehicle is connected: for that there is loiter guide.""",
 )
 app.command(
     "loiter.cli.commands.synthesis:synthesis",
+    group=theory,
+    sort_key=7,
     help_epilogue=epilogue("synthesis"),
     help="Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between the regions.",
 )
 app.command(
     "loiter.cli.commands.figures:figures",
+    group=theory,
+    sort_key=8,
     help_epilogue=epilogue("figures"),
     help="Draw the seven figures of the paper, and write their captions.",
 )
@@ -98,21 +126,29 @@ app.command(
 
 app.command(
     "loiter.cli.commands.verify:verify",
+    group=theory,
+    sort_key=9,
     help_epilogue=epilogue("verify"),
     help="Compare plans with independent methods: search, 50 digits, collocation, reachability, and a search in wind.",
 )
 app.command(
     "loiter.cli.commands.prove:prove",
+    group=theory,
+    sort_key=10,
     help_epilogue=epilogue("prove"),
     help="Check the lemmas of docs/proof.md on the kernel's own formulas, in exact algebra and ball arithmetic.",
 )
 app.command(
     "loiter.cli.commands.serve:serve",
+    group=planning,
+    sort_key=2,
     help_epilogue=epilogue("serve"),
     help="Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.",
 )
 app.command(
     "loiter.cli.commands.warm_up:warm_up",
+    group=program,
+    sort_key=11,
     help_epilogue=epilogue("warm-up"),
     help="""Compile for this machine, once, what commands would otherwise compile when they first need it.
 

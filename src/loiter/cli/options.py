@@ -111,7 +111,7 @@ class OrbitOptions:
         Parameter(
             group=scene,
             metavar="FILE",
-            help="Instead of --orbit-lla: the circle of an existing mission, .plan or .waypoints, that of its first loiter item, in its direction. Missions keep its home and its fence, and a line says whether the plan stays inside the fence.",
+            help="Instead of --orbit-lla: the circle of an existing mission, .plan or .waypoints, that of its first loiter item, in its direction. Plans and missions keep its home and its fence: a line says whether the plan stays inside.",
         ),
     ] = None
     turn: Annotated[
@@ -119,7 +119,7 @@ class OrbitOptions:
         Parameter(
             group=scene,
             converter=any_case,
-            help="Direction of flight around the circle, seen from above. If absent: that of --orbit-from or --params, otherwise the faster one.",
+            help="Direction of flight around the circle, seen from above: cw is clockwise, ccw counter-clockwise, either the faster one. If absent: that of --orbit-from or --params, otherwise either.",
         ),
     ] = None
     orbit_velocity: Annotated[

@@ -58,7 +58,7 @@ def batch(
         Parameter(
             group=shared,
             converter=any_case,
-            help="Direction in which the circle is held; the faster one if absent.",
+            help="Direction in which the circle is held, seen from above: cw is clockwise, ccw counter-clockwise, either the faster one. If absent: either.",
         ),
     ] = None,
     airspeed: Annotated[
@@ -70,7 +70,14 @@ def batch(
             help="True airspeed, metres per second, or with a unit: 35kn.",
         ),
     ] = None,
-    bank: Annotated[float | None, Parameter(group=shared, metavar="DEGREES", help="Largest bank, degrees.")] = None,
+    bank: Annotated[
+        float | None,
+        Parameter(
+            group=shared,
+            metavar="DEGREES",
+            help="Largest bank, degrees. One of --bank, --turn-radius and --turn-rate is needed, unless it is a column.",
+        ),
+    ] = None,
     turn_radius: Annotated[
         float | None,
         Parameter(group=shared, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
@@ -84,7 +91,7 @@ def batch(
             group=shared,
             converter=several(metres_per_second, plain),
             metavar="SPEED FROM",
-            help="Wind speed, metres per second, and the direction that it comes from; still air if absent.",
+            help="Wind speed, metres per second, and the compass direction that the wind comes from; still air if absent.",
         ),
     ] = None,
     orbit_velocity: Annotated[
@@ -101,7 +108,7 @@ def batch(
         Parameter(
             group=work,
             metavar="METRES",
-            help="A start up to this many metres beyond the last arc counts as on it, as in loiter plan.",
+            help="A start that is beyond the circle, or beyond the last arc onto it, by up to this many metres counts as on it, as in loiter plan.",
         ),
     ] = 0.0,
     workers: Annotated[

@@ -86,7 +86,13 @@ class SimulationOptions:
             help="kinematic: the exact vehicle of the theory. point: with roll response, gusts, noise and delay. varied: with --runs, another aircraft in each, drawn at random, of which the law knows only airspeed and bank limit. jsbsim: six degrees of freedom.",
         ),
     ] = "point"
-    law: Annotated[LawName, Parameter(group=simulation, help="The guidance law.")] = "optimal"
+    law: Annotated[
+        LawName,
+        Parameter(
+            group=simulation,
+            help="The guidance law. optimal: the fastest entry, planned anew from each measured state. l1: that of ArduPlane. vector-field: a field of headings that leads onto the circle. tangent: Dubins' path to the nearest tangent point.",
+        ),
+    ] = "optimal"
     compare: Annotated[bool, Parameter(group=simulation, help="Fly all laws from the same start, in the same air.")] = (
         False
     )
@@ -115,7 +121,13 @@ class SimulationOptions:
         ),
     ] = None
     seed: Annotated[
-        int, Parameter(group=simulation, metavar="N", converter=whole, help="The same seed gives the same flights.")
+        int,
+        Parameter(
+            group=simulation,
+            metavar="N",
+            converter=whole,
+            help="Seed of random starts, gusts and noise: the same seed gives the same flights.",
+        ),
     ] = 0
     workers: Annotated[
         int | None,
@@ -209,7 +221,7 @@ def fly(
     pictures: PictureOptions = PictureOptions(),
     save: Save = (),
 ) -> None:
-    """Fly the fastest entry in closed loop, compared with the laws that autopilots use today."""
+    """Simulate flights of the fastest entry in closed loop, compared with the laws that autopilots use today."""
     from loiter.guidance.trials import campaign
 
     wanted = Output(json, pictures, save)

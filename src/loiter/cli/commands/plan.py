@@ -43,7 +43,7 @@ Tolerance = Annotated[
     Parameter(
         group=scene,
         metavar="METRES",
-        help="A start up to this many metres beyond the last arc counts as on it, so that noise does not add a full turn.",
+        help="A start that is beyond the circle, or beyond the last arc onto it, by up to this many metres counts as on it, so that noise does not add a full turn.",
     ),
 ]
 Lead = Annotated[
