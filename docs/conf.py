@@ -125,7 +125,7 @@ def write_commands(app):
     head, _, rest = text.partition("## Table of Contents")
     head = head.replace("# loiter", "# The command line", 1)
     path = Path(app.srcdir) / "reference" / "commands.md"
-    path.write_text(head + rest[rest.index("**Commands**") :], encoding="utf-8")
+    path.write_text(head + rest[rest.index("**Plans**") :], encoding="utf-8")
 
 
 def setup(app):
