@@ -11,7 +11,7 @@ from matplotlib.text import Text
 from PIL import Image
 
 import loiter
-from loiter import Aircraft, Orbit, Pose, candidates, plan
+from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument
 from loiter.plot import draw
@@ -108,6 +108,19 @@ def test_a_narrow_picture_stays_legible(size_mm):
     assert max(sizes) <= 12.0
     assert hidden_share(figure) == 0.0
     assert figure.get_size_inches() * 25.4 == pytest.approx(size_mm)
+
+
+def test_in_a_narrow_picture_the_title_stands_above_the_wind_and_the_legend_is_whole():
+    windy = plan(*SCENE, Wind(3.0, 250.0))
+    figure = draw(windy, candidates(*SCENE, Wind(3.0, 250.0))[1:], size_mm=(84.0, 84.0))
+    figure.draw_without_rendering()
+    (axes,), (legend,) = figure.axes, figure.legends
+    title = axes.title.get_window_extent()
+    labels = [text for text in axes.texts if text.get_text()]
+    assert {text.get_gid() for text in labels} == {"wind label", "north label"}
+    assert not any(text.get_window_extent().overlaps(title) for text in labels)
+    assert 0.0 <= legend.get_window_extent().x0 < legend.get_window_extent().x1 <= figure.bbox.width
+    assert title.y1 <= figure.bbox.height
 
 
 def test_a_wide_picture_keeps_its_text():

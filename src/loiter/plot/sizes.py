@@ -9,6 +9,7 @@ from loiter.errors import InvalidArgument, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from matplotlib.legend import Legend
 
 MM_PER_INCH = 25.4
 
@@ -29,8 +30,8 @@ LEAST_SHRINKING, LEAST_POINTS = 0.7, 7.0
 # In a narrow picture a legend with more entries than this would hide what it explains.
 MOST_ENTRIES = 3
 
-# From this width on a legend below the figure has three columns.
-WIDE_LEGEND_MM = 120.0
+# Between a title and the label below it, points.
+TITLE_GAP = 3.0
 
 
 @dataclass(frozen=True)
@@ -74,27 +75,33 @@ class PictureFormat:
 def resize(figure: Figure, width_mm: float, height_mm: float) -> None:
     """Give a figure another width and height, in which its text stays legible.
 
-    If it becomes narrower, text, lines and marks shrink to 70 % at the least, text not below 7 points, and long legends
-    move below the figure. Raises `InvalidArgument` for a width below 80 mm, a height below 60 mm, and above 1189 mm.
+    If it becomes narrower, text, lines and marks shrink to 70 % at the least, text not below 7 points; long legends
+    move below the figure, and a title above the labels that it would cover. Raises `InvalidArgument` for a width below
+    80 mm, a height below 60 mm, and above 1189 mm.
     """
+    width_mm, height_mm = _sides((width_mm, height_mm))
+    before_mm = figure.get_figwidth() * MM_PER_INCH
+    figure.set_size_inches(width_mm / MM_PER_INCH, height_mm / MM_PER_INCH)
+    if width_mm < before_mm:
+        _shrink(figure, max(LEAST_SHRINKING, width_mm / before_mm))
+        _move_legends(figure)
+        _raise_titles(figure)
+
+
+def _shrink(figure: Figure, factor: float) -> None:
+    """Make text, lines, marks and arrows smaller."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import FancyArrowPatch
     from matplotlib.text import Text
 
-    width_mm, height_mm = _sides((width_mm, height_mm))
-    before_mm = figure.get_figwidth() * MM_PER_INCH
-    shrinking = min(1.0, max(LEAST_SHRINKING, width_mm / before_mm))
-    figure.set_size_inches(width_mm / MM_PER_INCH, height_mm / MM_PER_INCH)
-    if shrinking < 1.0:
-        _move_legends(figure)
     for text in figure.findobj(Text):
         points = float(text.get_fontsize())  # a number, also where the size was set by name
-        text.set_fontsize(max(min(LEAST_POINTS, points), shrinking * points))
+        text.set_fontsize(max(min(LEAST_POINTS, points), factor * points))
     for line in figure.findobj(Line2D):
-        line.set_linewidth(shrinking * line.get_linewidth())
-        line.set_markersize(shrinking * line.get_markersize())
+        line.set_linewidth(factor * line.get_linewidth())
+        line.set_markersize(factor * line.get_markersize())
     for arrow in figure.findobj(FancyArrowPatch):
-        arrow.set_mutation_scale(shrinking * arrow.get_mutation_scale())
+        arrow.set_mutation_scale(factor * arrow.get_mutation_scale())
     for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
         # For ticks that are added when the figure is drawn.
         first, *_ = axis.get_major_ticks(1)
@@ -102,15 +109,35 @@ def resize(figure: Figure, width_mm: float, height_mm: float) -> None:
 
 
 def _move_legends(figure: Figure) -> None:
-    """Move the legends with many entries from their axes to below the figure, in columns."""
+    """Move the legends with many entries from their axes to below the figure, in as many columns as there is room."""
     for axes in figure.axes:
         legend = axes.get_legend()
         if legend is not None and len(legend.get_texts()) > MOST_ENTRIES:
-            labels = [text.get_text() for text in legend.get_texts()]
-            columns = 2 if figure.get_figwidth() * MM_PER_INCH < WIDE_LEGEND_MM else 3
-            handles = [handle for handle in legend.legend_handles if handle is not None]
-            figure.legend(handles, labels, loc="outside lower center", ncols=columns, fontsize="small")
+            _legend_below(figure, legend)
             legend.remove()
+
+
+def _legend_below(figure: Figure, legend: Legend) -> None:
+    first, *_ = texts = legend.get_texts()
+    handles = [handle for handle in legend.legend_handles if handle is not None]
+    labels, points = [text.get_text() for text in texts], first.get_fontsize()
+    for columns in (3, 2, 1):
+        below = figure.legend(handles, labels, loc="outside lower center", ncols=columns, fontsize=points)
+        figure.draw_without_rendering()
+        if columns == 1 or below.get_window_extent().width < figure.bbox.width:
+            return
+        below.remove()
+
+
+def _raise_titles(figure: Figure) -> None:
+    """Move the titles of axes that cover labels beside them, such as that of the wind, above these labels."""
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        title = axes.title.get_window_extent()
+        tops = [box.y1 for text in axes.texts if (box := text.get_window_extent()).overlaps(title)]
+        if tops and axes.get_title():
+            points = (max(tops) - axes.bbox.y1) * 72.0 / figure.dpi
+            axes.set_title(axes.get_title(), pad=points + TITLE_GAP, fontsize=axes.title.get_fontsize())
 
 
 def _sides(size_mm: tuple[float, float]) -> tuple[float, float]:
