@@ -30,8 +30,8 @@ LEAST_SHRINKING, LEAST_POINTS = 0.7, 7.0
 # In a narrow picture a legend with more entries than this would hide what it explains.
 MOST_ENTRIES = 3
 
-# Between a title and the label below it, points.
-TITLE_GAP = 3.0
+# Between the base line of a title and the label below it, points: descenders need half of it.
+TITLE_GAP = 6.0
 
 
 @dataclass(frozen=True)
@@ -123,10 +123,18 @@ def _legend_below(figure: Figure, legend: Legend) -> None:
     labels, points = [text.get_text() for text in texts], first.get_fontsize()
     for columns in (3, 2, 1):
         below = figure.legend(handles, labels, loc="outside lower center", ncols=columns, fontsize=points)
-        figure.draw_without_rendering()
-        if columns == 1 or below.get_window_extent().width < figure.bbox.width:
+        if columns == 1 or _width_of(figure, below) < figure.bbox.width:
             return
         below.remove()
+
+
+def _width_of(figure: Figure, legend: Legend) -> float:
+    """The width of a legend, in pixels. The layout is left out: it warns where a legend has no room."""
+    layout = figure.get_layout_engine()
+    figure.set_layout_engine("none")
+    figure.draw_without_rendering()
+    figure.set_layout_engine(layout)
+    return legend.get_window_extent().width
 
 
 def _raise_titles(figure: Figure) -> None:
