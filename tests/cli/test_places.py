@@ -217,7 +217,7 @@ def test_a_parameter_file_gives_aircraft_radius_and_direction(planned, tmp_path)
             "--home-altitude is missing: a mission in metres above home needs that of home",
         ),
         (
-            f"{PLACED} {UAV} --altitude 120 --altitude-reference ground --home-altitude 4 --save entry.kml",
+            f"{PLACED} {UAV} --altitude 120 --altitude-reference ground --home-altitude 4 --save entry.gpx",
             "--altitude-reference is ground: how high that is above mean sea level is not known",
         ),
         (
