@@ -17,6 +17,7 @@ from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import (
     REACH,
     ROUNDING,
+    WIND_TIE_TOLERANCE,
     Entry,
     drop_short_pieces,
     duration,
@@ -25,11 +26,12 @@ from loiter.kernel.synthesis import (
     time_apart,
 )
 from loiter.kernel.wind.cell_bounds import words_inside
-from loiter.kernel.wind.fits import end_miss, polish
+from loiter.kernel.wind.corner_bounds import NO_CORNER, Corner, words_beside
+from loiter.kernel.wind.fits import SHORT, end_miss, fit_two_arcs, is_close, polish, two_arc_entry
 from loiter.kernel.wind.minimum import refined_minimum
 from loiter.kernel.wind.paths import JoinPoint, WindCandidate, WindScene, first_path, first_path_of, join_slope
 from loiter.kernel.wind.tolerance import entry_beside
-from loiter.kernel.words import ALL_WORDS, WITH_STRAIGHT
+from loiter.kernel.words import ALL_WORDS, WITH_STRAIGHT, controls
 
 
 class WindProblem(NamedTuple):
@@ -76,7 +78,8 @@ class WindSolver(NamedTuple):
 class CellVisit(NamedTuple):
     """A cell, one of `FIRST_CELLS` << `level` equal arcs of the circle, by its number; and words, six bits a level.
 
-    The words are those that may join inside the cells that contain it, the smallest in the lowest bits.
+    The words are those that may join inside the cells that contain it, the smallest in the lowest bits; of these cells
+    none is below the level `NARROWED`.
     """
 
     number: int
@@ -91,14 +94,36 @@ class LeafEnd(NamedTuple):
     point: JoinPoint
 
 
+class Leaves(NamedTuple):
+    """A set of cells of the level `LEAF`: a bit for each of the first half of them, and one for each of the second."""
+
+    first: int
+    second: int
+
+
+NO_LEAVES = Leaves(0, 0)
+
 # Points of joining on each side that are tried first.
 JOINS = 8
 
-# Cells at first. They are halved this many times, to 2 pi/128, while they may hold a faster path than the best; to
-# 2 pi/4096 while they may hold one that is faster by more than `hold_slack`. The bound by the hold, which takes a path,
-# is used from 2 pi/32 on.
+# Cells at first. Those that may hold a faster path than the best are halved to 2 pi/128, where local minima are found,
+# and then until none may hold a path that is faster by more than `time_tolerance`: the hold through a cell of the level
+# `LAST` takes less than that. The bound by the hold, which takes a path, is used from 2 pi/32 on.
 FIRST_CELLS = 8
-COARSE, LEAF, LAST = 2, 4, 9
+COARSE, LEAF, LAST = 2, 4, 44
+
+# Half of the cells of the level `LEAF`.
+HALF_OF_LEAVES = FIRST_CELLS << (LEAF - 1)
+
+# After so many cells of the level `LEAF` and below, the tolerance is `hold_tolerance`. More are needed only in
+# degenerate scenes, some of those in still air with R = 1 or 2; the slowest others found take some 2,500.
+MOST_VISITS = 4096
+
+# In cells within this many half widths of the end of the best path, bounds around that end are tried too.
+NEAR_BEST = 8.0
+
+# The last level to which a cell hands on its words: ten sets of six bits fit into a machine word.
+NARROWED = 9
 
 # Points of joining around the circle between which `ranked` looks for local minima.
 SAMPLES = 128
@@ -129,27 +154,85 @@ def best_of_joins(side: int, scene: WindScene, best: WindCandidate) -> WindCandi
     return best
 
 
-def branch_and_bound(side: int, scene: WindScene, best: WindCandidate) -> WindCandidate:
-    """The faster of `best` and the fastest path onto the circle held on one side, by branch and bound.
+def with_leaf(leaves: Leaves, number: int) -> Leaves:
+    """A set of leaves and one more, by its number."""
+    if number < HALF_OF_LEAVES:
+        return Leaves(leaves.first | 1 << number, leaves.second)
+    return Leaves(leaves.first, leaves.second | 1 << (number - HALF_OF_LEAVES))
+
+
+def has_leaf(leaves: Leaves, number: int) -> bool:
+    """Whether a set of leaves contains the one with a number."""
+    if number < HALF_OF_LEAVES:
+        return leaves.first >> number & 1 != 0
+    return leaves.second >> (number - HALF_OF_LEAVES) & 1 != 0
+
+
+def searched_coarsely(side: int, scene: WindScene, best: WindCandidate) -> tuple[WindCandidate, Leaves]:
+    """The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `searched`.
 
     Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
     """
     visit, before = CellVisit(0, 0, ALL_WORDS), LeafEnd(-2, JoinPoint(0.0, NO_PATH, 0.0))
+    leaves = NO_LEAVES
     while visit.number < FIRST_CELLS << visit.level:
-        sooner = best.path.time - (hold_slack(scene) if visit.level > LEAF else 0.0)
-        possible = words_inside(*middle_of(visit), visit.words & ALL_WORDS, side, scene, sooner)
-        if possible != 0 and is_examined(visit.level):
+        possible = words_inside(*middle_of(visit), visit.words & ALL_WORDS, side, scene, best.path.time)
+        if possible != 0 and visit.level >= COARSE:
             possible, before, best = examined(visit, possible, side, scene, before, best)
+            if possible != 0 and visit.level == LEAF:
+                leaves, possible = with_leaf(leaves, visit.number), 0
         visit = first_half(visit, possible) if possible != 0 else next_cell(visit)
+    return best, leaves
+
+
+def searched(side: int, scene: WindScene, best: WindCandidate, leaves: Leaves) -> WindCandidate:
+    """The fastest path onto the circle held on one side, if it joins inside one of the leaves; otherwise `best`."""
+    corner, compared, visits = NO_CORNER, inf, 0
+    for number in range(FIRST_CELLS << LEAF):
+        if has_leaf(leaves, number):
+            visit = CellVisit(number, LEAF, ALL_WORDS)
+            while visit.level >= LEAF and visit.number >> (visit.level - LEAF) == number:
+                visits += 1
+                tolerance = time_tolerance(best, scene) if visits <= MOST_VISITS else hold_tolerance(scene)
+                sooner = best.path.time - tolerance
+                possible = words_inside(*middle_of(visit), visit.words & ALL_WORDS, side, scene, sooner)
+                if possible != 0 and side == best.side:
+                    if best.path.time < compared:
+                        corner, compared = corner_of(best, scene), best.path.time
+                    possible = words_beside_best(visit, possible, scene, best, corner, sooner)
+                if possible != 0 and (LAST - visit.level) % 2 == 0 and visit.level > LEAF:
+                    possible, best = compared_at_end(visit, possible, side, scene, best, tolerance)
+                visit = first_half(visit, possible) if possible != 0 else next_cell(visit)
     return best
 
 
-def is_examined(level: int) -> bool:
-    """Whether a path to the end of a cell is sought: at every other level below `LEAF`, as it takes longer than bounds.
+def words_beside_best(
+    visit: CellVisit, words: int, scene: WindScene, best: WindCandidate, corner: Corner, sooner: float
+) -> int:
+    """Those of a set of words that may join before a time inside a cell next to the end of the best path.
 
-    The cells of the level `LAST` are among them.
+    Around a local minimum, bounds hold in a neighbourhood that does not depend on how small cells are.
     """
-    return level >= COARSE and (level <= LEAF or (LAST - level) % 2 == 0)
+    middle, half = middle_of(visit)
+    reach = abs(wrapped(best.phase - middle)) + half
+    if reach <= NEAR_BEST * half:
+        if corner.u != 0:
+            reach = abs(wrapped(corner.phase - middle)) + half
+            words = words_beside(corner, reach, words, best.side, scene)
+        else:
+            words = words_inside(best.phase, reach, words, best.side, scene, sooner)
+    return words
+
+
+def corner_of(best: WindCandidate, scene: WindScene) -> Corner:
+    """The two arcs of which the best path consists, up to rounding; `NO_CORNER` for another path."""
+    arcs = two_arc_entry(best, SHORT)
+    if arcs.word != 0:
+        arcs, phase = fit_two_arcs(arcs, best.phase, scene)
+        if is_close(arcs, phase, best.path.time, scene):
+            u, _, _ = controls(arcs.word)
+            return Corner(phase, u, arcs.t1, arcs.t2)
+    return NO_CORNER
 
 
 def examined(
@@ -161,7 +244,7 @@ def examined(
     the first path to its end less the time to hold the circle through the cell.
     """
     middle, half = middle_of(visit)
-    end, slack = middle + half, hold_slack(scene)
+    end = middle + half
     holds_best = side == best.side and abs(wrapped(best.phase - middle)) <= half
     if visit.level < LEAF and holds_best:
         return possible, before, best
@@ -173,11 +256,22 @@ def examined(
         after = LeafEnd(visit.number, JoinPoint(end, path, join_slope(path, end, side, scene)))
         if not holds_best and has_minimum(before, after):
             best = refined_if_better(before, after, side, scene, best)
-        before, possible = after, words_inside(middle, half, possible, side, scene, best.path.time - slack)
-    elif visit.level > LEAF and path.time < best.path.time:
+        before = after
+    return possible, before, best
+
+
+def compared_at_end(
+    visit: CellVisit, possible: int, side: int, scene: WindScene, best: WindCandidate, tolerance: float
+) -> tuple[int, WindCandidate]:
+    """The words that may still join inside a cell early enough, as in `examined`; the faster of `best` and others."""
+    middle, half = middle_of(visit)
+    end = middle + half
+    within = hold_time(end, 2.0 * half, side, scene.R, scene.wx, scene.wy)
+    path = first_path(end, side, scene, best.path.time + within)
+    if path.time < best.path.time:
         best = refined_minimum(WindCandidate(end, side, path), 2.0 * half, scene)
-    done = visit.level == LAST or (visit.level >= LEAF and path.time - within >= best.path.time - slack)
-    return (0 if done else possible), before, best
+    done = visit.level == LAST or path.time - within >= best.path.time - tolerance
+    return (0 if done else possible), best
 
 
 def has_minimum(before: LeafEnd, after: LeafEnd) -> bool:
@@ -206,20 +300,26 @@ def middle_of(visit: CellVisit) -> tuple[float, float]:
 
 def first_half(visit: CellVisit, possible: int) -> CellVisit:
     """The first half of a cell inside which a set of words may join."""
-    return CellVisit(2 * visit.number, visit.level + 1, visit.words << 6 | possible)
+    words = visit.words << 6 | possible if visit.level < NARROWED else visit.words
+    return CellVisit(2 * visit.number, visit.level + 1, words)
 
 
 def next_cell(visit: CellVisit) -> CellVisit:
     """The cell after one that needs not be halved: the largest that begins there and is not yet visited."""
     number, level, words = visit.number + 1, visit.level, visit.words
     while level > 0 and number % 2 == 0:
-        number, level, words = number // 2, level - 1, words >> 6
+        number, level, words = number // 2, level - 1, words >> 6 if level <= NARROWED else words
     return CellVisit(number, level, words)
 
 
-def hold_slack(scene: WindScene) -> float:
-    """An upper bound on the time to hold the circle through one of the smallest cells."""
-    return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / (FIRST_CELLS << LAST))
+def time_tolerance(best: WindCandidate, scene: WindScene) -> float:
+    """By how much a path may be faster than the best one and remain unknown."""
+    return WIND_TIE_TOLERANCE * (1.0 + scene.R + best.path.time)
+
+
+def hold_tolerance(scene: WindScene) -> float:
+    """The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096."""
+    return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / 4096.0)
 
 
 def wrapped(angle: float) -> float:
@@ -291,12 +391,22 @@ def fastest_onto(side: int, scene: WindScene) -> WindEntry:
             if side != -one:
                 best = best_of_joins(one, scene, best)
         best = refined_minimum(best, TWO_PI / JOINS, scene)
+    if best.path.time > 0.0:
+        best = fastest_of_sides(side, scene, best)
+    return wind_entry(best, scene)
+
+
+def fastest_of_sides(side: int, scene: WindScene, best: WindCandidate) -> WindCandidate:
+    """The faster of `best` and the fastest path onto the circle, by branch and bound."""
     # The better side is searched first, which shortens the search on the other side.
     first = best.side if best.side != 0 else 1
-    for one in (first, -first):
-        if side != -one and best.path.time > 0.0:
-            best = branch_and_bound(one, scene, best)
-    return wind_entry(best, scene)
+    leaves, others = NO_LEAVES, NO_LEAVES
+    if side != -first:
+        best, leaves = searched_coarsely(first, scene, best)
+    if side != first:
+        best, others = searched_coarsely(-first, scene, best)
+    best = searched(first, scene, best, leaves)
+    return searched(-first, scene, best, others)
 
 
 def wind_entry(found: WindCandidate, scene: WindScene) -> WindEntry:

@@ -28,7 +28,7 @@ from collections.abc import Sequence
 from math import hypot, radians, sin, sqrt
 from typing import NamedTuple
 
-from loiter.kernel.synthesis import ROUNDING, rounding
+from loiter.kernel.synthesis import ROUNDING, WIND_TIE_TOLERANCE, rounding
 from loiter.planning.maneuver import Maneuver
 from loiter.verify.residual import Candidate
 from loiter.verify.trajectory import MaximumPrinciple, Trajectory, inner
@@ -36,10 +36,6 @@ from loiter.verify.trajectory import MaximumPrinciple, Trajectory, inner
 # Steps of central differences of functions known to their last digits, whose third derivative is of the size of the
 # function: truncation step^2/6 and rounding ROUNDING/step, 1e-9 and 4e-10 of the size, nearly balance.
 STEP = 2.0**-15
-
-# How much later than another maneuver the answer in wind may be, as a share of 1 + R + T: the search ends at two arcs
-# where the time 1e-7 beside them is not lower, though one with a short straight piece may be (docs/wind.md, section 6).
-SEARCH = 1e-11
 
 
 class Accuracy(NamedTuple):
@@ -180,7 +176,7 @@ def _in_wind(trajectory: Trajectory) -> Accuracy:
             transversality=choice,
         ),
         gradient=choice,
-        tie=SEARCH * (1.0 + start.R + T) + 2.0 * _time_of_rounding(trajectory, length),
+        tie=WIND_TIE_TOLERANCE * (1.0 + start.R + T) + 2.0 * _time_of_rounding(trajectory, length),
     )
 
 

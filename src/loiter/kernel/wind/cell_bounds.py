@@ -35,9 +35,10 @@ class Cell(NamedTuple):
     """An arc of the circle, and what all words share: derivatives are with respect to the phase.
 
     `half` is half its width; (px, py) the point in its middle, from the start, and (c, s) the heading there; (tx, ty)
-    the derivative of the point, and `turning` that of the angle of the heading, in size at most `fastest_turning`.
-    `bend` bounds the second derivative of the centre of the last arc, and `twist` that of the angle of the heading.
-    (c0, s0) is the heading at the start, (wx, wy) the wind, `wind` its size.
+    the derivative of the point, and (nx, ny) its second derivative; `turning` and `turned_more` those of the angle of
+    the heading. `fastest_turning`, `twist` and `jerk` bound the first three derivatives of that angle, `bend` and
+    `bend_change` the second and the third derivative of the centre of the last arc. (c0, s0) is the heading at the
+    start, (wx, wy) the wind, `wind` its size.
     """
 
     half: float
@@ -47,9 +48,14 @@ class Cell(NamedTuple):
     s: float
     tx: float
     ty: float
+    nx: float
+    ny: float
     turning: float
+    turned_more: float
     bend: float
+    bend_change: float
     twist: float
+    jerk: float
     fastest_turning: float
     wind: float
     c0: float
@@ -59,16 +65,19 @@ class Cell(NamedTuple):
 
 
 class Centres(NamedTuple):
-    """The vector from the centre of the first arc to that of the last at time 0 and its derivative by the phase.
+    """The vector from the centre of the first arc to that of the last at time 0 and two derivatives by the phase.
 
-    `change` bounds how much the vector differs from that inside the cell.
+    `change` bounds how much the vector differs from that inside the cell, `fastest` its derivative.
     """
 
     x: float
     y: float
     dx: float
     dy: float
+    ddx: float
+    ddy: float
     change: float
+    fastest: float
 
 
 def words_inside(phase: float, half: float, words: int, side: int, scene: WindScene, time: float) -> int:
@@ -82,7 +91,7 @@ def words_inside(phase: float, half: float, words: int, side: int, scene: WindSc
             impossible |= lsl
         if words & lsr and lsr_rsl_margin(u, cell, time) >= 0.0:
             impossible |= lsr
-        if words & lrl and lrl_rlr_margin(u, cell, time) >= 0.0:
+        if words & lrl and lrl_rlr_margin(u, cell, time, inf) >= 0.0:
             impossible |= lrl
     return words & ~impossible
 
@@ -98,19 +107,80 @@ def cell_at(phase: float, half: float, side: int, scene: WindScene) -> Cell:
     fastest_turning = min(1.0 + wind, turning + twist * half)
     bend = R + fastest_turning * fastest_turning + twist
     tx, ty = R * (c + wx) / g, R * (s + wy) / g
-    return Cell(half, px - x, py - y, c, s, tx, ty, -side * turning, bend, twist, fastest_turning, wind, c0, s0, wx, wy)
+    still = (1.0 - wind) * (1.0 + wind)
+    turned_more = side * out * still / (crab * crab * crab)
+    jerk = twist * (1.0 + 2.0 * wind * wind) / still
+    bend_change = R + jerk + 3.0 * fastest_turning * twist + fastest_turning * fastest_turning * fastest_turning
+    return Cell(
+        half,
+        px - x,
+        py - y,
+        c,
+        s,
+        tx,
+        ty,
+        -px,
+        -py,
+        -side * turning,
+        turned_more,
+        bend,
+        bend_change,
+        twist,
+        jerk,
+        fastest_turning,
+        wind,
+        c0,
+        s0,
+        wx,
+        wy,
+    )
 
 
 def centres(first: int, last: int, cell: Cell) -> Centres:
     """The centres of the first and the last arc of a word with these controls."""
     x, y = cell.px - last * cell.s + first * cell.s0, cell.py + last * cell.c - first * cell.c0
-    dx, dy = cell.tx - last * cell.turning * cell.c, cell.ty - last * cell.turning * cell.s
-    return Centres(x, y, dx, dy, (length(dx, dy) + 0.5 * cell.bend * cell.half) * cell.half)
+    turning, c, s = cell.turning, cell.c, cell.s
+    dx, dy = cell.tx - last * turning * c, cell.ty - last * turning * s
+    ddx = cell.nx - last * (cell.turned_more * c - turning * turning * s)
+    ddy = cell.ny - last * (cell.turned_more * s + turning * turning * c)
+    rate = length(dx, dy)
+    change = (rate + 0.5 * cell.bend * cell.half) * cell.half
+    return Centres(x, y, dx, dy, ddx, ddy, change, rate + cell.bend * cell.half)
 
 
 def least_inside(value: float, slope: float, bend: float, half: float) -> float:
     """A lower bound, inside a cell, on a function whose second derivative is at least -`bend`."""
     return value - (abs(slope) + 0.5 * bend * half) * half
+
+
+def least_inside_curved(value: float, slope: float, curvature: float, change: float, half: float) -> float:
+    """A lower bound, inside a cell, on a function whose third derivative is at most `change` in size."""
+    steep = abs(slope)
+    least = value - (steep - (0.5 * curvature - change * half / 6.0) * half) * half
+    square = curvature * curvature - 2.0 * steep * change
+    if curvature > 0.0 and square > 0.0:
+        lowest = 2.0 * steep / (curvature + sqrt(square))
+        if lowest < half:
+            least = min(least, value - (steep - (0.5 * curvature - change * lowest / 6.0) * lowest) * lowest)
+    return least
+
+
+def distance_curvature(p1: float, p2: float, distance: float, between: Centres) -> float:
+    """The second derivative of the length of LSL (or LSR, with `distance` its straight piece) but for that of the arcs.
+
+    The straight piece has the direction p.
+    """
+    across = p1 * between.dy - p2 * between.dx
+    return p1 * between.ddx + p2 * between.ddy + across * across / distance
+
+
+def distance_curvature_change(nearest: float, touching: float, between: Centres, cell: Cell) -> float:
+    """A bound on the derivative of `distance_curvature` inside a cell, where the straight piece is at least `nearest`.
+
+    `touching` is 2 for LSR, where the direction of the straight piece changes its length too, otherwise 0.
+    """
+    swing = between.fastest / nearest
+    return cell.bend_change + (3.0 * cell.bend + (3.0 * between.fastest + touching * swing) * swing) * swing
 
 
 def is_out_of_reach(cell: Cell, radius: float, time: float) -> bool:
@@ -130,8 +200,12 @@ def lsl_rsr_margin(u: int, cell: Cell, time: float) -> float:
     arcs = lowest_turn(angle(arc_rotation(u, cell.c0, cell.s0, cell.c, cell.s)), turned)
     distance = length(x, y)
     nearer = (x * between.dx + y * between.dy) / distance if distance > 0.0 else between.change / cell.half
-    slope, bend = nearer + u * cell.turning, cell.bend + cell.twist
-    margin = least_inside(distance + arcs - time, slope, bend, cell.half)
+    slope, bend, value = nearer + u * cell.turning, cell.bend + cell.twist, distance + arcs - time
+    margin = least_inside(value, slope, bend, cell.half)
+    if margin < 0.0 < distance - between.change:
+        curvature = distance_curvature(x / distance, y / distance, distance, between) + u * cell.turned_more
+        change = distance_curvature_change(distance - between.change, 0.0, between, cell) + cell.jerk
+        margin = max(margin, least_inside_curved(value, slope, curvature, change, cell.half))
     if margin < 0.0 and lsl_rsr_needs_turn(u, arcs, between, turned, cell):
         return margin + TWO_PI
     return margin
@@ -151,6 +225,10 @@ def lsl_rsr_needs_turn(u: int, arcs: float, between: Centres, turned: float, cel
     shift = between.change + cell.wind * (between.change + turned) / rate
     first, swing = angle(arc_rotation(u, cell.c0, cell.s0, x, y)), 0.5 * pi * shift / distance
     known = shift < distance and cell.wind * swing <= rate
+    if known and first - swing <= arcs + turned:
+        # The rate is known better now.
+        shift = between.change + cell.wind * (between.change + turned) / (2.0 * rate - cell.wind * swing)
+        swing = 0.5 * pi * shift / distance
     return known and first - swing > arcs + turned and first + swing < TWO_PI
 
 
@@ -216,7 +294,12 @@ def tangent_margin(u: int, between: Centres, cell: Cell, interval: Interval, bef
     turned = cell.fastest_turning * cell.half
     first, last = angle(arc_rotation(u, cell.c0, cell.s0, p1, p2)), angle(arc_rotation(u, cell.c, cell.s, p1, p2))
     slope = p1 * between.dx + p2 * between.dy - u * cell.turning
-    value = least_inside(straight + first + last - time, slope, cell.bend + cell.twist, cell.half)
+    middle = straight + first + last - time
+    value = least_inside(middle, slope, cell.bend + cell.twist, cell.half)
+    if value < 0.0:
+        curvature = distance_curvature(p1, p2, straight, between) - u * cell.turned_more
+        change = distance_curvature_change(sqrt(nearest * nearest - 4.0), 2.0, between, cell) + cell.jerk
+        value = max(value, least_inside_curved(middle, slope, curvature, change, cell.half))
     lowest = lowest_turn(first, swing + max(earlier, 0.0)) + lowest_turn(last, swing + max(earlier, 0.0) + turned)
     value += lowest - first - last
     # The arcs at the beginning of the interval, without those turns that either arc may lose.
@@ -260,8 +343,11 @@ def lsr_rsl_needs_turn(u: int, between: Centres, cell: Cell, arcs: float, interv
     return t1 + straight + t3 - time > pi and first > swing and last > swing + turned
 
 
-def lrl_rlr_margin(u: int, cell: Cell, time: float) -> float:
-    """The margin of LRL (u = +1) or RLR: what is left between its outer arcs once the middle one lasts long enough."""
+def lrl_rlr_margin(u: int, cell: Cell, time: float, known: float) -> float:
+    """The margin of LRL (u = +1) or RLR: what is left between its outer arcs once the middle one lasts long enough.
+
+    Paths whose T less twice the middle arc is `known`, within half a turn, are left out.
+    """
     between, turned = centres(u, u, cell), cell.fastest_turning * cell.half
     enter, _ = time_within(between.x, between.y, cell.wx, cell.wy, 4.0 + between.change)
     if enter >= time:
@@ -270,6 +356,8 @@ def lrl_rlr_margin(u: int, cell: Cell, time: float) -> float:
     shortest = 2.0 * acos(cell.wind)
     for turns in (-1.0, 0.0, 1.0, 2.0):
         outside = arcs + TWO_PI * turns
+        if abs(outside - known) < pi:
+            continue
         late = max(outside - turned + 2.0 * shortest, -outside - turned, shortest) - time
         if late < 0.0:
             late = middle_margin(u, between, cell, outside, time)
@@ -343,13 +431,38 @@ def lrl_rlr_needs_turn(u: int, between: Centres, cell: Cell, outside: float) -> 
 
 
 def middle_margin(u: int, between: Centres, cell: Cell, outside: float, time: float) -> float:
-    """The margin of LRL or RLR with a given T less twice its middle arc."""
+    """The margin of LRL or RLR with a given T less twice its middle arc, of which the middle may last longer.
+
+    A word that does not join before a later time does not join before this time either.
+    """
+    margin = middle_margin_at(u, between, cell, outside, time)
+    if margin < 0.0:
+        x, y = between.x - cell.wx * time, between.y - cell.wy * time
+        distance = length(x, y)
+        if distance > 0.0:
+            growth = cos(0.25 * (time - outside)) + (x * cell.wx + y * cell.wy) / distance
+            if growth > 0.0:
+                later = growth / (0.25 + cell.wind * cell.wind / distance)
+                margin = max(margin, middle_margin_at(u, between, cell, outside, time + later))
+    return margin
+
+
+def middle_margin_at(u: int, between: Centres, cell: Cell, outside: float, time: float) -> float:
+    """What is left between the outer arcs of LRL or RLR at a time, with a given T less twice its middle arc."""
     x, y = between.x - cell.wx * time, between.y - cell.wy * time
     distance, half_middle = length(x, y), 0.25 * (time - outside)
     if half_middle <= 0.0 or half_middle >= pi or distance <= between.change:
         return -inf
     turning = cell.fastest_turning
-    slope = cos(half_middle) * u * cell.turning + (x * between.dx + y * between.dy) / distance
-    fastest = between.change / cell.half + 0.5 * cell.bend * cell.half
-    bend = 0.25 * turning * turning + cell.twist + cell.bend + fastest * fastest / (distance - between.change)
-    return least_inside(4.0 * sin(half_middle) - distance, slope, bend, cell.half)
+    across, along, nearest = sin(half_middle), cos(half_middle), distance - between.change
+    slope = along * u * cell.turning + (x * between.dx + y * between.dy) / distance
+    bend = 0.25 * turning * turning + cell.twist + cell.bend + between.fastest * between.fastest / nearest
+    value = 4.0 * across - distance
+    margin = least_inside(value, slope, bend, cell.half)
+    if margin < 0.0:
+        curvature = -distance_curvature(x / distance, y / distance, distance, between)
+        curvature -= 0.25 * across * cell.turning * cell.turning + along * u * cell.turned_more
+        change = distance_curvature_change(nearest, 0.0, between, cell)
+        change += (0.0625 * turning * turning + 0.75 * cell.twist) * turning + cell.jerk
+        margin = max(margin, least_inside_curved(value, slope, curvature, change, cell.half))
+    return margin

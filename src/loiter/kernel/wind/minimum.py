@@ -21,9 +21,13 @@ REFINING_STEPS = 120
 # The search ends where another step is worth less than the time over this.
 WORTH = 2.0**53
 
-# A point of two arcs is a local minimum where the time is higher this far before and after it, in radians; this is
-# multiplied by the time where that is below 1.
+# A faster path is sought this far before and after a local minimum, in radians; this is multiplied by the time where
+# that is below 1.
 BESIDE = 1e-7
+
+# A point of two arcs is a local minimum unless the time falls away from it this far before or after it, in radians. The
+# phase of such a point is known to some 1e-15, and the time changes by no more than a few times this up to there.
+AT_CORNER = 1e-12
 
 
 def refined_minimum(found: WindCandidate, width: float, scene: WindScene) -> WindCandidate:
@@ -64,7 +68,8 @@ def enclosed_minimum(found: WindCandidate, width: float, scene: WindScene) -> Wi
     last, bisect = other, False
     for step in range(REFINING_STEPS):
         secant = secant_phase(here, last)
-        if is_worthless(here, secant, scene):
+        # Across a corner the secant does not show how far the minimum is.
+        if is_worthless(here, other.phase if has_changed(here.path, last.path) else secant, scene):
             break
         corner = corner_phase(here, other, side, scene) if step % 4 == 1 else inf
         there = corner if is_between(corner, here, other) else 0.5 * (here.phase + other.phase)
@@ -81,12 +86,17 @@ def enclosed_minimum(found: WindCandidate, width: float, scene: WindScene) -> Wi
         bisect = use_secant and abs(last.slope) > 0.5 * flattest
         if last.path.time > here.path.time + scene.arc_tolerance:
             other = last
+        elif there == corner:
+            beside = falling_beside(last, side, scene)
+            if beside.path.time == inf:
+                here = last
+                break
+            other = other if is_between(beside.phase, last, other) else here
+            here = beside
         else:
             if here.slope * last.slope < 0.0:
                 other = here
             here, last = last, here
-            if there == corner and is_least_beside(here, side, scene):
-                break
     return WindCandidate(here.phase, side, here.path)
 
 
@@ -143,10 +153,11 @@ def corner_phase(here: JoinPoint, other: JoinPoint, side: int, scene: WindScene)
     return inf
 
 
-def is_least_beside(corner: JoinPoint, side: int, scene: WindScene) -> bool:
-    """Whether the time is higher a little before and after a point."""
-    time = corner.path.time
-    beside = BESIDE * min(time, 1.0)
-    before = first_path(corner.phase - beside, side, scene, time)
-    after = first_path(corner.phase + beside, side, scene, time)
-    return min(before.time, after.time) == inf
+def falling_beside(corner: JoinPoint, side: int, scene: WindScene) -> JoinPoint:
+    """A point just before or after a corner from where the time falls further; its path is `NO_PATH` for none."""
+    latest = corner.path.time + scene.arc_tolerance
+    for shift in (-AT_CORNER, AT_CORNER):
+        beside = join_point(ALL_WORDS, corner.phase + shift, side, scene)
+        if beside.path.time <= latest and beside.slope * shift < 0.0:
+            return beside
+    return JoinPoint(corner.phase, NO_PATH, 0.0)
