@@ -32,7 +32,7 @@ SLOW = {
     "planning": "wind",
     "plot": "picture sizes",
     "": "make types",
-    "verify": "certificate certificate_in_wind collocation oracle_check proof reachability rounding wind_scan",
+    "verify": "certificate certificate_in_wind collocation oracle_check proof reachability rounding signs wind_scan",
     "web": "api drawing failure fields history layout limits load missions page places schema serve tiles touch",
 }
 

@@ -51,7 +51,17 @@ FORMULAS = [
     ("lemma 7 c", extremals, "rl", "R + 1.0 - 0.25 * inner)", "R + 1.0 - 0.250001 * inner)"),
     ("lemma 7 d", extremals, "internal_join", "max(X - c, 0.0)", "max(X - c + 1e-6, 0.0)"),
     ("lemma 7 d", extremals, "internal_join", "(X, -1.0)", "(X, -1.000001)"),
-    ("theorem 2", extremals, "start_at", "R, 2.0), beyond(x, y, R, -2.0)", "R, 2.000001), beyond(x, y, R, -2.0)"),
+    ("theorem 2 a", extremals, "rl", "-x1, R + 1.0", "-x1, R + 1.000001"),
+    ("theorem 2 a", extremals, "lr", "(x1, R - 1.0", "(x1, R - 1.000001"),
+    ("theorem 2 a", extremals, "external_join", "(X, 1.0)", "(X, 1.000001)"),
+    ("theorem 2 a", extremals, "internal_join", "(X, -1.0)", "(X, -1.000001)"),
+    ("theorem 2 a", extremals, "lrl", "xa, ya + q", "xa, ya + 1.000001 * q"),
+    ("theorem 2 a", extremals, "l", "(-x, y + 1.0)", "(-x, y + 1.000001)"),
+    ("theorem 2 a", extremals, "r", "(x, y - 1.0)", "(x, y - 1.000001)"),
+    ("theorem 2 b", extremals, "start_at", "R, 2.0), beyond(x, y, R, -2.0)", "R, 2.000001), beyond(x, y, R, -2.0)"),
+    ("theorem 2 b", extremals, "start_at", "beyond(x, y, R, -2.0)", "beyond(x, y, R, -2.000001)"),
+    ("theorem 2 b", extremals, "start_at", "2.0 - R", "2.000001 - R"),
+    ("theorem 2 b", extremals, "lrl", "3.0 * d * d", "3.000001 * d * d"),
 ]
 
 # A boundary of a region moved by about 1e-3.
@@ -76,11 +86,68 @@ BOUNDARIES = [
     ("lemma 7 c", rlr, "HIGHEST_Q", 2.0, 2.001),
     ("lemma 7 c", rlr, "LOWEST_Q", 0.2679, 0.2689),
     ("lemma 7 d", rlr, "LONGEST_X", 2.8285, 2.8275),
-    ("theorem 2", extremals, "right_first", "4.0 * start.R", "4.001 * start.R"),
-    ("theorem 2", extremals, "right_first", "start.inner < 0.0", "start.inner < 0.001"),
-    ("theorem 2", extremals, "left_first", "start.fold <= 0.0", "start.fold <= 0.001"),
-    ("theorem 2", extremals, "left_first", "start.outer >= 0.0", "start.outer >= 0.001"),
-    ("theorem 2", extremals, "detour", "4.0 * start.R", "4.001 * start.R"),
+    ("theorem 2 a", extremals, "lsl", "start.outer >= 0.0", "start.outer >= 0.001"),
+    ("theorem 2 a", extremals, "lrl", "h < 6.0", "h < 5.999"),
+    ("theorem 2 b", extremals, "right_first", "4.0 * start.R", "4.001 * start.R"),
+    ("theorem 2 b", extremals, "right_first", "start.y < 0.0", "start.y < -0.001"),
+    ("theorem 2 b", extremals, "right_first", "start.inner < 0.0", "start.inner < 0.001"),
+    ("theorem 2 b", extremals, "left_first", "start.R > 1.0", "start.R > 1.001"),
+    ("theorem 2 b", extremals, "left_first", "start.fold <= 0.0", "start.fold <= 0.001"),
+    ("theorem 2 b", extremals, "left_first", "start.R <= 3.0", "start.R <= 2.999"),
+    ("theorem 2 b", extremals, "left_first", "start.y < 0.0", "start.y < 0.001"),
+    ("theorem 2 b", extremals, "left_first", "start.outer >= 0.0", "start.outer >= 0.001"),
+    ("theorem 2 b", extremals, "detour", "4.0 * start.R", "4.001 * start.R"),
+    ("theorem 2 b", extremals, "fastest", "or y <= 0.0", "or y <= 0.001"),
+    ("theorem 2 b", extremals, "fastest", "R == 1.0", "R == 1.001"),
+    ("theorem 2 b", extremals, "fastest", "if y < 0.0", "if y < -0.001"),
+    ("theorem 2 b", extremals, "l", "R + 1.0, arc", "R + 1.001, arc"),
+    ("theorem 2 b", extremals, "r", "R > 1.0 and", "R > 1.001 and"),
+    ("theorem 2 b", extremals, "rl", "inner >= 0.0 and", "inner >= 0.001 and"),
+    ("theorem 2 b", extremals, "rl", "8.0 * (R + 1.0)", "8.0 * (R + 1.001)"),
+    ("theorem 2 b", extremals, "lr", "fold >= 0.0", "fold >= -0.001"),
+    ("theorem 2 b", extremals, "lrl", "h < 6.0", "h < 5.999"),
+    ("theorem 2 b", extremals, "internal_join", "R >= 2.0", "R >= 2.001"),
+]
+
+# A choice of the selection exchanged, turned round or left out.
+CHOICES = [
+    ("left_first", "start.R > 1.0", "start.R > 2.0"),
+    ("left_first", "select(reaches(inside), inside, lr(start, 1.0))", "inside"),
+    ("left_first", "select(reaches(inside), inside, lr(start, 1.0))", "lr(start, 1.0)"),
+    ("left_first", "lr(start, 1.0)", "lr(start, -1.0)"),
+    ("left_first", "start.fold <= 0.0", "start.outer <= 0.0"),
+    ("left_first", " and start.R <= 3.0", ""),
+    ("left_first", "start.y < 0.0", "start.y > 0.0"),
+    ("left_first", "start.outer >= 0.0", "start.outer <= 0.0"),
+    ("right_first", "4.0 * start.R", "0.0"),
+    ("right_first", "rl(start, -1.0)", "rl(start, 1.0)"),
+    ("right_first", "start.y < 0.0", "start.y > 0.0"),
+    ("right_first", "start.inner < 0.0", "start.inner > 0.0"),
+    ("detour", "4.0 * start.R", "0.0"),
+    ("detour", "rl(start, 1.0)", "rl(start, -1.0)"),
+    ("detour", "lr(start, -1.0)", "lr(start, 1.0)"),
+    ("fastest", "reaches(only_left) and (", "("),
+    ("fastest", "select(reaches(only_right), only_right, right)", "only_right"),
+    ("fastest", "R == 1.0", "R == 2.0"),
+    ("fastest", " and R == 1.0", ""),
+    ("fastest", " and not y < 0.0", ""),
+    ("fastest", "reaches(left) and is", "is"),
+    ("fastest", " and is_at_most_half_turn(left.first)", ""),
+    ("fastest", "half_turn(left.first), left, right", "half_turn(left.first), right, left"),
+    ("fastest", "faster_of(duration(right), right, left)", "faster_of(duration(left), right, left)"),
+    ("fastest", "faster_of(duration(right), right, left)", "(duration(right), right)"),
+    ("fastest", "if y < 0.0", "if y > 0.0"),
+    ("fastest", "detour(start)", "left"),
+    ("faster_of", "time if time < least", "time if time > least"),
+    ("faster_of", "select(time < least", "select(time > least"),
+    # On a boundary alone: states that no sample of an open region would show.
+    ("rl", "inner >= 0.0 and", "inner > 0.0 and"),
+    ("rl", "p >= 0.0", "p > 0.0"),
+    ("lr", "outer <= 0.0", "outer < 0.0"),
+    ("lr", "fold >= 0.0", "fold > 0.0"),
+    ("lrl", "fold <= 0.0", "fold < 0.0"),
+    ("lrl", "D >= 0.0", "D > 0.0"),
+    ("is_near_circle", "<= beyond2 <=", "< beyond2 <="),
 ]
 CHANGES = [*FORMULAS, *BOUNDARIES]
 
@@ -92,7 +159,7 @@ def lemma(name):
 @pytest.mark.parametrize("name", NAMES)
 def test_each_lemma_is_certain(name):
     finding = check(lemma(name))
-    assert (finding.verdict, finding.failure) == ("certain on samples" if name == "theorem 2" else "certain", "")
+    assert (finding.verdict, finding.failure) == ("certain", "")
     assert finding.certainty.cases > 0
 
 
@@ -112,6 +179,26 @@ def test_a_lemma_fails_where_a_formula_or_a_boundary_is_changed(name, module, pa
     assert finding.failure
 
 
+@pytest.mark.parametrize(("part", "text", "replacement"), CHOICES)
+def test_theorem_2_fails_where_a_choice_is_changed(part, text, replacement, monkeypatch):
+    monkeypatch.setattr(extremals, part, changed(extremals, part, text, replacement))
+    assert check(lemma("theorem 2 b")).verdict == "NOT CERTAIN"
+
+
+# On each boundary one word may stand for the other: there they are one path (theorem 2 a).
+SAME_PATHS = [
+    ("left_first", "start.fold <= 0.0", "start.fold < 0.0"),
+    ("left_first", "start.outer >= 0.0", "start.outer > 0.0"),
+    ("right_first", "start.inner > 4.0", "start.inner >= 4.0"),
+]
+
+
+@pytest.mark.parametrize(("part", "text", "replacement"), SAME_PATHS)
+def test_theorem_2_allows_either_of_two_words_that_are_one_path(part, text, replacement, monkeypatch):
+    monkeypatch.setattr(extremals, part, changed(extremals, part, text, replacement))
+    assert check(lemma("theorem 2 b")).verdict == "certain"
+
+
 def test_every_lemma_is_changed_in_both_ways():
     assert {change[0] for change in FORMULAS} == set(NAMES)
     # The one of lemma 3 is a single radius, R = 2.
@@ -122,9 +209,7 @@ def test_the_command_prints_a_table(capsys):
     assert main(["prove"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split("  ")[0] for line in lines[1:]] == NAMES
-    *others, theorem_2 = (line.rstrip() for line in lines[1:])
-    assert all(line.endswith("  certain") for line in others)
-    assert theorem_2.endswith("  certain on samples")
+    assert all(line.rstrip().endswith("  certain") for line in lines[1:])
 
 
 def test_the_command_fails_where_a_lemma_is_not_certain(monkeypatch, capsys):
@@ -146,7 +231,7 @@ def test_without_python_flint_one_sentence_says_so(monkeypatch, capsys):
 def test_the_document_has_the_table_of_the_program():
     """Cases, boxes and depths; the seconds are those of another machine."""
     rows = re.findall(
-        r"^\| (\S.*?) \| (.*?) \| (\d+) \| (\d+) \| [\d.]+ \| certain(?: on samples)? \|$",
+        r"^\| (\S.*?) \| (.*?) \| (\d+) \| (\d+) \| [\d.]+ \| certain \|$",
         PROOF.read_text(),
         re.MULTILINE,
     )

@@ -1,134 +1,306 @@
-"""Theorem 2 of docs/proof.md: the words that `extremals.fastest` compares are those of the text."""
+"""Theorem 2 of docs/proof.md: the words that `extremals.fastest` compares are those of the text, at every state.
+
+`fastest` is run for every combination of signs of the quantities by which it decides (`verify/proof/signs.py`). Each
+combination that no relation excludes has its words compared with those of the text.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from math import copysign, inf, sqrt
-from random import Random
+import operator
+from collections.abc import Iterable, Iterator
+from math import inf
 from typing import Any, NamedTuple
 
-from loiter.compiled.rebinding import rebinding
+from loiter.compiled.rebinding import Function, rebinding
 from loiter.kernel import extremals as kernel
 from loiter.kernel.words import Word
-from loiter.verify.proof.algebra import Expression, Field
+from loiter.verify.proof.algebra import NotProved, flint
 from loiter.verify.proof.balls import Certainty
-from loiter.verify.proof.exact_paths import Point, squared, start_at, without_tolerance
-from loiter.verify.proof.identities import check_decisions, quantities, require, variables
+from loiter.verify.proof.exact_paths import Point, squared, without_tolerance
+from loiter.verify.proof.identities import quantities, require
+from loiter.verify.proof.signs import Impossible, Quantity, Signs, Table, Unknown, every_case
 
-# Random states, one of which is kept for each combination of signs of the deciding quantities.
-DRAWN, FARTHEST = 20_000, 6.0
+# A word, and for RL and LR on which side of the axis x = 0 the arcs meet: -1 left, 1 right, 0 for other words.
+Described = tuple[int, int]
+
+
+def of(word: Word, side: int = 0) -> Described:
+    """A word with its side."""
+    return int(word), side
+
+
+L, R_ONLY, LRL = of(Word.L), of(Word.R), of(Word.LRL)
+LSL, RSL, LSR, RSR = of(Word.LSL), of(Word.RSL), of(Word.LSR), of(Word.RSR)
+RL_LEFT, RL_RIGHT, LR_LEFT, LR_RIGHT = of(Word.RL, -1), of(Word.RL, 1), of(Word.LR, -1), of(Word.LR, 1)
+
+
+class Named(NamedTuple):
+    """The quantities by which words are selected, each as docs/proof.md writes it; D and h are those of `lrl`."""
+
+    x: Any
+    y: Any
+    R: Any
+    outer: Any
+    inner: Any
+    fold: Any
+    onto_right: Any  # rm^2 - (R + 1)^2
+    from_left: Any  # rp^2 - (R - 1)^2
+    far: Any  # rm^2 - (R + 3)^2
+    left: Any  # rp^2 - 1
+    right: Any  # rm^2 - 1
+    h: Any
+    D: Any
+    turn: Any  # the cross product of the rotation of LRL's first arc: it is not negative up to half a turn
+
+
+def named(x: Any, y: Any, R: Any, turn: Any) -> Named:
+    """The quantities at a state, written without the kernel."""
+    point = Point(x, y)
+    q = quantities(point, R)
+    left, right = squared(point, -1.0) - 1.0, squared(point, 1.0) - 1.0
+    h, d = 0.5 * (R * (R + 2.0) + left), 0.25 * (R * (R + 2.0) - left)
+    far = right + 1.0 - (R + 3.0) * (R + 3.0)
+    D = h * h - 3.0 * d * d
+    return Named(x, y, R, q.outer, q.inner, q.fold, q.onto_right, q.from_left, far, left, right, h, D, turn)
+
+
+# Each sum is 0 at every state: checked on polynomials. What follows is in docs/proof.md, section 8.
+RELATIONS = (
+    "(R+1) - (R-1) - 2",
+    "(R-1) - (R-2) - 1",
+    "outer - fold + 8 (R-1)",
+    "outer - from_left + 4 (R-1) + 4",
+    "fold - left + (R-2) (R-3) - (R-2)",
+    "inner - onto_right - 4 (R-1) - 4",
+    "far - onto_right + 4 (R-1) + 12",
+    # rm^2 is not negative.
+    "inner - x x - (y-1) (y-1) + (R-1) (R-1)",
+    # rm <= rp + 2: never both rp < R - 1 and rm > R + 1; rm >= 2 - rp: never both rp = 3 - R and rm < R - 1, R < 3.
+    (
+        "from_left - x x - 1/16 from_left from_left + 1/8 from_left onto_right - 1/16 onto_right onto_right"
+        " + 1/2 from_left (R-1) - 1/2 onto_right (R-1)"
+    ),
+    "1/2 fold (R-1) - 1/2 inner (R-3) - x x - 1/16 fold fold + 1/8 fold inner - 1/16 inner inner",
+    # LRL on the circle rp = 3 - R: D is a square, and h < 6 up to R = 1 + sqrt 3.
+    "D - wave wave - fold (R-1) (R-1) - 3 fold (R-1) - 3 fold - 1/16 fold fold",
+    "(h-6) - (R-2) (R-1) - (R-2) + 2 - 1/2 fold",
+    # With these there are fewer combinations.
+    "(R-2) - (R-3) - 1",
+    "from_left - fold + 4 (R-2)",
+    "inner - right + (R-2) (R-1) + (R-2)",
+    "onto_right - right + (R-1) (R-1) + 4 (R-1) + 3",
+    "from_left - left + (R-2) (R-1) + (R-2)",
+    "left - right - 4 y",
+    "outer - onto_right - 4 y",
+    "from_left - inner - 4 y",
+)
+
+
+def table_of(context: Any) -> Table:
+    """The quantities by which the kernel and the text may decide, and the relations between them."""
+    x, y, R, turn = context.gens()
+    # `named` also takes doubles such as 0.5, which a polynomial by itself does not.
+    q = named(*(Quantity(Signs(Table()), variable) for variable in (x, y, R, turn)))
+    deciding = {name: quantity.polynomial for name, quantity in q._asdict().items() if name not in ("R", "h")}
+    deciding |= {"(h-6)": q.h.polynomial - 6, "(R+1)": R + 1, "(R-1)": R - 1, "(R-2)": R - 2, "(R-3)": R - 3}
+    # D on the circle rp = 3 - R is the square of `wave`.
+    auxiliary = {"wave": (R - 1) * (R - 1) - 3, "(y-1)": y - 1}
+    return Table(deciding, auxiliary, RELATIONS, {"(R-1)": (0, 1)})
 
 
 def selection() -> Certainty:
-    """Theorem 2: `left_first`, `right_first` and `detour` decide by named quantities, and return the words of the text.
+    """Theorem 2: `fastest` compares the words of the text, or words that are the same path, at every state."""
+    context = flint().fmpq_mpoly_ctx.get(("x", "y", "R", "turn"), flint().Ordering.lex)
+    signs = Signs(table_of(context))
+    q = named(*(Quantity(signs, variable) for variable in context.gens()))
+    fastest = recording_fastest(q)
 
-    One sample stands for all states with the same signs of these quantities.
+    def run() -> None:
+        check_selection(q, compared_words(q, fastest), signs)
+
+    return Certainty(every_case(signs, run) + taking_the_faster(), 0)
+
+
+def taking_the_faster() -> int:
+    """`faster_of` takes another extremal where its time is less, with that time; the number of cases."""
+    context = flint().fmpq_mpoly_ctx.get(("least", "time"), flint().Ordering.lex)
+    signs = Signs(Table({"time - least": context.gen(1) - context.gen(0)}))
+    least, time = (Quantity(signs, variable) for variable in context.gens())
+    faster = rebinding({"duration": lambda extremal: time})(kernel.faster_of)
+
+    def run() -> None:
+        taken = faster(least, "best", "other")
+        right = (time, "other") if time < least else (least, "best")
+        require(all(map(operator.is_, taken, right)), "`faster_of` does not take the faster of two")
+
+    return every_case(signs, run)
+
+
+def check_selection(q: Named, found: set[Described], signs: Signs) -> None:
+    """Raise `NotProved` where `fastest` leaves out a word of the text, at the states of one combination of signs."""
+    if q.R == 1.0 and q.y >= 0.0:
+        require(len(found) == 1, f"times are compared at R = 1: {found}, signs {signs.chosen}")
+        required = set(words_at_turn_radius(q))
+    else:
+        required = set(words_that_can_win(q))
+    represented = with_same_paths(found, q)
+    missing = required - represented
+    require(not missing, f"the selection leaves out {missing}: signs {signs.chosen}")
+    if q.R > 1.0 and is_left_out(q):
+        # Section 6 (a): T is the time of RL.
+        require(RL_LEFT in represented, f"RL is left out on the circle rp = 3 - R: signs {signs.chosen}")
+
+
+def words_at_turn_radius(q: Named) -> Iterator[Described]:
+    """The words of section 6 (d), R = 1 and y >= 0: LRL or L with a first arc of at most half a turn, otherwise R."""
+    if q.outer == 0.0:
+        # On the last circle LRL is L, whose first arc has the cross product -x, up to a factor: see `coinciding`.
+        if (q.turn >= 0.0) != (q.x <= 0.0):
+            raise Impossible
+        if q.x <= 0.0:
+            yield L
+            return
+    elif q.fold <= 0.0 and q.D >= 0.0 and q.h < 6.0 and q.turn >= 0.0:
+        yield LRL
+        return
+    yield from words_to_the_right(q)
+
+
+def words_to_the_right(q: Named) -> Iterator[Described]:
+    """The rows of the table for the first turn R, without RSR."""
+    if q.inner >= 0.0 and q.onto_right <= 0.0:
+        yield RL_LEFT
+    if q.onto_right >= 0.0:
+        yield RSL
+
+
+def words_that_can_win(q: Named) -> Iterator[Described]:
+    """The words of the table in docs/theory.md, section 4, boundaries included, less those of section 6 (a) and (b).
+
+    The single arcs are words on their circles.
     """
-    cells = sampled_cells()
-    for sample in cells:
-        x, y, R, field = variables("x y R", sample)
-        point = Point(x, y)
-        start = start_at(field, x, y, R)
-        field.compared.clear()
-        found = set()
-        below = (kernel.detour,) if sample[1] < 0.0 else ()
-        for function in map(decisions_only(field), (kernel.left_first, kernel.right_first, *below)):
-            extremal = function(start)
-            if extremal.straight is not inf:
-                found.add(described(extremal))
-        check_decisions("the selection", field, (), deciding_quantities(point, R))
-        named = NamedSigns(*(quantity.sample for quantity in quantities(point, R)))
-        missing = words_that_can_win(sample, named) - found
-        require(not missing, f"the selection leaves out {missing} at {sample}")
-    return Certainty(len(cells), 0)
+    yield from words_to_the_right(q)
+    if q.inner == 0.0 and q.R > 1.0:
+        yield R_ONLY
+    if q.outer == 0.0:
+        yield L
+    if q.R < 3.0 and q.fold <= 0.0 and q.D >= 0.0 and q.h < 6.0:
+        yield LRL
+    if q.R >= 2.0 and q.left >= 0.0 and q.from_left <= 0.0:
+        yield LSR
+    if lr_exists(q) and q.from_left >= 0.0 and not is_left_out(q):
+        yield LR_RIGHT
+    if q.y < 0.0:
+        yield from words_below_the_axis(q)
 
 
-def decisions_only(field: Field) -> Callable[[Any], Any]:
-    """Rebinds a function of the kernel so that its decisions are exact; roots, which it never compares, are numbers."""
-    root = {"sqrt": lambda value: field.constant(sqrt(max(field.of(value).sample, 0.0)))}
-    return rebinding(field.names() | {"snap_full_turn": without_tolerance} | root)
+def words_below_the_axis(q: Named) -> Iterator[Described]:
+    """The words that section 6 (b) excludes for y >= 0."""
+    if q.outer >= 0.0:
+        yield LSL
+    if q.R >= 2.0 and q.right >= 0.0 and q.inner <= 0.0:
+        yield RSR
+    if q.onto_right >= 0.0 and q.far <= 0.0:
+        yield RL_RIGHT
+    if lr_exists(q) and q.from_left <= 0.0:
+        yield LR_LEFT
 
 
-def described(extremal: kernel.Extremal) -> tuple[int, float]:
-    """A word, and on which side of the axis x = 0 the arcs of RL and LR meet, 0 for other words."""
-    cross: Any = extremal.middle[0]
-    side = 0.0 if isinstance(cross, float) or extremal.word not in (Word.RL, Word.LR) else copysign(1.0, cross.sample)
-    return int(extremal.word), -side if extremal.word == Word.RL else side
+def lr_exists(q: Named) -> bool:
+    """Whether the circles of LR meet."""
+    exists: bool = q.R > 1.0 and q.fold >= 0.0 and q.outer <= 0.0
+    return exists
 
 
-def deciding_quantities(point: Point, R: Expression) -> tuple[Expression, ...]:
-    """Every quantity by which the selection may decide."""
-    q = quantities(point, R)
-    left, right = squared(point, -1.0) - 1.0, squared(point, 1.0) - 1.0
-    half, d = 0.5 * (R * (R + 2.0) + left), 0.25 * (R * (R + 2.0) - left)
-    return (
-        *q,
-        point.x,
-        point.y,
-        left,
-        right,
-        R - 3.0,
-        q.inner - 8.0 * (R + 1.0),
-        half - 6.0,
-        half * half - 3.0 * d * d,
+def is_left_out(q: Named) -> bool:
+    """Section 6 (a): LR on the circle rp = 3 - R, where LRL does not exist, is not needed."""
+    return q.R <= 3.0 and q.fold == 0.0 and not q.h < 6.0
+
+
+def with_same_paths(words: Iterable[Described], q: Named) -> set[Described]:
+    """Words, and those that are the same path at this state, or take no less: `coinciding` checks that they do."""
+    found = set(words)
+    # On each circle: words that are one path, and words that take no less than these.
+    circles = (
+        (q.outer, {L, LR_RIGHT, LRL}, {LSL}),
+        (q.inner, {R_ONLY, RL_LEFT}, {RSR}),
+        (q.onto_right, {RSL, RL_LEFT}, {RL_RIGHT}),
+        (q.from_left, {LSR, LR_RIGHT}, {LR_LEFT}),
+        (q.fold, {LRL, LR_RIGHT, LR_LEFT}, set[Described]()),
     )
+    size = 0
+    while size < len(found):
+        size = len(found)
+        for quantity, same, slower in circles:
+            if found & same and not same | slower <= found and quantity == 0.0:
+                found |= same | slower
+    return found
 
 
-class NamedSigns(NamedTuple):
-    """The values of `Quantities` at a sample."""
+def recording_fastest(q: Named) -> Function:
+    """The kernel's `fastest` on quantities, with the extremals that it has compared in place of times."""
+    copied = rebinding(NUMBERS)
+    start, lrl = copied(kernel.start_at)(q.x, q.y, q.R, 0.0), copied(kernel.lrl)
 
-    outer: float
-    inner: float
-    fold: float
-    onto_right: float
-    from_left: float
-    tall: float
-    wide: float
+    def lrl_with_turn(given: kernel.Start) -> kernel.Extremal:
+        extremal: kernel.Extremal = lrl(given)
+        return extremal._replace(first=(q.turn, extremal.first[1]))
 
-
-def words_that_can_win(sample: tuple[float, float, float], q: NamedSigns) -> set[tuple[int, float]]:
-    """The words of the table in docs/theory.md, section 4, away from the boundaries of its rows."""
-    x, y, R = sample
-    k, K = x * x + y * (y + 2.0), R * (R + 2.0)
-    h, d = 0.5 * (K + k), 0.25 * (K - k)
-    right = (Word.RSL, 0.0) if q.onto_right > 0.0 else (Word.RL, -1.0)
-    words: set[tuple[int, float]] = {right} if q.inner > 0.0 else set()
-    if q.inner < 0.0 and y < 0.0 and x * x + y * (y - 2.0) > 0.0:
-        words.add((Word.RSR, 0.0))
-    if R < 3.0 and q.fold < 0.0 and h < 6.0 and h * h > 3.0 * d * d:
-        words.add((Word.LRL, 0.0))
-    if q.from_left < 0.0 and k > 0.0 and q.wide > 0.0:
-        words.add((Word.LSR, 0.0))
-    if q.from_left > 0.0 and q.fold > 0.0 and q.outer < 0.0:
-        words.add((Word.LR, 1.0))
-    if y < 0.0:
-        words |= {(Word.LSL, 0.0)} if q.outer > 0.0 else set()
-        words |= {(Word.RL, 1.0)} if q.onto_right > 0.0 and q.inner < 8.0 * (R + 1.0) else set()
-        words |= {(Word.LR, -1.0)} if q.from_left < 0.0 and q.fold > 0.0 else set()
-    return {(int(word), side) for word, side in words}
+    names: dict[str, object] = {
+        "start_at": lambda *state: start,
+        "lrl": lrl_with_turn,
+        "duration": lambda extremal: Compared((extremal,)),
+        "faster_of": faster_of,
+    }
+    return rebinding(NUMBERS | names)(kernel.fastest)
 
 
-def sampled_cells() -> list[tuple[float, float, float]]:
-    """A sample for each combination of signs that random states have, the same ones in every run."""
-    random = Random(18)
-    cells: dict[tuple[bool, ...], tuple[float, float, float]] = {}
-    for _ in range(DRAWN):
-        R = 1.0 + random.random() ** 2 * FARTHEST
-        sample = (random.uniform(-1.0, 1.0) * (R + 3.0), random.uniform(-1.0, 1.0) * (R + 4.0), R)
-        field = values(sample)
-        if min(map(abs, field)) > CLEAR:
-            cells.setdefault(tuple(value > 0.0 for value in field), sample)
-    return list(cells.values())
+def compared_words(q: Named, fastest: Function) -> set[Described]:
+    """The words that the kernel's `fastest` compares, without a tolerance, as far as they reach the target."""
+    least, best = fastest(q.x, q.y, q.R, 0.0, True)
+    require(least.same_as(best), "the least time is not that of the words that were compared")
+    return {described(extremal) for extremal in least.extremals if extremal.straight is not inf}
 
 
-# Samples closer to a boundary than this are not used.
-CLEAR = 1e-3
+class Compared(NamedTuple):
+    """The extremals of which the least time, or the fastest, has been taken."""
+
+    extremals: tuple[kernel.Extremal, ...]
+
+    def same_as(self, best: Compared | kernel.Extremal) -> bool:
+        """Whether the fastest and the least time are of the same extremals."""
+        others = best.extremals if isinstance(best, Compared) else (best,)
+        return [*map(id, self.extremals)] == [*map(id, others)]
 
 
-def values(sample: tuple[float, float, float]) -> tuple[float, ...]:
-    """`deciding_quantities` as numbers."""
-    x, y, R = sample
-    left, right = x * x + y * (y + 2.0), x * x + y * (y - 2.0)
-    half, d = 0.5 * (R * (R + 2.0) + left), 0.25 * (R * (R + 2.0) - left)
-    circles = (left - R * (R + 2.0), right - R * (R - 2.0), left - (R - 2.0) * (R - 4.0), right - R * (R + 2.0))
-    return (*circles, left - R * (R - 2.0), R - 2.0, R - 3.0, x, y, left, right, half - 6.0, half * half - 3.0 * d * d)
+def faster_of(least: Compared, best: Compared | kernel.Extremal, other: kernel.Extremal) -> tuple[Compared, Compared]:
+    """What stands for the kernel's `faster_of`: it adds an extremal to those that have been compared."""
+    require(least.same_as(best), "the least time so far is not that of the words that were compared")
+    compared = Compared((*least.extremals, other))
+    return compared, compared
+
+
+def nonnegative(*of_what: object) -> Unknown:
+    """A root, or the larger of a number and 0."""
+    return Unknown(1)
+
+
+# What replaces the kernel's globals. Both branches of `onto_axis` compute the same rotation: lemma 1 checks each.
+NUMBERS = {
+    "sqrt": nonnegative,
+    "max": nonnegative,
+    "TINY": 0.0,
+    "SMALLEST_SCALE": inf,
+    "snap_full_turn": without_tolerance,
+}
+
+
+def described(extremal: kernel.Extremal) -> Described:
+    """A word, and on which side of the axis x = 0 the arcs of RL and LR meet, 0 for other words."""
+    word = int(extremal.word)
+    if word not in (Word.RL, Word.LR):
+        return word, 0
+    cross: Any = extremal.middle[0]
+    if not isinstance(cross, Unknown) or cross.sign == 0:
+        raise NotProved("the side of a crossing is not known")
+    return word, -cross.sign if word == Word.RL else cross.sign

@@ -1,0 +1,235 @@
+"""Theorem 2 of docs/proof.md: where two rows of the table meet, their words are the same path, or take as long.
+
+Each circle on which rows meet is parametrised by y and R, with x = +- a root. The kernel's own rotations are compared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from itertools import product
+from math import inf
+from typing import Any, NamedTuple
+
+from loiter.kernel import extremals as kernel
+from loiter.verify.proof.algebra import Expression, Field
+from loiter.verify.proof.balls import Certainty
+from loiter.verify.proof.exact_paths import exact, start_at
+from loiter.verify.proof.identities import is_root, require, zero
+
+Word = Callable[[kernel.Start], kernel.Extremal]
+
+
+class Words(NamedTuple):
+    """The kernel's words on expressions, each a function of the start."""
+
+    l: Word
+    r: Word
+    lsl: Word
+    rsl: Word
+    lsr: Word
+    rsr: Word
+    lrl: Word
+    rl_left: Word
+    rl_right: Word
+    lr_left: Word
+    lr_right: Word
+
+
+def words(field: Field, R: Expression) -> Words:
+    """The words on the expressions of a field."""
+    # Roots that the field would not see to be multiples of one another.
+    known = [4.0 * field.sqrt(square) for square in (R * (R + 2.0), R * (R - 2.0)) if square.sample > 0.0]
+    functions = kernel.l, kernel.r, kernel.lsl, kernel.rsl, kernel.lsr, kernel.rsr, kernel.lrl, kernel.rl, kernel.lr
+    *others, rl, lr = exact(field, *functions, known=known)
+    crossings = [partial(word, branch=branch) for word in (rl, lr) for branch in (-1.0, 1.0)]
+    return Words(*others, *crossings)
+
+
+class Circle(NamedTuple):
+    """A circle about (0, centre), from a least R on, and the comparison of the words there.
+
+    `factors` are those of the quantities by which the words decide there: none changes its sign on the range of R.
+    """
+
+    centre: float
+    radius: Callable[[Expression], Expression]
+    least_radius: float
+    compare: Callable[[Words, kernel.Start], None]
+    factors: Callable[[Expression], tuple[Expression, ...]] = lambda R: (R, R + 1.0, R + 2.0, R - 1.0)
+
+
+def on_outer(w: Words, start: kernel.Start) -> None:
+    """On outer = 0: the right crossing of LR is L, and LSL is L or a whole turn longer."""
+    require_same_turn("LR, L", w.lr_right(start).first, w.l(start).first)
+    require_no_turn("LR", w.lr_right(start).middle)
+    require_same_turn("LSL, L", total(w.lsl(start)), w.l(start).first)
+    require_no_straight_piece("LSL", w.lsl(start))
+
+
+def on_outer_at_turn_radius(w: Words, start: kernel.Start) -> None:
+    """On outer = 0, R = 1: LRL is L, and the cross product of its first arc is -6 x."""
+    found = w.lrl(start)
+    require_same_turn("LRL, L", found.first, w.l(start).first)
+    zero("the first arc of LRL", field_of(start).of(found.first[0] + 6.0 * start.x))
+    # `rotation` counts a zero vector as no turn.
+    zero("the middle arc of LRL", *map(field_of(start).of, found.middle))
+    require_no_turn("LRL", found.last)
+
+
+def on_inner(w: Words, start: kernel.Start) -> None:
+    """On inner = 0: the left crossing of RL is R."""
+    require_same_turn("RL, R", w.rl_left(start).first, w.r(start).first)
+    require_no_turn("RL", w.rl_left(start).middle)
+
+
+def on_inner_of_wide(w: Words, start: kernel.Start) -> None:
+    """On inner = 0, R >= 2: RSR is R, or a whole turn longer."""
+    require_same_turn("RSR, R", total(w.rsr(start)), w.r(start).first)
+    require_no_straight_piece("RSR", w.rsr(start))
+
+
+def on_onto_right(w: Words, start: kernel.Start) -> None:
+    """On rm = R + 1: RSL is RL with the left crossing, and that with the right crossing takes no less."""
+    straight, left, right = w.rsl(start), w.rl_left(start), w.rl_right(start)
+    require_no_straight_piece("RSL", straight)
+    require_same_turn("RSL, RL", straight.first, left.first)
+    require_same_turn("RSL, RL", straight.last, left.middle)
+    require_no_less("RL", left, right)
+
+
+def on_from_left(w: Words, start: kernel.Start) -> None:
+    """On rp = R - 1, R >= 2: LSR is LR with the right crossing, and that with the left crossing takes no less."""
+    straight, right, left = w.lsr(start), w.lr_right(start), w.lr_left(start)
+    require_no_straight_piece("LSR", straight)
+    require_same_turn("LSR, LR", straight.first, right.first)
+    require_same_turn("LSR, LR", straight.last, right.middle)
+    require_no_less("LR", right, left)
+
+
+def on_fold(w: Words, start: kernel.Start) -> None:
+    """On fold = 0, R < 1 + sqrt 3: LRL and both crossings of LR are one path."""
+    found = w.lrl(start)
+    for other in (w.lr_left(start), w.lr_right(start)):
+        require_same_turn("LRL, LR", found.first, other.first)
+        require_same_turn("LRL, LR", found.middle, other.middle)
+    require_no_turn("LRL", found.last)
+
+
+def on_fold_at_any_radius(w: Words, start: kernel.Start) -> None:
+    """On fold = 0: both crossings of LR are one."""
+    left, right = w.lr_left(start), w.lr_right(start)
+    require_same_turn("LR, both crossings", left.first, right.first)
+    require_same_turn("LR, both crossings", left.middle, right.middle)
+
+
+def wide(R: Expression) -> tuple[Expression, ...]:
+    """Factors that are not negative for R >= 2."""
+    return R, R - 1.0, R - 2.0
+
+
+def narrow(R: Expression) -> tuple[Expression, ...]:
+    """Factors that do not change their sign for 1 <= R <= 1 + sqrt 3."""
+    return R + 1.0, R - 1.0, R - 3.0, R - 4.0, R * R - 2.0 * R - 2.0
+
+
+CIRCLES = (
+    Circle(-1.0, lambda R: R + 1.0, 1.0, on_outer),
+    Circle(1.0, lambda R: R - 1.0, 1.0, on_inner),
+    Circle(1.0, lambda R: R - 1.0, 2.0, on_inner_of_wide, wide),
+    Circle(1.0, lambda R: R + 1.0, 1.0, on_onto_right),
+    Circle(-1.0, lambda R: R - 1.0, 2.0, on_from_left, wide),
+    Circle(-1.0, lambda R: 3.0 - R, 1.0, on_fold, narrow),
+    Circle(-1.0, lambda R: 3.0 - R, 1.0, on_fold_at_any_radius),
+    Circle(-1.0, lambda R: R - 3.0, 3.0, on_fold_at_any_radius),
+)
+AT_TURN_RADIUS = CIRCLES[0]._replace(compare=on_outer_at_turn_radius)
+
+
+def coinciding() -> Certainty:
+    """Theorem 2: the words of two rows, on the circle on which the rows meet, from both sides of the axis x = 0."""
+    cases = 0
+    for circle, side in product((*CIRCLES, AT_TURN_RADIUS), (-1.0, 1.0)):
+        names = {"y": circle.centre - 0.375} | ({} if circle is AT_TURN_RADIUS else {"R": circle.least_radius + 0.5})
+        field = Field(names)
+        R = field.variable("R") if "R" in names else field.constant(1.0)
+        start = start_on(circle, side, field, R)
+        field.compared.clear()
+        circle.compare(words(field, R), start)
+        for compared in field.compared:
+            require_constant_sign(compared, circle.factors(R))
+        cases += 1
+    return Certainty(cases, 0)
+
+
+def require_constant_sign(compared: Expression, factors: tuple[Expression, ...]) -> None:
+    """Raise `NotProved` where a word decides by something else than x, a root, or a product of the factors."""
+    if is_root(compared):
+        return
+    for polynomial in (compared.num, compared.den):
+        for base, power in polynomial.factor()[1]:
+            known = any(is_multiple(factor.num, base) for factor in factors)
+            require(power % 2 == 0 or known, f"a word decides by an unknown quantity, {base}, on a circle")
+
+
+def is_multiple(a: Any, b: Any) -> bool:
+    """Whether a polynomial is another one times a number."""
+    return bool(a * b.leading_coefficient() == b * a.leading_coefficient())
+
+
+def start_on(circle: Circle, side: float, field: Field, R: Expression) -> kernel.Start:
+    """The start on a circle at the ordinate y, to the left or to the right of the axis x = 0."""
+    y = field.variable("y")
+    radius, height = circle.radius(R), y - circle.centre
+    return start_at(field, side * field.sqrt(radius * radius - height * height), y, R)
+
+
+def field_of(start: kernel.Start) -> Field:
+    """The field of the expressions of a start."""
+    y: Any = start.y
+    field: Field = y.field
+    return field
+
+
+def require_no_straight_piece(name: str, extremal: kernel.Extremal) -> None:
+    """Raise `NotProved` where an extremal does not reach the target, or has a straight piece."""
+    require(extremal.straight is not inf, f"{name} does not exist on a circle where it meets another word")
+    require(extremal.straight == 0.0, f"{name} has a straight piece on a circle where it meets another word")
+
+
+def total(extremal: kernel.Extremal) -> Any:
+    """The rotation by the sum of the arcs, up to whole turns."""
+    rotated: Any = extremal.first
+    for cross, dot in (extremal.middle, extremal.last):
+        rotated = rotated[0] * dot + rotated[1] * cross, rotated[1] * dot - rotated[0] * cross
+    return rotated
+
+
+def require_same_turn(name: str, a: Any, b: Any) -> None:
+    """Raise `NotProved` where two rotations have not the same direction."""
+    zero(f"{name}: the arcs", a[0] * b[1] - a[1] * b[0])
+    require((a[0] * b[0] + a[1] * b[1]).sample > 0.0, f"{name}: the arcs are opposite")
+
+
+def require_no_turn(name: str, arc: Any) -> None:
+    """Raise `NotProved` where the last arc of a word is not empty."""
+    cross, dot = arc
+    zero(f"{name}: the last arc", cross)
+    require(dot.sample > 0.0, f"{name}: the last arc is half a turn")
+
+
+def require_no_less(name: str, a: kernel.Extremal, b: kernel.Extremal) -> None:
+    """Raise `NotProved` where b, with the opposite crossing, may take less than a, both of two arcs.
+
+    The last arcs are t <= pi and 2 pi - t, and the first ones less than 2 pi. So b - a > -2 pi, and where b - a is a
+    number of whole turns, b takes no less.
+    """
+    (cross, dot), (other_cross, other_dot) = last_arc(a), last_arc(b)
+    require(cross.sample > 0.0, f"{name}: the last arc is longer than half a turn")
+    zero(f"{name}: the last arcs", cross + other_cross, dot - other_dot)
+    require_same_turn(f"{name}: both crossings", total(a), total(b))
+
+
+def last_arc(extremal: kernel.Extremal) -> Any:
+    """The rotation of the second of two arcs."""
+    return extremal.middle
