@@ -148,6 +148,8 @@ CHOICES = [
     ("lrl", "fold <= 0.0", "fold < 0.0"),
     ("lrl", "D >= 0.0", "D > 0.0"),
     ("is_near_circle", "<= beyond2 <=", "< beyond2 <="),
+    ("is_near_circle", "<= beyond2 <=", "<= beyond2 >="),
+    ("is_near_circle", "<= beyond2 <= distance * (2.0 * radius + distance)", "<= beyond2"),
 ]
 CHANGES = [*FORMULAS, *BOUNDARIES]
 

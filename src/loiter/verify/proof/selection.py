@@ -29,7 +29,7 @@ def of(word: Word, side: int = 0) -> Described:
     return int(word), side
 
 
-L, R_ONLY, LRL = of(Word.L), of(Word.R), of(Word.LRL)
+ARC_L, ARC_R, LRL = of(Word.L), of(Word.R), of(Word.LRL)
 LSL, RSL, LSR, RSR = of(Word.LSL), of(Word.RSL), of(Word.LSR), of(Word.RSR)
 RL_LEFT, RL_RIGHT, LR_LEFT, LR_RIGHT = of(Word.RL, -1), of(Word.RL, 1), of(Word.LR, -1), of(Word.LR, 1)
 
@@ -137,7 +137,13 @@ def taking_the_faster() -> int:
 
 
 def check_selection(q: Named, found: set[Described], signs: Signs) -> None:
-    """Raise `NotProved` where `fastest` leaves out a word of the text, at the states of one combination of signs."""
+    """Raise `NotProved` where `fastest` leaves out a word of the text, or takes an arc that ends beside the target.
+
+    All states with the signs chosen in this run are checked at once.
+    """
+    # Lemma 1 is about the other words, wherever they reach the target.
+    require(ARC_L not in found or q.outer == 0.0, f"L ends beside the target: signs {signs.chosen}")
+    require(ARC_R not in found or (q.inner == 0.0 and q.R > 1.0), f"R ends beside the target: signs {signs.chosen}")
     if q.R == 1.0 and q.y >= 0.0:
         require(len(found) == 1, f"times are compared at R = 1: {found}, signs {signs.chosen}")
         required = set(words_at_turn_radius(q))
@@ -158,7 +164,7 @@ def words_at_turn_radius(q: Named) -> Iterator[Described]:
         if (q.turn >= 0.0) != (q.x <= 0.0):
             raise Impossible
         if q.x <= 0.0:
-            yield L
+            yield ARC_L
             return
     elif q.fold <= 0.0 and q.D >= 0.0 and q.h < 6.0 and q.turn >= 0.0:
         yield LRL
@@ -181,9 +187,9 @@ def words_that_can_win(q: Named) -> Iterator[Described]:
     """
     yield from words_to_the_right(q)
     if q.inner == 0.0 and q.R > 1.0:
-        yield R_ONLY
+        yield ARC_R
     if q.outer == 0.0:
-        yield L
+        yield ARC_L
     if q.R < 3.0 and q.fold <= 0.0 and q.D >= 0.0 and q.h < 6.0:
         yield LRL
     if q.R >= 2.0 and q.left >= 0.0 and q.from_left <= 0.0:
@@ -222,8 +228,8 @@ def with_same_paths(words: Iterable[Described], q: Named) -> set[Described]:
     found = set(words)
     # On each circle: words that are one path, and words that take no less than these.
     circles = (
-        (q.outer, {L, LR_RIGHT, LRL}, {LSL}),
-        (q.inner, {R_ONLY, RL_LEFT}, {RSR}),
+        (q.outer, {ARC_L, LR_RIGHT, LRL}, {LSL}),
+        (q.inner, {ARC_R, RL_LEFT}, {RSR}),
         (q.onto_right, {RSL, RL_LEFT}, {RL_RIGHT}),
         (q.from_left, {LSR, LR_RIGHT}, {LR_LEFT}),
         (q.fold, {LRL, LR_RIGHT, LR_LEFT}, set[Described]()),
