@@ -7,9 +7,9 @@ from random import Random
 
 import pytest
 
-from loiter.verify.proof import selection
 from loiter.verify.proof.algebra import NotProved, flint
-from loiter.verify.proof.signs import Impossible, Quantity, Relation, Signs, Table, Unknown, every_case
+from loiter.verify.proof.selection import compared_words
+from loiter.verify.proof.selection.signs import Impossible, Quantity, Relation, Signs, Table, Unknown, every_case
 
 pytest.importorskip("flint")
 
@@ -100,14 +100,14 @@ def states(random):
 
 
 def test_every_state_has_the_signs_of_a_combination_that_was_checked(monkeypatch):
-    checked, checking = [], selection.check_selection
+    checked, checking = [], compared_words.check_selection
 
     def recording(q, found, signs):
         checking(q, found, signs)
         checked.append((dict(signs.chosen), signs.table))
 
-    monkeypatch.setattr(selection, "check_selection", recording)
-    selection.selection()
+    monkeypatch.setattr(compared_words, "check_selection", recording)
+    compared_words.selection()
     deciding = checked[0][1].deciding
     kept = set()
     for x, y, R in states(Random(1)):

@@ -9,8 +9,9 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
-from loiter.verify.proof import arrivals, coinciding, rlr, rounding, selection, switching
+from loiter.verify.proof import arrivals, rlr, rounding, switching
 from loiter.verify.proof.balls import Certainty
+from loiter.verify.proof.selection import coinciding, compared_words
 
 
 class Lemma(NamedTuple):
@@ -32,7 +33,7 @@ LEMMAS = (
     Lemma("lemma 7 c", "RL is faster than the tail of RLR, on boxes", rlr.rlr_slower),
     Lemma("lemma 7 d", "RSR is faster than the tail of RLR for q > 2", rlr.rsr_faster),
     Lemma("theorem 2 a", "where two rows of the table meet, their words are one path", coinciding.coinciding),
-    Lemma("theorem 2 b", "the words that `fastest` compares are those of the text", selection.selection),
+    Lemma("theorem 2 b", "the words that `fastest` compares are those of the text", compared_words.selection),
 )
 
 

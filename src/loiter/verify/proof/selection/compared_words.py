@@ -1,7 +1,7 @@
 """Theorem 2 of docs/proof.md: the words that `extremals.fastest` compares are those of the text, at every state.
 
-`fastest` is run for every combination of signs of the quantities by which it decides (`verify/proof/signs.py`). Each
-combination that no relation excludes has its words compared with those of the text.
+`fastest` is run for every combination of signs of the quantities by which it decides (`signs.py`). For each combination
+that no relation excludes, the words that it compares are held against those of the text.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from loiter.verify.proof.algebra import NotProved, flint
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.exact_paths import Point, squared, without_tolerance
 from loiter.verify.proof.identities import quantities, require
-from loiter.verify.proof.signs import Impossible, Quantity, Signs, Table, Unknown, every_case
+from loiter.verify.proof.selection.signs import Impossible, Quantity, Signs, Table, Unknown, every_case
 
 # A word, and for RL and LR on which side of the axis x = 0 the arcs meet: -1 left, 1 right, 0 for other words.
 Described = tuple[int, int]
