@@ -69,6 +69,11 @@ TABLES = {
     "status already": (column("status", ["ok"] * 5), OPTIONS, ["IN", "column status"]),
     "name twice": (column("id", ZERO), OPTIONS, ["IN", "two columns named 'id'"]),
     "part of an orbit": (column("orbit_east_m", ZERO), without("orbit"), ["orbit_east_m but no orbit_north_m and no"]),
+    "radius alone": (
+        column("orbit_radius_m", ZERO),
+        without("orbit"),
+        ["but no orbit_east_m and no orbit_north_m: add both, 0 for a circle at the origin"],
+    ),
     "no orbit": (same, without("orbit"), ["--orbit is needed", "no column orbit_east_m"]),
     "no airspeed": (same, without("airspeed"), ["--airspeed is needed", "no column airspeed_m_s"]),
     "no limit": (same, without("bank"), ["--bank or another turn limit is needed", "min_turn_radius_m"]),
