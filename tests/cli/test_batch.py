@@ -259,6 +259,45 @@ def test_an_older_output_is_replaced(capsys, tmp_path):
     write(poses(5), tmp_path / "in.parquet")
     assert main(["batch", str(tmp_path / "in.parquet"), str(tmp_path / "out.csv"), *OPTIONS, "--turn", "ccw"]) == 0
     assert {row["turn"] for row in read(tmp_path / "out.csv")} == {"ccw"}
+    note, _ = capsys.readouterr().err.splitlines()
+    assert note == f"{tmp_path / 'out.csv'} exists: it will be replaced once all rows are solved"
+
+
+def test_a_complete_dataset_is_not_solved_again(capsys, tmp_path):
+    write(poses(5), tmp_path / "in.parquet")
+    job = ["batch", str(tmp_path / "in.parquet"), f"{tmp_path / 'out'}/", *OPTIONS]
+    assert main(job) == 0
+    assert capsys.readouterr().err.startswith("5 rows in ")
+    assert main(job) == 0
+    assert capsys.readouterr().err == "already complete: nothing to do\n5 rows, all of them solved before\n"
+    # Its parts are all there, but nothing says so.
+    (tmp_path / "out" / "_SUCCESS").unlink()
+    assert main(job) == 0
+    assert capsys.readouterr().err == "resuming from 1 of 1 parts\n5 rows, all of them solved before\n"
+
+
+def test_an_interrupt_before_the_job_gets_a_sentence(capsys, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("loiter.batch.run", interrupted)
+    assert main(["batch", "in.parquet", "out.parquet", *OPTIONS]) == 130
+    assert capsys.readouterr() == ("", "loiter: interrupted\n")
+
+
+def test_an_interrupt_during_the_imports_gets_a_sentence():
+    code = """
+import sys
+class Interrupted:
+    def find_spec(self, name, path=None, target=None):
+        if name == "cyclopts":
+            raise KeyboardInterrupt
+sys.meta_path.insert(0, Interrupted())
+from loiter.__main__ import main
+sys.exit(main())
+"""
+    done = subprocess.run([sys.executable, "-c", code, "plan"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "loiter: interrupted\n")
 
 
 def test_help_names_every_column_and_option(capsys):
