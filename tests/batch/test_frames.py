@@ -76,6 +76,11 @@ def test_a_missing_aircraft_is_named_as_the_argument():
         loiter.batch.plan(poses(5).to_pandas(), orbit=ORBIT, aircraft={"airspeed_m_s": 18.0})
 
 
+def test_a_tolerance_beyond_doubles_is_a_status_of_its_own():
+    planned = loiter.batch.plan(poses(5).to_pandas(), tolerance_m=1e20, **GIVEN)
+    assert set(planned["status"]) == {"bad_tolerance"}
+
+
 @pytest.mark.parametrize("columns", ["given", "own"])
 def test_a_dask_frame_stays_lazy_and_gives_the_same(columns):
     table, given = (poses(300), GIVEN) if columns == "given" else (scenes(300), {})

@@ -9,6 +9,7 @@ import pyarrow as pa
 import pytest
 
 from batch.making import OPTIONS, poses, read, scenes, write
+from loiter.batch.tables.columns import STATUSES
 from loiter.cli.app import main
 
 SCRIPT = Path(sys.executable).with_name("loiter")
@@ -274,6 +275,11 @@ def test_a_complete_dataset_is_not_solved_again(capsys, tmp_path):
     (tmp_path / "out" / "_SUCCESS").unlink()
     assert main(job) == 0
     assert capsys.readouterr().err == "resuming from 1 of 1 parts\n5 rows, all of them solved before\n"
+
+
+def test_the_document_has_every_status():
+    text = Path("docs/batch.md").read_text(encoding="utf-8")
+    assert [name for name in STATUSES if name != "ok" and f"\n| `{name}` | " not in text] == []
 
 
 def test_an_interrupt_before_the_job_gets_a_sentence(capsys, monkeypatch):
