@@ -22,9 +22,10 @@ DOCUMENTS = [
 
 # In still air docs/proof.md proves the optimum; in wind a bound is proved.
 TRUE = [
-    "[docs/proof.md](docs/proof.md) proves that this is the optimum for every circle that can be held",
+    "proves, from Filippov's, Pontryagin's and Dubins' theorems, that this is the optimum for every circle",
+    "checks the formulas and inequalities of the proof in exact arithmetic",
     "the proof that the fastest of these extremals is the optimum in still air",
-    "with a proven bound on how much later than the optimum its answer may be",
+    "Dubins proved that in 1957 for paths between two poses",
     "what is proved of it and what is checked",
     "what is proved of the answer and what is cross-checked",
     "[proof.md](proof.md), section 10, proves it with one exception",
@@ -36,12 +37,14 @@ TRUE = [
 # What the help and the service describe.
 TRUE_HELP = ["in closed form: proved to be the optimum (docs/proof.md)"]
 TRUE_OF_SERVICE = [
-    "`optimal` says that the maneuver is proved to be optimal, up to rounding: it is valid, in still air"
+    "`proved_optimal` says that the maneuver is proved to be optimal, up to rounding: it is valid, in still air",
+    # The title of that field.
+    "Proved Optimal",
 ]
 CLAIM = re.compile(r"\b(proofs?|prov(?:e|es|ed|en|ing)|witness\w*)\b", re.IGNORECASE)
 # Names of an option, a command, a document and a folder.
 NAMED = re.compile(
-    r"--witness \w+|loiter prove|prove Check|prove\.py|theory proof paper|(docs/)?proof\.md|verify/proof\b"
+    r"--witness \w+|loiter prove|prove Check|prove\.py|theory proof certificate paper|(docs/)?proof\.md|verify/proof\b"
 )
 
 

@@ -49,11 +49,36 @@ def test_missing_values_are_bad_rows():
         (lambda frame: frame.assign(word="RSL"), "frame has a column word"),
         (lambda frame: pd.concat([frame, frame[["id"]]], axis=1), "frame has two columns with the same name"),
         (lambda frame: frame.assign(orbit_east_m=0.0), "orbit is given, and by the table's column orbit_east_m too"),
+        (
+            lambda frame: frame[["id", "east_m"]],
+            "frame has no column north_m: it needs east_m, north_m, heading_deg; its columns are id, east_m$",
+        ),
+        (
+            lambda frame: "states.parquet",
+            "^frame is of type str: it must be a pandas or Dask data frame; loiter.batch.run takes files$",
+        ),
+        (lambda frame: frame["east_m"], "^frame is of type Series: it must be a pandas or Dask data frame"),
+        (lambda frame: dd.from_pandas(frame["east_m"], npartitions=1), "^frame is of type Series: it must be"),
+        (lambda frame: frame.to_numpy(), "^frame is of type ndarray: it must be"),
     ],
 )
 def test_a_frame_that_does_not_fit_is_refused(change, why):
     with pytest.raises(InvalidArgument, match=why):
         loiter.batch.plan(change(poses(10).to_pandas()), **GIVEN)
+
+
+def test_a_missing_aircraft_is_named_as_the_argument():
+    with pytest.raises(
+        InvalidArgument, match=r"^aircraft airspeed_m_s is needed: the table has no column airspeed_m_s$"
+    ):
+        loiter.batch.plan(poses(5).to_pandas().assign(wind_speed_m_s=1.0, wind_from_deg=0.0), orbit=ORBIT)
+    with pytest.raises(InvalidArgument, match=r"^aircraft max_bank_deg or another turn limit is needed: "):
+        loiter.batch.plan(poses(5).to_pandas(), orbit=ORBIT, aircraft={"airspeed_m_s": 18.0})
+
+
+def test_a_tolerance_beyond_doubles_is_a_status_of_its_own():
+    planned = loiter.batch.plan(poses(5).to_pandas(), tolerance_m=1e20, **GIVEN)
+    assert set(planned["status"]) == {"bad_tolerance"}
 
 
 @pytest.mark.parametrize("columns", ["given", "own"])

@@ -84,7 +84,8 @@ def test_a_full_disk_keeps_the_finished_parts(job, capsys, monkeypatch):
     with monkeypatch.context() as patch:
         stop_after(patch, 4, OSError(errno.ENOSPC, "Error writing bytes to file"))
         assert main([*arguments, "--workers", "1"]) == 2
-    err = capsys.readouterr().err
+    note, err = capsys.readouterr().err.splitlines(keepends=True)
+    assert note == "out.parquet exists: it will be replaced once all rows are solved\n"
     kept = f"4 finished parts stay in {Path('out.parquet.parts').absolute()}"
     assert err == f"loiter: the job stopped: No space left on device; {kept}, and the same command resumes from there\n"
     assert Path("out.parquet").read_bytes() == b"older"

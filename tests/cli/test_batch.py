@@ -9,6 +9,7 @@ import pyarrow as pa
 import pytest
 
 from batch.making import OPTIONS, poses, read, scenes, write
+from loiter.batch.tables.columns import STATUSES
 from loiter.cli.app import main
 
 SCRIPT = Path(sys.executable).with_name("loiter")
@@ -69,6 +70,11 @@ TABLES = {
     "status already": (column("status", ["ok"] * 5), OPTIONS, ["IN", "column status"]),
     "name twice": (column("id", ZERO), OPTIONS, ["IN", "two columns named 'id'"]),
     "part of an orbit": (column("orbit_east_m", ZERO), without("orbit"), ["orbit_east_m but no orbit_north_m and no"]),
+    "radius alone": (
+        column("orbit_radius_m", ZERO),
+        without("orbit"),
+        ["but no orbit_east_m and no orbit_north_m: add both, 0 for a circle at the origin"],
+    ),
     "no orbit": (same, without("orbit"), ["--orbit is needed", "no column orbit_east_m"]),
     "no airspeed": (same, without("airspeed"), ["--airspeed is needed", "no column airspeed_m_s"]),
     "no limit": (same, without("bank"), ["--bank or another turn limit is needed", "min_turn_radius_m"]),
@@ -254,6 +260,50 @@ def test_an_older_output_is_replaced(capsys, tmp_path):
     write(poses(5), tmp_path / "in.parquet")
     assert main(["batch", str(tmp_path / "in.parquet"), str(tmp_path / "out.csv"), *OPTIONS, "--turn", "ccw"]) == 0
     assert {row["turn"] for row in read(tmp_path / "out.csv")} == {"ccw"}
+    note, _ = capsys.readouterr().err.splitlines()
+    assert note == f"{tmp_path / 'out.csv'} exists: it will be replaced once all rows are solved"
+
+
+def test_a_complete_dataset_is_not_solved_again(capsys, tmp_path):
+    write(poses(5), tmp_path / "in.parquet")
+    job = ["batch", str(tmp_path / "in.parquet"), f"{tmp_path / 'out'}/", *OPTIONS]
+    assert main(job) == 0
+    assert capsys.readouterr().err.startswith("5 rows in ")
+    assert main(job) == 0
+    assert capsys.readouterr().err == "already complete: nothing to do\n5 rows, all of them solved before\n"
+    # Its parts are all there, but nothing says so.
+    (tmp_path / "out" / "_SUCCESS").unlink()
+    assert main(job) == 0
+    assert capsys.readouterr().err == "resuming from 1 of 1 parts\n5 rows, all of them solved before\n"
+
+
+def test_the_document_has_every_status():
+    text = Path("docs/batch.md").read_text(encoding="utf-8")
+    assert [name for name in STATUSES if name != "ok" and f"\n| `{name}` | " not in text] == []
+
+
+def test_an_interrupt_before_the_job_gets_a_sentence(capsys, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("loiter.batch.run", interrupted)
+    assert main(["batch", "in.parquet", "out.parquet", *OPTIONS]) == 130
+    assert capsys.readouterr() == ("", "loiter: interrupted\n")
+
+
+def test_an_interrupt_during_the_imports_gets_a_sentence():
+    code = """
+import sys
+class Interrupted:
+    def find_spec(self, name, path=None, target=None):
+        if name == "cyclopts":
+            raise KeyboardInterrupt
+sys.meta_path.insert(0, Interrupted())
+from loiter.__main__ import main
+sys.exit(main())
+"""
+    done = subprocess.run([sys.executable, "-c", code, "plan"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "loiter: interrupted\n")
 
 
 def test_help_names_every_column_and_option(capsys):

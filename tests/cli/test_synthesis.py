@@ -19,6 +19,13 @@ def test_the_table_lists_the_curves(capsys):
     assert any(row.startswith("LRL RL switching curve") for row in rows)
 
 
+def test_the_table_of_a_wider_circle_has_no_column_of_jumps(capsys):
+    assert main(["synthesis", "--cells", "60", "--radius", "1.5"]) == 0
+    first, *rows = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+    assert first == "between and curve points"
+    assert any(row.startswith("LRL RL switching curve") for row in rows)
+
+
 def test_arrays_hold_the_map_and_the_curves(tmp_path):
     assert main(["synthesis", "--radius", "1.5", "--turn", "cw", "--cells", "50", "--save", "map.npz"]) == 0
     with np.load(tmp_path / "map.npz") as arrays:

@@ -1,9 +1,11 @@
 """Certificates: every optimum has a valid one, no loser has, and what is altered is noticed."""
 
 import json
+import re
 from collections import Counter
 from dataclasses import replace
 from math import cos, hypot, isfinite, pi, sin, sqrt
+from pathlib import Path
 from random import Random
 
 import numpy as np
@@ -22,6 +24,7 @@ from loiter.verify import Certificate, certify, gradient
 from loiter.verify.accuracy import accuracy_of
 from loiter.verify.adjoints import trajectory_of
 from loiter.verify.checks.oracle_check import random_problems as hard_problems
+from loiter.verify.conditions import IN_WIND
 from loiter.verify.least_times import least_times
 from loiter.verify.paper_conditions import IN_STILL_AIR
 from strategies import coordinates, radii, scenes, turns
@@ -361,7 +364,37 @@ def test_a_certificate_is_frozen_and_reads_as_a_table():
     assert lines[1] == "Optimal, up to rounding, by theorem 1 of docs/proof.md."
     assert lines[2] == "lambda = 0.605670, psi = (0.058455, 0.998290) at the start."
     assert sum(line.endswith("holds") for line in lines) == len(certificate.residuals)
-    assert lines[-1] == "Compared with 4 other extremals; the runner-up RL cw takes 0.647 s more."
+    assert "The adjoint psi is unique: the condition phi = 0 at a switch determines it." in lines
+    assert lines[-2] == (
+        "Numbers in parentheses: equations of the paper, in docs/theory.md; lengths in turn radii. "
+        "docs/certificate.md explains each row."
+    )
+    assert lines[-1] == (
+        "Theorem 1: in each direction the optimum is one of nine words; "
+        "of the 5 extremals with these words none is faster; the runner-up RL cw takes 0.647 s more."
+    )
+
+
+@pytest.mark.parametrize(("formulation", "number"), [(IN_STILL_AIR, 21), (IN_WIND, 15)], ids=["still air", "wind"])
+def test_the_document_has_a_row_for_each_condition(formulation, number):
+    text = Path("docs/certificate.md").read_text(encoding="utf-8").replace("\\|", "|")
+    still, wind = text.split("## Wind")
+    rows = [(c.name, c.equation) for c in (*formulation.arrival, *formulation.motion, *formulation.further)]
+    rows += [*formulation.maximum_principle.items(), *formulation.gradient._asdict().items()]
+    rows += [("fastest", "T is the least of all candidates")]
+    section = (still if formulation is IN_STILL_AIR else wind).splitlines()
+    lines = [line for line in section if line.startswith("| ") and not line.startswith("| row")]
+    assert len({name for name, _ in rows}) == len(lines) == number
+    absent = [
+        row for row in rows if not any(line.startswith(f"| {row[0]} |") and f"`{row[1]}`" in line for line in lines)
+    ]
+    assert absent == []
+
+
+def test_the_text_of_a_certificate_that_proves_nothing_compares_only():
+    in_wind = str(certify(plan(*unit_scene(2.0, -1.0, 3.5, "cw"), loiter.Wind(0.2, 90.0)))).splitlines()
+    assert "Numbers in parentheses: equations in docs/wind.md" in in_wind[-2]
+    assert re.match(r"Compared with \d+ other extremals?", in_wind[-1])
 
 
 @pytest.mark.parametrize(
@@ -398,7 +431,9 @@ def test_an_impossible_maneuver_is_refused_in_a_sentence(change, problem):
 def test_an_optimum_is_claimed_in_still_air_without_a_tolerance(scene, tolerance, proved):
     certificate = certify(plan(*scene, tolerance_m=tolerance), tolerance_m=tolerance)
     assert certificate.valid
-    assert (certificate.optimal, certificate.to_dict()["optimal"]) == (proved, proved)
+    assert (certificate.proved_optimal, certificate.to_dict()["proved_optimal"]) == (proved, proved)
+    basis = "docs/proof.md, theorem 1, up to rounding" if proved else "necessary conditions only"
+    assert (certificate.basis, certificate.to_dict()["basis"]) == (basis, basis)
     assert ("Optimal, up to rounding, by theorem 1 of docs/proof.md." in str(certificate)) == proved
     assert ("Not proved to be optimal: these conditions are necessary ones" in str(certificate)) == (not proved)
 
@@ -406,7 +441,8 @@ def test_an_optimum_is_claimed_in_still_air_without_a_tolerance(scene, tolerance
 def test_no_optimum_is_claimed_for_a_loser():
     *_, slowest = candidates(*unit_scene(-0.53, 0.31))
     certificate = certify(slowest)
-    assert not certificate.optimal
+    assert not certificate.proved_optimal
+    assert certificate.to_dict()["basis"] == "a condition is violated"
     assert "Optimal" not in str(certificate)
 
 

@@ -13,11 +13,20 @@ from loiter.errors import InvalidArgument
 
 def plan_frame(frame: Any, options: SharedValues, tolerance_m: float) -> Any:
     """A pandas or Dask data frame with the added columns."""
-    if not hasattr(frame, "map_partitions"):
+    is_lazy = hasattr(frame, "map_partitions")
+    _check_frame(frame, frame._meta if is_lazy else frame)
+    if not is_lazy:
         return _plan_pandas(frame, options, tolerance_m)
     # The empty frame of Dask's metadata gives the columns and types of the result.
     meta = _plan_pandas(frame._meta, options, tolerance_m)
     return frame.map_partitions(_plan_pandas, options, tolerance_m, meta=meta)
+
+
+def _check_frame(given: Any, frame: Any) -> None:
+    """Raise `InvalidArgument` for something that has no methods of a pandas frame, such as the name of a file."""
+    if not all(hasattr(frame, name) for name in ("columns", "assign", "drop")):
+        needed = "it must be a pandas or Dask data frame; loiter.batch.run takes files"
+        raise InvalidArgument("frame", f"is of type {type(given).__name__}: {needed}")
 
 
 def _plan_pandas(frame: Any, options: SharedValues, tolerance_m: float) -> Any:

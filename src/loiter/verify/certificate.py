@@ -3,8 +3,8 @@
 It shows that the maneuver is an extremal, gives lambda and psi for checking this, and shows that no candidate is
 faster; the Hamilton-Jacobi-Bellman equation compares it with the least times of neighbouring starts. In still air a
 fastest maneuver is always among the candidates (docs/proof.md, theorem 1), so a valid certificate without a tolerance
-shows that the maneuver is optimal, up to rounding: `Certificate.optimal`. Distances, curvatures and start times of
-segments are not checked: letters, durations and the join are.
+shows that the maneuver is optimal, up to rounding: `Certificate.proved_optimal`. Distances, curvatures and start times
+of segments are not checked: letters, durations and the join are.
 """
 
 from __future__ import annotations
@@ -31,11 +31,14 @@ LETTERS = {u: letter for letter, u in CONTROLS.items()}
 
 # Whether the adjoint is unique, and which one is given where it is not.
 ON_THE_CIRCLE = "the start is on the circle: there is nothing to decide, and the target is all there is to check"
-UNIQUE = "psi is unique: phi = 0 at a switch fixes it"
+UNIQUE = "the adjoint psi is unique: the condition phi = 0 at a switch determines it"
 ARC_BY_ROUNDING = "a single arc (the other is there by rounding alone)"
 STRAIGHT_ENTRY = "that of a straight entry that ends in it, (1, 0) on the axis"
 SWITCH_AT_START = "that of a switch at its start, parallel to the state there"
-UNIQUE_IN_WIND = "the adjoint is unique: the pieces and the condition at the circle fix it"
+UNIQUE_IN_WIND = "the adjoint is unique: the pieces and the condition at the circle determine it"
+BASIS_THEOREM = "docs/proof.md, theorem 1, up to rounding"
+BASIS_NECESSARY = "necessary conditions only"
+BASIS_VIOLATED = "a condition is violated"
 BY_THE_THEOREM = "Optimal, up to rounding, by theorem 1 of docs/proof.md."
 NOT_PROVED = "Not proved to be optimal: these conditions are necessary ones, and no extremal that was found is faster."
 ARC_IN_WIND = "a single arc has many adjoints: this is the one that violates the conditions least"
@@ -84,9 +87,16 @@ class Certificate:
     complete: bool
 
     @property
-    def optimal(self) -> bool:
-        """Whether the maneuver is optimal, up to rounding, by theorem 1 of docs/proof.md."""
+    def proved_optimal(self) -> bool:
+        """Whether the maneuver is proved to be optimal, up to rounding, by theorem 1 of docs/proof.md."""
         return self.complete and self.valid
+
+    @property
+    def basis(self) -> str:
+        """What the conditions show: the theorem, or that they are necessary only, or that one is violated."""
+        if not self.valid:
+            return BASIS_VIOLATED
+        return BASIS_THEOREM if self.proved_optimal else BASIS_NECESSARY
 
     @property
     def valid(self) -> bool:
@@ -136,7 +146,8 @@ class Certificate:
         """Plain values, for JSON: no nan, no infinity."""
         return {
             "valid": self.valid,
-            "optimal": self.optimal,
+            "proved_optimal": self.proved_optimal,
+            "basis": self.basis,
             "word": self.maneuver.word,
             "turn": Turn(self.maneuver.turn).value,
             "duration_s": self.maneuver.duration_s,
@@ -151,7 +162,7 @@ class Certificate:
         }
 
     def __str__(self) -> str:
-        return "\n".join([*_head(self), *_table(self.residuals), _comparison(self)])
+        return "\n".join([*_head(self), *_table(self.residuals), *_legend(self), _comparison(self)])
 
 
 def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
@@ -241,7 +252,7 @@ def _head(certificate: Certificate) -> list[str]:
     verdict = "valid" if certificate.valid else f"NOT VALID, {len(certificate.failed)} conditions FAILED"
     lines = [f"Certificate of {maneuver.word or 'a start on the circle'}, {Turn(maneuver.turn).described}: {verdict}."]
     if certificate.valid:
-        lines.append(BY_THE_THEOREM if certificate.optimal else NOT_PROVED)
+        lines.append(BY_THE_THEOREM if certificate.proved_optimal else NOT_PROVED)
     if certificate.lam is not None and certificate.psi is not None:
         psi1, psi2 = certificate.psi
         lines.append(f"lambda = {certificate.lam:.6f}, psi = ({psi1:.6f}, {psi2:.6f}) at the start.")
@@ -262,10 +273,22 @@ def _table(residuals: tuple[Residual, ...]) -> Iterator[str]:
         yield f"{r.name:<14}  {r.equation:<{wide}}  {figures}{r.verdict}{note}"
 
 
+def _legend(certificate: Certificate) -> Iterator[str]:
+    source = "of the paper, in docs/theory.md" if problem_of(certificate.maneuver).still else "in docs/wind.md"
+    yield f"Numbers in parentheses: equations {source}; lengths in turn radii. docs/certificate.md explains each row."
+
+
 def _comparison(certificate: Certificate) -> str:
     count, runner_up = len(certificate.others), certificate.runner_up
     ties = ", ".join(f"{tie.word} {tie.turn.value}" for tie in certificate.ties)
     text = f"Compared with {count} other {'extremal' if count == 1 else 'extremals'}"
+    if certificate.proved_optimal and certificate.pieces:
+        this = (
+            f"of the {count + 1} extremals with these words none is faster"
+            if count
+            else "this is the only extremal with one of them"
+        )
+        text = f"Theorem 1: in each direction the optimum is one of nine words; {this}"
     text += f"; as fast: {ties}" if ties else ""
     if runner_up is None:
         return text + "."

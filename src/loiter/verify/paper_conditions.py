@@ -144,7 +144,7 @@ IN_STILL_AIR = Formulation(
         Condition("middle arc", "lasts 2 pi - 2 acos lambda, more than pi", middle_arc),
         Condition("slopes", "x1/y1 = -x/y (19)", slopes),
         Condition("line", "y = 0 while u = 0: a line through the centre", line),
-        Condition("axis", "psi2 = 0 where y changes sign, times |y| beyond", axis),
+        Condition("axis", "|psi2| times the |y| reached beyond = 0 where y changes sign", axis),
         Condition("last arc", "lasts pi/3 at most", partial(last_arc, tight=True)),
         Condition("last arc", "lasts acos(1/(1 + R)) at most", partial(last_arc, tight=False)),
     ),

@@ -330,12 +330,14 @@ class Candidate(Answer):
 class Certificate(Answer):
     """The conditions of the maximum principle for a maneuver, checked.
 
-    They are necessary. `optimal` says that the maneuver is proved to be optimal, up to rounding: it is valid, in still
-    air, without a tolerance. `lambda` and `psi` are null where the aircraft is on the circle already.
+    They are necessary. `proved_optimal` says that the maneuver is proved to be optimal, up to rounding: it is valid, in
+    still air, without a tolerance; `basis` names the theorem, or says what is missing. `lambda` and `psi` are null
+    where the aircraft is on the circle already.
     """
 
     valid: bool
-    optimal: bool
+    proved_optimal: bool
+    basis: str
     word: str
     turn: Literal["cw", "ccw"]
     duration_s: float

@@ -215,6 +215,11 @@ def declare_unfinished(target: Target) -> None:
         target.folder.delete([SUCCESS])
 
 
+def is_complete(target: Target) -> bool:
+    """Whether the target is a dataset that says that all its parts are there."""
+    return target.is_dataset and SUCCESS in target.folder.names()
+
+
 def finish(target: Target) -> None:
     """Say that the dataset is complete, or delete the parts of a file; the working folder is removed afterwards."""
     if target.is_dataset:
@@ -244,8 +249,7 @@ def _delete(folder: Folder, names: list[str]) -> None:
 def _clean_up(target: Target) -> None:
     """Remove the working folder, unless a job can resume from it, and unless it has files that no job wrote."""
     work = target.work
-    complete = target.is_dataset and SUCCESS in target.folder.names()
-    if INGESTED in work.names() or (finished_parts(target) and not complete):
+    if INGESTED in work.names() or (finished_parts(target) and not is_complete(target)):
         return
     work.delete([DESCRIPTION, LOCK])
     if isinstance(work, LocalFolder):

@@ -18,7 +18,7 @@ from loiter.batch.jobs.folder import Target
 from loiter.batch.jobs.parts import Job, append_part, counts_of
 from loiter.batch.jobs.request import JobRequest, describe, row_limits, versions_of
 from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_executors
-from loiter.batch.tables import files, ingest, outputs
+from loiter.batch.tables import files, ingest, outputs, storage
 from loiter.batch.tables.columns import STATUSES, may_drift
 from loiter.batch.tables.joined import Append, check_joined, open_joined
 from loiter.batch.tables.storage import Folder
@@ -77,7 +77,9 @@ def run_request(request: JobRequest, workers: int, scheduler: str | None, report
                 cluster.check_workers(client, target, folder.digest(description), request.source, request.versions[0])
             job, parts = _divide(request, description, report)
             finished = _finished(job, parts)
-            _report_start(is_same_job, work, len(finished), len(parts), report)
+            _report_replaced(target, report)
+            complete = len(finished) == len(parts) and folder.is_complete(target)
+            _report_start(is_same_job, work, len(finished), len(parts), report, complete=complete)
             if len(finished) < len(parts):
                 folder.declare_unfinished(target)
             counts = _solve_and_write(request, job, parts, finished, _executors(client, workers), report)
@@ -157,8 +159,17 @@ def _for_each(parts: list[files.Part], function: Callable[[files.Part], Result])
         return dict(zip((part.number for part in parts), pool.map(function, parts), strict=True))
 
 
-def _report_start(is_same_job: bool | None, work: Folder, finished: int, parts: int, report: ReportProgress) -> None:
-    if finished:
+def _report_replaced(target: Target, report: ReportProgress) -> None:
+    if not target.is_dataset and storage.exists(target.folder.place(target.name)):
+        report(JobProgress(0, None, f"{target.text} exists: it will be replaced once all rows are solved"))
+
+
+def _report_start(
+    is_same_job: bool | None, work: Folder, finished: int, parts: int, report: ReportProgress, *, complete: bool
+) -> None:
+    if complete:
+        report(JobProgress(0, None, "already complete: nothing to do"))
+    elif finished:
         report(JobProgress(0, None, f"resuming from {finished} of {parts} parts"))
     elif is_same_job is False:
         name = PurePosixPath(work.place("")).name

@@ -131,7 +131,7 @@ def columns(
     names = schema.names
     _check_names(argument, names)
     _require(argument, names, options.numbers, "orbit", ORBIT)
-    _require(argument, names, options.numbers, AIRSPEED, (AIRSPEED,))
+    _require(argument, names, options.numbers, f"aircraft {AIRSPEED}", (AIRSPEED,))
     limit = _turn_limit(argument, names, options.numbers)
     still_air = _zeros_unless_given(argument, names, options.numbers, "wind", WIND)
     at_rest = _zeros_unless_given(argument, names, options.numbers, "orbit_velocity_m_s", VELOCITY)
@@ -167,7 +167,9 @@ def _check_names(argument: str, names: list[str]) -> None:
     for name in POSE:
         if name not in names:
             there = f"its columns are {', '.join(names[:LISTED])}{', ...' if len(names) > LISTED else ''}"
-            hint = _hint(name, names) or f"; {there}: is the first line a header?"
+            # A frame has no first line.
+            question = "" if argument == "frame" else ": is the first line a header?"
+            hint = _hint(name, names) or f"; {there}{question}"
             raise InvalidArgument(argument, f"has no column {name}: it needs {', '.join(POSE)}{hint}")
     for name, count in Counter(names).items():
         if count > 1:
@@ -183,7 +185,8 @@ def _hint(name: str, names: list[str]) -> str:
     for separator, described in separators.items():
         if len(names) == 1 and separator in names[0]:
             return f"; its fields are separated by {described}: they must be separated by commas"
-    alike = {other.strip().strip("\ufeff").lower(): other for other in names}
+    # A column that has a meaning of its own is not the one that was meant.
+    alike = {other.strip().strip("\ufeff").lower(): other for other in names if other not in KNOWN}
     close = get_close_matches(name, alike, n=1, cutoff=0.7)
     return f"; rename {alike[close[0]]!r}, if that is it" if close else ""
 
@@ -215,7 +218,8 @@ def _is_given(
     if by_option:
         raise InvalidArgument(option, f"is given, and by the table's column {first} too")
     if absent:
-        raise InvalidArgument(argument, f"has a column {first} but no {' and no '.join(absent)}")
+        at_origin = ": add both, 0 for a circle at the origin" if present == ["orbit_radius_m"] else ""
+        raise InvalidArgument(argument, f"has a column {first} but no {' and no '.join(absent)}{at_origin}")
     return True
 
 
@@ -226,14 +230,14 @@ def _turn_limit(argument: str, names: list[str], given: Mapping[str, float]) -> 
         case [], []:
             limits = ", ".join(TURN_LIMITS)
             raise InvalidArgument(
-                "max_bank_deg", f"or another turn limit is needed: the table has no column of {limits}"
+                "aircraft max_bank_deg", f"or another turn limit is needed: the table has no column of {limits}"
             )
         case [name], []:
             return name
         case [], [option, *_]:
             return option
         case [name], [option, *_]:
-            raise InvalidArgument(option, f"is given, and the table's column {name} limits the turn too")
+            raise InvalidArgument(f"aircraft {option}", f"is given, and the table's column {name} limits the turn too")
     raise InvalidArgument(argument, f"has the columns {' and '.join(present)}: one turn limit is needed")
 
 

@@ -88,6 +88,15 @@ def version_of(place: str) -> list[Any]:
     return [info.get("size"), next((str(info[name]) for name in _VERSIONS if name in info), None)]
 
 
+def exists(place: str) -> bool:
+    """Whether there is a file at a place; raises `OSError`."""
+    try:
+        version_of(place)
+    except FileNotFoundError:
+        return False
+    return True
+
+
 def is_same_file(one: str, other: str) -> bool:
     """Whether two places are the same file, which exists."""
     if is_url(one) or is_url(other):

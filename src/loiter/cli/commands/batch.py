@@ -130,7 +130,7 @@ def batch(
     """Plan the fastest entry of every row of a table."""
     limits = {"max_bank_deg": bank, "min_turn_radius_m": turn_radius, "max_turn_rate_deg_s": turn_rate}
     given = {name: value for name, value in {"airspeed_m_s": airspeed, **limits}.items() if value is not None}
-    with shown_progress() as report:
+    with _named_interrupt(), shown_progress() as report:
         summary = loiter.batch.run(
             source,
             target,
@@ -148,6 +148,15 @@ def batch(
         print_json(asdict(summary) | {"files": [target]})
     else:
         sys.stderr.write(summary_lines(summary))
+
+
+@contextmanager
+def _named_interrupt() -> Iterator[None]:
+    """A context in which an interrupt gets a sentence, unless it has one."""
+    try:
+        yield
+    except KeyboardInterrupt as interrupt:
+        raise KeyboardInterrupt(str(interrupt) or "interrupted") from None
 
 
 @contextmanager
@@ -187,7 +196,8 @@ def summary_lines(summary: JobSummary) -> str:
     """The closing lines: the number of rows and their rate, and the bad rows by status."""
     seconds, solved = summary.seconds, summary.solved_rows
     in_this_run = "" if solved == summary.rows else f", {solved:,} of them in this run,"
-    lines = [f"{summary.rows:,} rows{in_this_run} in {seconds:.1f} s: {solved / seconds:,.0f} rows/s"]
+    rate = f"{in_this_run} in {seconds:.1f} s: {solved / seconds:,.0f} rows/s"
+    lines = [f"{summary.rows:,} rows{rate if solved or not summary.rows else ', all of them solved before'}"]
     for status in Status:
         count = summary.statuses.get(status.name.lower(), 0)
         if count and status is not Status.OK:

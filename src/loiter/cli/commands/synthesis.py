@@ -90,11 +90,13 @@ def table(curves: tuple[Boundary, ...]) -> Table:
     rows.add_column("between")
     rows.add_column("and")
     rows.add_column("curve")
-    for heading in ("points", "T rises by"):
+    # T jumps at R = 1 only.
+    jumps = any(curve.kind == "jump" for curve in curves)
+    for heading in ("points", "T rises by") if jumps else ("points",):
         rows.add_column(heading, justify="right")
     for curve in curves:
         rise = f"{curve.rise.min():.3f} to {curve.rise.max():.3f}" if curve.kind == "jump" else ""
-        rows.add_row(*curve.words, MEANINGS[curve.kind], str(len(curve.points)), rise)
+        rows.add_row(*curve.words, MEANINGS[curve.kind], str(len(curve.points)), *[rise] * jumps)
     return rows
 
 

@@ -40,9 +40,9 @@ function verdictOf({ failure, faults, proof, answer, scene }) {
 }
 
 /** @param {Certificate} certificate @param {Scene} scene */
-function validText({ residuals, optimal, runner_up, margin_s }, scene) {
+function validText({ residuals, proved_optimal, runner_up, margin_s }, scene) {
   const count = residuals.filter(({ verdict }) => verdict === "holds").length;
-  const meaning = optimal
+  const meaning = proved_optimal
     ? "In still air it is proved that nothing is faster."
     : "They are necessary conditions, not a proof of optimality.";
   const hasRunnerUp = runner_up !== null && margin_s !== null;

@@ -85,7 +85,8 @@
  *
  * @typedef {object} Certificate
  * @property {boolean} valid
- * @property {boolean} optimal
+ * @property {boolean} proved_optimal
+ * @property {string} basis
  * @property {number | null} lambda
  * @property {string | null} runner_up
  * @property {number | null} margin_s
