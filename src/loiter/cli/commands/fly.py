@@ -287,8 +287,8 @@ def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output) -> Non
         figure = draw(trial.ideal, flights, conditions=conditions.title)
         files.save_pictures(wanted.pictures.plot, figure, wanted.pictures.format)
     _save(wanted.save, _steps(flights))
-    first, *_ = flights.values()
-    lines = [f"Fastest entry: {trial.ideal}", conditions.line, *shown.time_line(first)]
+    first, *_ = flights
+    lines = [f"Fastest entry: {trial.ideal}", conditions.line, *shown.time_line(first, flights[first])]
     document = shown.flights_document(trial, flights) | {"simulation": conditions._asdict()}
     wanted.show(document, *lines, shown.flights_table(trial, flights))
 
