@@ -18,7 +18,7 @@ EXAMPLES = {
   loiter batch 's3://tables/states-*.parquet' s3://tables/entries/ \
       --orbit 0 0 80 --airspeed 18 --bank 35""",
     "upload": r"""
-  loiter upload --connect udpout:127.0.0.1:14550 --pose-lla 47.1 8.2 90 \
+  loiter upload --connect udpin:127.0.0.1:14550 --pose-lla 47.1 8.2 90 \
       --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35 --altitude 900
   loiter upload entry.plan --connect /dev/ttyUSB0,57600""",
     "watch": r"""
@@ -27,8 +27,8 @@ EXAMPLES = {
   loiter watch --connect udpin:127.0.0.1:14550 --reports 10 \
       --orbit-lla 47.11 8.23 --params uav.param""",
     "guide": r"""
-  loiter guide --connect udpout:127.0.0.1:14550 --orbit-lla 47.11 8.23 120
-  loiter guide --connect udpin:127.0.0.1:14550 --dry-run \
+  loiter guide --connect udpin:127.0.0.1:14550 --orbit-lla 47.11 8.23 120
+  loiter guide --connect tcp:127.0.0.1:5762 --dry-run \
       --orbit-lla 47.11 8.23 120 --turn ccw --bank 40
   loiter guide --connect /dev/ttyUSB0,57600 --orbit-lla 47.11 8.23 120 \
       --altitude 900 --keep --log flight.csv""",
