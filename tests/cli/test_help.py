@@ -39,6 +39,11 @@ def test_each_command_has_examples_of_its_own(examples, command):
     assert [understood(example) for example in shown] == [command] * len(shown)
 
 
+def test_upload_takes_a_file(capsys):
+    assert main(["upload", "--help"]) == 0
+    assert capsys.readouterr().out.startswith("Usage: loiter upload --connect LINK [OPTIONS] [FILE]")
+
+
 def test_every_command_is_among_them():
     assert sorted(EXAMPLES) == sorted(COMMANDS)
 

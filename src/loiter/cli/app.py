@@ -77,6 +77,7 @@ A file is written whole or not at all. Until then finished parts are kept in OUT
 app.command(
     "loiter.cli.commands.mavlink:upload",
     group=flights,
+    usage="Usage: loiter upload --connect LINK [OPTIONS] [FILE]",
     sort_key=4,
     help_epilogue=epilogue("upload"),
     help="Send the fastest entry to a vehicle as a mission, then read the mission back and compare it item by item.",
