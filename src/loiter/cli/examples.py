@@ -59,19 +59,36 @@ EXAMPLES = {
   loiter completion fish > ~/.config/fish/completions/loiter.fish""",
 }
 
-EXIT_STATUSES = """
+# Each exit status as the help shows it, and the commands that end with it; no commands: all.
+STATUSES: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("  0  done", ()),
+    ("  1  a check failed (loiter verify, loiter prove, loiter plan --certify)", ("plan", "verify", "prove")),
+    (
+        """  2  the request cannot be met: one sentence on standard error says why,
+     and no file is left half written""",
+        (),
+    ),
+    (
+        """  3  the vehicle cannot be reached, does not answer or refuses, or guiding
+     had to stop: the sentence says what the vehicle has or does now""",
+        ("upload", "watch", "guide"),
+    ),
+    (
+        """  130  interrupted; finished parts of a batch job are kept, and a guided
+     vehicle flies its fall-back circle""",
+        ("batch", "guide"),
+    ),
+)
 
-Exit status
-  0  done
-  1  a check failed (loiter verify, loiter prove, loiter plan --certify)
-  2  the request cannot be met: one sentence on standard error says why,
-     and no file is left half written
-  3  the vehicle cannot be reached, does not answer or refuses, or guiding
-     had to stop: the sentence says what the vehicle has or does now
-  130  interrupted; finished parts of a batch job are kept, and a guided
-     vehicle flies its fall-back circle"""
+EXIT_STATUSES = "\n".join(("\n\nExit status", *(text for text, _ in STATUSES)))
 
 
-def epilogue(*commands: str) -> str:
-    """The end of a help text: the examples of the commands, and the exit statuses."""
+def epilogue(command: str) -> str:
+    """The end of the help text of a command: its examples and its exit statuses."""
+    shown = (text for text, commands in STATUSES if not commands or command in commands)
+    return "\n".join((f"Examples{EXAMPLES[command]}", "", "Exit status", *shown))
+
+
+def program_epilogue(*commands: str) -> str:
+    """The end of the help text of the program: the examples of the commands, and all exit statuses."""
     return f"Examples{''.join(EXAMPLES[command] for command in commands)}{EXIT_STATUSES}"
