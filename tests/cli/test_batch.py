@@ -216,7 +216,8 @@ def test_a_missing_package_is_reported(refused, monkeypatch):
     write(poses(5), Path("in.parquet"))
     monkeypatch.setitem(sys.modules, "distributed", None)
     line = refused("in.parquet", "out.parquet", *OPTIONS, "--scheduler", "tcp://127.0.0.1:1")
-    assert line == 'loiter: tables need distributed: pip install "loiter[cluster]" brings it'
+    assert line.startswith('loiter: tables need distributed: pip install "loiter[cluster]" brings it')
+    assert line.endswith('(in a checkout: pip install ".[cluster]")')
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     assert "tables need pyarrow" in refused("in.parquet", "out.parquet", *OPTIONS)
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from loiter.cli.app import app
+from loiter.cli.examples import EXAMPLES
 
 ROOT = Path(__file__).parents[2]
 # From the prompt, or from "loiter" in a block without one, to the end of a line that no backslash continues.
@@ -29,3 +30,13 @@ def test_a_command_line_is_understood(line):
     assert program == "loiter"
     command, _, _ = app.parse_args(words, exit_on_error=False, print_error=False)
     assert command.__name__.replace("_", "-") == words[0]
+
+
+def test_no_example_calls_the_port_that_simulators_and_routers_send_to():
+    """A vehicle or router sends to port 14550, so a program must wait there: `udpin`."""
+    texts = {
+        path.name: path.read_text(encoding="utf-8") for path in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]
+    }
+    texts |= EXAMPLES
+    assert [name for name, text in texts.items() if re.search(r"udpout:[^:\s]*:14550", text)] == []
+    assert "udpin:127.0.0.1:14550" in texts["README.md"]

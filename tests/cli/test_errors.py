@@ -59,7 +59,7 @@ BAD_VALUES = [
 ]
 NOT_NUMBERS = [
     (plan(airspeed="fast"), ["--airspeed", "fast"]),
-    (plan(bank="35deg"), ["--bank", "35deg"]),
+    (plan(bank="35grad"), ["--bank", "35grad"]),
     (plan(pose="here 120 90"), ["--pose", "here"]),
     (plan(orbit="0 0 wide"), ["--orbit", "wide"]),
     (plan(wind="8 west"), ["--wind", "west"]),
@@ -86,6 +86,8 @@ BAD_SHAPES = [
     (plan(turn_radius="50"), ["--bank and --turn-radius"]),
     (plan(turn_rate="20", turn_radius="50"), ["--bank and --turn-radius and --turn-rate"]),
     ([*plan(), "--airspeed", "19"], ["--airspeed is given twice"]),
+    (["fly", "--law", "l1", "--law", "optimal"], ["--law is given twice: it takes one law, and --compare flies all"]),
+    ([*plan(), "--wind", "1"], ["--wind needs 2 numbers, SPEED FROM: 1 was given"]),
     ([*plan(), "--json", "--json"], ["--json is given twice"]),
     (plan(speed="18"), ["--speed"]),
     ([*plan(), "--quiet"], ["--quiet"]),

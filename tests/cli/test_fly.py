@@ -1,6 +1,7 @@
 """`loiter fly`: its output, its files and its errors."""
 
 import csv
+import json
 import re
 
 import pytest
@@ -9,6 +10,8 @@ from loiter.cli.app import main
 
 UAV = "--airspeed 18 --bank 35"
 SCENE = f"--pose -300 120 90 --orbit 0 0 80 {UAV}"
+# A flight that joins after 20 s, then leaves the band for a moment in a gust, and settles after 45 s.
+EXCURSION = f"--law l1 --pose -300 -150 30 --orbit 0 0 80 {UAV}"
 
 
 def rows(text):
@@ -26,6 +29,22 @@ def test_the_vehicle_of_the_theory_flies_the_plan(shown, planned):
     assert [float(time) for time, _ in phases] == pytest.approx([*starts, ideal_s], abs=0.051)
     assert [phase for _, phase in phases] == ["turn right", "fly straight", "turn left", "hold"]
     assert float(rows(text)["optimal"]["of the fastest"]) <= 1.0
+
+
+@pytest.mark.parametrize("law", ["l1", "vector-field", "tangent"])
+def test_other_laws_list_no_phases(shown, law):
+    lines = shown(f"fly --law {law} {SCENE}").splitlines()
+    assert len(lines) == 7
+    assert lines[2] == f"{law} plans no phases: --save FILE.csv writes every step."
+    assert [line.split()[2] for line in lines[3:5]] == ["joined:", "settled:"]
+
+
+def test_an_excursion_of_the_course_delays_settling_but_not_joining(shown):
+    law = json.loads(shown(f"fly {EXCURSION} --json"))["laws"][0]
+    assert law["joined_s"] < law["settled_s"] - 10.0
+    text = shown(f"fly {EXCURSION}")
+    assert f"{law['joined_s']:.1f} s  joined:" in text
+    assert rows(text)["l1"]["joined"] == f"{law['joined_s']:.1f} s"
 
 
 def test_the_same_seed_flies_the_same(shown):
@@ -94,6 +113,7 @@ def test_six_degrees_of_freedom(shown):
         (f"--runs 3 {SCENE}", "--runs selects random starts and circles"),
         (f"--runs 3 {UAV} --plot f.png", "--plot draws one flight"),
         (f"{SCENE} --plot f.doc", "--plot is 'f.doc'"),
+        (f"{SCENE} --plot f.png --size 85 70", "--size HEIGHT is 70: a flight has three panels, and needs 110 millim"),
         (f"{SCENE} --save f.txt", "--save is 'f.txt': the file name must end in .csv"),
         (f"{SCENE} --save no/f.csv", "--save is 'no/f.csv': it cannot be written"),
         (f"{SCENE} --plot no/f.png", "--plot is 'no/f.png': it cannot be written"),

@@ -39,6 +39,26 @@ def test_each_command_has_examples_of_its_own(examples, command):
     assert [understood(example) for example in shown] == [command] * len(shown)
 
 
+@pytest.mark.parametrize(
+    ("command", "statuses"),
+    [
+        ((), ["0", "1", "2", "3", "130"]),
+        (("warm-up",), ["0", "2"]),
+        (("plan",), ["0", "1", "2"]),
+        (("guide",), ["0", "2", "3", "130"]),
+    ],
+)
+def test_help_shows_the_exit_statuses_of_its_command(capsys, command, statuses):
+    assert main([*command, "--help"]) == 0
+    _, _, end = capsys.readouterr().out.partition("\nExit status\n")
+    assert [line.split()[0] for line in end.splitlines() if line[2:3].isdigit()] == statuses
+
+
+def test_upload_takes_a_file(capsys):
+    assert main(["upload", "--help"]) == 0
+    assert capsys.readouterr().out.startswith("Usage: loiter upload --connect LINK [OPTIONS] [FILE]")
+
+
 def test_every_command_is_among_them():
     assert sorted(EXAMPLES) == sorted(COMMANDS)
 

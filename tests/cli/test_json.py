@@ -44,7 +44,7 @@ def test_a_flight(answered, planned, tmp_path):
     assert document["fastest"]["duration_s"] == planned(SCENE)["duration_s"]
     assert [law["law"] for law in document["laws"]] == ["optimal", "l1", "vector-field", "tangent"]
     first = document["laws"][0]
-    keys = {"law", "settled_s", "of_the_fastest", "overshoot_m", "bank_rate_deg_s", "distance_m", "phases"}
+    keys = {"law", "joined_s", "settled_s", "of_the_fastest", "overshoot_m", "bank_rate_deg_s", "distance_m", "phases"}
     assert set(first) == keys
     assert first["of_the_fastest"] == pytest.approx(first["settled_s"] / document["fastest"]["duration_s"])
     assert set(document["files"]) == set(map(str, files))

@@ -82,6 +82,12 @@ def test_south_and_west_are_negative(main_json):
     assert (start["latitude_deg"], start["longitude_deg"]) == pytest.approx((-33.87, -151.2), abs=1e-9)
 
 
+def test_a_bank_may_end_in_deg(main_json):
+    scene = f"plan {PLACED} --json"
+    assert "--bank 35" in scene
+    assert main_json(scene.replace("--bank 35", "--bank 35deg").split()) == main_json(scene.split())
+
+
 def test_altitudes_may_be_in_feet(main_json):
     scene = ["plan", *PLACED.replace("--airspeed", "--indicated-airspeed").split(), "--json", "--altitude"]
     assert main_json([*scene, "3000ft"])["aircraft"] == main_json([*scene, "914.4"])["aircraft"]

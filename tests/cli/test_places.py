@@ -13,6 +13,10 @@ from loiter import Aircraft, Orbit
 from loiter.cli.app import main
 
 UAV = "--airspeed 18 --bank 35"
+HOME_UNKNOWN = """\
+The mission is at 550 m above mean sea level, not above the ground.
+The altitude of home is not known, so it is 550 m too; --home-altitude sets it.
+"""
 PLACED = "--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120"
 
 
@@ -251,3 +255,26 @@ def test_far_away_places_have_no_digits_of_rounding(shown, planned, tmp_path):
     assert "[8.2, 47.1" in json.dumps(features)
     start = planned(far)["segments"][0]["start"]
     assert (start["latitude_deg"], start["longitude_deg"]) == (47.1, 8.2)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ("--altitude 550 --save a.plan --save a.waypoints", HOME_UNKNOWN),
+        (
+            "--altitude 550 --home-altitude 430 --save a.txt",
+            "The mission is at 550 m above mean sea level, not above the ground.\n",
+        ),
+        (
+            "--altitude 100 --altitude-reference home --home-altitude 430 --save a.plan",
+            "The mission is at 100 m above home; home is at 430 m above mean sea level.\n",
+        ),
+        ("--altitude 550 --save a.kml", ""),
+    ],
+)
+def test_saved_missions_say_what_their_altitude_means(shown, tmp_path, monkeypatch, options, said):
+    monkeypatch.chdir(tmp_path)
+    before, _, _ = shown(f"plan {PLACED} {UAV} {options}").rpartition("Wrote ")
+    assert before.rpartition("--all shows each.\n")[2] == said
+    homes = {loiter.io.read_mission(path).home[2] for path in tmp_path.glob("a.*") if path.suffix != ".kml"}
+    assert len(homes) <= 1

@@ -29,7 +29,8 @@ from loiter.io.missions.qgcplan import qgcplan
 M, _ = entry("cw")
 HOME, GROUND = AltitudeDatum("home", home_altitude_m=450.0), AltitudeDatum("ground", home_altitude_m=450.0)
 # QGroundControl's AltMode: relative 1, absolute 2, terrain frame 4.
-DATUMS = [(MEAN_SEA_LEVEL, 0, 2, 0.0), (HOME, 3, 1, 450.0), (GROUND, 10, 4, 450.0)]
+# A home whose altitude is not given has that of the flight: some programs fly to it as to a waypoint.
+DATUMS = [(MEAN_SEA_LEVEL, 0, 2, 120.0), (HOME, 3, 1, 450.0), (GROUND, 10, 4, 450.0)]
 MISSIONS = [".plan", ".waypoints", ".txt"]
 MAPS = [".geojson", ".kml", ".gpx", ".csv"]
 
@@ -42,11 +43,6 @@ def test_the_items_of_a_mission_have_the_frame_and_home_its_own_altitude(datum, 
     assert flown.home[2] == home
 
 
-def home_in_lines(home):
-    """If the altitude of home is not given, its line has that of the flight: some programs fly it as a waypoint."""
-    return home or 120.0
-
-
 @pytest.mark.parametrize("ending", MISSIONS)
 @pytest.mark.parametrize(("datum", "frame", "mode", "home"), DATUMS)
 def test_a_mission_file_is_read_back_as_it_was(tmp_path, ending, datum, frame, mode, home):
@@ -54,7 +50,7 @@ def test_a_mission_file_is_read_back_as_it_was(tmp_path, ending, datum, frame, m
     read, flown = read_mission(tmp_path / f"a{ending}"), mission(M, FRAME, 120.0, datum=datum)
     assert [item.frame for item in read.items] == [item.frame for item in flown.items]
     assert [item.altitude_m for item in read.items] == [120.0] * len(flown.items)
-    assert read.home[2] == (home if ending == ".plan" else home_in_lines(home))
+    assert read.home[2] == home
 
 
 @pytest.mark.parametrize(("datum", "frame", "mode", "home"), DATUMS)
@@ -63,7 +59,7 @@ def test_pymavlink_reads_frame_and_home_from_waypoints(tmp_path, datum, frame, m
     loader = mavwp.MAVWPLoader()
     loader.load(str(tmp_path / "a.waypoints"))
     first, *items = (loader.wp(i) for i in range(loader.count()))
-    assert (first.frame, first.z) == (0, home_in_lines(home))
+    assert (first.frame, first.z) == (0, home)
     assert {(item.frame, item.z) for item in items} == {(frame, 120.0)}
 
 

@@ -104,12 +104,12 @@ def test_an_entry_that_only_turns_is_the_loiter_alone():
 
 
 @pytest.mark.parametrize("options", [{}, {"along_path": True}, {"spacing_m": 20.0}])
-def test_the_home_is_below_the_start_at_no_known_altitude(options):
-    """It was at the altitude of the flight, 600 m too high where a ground station counts altitudes from it."""
+def test_the_home_is_below_the_start_and_at_the_altitude_of_the_flight_if_its_own_is_unknown(options):
+    """Some programs fly to the home as to a waypoint: at 0 m above the sea that would be into the ground."""
     for m, frame in (entry("cw"), SCENES["on the circle"]):
         latitude, longitude, altitude = mission(m, frame, 600.0, **options).home
         assert apart_m((latitude, longitude), on_earth(frame, m.start.east_m, m.start.north_m)[:2]) < 1e-6
-        assert altitude == 0.0
+        assert altitude == 600.0
 
 
 @pytest.mark.parametrize(("turn", "sign"), [(Turn.CW, 1.0), (Turn.CCW, -1.0)])

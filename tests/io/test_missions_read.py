@@ -73,7 +73,7 @@ def test_mavsdk_reads_the_plan(peer, tmp_path, name):
     check_sent(data.mission_items, expected.items, homes)
     if homes:
         check_place(data.mission_items[0], *expected.home[:2])
-        assert data.mission_items[0].z == 0.0
+        assert data.mission_items[0].z == 600.0
     assert (data.geofence_items, data.rally_items) == ([], [])
 
 
@@ -145,7 +145,7 @@ def test_a_plan_has_what_qgroundcontrol_asks_for(tmp_path):
     assert (flown["version"], flown["firmwareType"], flown["vehicleType"]) == (2, 12, 1)
     assert (flown["cruiseSpeed"], flown["hoverSpeed"]) == (18.0, 18.0)
     assert flown["globalPlanAltitudeMode"] == 2
-    assert [len(flown["plannedHomePosition"]), flown["plannedHomePosition"][2]] == [3, 0.0]
+    assert [len(flown["plannedHomePosition"]), flown["plannedHomePosition"][2]] == [3, 600.0]
     for number, item in enumerate(flown["items"], start=1):
         assert item["type"] == "SimpleItem"
         assert (item["frame"], item["doJumpId"], item["autoContinue"]) == (0, number, True)

@@ -92,6 +92,7 @@ def test_the_dictionary_is_that_of_the_command_line(maneuver):
 
 
 def test_the_data_frame_has_the_samples():
+    assert WINDY.to_dataframe().equals(WINDY.to_dataframe(0.1))
     frame, samples = WINDY.to_dataframe(0.5), WINDY.sample(0.5)
     assert list(frame.columns) == list(samples._fields)
     np.testing.assert_array_equal(frame.to_numpy().T, np.array(samples))

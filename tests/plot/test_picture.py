@@ -110,6 +110,7 @@ def test_the_title_says_word_direction_and_time(scene):
     title = axes.get_title()
     assert best.word in title
     assert best.turn.described in title
+    assert ("through the air" in title) == (bool(best.segments) and (best.wind.speed_m_s > 0.0 or best.orbit.moves))
     assert (f"{best.duration_s:.4g} s" if best.segments else "on the circle already") in title
 
 
@@ -235,6 +236,7 @@ def test_the_scale_bar_is_as_long_as_it_says_and_north_is_up(scene):
     axes.figure.draw_without_rendering()
     [bar] = [artist for artist in axes.artists if artist.get_gid() == "scale"]
     box = bar.size_bar.get_children()[0]
+    assert box.get_linewidth() == 0.0
     number, unit = bar.txt_label.get_text().split()
     assert box.get_width() == pytest.approx(float(number) * {"m": 1.0, "km": 1000.0}[unit], rel=1e-9)
     west, east = axes.get_xlim()

@@ -49,14 +49,14 @@ def test_a_png_has_the_pixels_that_were_asked_for(tmp_path, options, size, dpi):
 def test_every_file_of_a_command_has_the_size(tmp_path):
     png, svg, pdf = (tmp_path / f"entry.{ending}" for ending in ("png", "svg", "pdf"))
     plots = [word for path in (png, svg, pdf) for word in ("--plot", str(path))]
-    assert main([*PLAN.split(), *plots, "--size", "100", "90", "--dpi", "254", "--certify"]) == 0
+    assert main([*PLAN.split(), *plots, "--size", "100", "120", "--dpi", "254", "--certify"]) == 0
     for name in ("entry", "entry-certificate"):
-        assert pixels(tmp_path / f"{name}.png")[0] == pytest.approx((1000, 900), abs=1)
+        assert pixels(tmp_path / f"{name}.png")[0] == pytest.approx((1000, 1200), abs=1)
         root = ElementTree.parse(tmp_path / f"{name}.svg").getroot()
         sides_mm = [float(root.get(side).removesuffix("pt")) / 72.0 * 25.4 for side in ("width", "height")]
-        assert sides_mm == pytest.approx([100.0, 90.0], abs=0.01)
+        assert sides_mm == pytest.approx([100.0, 120.0], abs=0.01)
         box = re.search(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", (tmp_path / f"{name}.pdf").read_bytes())
-        assert [float(side) / 72.0 * 25.4 for side in box.groups()] == pytest.approx([100.0, 90.0], abs=0.01)
+        assert [float(side) / 72.0 * 25.4 for side in box.groups()] == pytest.approx([100.0, 120.0], abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -68,8 +68,8 @@ def test_every_file_of_a_command_has_the_size(tmp_path):
 )
 def test_other_commands_have_the_same_options(tmp_path, command):
     path = tmp_path / "a.png"
-    assert main([*command.split(), "--plot", str(path), "--size", "100", "90", "--dpi", "254"]) == 0
-    assert pixels(path)[0] == pytest.approx((1000, 900), abs=1)
+    assert main([*command.split(), "--plot", str(path), "--size", "100", "120", "--dpi", "254"]) == 0
+    assert pixels(path)[0] == pytest.approx((1000, 1200), abs=1)
 
 
 def test_the_regions_of_a_map_have_the_resolution_in_a_pdf_too(tmp_path):

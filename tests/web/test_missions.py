@@ -59,7 +59,7 @@ def test_a_mission_is_not_written_at_an_altitude_that_nobody_gave(page, format_)
 @pytest.mark.parametrize(
     ("reference", "home", "frame", "home_m", "told"),
     [
-        ("msl", None, 0, 0.0, "620 m above mean sea level"),
+        ("msl", None, 0, 620.0, "620 m above mean sea level"),
         ("home", "450", 3, 450.0, "620 m above home, home at 450 m"),
         ("ground", "450", 10, 450.0, "620 m above the ground, home at 450 m"),
     ],
@@ -69,8 +69,7 @@ def test_a_mission_has_the_altitude_and_the_reference(page, tmp_path, format_, r
     fly_at(page, "620", reference, home)
     flown, said = saved(page, format_, tmp_path)
     assert {(item.frame, item.altitude_m) for item in flown.items} == {(frame, 620.0)}
-    # A line of waypoints has the altitude of the flight where home's own is not known: some programs fly it.
-    assert flown.home[2] == (620.0 if format_ == "waypoints" and home is None else home_m)
+    assert flown.home[2] == home_m
     assert said == f"entry.{format_} saved: {told}."
 
 
@@ -80,7 +79,7 @@ def test_what_is_hidden_is_not_written(page, tmp_path):
     page.locator("#altitude-reference").select_option("msl")
     assert not page.locator("#home-altitude").is_visible()
     flown, _ = saved(page, "plan", tmp_path)
-    assert flown.home[2] == 0.0
+    assert flown.home[2] == 620.0
 
 
 def test_an_altitude_is_in_the_units_shown(page, tmp_path):

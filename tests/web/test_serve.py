@@ -172,7 +172,10 @@ def test_a_bad_address_or_origin_is_refused(refused, options, sentence):
 @pytest.mark.parametrize("package", ["fastapi", "uvicorn"])
 def test_a_missing_package_is_named_with_how_to_install_it(monkeypatch, package):
     monkeypatch.setitem(sys.modules, package, None)
-    with pytest.raises(MissingPackage, match=rf'needs {package}: pip install "loiter\[web\]" brings it'):
+    with pytest.raises(
+        MissingPackage,
+        match=rf'needs {package}: pip install "loiter\[web\]" brings it .in a checkout: pip install "\.\[web\]".',
+    ):
         serve()
 
 

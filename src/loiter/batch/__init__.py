@@ -111,7 +111,9 @@ def _need_packages(*names: str) -> None:
         try:
             import_module(name)
         except ImportError as error:
-            raise MissingPackage(f'tables need {name}: pip install "loiter[cluster]" brings it') from error
+            raise MissingPackage(
+                f'tables need {name}: pip install "loiter[cluster]" brings it (in a checkout: pip install ".[cluster]")'
+            ) from error
 
 
 def __getattr__(name: str) -> Any:

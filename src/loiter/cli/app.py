@@ -9,7 +9,7 @@ from typing import Any, Literal
 from cyclopts import App, CycloptsError, Group, Parameter
 
 import loiter
-from loiter.cli.examples import epilogue
+from loiter.cli.examples import epilogue, program_epilogue
 from loiter.cli.numbers import split_lists
 from loiter.cli.sentences import sentence
 from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR
@@ -46,7 +46,7 @@ An aircraft of constant speed turns left or right, no tighter than its minimum t
 Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north. Speeds are in metres per second and lengths in metres, or have a unit: 35kn, 65km/h, 3000ft, 2NM. Latitudes and longitudes may be written 47.1N or 47°06'N. Commas may separate the numbers of an option.
 
 loiter COMMAND --help shows the options of a command.""",
-    help_epilogue=epilogue("plan", "completion"),
+    help_epilogue=program_epilogue("plan", "completion"),
 )  # fmt: skip
 
 # The module of a command is imported when the command runs.
@@ -77,6 +77,7 @@ A file is written whole or not at all. Until then finished parts are kept in OUT
 app.command(
     "loiter.cli.commands.mavlink:upload",
     group=flights,
+    usage="Usage: loiter upload --connect LINK [OPTIONS] [FILE]",
     sort_key=4,
     help_epilogue=epilogue("upload"),
     help="Send the fastest entry to a vehicle as a mission, then read the mission back and compare it item by item.",

@@ -18,7 +18,7 @@ EXAMPLES = {
   loiter batch 's3://tables/states-*.parquet' s3://tables/entries/ \
       --orbit 0 0 80 --airspeed 18 --bank 35""",
     "upload": r"""
-  loiter upload --connect udpout:127.0.0.1:14550 --pose-lla 47.1 8.2 90 \
+  loiter upload --connect udpin:127.0.0.1:14550 --pose-lla 47.1 8.2 90 \
       --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35 --altitude 900
   loiter upload entry.plan --connect /dev/ttyUSB0,57600""",
     "watch": r"""
@@ -27,8 +27,8 @@ EXAMPLES = {
   loiter watch --connect udpin:127.0.0.1:14550 --reports 10 \
       --orbit-lla 47.11 8.23 --params uav.param""",
     "guide": r"""
-  loiter guide --connect udpout:127.0.0.1:14550 --orbit-lla 47.11 8.23 120
-  loiter guide --connect udpin:127.0.0.1:14550 --dry-run \
+  loiter guide --connect udpin:127.0.0.1:14550 --orbit-lla 47.11 8.23 120
+  loiter guide --connect tcp:127.0.0.1:5762 --dry-run \
       --orbit-lla 47.11 8.23 120 --turn ccw --bank 40
   loiter guide --connect /dev/ttyUSB0,57600 --orbit-lla 47.11 8.23 120 \
       --altitude 900 --keep --log flight.csv""",
@@ -59,19 +59,36 @@ EXAMPLES = {
   loiter completion fish > ~/.config/fish/completions/loiter.fish""",
 }
 
-EXIT_STATUSES = """
+# Each exit status as the help shows it, and the commands that end with it; no commands: all.
+STATUSES: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("  0  done", ()),
+    ("  1  a check failed (loiter verify, loiter prove, loiter plan --certify)", ("plan", "verify", "prove")),
+    (
+        """  2  the request cannot be met: one sentence on standard error says why,
+     and no file is left half written""",
+        (),
+    ),
+    (
+        """  3  the vehicle cannot be reached, does not answer or refuses, or guiding
+     had to stop: the sentence says what the vehicle has or does now""",
+        ("upload", "watch", "guide"),
+    ),
+    (
+        """  130  interrupted; finished parts of a batch job are kept, and a guided
+     vehicle flies its fall-back circle""",
+        ("batch", "guide"),
+    ),
+)
 
-Exit status
-  0  done
-  1  a check failed (loiter verify, loiter prove, loiter plan --certify)
-  2  the request cannot be met: one sentence on standard error says why,
-     and no file is left half written
-  3  the vehicle cannot be reached, does not answer or refuses, or guiding
-     had to stop: the sentence says what the vehicle has or does now
-  130  interrupted; finished parts of a batch job are kept, and a guided
-     vehicle flies its fall-back circle"""
+EXIT_STATUSES = "\n".join(("\n\nExit status", *(text for text, _ in STATUSES)))
 
 
-def epilogue(*commands: str) -> str:
-    """The end of a help text: the examples of the commands, and the exit statuses."""
+def epilogue(command: str) -> str:
+    """The end of the help text of a command: its examples and its exit statuses."""
+    shown = (text for text, commands in STATUSES if not commands or command in commands)
+    return "\n".join((f"Examples{EXAMPLES[command]}", "", "Exit status", *shown))
+
+
+def program_epilogue(*commands: str) -> str:
+    """The end of the help text of the program: the examples of the commands, and all exit statuses."""
     return f"Examples{''.join(EXAMPLES[command] for command in commands)}{EXIT_STATUSES}"

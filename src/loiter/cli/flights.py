@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from loiter.guidance.trials.flight import Flight
 
 
+# The law that plans its phases, as --law names it.
+PLANNED_LAW = "optimal"
+
 # The simulators of --sim.
 SIMULATORS = {
     "kinematic": "the vehicle of the theory, which banks at once, in calm air",
@@ -86,10 +89,18 @@ def phases_flown(flight: Flight) -> Iterator[PhaseFlown]:
         yield PhaseFlown(times_s[0], phase.value, median(banks_deg))
 
 
-def time_line(flight: Flight) -> Iterator[str]:
-    """The time at which each phase begins, and the settling time."""
-    for time_s, phase, bank in phases_flown(flight):
-        yield f"{time_s:6.1f} s  {phase}, commanded bank {round(bank)} deg"
+def time_line(name: str, flight: Flight) -> Iterator[str]:
+    """The time at which each phase begins, then when the aircraft joined and settled.
+
+    Only the law `optimal` plans its phases; what the others do changes at almost every step, and is not listed.
+    """
+    if name == PLANNED_LAW:
+        for time_s, phase, bank in phases_flown(flight):
+            yield f"{time_s:6.1f} s  {phase}, commanded bank {round(bank)} deg"
+    else:
+        yield f"{name} plans no phases: --save FILE.csv writes every step."
+    if flight.settled:
+        yield f"{flight.joined_s:6.1f} s  joined: within the band, and from then on within twice the band"
     yield (
         f"{flight.settled_s:6.1f} s  settled: start of a full turn within the band"
         if flight.settled
@@ -99,11 +110,12 @@ def time_line(flight: Flight) -> Iterator[str]:
 
 def flights_table(trial: Trial, flights: Mapping[str, Flight]) -> Table:
     """A table with a row for each law."""
-    rows = _table("law", "settled", "of the fastest", "overshoot", "bank activity", "distance")
+    rows = _table("law", "joined", "settled", "of the fastest", "overshoot", "bank activity", "distance")
     for name, flight in flights.items():
         ratio = _ratio(trial, flight)
         rows.add_row(
             name,
+            f"{flight.joined_s:.1f} s" if flight.settled else "never",
             f"{flight.settled_s:.1f} s" if flight.settled else "never",
             f"{ratio:.2f}" if ratio is not None else "",
             f"{flight.overshoot_m:.1f} m",
@@ -121,6 +133,7 @@ def flights_document(trial: Trial, flights: Mapping[str, Flight]) -> dict[str, o
 def _flight(trial: Trial, name: str, flight: Flight) -> dict[str, object]:
     return {
         "law": name,
+        "joined_s": report.json_value(flight.joined_s),
         "settled_s": report.json_value(flight.settled_s),
         "of_the_fastest": _ratio(trial, flight),
         "overshoot_m": flight.overshoot_m,

@@ -218,7 +218,10 @@ class AircraftOptions:
             help="Instead of --airspeed: indicated airspeed, metres per second; --altitude converts it to true airspeed.",
         ),
     ] = None
-    bank: Annotated[float | None, Parameter(group=aircraft, metavar="DEGREES", help="Largest bank, degrees.")] = None
+    bank: Annotated[
+        float | None,
+        Parameter(group=aircraft, converter=one(plain), metavar="DEGREES", help="Largest bank, degrees."),
+    ] = None
     turn_radius: Annotated[
         float | None,
         Parameter(group=aircraft, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
@@ -595,5 +598,7 @@ def _with_radius(argument: str, numbers: Sequence[float], radius_m: float | None
         case [first, second] if radius_m is not None:
             return first, second, radius_m
     raise InvalidArgument(
-        argument, f"needs 3 numbers, centre and radius, or 2 and --params with a radius: {len(numbers)} were given"
+        argument,
+        f"needs 3 numbers, centre and radius, or 2 and --params with a radius: "
+        f"{len(numbers)} {'was' if len(numbers) == 1 else 'were'} given",
     )

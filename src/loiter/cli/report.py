@@ -12,6 +12,7 @@ from rich.text import Text
 
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
+from loiter.io.missions.altitudes import AltitudeDatum, AltitudeReference
 from loiter.planning.compass import wrapped
 from loiter.planning.maneuver import Maneuver, decimals_of
 from loiter.planning.model import Orbit, Pose
@@ -46,6 +47,17 @@ def files_line(written: Iterable[Path]) -> list[str]:
     *first, last = [str(path) for path in written] or [""]
     names = f"{', '.join(first)} and {last}" if first else last
     return [f"Wrote {names}."] if names else []
+
+
+def altitude_lines(altitude_m: float, datum: AltitudeDatum, *, home_known: bool) -> list[str]:
+    """A line on the altitude that a mission has: on its reference, and on a home whose altitude is not known."""
+    text = f"The mission is at {altitude_m:g} {datum.unit.replace('metres', 'm')}"
+    if datum.reference != AltitudeReference.MSL:
+        return [f"{text}; home is at {datum.home_altitude_m:g} m above mean sea level."]
+    lines = [f"{text}, not above the ground."]
+    if not home_known:
+        lines.append(f"The altitude of home is not known, so it is {altitude_m:g} m too; --home-altitude sets it.")
+    return lines
 
 
 def files_member(written: Iterable[Path]) -> dict[str, object]:

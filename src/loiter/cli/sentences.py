@@ -49,7 +49,8 @@ def _usage_sentence(error: CycloptsError) -> str:
     if isinstance(error, MissingArgumentError) and error.argument is not None:
         return _missing(error, error.argument)
     if isinstance(error, RepeatArgumentError):
-        return f"{error.token.keyword} is given twice"
+        more = ": it takes one law, and --compare flies all four" if error.token.keyword == "--law" else ""
+        return f"{error.token.keyword} is given twice{more}"
     if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
         return f"{' '.join(error.unused_tokens)!r} is one argument too many; loiter --help lists commands and options"
     return str(error)
@@ -65,7 +66,8 @@ def _missing(error: MissingArgumentError, argument: Argument) -> str:
         return f"{name} {metavar} is needed"
     if count <= 1:
         return f"{name} needs a value, {metavar}"
-    return f"{name} needs {count} numbers, {metavar}: {len(error.tokens_so_far) % count} were given"
+    given = len(error.tokens_so_far) % count
+    return f"{name} needs {count} numbers, {metavar}: {given} {'was' if given == 1 else 'were'} given"
 
 
 def _option(error: CycloptsError) -> str:

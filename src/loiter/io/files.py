@@ -142,12 +142,6 @@ def _is_above_ground(ending: str, datum: AltitudeDatum) -> bool:
     return ending in ABOVE_GROUND and datum.reference == AltitudeReference.GROUND
 
 
-def _with_home_at(plan: Mission, altitude_m: float) -> Mission:
-    """The mission with its home at an altitude."""
-    latitude_deg, longitude_deg, _ = plan.home
-    return plan._replace(home=(latitude_deg, longitude_deg, altitude_m))
-
-
 def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> bytes:
     datum, altitude_m = arguments.datum, arguments.altitude_m
     if altitude_m is None:
@@ -166,9 +160,7 @@ def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> b
     if site is not None:
         plan = plan._replace(home=site.home)
     if ending != ".plan":
-        # Some programs fly to the home as a waypoint: unless its altitude is given, it has that of the flight.
-        known = site is not None or datum.home_altitude_m is not None
-        return wpl(plan if known else _with_home_at(plan, altitude_m))
+        return wpl(plan)
     if arguments.autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
         raise InvalidArgument("altitude_reference", "is ground: PX4 flies no missions with altitudes above the ground")
     fence = None if site is None else site.fence_document

@@ -87,7 +87,7 @@ class Maneuver:
         """The maneuver as plain values for JSON: the members of `loiter plan --json`, in metres, seconds, degrees."""
         return maneuver_values(self)
 
-    def to_dataframe(self, step_s: float) -> Any:
+    def to_dataframe(self, step_s: float = 0.1) -> Any:
         """The samples of `sample` every `step_s` seconds as a pandas data frame, a column for each field of `Samples`.
 
         Raises `InvalidArgument` like `sample`, and `MissingPackage` without pandas.

@@ -14,12 +14,13 @@ from loiter.guidance.trials.flight import Flight
 from loiter.planning.compass import wrapped
 from loiter.planning.maneuver import Maneuver
 from loiter.plot.picture import FAINT
+from loiter.plot.sizes import BELOW_IF_NARROW
 
 # From the palette of Okabe and Ito.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 
 # The sign of the bank, as autopilots count it.
-BANK_LABEL = "bank (deg,\nright positive)"
+BANK_LABEL = "bank (deg,\nright +)"
 
 
 def draw(ideal: Maneuver, flights: Mapping[str, Flight], *, conditions: str = "") -> Figure:
@@ -38,7 +39,7 @@ def draw(ideal: Maneuver, flights: Mapping[str, Flight], *, conditions: str = ""
         axes["bank"].plot(time_s, track.bank_deg, color=colour, linewidth=1.2, gid=f"bank {name}")
         axes["join"].plot(time_s, track.time_to_join_s, color=colour, linewidth=1.2, gid=f"join {name}")
     axes["bank"].set_ylabel(BANK_LABEL)
-    axes["join"].set_ylabel("time to join (s)")
+    axes["join"].set_ylabel("to join (s)")
     axes["join"].set_xlabel("time (s)")
     axes["join"].sharex(axes["bank"])
     for panel in axes.values():
@@ -71,7 +72,8 @@ def _draw_tracks(axes: Axes, ideal: Maneuver, flights: Mapping[str, Flight]) -> 
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("east (m)")
     axes.set_ylabel("north (m)")
-    axes.legend(loc="best", fontsize="small", framealpha=0.9)
+    legend = axes.legend(loc="best", fontsize="small", framealpha=0.9)
+    legend.set_gid(BELOW_IF_NARROW)
 
 
 def _label(name: str, flight: Flight) -> str:

@@ -98,7 +98,8 @@ def _title(best: Sequence[Maneuver]) -> str:
     words = " or ".join(f"{m.word} {m.turn.described}".strip() for m in best)
     if not first.segments:
         return f"on the circle already, {words}"
-    return f"{words}\njoins in {first.duration_s:.4g} s, {first.length_m:.4g} m"
+    air = " through the air" if first.wind.speed_m_s > 0.0 or first.orbit.moves else ""
+    return f"{words}\njoins in {first.duration_s:.4g} s, {first.length_m:.4g} m{air}"
 
 
 def _draw_path(axes: Axes, maneuver: Maneuver) -> None:
@@ -172,6 +173,8 @@ def _draw_scale(axes: Axes) -> None:
     bar = AnchoredSizeBar(
         axes.transData, length, text, "lower right", pad=0.8, frameon=False, size_vertical=length / 60.0
     )
+    for patch in bar.size_bar.get_children():
+        patch.set_linewidth(0.0)  # an edge would make the bar longer than it says
     bar.set_gid("scale")
     axes.add_artist(bar)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from loiter.errors import InvalidArgument, number
@@ -17,6 +18,9 @@ MM_PER_INCH = 25.4
 # side is that of A0 paper.
 LEAST_WIDTH_MM, LEAST_HEIGHT_MM, LARGEST_MM = 80.0, 60.0, 1189.0
 
+# A picture of a flight has three panels, one above the other.
+LEAST_FLIGHT_HEIGHT_MM = 110.0
+
 # The resolution where none is given, and its limits: journals ask for at most 1200.
 DPI = 150.0
 LEAST_DPI, LARGEST_DPI = 30.0, 1200.0
@@ -29,6 +33,12 @@ LEAST_SHRINKING, LEAST_POINTS = 0.7, 7.0
 
 # In a narrow picture a legend with more entries than this would hide what it explains.
 MOST_ENTRIES = 3
+
+# The gid of a legend that moves below a narrow figure however few its entries.
+BELOW_IF_NARROW = "legend below if narrow"
+
+# The shortest line of a title that is broken.
+LEAST_LETTERS = 20
 
 # Between the base line of a title and the label below it, points: descenders need half of it.
 TITLE_GAP = 6.0
@@ -76,8 +86,8 @@ def resize(figure: Figure, width_mm: float, height_mm: float) -> None:
     """Give a figure another width and height, in which its text stays legible.
 
     If it becomes narrower, text, lines and marks shrink to 70 % at the least, text not below 7 points; long legends
-    move below the figure, and a title above the labels that it would cover. Raises `InvalidArgument` for a width below
-    80 mm, a height below 60 mm, and above 1189 mm.
+    move below the figure; a title has more lines, and moves above the labels that it would cover. Raises
+    `InvalidArgument` for a width below 80 mm, a height below 60 mm, and above 1189 mm.
     """
     width_mm, height_mm = _sides((width_mm, height_mm))
     before_mm = figure.get_figwidth() * MM_PER_INCH
@@ -85,6 +95,7 @@ def resize(figure: Figure, width_mm: float, height_mm: float) -> None:
     if width_mm < before_mm:
         _shrink(figure, max(LEAST_SHRINKING, width_mm / before_mm))
         _move_legends(figure)
+        _wrap_titles(figure)
         _raise_titles(figure)
 
 
@@ -112,7 +123,9 @@ def _move_legends(figure: Figure) -> None:
     """Move the legends with many entries from their axes to below the figure, in as many columns as there is room."""
     for axes in figure.axes:
         legend = axes.get_legend()
-        if legend is not None and len(legend.get_texts()) > MOST_ENTRIES:
+        if legend is None:
+            continue
+        if legend.get_gid() == BELOW_IF_NARROW or len(legend.get_texts()) > MOST_ENTRIES:
             _legend_below(figure, legend)
             legend.remove()
 
@@ -135,6 +148,18 @@ def _width_of(figure: Figure, legend: Legend) -> float:
     figure.draw_without_rendering()
     figure.set_layout_engine(layout)
     return legend.get_window_extent().width
+
+
+def _wrap_titles(figure: Figure) -> None:
+    """Break the lines of titles that are cut at the edge of the figure."""
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        lines = axes.get_title().split("\n")
+        for letters in range(max(map(len, lines)), LEAST_LETTERS, -1):
+            box = axes.title.get_window_extent()
+            if box.x0 >= 0.0 and box.x1 <= figure.bbox.width:
+                break
+            axes.title.set_text("\n".join(part for line in lines for part in wrap(line, letters)))
 
 
 def _raise_titles(figure: Figure) -> None:

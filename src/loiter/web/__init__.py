@@ -29,7 +29,9 @@ def serve(
         try:
             import_module(name)
         except ImportError as error:
-            raise MissingPackage(f'the service needs {name}: pip install "loiter[web]" brings it') from error
+            raise MissingPackage(
+                f'the service needs {name}: pip install "loiter[web]" brings it (in a checkout: pip install ".[web]")'
+            ) from error
     from loiter.web import server
 
     server.serve(host, port, cors, announce)

@@ -23,6 +23,7 @@ from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
 from loiter.planning.problem import problem_of
 from loiter.plot import files
+from loiter.plot.sizes import LEAST_FLIGHT_HEIGHT_MM
 from loiter.writing import check_writable, write_content
 
 if TYPE_CHECKING:
@@ -255,6 +256,11 @@ def _replay(log: Path, others: tuple[object, ...], wanted: Output) -> None:
 def _check_files(wanted: Output, runs: int | None) -> None:
     """Raise `InvalidArgument` before anything flies if a file could not be written."""
     wanted.pictures.check()
+    if wanted.pictures.size is not None and wanted.pictures.size[1] < LEAST_FLIGHT_HEIGHT_MM:
+        raise InvalidArgument(
+            "size_mm height",
+            f"is {wanted.pictures.size[1]:g}: a flight has three panels, and needs {LEAST_FLIGHT_HEIGHT_MM:g} millimetres",
+        )
     for path in wanted.pictures.plot:
         if runs is not None:
             raise InvalidArgument("plot", "draws one flight, not the many of --runs")
@@ -287,8 +293,8 @@ def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output) -> Non
         figure = draw(trial.ideal, flights, conditions=conditions.title)
         files.save_pictures(wanted.pictures.plot, figure, wanted.pictures.format)
     _save(wanted.save, _steps(flights))
-    first, *_ = flights.values()
-    lines = [f"Fastest entry: {trial.ideal}", conditions.line, *shown.time_line(first)]
+    first, *_ = flights
+    lines = [f"Fastest entry: {trial.ideal}", conditions.line, *shown.time_line(first, flights[first])]
     document = shown.flights_document(trial, flights) | {"simulation": conditions._asdict()}
     wanted.show(document, *lines, shown.flights_table(trial, flights))
 

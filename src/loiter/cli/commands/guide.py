@@ -16,7 +16,7 @@ from cyclopts import Group, Parameter
 import loiter
 from loiter.cli import report, vehicles
 from loiter.cli.commands.mavlink import Connect, JsonLines, System, Timeout, connection
-from loiter.cli.numbers import any_case, latitude, longitude, metres, metres_per_second, one, several
+from loiter.cli.numbers import any_case, latitude, longitude, metres, metres_per_second, one, plain, several
 from loiter.cli.options import PlacedOrbitOptions, WindOptions, output, scene
 from loiter.errors import InvalidArgument
 from loiter.mavlink.missions.exchange import TIMEOUT_S
@@ -79,7 +79,12 @@ class GuidedVehicleOptions:
     ] = None
     bank: Annotated[
         float | None,
-        Parameter(group=vehicle_limits, metavar="DEGREES", help="Largest bank, at most that of the autopilot."),
+        Parameter(
+            group=vehicle_limits,
+            converter=one(plain),
+            metavar="DEGREES",
+            help="Largest bank, at most that of the autopilot.",
+        ),
     ] = None
     altitude: Annotated[
         float | None,

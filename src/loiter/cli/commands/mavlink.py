@@ -53,7 +53,7 @@ Connect = Annotated[
     Parameter(
         group=connection,
         metavar="LINK",
-        help="udpout:HOST:PORT, udpin:HOST:PORT, tcp:HOST:PORT, or a serial device such as /dev/ttyUSB0,57600.",
+        help="udpin:HOST:PORT waits for a vehicle or router that sends to this port, as MAVProxy and most simulators do to 14550; udpout:HOST:PORT and tcp:HOST:PORT call it: udpout:127.0.0.1:18570 is PX4's simulator, tcp:127.0.0.1:5762 ArduPlane's. A radio is a serial device: /dev/ttyUSB0,57600.",
     ),
 ]
 System = Annotated[

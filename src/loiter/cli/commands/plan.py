@@ -74,7 +74,7 @@ Save = Annotated[
     Parameter(
         group=output,
         metavar="FILE",
-        help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) or .waypoints (QGC WPL 110) for autopilots; may be repeated.",
+        help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl), .waypoints or .txt (both QGC WPL 110) for autopilots; may be repeated.",
     ),
 ]
 AutopilotChoice = Annotated[AutopilotName, Parameter(group=missions, help="The autopilot that a mission is for.")]
@@ -132,8 +132,18 @@ def plan(
         report.print_tables(best, others, everything=all_, frame=frame, remark="\n".join(remarks))
         certificates.print_text(certified)
         lines = [*([report.ALONG_PATH] if along_path else []), *([checked.sentence] if checked else [])]
-        report.write(*lines, *report.files_line(written))
+        report.write(*lines, *_altitude_lines(save, uav, waypoints, site), *report.files_line(written))
     return 0 if all(certificate.valid for certificate in certified) else CHECK_FAILED
+
+
+def _altitude_lines(
+    save: Sequence[Path], uav: AircraftOptions, waypoints: MissionOptions, site: Site | None
+) -> list[str]:
+    """The altitude of the missions that were saved; no lines without one."""
+    if uav.altitude is None or not any(map(is_mission, save)):
+        return []
+    known = site is not None or waypoints.home_altitude is not None
+    return report.altitude_lines(uav.altitude, waypoints.datum(site), home_known=known)
 
 
 def _check_formats(save: Sequence[Path]) -> None:

@@ -75,16 +75,16 @@ class AltitudeDatum:
             raise InvalidArgument("home_altitude_m", "is missing: altitudes above home cannot be converted without it")
         raise InvalidArgument("altitude_reference", "is ground: how high that is above mean sea level is not known")
 
-    def planned_home_m(self) -> float:
-        """The altitude of the planned home of a mission, metres above mean sea level.
+    def planned_home_m(self, altitude_m: float) -> float:
+        """The altitude of the planned home of a mission flown at `altitude_m`, metres above mean sea level.
 
-        If it is not given, it is 0 for missions above mean sea level, which do not depend on it; other missions raise
-        `InvalidArgument`.
+        If it is not given, it is `altitude_m` for missions above mean sea level, which do not depend on it: some
+        programs fly to the home as to a waypoint. Other missions raise `InvalidArgument`.
         """
         if self.home_altitude_m is not None:
             return self.home_altitude_m
         if self.reference == AltitudeReference.MSL:
-            return 0.0
+            return altitude_m
         raise InvalidArgument(
             "home_altitude_m",
             f"is missing: a mission in {self.unit} needs that of home, {UNITS[AltitudeReference.MSL]}",

@@ -62,7 +62,7 @@ def mission(
 
     `altitude_m` is that of all items, above mean sea level unless `datum` says otherwise. The loiter (NAV_LOITER_UNLIM)
     has the centre, radius and direction of the circle. The planned home is below the start, at the altitude of home in
-    `datum`, or 0 if that is not given.
+    `datum`, or at `altitude_m` if that is not given.
 
     With `along_path` or `spacing_m` there are waypoints along the whole track, which autopilots fly less well
     (docs/maps.md). They are at most `spacing_m` metres apart, if it is given, and the track over the ground, in wind
@@ -84,7 +84,7 @@ def mission(
     """
     altitude_m = datum.checked(altitude_m)
     chord_error_m = positive("chord_error_m", chord_error_m, "metres")
-    home_m = datum.planned_home_m()
+    home_m = datum.planned_home_m(altitude_m)
     orbit = _checked_orbit(maneuver.orbit)
     if along_path or spacing_m is not None:
         waypoints = path_waypoints(maneuver, spacing_m, chord_error_m)

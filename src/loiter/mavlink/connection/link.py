@@ -243,7 +243,10 @@ def dialect() -> Any:
     try:
         from pymavlink.dialects.v20 import ardupilotmega
     except ImportError as error:
-        raise MissingPackage(f'MAVLink needs {error.name}: pip install "loiter[mavlink]" brings it') from error
+        raise MissingPackage(
+            f'MAVLink needs {error.name}: pip install "loiter[mavlink]" brings it '
+            '(in a checkout: pip install ".[mavlink]")'
+        ) from error
     return ardupilotmega
 
 
