@@ -166,3 +166,8 @@ def _degrees(token: Token, coordinate: Coordinate) -> float:
 
 def _refused(token: Token, need: str) -> CoercionError:
     return CoercionError(token=token, target_type=float, msg=need)
+
+
+def given(count: int) -> str:
+    """How many values were given, for an error message."""
+    return f"{count} {'was' if count == 1 else 'were'} given"

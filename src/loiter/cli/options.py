@@ -12,6 +12,7 @@ from cyclopts import Group, Parameter
 
 from loiter.cli.numbers import (
     any_case,
+    given,
     latitude,
     longitude,
     metres,
@@ -195,6 +196,11 @@ class PlacedOrbitOptions(OrbitOptions):
     ] = ()
 
 
+def altitude_parameter(text: str) -> Parameter:
+    """The parameter of --altitude, with this help: what the altitude refers to differs between commands."""
+    return Parameter(group=aircraft, converter=one(metres), metavar="METRES", help=text)
+
+
 @Parameter(name="*")
 @dataclass(frozen=True)
 class AircraftOptions:
@@ -239,11 +245,8 @@ class AircraftOptions:
     ] = None
     altitude: Annotated[
         float | None,
-        Parameter(
-            group=aircraft,
-            converter=one(metres),
-            metavar="METRES",
-            help="Altitude above mean sea level, metres, or with a unit: 3000ft. It converts an indicated airspeed to true airspeed, which is higher in thin air.",
+        altitude_parameter(
+            "Altitude above mean sea level, metres, or with a unit: 3000ft. It converts an indicated airspeed to true airspeed, which is higher in thin air."
         ),
     ] = None
     temperature: Annotated[
@@ -335,11 +338,8 @@ class PlannedAircraftOptions(AircraftOptions):
 
     altitude: Annotated[
         float | None,
-        Parameter(
-            group=aircraft,
-            converter=one(metres),
-            metavar="METRES",
-            help="Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is written to missions and maps, and converts an indicated airspeed to true airspeed, which is higher in thin air.",
+        altitude_parameter(
+            "Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is written to missions and maps, and converts an indicated airspeed to true airspeed, which is higher in thin air."
         ),
     ] = None
 
@@ -351,11 +351,8 @@ class WatchedAircraftOptions(AircraftOptions):
 
     altitude: Annotated[
         float | None,
-        Parameter(
-            group=aircraft,
-            converter=one(metres),
-            metavar="METRES",
-            help="Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air.",
+        altitude_parameter(
+            "Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air."
         ),
     ] = None
 
@@ -599,6 +596,5 @@ def _with_radius(argument: str, numbers: Sequence[float], radius_m: float | None
             return first, second, radius_m
     raise InvalidArgument(
         argument,
-        f"needs 3 numbers, centre and radius, or 2 and --params with a radius: "
-        f"{len(numbers)} {'was' if len(numbers) == 1 else 'were'} given",
+        f"needs 3 numbers, centre and radius, or 2 and --params with a radius: {given(len(numbers))}",
     )

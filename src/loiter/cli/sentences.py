@@ -9,6 +9,7 @@ from cyclopts import (
     UnusedCliTokensError,
 )
 
+from loiter.cli.numbers import given
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TURN_LIMITS
 from loiter.planning.vocabulary import OPTIONS
@@ -66,8 +67,7 @@ def _missing(error: MissingArgumentError, argument: Argument) -> str:
         return f"{name} {metavar} is needed"
     if count <= 1:
         return f"{name} needs a value, {metavar}"
-    given = len(error.tokens_so_far) % count
-    return f"{name} needs {count} numbers, {metavar}: {given} {'was' if given == 1 else 'were'} given"
+    return f"{name} needs {count} numbers, {metavar}: {given(len(error.tokens_so_far) % count)}"
 
 
 def _option(error: CycloptsError) -> str:

@@ -86,8 +86,8 @@ class RollIdentifier:
         self._least, self._change = -self._largest, np.zeros(len(times))
         # The predictions, of which the last is in the row before `_next`; before the first step those of the beginning.
         self._banks, self._next = np.zeros((ROWS, len(times))), KEPT
-        # The time since the last step of the models, the integral of the command over it, and the last command.
-        self._waiting_s = self._commanded = self._command_deg = self.bank_deg = 0.0
+        # The time since the last step of the models, and the integral of the command over it.
+        self._waiting_s = self._commanded = self.bank_deg = 0.0
         # A measured bank that waits for the next step, and the time since the last one that was used.
         self._pending: _Measured | None = None
         self._since_s = CORRELATION_S

@@ -106,8 +106,11 @@ class SteadyHoldDetector:
             return
         dt = max(state.time_s - last.time_s, 0.0)
         share = 1.0 - exp(-dt / MEAN_S)
-        pairs = zip(self.mean, position, strict=False)
-        self.mean = MeanPosition(*(mean + share * (now - mean) for mean, now in pairs))
+        outside_m, error_deg = self.mean
+        self.mean = MeanPosition(
+            outside_m + share * (position.outside_m - outside_m),
+            error_deg + share * (position.course_error_deg - error_deg),
+        )
         turned_deg = remainder(state.heading_deg - last.heading_deg, 360.0)
         coordinated_deg = degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s)) * dt
         kept = exp(-dt / RATIO_S)

@@ -91,20 +91,12 @@ def on_inner_of_wide(w: Words, start: kernel.Start) -> None:
 
 def on_onto_right(w: Words, start: kernel.Start) -> None:
     """On rm = R + 1: RSL is RL with the left crossing, and that with the right crossing takes no less."""
-    straight, left, right = w.rsl(start), w.rl_left(start), w.rl_right(start)
-    require_no_straight_piece("RSL", straight)
-    require_same_turn("RSL, RL", straight.first, left.first)
-    require_same_turn("RSL, RL", straight.last, left.middle)
-    require_no_less("RL", left, right)
+    require_two_arcs("RSL", "RL", w.rsl(start), w.rl_left(start), w.rl_right(start))
 
 
 def on_from_left(w: Words, start: kernel.Start) -> None:
     """On rp = R - 1, R >= 2: LSR is LR with the right crossing, and that with the left crossing takes no less."""
-    straight, right, left = w.lsr(start), w.lr_right(start), w.lr_left(start)
-    require_no_straight_piece("LSR", straight)
-    require_same_turn("LSR, LR", straight.first, right.first)
-    require_same_turn("LSR, LR", straight.last, right.middle)
-    require_no_less("LR", right, left)
+    require_two_arcs("LSR", "LR", w.lsr(start), w.lr_right(start), w.lr_left(start))
 
 
 def on_fold(w: Words, start: kernel.Start) -> None:
@@ -216,6 +208,19 @@ def require_no_turn(name: str, arc: Any) -> None:
     cross, dot = arc
     zero(f"{name}: the last arc", cross)
     require(dot.sample > 0.0, f"{name}: the last arc is half a turn")
+
+
+def require_two_arcs(
+    name: str, arcs_name: str, word: kernel.Extremal, arcs: kernel.Extremal, opposite: kernel.Extremal
+) -> None:
+    """Raise `NotProved` where a word with a straight piece is not the path of two arcs.
+
+    `opposite` are the two arcs with the opposite crossing, which must take no less.
+    """
+    require_no_straight_piece(name, word)
+    require_same_turn(f"{name}, {arcs_name}", word.first, arcs.first)
+    require_same_turn(f"{name}, {arcs_name}", word.last, arcs.middle)
+    require_no_less(arcs_name, arcs, opposite)
 
 
 def require_no_less(name: str, a: kernel.Extremal, b: kernel.Extremal) -> None:
