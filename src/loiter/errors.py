@@ -2,7 +2,7 @@
 
 from math import inf, isfinite, nan
 from numbers import Real
-from typing import Any, NoReturn
+from typing import Any, NoReturn, Self
 
 
 class LoiterError(ValueError):
@@ -51,6 +51,13 @@ class Unfinished(LoiterError):
 
 class MissingPackage(LoiterError):
     """An optional package is missing; the sentence says how to install it."""
+
+    @classmethod
+    def of_extra(cls, needs: str, package: str | None, extra: str) -> Self:
+        """The error where a package is missing that an extra installs; `needs` begins the sentence: "MAVLink needs"."""
+        return cls(
+            f'{needs} {package}: pip install "loiter[{extra}]" brings it (in a checkout: pip install ".[{extra}]")'
+        )
 
 
 class LinkFailed(LoiterError):

@@ -111,9 +111,7 @@ def _need_packages(*names: str) -> None:
         try:
             import_module(name)
         except ImportError as error:
-            raise MissingPackage(
-                f'tables need {name}: pip install "loiter[cluster]" brings it (in a checkout: pip install ".[cluster]")'
-            ) from error
+            raise MissingPackage.of_extra("tables need", name, "cluster") from error
 
 
 def __getattr__(name: str) -> Any:

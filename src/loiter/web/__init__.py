@@ -29,9 +29,7 @@ def serve(
         try:
             import_module(name)
         except ImportError as error:
-            raise MissingPackage(
-                f'the service needs {name}: pip install "loiter[web]" brings it (in a checkout: pip install ".[web]")'
-            ) from error
+            raise MissingPackage.of_extra("the service needs", name, "web") from error
     from loiter.web import server
 
     server.serve(host, port, cors, announce)

@@ -63,10 +63,7 @@ def _read(path: Path) -> Mapping[str, Sequence[Any]]:
     try:
         from loiter.batch.tables.flight_logs import read_parquet
     except ImportError as error:
-        raise MissingPackage(
-            f'Parquet needs {error.name}: pip install "loiter[cluster]" brings it '
-            '(in a checkout: pip install ".[cluster]")'
-        ) from error
+        raise MissingPackage.of_extra("Parquet needs", error.name, "cluster") from error
     columns = read_parquet(path)
     check_columns(path, list(columns))
     return columns

@@ -243,10 +243,7 @@ def dialect() -> Any:
     try:
         from pymavlink.dialects.v20 import ardupilotmega
     except ImportError as error:
-        raise MissingPackage(
-            f'MAVLink needs {error.name}: pip install "loiter[mavlink]" brings it '
-            '(in a checkout: pip install ".[mavlink]")'
-        ) from error
+        raise MissingPackage.of_extra("MAVLink needs", error.name, "mavlink") from error
     return ardupilotmega
 
 

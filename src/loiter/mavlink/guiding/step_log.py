@@ -31,10 +31,7 @@ def check_log(path: Path | None) -> None:
         try:
             import loiter.batch.tables.flight_logs  # noqa: F401
         except ImportError as error:
-            raise MissingPackage(
-                f'Parquet needs {error.name}: pip install "loiter[cluster]" brings it '
-                '(in a checkout: pip install ".[cluster]")'
-            ) from error
+            raise MissingPackage.of_extra("Parquet needs", error.name, "cluster") from error
 
 
 @contextmanager
