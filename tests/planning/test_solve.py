@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import loiter
 from golden.paper import ADMISSIBLE, EXAMPLES
 from loiter import Aircraft, Orbit, Pose, Turn, candidates, plan, plan_all
 from loiter.errors import InvalidArgument, OutOfRange, RadiusTooSmall
@@ -186,14 +187,45 @@ def test_on_the_circle(R, azimuth, turn):
     assert plan(wrong_way, replace(orbit, turn="either"), uav).turn == turn.other
 
 
-def test_a_large_map_grid_changes_nothing_on_the_circle():
-    """Coordinates of a national grid round to a nanometre; the last arc must still be met."""
+GRID = Orbit(500_123.456, 5_432_101.234, 50.0, Turn.CW)
+
+
+@pytest.mark.parametrize("azimuth", range(0, 360, 7))
+def test_on_the_tightest_circle_in_a_map_grid_a_tolerance_covers_the_rounding_of_coordinates(azimuth):
+    """A national grid rounds to a nanometre, which may put a start just inside its circle: T jumps there."""
     uav = Aircraft(18.0, min_turn_radius_m=50.0)
-    orbit = Orbit(500_123.456, 5_432_101.234, 50.0, Turn.CW)
-    for azimuth in range(0, 360, 7):
-        east = orbit.east_m + 50.0 * sin(radians(azimuth))
-        north = orbit.north_m + 50.0 * cos(radians(azimuth))
-        assert plan(Pose(east, north, azimuth + 90.0), orbit, uav).duration_s < 1e-9
+    east = GRID.east_m + 50.0 * sin(radians(azimuth))
+    north = GRID.north_m + 50.0 * cos(radians(azimuth))
+    assert plan(Pose(east, north, azimuth + 90.0), GRID, uav, tolerance_m=1e-8).duration_s < 1e-9
+
+
+@given(st.floats(-200.0, 200.0), st.floats(-200.0, 200.0), st.floats(0.0, 360.0), st.floats(1.0, 6.0))
+def test_far_coordinates_change_neither_the_bound_of_the_miss_nor_the_array_functions(east, north, heading, R):
+    """The centre is subtracted first: what follows has the rounding of the scene, not that of its coordinates."""
+    r, centre = 30.0, 5.2e6
+    orbit, uav = Orbit(centre, centre, R * r), Aircraft(18.0, min_turn_radius_m=r)
+    pose = Pose(centre + east, centre + north, heading)
+    x, y = loiter.reduce(pose.east_m, pose.north_m, heading, orbit, uav)
+    m = plan(pose, orbit, uav)
+    assert m.miss_m / r <= 1e-12 * (1.0 + abs(x) + abs(y) + R)
+    assert m.duration_s == pytest.approx(loiter.min_time(x, y, orbit.radius_m / r) * r / 18.0, rel=1e-12, abs=1e-11)
+
+
+def test_a_start_next_to_the_tightest_circle_in_far_coordinates():
+    """It was counted as on its circle, a whole turn sooner than `min_time` of the reduced state."""
+    r, centre = 30.0, 5.2e6
+    orbit, uav = Orbit(centre, centre, r, Turn.CW), Aircraft(18.0, min_turn_radius_m=r)
+    pose = Pose(centre, centre + r * (1.0 - 1e-9), 90.0)
+    x, y = loiter.reduce(pose.east_m, pose.north_m, 90.0, orbit, uav)
+    m = plan(pose, orbit, uav)
+    assert m.duration_s == pytest.approx(loiter.min_time(x, y, turn="cw") * r / 18.0, rel=1e-12)
+    assert m.duration_s > r / 18.0
+
+
+def test_a_path_whose_length_is_no_finite_number_is_refused():
+    """The time was finite, and the length was infinite."""
+    with pytest.raises(OutOfRange):
+        plan(Pose(599.0, 0.0, 0.0), Orbit(0.0, 599.0, 1.6e308), Aircraft(7e14, min_turn_radius_m=2.8e307))
 
 
 def test_from_ten_million_turn_radii():

@@ -13,7 +13,7 @@ from loiter.arrays.reduction import heading_vectors
 from loiter.compiled.rebinding import Function, rebound
 from loiter.kernel import motion
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import REACH, ROUNDING
+from loiter.kernel.synthesis import REACH
 from loiter.kernel.words import Word
 from loiter.planning.compass import heading_after
 from loiter.planning.feasibility import RelativeWind, relative_velocity
@@ -127,7 +127,7 @@ def _in_still_air(s: States) -> Entries:
     R = s.orbit_radius_m / r
     if np.any(refused):
         x = np.where(refused, nan, x)
-    time, word, durations, status, side, _ = _kernel(x, y, R, s.side, _tolerance(s, r))
+    time, word, durations, status, side, _ = _kernel(x, y, R, s.side, s.tolerance_m / r if s.tolerance_m else 0.0)
     if status.any():
         status = _explained(s, status, refused)
     seconds = r / s.airspeed_m_s
@@ -231,24 +231,11 @@ def _radius(limit: str) -> Function:
     return rebound(formula, {"tan": np.tan, "radians": np.radians})
 
 
-def _tolerance(s: States, r: Any) -> Any:
-    """The tolerance as a normalised length, at least the rounding of the coordinates, as in `Problem.reduced`.
-
-    The kernel itself allows for the rounding of x, y and R. Where the centre is within a radius plus a turn radius of
-    the origin, the rounding of the coordinates is at most twice as large, since |e| + |n| <= sqrt(2) (|x| + |y|) r +
-    centre, and is left out: the kernel is fastest without a tolerance.
-    """
-    centre = np.abs(s.orbit_east_m) + np.abs(s.orbit_north_m)
-    if np.all(centre <= r + s.orbit_radius_m):
-        return s.tolerance_m / r if s.tolerance_m else 0.0
-    noise = ROUNDING * (np.abs(s.east_m) + np.abs(s.north_m) + centre)
-    return np.maximum(s.tolerance_m, noise) / r
-
-
 def _refused(s: States, r: Any) -> Any:
     """The statuses of rows that are not solved, 0 elsewhere: an array, or 0 for all."""
-    # Durations of up to REACH turns must be finite numbers of seconds too.
-    refused: Any = np.where(_positive(REACH * r / s.airspeed_m_s), 0, Status.OUT_OF_RANGE)
+    # Paths of up to REACH turn radii must be finite numbers of metres and seconds too.
+    finite = _positive(REACH * r / s.airspeed_m_s) & np.less(REACH * r, inf)
+    refused: Any = np.where(finite, 0, Status.OUT_OF_RANGE)
     if isinstance(s.side, np.ndarray):
         refused = np.where(s.side == UNKNOWN, Status.BAD_TURN, refused)
     circle = s.orbit_east_m, s.orbit_north_m, s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s

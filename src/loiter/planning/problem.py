@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, instance, not_negative
 from loiter.kernel import motion, wind_search
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import REACH, ROUNDING, rounded_radius, status_of
+from loiter.kernel.synthesis import REACH, rounded_radius, status_of
 from loiter.kernel.wind_search import WindProblem
 from loiter.kernel.words import Side
 from loiter.planning.compass import heading_vector
@@ -32,7 +32,7 @@ class ReducedProblem(NamedTuple):
     tolerance: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Problem:
     """An entry to plan: from where, onto which circle, by which aircraft, in which wind.
 
@@ -89,16 +89,13 @@ class Problem:
 
         Raises `RadiusTooSmall` for a circle tighter than the turn radius, `OutOfRange` for a scene too large.
         """
-        pose, orbit, r = self.pose, self.orbit, self.aircraft.turn_radius_m
-        x, y = motion.reduce(*self._place(), *heading_vector(pose.heading_deg))
-        # The difference of two large coordinates has a rounding error relative to their size, not to its own.
-        size = abs(pose.east_m) + abs(orbit.east_m) + abs(pose.north_m) + abs(orbit.north_m)
-        tolerance = max(self.tolerance_m, ROUNDING * size) / r
-        reduced = ReducedProblem(x, y, rounded_radius(self.radius), SIDES[orbit.turn], tolerance)
+        orbit, r = self.orbit, self.aircraft.turn_radius_m
+        x, y = motion.reduce(*self._place(), *heading_vector(self.pose.heading_deg))
+        reduced = ReducedProblem(x, y, rounded_radius(self.radius), SIDES[orbit.turn], self.tolerance_m / r)
         status = status_of(reduced.x, reduced.y, reduced.R, reduced.tolerance)
         if status == Status.RADIUS_TOO_SMALL:
             raise RadiusTooSmall(too_tight(orbit, self.aircraft), r)
-        if status != Status.OK or not self._has_durations():
+        if status != Status.OK or not self._has_finite_results():
             raise self._too_large()
         return reduced
 
@@ -112,18 +109,21 @@ class Problem:
         wx, wy = self.relative_wind
         tolerance = self.tolerance_m / self.aircraft.turn_radius_m
         found = WindProblem(x, y, c, s, self.radius, SIDES[self.orbit.turn], wx, wy, tolerance)
-        if wind_search.status_of(found) != Status.OK or not self._has_durations():
+        if wind_search.status_of(found) != Status.OK or not self._has_finite_results():
             raise self._too_large()
         return found
 
     def _place(self) -> tuple[float, float]:
-        """The position of the aircraft relative to the centre of the circle, in turn radii."""
+        """The position of the aircraft relative to the centre of the circle, in turn radii.
+
+        A difference of doubles is rounded relative to itself, so its error does not grow with the coordinates.
+        """
         r = self.aircraft.turn_radius_m
         return (self.pose.east_m - self.orbit.east_m) / r, (self.pose.north_m - self.orbit.north_m) / r
 
-    def _has_durations(self) -> bool:
-        """Whether durations of up to REACH turns are finite numbers of seconds too."""
-        return 0.0 < REACH * self.time_unit_s < inf
+    def _has_finite_results(self) -> bool:
+        """Whether paths of up to REACH turn radii are finite numbers of metres and seconds too."""
+        return 0.0 < REACH * self.time_unit_s < inf and REACH * self.aircraft.turn_radius_m < inf
 
     def _too_large(self) -> LoiterError:
         return OutOfRange(

@@ -84,7 +84,7 @@ def _in_still_air(trajectory: Trajectory, others: Sequence[Candidate]) -> Accura
         length,
         angle,
         beside=2.0 * length < trajectory.miss <= end,
-        join=end + max(trajectory.reduced_join.tolerance, length) + _heading_rounding(maneuver) * far,
+        join=end + length + _heading_rounding(maneuver) * far + _ground_rounding(maneuver),
         # The third derivative of a state on an arc is as large as the arc's radius.
         motion=(
             _of_difference(max((piece.radius for piece in pieces), default=0.0), length),
@@ -157,9 +157,7 @@ def _in_wind(trajectory: Trajectory) -> Accuracy:
     turning = 1.0 + 1.0 / max(_length_of_direction(trajectory), end)
     angle = end * turning
     choice = angle + sqrt(4.0 * end * turning)
-    # Rounding of positions over the ground.
-    metres = _size_over_ground_m(maneuver)
-    join = end + _heading_rounding(maneuver) * (1.0 + T) + ROUNDING * metres / maneuver.aircraft.turn_radius_m
+    join = end + _heading_rounding(maneuver) * (1.0 + T) + _ground_rounding(maneuver)
     return Accuracy(
         end,
         length,
@@ -209,9 +207,10 @@ def _heading_rounding(maneuver: Maneuver) -> float:
     return 6.0 * 2.0**-52 * radians(abs(maneuver.start.heading_deg) + 720.0)
 
 
-def _size_over_ground_m(maneuver: Maneuver) -> float:
-    """The sum of the coordinates over the ground and the distances that aircraft, air and circle move, metres."""
+def _ground_rounding(maneuver: Maneuver) -> float:
+    """The rounding of positions over the ground, turn radii: that of coordinates and of the distances that all move."""
     start, centre = maneuver.start, maneuver.orbit
     coordinates = sum(map(abs, (start.east_m, start.north_m, centre.east_m, centre.north_m)))
     speeds = maneuver.wind.speed_m_s + hypot(centre.velocity_east_m_s, centre.velocity_north_m_s)
-    return coordinates + maneuver.length_m + speeds * maneuver.duration_s
+    metres = coordinates + maneuver.length_m + speeds * maneuver.duration_s
+    return ROUNDING * metres / maneuver.aircraft.turn_radius_m

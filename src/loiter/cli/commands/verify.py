@@ -136,7 +136,7 @@ def _search(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
 
 def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.precision import WORST, RoundingError, precision
+    from loiter.verify.checks.precision import WIDE, WORST, RoundingError, precision
 
     results = precision(states, seed)
 
@@ -147,7 +147,10 @@ def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
             beyond = sum(not r.passed for r in here)
             error = max(r.error for r in here)
             rows.append({"next_to": place, "states": len(here), "largest_error": float(error), "beyond": beyond})
-        note = f"Rounding of T, relative, within 1e-12 to 1e-7 of each boundary; {WORST:.0e} is allowed."
+        note = (
+            f"Rounding of T, relative, within 1e-12 to 1e-7 of each boundary; {WORST:.0e} is allowed, R/{WIDE:g} times "
+            f"that on circles of more than {WIDE:g} turn radii."
+        )
         return Findings(rows, note, all(r.passed for r in found))
 
     return compare
