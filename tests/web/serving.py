@@ -61,7 +61,9 @@ def read_response(connection):
 def encode_request(body, path="/api/plan", headers=""):
     """A request with a body, as bytes."""
     kind = "Content-Type: application/json\r\n"
-    return f"POST {path} HTTP/1.1\r\nHost: x\r\n{kind}Content-Length: {len(body)}\r\n{headers}\r\n".encode() + body
+    return (
+        f"POST {path} HTTP/1.1\r\nHost: localhost\r\n{kind}Content-Length: {len(body)}\r\n{headers}\r\n".encode() + body
+    )
 
 
 def encode_scene(scene):

@@ -273,7 +273,7 @@ def test_nothing_is_there(refused, path):
 )
 def test_no_file_outside_the_page_is_served(port, path):
     with connected(port) as connection:
-        connection.sendall(f"GET {path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n".encode())
+        connection.sendall(f"GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
         status, headers, _ = read_response(connection)
     assert (status, headers["content-type"]) == (404, "application/problem+json")
 

@@ -17,7 +17,7 @@ from web.test_api import STILL, WINDY
 
 # Short time-outs for tests, seconds; a request on a busy machine takes less.
 TIMEOUT_S = 1.0
-HEAD = b"POST /api/plan HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+HEAD = b"POST /api/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
 
 
 @pytest.fixture(scope="module")
@@ -117,7 +117,7 @@ def test_nesting_is_allowed_up_to_a_depth(client):
 
 def head(size, where):
     """A request whose head has a size, in bytes."""
-    around = b"GET /healthz? HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
+    around = b"GET /healthz? HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
     if where == "the address":
         return around.replace(b"?", b"?" + b"y" * (size - len(around)))
     if where == "a header":
@@ -150,7 +150,7 @@ def test_an_oversized_chunk_is_not_answered_as_a_head(port):
 
 def test_the_second_of_two_heads_may_be_the_one_that_is_too_large(port):
     with connected(port) as connection:
-        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n" + head(200_000, "a header"))
+        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n" + head(200_000, "a header"))
         status, _, rest = read_response(connection)
     assert (status, rest.startswith(b'{"status":"ok"')) == (200, True)
     assert b"HTTP/1.1 431 " in rest
@@ -162,7 +162,7 @@ def test_the_second_of_two_heads_may_be_the_one_that_is_too_large(port):
 def test_a_body_without_the_type_json_is_refused(port, path, kind, body):
     length = f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n"
     with connected(port) as connection:
-        connection.sendall(f"POST /api/{path} HTTP/1.1\r\nHost: x\r\n{kind}{length}".encode() + body)
+        connection.sendall(f"POST /api/{path} HTTP/1.1\r\nHost: localhost\r\n{kind}{length}".encode() + body)
         assert problem(read_response(connection), 415)["detail"] == "the body must be of the type application/json"
 
 
@@ -198,7 +198,7 @@ def test_a_client_that_sends_nothing_is_disconnected_without_an_answer(short_tim
 
 def test_an_idle_connection_is_closed_after_an_answer(short_timeout_port):
     with connected(short_timeout_port) as connection:
-        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n")
+        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n")
         assert read_response(connection)[0] == 200
 
 
@@ -217,7 +217,7 @@ def test_a_client_that_disconnects_midway_does_not_disturb_the_server(short_time
 def test_a_client_that_does_not_read_is_disconnected():
     with serving(connections__REQUEST_TIMEOUT_S=TIMEOUT_S) as (port, _), connected(port) as connection:
         # More than fits between the two: an answer has some 0.5 MB.
-        connection.sendall(b"GET /api/synthesis?cells=400 HTTP/1.1\r\nHost: x\r\n\r\n" * 40)
+        connection.sendall(b"GET /api/synthesis?cells=400 HTTP/1.1\r\nHost: localhost\r\n\r\n" * 40)
         # Nothing is read until the server has timed out; only what it had sent by then arrives.
         time.sleep(4.0 * TIMEOUT_S)
         response = len(read_all(connection))
@@ -235,9 +235,9 @@ GARBAGE = {
     "HTTP/0.9": b"GET /\r\n\r\n",
     "a header without a colon": b"GET / HTTP/1.1\r\nHost\r\n\r\n",
     "no host": b"GET / HTTP/1.1\r\n\r\n",
-    "two lengths": b"POST /api/plan HTTP/1.1\r\nHost: x\r\nContent-Length: 3\r\nContent-Length: 4\r\n\r\n{}",
-    "a negative length": b"POST /api/plan HTTP/1.1\r\nHost: x\r\nContent-Length: -3\r\n\r\n{}",
-    "a space in a name": b"GET / HTTP/1.1\r\nHost: x\r\nX Y: 1\r\n\r\n",
+    "two lengths": b"POST /api/plan HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\nContent-Length: 4\r\n\r\n{}",
+    "a negative length": b"POST /api/plan HTTP/1.1\r\nHost: localhost\r\nContent-Length: -3\r\n\r\n{}",
+    "a space in a name": b"GET / HTTP/1.1\r\nHost: localhost\r\nX Y: 1\r\n\r\n",
 }
 
 
@@ -257,7 +257,7 @@ def test_an_invalid_chunk_ends_the_request(port):
 
 def test_garbage_after_a_request_does_not_spoil_its_answer(port):
     with connected(port) as connection:
-        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n\x00\x00 garbage\r\n\r\n")
+        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n\x00\x00 garbage\r\n\r\n")
         status, _, rest = read_response(connection)
     assert (status, rest.startswith(b'{"status":"ok"')) == (200, True)
     assert b" 400 " in rest
@@ -265,7 +265,7 @@ def test_garbage_after_a_request_does_not_spoil_its_answer(port):
 
 def test_requests_may_be_pipelined(port):
     with connected(port) as connection:
-        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n" * 3 + b"GET / HTTP/1.0\r\n\r\n")
+        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n" * 3 + b"GET / HTTP/1.0\r\n\r\n")
         _, _, rest = read_response(connection)
     assert rest.count(b'{"status":"ok"') == 3
     assert b"<title>" in rest
@@ -277,7 +277,7 @@ def test_requests_may_be_pipelined(port):
 def test_connections_above_the_limit_are_answered_with_503():
     with serving(connections__MAX_CONNECTIONS=2) as (port, _):
         with connected(port) as first, connected(port), connected(port) as third:
-            request = b"GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
+            request = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
             third.sendall(request)
             response = read_response(third)
             assert response[1]["retry-after"] == "10"

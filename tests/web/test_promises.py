@@ -43,7 +43,7 @@ def test_connections_above_twice_the_limit_are_closed_before_the_timeout():
     with serving(connections__MAX_CONNECTIONS=2, connections__HEAD_TIMEOUT_S=60.0) as (port, _), ExitStack() as stack:
         *others, fifth = (stack.enter_context(connected(port)) for _ in range(5))
         assert read_response(fifth) is None
-        request = b"GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
+        request = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
         for connection, status in zip(others, (200, 200, 503, 503), strict=True):
             connection.sendall(request)
             assert read_response(connection)[0] == status

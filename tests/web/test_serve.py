@@ -117,6 +117,40 @@ def test_it_does_not_warn_on_loopback(monkeypatch, host):
     assert len(lines) == 1
 
 
+@pytest.mark.parametrize("host", ["127.0.0.1:{port}", "LOCALHOST:{port}", "localhost", "[::1]:{port}", "me.localhost"])
+def test_names_of_this_machine_are_answered(port, host):
+    response = httpx.get(f"http://127.0.0.1:{port}/healthz", headers={"host": host.format(port=port)})
+    assert response.status_code == 200
+
+
+@pytest.mark.parametrize(
+    "host",
+    [
+        "evil.example",
+        "evil.example:{port}",
+        "127.0.0.1.evil.example",
+        "localhost.evil.example",
+        "192.168.0.7",
+        "[",
+        "x y",
+    ],
+)
+@pytest.mark.parametrize("path", ["/", "/healthz", "/static/main.js", "/openapi.json"])
+def test_other_hosts_are_refused_on_loopback(port, host, path):
+    """A site whose name points to 127.0.0.1 is for browsers the same origin as the service: DNS rebinding."""
+    host = host.format(port=port)
+    response = httpx.get(f"http://127.0.0.1:{port}{path}", headers={"host": host})
+    assert response.status_code == 421
+    assert response.json()["detail"].startswith(f"the request is for the host {host!r}")
+    assert response.headers["content-security-policy"]
+
+
+def test_other_hosts_are_answered_where_other_machines_may_come():
+    with serving("--host", "0.0.0.0") as (port, _):
+        response = httpx.get(f"http://127.0.0.1:{port}/healthz", headers={"host": "loiter.example"})
+    assert response.status_code == 200
+
+
 def test_answers_are_sent_at_once():
     with listening_socket("127.0.0.1", 0) as listener:
         assert listener.proto == socket.IPPROTO_TCP

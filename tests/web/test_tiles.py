@@ -179,6 +179,11 @@ def test_only_the_document_of_the_map_may_load_tiles_and_only_from_their_server(
         "https://{z}.example/{x}/{y}.png",
         "https://tiles.example:99999/{z}/{x}/{y}.png",
         "https://[::1/{z}/{x}/{y}.png",
+        "https://tiles.example/{z}/{x}/{y}.png\r\nset-cookie: a=b",
+        "https://tiles\t.example/{z}/{x}/{y}.png",
+        "https://tiles.example/{z}/{x}/{y}\x00.png",
+        "https://tiles.example/{z}/{x}/{y}.png\u2028",
+        "https://tiles.example/ {z}/{x}/{y}.png",
         "/{z}/{x}/{y}.png",
     ],
 )

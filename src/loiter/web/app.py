@@ -22,7 +22,7 @@ from loiter.version import __version__
 from loiter.web import models, openapi, problems
 from loiter.web.answers import exports, plans
 from loiter.web.answers.synthesis import DEFAULT_CELLS, MAX_CELLS, synthesis
-from loiter.web.headers import SecurityHeaders, map_headers
+from loiter.web.headers import LoopbackHosts, SecurityHeaders, map_headers
 from loiter.web.limits import Limits
 from loiter.web.pool import BoundedPool
 
@@ -37,8 +37,11 @@ THREADS, MAX_REQUESTS = 4, 128
 MAX_PICTURES = 16
 
 
-def create_app(cors: str | None = None) -> ASGIApp:
-    """The service as an ASGI application; `cors` is the one other origin whose pages may use it."""
+def create_app(cors: str | None = None, loopback_host: str | None = None) -> ASGIApp:
+    """The service as an ASGI application; `cors` is the one other origin whose pages may use it.
+
+    With `loopback_host`, the address that a server on loopback listens on, requests for other hosts are refused.
+    """
     api = FastAPI(title="loiter", version=__version__, docs_url=None, redoc_url=None, redirect_slashes=False)
     problems.install(api)
     openapi.install(api)
@@ -50,6 +53,8 @@ def create_app(cors: str | None = None) -> ASGIApp:
     app: ASGIApp = Limits(api)
     if cors is not None:
         app = CORSMiddleware(app, [cors], allow_methods=["GET", "POST"], allow_headers=["content-type"])
+    if loopback_host is not None:
+        app = LoopbackHosts(app, loopback_host)
     return SecurityHeaders(_without_ranges(app))
 
 
@@ -159,7 +164,13 @@ def tile_origin(template: str) -> str:
     except ValueError:
         raise InvalidArgument("tiles", f"is {template!r}: {problem}") from None
     # The origin becomes part of a header: nothing but a plain host name may enter it.
-    known = parts.scheme in ("http", "https") and re.fullmatch(r"[A-Za-z0-9.-]+|[0-9A-Fa-f:]*:[0-9A-Fa-f:.]*", host)
+    # `urlsplit` drops line breaks and tabs: they would otherwise come back in the page.
+    printable = template.isascii() and template.isprintable() and " " not in template
+    known = (
+        printable
+        and parts.scheme in ("http", "https")
+        and re.fullmatch(r"[A-Za-z0-9.-]+|[0-9A-Fa-f:]*:[0-9A-Fa-f:.]*", host)
+    )
     if not known or not all(part in f"{parts.path}?{parts.query}" for part in ("{z}", "{x}", "{y}")):
         raise InvalidArgument("tiles", f"is {template!r}: {problem}")
     name = f"[{host}]" if ":" in host else host

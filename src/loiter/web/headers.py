@@ -1,8 +1,14 @@
-"""Security headers of every answer: the page runs only its own code, and no other page can embed it in a frame."""
+"""Headers: those of every answer let the page run only its own code, in no frame; that of a request names its host."""
 
 from __future__ import annotations
 
+from http import HTTPStatus
+from ipaddress import ip_address
+from urllib.parse import urlsplit
+
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from loiter.web.problems import problem
 
 POLICY = "; ".join(
     [
@@ -69,3 +75,42 @@ class SecurityHeaders:
             await send(message)
 
         await self.app(scope, receive, with_headers)
+
+
+class LoopbackHosts:
+    """Middleware of a service on loopback: it refuses requests for another host than this machine, or than `host`.
+
+    A web site could otherwise let its own name point to 127.0.0.1 and read the answers (DNS rebinding).
+    """
+
+    def __init__(self, app: ASGIApp, host: str) -> None:
+        self.app, self._host = app, host
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve a request, or refuse it with a problem document."""
+        asked = next((value.decode("latin-1") for name, value in scope["headers"] if name == b"host"), self._host)
+        if is_loopback(host_name(asked)) or host_name(asked) == self._host.lower():
+            await self.app(scope, receive, send)
+        else:
+            detail = f"the request is for the host {asked!r}; this service answers on this machine's own addresses only"
+            await problem(HTTPStatus.MISDIRECTED_REQUEST, detail)(scope, receive, send)
+
+
+def host_name(authority: str) -> str:
+    """The host of HOST[:PORT] in small letters, an address without brackets; "" where there is none.
+
+    >>> host_name("LOCALHOST:8300"), host_name("[::1]:8300"), host_name("127.0.0.1")
+    ('localhost', '::1', '127.0.0.1')
+    """
+    try:
+        return urlsplit(f"//{authority}").hostname or ""
+    except ValueError:
+        return ""
+
+
+def is_loopback(host: str) -> bool:
+    """Whether a name or an address is that of this machine on its loopback interface."""
+    try:
+        return ip_address(host.partition("%")[0]).is_loopback
+    except ValueError:
+        return host == "localhost" or host.endswith(".localhost")

@@ -8,7 +8,6 @@ import signal
 import socket
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from ipaddress import ip_address
 from threading import Thread
 from urllib.parse import urlsplit
 
@@ -19,6 +18,7 @@ from loiter.errors import InvalidArgument
 from loiter.web.answers.synthesis import DEFAULT_CELLS, synthesis
 from loiter.web.app import create_app
 from loiter.web.connections import Connection
+from loiter.web.headers import is_loopback
 from loiter.web.limits import MAX_HEAD_BYTES
 
 # Connections that may wait to be accepted.
@@ -36,7 +36,7 @@ def serve(host: str, port: int, cors: str | None, announce: Callable[[str], obje
     if cors is not None:
         _check_origin(cors)
     with listening_socket(host, port) as listener, _sigterm_as_interrupt(), suppress(KeyboardInterrupt):
-        app = create_app(cors)
+        app = create_app(cors, loopback_host=host if is_loopback(_address(listener)) else None)
         config = uvicorn.Config(
             app,
             loop="asyncio",
@@ -129,11 +129,15 @@ def _sigterm_as_interrupt() -> Iterator[None]:
 
 def _announcements(listener: socket.socket) -> Iterator[str]:
     """The address of the page, and a warning where other machines can reach it."""
-    host, port, *_ = listener.getsockname()
+    host, (_, port, *_) = _address(listener), listener.getsockname()
     yield f"http://{f'[{host}]' if ':' in host else host}:{port}/"
-    address, _, _ = host.partition("%")
-    if not ip_address(address).is_loopback:
+    if not is_loopback(host):
         yield "Other machines can reach this service: it asks for no user name and no password."
+
+
+def _address(listener: socket.socket) -> str:
+    host, *_ = listener.getsockname()
+    return str(host)
 
 
 def _check_origin(cors: str) -> None:
