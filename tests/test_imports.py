@@ -77,6 +77,12 @@ def test_array_functions_load_numpy_when_first_named():
     assert "numpy" in loaded_by("import loiter\nloiter.reduce")
 
 
+def test_dir_shows_the_public_names_and_modules_alone():
+    modules = ["batch", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"]
+    shown = "import loiter, json\nprint(json.dumps([n for n in dir(loiter) if not n.startswith('__')]))"
+    assert fresh(shown) == sorted(PUBLIC + modules)
+
+
 def test_the_public_names_are_these():
     assert sorted(loiter.__all__) == PUBLIC
 

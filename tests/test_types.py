@@ -5,7 +5,10 @@ import re
 import subprocess
 import sys
 from dataclasses import fields
+from importlib import import_module
+from inspect import isclass, isfunction
 from pathlib import Path
+from typing import get_type_hints
 
 import pytest
 
@@ -94,18 +97,24 @@ def test_a_watch_can_be_closed_and_the_former_names_are_types(checked):
 
 
 def test_array_functions_have_types(checked):
-    """Numbers give numbers, sequences and NumPy arrays give arrays, and arrays of other libraries are not known."""
+    """Numbers give numbers, sequences and NumPy arrays give arrays, arrays of other libraries give their kind."""
     assert checked(
         "from typing import Any, assert_type",
         "import loiter, numpy as np",
         "from loiter import Aircraft, Orbit, Solution",
-        "from numpy.typing import NDArray",
+        "from numpy.typing import ArrayLike, NDArray",
         "orbit, uav = Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0)",
-        "many, lazy = np.zeros(3), object()",
+        "class Column:",
+        "    def __array_ufunc__(self, ufunc: Any, method: Any, *inputs: Any, **options: Any) -> Any: ...",
+        "many, column = np.zeros(3), Column()",
+        "anything: ArrayLike = [1.0]",
         "assert_type(loiter.min_time(4.0, 4), np.float64)",
         "assert_type(loiter.min_time([4.0, 1], 4.0), NDArray[np.float64])",
         "assert_type(loiter.min_time(many, 0.0, turn=['cw', 'ccw', 'cw']), NDArray[np.float64])",
-        "assert_type(loiter.min_time(lazy, many), Any)",
+        "assert_type(loiter.min_time(column, many), Column)",
+        "assert_type(loiter.min_time(0.0, column, radius=column), Column)",
+        "assert_type(loiter.min_time(anything, many), np.float64 | NDArray[np.float64])",
+        "assert_type(loiter.reduce(column, 0.0, 90.0, orbit, uav), tuple[Column, Column])",
         "assert_type(loiter.control(0.0, 1.0, 1.5, 'cw'), np.float64)",
         "assert_type(loiter.control(many, many, out=many), NDArray[np.float64])",
         "assert_type(loiter.min_time_in_wind(0.0, 1.0, 0.0, 3.0, 'cw', 0.1, 0.2), np.float64)",
@@ -115,3 +124,35 @@ def test_array_functions_have_types(checked):
         "answers: Solution = loiter.solve(many, many)",
         "assert_type(answers.words, NDArray[np.str_])",
     ) == (["Success: no issues found in 1 source file"], 0)
+
+
+def test_no_overload_takes_what_is_no_array(checked):
+    said, status = checked("import loiter", "loiter.min_time(None, 1.0)")
+    assert status == 1
+    assert 'No overload variant of "min_time" matches' in said[0]
+
+
+def public_callables():
+    """Every public function and class, with its methods and properties, by name."""
+    for package in ("", ".errors", ".batch", ".geo", ".guidance", ".io", ".mavlink", ".plot", ".verify", ".web"):
+        module = import_module(f"loiter{package}")
+        for name in getattr(module, "__all__", [each for each in vars(module) if not each.startswith("_")]):
+            value = getattr(module, name)
+            yield f"{module.__name__}.{name}", value
+            for member, each in vars(value).items() if isclass(value) else ():
+                each = getattr(each, "fget", getattr(each, "func", getattr(each, "__func__", each)))
+                if isfunction(each) and not member.startswith("_"):
+                    yield f"{module.__name__}.{name}.{member}", each
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        pytest.param(name, value, id=name)
+        for name, value in public_callables()
+        if (isclass(value) or isfunction(value)) and value.__module__.startswith("loiter")
+    ],
+)
+def test_the_types_of_every_public_name_can_be_looked_up(name, value):
+    hints = get_type_hints(value)
+    assert isclass(value) or "return" in hints

@@ -54,8 +54,11 @@ __all__ = [
 ]
 
 
-# Loaded when first used: they need NumPy.
-ARRAY_NAMES = {
+# Loaded when first used.
+_MODULES = {"batch", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"}
+
+# The same, since they need NumPy.
+_ARRAY_NAMES = {
     "Solution",
     "WindSolution",
     "control",
@@ -68,15 +71,15 @@ ARRAY_NAMES = {
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*__all__, *_MODULES, *(name for name in globals() if name.startswith("__"))})
 
 
 def __getattr__(name: str) -> Any:
     # The array functions need NumPy, which a single plan does not load.
-    if name in ARRAY_NAMES:
+    if name in _ARRAY_NAMES:
         from loiter import arrays
 
         return getattr(arrays, name)
-    if name in {"batch", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"}:
+    if name in _MODULES:
         return import_module(f"loiter.{name}")
     raise AttributeError(f"module 'loiter' has no attribute {name!r}")

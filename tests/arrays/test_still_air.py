@@ -1,8 +1,10 @@
 """Arrays of states: the same answers as one by one, nan and codes where there is none."""
 
+from fractions import Fraction
 from math import inf, nan
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import loiter
@@ -290,3 +292,33 @@ def test_arrays_of_xarray_keep_their_names():
     assert np.array_equal(times, loiter.min_time(X.reshape(30, 100), Y[:100]))
     lazy = xarray.apply_ufunc(loiter.min_time, x.chunk(run=10), y, dask="parallelized", output_dtypes=[float])
     assert np.array_equal(lazy.compute(), times)
+
+
+NO_NUMBERS = [
+    (None, "holds NoneType: it must be a number or an array of numbers"),
+    ([0.0, None], "holds NoneType: it must be a number or an array of numbers"),
+    (object(), "holds object: it must be a number or an array of numbers"),
+    ("4", "holds str: it must be a number or an array of numbers"),
+    (1j, "holds complex: it must be a number or an array of numbers"),
+    ([[1.0], [1.0, 2.0]], "has rows of different lengths"),
+    (pd.Series([1.0, None, "x"]), "holds NoneType: it must be a number or an array of numbers"),
+]
+
+
+@pytest.mark.parametrize("function", ["min_time", "control", "solve", "min_time_in_wind", "solve_in_wind", "reduce"])
+@pytest.mark.parametrize(("value", "problem"), NO_NUMBERS, ids=lambda value: type(value).__name__)
+def test_what_is_no_number_is_refused_in_one_sentence(function, value, problem):
+    others = {
+        "reduce": (0.0, 90.0, loiter.Orbit(0.0, 0.0, 80.0), loiter.Aircraft(18.0, max_bank_deg=35.0)),
+        "min_time_in_wind": (0.0, 0.0, 3.0, "cw", 0.1, 0.0),
+        "solve_in_wind": (0.0, 0.0, 3.0, "cw", 0.1, 0.0),
+    }
+    with pytest.raises(InvalidArgument) as refusal:
+        getattr(loiter, function)(value, *others.get(function, (1.0,)))
+    assert str(refusal.value) == f"{'east_m' if function == 'reduce' else 'x'} {problem}"
+
+
+def test_numbers_held_as_objects_are_numbers():
+    held = np.array([4.0, Fraction(1, 2), 3], dtype=object)
+    assert (loiter.solve(held, 1.0).time == loiter.solve([4.0, 0.5, 3.0], 1.0).time).all()
+    assert (loiter.min_time(held, 1.0) == loiter.min_time([4.0, 0.5, 3.0], 1.0)).all()

@@ -1,5 +1,6 @@
 """What people say about aircraft, circles and poses: derived values and refusals."""
 
+from dataclasses import FrozenInstanceError
 from math import degrees, inf, nan, pi
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter import Aircraft, Orbit, Pose, Turn, plan
+from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
 from loiter.errors import InvalidArgument, LoiterError
 
 
@@ -109,3 +110,11 @@ def test_small_number_types_do_not_decide_how_it_is_reckoned():
     assert {type(value) for value in values} == {float}
     expected = plan(Pose(100.0, 60.0, 100.0), Orbit(-100.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=50.0))
     assert plan(pose, orbit, uav) == expected
+
+
+@pytest.mark.parametrize("value", [Pose(0.0, 0.0, 0.0), Wind(1.0, 2.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, 35.0)])
+@pytest.mark.parametrize("name", ["east_m", "unknown"])
+def test_values_cannot_be_changed(value, name):
+    """An unknown attribute raised TypeError from within the standard library."""
+    with pytest.raises(FrozenInstanceError, match=f"cannot assign to field '{name}'"):
+        setattr(value, name, 1.0)

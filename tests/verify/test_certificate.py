@@ -73,7 +73,8 @@ def test_no_false_alarm_at_a_corner_with_a_small_change_of_slope(i):
     """On a wide circle, where it meets the axis: the slopes of T differ by less than a thousandth."""
     certificate = certify(plan(*at_curve(Random(f"0 curves {i}"))))
     assert certificate.valid, shown(certificate)
-    assert certificate.residual("gradient").skipped
+    gradient = certificate.residual("gradient")
+    assert gradient.skipped or gradient.note == "T has a corner: its one-sided derivatives"
 
 
 @pytest.mark.parametrize("draw", [at_curve, at_axis, at_tie])

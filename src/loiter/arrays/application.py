@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from loiter.arrays.arguments import is_lazy, refuse_lazy_out
 from loiter.arrays.threads import share_work, thread_count
 from loiter.compiled import ufunc
 from loiter.errors import InvalidArgument
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike
 
 # A named tuple of arrays: the results of a ufunc that solves.
 Results = TypeVar("Results", bound=tuple[Any, ...])
@@ -22,14 +18,13 @@ Results = TypeVar("Results", bound=tuple[Any, ...])
 _CODES = {"word", "status", "side"}
 
 
-def apply(name: str, arguments: Sequence[Any], out: Any, where: ArrayLike, workers: int) -> Any:
+def apply(name: str, arrays: tuple[Any, ...], out: Any, where: Any, workers: int) -> Any:
     """The result of a ufunc with one result, in threads where there are several workers and only NumPy arguments.
 
     Raises `InvalidArgument` for a number of workers that is not possible, and for `where` without `out`.
     """
     function, count = ufunc(name), thread_count(workers)
     _check_where(where, out)
-    arrays = tuple(a if hasattr(a, "__array_ufunc__") else np.asarray(a, dtype=np.float64) for a in arguments)
     mask = None if where is True else _array(where)
     shareable = all(isinstance(a, (np.ndarray, np.generic, type(None))) for a in (*arrays, mask))
     if count == 1 or not shareable or not isinstance(out, (np.ndarray, type(None))):
@@ -43,7 +38,7 @@ def apply(name: str, arguments: Sequence[Any], out: Any, where: ArrayLike, worke
 
 
 def apply_solver(
-    name: str, arguments: Sequence[Any], kind: type[Results], out: Results | None, where: ArrayLike, workers: int
+    name: str, arguments: tuple[Any, ...], kind: type[Results], out: Results | None, where: ArrayLike, workers: int
 ) -> Results:
     """The results, of the named tuple `kind`, of a ufunc that solves; lazy where an argument is.
 
@@ -62,7 +57,7 @@ def apply_solver(
         # NumPy has no `where` for a ufunc with a signature.
         shape = out[0].shape
         wanted = np.broadcast_to(np.asarray(where, dtype=bool), shape)
-        some = apply_solver(name, [np.broadcast_to(a, shape)[wanted] for a in arrays], kind, None, True, count)
+        some = apply_solver(name, tuple(np.broadcast_to(a, shape)[wanted] for a in arrays), kind, None, True, count)
         for result, values in zip(out, some, strict=True):
             result[wanted] = values
         return out

@@ -2,24 +2,57 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from numbers import Real
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.words import Side
 from loiter.planning.model import Turn
 from loiter.planning.sides import SIDES
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
+# Arguments whose results are NumPy arrays: numbers, nested sequences of numbers, and NumPy arrays.
+Numbers = Sequence[float] | Sequence[Sequence[float]] | Sequence[Sequence[Sequence[float]]]
+NumbersLike = float | Numbers | NDArray[np.floating[Any]] | NDArray[np.integer[Any]]
+TurnLike = str | Side
 
-    from numpy.typing import ArrayLike, NDArray
 
-    # Arguments whose results are NumPy arrays: numbers, nested sequences of numbers, and NumPy arrays.
-    Numbers = Sequence[float] | Sequence[Sequence[float]] | Sequence[Sequence[Sequence[float]]]
-    NumbersLike = float | Numbers | NDArray[np.floating[Any]] | NDArray[np.integer[Any]]
-    TurnLike = str | Side
+class OtherArray(Protocol):
+    """An array of another library, such as a pandas column, a Dask array or xarray's, to which ufuncs apply."""
+
+    def __array_ufunc__(self, ufunc: Any, method: Any, *inputs: Any, **options: Any) -> Any:
+        """The result of a ufunc, of the array's own kind."""
+
+
+OtherArrays = TypeVar("OtherArrays", bound=OtherArray)
+
+# Whatever can be an array of numbers.
+Arrays = ArrayLike | OtherArray
+
+
+def numbers(name: str, value: Any) -> Any:
+    """The argument `name` as an array of numbers; an array of another library, unless it holds objects, as it is.
+
+    Raises `InvalidArgument` for anything else: None, text, complex numbers, other objects, rows of different lengths.
+    """
+    try:
+        array = value if hasattr(value, "__array_ufunc__") or is_lazy(value) else np.asarray(value)
+        if array.dtype.kind in "biuf":
+            return array
+        if array.dtype.kind == "O" and all(isinstance(each, (Real, np.number)) for each in np.ravel(array)):
+            return np.asarray(array, dtype=np.float64)
+    except ValueError:
+        raise InvalidArgument(name, "has rows of different lengths") from None
+    kind = next((type(each).__name__ for each in np.ravel(array).tolist() if not isinstance(each, Real)), "nothing")
+    raise InvalidArgument(name, f"holds {kind}: it must be a number or an array of numbers")
+
+
+def number_arrays(**arguments: Any) -> tuple[Any, ...]:
+    """The arguments, each checked by `numbers`."""
+    return tuple(numbers(name, value) for name, value in arguments.items())
 
 
 def side_codes(turn: ArrayLike) -> Any:

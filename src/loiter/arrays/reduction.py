@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from loiter.arrays.arguments import is_lazy, refuse_lazy_out
+from loiter.arrays.arguments import Arrays, NumbersLike, OtherArrays, is_lazy, number_arrays, refuse_lazy_out
 from loiter.compiled import ufunc
 from loiter.compiled.rebinding import Function, rebound
 from loiter.errors import in_unit, instance
 from loiter.kernel import motion
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import Aircraft, Orbit
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from loiter.arrays.arguments import NumbersLike
 
 
 @overload
@@ -36,13 +32,23 @@ def reduce(
     out: tuple[NDArray[np.float64], NDArray[np.float64]] | None = ...,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 @overload
+def reduce(  # type: ignore[overload-overlap]
+    east_m: OtherArrays | NumbersLike,
+    north_m: OtherArrays | NumbersLike,
+    heading_deg: OtherArrays | NumbersLike,
+    orbit: Orbit,
+    aircraft: Aircraft,
+    *,
+    out: None = ...,
+) -> tuple[OtherArrays, OtherArrays]: ...
+@overload
 def reduce(
-    east_m: Any, north_m: Any, heading_deg: Any, orbit: Orbit, aircraft: Aircraft, *, out: Any = ...
-) -> tuple[Any, Any]: ...
+    east_m: ArrayLike, north_m: ArrayLike, heading_deg: ArrayLike, orbit: Orbit, aircraft: Aircraft, *, out: Any = ...
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 def reduce(
-    east_m: ArrayLike,
-    north_m: ArrayLike,
-    heading_deg: ArrayLike,
+    east_m: Arrays,
+    north_m: Arrays,
+    heading_deg: Arrays,
     orbit: Orbit,
     aircraft: Aircraft,
     *,
@@ -63,12 +69,15 @@ def reduce(
     """
     instance("orbit", orbit, Orbit)
     instance("aircraft", aircraft, Aircraft)
-    east_m, north_m = in_unit(east_m, "metres"), in_unit(north_m, "metres")
-    heading_deg = in_unit(heading_deg, "degrees")
+    east, north, heading = number_arrays(
+        east_m=in_unit(east_m, "metres"),
+        north_m=in_unit(north_m, "metres"),
+        heading_deg=in_unit(heading_deg, "degrees"),
+    )
     r = aircraft.turn_radius_m
-    east: Any = np.subtract(east_m, orbit.east_m, dtype=np.float64) / r
-    north: Any = np.subtract(north_m, orbit.north_m, dtype=np.float64) / r
-    c, s = heading_vectors()(np.multiply(heading_deg, 1.0, dtype=np.float64))
+    east = np.subtract(east, orbit.east_m, dtype=np.float64) / r
+    north = np.subtract(north, orbit.north_m, dtype=np.float64) / r
+    c, s = heading_vectors()(np.multiply(heading, 1.0, dtype=np.float64))
     lazy = any(map(is_lazy, (east, north, c)))
     if lazy:
         refuse_lazy_out(out)

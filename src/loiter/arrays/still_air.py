@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
+from typing import Any, Literal, NamedTuple, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from loiter.arrays.application import apply, apply_solver
-from loiter.arrays.arguments import side_codes
+from loiter.arrays.arguments import Arrays, NumbersLike, OtherArray, OtherArrays, TurnLike, number_arrays, side_codes
 from loiter.arrays.letters import word_letters
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import ArrayLike, NDArray
-
-    from loiter.arrays.arguments import NumbersLike, TurnLike
 
 
 class Solution(NamedTuple):
@@ -70,28 +67,40 @@ def min_time(
     workers: int = ...,
 ) -> NDArray[np.float64]: ...
 @overload
-def min_time(
-    x: Any,
-    y: Any,
-    radius: Any = ...,
-    turn: Any = ...,
-    tolerance: Any = ...,
+def min_time(  # type: ignore[overload-overlap]
+    x: OtherArrays | NumbersLike,
+    y: OtherArrays | NumbersLike,
+    radius: OtherArrays | NumbersLike = ...,
+    turn: ArrayLike = ...,
+    tolerance: OtherArrays | NumbersLike = ...,
     *,
-    out: Any = ...,
-    where: Any = ...,
+    out: OtherArrays | None = ...,
+    where: OtherArrays | ArrayLike = ...,
     workers: int = ...,
-) -> Any: ...
+) -> OtherArrays: ...
+@overload
 def min_time(
     x: ArrayLike,
     y: ArrayLike,
-    radius: ArrayLike = 1.0,
+    radius: ArrayLike = ...,
+    turn: ArrayLike = ...,
+    tolerance: ArrayLike = ...,
+    *,
+    out: Any = ...,
+    where: ArrayLike = ...,
+    workers: int = ...,
+) -> np.float64 | NDArray[np.float64]: ...
+def min_time(
+    x: Arrays,
+    y: Arrays,
+    radius: Arrays = 1.0,
     turn: ArrayLike = "either",
-    tolerance: ArrayLike = 0.0,
+    tolerance: Arrays = 0.0,
     *,
     out: Any = None,
-    where: ArrayLike = True,
+    where: Arrays = True,
     workers: int = 1,
-) -> Any:
+) -> np.float64 | NDArray[np.float64] | OtherArray:
     """Least time T to the circle from reduced states (x, y), in units of turn radius over airspeed.
 
     `x`, `y` are the coordinates (2) of docs/theory.md and `radius` the circle's, all in turn radii; `turn` is "cw",
@@ -108,7 +117,10 @@ def min_time(
     >>> loiter.min_time([0.0, 1.0], 1.0, radius=[1.0, 0.5], turn="cw")
     array([ 0., nan])
     """
-    return apply("min_time", (x, y, radius, side_codes(turn), tolerance), out, where, workers)
+    result: np.float64 | NDArray[np.float64] | OtherArray = apply(
+        "min_time", _arguments(x, y, radius, turn, tolerance), out, where, workers
+    )
+    return result
 
 
 @overload
@@ -136,28 +148,40 @@ def control(
     workers: int = ...,
 ) -> NDArray[np.float64]: ...
 @overload
-def control(
-    x: Any,
-    y: Any,
-    radius: Any = ...,
-    turn: Any = ...,
-    tolerance: Any = ...,
+def control(  # type: ignore[overload-overlap]
+    x: OtherArrays | NumbersLike,
+    y: OtherArrays | NumbersLike,
+    radius: OtherArrays | NumbersLike = ...,
+    turn: ArrayLike = ...,
+    tolerance: OtherArrays | NumbersLike = ...,
     *,
-    out: Any = ...,
-    where: Any = ...,
+    out: OtherArrays | None = ...,
+    where: OtherArrays | ArrayLike = ...,
     workers: int = ...,
-) -> Any: ...
+) -> OtherArrays: ...
+@overload
 def control(
     x: ArrayLike,
     y: ArrayLike,
-    radius: ArrayLike = 1.0,
+    radius: ArrayLike = ...,
+    turn: ArrayLike = ...,
+    tolerance: ArrayLike = ...,
+    *,
+    out: Any = ...,
+    where: ArrayLike = ...,
+    workers: int = ...,
+) -> np.float64 | NDArray[np.float64]: ...
+def control(
+    x: Arrays,
+    y: Arrays,
+    radius: Arrays = 1.0,
     turn: ArrayLike = "either",
-    tolerance: ArrayLike = 0.0,
+    tolerance: Arrays = 0.0,
     *,
     out: Any = None,
-    where: ArrayLike = True,
+    where: Arrays = True,
     workers: int = 1,
-) -> Any:
+) -> np.float64 | NDArray[np.float64] | OtherArray:
     """The feedback law: first control of the optimum at (x, y), -1 (right), 0 or +1 (left), as float64.
 
     The control is the turn rate over the largest one, of the shape (...) to which the arguments broadcast. At the
@@ -168,7 +192,10 @@ def control(
     >>> loiter.control([4.0, -0.53, -3.0], [4.0, 0.31, 0.0])
     array([-1.,  1.,  0.])
     """
-    return apply("control", (x, y, radius, side_codes(turn), tolerance), out, where, workers)
+    result: np.float64 | NDArray[np.float64] | OtherArray = apply(
+        "control", _arguments(x, y, radius, turn, tolerance), out, where, workers
+    )
+    return result
 
 
 def solve(
@@ -192,4 +219,10 @@ def solve(
     >>> loiter.solve(4.0, 4.0).durations.round(4)
     array([2.6994, 3.1669, 1.0472])
     """
-    return apply_solver("solve", (x, y, radius, side_codes(turn), tolerance), Solution, out, where, workers)
+    return apply_solver("solve", _arguments(x, y, radius, turn, tolerance), Solution, out, where, workers)
+
+
+def _arguments(x: Any, y: Any, radius: Any, turn: ArrayLike, tolerance: Any) -> tuple[Any, ...]:
+    """The inputs of the ufuncs: numbers, and the turn as a code."""
+    x, y, radius, tolerance = number_arrays(x=x, y=y, radius=radius, tolerance=tolerance)
+    return x, y, radius, side_codes(turn), tolerance

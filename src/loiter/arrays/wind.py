@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
+from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from loiter.arrays.application import apply, apply_solver
-from loiter.arrays.arguments import side_codes
+from loiter.arrays.arguments import Arrays, NumbersLike, OtherArray, OtherArrays, TurnLike, number_arrays, side_codes
 from loiter.arrays.letters import word_letters
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from loiter.arrays.arguments import NumbersLike, TurnLike
 
 
 class WindSolution(NamedTuple):
@@ -67,20 +63,21 @@ def min_time_in_wind(
     workers: int = ...,
 ) -> NDArray[np.float64]: ...
 @overload
-def min_time_in_wind(
-    x: Any,
-    y: Any,
-    angle: Any,
-    radius: Any,
-    turn: Any,
-    wind_x: Any,
-    wind_y: Any,
-    tolerance: Any = ...,
+def min_time_in_wind(  # type: ignore[overload-overlap]
+    x: OtherArrays | NumbersLike,
+    y: OtherArrays | NumbersLike,
+    angle: OtherArrays | NumbersLike,
+    radius: OtherArrays | NumbersLike,
+    turn: ArrayLike,
+    wind_x: OtherArrays | NumbersLike,
+    wind_y: OtherArrays | NumbersLike,
+    tolerance: OtherArrays | NumbersLike = ...,
     *,
-    out: Any = ...,
-    where: Any = ...,
+    out: OtherArrays | None = ...,
+    where: OtherArrays | ArrayLike = ...,
     workers: int = ...,
-) -> Any: ...
+) -> OtherArrays: ...
+@overload
 def min_time_in_wind(
     x: ArrayLike,
     y: ArrayLike,
@@ -89,12 +86,26 @@ def min_time_in_wind(
     turn: ArrayLike,
     wind_x: ArrayLike,
     wind_y: ArrayLike,
-    tolerance: ArrayLike = 0.0,
+    tolerance: ArrayLike = ...,
+    *,
+    out: Any = ...,
+    where: ArrayLike = ...,
+    workers: int = ...,
+) -> np.float64 | NDArray[np.float64]: ...
+def min_time_in_wind(
+    x: Arrays,
+    y: Arrays,
+    angle: Arrays,
+    radius: Arrays,
+    turn: ArrayLike,
+    wind_x: Arrays,
+    wind_y: Arrays,
+    tolerance: Arrays = 0.0,
     *,
     out: Any = None,
-    where: ArrayLike = True,
+    where: Arrays = True,
     workers: int = 1,
-) -> Any:
+) -> np.float64 | NDArray[np.float64] | OtherArray:
     """Least time T to the circle in wind, in turn radii over airspeed; nan where there is none.
 
     `x`, `y` are the position from the circle's centre and `radius` its radius, in turn radii; `angle` is the direction
@@ -107,8 +118,10 @@ def min_time_in_wind(
     >>> round(float(loiter.min_time_in_wind(-10.0, 0.0, 0.0, 3.0, "cw", 0.3, 0.0)), 4)
     5.9162
     """
-    arguments = _arguments(x, y, angle, radius, turn, wind_x, wind_y, tolerance)
-    return apply("min_time_in_wind", arguments, out, where, workers)
+    numbers = number_arrays(x=x, y=y, angle=angle, radius=radius, wind_x=wind_x, wind_y=wind_y, tolerance=tolerance)
+    arguments = _arguments(turn, *numbers)
+    result: np.float64 | NDArray[np.float64] | OtherArray = apply("min_time_in_wind", arguments, out, where, workers)
+    return result
 
 
 def solve_in_wind(
@@ -131,11 +144,12 @@ def solve_in_wind(
     tight to be held in it, a search that did not converge) the floats are nan. Dask arrays give Dask arrays, all other
     arguments NumPy arrays; `out` is a `WindSolution` to fill. Raises the errors of `solve`.
     """
-    arguments = _arguments(x, y, angle, radius, turn, wind_x, wind_y, tolerance)
+    numbers = number_arrays(x=x, y=y, angle=angle, radius=radius, wind_x=wind_x, wind_y=wind_y, tolerance=tolerance)
+    arguments = _arguments(turn, *numbers)
     return apply_solver("solve_in_wind", arguments, WindSolution, out, where, workers)
 
 
-def _arguments(x: Any, y: Any, angle: Any, radius: Any, turn: Any, *others: Any) -> tuple[Any, ...]:
+def _arguments(turn: ArrayLike, x: Any, y: Any, angle: Any, radius: Any, *others: Any) -> tuple[Any, ...]:
     """The inputs of the ufuncs: the heading as a unit vector, the turn as a code."""
     angles = np.multiply(angle, 1.0, dtype=np.float64)
     with np.errstate(invalid="ignore"):

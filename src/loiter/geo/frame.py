@@ -12,12 +12,15 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from loiter.errors import InvalidArgument, OutOfRange, number
+from loiter.lazy import LazyModule
 from loiter.planning.compass import wrapped
 from loiter.planning.model import Pose
 
 if TYPE_CHECKING:
-    from numpy import float64
-    from numpy.typing import ArrayLike, NDArray
+    import numpy as np
+    import numpy.typing as npt
+else:
+    np, npt = LazyModule("numpy"), LazyModule("numpy.typing")
 
 # At this distance the plane stretches by 4.1e-5: a flight from there to the origin is off by less than 4 m, which is
 # the accuracy of satellite navigation, and headings by less than 0.002 degrees.
@@ -32,7 +35,7 @@ class Place(NamedTuple):
     heading_deg: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LocalFrame:
     """A plane of metres east and north of an origin on the WGS84 ellipsoid, accurate within 100 km of it.
 
@@ -54,12 +57,16 @@ class LocalFrame:
         object.__setattr__(self, "latitude_deg", latitude_deg)
         object.__setattr__(self, "longitude_deg", longitude_deg)
 
-    def to_local(self, latitude_deg: ArrayLike, longitude_deg: ArrayLike) -> tuple[NDArray[float64], NDArray[float64]]:
+    def to_local(
+        self, latitude_deg: npt.ArrayLike, longitude_deg: npt.ArrayLike
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """East and north, metres, of places in degrees; they broadcast. nan beyond 100 km and for invalid places."""
         east, north, _ = self._rays(latitude_deg, longitude_deg)
         return east, north
 
-    def to_geodetic(self, east_m: ArrayLike, north_m: ArrayLike) -> tuple[NDArray[float64], NDArray[float64]]:
+    def to_geodetic(
+        self, east_m: npt.ArrayLike, north_m: npt.ArrayLike
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Latitude and longitude, degrees, of places in metres; they broadcast. nan beyond 100 km.
 
         Longitudes are in [-180, 180].
@@ -75,7 +82,7 @@ class LocalFrame:
         longitude, latitude, _ = _geod().fwd(lon0, lat0, azimuth, here)
         return np.where(near, latitude, np.nan), np.where(near, longitude, np.nan)
 
-    def convergence_deg(self, latitude_deg: ArrayLike, longitude_deg: ArrayLike) -> NDArray[float64]:
+    def convergence_deg(self, latitude_deg: npt.ArrayLike, longitude_deg: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The angle to add to a true heading at each place to measure it from the plane's north; places broadcast.
 
         The meridians of two places are not parallel: 20 km east at a latitude of 60 degrees makes 0.3 degrees. nan
@@ -125,7 +132,7 @@ class LocalFrame:
         east_m, _ = self.to_local(latitude_deg, longitude_deg)
         return not bool(east_m != east_m)
 
-    def _rays(self, latitude_deg: Any, longitude_deg: Any) -> tuple[NDArray[float64], ...]:
+    def _rays(self, latitude_deg: Any, longitude_deg: Any) -> tuple[npt.NDArray[np.float64], ...]:
         """East, north and convergence of places; nan for invalid places and beyond 100 km."""
         import numpy as np
 

@@ -45,7 +45,7 @@ class Round(NamedTuple):
     bank_deg: NDArray[float64]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Hold:
     """A circle held in a wind. An azimuth is the compass direction from the circle's centre, which may move.
 

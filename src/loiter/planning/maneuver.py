@@ -17,7 +17,7 @@ from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Samples, Segment,
 MAX_SAMPLES = 10_000_000
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Maneuver:
     """A path onto the circle, flown with at most three controls.
 

@@ -73,7 +73,7 @@ def _keep(value: object, **fields: float | Turn) -> None:
         object.__setattr__(value, name, field)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Aircraft:
     """A fixed-wing aircraft in level flight: its airspeed and exactly one limit on how tightly it turns.
 
@@ -128,7 +128,7 @@ class Aircraft:
 TURN_LIMITS = {"max_bank_deg": "degrees", "min_turn_radius_m": "metres", "max_turn_rate_deg_s": "degrees per second"}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Orbit:
     """The holding circle: its centre (metres, local east and north), its radius and the requested direction.
 
@@ -204,7 +204,7 @@ class Orbit:
         return hypot(pose.east_m - self.east_m, pose.north_m - self.north_m)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Wind:
     """A constant, horizontal wind: its speed and the compass direction from which it blows (270: from the west).
 
@@ -235,7 +235,7 @@ def wind_from_velocity(east_m_s: float, north_m_s: float) -> Wind:
     return Wind(hypot(east_m_s, north_m_s), wrapped(degrees(atan2(-east_m_s, -north_m_s))))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Pose:
     """Position (metres, local east and north) and compass heading (degrees clockwise from north) of the aircraft.
 
@@ -251,7 +251,7 @@ class Pose:
         _keep(self, east_m=east_m, north_m=north_m, heading_deg=number("pose heading_deg", self.heading_deg, "degrees"))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Segment:
     """One piece of a maneuver with constant control: an arc or a straight line through the air.
 

@@ -6,10 +6,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from loiter.geo import LocalFrame
+from loiter.lazy import LazyModule
 from loiter.planning.maneuver import Maneuver
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from matplotlib import figure as figures
+else:
+    figures = LazyModule("matplotlib.figure")
 
 __all__ = ["draw"]
 
@@ -21,7 +24,7 @@ def draw(
     frame: LocalFrame | None = None,
     size_mm: tuple[float, float] | None = None,
     dpi: float | None = None,
-) -> Figure:
+) -> figures.Figure:
     """A matplotlib figure of a maneuver, or of several from one start, seen from above, in metres.
 
     The segments of `best` are coloured, `others`, such as slower ones of `loiter.candidates`, are faint; with a frame

@@ -44,7 +44,7 @@ NOT_PROVED = "Not proved to be optimal: these conditions are necessary ones, and
 ARC_IN_WIND = "a single arc has many adjoints: this is the one that violates the conditions least"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Switch:
     """An instant of switching: when (seconds), from and to which letter, the reduced state there (2), and psi."""
 

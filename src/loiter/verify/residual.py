@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from loiter.planning.model import Turn
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Residual:
     """One condition: name, equation, violation, and the largest violation that rounding and tolerance explain.
 
@@ -36,7 +36,7 @@ class Residual:
         return "skipped" if self.skipped else "FAILED" if self.failed else "holds"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Candidate:
     """Another extremal for the same start; `later_s` (seconds) is negative where it joins sooner."""
 

@@ -192,7 +192,7 @@ class Trajectory:
 
     @cached_property
     def reduced_join(self) -> ReducedProblem:
-        """The maneuver's own last pose as a start in still air: its reduced state and tolerance."""
+        """The maneuver's own last pose as a start in still air: its reduced state."""
         maneuver, problem = self.maneuver, self.problem
         join = Problem(maneuver.join, maneuver.orbit_at_join, maneuver.aircraft, tolerance_m=problem.tolerance_m)
         return join.reduced()

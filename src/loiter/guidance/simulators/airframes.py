@@ -13,7 +13,7 @@ from loiter.planning.model import Aircraft
 MODELS = Path(__file__).parent / "models"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Airframe:
     """An airframe of JSBSim: its model, its flight condition, its roll response and the gains of its inner loops.
 

@@ -44,7 +44,7 @@ class FirstOrderRoll:
         return halfway_deg
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class RollResponse:
     """The response of a bank to a step of its command, as measured on real autopilots.
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 BLOCK = 1024
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Noise:
     """Standard deviations of white noise, drawn for each measurement, and the delay of measurements, seconds.
 

@@ -10,7 +10,7 @@ from loiter.errors import InvalidArgument, positive
 from loiter.guidance.protocol import Command, Simulator, State
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Telemetry:
     """How measurements reach a law: `rate_hz` a second, at intervals that vary by the share `jitter`, `loss` are lost.
 

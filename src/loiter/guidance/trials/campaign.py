@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from numpy.random import Generator
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Trial:
     """One start: the fastest entry from it in the steady wind, and the seed of the noise.
 

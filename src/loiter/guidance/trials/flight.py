@@ -59,7 +59,7 @@ class FlightTrack(NamedTuple):
         return self.time_s - self.start_s
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Flight:
     """A flight and its measures.
 

@@ -14,7 +14,7 @@ from loiter.planning.model import Orbit, Turn
 DIRECTIONS = {Turn.CW: (1,), Turn.CCW: (-1,), Turn.EITHER: (1, -1)}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Band:
     """The band that counts as on the circle: within the share `radial` of its radius and `course_deg` of its tangent.
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CampaignSummary:
     """The flights of one law. Ratios and delays compare settling times with the durations of the fastest entries.
 

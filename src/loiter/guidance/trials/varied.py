@@ -41,7 +41,7 @@ WINDY, LARGEST_WIND = 0.7, 0.4
 RADII, REACH = (1.2, 4.0), 6.0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class VariedTrial(Trial):
     """A trial with its own aircraft.
 

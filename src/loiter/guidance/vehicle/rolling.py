@@ -35,7 +35,7 @@ class TurnOnset(NamedTuple):
     variance_s2: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Roll:
     """The roll response: bank rate = (command - bank)/`time_s`, limited to `rate_deg_s`.
 

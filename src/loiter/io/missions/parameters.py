@@ -60,7 +60,7 @@ class ParameterLine(NamedTuple):
         return f"line {self.line}: {self.name} is {shown(self.text)}"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Preset:
     """The values in a parameter file; None for those that it does not have.
 

@@ -35,7 +35,7 @@ TIMEOUT_S = 15.0
 ReportProgress = Callable[[str, int, int], None]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class MissionSummary:
     """The result of an upload.
 

@@ -37,7 +37,7 @@ STALE_S = 3.0
 NOISE_M = 5.0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Report:
     """A vehicle at an instant, and the plan from its position.
 

@@ -76,7 +76,7 @@ class AirVelocity(NamedTuple):
 STILL_AIR = AirVelocity(0.0, 0.0)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CollocatedPath:
     """A solution of the program: the time, the direction, and the control and length of each interval in flying order.
 

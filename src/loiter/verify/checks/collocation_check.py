@@ -24,7 +24,7 @@ PLAN_ROUNDING = 1e-12
 LetterPiece = tuple[str, float]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CollocationDifference:
     """The plan's time and the collocated path for one problem; times in turn radii over airspeed.
 

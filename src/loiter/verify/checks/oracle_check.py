@@ -24,7 +24,7 @@ JOINS, MOST_JOINS = 90, 90_000
 RADII = (1.0, 1.0 + 1e-6, 1.05, 1.3, 2.0 - 1e-6, 2.0, 2.0 + 1e-6, 3.0, 5.0, 10.0, 30.0)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CheckProblem:
     """A problem to compare; `place` says where its start lies."""
 
@@ -34,7 +34,7 @@ class CheckProblem:
     aircraft: Aircraft
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class OracleDifference:
     """By how much plan and search differ for one problem, in lengths divided by (turn radius + length).
 

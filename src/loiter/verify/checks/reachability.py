@@ -46,7 +46,7 @@ HORIZON = 7.0
 OWN_ERROR = 1.0 / (sqrt(2.0) - 1.0)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Reach:
     """Least times on a grid: `time[i, j]` is the time from (x[i], y[j]) to within `error` of an end point.
 

@@ -28,7 +28,7 @@ SIDES = {Turn.CW: (1,), Turn.CCW: (-1,), Turn.EITHER: (1, -1)}
 FINER = 8
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ReachabilityDifference:
     """By how much one map differs from T. Lengths in turn radii, times in turn radii over airspeed.
 

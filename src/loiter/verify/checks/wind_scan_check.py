@@ -24,7 +24,7 @@ EFFORTS = ((180, 0.05), (720, 0.02), (2880, 0.005))
 WINDIEST = 0.6
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class WindCheckProblem:
     """A problem to compare, in turn radii, relative to the circle's centre; `place` says where its start lies."""
 
@@ -41,7 +41,7 @@ class WindCheckProblem:
         return [DriftingCircle(self.radius, clockwise, self.wind_east, self.wind_north) for clockwise in directions]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ScanDifference:
     """By how much kernel and search differ for one problem, in times over 1 + T.
 
