@@ -5,6 +5,8 @@ import gzip
 import io
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.csv as pacsv
 import pyarrow.parquet as pq
 import pytest
 
@@ -72,12 +74,16 @@ def test_the_last_line_counts_with_an_end_or_without(solved, line_end, last):
     assert statuses(rows) == ["ok", "ok" if last.endswith(("100", '"100"')) and last.count('"') != 1 else "malformed"]
 
 
-def test_a_line_with_the_wrong_number_of_fields_keeps_its_place(solved):
+def test_a_line_with_the_wrong_number_of_fields_keeps_its_place(solved, tmp_path):
     lines = ["0,90,60,100", "1,90,60", "2,90,60,100", "3,90,60,100,5", "4", "5,90,60,100", "6,90,60,100,"]
     rows, summary = solved(HEADER + "\n".join(lines))
     assert statuses(rows) == ["ok", "malformed", "ok", "malformed", "malformed", "ok", "malformed"]
-    assert [row["id"] for row in rows] == ["0", "", "2", "", "", "5", ""]
+    # The fields that can be told apart are kept, whatever is missing.
+    assert [row["id"] for row in rows] == ["0", "1", "2", "3", "4", "5", "6"]
+    assert [row["heading_deg"] for row in rows] == ["100", "", "100", "100", "", "100", "100"]
+    assert all(row[name] == "" for row in rows if row["status"] == "malformed" for name in ADDED if name != "status")
     assert summary.rows == 7
+    assert summary.first_malformed == f"line 3 of {tmp_path / 'in.csv'} has 3 fields, not 4 as the header"
 
 
 @pytest.mark.parametrize("every", [1, 2, 3, 50])
@@ -92,7 +98,7 @@ def test_malformed_lines_keep_their_places_in_large_files(tmp_path, monkeypatch,
     (tmp_path / "in.csv").write_text(HEADER + "\n\n".join(lines))
     summary = loiter.batch.run(tmp_path / "in.csv", tmp_path / "out.parquet", workers=2, **GIVEN)
     rows = pq.read_table(tmp_path / "out.parquet").to_pylist()
-    assert [row["id"] for row in rows] == [None if b else str(i) for i, b in enumerate(bad)]
+    assert [int(row["id"]) for row in rows] == list(range(2000))
     assert [row["status"] == "malformed" for row in rows] == bad.tolist()
     assert summary.statuses.get("malformed") == bad.sum()
 
@@ -170,18 +176,19 @@ def test_a_quote_that_is_never_closed_affects_only_its_own_line(solved, monkeypa
 @pytest.mark.parametrize("chunk", [1, 7, 64, 4096])
 def test_repaired_text_is_the_same_in_pieces_of_any_size(monkeypatch, chunk):
     text = (HEADER + '0,1,2,3\n"a\n\n,b",1,2,3\r\n' * 20 + '0,"1,2,3\n' + "1,2,3,4\n" * 150 + '"q"",1,2,3').encode()
-    expected = b"".join(lines.repaired_lines(io.BytesIO(text), 4))
+    expected = b"".join(lines.repaired_lines(io.BytesIO(text), 4, 1 << 20, lines.SourceLines()))
     monkeypatch.setattr(lines, "CHUNK_BYTES", chunk)
-    assert b"".join(lines.repaired_lines(io.BytesIO(text), 4)) == expected
-    assert lines.RepairedLines(io.BytesIO(text), 4).read() == expected
-    assert expected == text.replace(b'0,"1,2,3', b",,,,").replace(b'"q"",1,2,3', b",,,,") + b"\n"
+    assert b"".join(lines.repaired_lines(io.BytesIO(text), 4, 1 << 20, lines.SourceLines())) == expected
+    assert lines.RepairedLines(io.BytesIO(text), 4, 1 << 20).read() == expected
+    replaced = text.replace(b'0,"1,2,3', b"\x1f0,,,,").replace(b'"q"",1,2,3', b"\x1f1,,,,")
+    assert expected == replaced + b"\n"
 
 
 def test_bytes_that_are_not_utf_8_affect_only_their_own_line(solved):
     lines = [b"0,90,60,100", b"caf\xe9,90,60,100", "Grüße,90,60,100".encode(), b"3,90,\xff,100"]
     rows, _ = solved(HEADER.encode() + b"\n".join(lines))
     assert statuses(rows) == ["ok", "malformed", "ok", "malformed"]
-    assert [row["id"] for row in rows] == ["0", "", "Grüße", ""]
+    assert [row["id"] for row in rows] == ["0", "", "Grüße", "3"]
 
 
 def test_gzip_in_several_members(solved):
@@ -206,7 +213,9 @@ PACKED = gzip.compress(("id,east_m,north_m,heading_deg\n" + "0,90,60,100\n" * 50
     [
         (b"", ".csv", "no header"),
         (b"\n\n", ".csv", "no header"),
-        (HEADER.encode("utf-16"), ".csv", "utf-8"),
+        (HEADER.encode("utf-16"), ".csv", "it is UTF-16: write it as UTF-8"),
+        (HEADER.encode("utf-16-le"), ".csv", "it is UTF-16: write it as UTF-8"),
+        (HEADER.replace("id", "Größe").encode("cp1252"), ".csv", "0xf6 after 'Gr'; if it is Windows-1252, iconv"),
         (b"id,east_m\n", ".csv.gz", "Not a gzipped file"),
         (PACKED[:-100], ".csv.gz", "Truncated compressed stream"),
         (PACKED[:-8] + bytes(8), ".csv.gz", "incorrect data check"),
@@ -219,3 +228,107 @@ def test_what_cannot_be_read_is_reported_and_leaves_nothing(solved, tmp_path, co
         solved(content, suffix)
     assert raised.value.argument == "source"
     assert [path.name for path in tmp_path.iterdir()] == [f"in{suffix}"]
+
+
+def rejected(path):
+    with path.open(newline="", encoding="utf-8") as file:
+        return [tuple(row.values()) for row in csv.DictReader(file)]
+
+
+def test_rejected_lines_are_kept_with_their_numbers_in_the_file(tmp_path, monkeypatch):
+    monkeypatch.setattr(ingest, "BLOCK_BYTES", 2000)
+    monkeypatch.setattr(lines, "CHUNK_BYTES", 500)
+    written = HEADER.splitlines()
+    written += ["", "0,90,60,100", '"a', '",90,60,100', "", "2,90,60"]
+    written += [f"{i},90,60,100" for i in range(500)] + ['"no end,90,60,100', "x" * 3000, "3,90,60,100,,"]
+    content = "\r\n".join(written).encode() + b"\r\ncaf\xe9,90,60,100\r\n"
+    (tmp_path / "in.csv").write_bytes(content)
+    summary = loiter.batch.run(
+        tmp_path / "in.csv", tmp_path / "out.csv", rejects=tmp_path / "rejects.csv", workers=1, **GIVEN
+    )
+    place = str(tmp_path / "in.csv")
+    assert rejected(tmp_path / "rejects.csv") == [
+        (place, "7", "has 3 fields, not 4 as the header", "2,90,60"),
+        (place, "508", "has a quote that is never closed", '"no end,90,60,100'),
+        (place, "509", "is longer than 2,000 bytes", "x" * 3000),
+        (place, "510", "has 6 fields, not 4 as the header", "3,90,60,100,,"),
+        (place, "511", "is not UTF-8", "caf\\xe9,90,60,100"),
+    ]
+    # What an editor shows as these lines.
+    shown = content.decode("utf-8", "backslashreplace").splitlines()
+    assert all(shown[int(number) - 1] == text for _, number, _, text in rejected(tmp_path / "rejects.csv"))
+    assert summary.first_malformed == f"line 7 of {place} has 3 fields, not 4 as the header"
+    assert summary.statuses == {"ok": 502, "malformed": 5}
+
+
+def test_rejected_lines_of_several_files_count_in_each(tmp_path):
+    for name, rows in {"a": "0,1,2,3\n", "b": "1\n0,90,60,100\n", "c": "\n\n2,90\n"}.items():
+        (tmp_path / f"{name}.csv").write_text(HEADER + rows)
+    loiter.batch.run(str(tmp_path / "*.csv"), tmp_path / "out.parquet", rejects=tmp_path / "rejects.txt", **GIVEN)
+    assert [row[:2] for row in rejected(tmp_path / "rejects.txt")] == [
+        (str(tmp_path / "b.csv"), "2"),
+        (str(tmp_path / "c.csv"), "4"),
+    ]
+
+
+def test_rejected_lines_are_written_again_when_nothing_else_is_left_to_do(tmp_path):
+    (tmp_path / "in.csv").write_text(HEADER + "0,90,60,100\n1\n")
+    for _ in range(2):
+        loiter.batch.run(tmp_path / "in.csv", f"{tmp_path / 'out'}/", rejects=tmp_path / "rejects.csv", **GIVEN)
+        assert [row[1:] for row in rejected(tmp_path / "rejects.csv")] == [
+            ("3", "has 1 field, not 4 as the header", "1")
+        ]
+        (tmp_path / "rejects.csv").unlink()
+
+
+def test_rejects_are_refused_where_they_would_destroy_or_mean_nothing(tmp_path):
+    (tmp_path / "in.csv").write_text(HEADER + "0,90,60,100\n")
+    before = (tmp_path / "in.csv").read_bytes()
+    for rejects in ("in.csv", "out.csv"):
+        with pytest.raises(InvalidArgument, match="that is the input or the output"):
+            loiter.batch.run(tmp_path / "in.csv", tmp_path / "out.csv", rejects=tmp_path / rejects, **GIVEN)
+    loiter.batch.run(tmp_path / "in.csv", tmp_path / "out.parquet", **GIVEN)
+    with pytest.raises(InvalidArgument, match="a Parquet file has no malformed lines"):
+        loiter.batch.run(tmp_path / "out.parquet", tmp_path / "b.csv", rejects=tmp_path / "r.csv", **GIVEN)
+    assert (tmp_path / "in.csv").read_bytes() == before
+
+
+def test_a_huge_field_affects_only_its_own_line(solved):
+    rows, summary = solved(HEADER + f"0,90,60,100\n{'x' * (1 << 24)},90,60,100\n2,90,60,100\n")
+    assert statuses(rows) == ["ok", "malformed", "ok"]
+    assert "line 3" in summary.first_malformed
+    assert "is longer than" in summary.first_malformed
+
+
+# Parquet has no timestamps in whole seconds.
+VALUES = {
+    "whole": (["1", "-2", "", "40000000000"], pa.int64()),
+    "number": (["1", "2.5", "1e3", "NA"], pa.float64()),
+    "flag": (["true", "false", "", "true"], pa.bool_()),
+    "day": (["2026-01-31", "", "2026-02-01", "2026-02-02"], pa.date32()),
+    "moment": (["2026-01-31 12:00:00", "2026-01-31T12:00:01", "", ""], pa.timestamp("ms")),
+    "fine_moment": (["2026-01-31 12:00:00.5", "2026-01-31 12:00:01", "", ""], pa.timestamp("ns")),
+    "text": (["1", "2", "x", ""], pa.string()),
+    "mixed": (["1", "true", "2", "3"], pa.string()),
+    "clock": (["12:00:00", "", "", ""], pa.string()),
+}
+
+
+def test_columns_have_in_parquet_the_types_that_a_reader_of_csv_would_infer(tmp_path, monkeypatch):
+    monkeypatch.setattr(files, "PART_ROWS", 2)
+    # A malformed line, whose fields stand in wrong columns, says nothing on their types.
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([*VALUES, "east_m", "north_m", "heading_deg"])
+    rows = list(zip(*(values for values, _ in VALUES.values()), strict=True))
+    writer.writerows([*row, 90, 60, 100] for row in rows)
+    (tmp_path / "in.csv").write_text(text.getvalue() + "no number,90,60\n")
+    loiter.batch.run(tmp_path / "in.csv", tmp_path / "out.parquet", **GIVEN)
+    found = pq.read_table(tmp_path / "out.parquet")
+    assert {name: found.schema.field(name).type for name in VALUES} == {name: t for name, (_, t) in VALUES.items()}
+    # An independent reader, which alone knows times of day.
+    alone = pacsv.read_csv(io.BytesIO(text.getvalue().encode()))
+    for name in VALUES.keys() - {"clock", "text", "mixed"}:
+        assert found.column(name).slice(0, 4).to_pylist() == alone.column(name).to_pylist()
+    assert found.column("whole").to_pylist()[-1] is None
+    assert found.column("text").to_pylist() == ["1", "2", "x", "", None]

@@ -54,6 +54,27 @@ def test_a_header_that_is_nearly_right_gets_a_hint(tmp_path, capsys, text, hint)
     assert not (tmp_path / "out.csv").exists()
 
 
+def test_only_a_csv_file_is_asked_for_its_header(tmp_path, capsys):
+    write(pa.table({"x": [1.0], "y": [1.0], "psi": [1.0]}), tmp_path / "in.parquet")
+    assert main(["batch", str(tmp_path / "in.parquet"), str(tmp_path / "out.csv"), *OPTIONS]) == 2
+    assert capsys.readouterr().err.endswith("its columns are x, y, psi\n")
+
+
+def test_the_closing_lines_name_the_first_malformed_line(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("in.csv").write_text("id,east_m,north_m,heading_deg\na,90,60,100\n\nb,90\nc\n")
+    assert main(["batch", "in.csv", "out.csv", *OPTIONS]) == 0
+    first = "line 4 of in.csv has 2 fields, not 4 as the header"
+    assert capsys.readouterr().err.endswith(f"{first}; --rejects FILE keeps the malformed lines\n")
+    assert main(["batch", "in.csv", "out.csv", *OPTIONS, "--rejects", "rejects.csv"]) == 0
+    assert capsys.readouterr().err.endswith(f"{first}; rejects.csv has the malformed lines\n")
+    assert Path("rejects.csv").read_text().splitlines() == [
+        "file,line,problem,text",
+        'in.csv,4,"has 2 fields, not 4 as the header","b,90"',
+        'in.csv,5,"has 1 field, not 4 as the header",c',
+    ]
+
+
 def test_a_header_that_is_far_from_right_is_shown(tmp_path, capsys):
     (tmp_path / "in.csv").write_text("x,y,psi\n1,2,3\n")
     assert main(["batch", str(tmp_path / "in.csv"), str(tmp_path / "out.csv"), *OPTIONS]) == 2
@@ -133,6 +154,8 @@ FILES = {
     "unknown output": ("in.parquet", "out.xlsx", ["OUT is 'out.xlsx'", ".parquet, .csv or .csv.gz"]),
     "no name": ("in.parquet", ".csv", ["OUT is '.csv'"]),
     "no input": ("no.parquet", "out.parquet", ["IN is 'no.parquet'", "No such file or directory"]),
+    "no folder to read": ("nosuch/", "out.parquet", ["IN is 'nosuch/'", "there is no such folder"]),
+    "no bucket's folder": ("memory://camp/nosuch/", "out.parquet", ["IN is 'memory://camp/nosuch/'", "no such folder"]),
     "no csv": ("no.csv", "out.parquet", ["IN is 'no.csv'", "No such file or directory"]),
     "no csv.gz": ("no.csv.gz", "out.parquet", ["IN is 'no.csv.gz'", "No such file or directory"]),
     "a folder": ("folder.parquet", "out.parquet", ["IN is 'folder.parquet'", "it cannot be read"]),

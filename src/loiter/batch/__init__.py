@@ -9,16 +9,21 @@ import os
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from loiter.errors import InvalidArgument, MissingPackage
+from loiter.lazy import LazyModule
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
 
 if TYPE_CHECKING:
+    from loiter.batch.jobs import job
     from loiter.batch.jobs.job import JobProgress as JobProgress
     from loiter.batch.jobs.job import JobSummary as JobSummary
     from loiter.batch.jobs.job import Progress as Progress
     from loiter.batch.jobs.job import Summary as Summary
+else:
+    job = LazyModule("loiter.batch.jobs.job")
 
 __all__ = ["JobProgress", "JobSummary", "Progress", "Summary", "plan", "run"]
 
@@ -35,8 +40,9 @@ def run(
     tolerance_m: float = 0.0,
     workers: int | None = None,
     scheduler: str | None = None,
-    progress: Callable[[JobProgress], object] = lambda progress: None,
-) -> JobSummary:
+    rejects: str | os.PathLike[str] | None = None,
+    progress: Callable[[job.JobProgress], object] = lambda progress: None,
+) -> job.JobSummary:
     """Plan the fastest entry of every row of a table; docs/batch.md describes the columns of the input and the output.
 
     `source` is a file (.parquet, .csv, .csv.gz), a folder of files, a pattern such as "states-*.csv", or the URL of one
@@ -46,7 +52,8 @@ def run(
     such as {"airspeed_m_s": 18.0} with a column max_bank_deg.
     `orbit_velocity_m_s`, (east, north), is the velocity of circles that are given by columns.
     `workers` is the number of threads, by default that of the cores; `scheduler` is the address of the scheduler of a
-    Dask cluster that does the work instead. `progress` is called periodically.
+    Dask cluster that does the work instead. `rejects` is a CSV file to write: the malformed lines of CSV files, with
+    file, line number, problem and text. `progress` is called periodically.
 
     A file appears whole or not at all, and so does each part in a folder, where _SUCCESS says that all parts are there.
     A job that was stopped resumes from its finished parts when it is run again. A bad row gets nan and a status; the
@@ -58,12 +65,12 @@ def run(
     _need_packages("pyarrow", *(["dask", "distributed"] if scheduler is not None else []))
     if find_spec("fcntl") is None:
         raise MissingPackage("a batch job locks its files, which needs Linux or macOS")
-    from loiter.batch.jobs import job
     from loiter.batch.jobs.request import check_request
     from loiter.batch.tables.columns import shared_values
 
     count, given = _workers(workers, scheduler), shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s)
-    request = check_request(os.fspath(source), os.fspath(target), given, tolerance_m)
+    kept = None if rejects is None else Path(rejects)
+    request = check_request(os.fspath(source), os.fspath(target), given, tolerance_m, kept)
     return job.run_request(request, count, scheduler, progress)
 
 

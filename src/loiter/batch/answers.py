@@ -26,6 +26,7 @@ from loiter.batch.tables.columns import (
     carried_columns,
     number_columns,
 )
+from loiter.batch.tables.types import convert
 from loiter.kernel.statuses import Status
 from loiter.planning.model import Turn
 from loiter.planning.sides import SIDES
@@ -42,20 +43,28 @@ _WORDS = views.text_column([word.letters for word in WORDS])
 _TURNS, _STATUSES = views.text_column(TURN_NAMES), views.text_column(STATUSES)
 
 
-def solve_batch(batch: pa.RecordBatch, columns: Columns) -> pa.RecordBatch:
-    """The carried columns of a batch, without dictionary encoding, and the added columns."""
+def solve_batch(batch: pa.RecordBatch, columns: Columns, schema: pa.Schema) -> pa.RecordBatch:
+    """The carried columns of a batch, without dictionary encoding, and the added columns.
+
+    `schema` has the types of the carried columns where these are text.
+    """
     # The last column of text marks malformed lines.
     names = carried_columns(batch.schema.names[:-1] if columns.text else batch.schema.names)
     kept = [without_dictionary(batch.column(name)) for name in names]
+    if columns.text:
+        kept = [convert(column, field.type) for column, field in zip(kept, schema, strict=False)]
     return pa.RecordBatch.from_arrays([*kept, *added_columns(batch, columns)], [*names, *ADDED.names])
 
 
 def added_columns(batch: pa.RecordBatch, columns: Columns) -> list[pa.Array]:
     """The added columns, in the order of `ADDED`."""
-    found = entries(states(batch, columns))
-    status = found.status
+    given = states(batch, columns)
     if columns.text:
-        status = np.where(views.to_numpy(batch.column(-1)), np.int8(Status.MALFORMED), status)
+        # The fields of a malformed line are not those of the columns in which they stand.
+        malformed = views.to_numpy(batch.column(-1)) != 0
+        given = given._replace(east_m=np.where(malformed, nan, given.east_m))
+    found = entries(given)
+    status = np.where(malformed, np.int8(Status.MALFORMED), found.status) if columns.text else found.status
     text = {
         "word": (_WORD_INDEX.take(found.word), _WORDS),
         TURN: (found.side + np.int8(1), _TURNS),

@@ -32,7 +32,8 @@ def _check_frame(given: Any, frame: Any) -> None:
 def _plan_pandas(frame: Any, options: SharedValues, tolerance_m: float) -> Any:
     batch = _known_columns(frame)
     # Only the names of the other columns matter.
-    fields = [batch.schema.field(n) if n in batch.schema.names else pa.field(str(n), pa.null()) for n in frame.columns]
+    known = {field.name: field for field in batch.schema}
+    fields = [known.get(name, pa.field(str(name), pa.null())) for name in frame.columns]
     meaning = columns("frame", pa.schema(fields), options, tolerance_m)
     added = zip(ADDED.names, added_columns(batch, meaning), strict=True)
     kept = frame.drop(columns=[TURN], errors="ignore")

@@ -37,7 +37,7 @@ _MESSAGES = {
     Status.BAD_ORBIT: "the circle needs a finite centre and velocity, and a positive, finite radius",
     Status.BAD_TURN: "the turn must be cw, ccw or either",
     Status.BAD_POSE: "east, north and heading must be finite numbers",
-    Status.MALFORMED: "the line has more or fewer fields than the header, or is not UTF-8",
+    Status.MALFORMED: "the line has more or fewer fields than the header, an open quote, is too long, or is not UTF-8",
     Status.WIND_TOO_STRONG: "the wind relative to the circle is as fast as the aircraft: |w| must be below 1",
     Status.NOT_HELD: "the circle is too tight to be held in this wind",
     Status.NOT_CONVERGED: "no maneuver was found that ends on the circle when flown",

@@ -23,6 +23,8 @@ from loiter.errors import InvalidArgument
 
 DESCRIPTION = "job.json"
 INGESTED = "input.parquet"
+# What is known of the CSV files that it is made from, and their malformed lines.
+INFERRED, REJECTED = "input.json", "rejected.csv"
 LOCK = "lock"
 
 # Hexadecimal digits of the digest of a job in the names of its parts.
@@ -172,7 +174,7 @@ def _is_expected(name: str, digest: str) -> bool:
 
 def _is_scratch(name: str) -> bool:
     """Whether a file of the working folder is needed only until the output is complete."""
-    return name == INGESTED or _PART.fullmatch(name) is not None
+    return name in (INGESTED, INFERRED, REJECTED) or _PART.fullmatch(name) is not None
 
 
 def _is_part(name: str, digest: str) -> bool:

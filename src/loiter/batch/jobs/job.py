@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -9,6 +10,7 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from pathlib import PurePosixPath
+from shutil import copyfileobj
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import pyarrow as pa
@@ -20,9 +22,11 @@ from loiter.batch.jobs.request import JobRequest, describe, row_limits, versions
 from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_executors
 from loiter.batch.tables import files, ingest, outputs, storage
 from loiter.batch.tables.columns import STATUSES, may_drift
+from loiter.batch.tables.ingest import Ingested
 from loiter.batch.tables.joined import Append, check_joined, open_joined
 from loiter.batch.tables.storage import Folder
 from loiter.errors import InvalidArgument, Unfinished
+from loiter.writing import write_whole
 
 if TYPE_CHECKING:
     from loiter.batch.tables.outputs import Counts
@@ -41,12 +45,13 @@ class JobProgress(NamedTuple):
     note: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class JobSummary:
     """The result of a job.
 
     `statuses` has the number of rows of each status that occurs, including "ok". `resumed_parts` of the `parts` were
-    finished by an earlier run; `solved_rows` were solved by this one, which took `seconds`.
+    finished by an earlier run; `solved_rows` were solved by this one, which took `seconds`. `first_malformed` says
+    which line of a CSV file is the first that is malformed, and what is wrong with it; "" if there is none.
     """
 
     rows: int
@@ -55,6 +60,7 @@ class JobSummary:
     resumed_parts: int
     solved_rows: int
     seconds: float
+    first_malformed: str = ""
 
 
 # The former names, which stay public.
@@ -75,7 +81,8 @@ def run_request(request: JobRequest, workers: int, scheduler: str | None, report
             is_same_job = folder.resume(target, description)
             if client is not None:
                 cluster.check_workers(client, target, folder.digest(description), request.source, request.versions[0])
-            job, parts = _divide(request, description, report)
+            ingested = None if request.source.kind == ".parquet" else _convert_csv(request, report)
+            job, parts = _divide(request, description, ingested)
             finished = _finished(job, parts)
             _report_replaced(target, report)
             complete = len(finished) == len(parts) and folder.is_complete(target)
@@ -86,7 +93,8 @@ def run_request(request: JobRequest, workers: int, scheduler: str | None, report
             folder.finish(target)
     resumed_rows = sum(part.rows for part in parts if part.number in finished)
     total, seconds = sum(part.rows for part in parts), time.monotonic() - started
-    return JobSummary(total, counts, len(parts), len(finished), total - resumed_rows, seconds)
+    first_malformed = "" if ingested is None else ingested.first_malformed
+    return JobSummary(total, counts, len(parts), len(finished), total - resumed_rows, seconds, first_malformed)
 
 
 def _client(scheduler: str | None) -> AbstractContextManager[Any]:
@@ -97,17 +105,21 @@ def _executors(client: Any, workers: int) -> Callable[..., AbstractContextManage
     return partial(thread_executors, workers) if client is None else partial(cluster.cluster_executors, client)
 
 
-def _divide(request: JobRequest, description: dict[str, Any], report: ReportProgress) -> tuple[Job, list[files.Part]]:
-    """The job and its parts. CSV files are converted to a Parquet file first."""
-    target, tables, sizes, names = request.target, request.source.files, request.sizes, request.schema.names
-    if request.source.kind != ".parquet":
+def _divide(
+    request: JobRequest, description: dict[str, Any], ingested: Ingested | None
+) -> tuple[Job, list[files.Part]]:
+    """The job and its parts; `ingested` is what is known of CSV files, which have become one Parquet file."""
+    target, tables, sizes, schema = request.target, request.source.files, request.sizes, request.schema
+    names = schema.names
+    if ingested is not None:
         converted = target.work.place(folder.INGESTED)
-        _convert_csv(request, report)
         tables, sizes = (converted,), [files.read_footer(converted).sizes]
         names = [*names, ingest.MARK.name]
+        if target.kind == ".parquet":
+            # Text stays as it is where the output is text.
+            schema = pa.schema(zip(schema.names, map(pa.type_for_alias, ingested.types), strict=True))
     part_rows, batch_rows = row_limits(request)
     parts = files.parts_of(sizes, part_rows, cut=may_drift(request.columns))
-    schema = outputs.output_schema(request.schema)
     job = Job(
         tables=tuple(tables),
         names=tuple(names),
@@ -115,8 +127,8 @@ def _divide(request: JobRequest, description: dict[str, Any], report: ReportProg
         parts=target.parts,
         kind=target.kind,
         columns=request.columns,
-        schema=schema,
-        dictionaries=tuple(outputs.dictionary_columns(request.schema, tables[0])),
+        schema=outputs.output_schema(schema),
+        dictionaries=tuple(outputs.dictionary_columns(schema, tables[0])),
         digest=folder.digest(description),
         count=len(parts),
         batch_rows=batch_rows,
@@ -124,18 +136,31 @@ def _divide(request: JobRequest, description: dict[str, Any], report: ReportProg
     return job, parts
 
 
-def _convert_csv(request: JobRequest, report: ReportProgress) -> None:
-    """Convert the CSV files to a Parquet file in the working folder, unless an earlier run has done it."""
+def _convert_csv(request: JobRequest, report: ReportProgress) -> Ingested:
+    """Convert the CSV files to a Parquet file in the working folder, unless an earlier run has done it.
+
+    Their malformed lines are written where they are wanted.
+    """
+    work = request.target.work
+    if not {folder.INGESTED, folder.INFERRED, folder.REJECTED} <= set(work.names()):
+        _ingest(request, report)
+    if request.rejects is not None:
+        with storage.open_place(work.place(folder.REJECTED)) as file:
+            write_whole("rejects", request.rejects, partial(copyfileobj, file))
+    return Ingested(**json.loads(work.read(folder.INFERRED)))
+
+
+def _ingest(request: JobRequest, report: ReportProgress) -> None:
     work, counter = request.target.work, RowCounter()
-    if folder.INGESTED in work.names():
-        return
 
     def count_rows(rows: int) -> None:
         counter.count(rows)
         report(JobProgress(counter.rows, None))
 
     with work.create(folder.INGESTED, work) as path:
-        ingest.ingest("source", request.source, request.schema, path, count_rows)
+        with work.create(folder.REJECTED, work) as rejected:
+            found = ingest.ingest("source", request.source, request.schema, path, rejected, count_rows)
+        work.write(folder.INFERRED, json.dumps(found._asdict()).encode(), work)
 
 
 def _finished(job: Job, parts: list[files.Part]) -> dict[int, Counts]:
@@ -188,7 +213,7 @@ def _solve_and_write(
     """Solve the remaining parts and complete the output; returns the number of rows of each status that occurs."""
     total, in_wind = sum(part.rows for part in parts), may_drift(request.columns)
     counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
-    with _open_output(request, total) as append:
+    with _open_output(request, job, total) as append:
         # A row of a file is counted when it is solved, and when it is appended.
         times_counted = 1 if append is None else 2
         appended = None
@@ -216,14 +241,14 @@ def _by_status(job: Job, parts: list[files.Part], counts: dict[int, Counts | Non
 
 
 @contextmanager
-def _open_output(request: JobRequest, rows: int) -> Iterator[Append | None]:
+def _open_output(request: JobRequest, job: Job, rows: int) -> Iterator[Append | None]:
     """A context whose value appends a part to the output file; None for a dataset, whose parts are not appended."""
     target = request.target
     if target.is_dataset:
         yield None
         return
     with target.folder.create(target.name, target.work) as path:
-        with open_joined(target.kind, path, outputs.output_schema(request.schema)) as append:
+        with open_joined(target.kind, path, job.schema) as append:
             yield append
         if target.kind == ".parquet":
             check_joined(path, rows)

@@ -27,7 +27,7 @@ CountRows = Callable[[int], None]
 KEPT_BYTES = 1 << 24
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Job:
     """The data that solving a part needs, on this or another machine.
 
@@ -67,7 +67,7 @@ def solve_part(job: Job, part: Part, count_rows: CountRows = lambda rows: None) 
         outputs.open_part(job.kind, path, job.schema, job.dictionaries) as write,
     ):
         for batch in files.batches(job.tables, part, job.batch_rows):
-            solved = solve_batch(batch.select(job.names), job.columns)
+            solved = solve_batch(batch.select(job.names), job.columns, job.schema)
             write(solved)
             counts += outputs.count_statuses(solved.column("status"))
             count_rows(batch.num_rows)

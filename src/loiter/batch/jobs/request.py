@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import pyarrow as pa
@@ -14,12 +15,14 @@ from loiter.batch.tables.columns import Columns, SharedValues, columns, may_drif
 from loiter.batch.tables.sources import Source, find_source
 from loiter.errors import InvalidArgument
 from loiter.version import __version__
+from loiter.writing import check_writable
 
 
 class JobRequest(NamedTuple):
     """A job to do: its files, the schema of the input and the meaning of its columns.
 
     `versions` are those of the files of the input, and `sizes` the numbers of rows of their row groups, by file.
+    `rejects` is where the malformed lines of CSV files are to be written, if anywhere.
     """
 
     source: Source
@@ -28,13 +31,20 @@ class JobRequest(NamedTuple):
     sizes: list[list[int]]
     schema: pa.Schema
     columns: Columns
+    rejects: Path | None = None
 
 
-def check_request(source: str, target: str, options: SharedValues, tolerance_m: float) -> JobRequest:
+def check_request(
+    source: str, target: str, options: SharedValues, tolerance_m: float, rejects: Path | None = None
+) -> JobRequest:
     """The job to do, checked as far as possible before any work; raises `InvalidArgument`."""
     found, output = find_source("source", source), folder.find_target("target", target)
     versions, sizes = versions_of(found), []
     is_text = found.kind != ".parquet"
+    if rejects is not None:
+        if not is_text:
+            raise InvalidArgument("rejects", "is for CSV files: a Parquet file has no malformed lines")
+        check_writable("rejects", rejects)
     if is_text:
         schema = ingest.csv_schema("source", found)
     else:
@@ -44,7 +54,9 @@ def check_request(source: str, target: str, options: SharedValues, tolerance_m: 
     meaning = columns("source", schema, options, tolerance_m, text=is_text)
     outputs.check_columns(output.kind, outputs.output_schema(schema))
     _check_apart(found, output)
-    return JobRequest(found, output, versions, sizes, schema, meaning)
+    if rejects is not None:
+        _check_rejects_apart(rejects, found, output)
+    return JobRequest(found, output, versions, sizes, schema, meaning, rejects)
 
 
 def versions_of(source: Source) -> list[list[Any]]:
@@ -68,6 +80,12 @@ def _check_apart(source: Source, target: Target) -> None:
     else:
         return
     raise InvalidArgument("target", f"is {target.text!r}: {problem}")
+
+
+def _check_rejects_apart(rejects: Path, source: Source, target: Target) -> None:
+    others = {storage.resolved(place) for place in (*source.files, target.folder.place(target.name).rstrip("/"))}
+    if storage.resolved(str(rejects)) in others:
+        raise InvalidArgument("rejects", f"is {str(rejects)!r}: that is the input or the output")
 
 
 def row_limits(request: JobRequest) -> tuple[int, int]:

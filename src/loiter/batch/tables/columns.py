@@ -58,7 +58,7 @@ class SharedValues(NamedTuple):
     turn: Turn | None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Columns:
     """The source of each quantity: the value in `shared` under its column's name or, if there is none, that column.
 
@@ -129,7 +129,7 @@ def columns(
     overwritten.
     """
     names = schema.names
-    _check_names(argument, names)
+    _check_names(argument, names, text=text)
     _require(argument, names, options.numbers, "orbit", ORBIT)
     _require(argument, names, options.numbers, f"aircraft {AIRSPEED}", (AIRSPEED,))
     limit = _turn_limit(argument, names, options.numbers)
@@ -163,12 +163,11 @@ def carried_columns(names: Iterable[str]) -> list[str]:
     return [name for name in names if name != TURN]
 
 
-def _check_names(argument: str, names: list[str]) -> None:
+def _check_names(argument: str, names: list[str], *, text: bool) -> None:
     for name in POSE:
         if name not in names:
             there = f"its columns are {', '.join(names[:LISTED])}{', ...' if len(names) > LISTED else ''}"
-            # A frame has no first line.
-            question = "" if argument == "frame" else ": is the first line a header?"
+            question = ": is the first line a header?" if text else ""
             hint = _hint(name, names) or f"; {there}{question}"
             raise InvalidArgument(argument, f"has no column {name}: it needs {', '.join(POSE)}{hint}")
     for name, count in Counter(names).items():

@@ -67,7 +67,8 @@ def dictionary_columns(schema: pa.Schema, source: str) -> list[str]:
             group = file.metadata.row_group(0)
             chunks = [group.column(i) for i in range(group.num_columns)]
             columns += [chunk.path_in_schema for chunk in chunks if _is_shrunk(chunk)]
-    return [name for name in dict.fromkeys(columns) if name in schema.names]
+    names = set(schema.names)
+    return [name for name in dict.fromkeys(columns) if name in names]
 
 
 @contextmanager

@@ -40,6 +40,8 @@ def find_source(argument: str, text: str) -> Source:
             found, folder = _places(text)
     except OSError as error:
         raise files.unreadable(argument, text, error) from error
+    if folder is None and found == [_absolute(text)] and text.endswith("/"):
+        raise InvalidArgument(argument, f"is {text!r}: there is no such folder, or there is nothing in it")
     if folder is None and found == [_absolute(text)]:
         return Source(text, tuple(found), files.kind(argument, text))
     if not found:

@@ -156,7 +156,7 @@ class Folder(ABC):
             Path(path).write_bytes(content)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LocalFolder(Folder):
     """A folder on this machine, or on a network file system; `path` is absolute."""
 
@@ -202,7 +202,7 @@ class LocalFolder(Folder):
             (self.path / name).unlink(missing_ok=True)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class RemoteFolder(Folder):
     """The objects whose URLs begin with `url` and a slash."""
 

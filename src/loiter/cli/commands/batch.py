@@ -123,6 +123,14 @@ def batch(
             help="Use the Dask cluster with this scheduler; its workers must see IN and OUT at the same places.",
         ),
     ] = None,
+    rejects: Annotated[
+        str | None,
+        Parameter(
+            group=work,
+            metavar="FILE",
+            help="Write the malformed lines of CSV files to this CSV file, with file, line number, problem and text.",
+        ),
+    ] = None,
     json: Annotated[
         bool, Parameter(group=work, help="Print one JSON object at the end: the numbers of rows, and of each status.")
     ] = False,
@@ -142,12 +150,13 @@ def batch(
             tolerance_m=tolerance,
             workers=workers,
             scheduler=scheduler,
+            rejects=rejects,
             progress=report,
         )
     if json:
         print_json(asdict(summary) | {"files": [target]})
     else:
-        sys.stderr.write(summary_lines(summary))
+        sys.stderr.write(summary_lines(summary, rejects))
 
 
 @contextmanager
@@ -192,8 +201,8 @@ class Rows(ProgressColumn):
         return Text(f"{task.completed:,.0f}{whole} rows{speed}")
 
 
-def summary_lines(summary: JobSummary) -> str:
-    """The closing lines: the number of rows and their rate, and the bad rows by status."""
+def summary_lines(summary: JobSummary, rejects: str | None = None) -> str:
+    """The closing lines: the number of rows and their rate, the bad rows by status, and the first malformed line."""
     seconds, solved = summary.seconds, summary.solved_rows
     in_this_run = "" if solved == summary.rows else f", {solved:,} of them in this run,"
     rate = f"{in_this_run} in {seconds:.1f} s: {solved / seconds:,.0f} rows/s"
@@ -202,4 +211,7 @@ def summary_lines(summary: JobSummary) -> str:
         count = summary.statuses.get(status.name.lower(), 0)
         if count and status is not Status.OK:
             lines.append(f"{count:,} {status.name.lower()}: {status.message}")
+    if summary.first_malformed:
+        where = f"{rejects} has the malformed lines" if rejects else "--rejects FILE keeps the malformed lines"
+        lines.append(f"{summary.first_malformed}; {where}")
     return "\n".join(lines) + "\n"
