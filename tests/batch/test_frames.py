@@ -55,9 +55,9 @@ def test_missing_values_are_bad_rows():
         ),
         (
             lambda frame: "states.parquet",
-            "^frame is of type str: it must be a pandas or Dask data frame; loiter.batch.run takes files$",
+            "^frame is of type str: it must be a data frame of pandas, Dask, Polars or Arrow; loiter.batch.run",
         ),
-        (lambda frame: frame["east_m"], "^frame is of type Series: it must be a pandas or Dask data frame"),
+        (lambda frame: frame["east_m"], "^frame is of type Series: it must be a data frame"),
         (lambda frame: dd.from_pandas(frame["east_m"], npartitions=1), "^frame is of type Series: it must be"),
         (lambda frame: frame.to_numpy(), "^frame is of type ndarray: it must be"),
     ],

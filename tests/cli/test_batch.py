@@ -40,9 +40,9 @@ def same(table):
 HINTS = {
     "semicolons": ("east_m;north_m;heading_deg\n1;2;3\n", "separated by semicolons: they must be separated by commas"),
     "tabs": ("east_m\tnorth_m\theading_deg\n1\t2\t3\n", "separated by tabs"),
-    "capital": ("East_m,north_m,heading_deg\n1,2,3\n", "rename 'East_m'"),
-    "space": ("east_m, north_m,heading_deg\n1,2,3\n", "rename ' north_m'"),
-    "short": ("east_m,north_m,heading\n1,2,3\n", "rename 'heading'"),
+    "capital": ("East_m,north_m,heading_deg\n1,2,3\n", "map east_m='East_m'"),
+    "space": ("east_m, north_m,heading_deg\n1,2,3\n", "map north_m=' north_m'"),
+    "short": ("east_m,north_m,heading\n1,2,3\n", "map heading_deg='heading'"),
 }
 
 
@@ -55,9 +55,9 @@ def test_a_header_that_is_nearly_right_gets_a_hint(tmp_path, capsys, text, hint)
 
 
 def test_only_a_csv_file_is_asked_for_its_header(tmp_path, capsys):
-    write(pa.table({"x": [1.0], "y": [1.0], "psi": [1.0]}), tmp_path / "in.parquet")
+    write(pa.table({"a": [1.0], "b": [1.0], "c": [1.0]}), tmp_path / "in.parquet")
     assert main(["batch", str(tmp_path / "in.parquet"), str(tmp_path / "out.csv"), *OPTIONS]) == 2
-    assert capsys.readouterr().err.endswith("its columns are x, y, psi\n")
+    assert capsys.readouterr().err.endswith("its columns are a, b, c\n")
 
 
 def test_the_closing_lines_name_the_first_malformed_line(tmp_path, capsys, monkeypatch):
@@ -76,9 +76,9 @@ def test_the_closing_lines_name_the_first_malformed_line(tmp_path, capsys, monke
 
 
 def test_a_header_that_is_far_from_right_is_shown(tmp_path, capsys):
-    (tmp_path / "in.csv").write_text("x,y,psi\n1,2,3\n")
+    (tmp_path / "in.csv").write_text("a,b,c\n1,2,3\n")
     assert main(["batch", str(tmp_path / "in.csv"), str(tmp_path / "out.csv"), *OPTIONS]) == 2
-    assert capsys.readouterr().err.endswith("its columns are x, y, psi: is the first line a header?\n")
+    assert capsys.readouterr().err.endswith("its columns are a, b, c: is the first line a header?\n")
 
 
 ZERO = [0.0] * 5
@@ -260,7 +260,7 @@ def test_the_summary_counts_what_is_bad(capsys, tmp_path):
     assert bad == [
         "1 radius_too_small: the circle is tighter than the minimum turn radius",
         "2 bad_turn: the turn must be cw, ccw or either",
-        "3 bad_pose: east, north and heading must be finite numbers",
+        "3 bad_pose: the position and the heading must be finite numbers, and latitudes within 90 degrees",
     ]
     assert sum(row["status"] == "ok" for row in read(tmp_path / "out.parquet")) == 1194
     assert sorted(path.name for path in tmp_path.iterdir()) == ["in.parquet", "out.parquet"]

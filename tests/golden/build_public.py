@@ -125,7 +125,8 @@ def tables():
     folder = importlib.import_module("loiter.batch.jobs.folder")
     return {
         "dataset": [folder.SUCCESS, folder.TEMPORARY, folder.part_name(0, 10, "0123456789", ".parquet")],
-        "added": columns.ADDED.names,
+        "added": columns.added_schema(is_placed=False).names,
+        "added on Earth": columns.added_schema(is_placed=True).names,
         "statuses": list(columns.STATUSES),
     }
 

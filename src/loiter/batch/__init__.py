@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from loiter.errors import InvalidArgument, MissingPackage
+from loiter.geo import LocalFrame
 from loiter.lazy import LazyModule
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
 
@@ -37,6 +38,8 @@ def run(
     aircraft: Aircraft | Mapping[str, float] | None = None,
     wind: Wind | None = None,
     orbit_velocity_m_s: tuple[float, float] | None = None,
+    origin: LocalFrame | None = None,
+    columns: Mapping[str, str] | None = None,
     tolerance_m: float = 0.0,
     workers: int | None = None,
     scheduler: str | None = None,
@@ -50,7 +53,10 @@ def run(
     or it exists), or the URL of one of these.
     `orbit`, `turn`, `aircraft` and `wind` replace columns that the table does not have; `aircraft` may be incomplete,
     such as {"airspeed_m_s": 18.0} with a column max_bank_deg.
-    `orbit_velocity_m_s`, (east, north), is the velocity of circles that are given by columns.
+    `orbit_velocity_m_s`, (east, north), is the velocity of circles that are given by columns. `columns` maps quantities
+    to columns with other names or units: {"east_m": "X_East [ft]"}; docs/batch.md says how. Positions in degrees are
+    columns `latitude_deg` and `longitude_deg`; `origin` is then the local frame of the metres of `orbit`, unless each
+    row gives its circle in degrees, too.
     `workers` is the number of threads, by default that of the cores; `scheduler` is the address of the scheduler of a
     Dask cluster that does the work instead. `rejects` is a CSV file to write: the malformed lines of CSV files, with
     file, line number, problem and text. `progress` is called periodically.
@@ -68,7 +74,10 @@ def run(
     from loiter.batch.jobs.request import check_request
     from loiter.batch.tables.columns import shared_values
 
-    count, given = _workers(workers, scheduler), shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s)
+    count, given = (
+        _workers(workers, scheduler),
+        shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns),
+    )
     kept = None if rejects is None else Path(rejects)
     request = check_request(os.fspath(source), os.fspath(target), given, tolerance_m, kept)
     return job.run_request(request, count, scheduler, progress)
@@ -82,14 +91,16 @@ def plan(
     wind: Wind | None = None,
     turn: Turn | str | None = None,
     orbit_velocity_m_s: tuple[float, float] | None = None,
+    origin: LocalFrame | None = None,
+    columns: Mapping[str, str] | None = None,
     tolerance_m: float = 0.0,
 ) -> Any:
-    """The fastest entries of the rows of a pandas or Dask data frame: the frame with added columns and the same index.
+    """The fastest entries of the rows of a data frame of pandas, Dask, Polars or Arrow: the same with added columns.
 
     The frame has columns as docs/batch.md describes them: `east_m`, `north_m` in metres, `heading_deg` in degrees, and
     others in place of the arguments. The added columns are those of `run`: times in seconds, the point of joining in
-    metres and degrees; word, turn and status are categories. A Dask frame stays lazy. The arguments are those of `run`,
-    `orbit_velocity_m_s` in metres per second and `tolerance_m` in metres.
+    metres and degrees; word, turn and status are categories. A pandas frame keeps its index, and a Dask frame stays
+    lazy. The arguments are those of `run`, `orbit_velocity_m_s` in metres per second and `tolerance_m` in metres.
 
     A row that cannot be solved gets nan and a status. Raises `InvalidArgument` for something that is no data frame, for
     columns that are missing, given twice or of another type, and for arguments that cannot be used; `MissingPackage`.
@@ -98,7 +109,9 @@ def plan(
     from loiter.batch.frames import plan_frame
     from loiter.batch.tables.columns import shared_values
 
-    return plan_frame(frame, shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s), tolerance_m)
+    return plan_frame(
+        frame, shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns), tolerance_m
+    )
 
 
 def _workers(workers: int | None, scheduler: str | None) -> int:

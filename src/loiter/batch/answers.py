@@ -11,23 +11,12 @@ import pyarrow.compute as pc
 
 from loiter.arrays.entries import UNKNOWN, States, entries
 from loiter.batch.tables import views
-from loiter.batch.tables.columns import (
-    ADDED,
-    AIRSPEED,
-    ORBIT,
-    POSE,
-    STATUSES,
-    TURN,
-    TURN_NAMES,
-    VELOCITY,
-    WIND,
-    WORDS,
-    Columns,
-    carried_columns,
-    number_columns,
-)
+from loiter.batch.tables.columns import STATUSES, TURN_NAMES, WORDS, Columns, carried_columns, number_columns
+from loiter.batch.tables.mapping import AIRSPEED, HEADING, ORBIT, ORBIT_PLACE, PLACE, POSE, TURN, VELOCITY, WIND
 from loiter.batch.tables.types import convert
+from loiter.geo.frame import from_plane, to_plane
 from loiter.kernel.statuses import Status
+from loiter.planning.compass import wrapped
 from loiter.planning.model import Turn
 from loiter.planning.sides import SIDES
 
@@ -53,18 +42,24 @@ def solve_batch(batch: pa.RecordBatch, columns: Columns, schema: pa.Schema) -> p
     kept = [without_dictionary(batch.column(name)) for name in names]
     if columns.text:
         kept = [convert(column, field.type) for column, field in zip(kept, schema, strict=False)]
-    return pa.RecordBatch.from_arrays([*kept, *added_columns(batch, columns)], [*names, *ADDED.names])
+    return pa.RecordBatch.from_arrays([*kept, *added_columns(batch, columns)], [*names, *columns.added.names])
 
 
 def added_columns(batch: pa.RecordBatch, columns: Columns) -> list[pa.Array]:
-    """The added columns, in the order of `ADDED`."""
-    given = states(batch, columns)
+    """The added columns, in the order of `Columns.added`."""
+    numbers = _number_values(batch, columns)
     if columns.text:
         # The fields of a malformed line are not those of the columns in which they stand.
         malformed = views.to_numpy(batch.column(-1)) != 0
-        given = given._replace(east_m=np.where(malformed, nan, given.east_m))
-    found = entries(given)
-    status = np.where(malformed, np.int8(Status.MALFORMED), found.status) if columns.text else found.status
+        numbers = {**numbers, HEADING: np.where(malformed, nan, numbers[HEADING])}
+    in_plane = _in_plane(numbers, columns) if columns.is_placed else numbers
+    found = entries(_states(batch, columns, in_plane))
+    results: dict[str, Any] = found._asdict()
+    if columns.is_placed:
+        results |= _join_on_earth(found, numbers, columns)
+        far = (found.status == Status.BAD_POSE) & np.isnan(in_plane["east_m"]) & _are_places(numbers)
+        results["status"] = np.where(far, np.int8(Status.OUT_OF_RANGE), found.status)
+    status = np.where(malformed, np.int8(Status.MALFORMED), results["status"]) if columns.text else results["status"]
     text = {
         "word": (_WORD_INDEX.take(found.word), _WORDS),
         TURN: (found.side + np.int8(1), _TURNS),
@@ -74,21 +69,66 @@ def added_columns(batch: pa.RecordBatch, columns: Columns) -> list[pa.Array]:
         name: pa.DictionaryArray.from_arrays(views.from_numpy(indices), values)
         for name, (indices, values) in text.items()
     }
-    return [encoded[name] if name in encoded else views.from_numpy(getattr(found, name)) for name in ADDED.names]
+    return [encoded[name] if name in encoded else views.from_numpy(results[name]) for name in columns.added.names]
 
 
-def states(batch: pa.RecordBatch, columns: Columns) -> States:
-    """The rows of a batch as arrays; text that is not a number is nan, an unknown turn is `UNKNOWN`."""
-    read = {name: _numbers(batch.column(name), columns.text) for name in number_columns(columns)}
-    values: dict[str, Any] = {**columns.shared, **read}
-    side = _sides(batch.column(TURN)) if columns.turn is None else int(SIDES[columns.turn])
+def _number_values(batch: pa.RecordBatch, columns: Columns) -> dict[str, Any]:
+    """The numbers of each quantity: a number, or an array, with nan for text that is not a number."""
+    read = {
+        quantity: _numbers(batch.column(column.name), column.factor, text=columns.text)
+        for quantity, column in number_columns(columns).items()
+    }
+    return {**columns.shared, **read}
+
+
+def _states(batch: pa.RecordBatch, columns: Columns, numbers: dict[str, Any]) -> States:
+    """The rows of a batch as arrays; an unknown turn is `UNKNOWN`."""
+    side: Any = int(SIDES[columns.turn]) if columns.turn is not None else None
+    if side is None:
+        side = _sides(batch.column(columns.mapped[TURN].name))
     return States(
-        **{name: values[name] for name in (*POSE, *ORBIT, AIRSPEED, *WIND, *VELOCITY)},
+        **{name: numbers[name] for name in (*POSE, *ORBIT, AIRSPEED, *WIND, *VELOCITY)},
         side=side,
-        turn_limit=values[columns.limit],
+        turn_limit=numbers[columns.limit],
         limit=columns.limit,
         tolerance_m=columns.tolerance_m,
     )
+
+
+def _origin(numbers: dict[str, Any], columns: Columns) -> tuple[Any, Any]:
+    """Latitude and longitude of the origin of each row's plane, degrees."""
+    if columns.origin is not None:
+        return columns.origin.latitude_deg, columns.origin.longitude_deg
+    latitude, longitude = (numbers[name] for name in ORBIT_PLACE)
+    return latitude, longitude
+
+
+def _in_plane(numbers: dict[str, Any], columns: Columns) -> dict[str, Any]:
+    """The numbers with each pose in the plane of its row's origin; nan where it is not within 100 km of it."""
+    latitude, longitude = _origin(numbers, columns)
+    east, north, convergence = to_plane(latitude, longitude, *(numbers[name] for name in PLACE))
+    local = {"east_m": east, "north_m": north, HEADING: numbers[HEADING] + convergence}
+    if columns.origin is None:
+        local["orbit_east_m"] = np.where(_is_place(latitude, longitude), 0.0, nan)
+    return {**numbers, **local}
+
+
+def _join_on_earth(found: Any, numbers: dict[str, Any], columns: Columns) -> dict[str, Any]:
+    """The place of joining, degrees, and the true heading there."""
+    origin = _origin(numbers, columns)
+    latitude, longitude = from_plane(*origin, found.join_east_m, found.join_north_m)
+    _, _, convergence = to_plane(*origin, latitude, longitude)
+    heading = wrapped(found.join_heading_deg - convergence)
+    return {"join_latitude_deg": latitude, "join_longitude_deg": longitude, "join_heading_deg": heading}
+
+
+def _are_places(numbers: dict[str, Any]) -> Any:
+    """Whether the pose of each row is a place on Earth with a heading."""
+    return _is_place(*(numbers[name] for name in PLACE)) & np.isfinite(numbers[HEADING])
+
+
+def _is_place(latitude: Any, longitude: Any) -> Any:
+    return (np.abs(latitude) <= 90.0) & np.isfinite(longitude)
 
 
 def without_dictionary(column: pa.Array) -> pa.Array:
@@ -96,14 +136,15 @@ def without_dictionary(column: pa.Array) -> pa.Array:
     return column.dictionary_decode() if pa.types.is_dictionary(column.type) else column
 
 
-def _numbers(column: pa.Array, text: bool) -> NDArray[np.float64]:
+def _numbers(column: pa.Array, factor: float, *, text: bool) -> NDArray[np.float64]:
     column = without_dictionary(column)
     if text:
         column = _parse_numbers(column)
     elif column.type != pa.float64():
         # Large integers are rounded to the nearest double.
         column = column.cast(pa.float64(), safe=False)
-    return views.fill_nulls(column, nan)
+    values = views.fill_nulls(column, nan)
+    return values if factor == 1.0 else values * factor
 
 
 def _parse_numbers(column: pa.Array) -> pa.Array:

@@ -1,4 +1,4 @@
-"""Entries for pandas and Dask data frames."""
+"""Entries for data frames of pandas, Dask, Polars and Arrow."""
 
 from __future__ import annotations
 
@@ -7,44 +7,72 @@ from typing import Any
 import pyarrow as pa
 
 from loiter.batch.answers import added_columns
-from loiter.batch.tables.columns import ADDED, KNOWN, TURN, SharedValues, columns
+from loiter.batch.tables.columns import Columns, SharedValues, carried_columns, columns
+from loiter.batch.tables.mapping import KNOWN, TURN
 from loiter.errors import InvalidArgument
+
+# Rows of an Arrow table that are solved at a time.
+BATCH_ROWS = 1 << 20
 
 
 def plan_frame(frame: Any, options: SharedValues, tolerance_m: float) -> Any:
-    """A pandas or Dask data frame with the added columns."""
-    is_lazy = hasattr(frame, "map_partitions")
-    _check_frame(frame, frame._meta if is_lazy else frame)
-    if not is_lazy:
+    """A data frame of the same kind with the added columns."""
+    if hasattr(frame, "map_partitions") and _is_pandas(frame._meta):
+        # The empty frame of Dask's metadata gives the columns and types of the result.
+        meta = _plan_pandas(frame._meta, options, tolerance_m)
+        return frame.map_partitions(_plan_pandas, options, tolerance_m, meta=meta)
+    if _is_pandas(frame):
         return _plan_pandas(frame, options, tolerance_m)
-    # The empty frame of Dask's metadata gives the columns and types of the result.
-    meta = _plan_pandas(frame._meta, options, tolerance_m)
-    return frame.map_partitions(_plan_pandas, options, tolerance_m, meta=meta)
+    if isinstance(frame, pa.RecordBatch):
+        [batch] = _plan_arrow(pa.Table.from_batches([frame]), options, tolerance_m).combine_chunks().to_batches()
+        return batch
+    if all(hasattr(type(frame), name) for name in ("columns", "__arrow_c_stream__")):
+        planned = _plan_arrow(pa.table(frame), options, tolerance_m)
+        return planned if isinstance(frame, pa.Table) else type(frame)(planned)
+    needed = "it must be a data frame of pandas, Dask, Polars or Arrow; loiter.batch.run takes files"
+    if hasattr(type(frame), "collect"):
+        needed = "collect() makes a data frame of it"
+    raise InvalidArgument("frame", f"is of type {type(frame).__name__}: {needed}")
 
 
-def _check_frame(given: Any, frame: Any) -> None:
-    """Raise `InvalidArgument` for something that has no methods of a pandas frame, such as the name of a file."""
-    if not all(hasattr(frame, name) for name in ("columns", "assign", "drop")):
-        needed = "it must be a pandas or Dask data frame; loiter.batch.run takes files"
-        raise InvalidArgument("frame", f"is of type {type(given).__name__}: {needed}")
+def _is_pandas(frame: Any) -> bool:
+    # Of the class, since a lazy frame would have to find out its columns.
+    return all(hasattr(type(frame), name) for name in ("columns", "assign", "drop"))
 
 
 def _plan_pandas(frame: Any, options: SharedValues, tolerance_m: float) -> Any:
-    batch = _known_columns(frame)
+    if not frame.columns.is_unique:
+        raise InvalidArgument("frame", "has two columns with the same name")
+    batch = _known_columns(frame, options)
     # Only the names of the other columns matter.
     known = {field.name: field for field in batch.schema}
     fields = [known.get(name, pa.field(str(name), pa.null())) for name in frame.columns]
     meaning = columns("frame", pa.schema(fields), options, tolerance_m)
-    added = zip(ADDED.names, added_columns(batch, meaning), strict=True)
+    added = zip(meaning.added.names, added_columns(batch, meaning), strict=True)
     kept = frame.drop(columns=[TURN], errors="ignore")
     # Arrays, unlike series, are not aligned with the frame's index.
     return kept.assign(**{name: column.to_pandas().array for name, column in added})
 
 
-def _known_columns(frame: Any) -> pa.RecordBatch:
-    if not frame.columns.is_unique:
-        raise InvalidArgument("frame", "has two columns with the same name")
+def _known_columns(frame: Any, options: SharedValues) -> pa.RecordBatch:
+    """The columns that may hold quantities; of one that is mapped with its unit, "x [m]", the name may begin so."""
+    known = [
+        name
+        for name in frame.columns
+        if name in KNOWN or any(mapped.startswith(str(name)) for mapped in options.mapped.values())
+    ]
     try:
-        return pa.RecordBatch.from_pandas(frame[[n for n in frame.columns if n in KNOWN]], preserve_index=False)
+        return pa.RecordBatch.from_pandas(frame[known], preserve_index=False)
     except pa.ArrowException as error:
         raise InvalidArgument("frame", f"has a column of mixed types: {error}") from error
+
+
+def _plan_arrow(table: pa.Table, options: SharedValues, tolerance_m: float) -> pa.Table:
+    meaning = columns("frame", table.schema, options, tolerance_m)
+    kept = table.select(carried_columns(table.column_names))
+    return pa.table([*kept.columns, *_added_chunks(table, meaning)], [*kept.column_names, *meaning.added.names])
+
+
+def _added_chunks(table: pa.Table, meaning: Columns) -> list[pa.ChunkedArray]:
+    batches = [added_columns(batch, meaning) for batch in table.combine_chunks().to_batches(BATCH_ROWS)]
+    return [pa.chunked_array([batch[i] for batch in batches], field.type) for i, field in enumerate(meaning.added)]

@@ -61,7 +61,7 @@ class LocalFrame:
         self, latitude_deg: npt.ArrayLike, longitude_deg: npt.ArrayLike
     ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """East and north, metres, of places in degrees; they broadcast. nan beyond 100 km and for invalid places."""
-        east, north, _ = self._rays(latitude_deg, longitude_deg)
+        east, north, _ = to_plane(self.latitude_deg, self.longitude_deg, latitude_deg, longitude_deg)
         return east, north
 
     def to_geodetic(
@@ -71,16 +71,7 @@ class LocalFrame:
 
         Longitudes are in [-180, 180].
         """
-        import numpy as np
-
-        east, north = np.broadcast_arrays(np.asarray(east_m, float), np.asarray(north_m, float))
-        distance = np.hypot(east, north)
-        near = distance <= REACH_M
-        here = np.where(near, distance, 0.0)
-        azimuth = np.degrees(np.arctan2(np.where(near, east, 0.0), np.where(near, north, 0.0)))
-        lat0, lon0 = np.full_like(here, self.latitude_deg), np.full_like(here, self.longitude_deg)
-        longitude, latitude, _ = _geod().fwd(lon0, lat0, azimuth, here)
-        return np.where(near, latitude, np.nan), np.where(near, longitude, np.nan)
+        return from_plane(self.latitude_deg, self.longitude_deg, east_m, north_m)
 
     def convergence_deg(self, latitude_deg: npt.ArrayLike, longitude_deg: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The angle to add to a true heading at each place to measure it from the plane's north; places broadcast.
@@ -88,7 +79,7 @@ class LocalFrame:
         The meridians of two places are not parallel: 20 km east at a latitude of 60 degrees makes 0.3 degrees. nan
         where `to_local` gives nan.
         """
-        _, _, convergence = self._rays(latitude_deg, longitude_deg)
+        _, _, convergence = to_plane(self.latitude_deg, self.longitude_deg, latitude_deg, longitude_deg)
         return convergence
 
     def pose(self, latitude_deg: float, longitude_deg: float, heading_deg: float) -> Pose:
@@ -98,7 +89,7 @@ class LocalFrame:
         """
         lat, lon = checked_place("pose", latitude_deg, longitude_deg)
         heading = number("pose true heading_deg", heading_deg, "degrees")
-        east, north, convergence = (float(value) for value in self._rays(lat, lon))
+        east, north, convergence = (float(value) for value in to_plane(self.latitude_deg, self.longitude_deg, lat, lon))
         if east != east:
             raise self._too_far(f"{lat:g} {lon:g}", self._swapped_hint(lat, lon))
         return Pose(east, north, wrapped(heading) + convergence)
@@ -132,23 +123,46 @@ class LocalFrame:
         east_m, _ = self.to_local(latitude_deg, longitude_deg)
         return not bool(east_m != east_m)
 
-    def _rays(self, latitude_deg: Any, longitude_deg: Any) -> tuple[npt.NDArray[np.float64], ...]:
-        """East, north and convergence of places; nan for invalid places and beyond 100 km."""
-        import numpy as np
 
-        lat, lon = np.broadcast_arrays(np.asarray(latitude_deg, float), np.asarray(longitude_deg, float))
-        good = (np.abs(lat) <= 90.0) & np.isfinite(lon)
-        lat, lon = np.where(good, lat, self.latitude_deg), np.where(good, lon, self.longitude_deg)
-        lat0, lon0 = np.full_like(lat, self.latitude_deg), np.full_like(lon, self.longitude_deg)
-        out, back, distance = _geod().inv(lon0, lat0, lon, lat)
-        angle = np.radians(out)
-        good &= distance <= REACH_M
-        # The geodesic arrives with the azimuth back + 180; in the plane it is straight.
-        convergence = wrapped(out - back) - 180.0
-        return tuple(
-            np.where(good, column, np.nan)
-            for column in (distance * np.sin(angle), distance * np.cos(angle), convergence)
-        )
+def to_plane(
+    latitude_0_deg: npt.ArrayLike,
+    longitude_0_deg: npt.ArrayLike,
+    latitude_deg: npt.ArrayLike,
+    longitude_deg: npt.ArrayLike,
+) -> tuple[npt.NDArray[np.float64], ...]:
+    """East and north, metres, of places in the planes of their origins, and the convergence there, degrees.
+
+    The origins are the first two arguments; all broadcast. nan beyond 100 km and for invalid places.
+    """
+    import numpy as np
+
+    given = (latitude_0_deg, longitude_0_deg, latitude_deg, longitude_deg)
+    lat0, lon0, lat, lon = np.broadcast_arrays(*(np.asarray(each, float) for each in given))
+    good = (np.abs(lat) <= 90.0) & np.isfinite(lon) & (np.abs(lat0) <= 90.0) & np.isfinite(lon0)
+    lat0, lon0, lat, lon = (np.where(good, each, 0.0) for each in (lat0, lon0, lat, lon))
+    out, back, distance = _geod().inv(lon0, lat0, lon, lat)
+    angle = np.radians(out)
+    good &= distance <= REACH_M
+    # The geodesic arrives with the azimuth back + 180; in the plane it is straight.
+    convergence = wrapped(out - back) - 180.0
+    return tuple(
+        np.where(good, column, np.nan) for column in (distance * np.sin(angle), distance * np.cos(angle), convergence)
+    )
+
+
+def from_plane(
+    latitude_0_deg: npt.ArrayLike, longitude_0_deg: npt.ArrayLike, east_m: npt.ArrayLike, north_m: npt.ArrayLike
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Latitude and longitude, degrees, of places in the planes of their origins; nan beyond 100 km. All broadcast."""
+    import numpy as np
+
+    given = (latitude_0_deg, longitude_0_deg, east_m, north_m)
+    lat0, lon0, east, north = np.broadcast_arrays(*(np.asarray(each, float) for each in given))
+    near = np.hypot(east, north) <= REACH_M
+    lat0, lon0, east, north = (np.where(near, each, 0.0) for each in (lat0, lon0, east, north))
+    azimuth, distance = np.degrees(np.arctan2(east, north)), np.hypot(east, north)
+    longitude, latitude, _ = _geod().fwd(lon0, lat0, azimuth, distance)
+    return np.where(near, latitude, np.nan), np.where(near, longitude, np.nan)
 
 
 def degrees_of(latitude_deg: float, longitude_deg: float) -> str:

@@ -31,12 +31,15 @@ _MESSAGES = {
     Status.OK: "solved",
     Status.NOT_FINITE: "the state, the radius or the wind is nan or infinite",
     Status.RADIUS_TOO_SMALL: "the circle is tighter than the minimum turn radius",
-    Status.OUT_OF_RANGE: "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn",
+    Status.OUT_OF_RANGE: (
+        "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn, or a place on "
+        "Earth is more than 100 km away"
+    ),
     Status.BAD_TOLERANCE: "the tolerance must be zero or positive, and below 2**52 turn radii",
     Status.BAD_AIRCRAFT: "airspeed and turn limit must be positive, finite numbers, and a bank below 90 degrees",
     Status.BAD_ORBIT: "the circle needs a finite centre and velocity, and a positive, finite radius",
     Status.BAD_TURN: "the turn must be cw, ccw or either",
-    Status.BAD_POSE: "east, north and heading must be finite numbers",
+    Status.BAD_POSE: "the position and the heading must be finite numbers, and latitudes within 90 degrees",
     Status.MALFORMED: "the line has more or fewer fields than the header, an open quote, is too long, or is not UTF-8",
     Status.WIND_TOO_STRONG: "the wind relative to the circle is as fast as the aircraft: |w| must be below 1",
     Status.NOT_HELD: "the circle is too tight to be held in this wind",

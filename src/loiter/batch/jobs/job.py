@@ -127,7 +127,7 @@ def _divide(
         parts=target.parts,
         kind=target.kind,
         columns=request.columns,
-        schema=outputs.output_schema(schema),
+        schema=outputs.output_schema(schema, request.columns),
         dictionaries=tuple(outputs.dictionary_columns(schema, tables[0])),
         digest=folder.digest(description),
         count=len(parts),

@@ -52,7 +52,7 @@ def check_request(
         schema = files.common_schema("source", found.files, [footer.schema for footer in footers])
         sizes = [footer.sizes for footer in footers]
     meaning = columns("source", schema, options, tolerance_m, text=is_text)
-    outputs.check_columns(output.kind, outputs.output_schema(schema))
+    outputs.check_columns(output.kind, outputs.output_schema(schema, meaning))
     _check_apart(found, output)
     if rejects is not None:
         _check_rejects_apart(rejects, found, output)

@@ -5,45 +5,42 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields
-from difflib import get_close_matches
 from typing import NamedTuple
 
 import pyarrow as pa
 
+from loiter.batch.tables.mapping import (
+    AIRSPEED,
+    HEADING,
+    LOCAL,
+    ORBIT,
+    ORBIT_PLACE,
+    PLACE,
+    POSE,
+    RADIUS,
+    TURN,
+    VELOCITY,
+    WIND,
+    WIND_SPEED,
+    MappedColumn,
+    likely_column,
+    mapped_columns,
+)
 from loiter.errors import InvalidArgument, not_negative
+from loiter.geo import LocalFrame
 from loiter.kernel.statuses import Status
 from loiter.kernel.words import Word
 from loiter.planning.model import TURN_LIMITS, Aircraft, Orbit, Turn, Wind
-
-POSE = ("east_m", "north_m", "heading_deg")
-ORBIT = ("orbit_east_m", "orbit_north_m", "orbit_radius_m")
-AIRSPEED = "airspeed_m_s"
-TURN = "turn"
-WIND_SPEED = "wind_speed_m_s"
-WIND = (WIND_SPEED, "wind_from_deg")
-VELOCITY = ("orbit_velocity_east_m_s", "orbit_velocity_north_m_s")
-KNOWN = (*POSE, *ORBIT, AIRSPEED, *TURN_LIMITS, TURN, *WIND, *VELOCITY)
 
 _TEXT = pa.dictionary(pa.int8(), pa.string())
 
 # At most this many columns are listed in a message.
 LISTED = 8
 
-# The columns that the output has in addition to those of the input, in this order.
-ADDED = pa.schema(
-    [
-        ("duration_s", pa.float64()),
-        ("word", _TEXT),
-        (TURN, _TEXT),
-        ("join_east_m", pa.float64()),
-        ("join_north_m", pa.float64()),
-        ("join_heading_deg", pa.float64()),
-        ("duration_1_s", pa.float64()),
-        ("duration_2_s", pa.float64()),
-        ("duration_3_s", pa.float64()),
-        ("status", _TEXT),
-    ]
-)
+_NUMBER = pa.float64()
+
+# The point of joining in the plane, or on Earth.
+_JOIN, _JOIN_PLACE = ("join_east_m", "join_north_m"), ("join_latitude_deg", "join_longitude_deg")
 
 # The values of the added text columns: words by index, turns by the code of the side plus 1, statuses by code.
 WORDS = tuple(Word)
@@ -52,25 +49,57 @@ STATUSES = tuple(status.name.lower() for status in Status)
 
 
 class SharedValues(NamedTuple):
-    """The values that all rows share: numbers by the names of the columns that they replace, and the turn."""
+    """The values that all rows share, and the columns of the others.
+
+    `numbers` are by the names of the columns that they replace; `origin` is that of positions in degrees; `mapped` has
+    the names of columns by the quantities that they hold, as `mapped_columns` takes them.
+    """
 
     numbers: Mapping[str, float]
     turn: Turn | None
+    origin: LocalFrame | None = None
+    mapped: Mapping[str, str] = {}
 
 
 @dataclass(frozen=True)
 class Columns:
-    """The source of each quantity: the value in `shared` under its column's name or, if there is none, that column.
+    """The source of each quantity: its value in `shared` or, if there is none, its column in `mapped`.
 
-    `limit` is the name of the turn limit; `turn` is None if a column gives it. If `text` is true, the numbers are text,
-    and the last column of the table marks malformed lines.
+    `limit` is the name of the turn limit; `turn` is None if a column gives it. If `is_placed` is true, positions are
+    places on Earth, in the local frame of `origin`, or each row in that of its circle. If `text` is true, the numbers
+    are text, and the last column of the table marks malformed lines.
     """
 
     shared: Mapping[str, float]
+    mapped: Mapping[str, MappedColumn]
     limit: str
     turn: Turn | None
+    is_placed: bool
+    origin: LocalFrame | None
     tolerance_m: float
     text: bool
+
+    @property
+    def added(self) -> pa.Schema:
+        """The columns that the output has in addition to those of the input."""
+        return added_schema(is_placed=self.is_placed)
+
+
+def added_schema(*, is_placed: bool) -> pa.Schema:
+    """The columns that an output has in addition to those of the input, in this order."""
+    return pa.schema(
+        [
+            ("duration_s", _NUMBER),
+            ("word", _TEXT),
+            (TURN, _TEXT),
+            *((name, _NUMBER) for name in (_JOIN_PLACE if is_placed else _JOIN)),
+            ("join_heading_deg", _NUMBER),
+            ("duration_1_s", _NUMBER),
+            ("duration_2_s", _NUMBER),
+            ("duration_3_s", _NUMBER),
+            ("status", _TEXT),
+        ]
+    )
 
 
 def shared_values(
@@ -79,6 +108,8 @@ def shared_values(
     aircraft: Aircraft | Mapping[str, float] | None,
     wind: Wind | None = None,
     orbit_velocity_m_s: tuple[float, float] | None = None,
+    origin: LocalFrame | None = None,
+    mapped: Mapping[str, str] | None = None,
 ) -> SharedValues:
     """The values of the options, checked. `aircraft` may be incomplete, with the names of `Aircraft`."""
     numbers = _velocity(orbit, orbit_velocity_m_s)
@@ -90,7 +121,8 @@ def shared_values(
         turn = turn if turn is not None or orbit.turn is Turn.EITHER else orbit.turn
     if turn is not None and turn not in tuple(Turn):
         raise InvalidArgument("turn", f"is {turn!r}: it must be cw, ccw or either")
-    return SharedValues(numbers | _aircraft_numbers(aircraft), None if turn is None else Turn(turn))
+    numbers |= _aircraft_numbers(aircraft)
+    return SharedValues(numbers, None if turn is None else Turn(turn), origin, dict(mapped or {}))
 
 
 def _velocity(orbit: Orbit | None, velocity_m_s: tuple[float, float] | None) -> dict[str, float]:
@@ -128,29 +160,47 @@ def columns(
     Raises `InvalidArgument` if a quantity is given twice or not at all, and if a column has the wrong type or would be
     overwritten.
     """
-    names = schema.names
-    _check_names(argument, names, text=text)
-    _require(argument, names, options.numbers, "orbit", ORBIT)
-    _require(argument, names, options.numbers, f"aircraft {AIRSPEED}", (AIRSPEED,))
-    limit = _turn_limit(argument, names, options.numbers)
-    still_air = _zeros_unless_given(argument, names, options.numbers, "wind", WIND)
-    at_rest = _zeros_unless_given(argument, names, options.numbers, "orbit_velocity_m_s", VELOCITY)
+    names, numbers = schema.names, options.numbers
+    mapped = mapped_columns(names, options.mapped)
+    is_placed = _is_placed(argument, names, mapped, options, text=text)
+    given = _Given(argument, names, mapped, numbers)
+    if is_placed and options.origin is None:
+        given.require_circles_on_earth()
+        numbers = {**numbers, **dict.fromkeys(ORBIT[:2], 0.0)}
+    else:
+        given.require("orbit", ORBIT)
+    given.require(f"aircraft {AIRSPEED}", (AIRSPEED,))
+    limit = given.turn_limit()
+    still_air = given.zeros_unless_given("wind", WIND)
+    at_rest = given.zeros_unless_given("orbit_velocity_m_s", VELOCITY)
     turn = options.turn
-    if TURN in names:
+    if TURN in mapped:
         if turn is not None:
-            raise InvalidArgument(TURN, "is given, and by the table's column turn too")
+            raise InvalidArgument(TURN, f"is given, and by the table's column {mapped[TURN].name} too")
     elif turn is None:
         turn = Turn.EITHER
-    numbers = {**options.numbers, **still_air, **at_rest}
-    meaning = Columns(numbers, limit, turn, not_negative("tolerance_m", tolerance_m, "metres"), text)
+    meaning = Columns(
+        shared={**numbers, **still_air, **at_rest},
+        mapped=mapped,
+        limit=limit,
+        turn=turn,
+        is_placed=is_placed,
+        origin=options.origin,
+        tolerance_m=not_negative("tolerance_m", tolerance_m, "metres"),
+        text=text,
+    )
+    _check_names(argument, names, meaning)
     if not text:
         _check_types(argument, schema, meaning)
     return meaning
 
 
-def number_columns(meaning: Columns) -> list[str]:
-    """The names of the number columns that are read from the table."""
-    return [name for name in (*POSE, *ORBIT, AIRSPEED, meaning.limit, *WIND, *VELOCITY) if name not in meaning.shared]
+def number_columns(meaning: Columns) -> dict[str, MappedColumn]:
+    """The columns that numbers are read from, by the quantities that they hold."""
+    position = (*PLACE, HEADING) if meaning.is_placed else POSE
+    circle = (*ORBIT_PLACE, RADIUS) if meaning.is_placed and meaning.origin is None else ORBIT
+    read = (*position, *circle, AIRSPEED, meaning.limit, *WIND, *VELOCITY)
+    return {name: meaning.mapped[name] for name in read if name not in meaning.shared}
 
 
 def may_drift(meaning: Columns) -> bool:
@@ -163,88 +213,138 @@ def carried_columns(names: Iterable[str]) -> list[str]:
     return [name for name in names if name != TURN]
 
 
-def _check_names(argument: str, names: list[str], *, text: bool) -> None:
-    for name in POSE:
-        if name not in names:
-            there = f"its columns are {', '.join(names[:LISTED])}{', ...' if len(names) > LISTED else ''}"
-            question = ": is the first line a header?" if text else ""
-            hint = _hint(name, names) or f"; {there}{question}"
-            raise InvalidArgument(argument, f"has no column {name}: it needs {', '.join(POSE)}{hint}")
+def _is_placed(
+    argument: str, names: list[str], mapped: Mapping[str, MappedColumn], options: SharedValues, *, text: bool
+) -> bool:
+    """Whether positions are places on Earth; raises `InvalidArgument` if the columns of the pose are not there."""
+    in_plane = all(name in mapped for name in LOCAL)
+    on_earth = all(name in mapped for name in PLACE)
+    if on_earth and any(name in options.mapped for name in PLACE) and any(name in options.mapped for name in LOCAL):
+        raise InvalidArgument("columns", f"gives {LOCAL[0]} and {PLACE[0]}: positions are in metres or in degrees")
+    is_placed = on_earth and (not in_plane or any(name in options.mapped for name in PLACE))
+    absent = [name for name in ((*PLACE, HEADING) if is_placed else POSE) if name not in mapped]
+    if absent:
+        first, *_ = absent
+        raise InvalidArgument(
+            argument, f"has no column {first}: it needs {', '.join(POSE)}{_proposal(absent, names, text=text)}"
+        )
+    if not is_placed and options.origin is not None:
+        raise InvalidArgument("origin", f"is given, but the table has no columns {' and '.join(PLACE)}")
+    return is_placed
+
+
+def _check_names(argument: str, names: list[str], meaning: Columns) -> None:
     for name, count in Counter(names).items():
         if count > 1:
             raise InvalidArgument(argument, f"has two columns named {name!r}")
-    for name in carried_columns(names):
-        if name in ADDED.names:
+    for name in meaning.added.names:
+        if name != TURN and name in names:
             raise InvalidArgument(argument, f"has a column {name}, a name that the output needs: rename it")
 
 
-def _hint(name: str, names: list[str]) -> str:
-    """A sentence on what the table has instead of a column: another separator, or a name that differs slightly."""
+def _proposal(absent: list[str], names: list[str], *, text: bool) -> str:
+    """What to do about columns of the pose that are absent: which columns may hold them, or what the table has."""
+    separator = _separator(names)
+    if separator:
+        return separator
+    places = [likely_column(name, names) for name in PLACE]
+    wanted = [*PLACE, *(name for name in absent if name == HEADING)] if all(places) else absent
+    likely = {name: column for name in wanted if (column := likely_column(name, names))}
+    if likely:
+        return f"; if that is it, map {', '.join(f'{name}={column!r}' for name, column in likely.items())}"
+    question = ": is the first line a header?" if text else ""
+    return f"; its columns are {', '.join(names[:LISTED])}{', ...' if len(names) > LISTED else ''}{question}"
+
+
+def _separator(names: list[str]) -> str:
+    """A sentence on a header whose fields are separated by something else than commas; "" for others."""
     separators = {";": "semicolons", "\t": "tabs", "|": "vertical bars"}
     for separator, described in separators.items():
         if len(names) == 1 and separator in names[0]:
             return f"; its fields are separated by {described}: they must be separated by commas"
-    # A column that has a meaning of its own is not the one that was meant.
-    alike = {other.strip().strip("\ufeff").lower(): other for other in names if other not in KNOWN}
-    close = get_close_matches(name, alike, n=1, cutoff=0.7)
-    return f"; rename {alike[close[0]]!r}, if that is it" if close else ""
+    return ""
 
 
-def _require(argument: str, names: list[str], given: Mapping[str, float], option: str, needed: tuple[str, ...]) -> None:
-    """Raise `InvalidArgument` if neither the option nor its columns are given."""
-    if not _is_given(argument, names, given, option, needed):
-        first, *_ = needed
-        raise InvalidArgument(option, f"is needed: the table has no column {first}{_hint(first, names)}")
+class _Given(NamedTuple):
+    """The quantities that a table and options give: each comes from its column or from its option, never from both."""
 
+    argument: str
+    names: list[str]
+    mapped: Mapping[str, MappedColumn]
+    numbers: Mapping[str, float]
 
-def _zeros_unless_given(
-    argument: str, names: list[str], given: Mapping[str, float], option: str, needed: tuple[str, ...]
-) -> dict[str, float]:
-    """Zero for each column if neither the option nor its columns are given."""
-    return {} if _is_given(argument, names, given, option, needed) else dict.fromkeys(needed, 0.0)
+    def require(self, option: str, needed: tuple[str, ...]) -> None:
+        """Raise `InvalidArgument` if neither the option nor its columns are given."""
+        if not self._has(option, needed):
+            first, *_ = needed
+            likely = likely_column(first, self.names)
+            hint = f"; if that is it, map {first}={likely!r}" if likely else ""
+            raise InvalidArgument(option, f"is needed: the table has no column {first}{hint}")
 
-
-def _is_given(
-    argument: str, names: list[str], given: Mapping[str, float], option: str, needed: tuple[str, ...]
-) -> bool:
-    """Whether the option or all its columns are given; raises `InvalidArgument` for both, and for some columns only."""
-    present = [name for name in needed if name in names]
-    absent = [name for name in needed if name not in names]
-    by_option = any(name in given for name in needed)
-    if not present:
-        return by_option
-    first, *_ = present
-    if by_option:
-        raise InvalidArgument(option, f"is given, and by the table's column {first} too")
-    if absent:
-        at_origin = ": add both, 0 for a circle at the origin" if present == ["orbit_radius_m"] else ""
-        raise InvalidArgument(argument, f"has a column {first} but no {' and no '.join(absent)}{at_origin}")
-    return True
-
-
-def _turn_limit(argument: str, names: list[str], given: Mapping[str, float]) -> str:
-    """The name of the turn limit, which must be given exactly once."""
-    present = [name for name in TURN_LIMITS if name in names]
-    match present, [name for name in TURN_LIMITS if name in given]:
-        case [], []:
-            limits = ", ".join(TURN_LIMITS)
+    def require_circles_on_earth(self) -> None:
+        """Raise `InvalidArgument` if the columns do not give each circle on Earth."""
+        if any(name in self.numbers for name in ORBIT):
             raise InvalidArgument(
-                "aircraft max_bank_deg", f"or another turn limit is needed: the table has no column of {limits}"
+                "orbit", f"is in metres, but positions are in degrees: give the circle in degrees, or {ORBIT_PLACE[0]}"
             )
-        case [name], []:
-            return name
-        case [], [option, *_]:
-            return option
-        case [name], [option, *_]:
-            raise InvalidArgument(f"aircraft {option}", f"is given, and the table's column {name} limits the turn too")
-    raise InvalidArgument(argument, f"has the columns {' and '.join(present)}: one turn limit is needed")
+        if any(name not in self.mapped for name in ORBIT_PLACE):
+            raise InvalidArgument(
+                "origin",
+                f"is needed: the table has no columns {' and '.join(ORBIT_PLACE)}, where positions are in degrees",
+            )
+        if RADIUS not in self.mapped:
+            raise InvalidArgument(self.argument, f"has columns {' and '.join(ORBIT_PLACE)} but no {RADIUS}")
+
+    def zeros_unless_given(self, option: str, needed: tuple[str, ...]) -> dict[str, float]:
+        """Zero for each column if neither the option nor its columns are given."""
+        return {} if self._has(option, needed) else dict.fromkeys(needed, 0.0)
+
+    def turn_limit(self) -> str:
+        """The name of the turn limit, which must be given exactly once."""
+        present = [name for name in TURN_LIMITS if name in self.mapped]
+        match present, [name for name in TURN_LIMITS if name in self.numbers]:
+            case [], []:
+                limits = ", ".join(TURN_LIMITS)
+                raise InvalidArgument(
+                    "aircraft max_bank_deg", f"or another turn limit is needed: the table has no column of {limits}"
+                )
+            case [name], []:
+                return name
+            case [], [option, *_]:
+                return option
+            case [name], [option, *_]:
+                column = self.mapped[name].name
+                raise InvalidArgument(
+                    f"aircraft {option}", f"is given, and the table's column {column} limits the turn too"
+                )
+        raise InvalidArgument(
+            self.argument, f"has the columns {' and '.join(self._columns(present))}: one turn limit is needed"
+        )
+
+    def _has(self, option: str, needed: tuple[str, ...]) -> bool:
+        """Whether the option or all its columns are given; raises `InvalidArgument` for both, and for some columns."""
+        present = [name for name in needed if name in self.mapped]
+        absent = [name for name in needed if name not in self.mapped]
+        by_option = any(name in self.numbers for name in needed)
+        if not present:
+            return by_option
+        first, *_ = self._columns(present)
+        if by_option:
+            raise InvalidArgument(option, f"is given, and by the table's column {first} too")
+        if absent:
+            at_origin = ": add both, 0 for a circle at the origin" if present == [RADIUS] else ""
+            raise InvalidArgument(self.argument, f"has a column {first} but no {' and no '.join(absent)}{at_origin}")
+        return True
+
+    def _columns(self, quantities: list[str]) -> list[str]:
+        return [self.mapped[name].name for name in quantities]
 
 
 def _check_types(argument: str, schema: pa.Schema, meaning: Columns) -> None:
-    for name in number_columns(meaning):
-        _check_type(argument, schema.field(name), _is_number, "numbers")
+    for column in number_columns(meaning).values():
+        _check_type(argument, schema.field(column.name), _is_number, "numbers")
     if meaning.turn is None:
-        _check_type(argument, schema.field(TURN), is_text, "text")
+        _check_type(argument, schema.field(meaning.mapped[TURN].name), is_text, "text")
 
 
 def _check_type(argument: str, field: pa.Field, fits: Callable[[pa.DataType], bool], kind: str) -> None:

@@ -15,7 +15,7 @@ import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
 from loiter.batch.answers import without_dictionary
-from loiter.batch.tables.columns import ADDED, STATUSES, carried_columns, is_text, values_type
+from loiter.batch.tables.columns import STATUSES, Columns, carried_columns, is_text, values_type
 from loiter.batch.tables.files import Kind, open_parquet
 from loiter.batch.tables.storage import open_place, written_behind
 from loiter.batch.tables.views import to_numpy
@@ -46,10 +46,10 @@ _TRAILER = Struct(f"<8s{len(STATUSES)}q")
 _WIDTHS = {"BOOLEAN": 1, "INT32": 4, "FLOAT": 4, "INT64": 8, "DOUBLE": 8, "INT96": 12}
 
 
-def output_schema(schema: pa.Schema) -> pa.Schema:
+def output_schema(schema: pa.Schema, meaning: Columns) -> pa.Schema:
     """The columns of the output for an input with a schema, with the types of the input."""
     kept = [schema.field(name) for name in carried_columns(schema.names)]
-    return pa.schema([*kept, *ADDED], metadata=schema.metadata)
+    return pa.schema([*kept, *meaning.added], metadata=schema.metadata)
 
 
 def check_columns(kind: Kind, schema: pa.Schema) -> None:

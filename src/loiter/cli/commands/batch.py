@@ -16,8 +16,10 @@ from rich.table import Column
 from rich.text import Text
 
 import loiter
-from loiter.cli.numbers import any_case, metres, metres_per_second, one, plain, several, whole
+from loiter.cli.numbers import any_case, latitude, longitude, metres, metres_per_second, one, plain, several, whole
 from loiter.cli.report import print_json
+from loiter.errors import InvalidArgument, positive
+from loiter.geo import LocalFrame
 from loiter.kernel.statuses import Status
 from loiter.planning.model import Orbit, Turn, TurnName, Wind
 
@@ -51,6 +53,15 @@ def batch(
             converter=several(metres, metres, metres),
             metavar="EAST NORTH RADIUS",
             help="The circle: its centre and its radius, metres.",
+        ),
+    ] = None,
+    orbit_lla: Annotated[
+        tuple[float, float, float] | None,
+        Parameter(
+            group=shared,
+            converter=several(latitude, longitude, metres),
+            metavar="LAT LON RADIUS",
+            help="Instead, where the table has latitudes and longitudes: its centre in WGS84 degrees, and its radius.",
         ),
     ] = None,
     turn: Annotated[
@@ -103,6 +114,16 @@ def batch(
             help="Velocity of the circle over the ground, metres per second; at rest if absent.",
         ),
     ] = None,
+    map_: Annotated[
+        list[str] | None,
+        Parameter(
+            name="--map",
+            group=shared,
+            metavar="NAME=COLUMN",
+            negative=(),
+            help="The column of the table that holds a quantity, if it has another name or unit: east_m='X_East [ft]'; may be repeated. Its unit is at the end of its name, or added in brackets.",
+        ),
+    ] = None,
     tolerance: Annotated[
         float,
         Parameter(
@@ -138,15 +159,18 @@ def batch(
     """Plan the fastest entry of every row of a table."""
     limits = {"max_bank_deg": bank, "min_turn_radius_m": turn_radius, "max_turn_rate_deg_s": turn_rate}
     given = {name: value for name, value in {"airspeed_m_s": airspeed, **limits}.items() if value is not None}
+    circle, origin = _circle(orbit, orbit_lla)
     with _named_interrupt(), shown_progress() as report:
         summary = loiter.batch.run(
             source,
             target,
-            orbit=None if orbit is None else Orbit(*orbit),
+            orbit=circle,
             turn=None if turn is None else Turn(turn),
             aircraft=given,
             wind=None if wind is None else Wind(*wind),
             orbit_velocity_m_s=orbit_velocity,
+            origin=origin,
+            columns=_mapped(map_ or []),
             tolerance_m=tolerance,
             workers=workers,
             scheduler=scheduler,
@@ -157,6 +181,31 @@ def batch(
         print_json(asdict(summary) | {"files": [target]})
     else:
         sys.stderr.write(summary_lines(summary, rejects))
+
+
+def _circle(
+    orbit: tuple[float, float, float] | None, orbit_lla: tuple[float, float, float] | None
+) -> tuple[Orbit | None, LocalFrame | None]:
+    """The circle, and the local frame about its centre if it is in degrees."""
+    if orbit_lla is None:
+        return (None if orbit is None else Orbit(*orbit)), None
+    if orbit is not None:
+        raise InvalidArgument("orbit", "and --orbit-lla are given: one of them is needed")
+    lat, lon, radius = orbit_lla
+    return Orbit(0.0, 0.0, positive("origin radius_m", radius, "metres")), LocalFrame(lat, lon)
+
+
+def _mapped(texts: list[str]) -> dict[str, str]:
+    """Columns by the quantities that they hold, from texts such as "east_m=X_East [ft]"."""
+    mapped: dict[str, str] = {}
+    for text in texts:
+        quantity, _, column = text.partition("=")
+        if not (quantity and column):
+            raise InvalidArgument("columns", f"is {text!r}: it must be like east_m='X_East [ft]'")
+        if quantity in mapped:
+            raise InvalidArgument("columns", f"gives {quantity} twice")
+        mapped[quantity] = column
+    return mapped
 
 
 @contextmanager
