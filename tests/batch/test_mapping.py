@@ -78,7 +78,7 @@ def test_columns_of_users_give_what_those_of_loiter_give(kind):
 
 REFUSED = {
     "another kind": ({"east_m": "hdg(rad)"}, "gives east_m the column 'hdg(rad)' in rad, but its unit must be m, km"),
-    "another kind at the end": ({"east_m": "TAS_kt"}, "in kt, but its unit must be m, km, ft, nm or nmi: 'TAS_kt"),
+    "another kind at the end": ({"east_m": "TAS_kt"}, "in kt, but its unit must be m, km, nm, nmi or ft: 'TAS_kt"),
     "no unit": ({"east_m": "X [cubit]"}, "the column 'X [cubit]' in cubit, but its unit must be m"),
     "stated and wrong": ({"heading_deg": "plain [ft]"}, "the column 'plain' in ft, but its unit must be deg or rad"),
     "no column": ({"east_m": "X_Est [ft]"}, "the column 'X_Est [ft]', which the table does not have: is it 'X_East"),

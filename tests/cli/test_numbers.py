@@ -42,7 +42,24 @@ def refusal(capsys):
         ("--airspeed 18m/s", "--airspeed 18"),
         ("--orbit 0 0 0.1NM", "--orbit 0 0 185.2"),
         ("--orbit 0 0 300ft", f"--orbit 0 0 {300 * 0.3048!r}"),
+        ("--airspeed 35kts", f"--airspeed {35 * 1852 / 3600!r}"),
+        ("--airspeed 40mph", f"--airspeed {40 * 1609.344 / 3600!r}"),
+        ("--orbit 0 0 0.1nmi", "--orbit 0 0 185.2"),
+        ("--pose -400m 120m 90", "--pose -400 120 90"),
+        ("--pose -0.4km,.12km,90deg", "--pose -400 120 90"),
+        ("--pose -400 120 90T", "--pose -400 120 90"),
+        ("--pose -400 120 090°T", "--pose -400 120 90"),
+        ("--pose -400 120 87M --declination 3", "--pose -400 120 90"),
+        ("--pose -400 120 92m --declination 2W", "--pose -400 120 90"),
+        ("--pose -400 120 359M --declination 91E", "--pose -400 120 90"),
+        ("--wind 250/10kn", f"--wind {10 * 1852 / 3600!r} 250"),
+        ("--wind=250T/5m/s", "--wind 5 250"),
+        ("--wind 10kn 247M --declination 3", f"--wind {10 * 1852 / 3600!r} 250"),
+        ("--wind 247M/10kn --declination 3", f"--wind {10 * 1852 / 3600!r} 250"),
         ("--turn CW", "--turn cw"),
+        ("--turn clockwise", "--turn cw"),
+        ("--turn Counter-Clockwise", "--turn ccw"),
+        ("--turn anticlockwise", "--turn ccw"),
         ("--turn Ccw", "--turn ccw"),
     ],
 )
@@ -57,7 +74,22 @@ def test_a_number_may_be_written_in_other_ways(planned, written, plain):
 
 @pytest.mark.parametrize(
     "place",
-    ["47.1N 8.2E", "47°06'N 8°12'E", "47d06'00\"n 8d12'e", "47°6′0″N 8°12.0′E", "47.1,8.2", "47.1°N 8.2°E"],
+    [
+        "47.1N 8.2E",
+        "47°06'N 8°12'E",
+        "47d06'00\"n 8d12'e",
+        "47°6′0″N 8°12.0′E",
+        "47.1,8.2",
+        "47.1°N 8.2°E",
+        "N47.1 E8.2",
+        "N47.1,E008.2",
+        "47:06:00N 8:12:00E",
+        "47:06N 8:12.0E",
+        "N47 06.0 E8 12.0",
+        "N 47 06 00 E 008 12 00",
+        "47 06.0N 8 12.0E",
+        "47 06 00 n 8 12 00 e",
+    ],
 )
 def test_a_place_may_have_minutes_and_hemispheres(main_json, place):
     got = main_json(["plan", "--pose-lla", *place.split(), "90", *PLACED.split()[4:], "--json"])
@@ -88,6 +120,33 @@ def test_a_bank_may_end_in_deg(main_json):
     assert main_json(scene.replace("--bank 35", "--bank 35deg").split()) == main_json(scene.split())
 
 
+@pytest.mark.parametrize("option", ["--bank 35deg", "--turn-rate 22deg/s", "--turn-rate 22°/s", "--turn-radius 150ft"])
+def test_turn_limits_may_have_a_unit(main_json, option):
+    scene, (name, value) = "--pose -400 120 90 --orbit 0 0 80 --airspeed 18", option.split()
+    number = {"35deg": "35", "150ft": "45.72"}.get(value, "22")
+    plain = main_json(f"plan {scene} {name} {number} --json".split())
+    assert main_json(f"plan {scene} {option} --json".split()) == plain
+
+
+def test_a_flight_level_is_a_pressure_altitude(main_json):
+    scene = ["plan", *SCENE.replace("--airspeed", "--indicated-airspeed").split(), "--json", "--altitude"]
+    assert main_json([*scene, "FL100"])["aircraft"] == main_json([*scene, "10000ft"])["aircraft"]
+    assert main_json([*scene, "fl 100"])["aircraft"] == main_json([*scene, "3048"])["aircraft"]
+
+
+def test_an_altitude_below_the_sea_may_be_in_feet(main_json):
+    scene = ["plan", *SCENE.replace("--airspeed", "--indicated-airspeed").split(), "--json", "--altitude"]
+    assert main_json([*scene, "-1000ft"])["aircraft"] == main_json([*scene, "-304.8"])["aircraft"]
+
+
+def test_both_places_are_shown_with_their_hemispheres(shown):
+    swapped = "--pose-lla 8.2 47.1 90 --orbit-lla 8.23 47.11 120 --airspeed 18 --bank 35"
+    assert "Start 8.200000 N 47.100000 E, circle 8.230000 N 47.110000 E." in shown(f"plan {swapped}").splitlines()
+    south = "--pose-lla 33.9S 151.2W 90 --orbit-lla 33.91S 151.2W 120 --airspeed 18 --bank 35"
+    assert shown(f"plan {south}").startswith("Start 33.900000 S 151.200000 W, circle 33.910000 S 151.200000 W.\n")
+    assert "Start" not in shown(f"plan {SCENE}")
+
+
 def test_altitudes_may_be_in_feet(main_json):
     scene = ["plan", *PLACED.replace("--airspeed", "--indicated-airspeed").split(), "--json", "--altitude"]
     assert main_json([*scene, "3000ft"])["aircraft"] == main_json([*scene, "914.4"])["aircraft"]
@@ -96,11 +155,43 @@ def test_altitudes_may_be_in_feet(main_json):
 @pytest.mark.parametrize(
     ("arguments", "named"),
     [
-        ("plan --airspeed 35knots", ["--airspeed", "'35knots'", "m/s, km/h or kn"]),
+        ("plan --airspeed 35knots", ["--airspeed", "'35knots'", "m/s, km/h, kn or mph"]),
         ("plan --altitude 3000feet", ["--altitude", "'3000feet'", "m, km, ft or NM"]),
         ("plan --pose-lla 8.2E 47.1N 90", ["--pose-lla", "'8.2E'", "N or S", "latitude comes first"]),
         ("plan --pose-lla 47°61'N 8.2E 90".replace("'", "\u2032"), ["--pose-lla", "47°61", "47°06'N"]),
         ("plan --pose-lla 47.1Q 8.2E 90", ["--pose-lla", "47.1Q"]),
+        ("plan --pose-lla -33.9S 151E 90", ["--pose-lla", "'-33.9S'", "write 33.9S or -33.9"]),
+        ("plan --pose-lla=-33.9S,151E,90", ["--pose-lla", "'-33.9S'", "write 33.9S or -33.9"]),
+        ("plan --pose-lla 33.9S -151W 90", ["--pose-lla", "'-151W'", "write 151W or -151"]),
+        ("plan --pose-lla -33.9N 151E 90", ["'-33.9N'", "write 33.9N, or -33.9 for the other hemisphere"]),
+        ("plan --pose-lla N47.1N 8.2E 90", ["'N47.1N'", "must be a latitude"]),
+        ("plan --pose-lla 47.5:06N 8.2E 90", ["'47.5:06N'", "must be a latitude"]),
+        ("plan --pose-lla 47.1N N8.2 90", ["'N8.2'", "E or W", "latitude comes first"]),
+        ("plan --pose 1 2 90X", ["'90X'", "direction in degrees, 90 or 90T, or 87M"]),
+        (f"plan {SCENE.replace('120 90', '120 87M')}", ["--pose HEADING is 87M", "--declination"]),
+        (f"plan {PLACED.replace('8.2 90', '8.2 87M')}", ["--pose-lla HEADING is 87M", "--declination"]),
+        (f"plan {SCENE} --wind 4 87M", ["--wind FROM is 87M", "--declination"]),
+        (f"plan {SCENE} --declination 3", ["--declination has no effect", "87M"]),
+        (f"fly {SCENE} --declination 3", ["--declination has no effect"]),
+        ("fly --runs 2 --airspeed 18 --bank 35 --wind 4 87M", ["--wind FROM is 87M"]),
+        ("batch in.csv out.csv --wind 4 87M", ["--wind FROM is 87M"]),
+        ("batch in.csv out.csv --wind 4 87 --declination 3", ["--declination has no effect"]),
+        ("watch --connect tcp:127.0.0.1:1 --orbit-lla 47 8 80 --wind 4 87M", ["--wind FROM is 87M"]),
+        ("guide --connect tcp:127.0.0.1:1 --orbit-lla 47 8 80 --wind 4 87M", ["--wind FROM is 87M"]),
+        ("guide --connect tcp:127.0.0.1:1 --orbit-lla 47 8 80 --declination 3", ["--declination has no effect"]),
+        (f"plan {SCENE} --declination -2W", ["--declination", "'-2W'", "-2 and 2W mean the same"]),
+        (f"plan {SCENE} --wind 250/15", ["--wind", "'250/15'", "250/15kn"]),
+        (f"plan {SCENE} --wind 250 15", ["15 m/s from 250 degrees", "the speed comes first", "knots"]),
+        (f"plan {SCENE} --wind 250 15kn", ["'15kn'", "direction in degrees"]),
+        (f"plan {SCENE} --altitude 400ftagl", ["'400ftagl'", "400ft with --altitude-reference ground"]),
+        (
+            "guide --connect tcp:127.0.0.1:1 --orbit-lla 47 8 80 --altitude FL100",
+            ["--altitude is FL100", "air pressure"],
+        ),
+        (f"plan {PLACED} --altitude FL065 --save a.plan", ["--altitude is FL065", "above mean sea level"]),
+        (f"plan {PLACED} --altitude FL065 --altitude-reference home --home-altitude 400", ["--altitude is FL065"]),
+        (f"plan {PLACED} --home-altitude FL065", ["--home-altitude is 'FL065'"]),
+        ("plan --turn around", ["--turn"]),
         ("plan --pose 1,2", ["--pose", "EAST NORTH HEADING", "2 were given"]),
         ("plan --pose 1,x,3", ["--pose", "'x'", "number of metres"]),
         ("batch", ["IN is missing", "loiter batch --help"]),

@@ -17,6 +17,8 @@ HOME_UNKNOWN = """\
 The mission is at 550 m above mean sea level, not above the ground.
 The altitude of home is not known, so it is 550 m too; --home-altitude sets it.
 """
+STORED = "ArduPlane stores the radius in whole metres: 120 m instead of 120.7."
+WIDENED = "At 900 m it holds 130.9 m, unless NAVL1_LIM_BANK is the bank limit of the aircraft."
 PLACED = "--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120"
 
 
@@ -160,6 +162,26 @@ def test_an_indicated_airspeed_is_one_at_the_altitude_above_the_sea(planned):
     assert above_home["aircraft"] != planned(f"{scene} --altitude 120")["aircraft"]
 
 
+@pytest.mark.parametrize("ending", ["waypoints", "txt"])
+def test_a_file_with_a_home_line_is_not_for_px4(capsys, tmp_path, ending):
+    (tmp_path / "px4.params").write_text("1\t1\tFW_AIRSPD_TRIM\t18.0\t9\n1\t1\tFW_R_LIM\t35.0\t9\n")
+    path = tmp_path / f"entry.{ending}"
+    for options in (f"{UAV} --autopilot px4", f"--params {tmp_path / 'px4.params'}"):
+        assert main(f"plan {PLACED} {options} --altitude 900 --save {path}".split()) == 2
+        _, err = capsys.readouterr()
+        assert err.startswith("loiter: --autopilot is px4, which would fly to the home line")
+        assert "write a .plan file for PX4" in err
+        assert not path.exists()
+
+
+def test_the_parameter_file_names_the_autopilot_of_a_mission(shown, tmp_path):
+    (tmp_path / "px4.params").write_text("1\t1\tFW_AIRSPD_TRIM\t18.0\t9\n1\t1\tFW_R_LIM\t35.0\t9\n")
+    path = tmp_path / "entry.plan"
+    for options, firmware in (("", 12), ("--autopilot ardupilot", 3)):
+        shown(f"plan {PLACED} --params {tmp_path / 'px4.params'} --altitude 900 {options} --save {path}")
+        assert json.loads(path.read_text())["mission"]["firmwareType"] == firmware
+
+
 @pytest.mark.parametrize("ending", ["plan", "waypoints", "txt", "kml", "csv"])
 def test_what_a_path_costs_is_reported_where_it_is_a_mission(shown, tmp_path, ending):
     path = tmp_path / f"entry.{ending}"
@@ -270,11 +292,28 @@ def test_far_away_places_have_no_digits_of_rounding(shown, planned, tmp_path):
             "The mission is at 100 m above home; home is at 430 m above mean sea level.\n",
         ),
         ("--altitude 550 --save a.kml", ""),
+        (
+            "--orbit-lla 47.11 8.23 120.7 --altitude 20 --home-altitude 0 --save a.plan",
+            f"The mission is at 20 m above mean sea level, not above the ground.\n{STORED}\n",
+        ),
+        (
+            "--orbit-lla 47.11 8.23 120.7 --altitude 100 --altitude-reference home --home-altitude 800 --save a.txt",
+            f"The mission is at 100 m above home; home is at 800 m above mean sea level.\n{STORED} {WIDENED}\n",
+        ),
+        (
+            "--orbit-lla 47.11 8.23 120.7 --altitude 100 --altitude-reference ground --home-altitude 800 --save a.txt",
+            f"The mission is at 100 m above the ground; home is at 800 m above mean sea level.\n{STORED}\n",
+        ),
+        (
+            "--orbit-lla 47.11 8.23 120.7 --altitude 550 --home-altitude 430 --autopilot px4 --save a.plan",
+            "The mission is at 550 m above mean sea level, not above the ground.\n",
+        ),
     ],
 )
 def test_saved_missions_say_what_their_altitude_means(shown, tmp_path, monkeypatch, options, said):
     monkeypatch.chdir(tmp_path)
-    before, _, _ = shown(f"plan {PLACED} {UAV} {options}").rpartition("Wrote ")
+    scene = "--pose-lla 47.1 8.2 90" if "--orbit-lla" in options else PLACED
+    before, _, _ = shown(f"plan {scene} {UAV} {options}").rpartition("Wrote ")
     assert before.rpartition("--all shows each.\n")[2] == said
     homes = {loiter.io.read_mission(path).home[2] for path in tmp_path.glob("a.*") if path.suffix != ".kml"}
     assert len(homes) <= 1

@@ -67,11 +67,17 @@ def test_a_mission_has_waypoints_along_the_path_if_that_or_a_spacing_is_requeste
     assert min(counts[2:]) > 5
 
 
-@pytest.mark.parametrize("ending", MISSIONS)
-def test_a_mission_is_for_an_autopilot(tmp_path, ending):
+def test_a_mission_is_for_an_autopilot(tmp_path):
     for autopilot, count in ((Autopilot.ARDUPILOT, 2), (Autopilot.PX4, 1)):
-        save(M, tmp_path / f"a{ending}", frame=FRAME, altitude_m=600.0, autopilot=autopilot)
-        assert len(read_mission(tmp_path / f"a{ending}").items) == count
+        save(M, tmp_path / "a.plan", frame=FRAME, altitude_m=600.0, autopilot=autopilot)
+        assert len(read_mission(tmp_path / "a.plan").items) == count
+
+
+@pytest.mark.parametrize("ending", [".waypoints", ".txt", ".TXT"])
+def test_a_file_with_a_home_line_is_not_for_px4(tmp_path, ending):
+    """PX4 has no home among its items: it would fly to the first line as to a waypoint."""
+    sentence = rf"^autopilot is px4, .* home line of a {ending.lower()} file .* write a .plan file for PX4$"
+    refused(tmp_path, f"a{ending}", sentence, frame=FRAME, altitude_m=600.0, autopilot=Autopilot.PX4)
 
 
 @pytest.mark.parametrize("ending", [".geojson", ".kml", ".gpx", ".csv"])

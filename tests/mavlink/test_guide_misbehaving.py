@@ -620,3 +620,17 @@ def test_a_vehicle_far_away():
     far = Far()
     ended(guided(far), "is more than 100 km from the circle")
     assert far.commands == []
+
+
+def test_a_circle_whose_latitude_and_longitude_are_swapped():
+    class Swapped(GuidedPlane):
+        def stream(self, number, now):
+            if number == 33:
+                place = round(8.0 * 1e7), round(47.0 * 1e7), 600_000, 100_000
+                self.transmit_safe(mavlink.MAVLink_global_position_int_message(self.boot_ms(now), *place, 0, 0, 0, 0))
+            else:
+                super().stream(number, now)
+
+    vehicle = Swapped()
+    ended(guided(vehicle), "are the circle's latitude and longitude swapped")
+    assert vehicle.commands == []

@@ -55,6 +55,54 @@ def test_a_mission_arrives_as_it_was_sent(kind, turn):
     assert done[-1] == ("check", len(home) + 5, len(home) + 5)
 
 
+SWAPPED = NEW._replace(
+    items=tuple(i._replace(latitude_deg=i.longitude_deg, longitude_deg=i.latitude_deg) for i in NEW.items)
+)
+
+
+class Placed(Vehicle):
+    """It reports where it is."""
+
+    place = 47.1, 8.2
+
+    def beat(self):
+        super().beat()
+        lat, lon = (round(1e7 * degrees) for degrees in self.place)
+        self.send(mavlink.MAVLink_global_position_int_message(0, lat, lon, 0, 0, 0, 0, 0, 0))
+
+
+class HomePlane(Plane):
+    """Its mission has its home, 47 N 7 E."""
+
+    home = item(x=470000000, y=75000000, z=400.0)
+
+    def __init__(self):
+        super().__init__([self.home, *OLD])
+
+
+@pytest.mark.parametrize("kind", [Placed, HomePlane])
+def test_a_mission_with_latitude_and_longitude_swapped_is_not_sent(kind):
+    """Both coordinates of every item: nothing in the mission shows it, but the place of the vehicle does."""
+    with flying(kind()) as vehicle:
+        old = list(vehicle.mission)
+        with pytest.raises(
+            InvalidArgument, match=r"begins at 8\.0.* N 47\.0.* E, .*are latitude and longitude swapped\?$"
+        ):
+            upload(SWAPPED, vehicle.connection, system=1)
+        assert vehicle.mission == old
+        assert vehicle.heard["MISSION_COUNT"] == 0
+        upload(NEW, vehicle.connection, system=1)
+
+
+def test_a_mission_far_away_is_sent():
+    class Elsewhere(Placed):
+        place = -33.9, 151.2
+
+    with flying(Elsewhere()) as vehicle:
+        upload(NEW, vehicle.connection, system=1)
+        assert vehicle.mission == kept(NEW)
+
+
 def test_an_item_that_comes_twice_is_read_once():
     class Doubles(Vehicle):
         def on_mission_request_int(self, message):

@@ -394,6 +394,24 @@ def test_a_wind_as_fast_as_the_aircraft_is_refused(solve):
         solve(POSE, replace(ORBIT, velocity_east_m_s=30.0), UAV)
 
 
+SWAPPED = (
+    "for a wind of 15 m/s from 250 degrees the speed comes first (weather reports have the direction first, and knots)"
+)
+
+
+@pytest.mark.parametrize(
+    ("speed", "from_deg", "swapped"),
+    [(250.0, 15.0, True), (250.0, 18.0, False), (250.0, 0.0, False), (30.0, 250.0, False), (400.0, 15.0, False)],
+)
+def test_a_wind_whose_direction_comes_first_is_recognised(speed, from_deg, swapped):
+    solvers = (lambda: plan(POSE, ORBIT, UAV, Wind(speed, from_deg)), lambda: ORBIT.fitted(UAV, Wind(speed, from_deg)))
+    for solve in solvers:
+        with pytest.raises(WindTooStrong) as refused:
+            solve()
+        assert str(refused.value).endswith(SWAPPED) == swapped
+        assert ("comes first" in str(refused.value)) == swapped
+
+
 def test_a_scene_beyond_doubles_and_a_bad_tolerance_are_refused():
     with pytest.raises(OutOfRange, match="too large for double precision"):
         plan(replace(POSE, east_m=1e30), ORBIT, UAV, WIND)

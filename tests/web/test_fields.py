@@ -22,16 +22,22 @@ UNDERSTOOD = [
     ("east", "pose", "east_m", "−400", -400.0),
     ("east", "pose", "east_m", "-.4km", -400.0),
     ("course", "pose", "heading_deg", "12,5", 12.5),
+    ("course", "pose", "heading_deg", "090T", 90.0),
+    ("airspeed", "aircraft", "airspeed_m_s", "40kts", 40 * KNOT),
+    ("airspeed", "aircraft", "airspeed_m_s", "45 mph", 45 * 1609.344 / 3600),
+    ("circle-radius", "orbit", "radius_m", "0.1nmi", 185.2),
+    ("circle-radius", "orbit", "radius_m", "0.1 NM", 185.2),
 ]
 REFUSED = [
     ("airspeed", "", "Airspeed needs a number."),
     ("airspeed", "fast", 'Airspeed is "fast": it must be a number.'),
-    ("airspeed", "20 m", 'Airspeed is "20 m": the accepted units are m/s, km/h, kn and kt.'),
+    ("airspeed", "20 m", 'Airspeed is "20 m": the accepted units are m/s, km/h, kn, kt, kts and mph.'),
+    ("course", "87M", 'Heading of the aircraft is "87M": the accepted units are °, deg and t.'),
     ("limit", "0.5 rad", 'Bank limit is "0.5 rad": the accepted units are ° and deg.'),
     (
         "circle-radius",
         "80 furlongs",
-        'Radius of the circle is "80 furlongs": the accepted units are m, km and ft.',
+        'Radius of the circle is "80 furlongs": the accepted units are m, km, ft, nm and nmi.',
     ),
     ("circle-radius", "1,200", 'Radius of the circle is "1,200": write 1.2 or 1200.'),
     (
@@ -46,7 +52,7 @@ REFUSED = [
     ),
     ("circle-radius", "80 constructor", 'Radius of the circle is "80 constructor": the accepted units are'),
     ("east", "1e999", 'East of the aircraft is "1e999": that is too large.'),
-    ("east", "0x10", 'East of the aircraft is "0x10": the accepted units are m, km and ft.'),
+    ("east", "0x10", 'East of the aircraft is "0x10": the accepted units are m, km, ft, nm and nmi.'),
 ]
 
 

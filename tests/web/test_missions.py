@@ -73,6 +73,14 @@ def test_a_mission_has_the_altitude_and_the_reference(page, tmp_path, format_, r
     assert said == f"entry.{format_} saved: {told}."
 
 
+def test_a_radius_that_arduplane_cannot_store_is_reported(page, tmp_path):
+    located(page)
+    fly_at(page, "620", "msl")
+    page.locator("#circle-radius").fill("120.7")
+    _, said = saved(page, "plan", tmp_path)
+    assert said.endswith("sea level. ArduPlane stores the radius in whole metres: 120 m.")
+
+
 def test_what_is_hidden_is_not_written(page, tmp_path):
     located(page)
     fly_at(page, "620", "home", "450")

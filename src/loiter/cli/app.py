@@ -9,8 +9,8 @@ from typing import Any, Literal
 from cyclopts import App, CycloptsError, Group, Parameter
 
 import loiter
+from loiter.cli.arguments import prepared
 from loiter.cli.examples import epilogue, program_epilogue
-from loiter.cli.numbers import split_lists
 from loiter.cli.sentences import sentence
 from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR
 from loiter.compiled import announce_with
@@ -43,7 +43,7 @@ app = App(
 
 An aircraft of constant speed turns left or right, no tighter than its minimum turn radius. The plan joins a circle tangentially in the least time and stays on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum (docs/proof.md). In wind, and onto a circle that moves, a search (branch and bound over the point of joining) finds the answer.
 
-Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north. Speeds are in metres per second and lengths in metres, or have a unit: 35kn, 65km/h, 3000ft, 2NM. Latitudes and longitudes may be written 47.1N or 47°06'N. Commas may separate the numbers of an option.
+Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north. Speeds are in metres per second and lengths in metres, or have a unit: 35kn, 65km/h, 40mph, 3000ft, 2NM. Directions are true, 90 or 90T; magnetic ones, 87M, need --declination. A wind is its speed and the direction that it comes from, 15kn 250, or as in weather reports 250/15kn. Latitudes come before longitudes; with their letters, 47.1N, N47.1, 47°06'N, 47:06:00N or N47 06.0, they cannot be confused. Commas may separate the numbers of an option.
 
 loiter COMMAND --help shows the options of a command.""",
     help_epilogue=program_epilogue("plan", "completion"),
@@ -175,7 +175,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         announce_with(lambda line: print(f"loiter: {line} (loiter warm-up does it beforehand)", file=sys.stderr))  # noqa: T201
     try:
         status = app(
-            split_lists(sys.argv[1:] if arguments is None else arguments),
+            prepared(sys.argv[1:] if arguments is None else arguments),
             exit_on_error=False,
             print_error=False,
             result_action="return_value",

@@ -1,46 +1,66 @@
-"""Numbers on the command line: plain, with a unit (35kn, 3000ft), as places (47.1N, 47°06'N), separated by commas."""
+"""Quantities on the command line, a parser for each kind: with a unit (35kn, 3000ft), as directions (90T, 87M)."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import chain, repeat
-from typing import NamedTuple, get_args
+from typing import get_args
 
 from cyclopts import CoercionError, Token
 
+from loiter.errors import InvalidArgument
+from loiter.planning.compass import wrapped
 from loiter.planning.model import TurnName
+from loiter.planning.units import ANGLES, LENGTHS, SPEEDS, TURN_RATES
 
-# Units that values may end in, upper or lower case, in metres per second, in metres and, for pictures, in millimetres.
-# A nautical mile has 1852 m.
-SPEEDS = {"m/s": 1.0, "km/h": 1.0 / 3.6, "kn": 1852.0 / 3600.0, "kt": 1852.0 / 3600.0}
+# In millimetres, for pictures.
 LENGTHS_ON_PAPER = {"mm": 1.0, "cm": 10.0, "in": 25.4}
-LENGTHS = {"km": 1000.0, "nm": 1852.0, "ft": 0.3048, "m": 1.0}
 
-# The options whose numbers may be separated by commas.
-LISTS = ("--pose", "--pose-lla", "--orbit", "--orbit-lla", "--orbit-velocity", "--wind", "--size")
+NEEDS_METRES = "it must be a number of metres, or end in m, km, ft or NM"
 
-# Degrees, and minutes and seconds below 60, which may be absent, and the hemisphere.
-NUMBER, UNDER_60 = r"(\d+(?:\.\d*)?)", r"([0-5]?\d(?:\.\d*)?)"
-PLACE = re.compile(
-    rf"""([+-]?){NUMBER}[°d]?\s*(?:{UNDER_60}['’′]\s*)?(?:{UNDER_60}(?:["”″]|''))?\s*([NSEW]?)""", re.IGNORECASE
-)
+# Metres between two flight levels, which are 100 ft apart.
+FLIGHT_LEVEL_M = 30.48
+FLIGHT_LEVEL = re.compile(r"FL\s*(\d{1,3})", re.IGNORECASE)
+ABOVE_GROUND = re.compile(r"(.*?)\s*AGL", re.IGNORECASE)
+
+# A direction may end in T for true or M for magnetic, a declination in E or W.
+DIRECTION = re.compile(r"(.*?)\s*([TM]?)", re.IGNORECASE)
+DECLINATION = re.compile(r"(.*?)\s*([EW]?)", re.IGNORECASE)
+
+# Other words for the directions of a turn.
+TURN_WORDS = {
+    "clockwise": "cw",
+    "counter-clockwise": "ccw",
+    "counterclockwise": "ccw",
+    "anti-clockwise": "ccw",
+    "anticlockwise": "ccw",
+}
+
+# The minus sign of typeset text. `cli.arguments` puts it in place of the hyphen of -10ft, which looks like an option.
+MINUS = "\N{MINUS SIGN}"
 
 Reader = Callable[[Token], float]
 Converter = Callable[[object, Sequence[Token]], object]
 
 
-class Coordinate(NamedTuple):
-    """A coordinate of a place: its name, the letters of its positive and its negative hemisphere, and examples."""
+class FlightLevel(float):
+    """A pressure altitude in metres, given as a flight level: FL100 is 10,000 ft in the standard atmosphere."""
 
-    name: str
-    positive: str
-    negative: str
-    example: str
+    def __str__(self) -> str:
+        return f"FL{round(self / FLIGHT_LEVEL_M):03d}"
 
 
-LATITUDE = Coordinate("latitude", "N", "S", "47.1N or 47°06'N")
-LONGITUDE = Coordinate("longitude", "E", "W", "8.2E or 8°12'E")
+class Magnetic(float):
+    """A direction in degrees clockwise from magnetic north; `true_direction` converts it."""
+
+    def __str__(self) -> str:
+        return f"{float(self):g}M"
+
+
+def typed(token: Token) -> str:
+    """The value with a hyphen for the minus sign, as on the keyboard."""
+    return token.value.replace(MINUS, "-").strip()
 
 
 def whole(type_: type, tokens: Sequence[Token]) -> int:
@@ -52,46 +72,72 @@ def whole(type_: type, tokens: Sequence[Token]) -> int:
         raise CoercionError(token=token, target_type=int) from error
 
 
-def any_case(type_: type, tokens: Sequence[Token]) -> str:
-    """A direction, in upper or lower case: CW is cw."""
+def turn_name(type_: type, tokens: Sequence[Token]) -> str:
+    """A direction of turn, in upper or lower case: CW and clockwise are cw."""
     token, *_ = tokens
-    name = token.value.lower()
+    word = token.value.lower()
+    name = TURN_WORDS.get(word, word)
     if name not in get_args(TurnName):
         raise CoercionError(token=token, target_type=type_)
     return name
 
 
-def plain(token: Token) -> float:
-    """A number without a unit; degrees may end in deg or °."""
-    try:
-        return float(token.value.removesuffix("deg").removesuffix("°"))
-    except ValueError as error:
-        raise _refused(token, "it must be a number") from error
+def angle(token: Token) -> float:
+    """Degrees: 35, 35deg or 35°."""
+    return _with_unit(token, typed(token), ANGLES, "it must be a number of degrees")
+
+
+def turn_rate(token: Token) -> float:
+    """Degrees per second: 3, 3deg/s or 3°/s."""
+    return _with_unit(token, typed(token), TURN_RATES, "it must be a number of degrees per second")
+
+
+def direction(token: Token) -> float:
+    """A compass direction, degrees: 90 and 90T from true north, 87M from magnetic north, which is a `Magnetic`."""
+    digits, letter = _parts(DIRECTION, typed(token))
+    degrees = _with_unit(token, digits, ANGLES, "it must be a direction in degrees, 90 or 90T, or 87M for magnetic")
+    return Magnetic(degrees) if letter == "M" else degrees
+
+
+def declination(token: Token) -> float:
+    """A magnetic declination in degrees, positive to the east: 3.5, 3.5E, -2 or 2W."""
+    digits, letter = _parts(DECLINATION, typed(token))
+    if letter and digits.startswith(("-", "+")):
+        raise refused(token, "it has a sign and a letter; -2 and 2W mean the same")
+    degrees = _with_unit(token, digits, ANGLES, "it must be a number of degrees, positive to the east, or like 2W")
+    return -degrees if letter == "W" else degrees
 
 
 def metres(token: Token) -> float:
     """A length in metres, from metres or with a unit: 3000ft."""
-    return _with_unit(token, LENGTHS, "it must be a number of metres, or end in m, km, ft or NM")
+    return _with_unit(token, typed(token), LENGTHS, NEEDS_METRES)
+
+
+def altitude(token: Token) -> float:
+    """An altitude in metres, like `metres`; FL100 is a `FlightLevel`."""
+    level = FLIGHT_LEVEL.fullmatch(typed(token))
+    if level:
+        return FlightLevel(FLIGHT_LEVEL_M * float(level[1]))
+    above_ground = ABOVE_GROUND.fullmatch(typed(token))
+    if above_ground:
+        raise refused(
+            token,
+            "the height of the ground is not known: give the altitude above mean sea level, or for the mission of an "
+            f"ArduPilot {above_ground[1]} with --altitude-reference ground",
+        )
+    return metres(token)
 
 
 def metres_per_second(token: Token) -> float:
     """A speed in metres per second, from metres per second or with a unit: 35kn."""
-    return _with_unit(token, SPEEDS, "it must be a number of metres per second, or end in m/s, km/h or kn")
+    need = "it must be a number of metres per second, or end in m/s, km/h, kn or mph"
+    return _with_unit(token, typed(token), SPEEDS, need)
 
 
 def millimetres(token: Token) -> float:
     """A length on paper in millimetres, from millimetres or with a unit: 3.5in."""
-    return _with_unit(token, LENGTHS_ON_PAPER, "it must be a number of millimetres, or end in mm, cm or in")
-
-
-def latitude(token: Token) -> float:
-    """A latitude in degrees: 47.1, 47.1N or 47°06'N."""
-    return _degrees(token, LATITUDE)
-
-
-def longitude(token: Token) -> float:
-    """A longitude in degrees: 8.2, 8.2E or 8°12'E."""
-    return _degrees(token, LONGITUDE)
+    need = "it must be a number of millimetres, or end in mm, cm or in"
+    return _with_unit(token, typed(token), LENGTHS_ON_PAPER, need)
 
 
 def one(read: Reader) -> Converter:
@@ -105,69 +151,60 @@ def one(read: Reader) -> Converter:
 
 
 def several(*read: Reader) -> Converter:
-    """The converter of an option with several numbers; numbers beyond those expected are read as plain ones."""
+    """The converter of an option with several numbers; numbers beyond those expected are read as angles."""
 
     def convert(type_: object, tokens: Sequence[Token]) -> tuple[float, ...]:
-        return tuple(reader(token) for reader, token in zip(chain(read, repeat(plain)), tokens, strict=False))
+        return tuple(reader(token) for reader, token in zip(chain(read, repeat(angle)), tokens, strict=False))
 
     return convert
 
 
-def split_lists(arguments: Iterable[str]) -> list[str]:
-    """The arguments, with numbers after an option of `LISTS` that commas separate as arguments of their own.
+def true_direction(argument: str, degrees: float, declination_deg: float | None) -> float:
+    """The direction clockwise from true north, degrees: a `Magnetic` one plus the declination, others unchanged.
 
-    >>> split_lists(["plan", "--pose", "-400,120,90", "--orbit=0,", "0,", "80"])
-    ['plan', '--pose', '-400', '120', '90', '--orbit', '0', '0', '80']
+    Raises `InvalidArgument`, which names the argument, for a magnetic direction without a declination.
     """
-    split: list[str] = []
-    in_list = False
-    for argument in arguments:
-        option, equals, value = argument.partition("=")
-        if argument.startswith("--"):
-            in_list = option in LISTS
-            split += [option, *_numbers(value)] if in_list and equals else [argument]
-        else:
-            split += _numbers(argument) if in_list else [argument]
-    return split
+    if not isinstance(degrees, Magnetic):
+        return degrees
+    if declination_deg is None:
+        raise InvalidArgument(
+            argument, f"is {degrees}, from magnetic north: --declination is needed, degrees, positive to the east"
+        )
+    return wrapped(degrees + declination_deg)
 
 
-def _numbers(text: str) -> list[str]:
-    return [part.strip() for part in text.split(",") if part.strip()] if "," in text else [text]
-
-
-def _with_unit(token: Token, units: Mapping[str, float], need: str) -> float:
-    text, factor = token.value.strip(), 1.0
-    for unit, size in units.items():
-        if text.lower().endswith(unit):
-            text, factor = text[: -len(unit)], size
-            break
-    try:
-        return float(text) * factor
-    except ValueError as error:
-        raise _refused(token, need) from error
-
-
-def _degrees(token: Token, coordinate: Coordinate) -> float:
-    """Degrees of a latitude or longitude; a letter of the other coordinate shows that the two are swapped."""
-    text = token.value.strip()
-    try:
-        return float(text)
-    except ValueError:
-        match = PLACE.fullmatch(text)
-    if match is None:
-        raise _refused(token, f"it must be a {coordinate.name} in degrees, or like {coordinate.example}")
-    sign, whole_degrees, minutes, seconds, letter = match.groups("")
-    if letter.upper() not in ("", coordinate.positive, coordinate.negative):
-        letters = f"{coordinate.positive} or {coordinate.negative}"
-        raise _refused(token, f"a {coordinate.name} ends in {letters}; the latitude comes first, then the longitude")
-    size = float(whole_degrees) + float(minutes or 0.0) / 60.0 + float(seconds or 0.0) / 3600.0
-    return -size if sign == "-" or letter.upper() == coordinate.negative else size
-
-
-def _refused(token: Token, need: str) -> CoercionError:
-    return CoercionError(token=token, target_type=float, msg=need)
+def check_declination(declination_deg: float | None, *directions: float) -> None:
+    """Raise `InvalidArgument` for a declination that has no effect, because none of the directions is magnetic."""
+    if declination_deg is not None and not any(isinstance(each, Magnetic) for each in directions):
+        raise InvalidArgument("declination_deg", "has no effect: a direction from magnetic north ends in M, 87M")
 
 
 def given(count: int) -> str:
     """How many values were given, for an error message."""
     return f"{count} {'was' if count == 1 else 'were'} given"
+
+
+def refused(token: Token, need: str) -> CoercionError:
+    """The error for a value that cannot be read; `need` says what it must be."""
+    return CoercionError(token=token, target_type=float, msg=need)
+
+
+def _parts(pattern: re.Pattern[str], text: str) -> tuple[str, str]:
+    """The digits of a text, and the letter that it ends in, in upper case; empty without one."""
+    match = pattern.fullmatch(text)
+    assert match is not None  # the patterns match any text
+    digits, letter = match.groups()
+    return digits, letter.upper()
+
+
+def _with_unit(token: Token, text: str, units: Mapping[str, float], need: str) -> float:
+    """The number in a text times the size of the unit that it ends in; `need` is the problem of other texts."""
+    digits, factor = text, 1.0
+    for unit, size in units.items():
+        if text.lower().endswith(unit):
+            digits, factor = text[: -len(unit)], size
+            break
+    try:
+        return float(digits) * factor
+    except ValueError as error:
+        raise refused(token, need) from error

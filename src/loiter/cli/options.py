@@ -10,20 +10,27 @@ from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from cyclopts import Group, Parameter
 
+from loiter.cli.coordinates import latitude, longitude
 from loiter.cli.numbers import (
-    any_case,
+    FlightLevel,
+    altitude,
+    angle,
+    check_declination,
+    declination,
+    direction,
     given,
-    latitude,
-    longitude,
     metres,
     metres_per_second,
     millimetres,
     one,
-    plain,
     several,
+    true_direction,
+    turn_name,
+    turn_rate,
 )
 from loiter.errors import InvalidArgument, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
+from loiter.geo.frame import degrees_of
 from loiter.geo.placed import PlacedProblem
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind
@@ -56,7 +63,7 @@ class StartOptions:
         tuple[float, float, float] | None,
         Parameter(
             group=scene,
-            converter=several(metres, metres, plain),
+            converter=several(metres, metres, direction),
             metavar="EAST NORTH HEADING",
             help="Pose of the aircraft: metres, and heading in degrees clockwise from north.",
         ),
@@ -65,7 +72,7 @@ class StartOptions:
         tuple[float, float, float] | None,
         Parameter(
             group=scene,
-            converter=several(latitude, longitude, plain),
+            converter=several(latitude, longitude, direction),
             metavar="LAT LON HEADING",
             help="Pose of the aircraft: WGS84 degrees, and heading in degrees clockwise from true north.",
         ),
@@ -78,7 +85,7 @@ class PlacedStartOptions(StartOptions):
     """The pose of the aircraft in degrees, for commands that need places on Earth; --pose is parsed, but hidden."""
 
     pose: Annotated[
-        tuple[float, float, float] | None, Parameter(show=False, converter=several(metres, metres, plain))
+        tuple[float, float, float] | None, Parameter(show=False, converter=several(metres, metres, direction))
     ] = None
 
 
@@ -119,7 +126,7 @@ class OrbitOptions:
         TurnName | None,
         Parameter(
             group=scene,
-            converter=any_case,
+            converter=turn_name,
             help="Direction of flight around the circle, seen from above: cw is clockwise, ccw counter-clockwise, either the faster one. If absent: that of --orbit-from or --params, otherwise either.",
         ),
     ] = None
@@ -198,7 +205,18 @@ class PlacedOrbitOptions(OrbitOptions):
 
 def altitude_parameter(text: str) -> Parameter:
     """The parameter of --altitude, with this help: what the altitude refers to differs between commands."""
-    return Parameter(group=aircraft, converter=one(metres), metavar="METRES", help=text)
+    return Parameter(group=aircraft, converter=one(altitude), metavar="METRES", help=text)
+
+
+def written_altitude(altitude_m: float | None) -> float | None:
+    """The altitude for files and vehicles; raises `InvalidArgument` for a flight level, whose height above sea varies."""
+    if isinstance(altitude_m, FlightLevel):
+        raise InvalidArgument(
+            "altitude_m",
+            f"is {altitude_m}, whose height above the sea depends on the air pressure: give metres or feet above mean "
+            "sea level",
+        )
+    return altitude_m
 
 
 @Parameter(name="*")
@@ -226,14 +244,20 @@ class AircraftOptions:
     ] = None
     bank: Annotated[
         float | None,
-        Parameter(group=aircraft, converter=one(plain), metavar="DEGREES", help="Largest bank, degrees."),
+        Parameter(group=aircraft, converter=one(angle), metavar="DEGREES", help="Largest bank, degrees."),
     ] = None
     turn_radius: Annotated[
         float | None,
         Parameter(group=aircraft, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
     ] = None
     turn_rate: Annotated[
-        float | None, Parameter(group=aircraft, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
+        float | None,
+        Parameter(
+            group=aircraft,
+            converter=one(turn_rate),
+            metavar="DEG_PER_S",
+            help="Largest turn rate, degrees per second.",
+        ),
     ] = None
     params: Annotated[
         Path | None,
@@ -246,7 +270,7 @@ class AircraftOptions:
     altitude: Annotated[
         float | None,
         altitude_parameter(
-            "Altitude above mean sea level, metres, or with a unit: 3000ft. It converts an indicated airspeed to true airspeed, which is higher in thin air."
+            "Altitude above mean sea level, metres, or with a unit: 3000ft; or a flight level: FL100. It converts an indicated airspeed to true airspeed, which is higher in thin air."
         ),
     ] = None
     temperature: Annotated[
@@ -257,6 +281,11 @@ class AircraftOptions:
             help="Outside air temperature; that of the standard atmosphere if absent.",
         ),
     ] = None
+
+    @property
+    def written_altitude(self) -> float | None:
+        """The altitude for files and vehicles; raises `InvalidArgument` for a flight level."""
+        return written_altitude(self.altitude)
 
     @property
     def names_given(self) -> list[str]:
@@ -280,6 +309,8 @@ class AircraftOptions:
             if datum != MEAN_SEA_LEVEL:
                 raise InvalidArgument("altitude_m", "is needed: --altitude-reference and --home-altitude go with it")
             return self
+        if datum.reference != AltitudeReference.MSL:
+            written_altitude(self.altitude)
         if self.indicated(preset) is None:
             return self
         return replace(self, altitude=datum.above_sea_m(self.altitude))
@@ -339,7 +370,7 @@ class PlannedAircraftOptions(AircraftOptions):
     altitude: Annotated[
         float | None,
         altitude_parameter(
-            "Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is written to missions and maps, and converts an indicated airspeed to true airspeed, which is higher in thin air."
+            "Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is written to missions and maps, and converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."
         ),
     ] = None
 
@@ -352,30 +383,60 @@ class WatchedAircraftOptions(AircraftOptions):
     altitude: Annotated[
         float | None,
         altitude_parameter(
-            "Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air."
+            "Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."
         ),
     ] = None
+
+
+WIND_HELP = "Wind speed, metres per second, and the compass direction that the wind comes from; or 250/15kn, as in weather reports"
+DeclinationDegrees = Annotated[
+    float | None,
+    Parameter(
+        group=air,
+        converter=one(declination),
+        metavar="DEGREES",
+        help="Magnetic declination (variation), positive to the east: 3.5, 3.5E or 2W. It converts the directions that end in M, 87M, to true ones.",
+    ),
+]
+
+
+def moving_air(wind: tuple[float, float] | None, declination_deg: float | None) -> Wind | None:
+    """The wind of an option with speed and direction; None if it is absent."""
+    if wind is None:
+        return None
+    speed_m_s, from_deg = wind
+    return Wind(speed_m_s, true_direction("wind from_deg", from_deg, declination_deg))
 
 
 @Parameter(name="*")
 @dataclass(frozen=True)
 class WindOptions:
-    """The wind option."""
+    """The wind, and the declination of magnetic directions."""
 
     wind: Annotated[
         tuple[float, float] | None,
         Parameter(
             group=air,
-            converter=several(metres_per_second, plain),
+            converter=several(metres_per_second, direction),
             metavar="SPEED FROM",
-            help="Wind speed, metres per second, and the compass direction that the wind comes from; with places in degrees, clockwise from true north at the circle.",
+            help=f"{WIND_HELP}; with places in degrees, clockwise from true north at the circle.",
         ),
     ] = None
+    declination: DeclinationDegrees = None
 
     @property
     def moving_air(self) -> Wind:
         """The wind; still air if the option is absent."""
-        return CALM if self.wind is None else Wind(*self.wind)
+        return moving_air(self.wind, self.declination) or CALM
+
+    def true_heading(self, argument: str, heading_deg: float) -> float:
+        """A heading of the start, degrees clockwise from true north; `argument` names it in errors."""
+        return true_direction(argument, heading_deg, self.declination)
+
+    def check_declination(self, start: StartOptions | None = None) -> None:
+        """Raise `InvalidArgument` for a declination that has no effect on the wind and on the start."""
+        poses = [] if start is None else [start.pose, start.pose_lla]
+        check_declination(self.declination, *(values[-1] for values in (self.wind, *poses) if values))
 
 
 Fit = Annotated[
@@ -403,6 +464,7 @@ class MissionOptions:
         float | None,
         Parameter(
             group=missions,
+            converter=one(metres),
             metavar="METRES",
             help="Largest distance between points of the track; limited by --chord-error alone if absent. For a mission it implies --path.",
         ),
@@ -411,6 +473,7 @@ class MissionOptions:
         float | None,
         Parameter(
             group=missions,
+            converter=one(metres),
             metavar="METRES",
             help="Largest distance by which straight lines between points of the track may cut a turn; 1 if absent.",
         ),
@@ -548,12 +611,25 @@ def read_options(
     """
     preset = aircraft.preset()
     aircraft = aircraft.above_sea(preset, datum)
-    pose, circle, frame = placed(start, orbit, preset)
+    pose, circle, frame = placed(start, orbit, wind, preset)
     uav = aircraft.aircraft(preset)
     planned = circle.fitted(uav, wind.moving_air) if fit else circle
     problem = Problem(pose, planned, uav, wind.moving_air, tolerance_m)
-    remarks = [orbit.site_remark(), aircraft.remark(preset), _fit_remark(circle, planned)]
+    remarks = [
+        orbit.site_remark(),
+        _places_remark(start, frame),
+        aircraft.remark(preset),
+        _fit_remark(circle, planned),
+    ]
     return OptionsRead(PlacedProblem(problem, frame), "\n".join(filter(None, remarks)))
+
+
+def _places_remark(start: StartOptions, frame: LocalFrame | None) -> str:
+    """A line with the hemispheres of both places in degrees, which shows whether they are swapped; otherwise empty."""
+    if start.pose_lla is None or frame is None:
+        return ""
+    lat, lon, _ = start.pose_lla
+    return f"Start {degrees_of(lat, lon)}, circle {degrees_of(frame.latitude_deg, frame.longitude_deg)}."
 
 
 def _fit_remark(asked: Orbit, planned: Orbit) -> str:
@@ -564,18 +640,21 @@ def _fit_remark(asked: Orbit, planned: Orbit) -> str:
 
 
 def placed(
-    start: StartOptions, orbit: OrbitOptions, preset: Preset | None = None
+    start: StartOptions, orbit: OrbitOptions, air: WindOptions, preset: Preset | None = None
 ) -> tuple[Pose, Orbit, LocalFrame | None]:
-    """The start and the circle, and the local frame if they are in degrees."""
+    """The start and the circle, and the local frame if they are in degrees; `air` has the declination."""
+    air.check_declination(start)
     if (start.pose is None) == (start.pose_lla is None):
         raise InvalidArgument("pose", "or --pose-lla is needed, and not both")
     circle, frame = orbit.circle(preset)
     if (start.pose_lla is None) != (frame is None):
         raise InvalidArgument("pose_lla", "and --orbit-lla go together: places in degrees, or both in metres")
     if frame is not None and start.pose_lla is not None:
-        return frame.pose(*start.pose_lla), circle, frame
+        lat, lon, heading_deg = start.pose_lla
+        return frame.pose(lat, lon, air.true_heading("pose true heading_deg", heading_deg)), circle, frame
     assert start.pose is not None  # one of them is given
-    return Pose(*start.pose), circle, None
+    east_m, north_m, heading_deg = start.pose
+    return Pose(east_m, north_m, air.true_heading("pose heading_deg", heading_deg)), circle, None
 
 
 def fence_check(

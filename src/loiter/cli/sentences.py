@@ -9,7 +9,7 @@ from cyclopts import (
     UnusedCliTokensError,
 )
 
-from loiter.cli.numbers import given
+from loiter.cli.numbers import given, typed
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TURN_LIMITS
 from loiter.planning.vocabulary import OPTIONS
@@ -46,7 +46,7 @@ def _usage_sentence(error: CycloptsError) -> str:
     """The message for an option or a value that the command does not take."""
     if isinstance(error, CoercionError) and error.token is not None and error.target_type in (int, float):
         need = f"it must be {'a whole number' if error.target_type is int else 'a number'}"
-        return f"{_option(error)} is {error.token.value!r}: {error.msg or need}"
+        return f"{_option(error)} is {typed(error.token)!r}: {error.msg or need}"
     if isinstance(error, MissingArgumentError) and error.argument is not None:
         return _missing(error, error.argument)
     if isinstance(error, RepeatArgumentError):

@@ -55,6 +55,14 @@ def true_airspeed(indicated_airspeed_m_s: float, altitude_m: float, temperature_
     return indicated / sqrt(density_ratio(altitude_m, temperature_c))
 
 
+def eas2tas_squared(altitude_m: float) -> float:
+    """The square of true over equivalent airspeed in standard air, the inverse of the density ratio.
+
+    Altitudes beyond those of `density_ratio` count as the nearest of these.
+    """
+    return 1.0 / density_ratio(min(max(altitude_m, LOWEST_M), HIGHEST_M))
+
+
 def density_altitude_m(altitude_m: float, temperature_c: float | None = None) -> float:
     """The altitude, metres, at which the standard atmosphere has this density; the altitude itself in standard air."""
     ratio = density_ratio(altitude_m, temperature_c)

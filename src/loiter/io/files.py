@@ -78,8 +78,8 @@ def save(
     `altitude_m`, which is above mean sea level unless `datum` says otherwise; in maps and tables altitudes are above
     mean sea level, and in .kml above the ground where `datum` says so. Points are at most `spacing_m` metres apart, if
     it is given, and the track is nowhere further than `chord_error_m` metres from the line between two of them.
-    `autopilot` is the one for which a mission is written. `site` is that of an existing mission (`read_site`), whose
-    home, and whose fence in a .plan, the new one keeps.
+    `autopilot` is the one for which a mission is written; for PX4 only .plan is. `site` is that of an existing mission
+    (`read_site`), whose home, and whose fence in a .plan, the new one keeps.
 
     The file appears whole or not at all; an older file stays until then. Raises `InvalidArgument` for an unknown
     ending, missing arguments, impossible numbers and a file that cannot be written, and otherwise like `mission`.
@@ -144,6 +144,12 @@ def _is_above_ground(ending: str, datum: AltitudeDatum) -> bool:
 
 def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> bytes:
     datum, altitude_m = arguments.datum, arguments.altitude_m
+    if ending != ".plan" and arguments.autopilot == Autopilot.PX4:
+        raise InvalidArgument(
+            "autopilot",
+            f"is px4, which would fly to the home line of a {ending} file as to its first waypoint: write a .plan file "
+            "for PX4",
+        )
     if altitude_m is None:
         raise InvalidArgument("altitude_m", f"is missing: a {ending} file needs {datum.unit}")
     plan = mission(

@@ -44,17 +44,18 @@ def radius_in_turns(orbit: Orbit, aircraft: Aircraft) -> float:
     return orbit.radius_m / aircraft.turn_radius_m
 
 
-def check_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> None:
+def check_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind, wind: Wind | None = None) -> None:
     """Raise `WindTooStrong` or `RadiusTooSmall` if the aircraft cannot hold the circle at every azimuth.
 
-    `air` is the wind relative to the circle, from `relative_wind`.
+    `air` is the wind relative to the circle, from `relative_wind`; `wind` is that wind as the user gave it, if it was
+    given: the error says so where its speed and its direction seem to be swapped.
     """
     status = _status(orbit, aircraft, air)
     if status == Status.WIND_TOO_STRONG:
         V, speed = aircraft.airspeed_m_s, hypot(*air) * aircraft.airspeed_m_s
         raise WindTooStrong(
             f"in {_air(orbit, speed)} an aircraft of {V:g} m/s can hold no circle: "
-            f"its airspeed must be above {speed:.4g} m/s"
+            f"its airspeed must be above {speed:.4g} m/s{_swapped_hint(orbit, aircraft, wind)}"
         )
     if status in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
         sentence = too_tight(orbit, aircraft) if air.still else _not_held(orbit, aircraft, air)
@@ -69,7 +70,7 @@ def fitted_radius_m(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> float:
     air = relative_wind(orbit, aircraft, wind)
     if _status(orbit, aircraft, air) in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
         return _least_radius_m(aircraft, air)
-    check_held(orbit, aircraft, air)
+    check_held(orbit, aircraft, air, wind)
     return orbit.radius_m
 
 
@@ -97,6 +98,19 @@ def too_tight(orbit: Orbit, aircraft: Aircraft) -> str:
     return (
         f"orbit radius {orbit.radius_m:g} m is tighter than the aircraft can turn: "
         f"{r:.4g} m at {V:g} m/s{limit}; it needs {need}"
+    )
+
+
+def _swapped_hint(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> str:
+    """The likely meaning of a wind whose direction comes first, as in weather reports; empty where it has none."""
+    if wind is None or not 0.0 < wind.from_deg < wind.speed_m_s <= 360.0:
+        return ""
+    likely = Wind(wind.from_deg, wind.speed_m_s)
+    if hypot(*relative_wind(orbit, aircraft, likely)) >= 1.0:
+        return ""
+    return (
+        f"; for a wind of {likely.speed_m_s:g} m/s from {likely.from_deg:g} degrees the speed comes first "
+        "(weather reports have the direction first, and knots)"
     )
 
 

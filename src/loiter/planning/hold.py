@@ -115,5 +115,5 @@ def hold(orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, turn: Tu
     wind, turn = CALM if wind is None else wind, orbit.turn if turn is None else turn
     if turn not in (Turn.CW, Turn.CCW):
         raise InvalidArgument("turn", f"is {str(turn)!r}: a circle is held cw or ccw")
-    check_held(orbit, aircraft, relative_wind(orbit, aircraft, wind))
+    check_held(orbit, aircraft, relative_wind(orbit, aircraft, wind), wind)
     return Hold(orbit, aircraft, wind, Turn(turn))

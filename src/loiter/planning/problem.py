@@ -104,7 +104,7 @@ class Problem:
 
         Raises `RadiusTooSmall` or `WindTooStrong` for a circle that cannot be held, `OutOfRange` for a scene too large.
         """
-        check_held(self.orbit, self.aircraft, self.relative_wind)
+        check_held(self.orbit, self.aircraft, self.relative_wind, self.wind)
         (x, y), (c, s) = self._place(), heading_vector(self.pose.heading_deg)
         wx, wy = self.relative_wind
         tolerance = self.tolerance_m / self.aircraft.turn_radius_m

@@ -71,6 +71,8 @@ OPTIONS = {
     "seed": "--seed",
     "scheduler": "--scheduler",
     "wind": "--wind",
+    "declination_deg": "--declination",
+    "autopilot": "--autopilot",
     "orbit_velocity_m_s": "--orbit-velocity",
     "pose east_m": "--pose EAST",
     "pose north_m": "--pose NORTH",

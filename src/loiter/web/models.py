@@ -147,7 +147,9 @@ class ExportOptions(Scene):
     chord_error_m: Annotated[Number, Field(json_schema_extra={"minimum": MIN_CHORD_ERROR_M})] = Field(
         1.0, description="Largest distance between the track and the straight lines through its points, metres."
     )
-    autopilot: AutopilotName = Field("ardupilot", description="The autopilot that a .plan file is for.")
+    autopilot: AutopilotName = Field(
+        "ardupilot", description="The autopilot that a mission is for; PX4 takes .plan files only."
+    )
 
     @field_validator("chord_error_m")
     @classmethod

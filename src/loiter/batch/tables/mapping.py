@@ -113,17 +113,13 @@ def _factor(quantity: str, name: str, stated: str | None) -> float:
         return known[unit]
     # The last word of a name that has no brackets need not be a unit.
     if stated is not None or any(unit in units for units in UNITS.values()):
+        own, *others = sorted((unit for unit in known if "°" not in unit), key=lambda unit: known[unit] != 1.0)
         raise InvalidArgument(
             "columns",
-            f"gives {quantity} the column {name!r} in {stated or unit}, but its unit must be {_one_of(known)}: "
-            f"'{name} [{next(iter(known))}]' states it",
+            f"gives {quantity} the column {name!r} in {stated or unit}, but its unit must be "
+            f"{', '.join([own, *others[:-1]])} or {others[-1]}: '{name} [{own}]' states it",
         )
     return 1.0
-
-
-def _one_of(units: Iterable[str]) -> str:
-    *others, last = (unit for unit in units if "°" not in unit)
-    return f"{', '.join(others)} or {last}"
 
 
 def likely_column(quantity: str, names: Iterable[str]) -> str | None:

@@ -16,12 +16,25 @@ from rich.table import Column
 from rich.text import Text
 
 import loiter
-from loiter.cli.numbers import any_case, latitude, longitude, metres, metres_per_second, one, plain, several, whole
+from loiter.cli.coordinates import latitude, longitude
+from loiter.cli.numbers import (
+    angle,
+    check_declination,
+    direction,
+    metres,
+    metres_per_second,
+    one,
+    several,
+    turn_name,
+    turn_rate,
+    whole,
+)
+from loiter.cli.options import WIND_HELP, DeclinationDegrees, moving_air
 from loiter.cli.report import print_json
 from loiter.errors import InvalidArgument, positive
 from loiter.geo import LocalFrame
 from loiter.kernel.statuses import Status
-from loiter.planning.model import Orbit, Turn, TurnName, Wind
+from loiter.planning.model import Orbit, Turn, TurnName
 
 if TYPE_CHECKING:
     from loiter.batch import JobProgress, JobSummary
@@ -68,7 +81,7 @@ def batch(
         TurnName | None,
         Parameter(
             group=shared,
-            converter=any_case,
+            converter=turn_name,
             help="Direction in which the circle is held, seen from above: cw is clockwise, ccw counter-clockwise, either the faster one. If absent: either.",
         ),
     ] = None,
@@ -85,6 +98,7 @@ def batch(
         float | None,
         Parameter(
             group=shared,
+            converter=one(angle),
             metavar="DEGREES",
             help="Largest bank, degrees. One of --bank, --turn-radius and --turn-rate is needed, unless it is a column.",
         ),
@@ -94,17 +108,24 @@ def batch(
         Parameter(group=shared, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
     ] = None,
     turn_rate: Annotated[
-        float | None, Parameter(group=shared, metavar="DEG_PER_S", help="Largest turn rate, degrees per second.")
+        float | None,
+        Parameter(
+            group=shared,
+            converter=one(turn_rate),
+            metavar="DEG_PER_S",
+            help="Largest turn rate, degrees per second.",
+        ),
     ] = None,
     wind: Annotated[
         tuple[float, float] | None,
         Parameter(
             group=shared,
-            converter=several(metres_per_second, plain),
+            converter=several(metres_per_second, direction),
             metavar="SPEED FROM",
-            help="Wind speed, metres per second, and the compass direction that the wind comes from; still air if absent.",
+            help=f"{WIND_HELP}; still air if absent.",
         ),
     ] = None,
+    declination: Annotated[DeclinationDegrees, Parameter(group=shared)] = None,
     orbit_velocity: Annotated[
         tuple[float, float] | None,
         Parameter(
@@ -128,6 +149,7 @@ def batch(
         float,
         Parameter(
             group=work,
+            converter=one(metres),
             metavar="METRES",
             help="A start that is beyond the circle, or beyond the last arc onto it, by up to this many metres counts as on it, as in loiter plan.",
         ),
@@ -157,6 +179,7 @@ def batch(
     ] = False,
 ) -> None:
     """Plan the fastest entry of every row of a table."""
+    check_declination(declination, *((wind or ())[-1:]))
     limits = {"max_bank_deg": bank, "min_turn_radius_m": turn_radius, "max_turn_rate_deg_s": turn_rate}
     given = {name: value for name, value in {"airspeed_m_s": airspeed, **limits}.items() if value is not None}
     circle, origin = _circle(orbit, orbit_lla)
@@ -167,7 +190,7 @@ def batch(
             orbit=circle,
             turn=None if turn is None else Turn(turn),
             aircraft=given,
-            wind=None if wind is None else Wind(*wind),
+            wind=moving_air(wind, declination),
             orbit_velocity_m_s=orbit_velocity,
             origin=origin,
             columns=_mapped(map_ or []),

@@ -232,12 +232,13 @@ def fly(
     simulated.check()
     _check_files(wanted, simulated.runs)
     if simulated.runs is None:
-        pose, orbit, _ = placed(start, circle, uav.preset())
+        pose, orbit, _ = placed(start, circle, air, uav.preset())
         trial = campaign.Trial(loiter.plan(pose, orbit, simulated.aircraft(uav), air.moving_air), simulated.seed)
         _fly_once(trial, simulated, wanted)
         return
     if (start, circle) != (StartOptions(), OrbitOptions()):
         raise InvalidArgument("runs", "selects random starts and circles: --pose and --orbit have no effect")
+    air.check_declination()
     _fly_many(simulated.trials(uav, air), simulated, wanted)
 
 

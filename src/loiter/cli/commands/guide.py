@@ -16,8 +16,9 @@ from cyclopts import Group, Parameter
 import loiter
 from loiter.cli import report, vehicles
 from loiter.cli.commands.mavlink import Connect, JsonLines, System, Timeout, connection
-from loiter.cli.numbers import any_case, latitude, longitude, metres, metres_per_second, one, plain, several
-from loiter.cli.options import PlacedOrbitOptions, WindOptions, output, scene
+from loiter.cli.coordinates import latitude, longitude
+from loiter.cli.numbers import altitude, angle, metres, metres_per_second, one, several, turn_name
+from loiter.cli.options import PlacedOrbitOptions, WindOptions, output, scene, written_altitude
 from loiter.errors import InvalidArgument
 from loiter.mavlink.missions.exchange import TIMEOUT_S
 from loiter.planning.model import TurnName, wind_from_velocity
@@ -54,7 +55,7 @@ class GuidedOrbitOptions(PlacedOrbitOptions):
         TurnName | None,
         Parameter(
             group=scene,
-            converter=any_case,
+            converter=turn_name,
             help="Direction of flight around the circle, seen from above; the faster one if absent.",
         ),
     ] = None
@@ -81,7 +82,7 @@ class GuidedVehicleOptions:
         float | None,
         Parameter(
             group=vehicle_limits,
-            converter=one(plain),
+            converter=one(angle),
             metavar="DEGREES",
             help="Largest bank, at most that of the autopilot.",
         ),
@@ -90,7 +91,7 @@ class GuidedVehicleOptions:
         float | None,
         Parameter(
             group=vehicle_limits,
-            converter=one(metres),
+            converter=one(altitude),
             metavar="METRES",
             help="Altitude at which the circle is flown, always above mean sea level; metres, or with a unit: 3000ft. The present one if absent.",
         ),
@@ -130,6 +131,7 @@ def guide(
     """Guide a vehicle in flight onto the circle by bank commands, then hand it over to its own hold."""
     if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
+    air.check_declination()
     orbit, frame = circle.circle(None)
     assert frame is not None  # the circle is in degrees
     reports = loiter.mavlink.guide(
@@ -142,7 +144,7 @@ def guide(
         system=system,
         period_s=every,
         timeout_s=timeout,
-        altitude_m=uav.altitude,
+        altitude_m=written_altitude(uav.altitude),
         keep=keep,
         dry_run=dry_run,
         log=log,

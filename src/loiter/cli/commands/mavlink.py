@@ -167,7 +167,8 @@ def _plan_mission(
     datum = waypoints.datum(circle.site)
     if pose.pose_lla is None or not circle.placed:
         raise InvalidArgument("pose_lla", "and --orbit-lla are needed: a vehicle's mission is in degrees")
-    if uav.altitude is None:
+    altitude_m = uav.written_altitude
+    if altitude_m is None:
         raise InvalidArgument("altitude_m", f"is needed: a vehicle's mission has one, {datum.unit}")
     along_path = waypoints.along_path
     (problem, frame), remark = read_options(pose, circle, uav, air, fit=fit, datum=datum)
@@ -177,7 +178,7 @@ def _plan_mission(
         loiter.io.mission,
         best,
         frame,
-        uav.altitude,
+        altitude_m,
         spacing_m=waypoints.spacing,
         chord_error_m=waypoints.chord_error_m,
         datum=datum,
@@ -246,6 +247,7 @@ def watch(
     """Receive the telemetry of a vehicle and print, live, the fastest entry from its position."""
     if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
+    air.check_declination()
     preset = uav.preset()
     orbit, frame = circle.circle(preset)
     assert frame is not None  # the circle is in degrees
@@ -262,7 +264,7 @@ def watch(
         period_s=every,
         timeout_s=timeout,
         send=send,
-        altitude_m=uav.altitude if send else None,
+        altitude_m=uav.written_altitude if send else None,
         true_radius=true_radius,
     )
     if json:

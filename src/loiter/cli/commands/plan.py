@@ -10,6 +10,7 @@ from cyclopts import Parameter
 
 import loiter
 from loiter.cli import certificates, report
+from loiter.cli.numbers import metres, one
 from loiter.cli.options import (
     AircraftOptions,
     Fit,
@@ -29,7 +30,9 @@ from loiter.cli.status import CHECK_FAILED
 from loiter.geo import LocalFrame
 from loiter.io.document import answer
 from loiter.io.files import SaveArguments, file_content, is_mission
+from loiter.io.missions.altitudes import AltitudeReference
 from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
+from loiter.io.missions.mission import stored_radius_remark
 from loiter.io.missions.site import Site
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
@@ -42,6 +45,7 @@ Tolerance = Annotated[
     float,
     Parameter(
         group=scene,
+        converter=one(metres),
         metavar="METRES",
         help="A start that is beyond the circle, or beyond the last arc onto it, by up to this many metres counts as on it, so that noise does not add a full turn.",
     ),
@@ -77,7 +81,13 @@ Save = Annotated[
         help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl), .waypoints or .txt (both QGC WPL 110) for autopilots; may be repeated.",
     ),
 ]
-AutopilotChoice = Annotated[AutopilotName, Parameter(group=missions, help="The autopilot that a mission is for.")]
+AutopilotChoice = Annotated[
+    AutopilotName | None,
+    Parameter(
+        group=missions,
+        help="The autopilot that a mission is for: that of --params if absent, otherwise ardupilot. PX4 takes .plan only.",
+    ),
+]
 
 
 def plan(
@@ -95,7 +105,7 @@ def plan(
     certify: Certify = False,
     save: Save = (),
     waypoints: MissionOptions = MissionOptions(),
-    autopilot: AutopilotChoice = "ardupilot",
+    autopilot: AutopilotChoice = None,
 ) -> int:
     """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off."""
     (problem, frame), remark = read_options(
@@ -111,9 +121,9 @@ def plan(
     shown = best if all_ else [first]
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
     # Files are written before pictures: they have more requirements, and if one fails, no picture is left.
-    site = circle.site
-    checked = fence_check(site, first, frame, any_inclusion=autopilot == "px4")
-    written = [*_save(save, first, frame, uav, waypoints, AUTOPILOTS[autopilot], site)]
+    site, target = circle.site, _target(autopilot, uav)
+    checked = fence_check(site, first, frame, any_inclusion=target == Autopilot.PX4)
+    written = [*_save(save, first, frame, uav, waypoints, target, site)]
     slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
     if pictures.plot:
         from loiter.plot.picture import draw
@@ -132,18 +142,31 @@ def plan(
         report.print_tables(best, others, everything=all_, frame=frame, remark="\n".join(remarks))
         certificates.print_text(certified)
         lines = [*([report.ALONG_PATH] if along_path else []), *([checked.sentence] if checked else [])]
-        report.write(*lines, *_altitude_lines(save, uav, waypoints, site), *report.files_line(written))
+        if any(map(is_mission, save)):
+            lines += _mission_lines(first, uav, waypoints, target, site)
+        report.write(*lines, *report.files_line(written))
     return 0 if all(certificate.valid for certificate in certified) else CHECK_FAILED
 
 
-def _altitude_lines(
-    save: Sequence[Path], uav: AircraftOptions, waypoints: MissionOptions, site: Site | None
+def _target(autopilot: AutopilotName | None, uav: AircraftOptions) -> Autopilot:
+    """The autopilot that missions are for: that of the option, or of the parameter file, or ArduPilot."""
+    preset = uav.preset()
+    if autopilot is not None or preset is None:
+        return AUTOPILOTS[autopilot or "ardupilot"]
+    return preset.autopilot
+
+
+def _mission_lines(
+    maneuver: Maneuver, uav: AircraftOptions, waypoints: MissionOptions, target: Autopilot, site: Site | None
 ) -> list[str]:
-    """The altitude of the missions that were saved; no lines without one."""
-    if uav.altitude is None or not any(map(is_mission, save)):
-        return []
-    known = site is not None or waypoints.home_altitude is not None
-    return report.altitude_lines(uav.altitude, waypoints.datum(site), home_known=known)
+    """Lines on missions that were saved: their altitude, and the radius that is flown where it cannot be stored."""
+    assert uav.altitude is not None  # missions have one
+    datum, known = waypoints.datum(site), site is not None or waypoints.home_altitude is not None
+    lines = report.altitude_lines(uav.altitude, datum, home_known=known)
+    if target == Autopilot.ARDUPILOT:
+        above_sea = None if datum.reference == AltitudeReference.GROUND else datum.above_sea_m(uav.altitude)
+        lines += filter(None, [stored_radius_remark(maneuver.orbit.radius_m, above_sea)])
+    return lines
 
 
 def _check_formats(save: Sequence[Path]) -> None:
@@ -165,7 +188,7 @@ def _save(
     of_a_map = SaveArguments(
         maneuver=maneuver,
         frame=frame,
-        altitude_m=uav.altitude,
+        altitude_m=uav.written_altitude if paths else None,
         datum=waypoints.datum(site),
         spacing_m=waypoints.spacing,
         chord_error_m=waypoints.chord_error_m,

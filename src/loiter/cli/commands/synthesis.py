@@ -10,7 +10,7 @@ from rich.table import Table
 
 from loiter.arrays.partition import Boundary, Partition, boundaries, partition
 from loiter.cli import report
-from loiter.cli.numbers import any_case, whole
+from loiter.cli.numbers import turn_name, whole
 from loiter.cli.options import MapPictureOptions, output
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
@@ -30,7 +30,7 @@ def synthesis(
     *,
     radius: Annotated[float, Parameter(metavar="TURN_RADII", help="Radius of the circle, at least 1.")] = 1.0,
     turn: Annotated[
-        TurnName, Parameter(converter=any_case, help="Direction of flight around the circle, seen from above.")
+        TurnName, Parameter(converter=turn_name, help="Direction of flight around the circle, seen from above.")
     ] = "either",
     reach: Annotated[
         float | None,

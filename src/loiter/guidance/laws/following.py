@@ -94,7 +94,7 @@ class Follower(ABC):
 
     def __init__(self, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None) -> None:
         self.orbit, self.aircraft, self.wind = orbit, aircraft, CALM if wind is None else wind
-        check_held(orbit, aircraft, relative_wind(orbit, aircraft, self.wind))
+        check_held(orbit, aircraft, relative_wind(orbit, aircraft, self.wind), self.wind)
         self.turn = orbit.turn
         self._max_bank_deg = aircraft.bank_deg(aircraft.turn_radius_m)
         self._bank_deg = 0.0

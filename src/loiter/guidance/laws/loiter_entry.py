@@ -147,7 +147,7 @@ class LoiterEntry:
         identify: bool = True,
     ) -> None:
         air = CALM if wind is None else wind
-        check_held(orbit, aircraft, relative_wind(orbit, aircraft, air))
+        check_held(orbit, aircraft, relative_wind(orbit, aircraft, air), air)
         self._orbit, self._declared_wind = orbit, air.velocity_m_s
         # The bank limit, as declared, and at present: lower where the bank overshoots it.
         self._declared_limit_deg = self._limit_deg = self.command_limit_deg = aircraft.bank_deg(aircraft.turn_radius_m)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import isnan, trunc
+
 from loiter.io.missions.items import Frame, Mission, MissionItem
 from loiter.io.reading import Source
 
@@ -11,6 +13,11 @@ MAX_COMMAND = 65535
 
 # ArduPilot refuses altitudes beyond 83 km (LOCATION_ALT_MAX_M).
 HIGHEST_ITEM_M = 83_000.0
+
+
+def truncated(value: float) -> float:
+    """A number as ArduPilot stores it in an integer, rounded towards zero; nan stays nan."""
+    return value if isnan(value) else float(trunc(value))
 
 
 def checked_item(source: Source, where: str, item: MissionItem) -> MissionItem:

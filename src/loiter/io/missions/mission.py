@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, positive
+from loiter.geo.atmosphere import eas2tas_squared
 from loiter.geo.frame import REACH_M, LocalFrame
 from loiter.io.maps.places import degrees
 from loiter.io.maps.track import step_counts, vertices
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
 from loiter.io.missions.items import Autopilot, MavCommand, Mission, MissionItem
+from loiter.io.missions.limits import truncated
 from loiter.io.missions.signs import with_circle
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit
@@ -26,6 +28,9 @@ LEAST_EARTH_RADIUS_M = 6_335_439.0
 # Autopilots fly from waypoint to waypoint along geodesics, which are curved in the plane: in normal coordinates at the
 # distance d from the origin, the curvature is at most (2/3) d over the square of the Earth's radius.
 BEND_PER_M = 2.0 / 3.0 * REACH_M / LEAST_EARTH_RADIUS_M**2
+
+# ArduPlane's parameter for the bank limit on loiters, and the smallest difference of radii, metres, that is reported.
+BANK_LIMIT, LEAST_REPORTED_M = "NAVL1_LIM_BANK", 1.0
 
 NO_PARAMS = (0.0, 0.0, 0.0, 0.0)
 
@@ -99,6 +104,24 @@ def mission(
     ]
     loiter = MissionItem(MavCommand.NAV_LOITER_UNLIM, datum.frame, params, *centre_place, altitude_m)
     return Mission((*items, loiter), (*home_place, home_m))
+
+
+def stored_radius_remark(radius_m: float, altitude_m: float | None) -> str:
+    """Sentences on the radius that ArduPlane flies, where it cannot store that of a mission; otherwise empty.
+
+    It stores whole metres, and widens loiters with the altitude above mean sea level, `altitude_m`, unless a parameter
+    says otherwise; None where that altitude is not known.
+    """
+    stored_m = truncated(radius_m)
+    if stored_m == radius_m:
+        return ""
+    text = f"ArduPlane stores the radius in whole metres: {stored_m:g} m instead of {radius_m:g}."
+    flown_m = stored_m if altitude_m is None else stored_m * eas2tas_squared(altitude_m)
+    if abs(flown_m - stored_m) < LEAST_REPORTED_M:
+        return text
+    return (
+        f"{text} At {altitude_m:g} m it holds {flown_m:.1f} m, unless {BANK_LIMIT} is the bank limit of the aircraft."
+    )
 
 
 def approach_waypoints(maneuver: Maneuver, autopilot: int) -> tuple[Waypoint, ...]:

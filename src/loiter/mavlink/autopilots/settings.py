@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.io.missions.items import Autopilot
-from loiter.mavlink.missions.flown_radius import BANK_LIMIT, CRUISE, OLD_CRUISE
+from loiter.io.missions.mission import BANK_LIMIT
+from loiter.mavlink.missions.flown_radius import CRUISE, OLD_CRUISE
 
 # The limit of commanded banks lies below the autopilot's own limit by this, degrees, and is never above the second.
 BANK_MARGIN_DEG, STEEPEST_DEG = 0.5, 60.0

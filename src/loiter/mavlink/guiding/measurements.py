@@ -12,8 +12,8 @@ from math import atan2, cos, degrees, hypot, isfinite, nan, sin, tan
 from typing import Any
 
 from loiter.geo import LocalFrame
+from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.protocol import State
-from loiter.mavlink.missions.flown_radius import eas2tas_squared
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.model import Wind
 
@@ -159,6 +159,12 @@ class Measurements:
             speed * north,
             self.airspeed(wind, now)[0],
         )
+
+    @property
+    def swapped(self) -> bool:
+        """Whether the vehicle is too far from the circle, and would be near it with coordinates swapped."""
+        last = self._position
+        return last is not None and self._frame.is_swapped(last.lat / 1e7, last.lon / 1e7)
 
     def _check_clock(self, last: Any, message: Any) -> None:
         if last is not None and message.time_boot_ms < last.time_boot_ms - 1e3 * RESTARTED_S:

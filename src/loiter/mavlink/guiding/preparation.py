@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.geo import LocalFrame
+from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.protocol import State
 from loiter.mavlink.autopilots.readiness import refusal
 from loiter.mavlink.autopilots.settings import AutopilotSettings, autopilot_settings, is_complete, missing
@@ -16,7 +17,6 @@ from loiter.mavlink.connection.link import not_found
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.measurements import AirspeedSource
 from loiter.mavlink.guiding.monitor import LEAST_HZ
-from loiter.mavlink.missions.flown_radius import eas2tas_squared
 from loiter.planning.compass import wrapped
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.solve import plan
@@ -106,6 +106,8 @@ def _missing_data(contact: Contact, now: float) -> str:
         return f"does not report its parameter {unknown[0]}"
     if not contact.parameters.done and not is_complete(contact.autopilot, contact.parameters.known):
         return "does not report its parameters"
+    if contact.state() is None and m.swapped:
+        return "is more than 100 km from the circle: are the circle's latitude and longitude swapped?"
     if contact.state() is None:
         return "sends no position and attitude, or is more than 100 km from the circle"
     if m.rate_hz(now) < LEAST_HZ:

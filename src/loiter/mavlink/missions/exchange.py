@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import nan
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed, positive
-from loiter.io.missions.items import Autopilot, Mission
+from loiter.geo.frame import LocalFrame, degrees_of
+from loiter.io.missions.items import Autopilot, Frame, Mission
 from loiter.mavlink.connection.enumerations import autopilot_name
 from loiter.mavlink.connection.link import Link, Vehicle, open_link
 from loiter.mavlink.connection.parameters import Parameters
@@ -18,6 +19,7 @@ from loiter.mavlink.missions.flown_radius import LoiterScaling, fit_radii, query
 from loiter.mavlink.missions.requirements import REQUIREMENT, requirement_remark
 from loiter.mavlink.missions.start import flies_mission, start_mission
 from loiter.mavlink.missions.stored_items import (
+    PER_DEGREE,
     StoredItem,
     decode,
     differences,
@@ -57,6 +59,20 @@ class MissionSummary:
 
 # The former name, which stays public.
 Summary = MissionSummary
+
+
+class Position:
+    """The position of a vehicle from its last GLOBAL_POSITION_INT: `place` is latitude and longitude in 1e-7 degrees.
+
+    It is None until there is one.
+    """
+
+    place: tuple[int, int] | None = None
+
+    def update(self, message: Any) -> None:
+        """Take the position from a message; without a fix both are 0."""
+        if message.get_type() == "GLOBAL_POSITION_INT" and (message.lat or message.lon):
+            self.place = message.lat, message.lon
 
 
 class Behaviour(NamedTuple):
@@ -105,15 +121,20 @@ def upload(
     and missions that cannot be sent; `MissingPackage` without pymavlink.
     """
     check_target(system, component, timeout_s)
-    texts = StatusTexts()
-    with open_link(
-        connection, system, component, timeout_s, on_message=lambda message, now: texts.update(message)
-    ) as link:
+    texts, position = StatusTexts(), Position()
+
+    def on_message(message: Any, now: float) -> None:
+        texts.update(message)
+        position.update(message)
+
+    with open_link(connection, system, component, timeout_s, on_message=on_message) as link:
         new = mission(link.vehicle.autopilot) if callable(mission) else mission
         check_mission(new, link.vehicle)
         scaling = query_scaling(link, scaling_parameters(link.vehicle), true_radius=true_radius)
         behaviour = Behaviour(scaling, true_radius, _requirement(link))
-        summary = replace_mission(link, new, timeout_s, on_progress or (lambda phase, done, total: None), behaviour)
+        summary = replace_mission(
+            link, new, timeout_s, on_progress or (lambda phase, done, total: None), behaviour, position
+        )
         if not start:
             return summary
         try:
@@ -156,12 +177,15 @@ def replace_mission(
     timeout_s: float,
     on_progress: ReportProgress,
     behaviour: Behaviour = PLAIN_BEHAVIOUR,
+    position: Position | None = None,
 ) -> MissionSummary:
-    """The steps of `upload` with an open link, without the start."""
+    """The steps of `upload` with an open link, without the start; `position` is that of the vehicle, if it sends it."""
     vehicle = link.vehicle
     check_mission(mission, vehicle)
     old = transfer.receive(link, timeout_s, _in_phase("read", on_progress))
-    items, remarks = _adapt(mission, vehicle, own_home(old, vehicle), behaviour)
+    home = own_home(old, vehicle)
+    check_not_swapped(mission, home, position)
+    items, remarks = _adapt(mission, vehicle, home, behaviour)
     try:
         if vehicle.autopilot == Autopilot.PX4 and is_same(old, items, vehicle) and not flies_mission(link):
             # If PX4 has found a mission invalid, it does not check it again, even after its parameters have changed.
@@ -178,13 +202,13 @@ def replace_mission(
     except BaseException:
         restore(link, old, timeout_s)
         raise
-    home = int(keeps_home(vehicle))
+    homes = int(keeps_home(vehicle))
     return MissionSummary(
         system=vehicle.system,
         component=vehicle.component,
         autopilot=autopilot_name(vehicle.autopilot),
-        items=len(items) - home,
-        replaced=max(0, len(old) - home),
+        items=len(items) - homes,
+        replaced=max(0, len(old) - homes),
         cut=tuple(cut),
         remarks=tuple(remarks),
     )
@@ -193,6 +217,24 @@ def replace_mission(
 def check_mission(mission: Mission, vehicle: Vehicle) -> None:
     """Raise `InvalidArgument` for a mission whose items cannot be sent, before anything is requested of the vehicle."""
     encode(mission._replace(home=(0.0, 0.0, 0.0)), vehicle)
+
+
+def check_not_swapped(mission: Mission, home: StoredItem | None, position: Position | None) -> None:
+    """Raise `InvalidArgument` for a mission far from the vehicle that would be near with coordinates swapped.
+
+    The place of the vehicle is its position or, if it has not sent it, its home; without either nothing is checked.
+    """
+    known = position.place if position is not None and position.place else home and (home.x, home.y)
+    item = next((item for item in mission.items if item.frame != Frame.NOWHERE), None)
+    if not known or item is None:
+        return
+    here = LocalFrame(known[0] / PER_DEGREE, known[1] / PER_DEGREE)
+    if here.is_swapped(item.latitude_deg, item.longitude_deg):
+        raise InvalidArgument(
+            "mission",
+            f"begins at {degrees_of(item.latitude_deg, item.longitude_deg)}, far from the vehicle at "
+            f"{degrees_of(here.latitude_deg, here.longitude_deg)}: are latitude and longitude swapped?",
+        )
 
 
 def _adapt(

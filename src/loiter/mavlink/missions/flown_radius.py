@@ -13,23 +13,21 @@ from math import isfinite, isnan, radians, tan
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed
-from loiter.geo.atmosphere import HIGHEST_M, LOWEST_M, density_ratio
+from loiter.geo.atmosphere import eas2tas_squared
 from loiter.io.missions.items import Autopilot, MavCommand
+from loiter.io.missions.mission import BANK_LIMIT, LEAST_REPORTED_M
 from loiter.io.missions.signs import COMMANDS, circle, with_circle
 from loiter.mavlink.connection.link import Link, Vehicle
 from loiter.mavlink.connection.parameters import Parameters
 from loiter.mavlink.missions.stored_items import StoredItem, above_sea_m, item_name
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 
-# ArduPlane's parameters for the bank limit and for the cruise airspeed: in metres per second since version 4.5, in
-# centimetres per second before.
-BANK_LIMIT, CRUISE, OLD_CRUISE = "NAVL1_LIM_BANK", "AIRSPEED_CRUISE", "TRIM_ARSPD_CM"
+# ArduPlane's parameters for the cruise airspeed: in metres per second since version 4.5, before in centimetres per
+# second.
+CRUISE, OLD_CRUISE = "AIRSPEED_CRUISE", "TRIM_ARSPD_CM"
 
 # The loiters of a mission whose radius ArduPlane stores; it does not store that of NAV_LOITER_TIME.
 LOITERS = {int(c): c for c in (MavCommand.NAV_LOITER_UNLIM, MavCommand.NAV_LOITER_TURNS, MavCommand.NAV_LOITER_TO_ALT)}
-
-# The smallest difference of radii, metres, that is reported: ArduPlane stores whole metres.
-LEAST_REPORTED_M = 1.0
 
 
 class LoiterScaling(NamedTuple):
@@ -62,11 +60,6 @@ class LoiterScaling(NamedTuple):
         if self.bank_limit_deg <= 0.0 or self.airspeed_m_s <= 0.0:
             return None
         return self.airspeed_m_s * self.airspeed_m_s / (STANDARD_GRAVITY_M_S2 * tan(radians(self.bank_limit_deg)))
-
-
-def eas2tas_squared(altitude_m: float) -> float:
-    """The square of true over equivalent airspeed in standard air: the inverse of the density ratio."""
-    return 1.0 / density_ratio(min(max(altitude_m, LOWEST_M), HIGHEST_M))
 
 
 def scaling_parameters(vehicle: Vehicle) -> Parameters:

@@ -8,13 +8,14 @@ an item in 15 bytes and round values to fit; those for PX4 follow `parse_mavlink
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import copysign, isfinite, isinf, isnan, nan, trunc
+from math import copysign, isfinite, isinf, isnan, nan
 from struct import error as StructError  # noqa: N812
 from struct import pack, unpack
 from typing import Any, NamedTuple
 
 from loiter.errors import InvalidArgument
 from loiter.io.missions.items import Autopilot, Frame, MavCommand, Mission, MissionItem
+from loiter.io.missions.limits import truncated
 from loiter.io.missions.signs import Params
 from loiter.mavlink.connection.link import Vehicle, dialect
 from loiter.planning.compass import wrapped
@@ -200,18 +201,18 @@ def _stored_by_ardupilot(command: int, params: Params) -> Params:
     a, b, c, d = params
     match command:
         case MavCommand.NAV_WAYPOINT:
-            return 0.0, min(_whole(b), 255.0), min(_whole(c), 255.0), 0.0
+            return 0.0, min(truncated(b), 255.0), min(truncated(c), 255.0), 0.0
         case MavCommand.NAV_LOITER_UNLIM:
-            return 0.0, 0.0, _whole(c), 0.0
+            return 0.0, 0.0, truncated(c), 0.0
         case MavCommand.NAV_LOITER_TURNS:
             # One byte for the radius, in tens of metres above 255, and one for the turns, in 256ths of a turn below 1.
-            radius = abs(c) if abs(c) <= 255.0 else 10.0 * min(_whole(abs(c) * 0.1), 255.0)
-            turns = _whole(256.0 * a) / 256.0 if 0.0 < a < 1.0 else min(_whole(a), 255.0)
-            return turns, 0.0, copysign(_whole(radius), c), float(d > 0.0)
+            radius = abs(c) if abs(c) <= 255.0 else 10.0 * min(truncated(abs(c) * 0.1), 255.0)
+            turns = truncated(256.0 * a) / 256.0 if 0.0 < a < 1.0 else min(truncated(a), 255.0)
+            return turns, 0.0, copysign(truncated(radius), c), float(d > 0.0)
         case MavCommand.NAV_LOITER_TIME:
-            return _whole(a), 0.0, -1.0 if c < 0.0 else 1.0, float(d > 0.0)
+            return truncated(a), 0.0, -1.0 if c < 0.0 else 1.0, float(d > 0.0)
         case MavCommand.NAV_LOITER_TO_ALT:
-            return 0.0, _whole(b), 0.0, float(d > 0.0)
+            return 0.0, truncated(b), 0.0, float(d > 0.0)
     return params
 
 
@@ -227,10 +228,6 @@ def _stored_by_px4(command: int, params: Params) -> Params:
         case MavCommand.NAV_LOITER_TO_ALT:
             return float(a > 0.0), b, 0.0, float(d > 0.0)
     return params
-
-
-def _whole(value: float) -> float:
-    return value if isnan(value) else float(trunc(value))
 
 
 def _tolerance(name: str, vehicle: Vehicle) -> float:

@@ -77,9 +77,20 @@ export function altitudeFor(kind, altitude) {
  * @param {Kind} kind
  * @param {PageState} state
  */
-export function savedText(name, kind, { altitude, units }) {
-  if (kind === "mission") return `${name} saved: ${altitudeText(missionAltitude(altitude), units)}.`;
+export function savedText(name, kind, { scene, altitude, units }) {
+  if (kind === "mission")
+    return `${name} saved: ${altitudeText(missionAltitude(altitude), units)}.${radiusRemark(scene.orbit.radius_m)}`;
   const isLost = altitude.altitude_m !== undefined && altitudeFor(kind, altitude).altitude_m === undefined;
   if (kind === "picture" || !isLost) return `${name} saved.`;
   return `${name} saved without the altitude: it is not known above mean sea level.`;
+}
+
+/**
+ * A sentence on the radius that ArduPlane stores, where it is not that of the mission; otherwise nothing.
+ *
+ * @param {number} radius_m
+ */
+function radiusRemark(radius_m) {
+  const stored_m = Math.floor(radius_m);
+  return stored_m === radius_m ? "" : ` ArduPlane stores the radius in whole metres: ${stored_m} m.`;
 }

@@ -9,8 +9,10 @@
 import { tidy } from "../shared/units.js";
 
 const NUMBER = "\\d+(?:[.,]\\d*)?";
-// 47.1, -47.1, 47°06', 47 06 00, 47°6'0.5"
-const ANGLE = new RegExp(`^([+-]?)\\s*(${NUMBER})\\s*°?(?:\\s*(${NUMBER})\\s*'?(?:\\s*(${NUMBER})\\s*"?)?)?$`);
+// 47.1, -47.1, 47°06', 47 06 00, 47:06:00, 47°6'0.5"
+const ANGLE = new RegExp(
+  `^([+-]?)\\s*(${NUMBER})\\s*[°:]?(?:\\s*(${NUMBER})\\s*[':]?(?:\\s*(${NUMBER})\\s*"?)?)?$`,
+);
 
 /** @type {Record<string, {axis: Axis, sign: number}>} */
 const HEMISPHERES = {

@@ -41,7 +41,7 @@ const orbitPart = (quantity, name) => ({
 const PARTS = {
   east: posePart("length", "east_m"),
   north: posePart("length", "north_m"),
-  course: posePart("degrees", "heading_deg"),
+  course: posePart("direction", "heading_deg"),
   airspeed: {
     quantity: "speed",
     get: ({ aircraft }) => aircraft.airspeed_m_s,
@@ -58,7 +58,7 @@ const PARTS = {
     set: (scene, speed_m_s) => withWind(scene, { speed_m_s, from_deg: scene.wind?.from_deg ?? 270 }),
   },
   "wind-from": {
-    quantity: "degrees",
+    quantity: "direction",
     get: ({ wind }) => wind?.from_deg,
     set: (scene, from_deg) => ({ ...scene, wind: scene.wind && { ...scene.wind, from_deg } }),
   },

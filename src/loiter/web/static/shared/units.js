@@ -4,12 +4,14 @@
  *
  * @typedef {import("./types.js").Scene} Scene
  * @typedef {import("./types.js").Units} Units
- * @typedef {"length" | "speed" | "degrees" | "rate"} Quantity
+ * @typedef {"length" | "speed" | "degrees" | "direction" | "rate"} Quantity
  */
 
 // The international foot and the knot, exact by definition.
 const FOOT_M = 0.3048;
-const KNOT_M_S = 1852 / 3600;
+const NAUTICAL_MILE_M = 1852;
+const KNOT_M_S = NAUTICAL_MILE_M / 3600;
+const MILE_PER_HOUR_M_S = 1609.344 / 3600;
 
 /** @type {Record<Units, Record<Quantity, {name: string, size: number}>>} */
 const SCALES = {
@@ -17,12 +19,14 @@ const SCALES = {
     length: { name: "m", size: 1 },
     speed: { name: "m/s", size: 1 },
     degrees: { name: "°", size: 1 },
+    direction: { name: "°", size: 1 },
     rate: { name: "°/s", size: 1 },
   },
   aviation: {
     length: { name: "ft", size: FOOT_M },
     speed: { name: "kt", size: KNOT_M_S },
     degrees: { name: "°", size: 1 },
+    direction: { name: "°", size: 1 },
     rate: { name: "°/s", size: 1 },
   },
 };
@@ -47,16 +51,25 @@ const ACCEPTED = {
     ["m", 1],
     ["km", 1000],
     ["ft", FOOT_M],
+    ["nm", NAUTICAL_MILE_M],
+    ["nmi", NAUTICAL_MILE_M],
   ]),
   speed: new Map([
     ["m/s", 1],
     ["km/h", 1 / 3.6],
     ["kn", KNOT_M_S],
     ["kt", KNOT_M_S],
+    ["kts", KNOT_M_S],
+    ["mph", MILE_PER_HOUR_M_S],
   ]),
   degrees: new Map([
     ["°", 1],
     ["deg", 1],
+  ]),
+  direction: new Map([
+    ["°", 1],
+    ["deg", 1],
+    ["t", 1],
   ]),
   rate: new Map([
     ["°/s", 1],
