@@ -173,11 +173,8 @@ SPACES = [
     (r'<mo class="mathopen">([|‖])</mo>', r'<mo form="prefix" stretchy="false">\1</mo>'),
     (r"<mo>([|‖])</mo>", r'<mo form="postfix" stretchy="false">\1</mo>'),
     (r"(<mo[^>]*>(?:[([,:=≤≥≠]|&[lg]t;)</mo>\s*)<mo>([−+±∓])</mo>", r'\1<mo form="prefix">\2</mo>'),
-    (r"<mo>/</mo>", r'<mo lspace="0" rspace="0">/</mo>'),
-    (
-        r"((?:</m(?:i|n|sup|sub|row|frac)>|\)</mo>)\s*)(<mi[^>]*>[a-z]{2,}</mi>)",
-        r'\1<mspace width="0.17em"></mspace>\2',
-    ),
+    (r'<mo stretchy="false">/</mo>', r'<mo lspace="0" rspace="0">/</mo>'),
+    (r"(</m(?:i|n|sup|sub|row)>\s*)(<mi[^>]*>\w+</mi>\s*<mo>&Apply)", r'\1<mspace width="0.17em"></mspace>\2'),
     (r"<mo>&ApplyFunction;</mo>(?!\s*<mo[^>]*>[([])", r'<mspace width="0.17em"></mspace>'),
 ]
 
@@ -209,7 +206,7 @@ def write_formula(writer, node):
     text = node.astext()
     number = "".join(f'<span class="eqno">({number})</span>' for number in TAG.findall(text))
     formula = f'<div class="pst-scrollable-table-container">{as_mathml(node, TAG.sub("", text))}</div>'
-    writer.body.append(f'<div class="math">{formula}{number}</div>\n')
+    writer.body.append(f'<div class="math">{number}{formula}</div>\n')
     raise nodes.SkipNode
 
 
