@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
@@ -22,7 +23,7 @@ from loiter.cli.numbers import (
     plain,
     several,
 )
-from loiter.errors import InvalidArgument, positive
+from loiter.errors import InvalidArgument, RadiusTooSmall, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
 from loiter.geo.placed import PlacedProblem
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
@@ -554,6 +555,16 @@ def read_options(
     problem = Problem(pose, planned, uav, wind.moving_air, tolerance_m)
     remarks = [orbit.site_remark(), aircraft.remark(preset), _fit_remark(circle, planned)]
     return OptionsRead(PlacedProblem(problem, frame), "\n".join(filter(None, remarks)))
+
+
+@contextmanager
+def fit_proposed() -> Iterator[None]:
+    """Add to the refusal of a circle that cannot be held that `--fit` plans for one that can."""
+    try:
+        yield
+    except RadiusTooSmall as error:
+        r = error.fitted_radius_m
+        raise RadiusTooSmall(f"{error}; --fit plans for {r:.4g} m", r) from error
 
 
 def _fit_remark(asked: Orbit, planned: Orbit) -> str:
