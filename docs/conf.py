@@ -4,8 +4,13 @@ import ast
 import re
 import sys
 from pathlib import Path
+from xml.sax.saxutils import escape
 
+from docutils import nodes
+from docutils.utils.math import MathError
+from docutils.utils.math.latex2mathml import tex2mathml
 from matplotlib.figure import Figure
+from sphinx.util import logging
 from sphinx_gallery.scrapers import figure_rst
 
 ROOT = Path(__file__).parents[1]
@@ -21,12 +26,16 @@ exclude_patterns = ["gallery/*", "pictures/*.ipynb"]
 suppress_warnings = ["config.cache"]
 # A link to a page, a heading or a name that does not exist is an error, like every other warning.
 nitpicky = True
-# Except types of other packages: nothing is fetched, so their documentation is unknown.
-nitpick_ignore_regex = [("py:class", r"(?!loiter\.).*|.*\.AnyTime")]
+# Except types of other packages: nothing is fetched, so their documentation is unknown; and type variables.
+nitpick_ignore_regex = [("py:class", r"(?!loiter\.).*|.*\.(AnyTime|OtherArrays)")]
 smartquotes = False
 default_role = "code"
 
 myst_heading_anchors = 4
+# Formulas are $...$ in a line and ```math blocks, which GitHub renders too.
+myst_enable_extensions = ["dollarmath"]
+myst_fence_as_directive = ["math"]
+html_math_renderer = "mathml"
 myst_url_schemes = {"http": None, "https": None, "mailto": None}
 # The outputs in the notebooks are those that `make notebooks` wrote; a test runs the notebooks and compares.
 nb_execution_mode = "off"
@@ -40,6 +49,33 @@ python_use_unqualified_type_names = True
 add_module_names = False
 
 
+thumbnails = {}
+
+
+def save_thumbnail(figure, path):
+    """Save the figure without words and numbers, which nobody could read at the size of a thumbnail."""
+    figure.suptitle("")
+    for legend in figure.legends:
+        legend.remove()
+    for axes in figure.axes:
+        axes.set(title="", xlabel="", ylabel="")
+        axes.tick_params(which="both", length=0, labelbottom=False, labelleft=False, labelright=False)
+        for words in [*axes.texts, axes.get_legend()]:
+            if words:
+                words.set_visible(False)
+    figure.set_size_inches(4.0, 3.0)
+    thumbnail = path.parent / "thumb" / path.name.replace("_001.png", "_thumb.png")
+    thumbnails[thumbnail] = thumbnail.with_name(f"plain_{path.name}")
+    thumbnail.parent.mkdir(exist_ok=True)
+    figure.savefig(thumbnails[thumbnail], dpi=160)
+
+
+def replace_thumbnails(app):
+    """Replace the gallery's thumbnails, which are reduced pictures, by the plain ones."""
+    for thumbnail, plain in thumbnails.items():
+        plain.replace(thumbnail)
+
+
 def save_figures(block, block_vars, gallery_conf):
     """Save the figures that a block of a gallery script has made; the library draws them without pyplot."""
     known = block_vars.setdefault("figures", set())
@@ -49,6 +85,8 @@ def save_figures(block, block_vars, gallery_conf):
         known.add(id(figure))
         paths.append(next(block_vars["image_path_iterator"]))
         figure.savefig(paths[-1], dpi=110)
+        if paths[-1].endswith("_001.png"):
+            save_thumbnail(figure, Path(paths[-1]))
     return figure_rst(
         paths,
         gallery_conf["src_dir"],
@@ -128,6 +166,52 @@ def write_commands(app):
     path.write_text(head + rest[rest.index("**Plans**") :], encoding="utf-8")
 
 
+TAG = re.compile(r"\\tag\{(\w+)\}")
+# What the MathML of docutils lacks: bars that open and close, signs that are no operators, and the space of TeX around
+# the names of functions.
+SPACES = [
+    (r'<mo class="mathopen">([|‖])</mo>', r'<mo form="prefix" stretchy="false">\1</mo>'),
+    (r"<mo>([|‖])</mo>", r'<mo form="postfix" stretchy="false">\1</mo>'),
+    (r"(<mo[^>]*>(?:[([,:=≤≥≠]|&[lg]t;)</mo>\s*)<mo>([−+±∓])</mo>", r'\1<mo form="prefix">\2</mo>'),
+    (r'<mo stretchy="false">/</mo>', r'<mo lspace="0" rspace="0">/</mo>'),
+    (r"(</m(?:i|n|sup|sub|row)>\s*)(<mi[^>]*>\w+</mi>\s*<mo>&Apply)", r'\1<mspace width="0.17em"></mspace>\2'),
+    (r"<mo>&ApplyFunction;</mo>(?!\s*<mo[^>]*>[([])", r'<mspace width="0.17em"></mspace>'),
+]
+
+
+def as_mathml(node, text):
+    """A formula as MathML, which browsers render without a script; an unknown command is a warning."""
+    try:
+        formula = tex2mathml(text, as_block=isinstance(node, nodes.math_block))
+    except MathError as error:
+        logging.getLogger(__name__).warning("formula %s: %s", text, error, location=node)
+        return escape(text)
+    for pattern, replacement in SPACES:
+        formula = re.sub(pattern, replacement, formula)
+    return formula
+
+
+def write_inline_formula(writer, node):
+    """Write a formula in a line, which does not end between the formula and a parenthesis or comma next to it."""
+    i, siblings = node.parent.index(node), node.parent.children
+    before = siblings[i - 1].astext()[-1:] if i else ""
+    after = siblings[i + 1].astext()[:1] if i + 1 < len(siblings) else ""
+    joiners = ["\u2060" if neighbour.strip() else "" for neighbour in (before, after)]
+    writer.body.append(as_mathml(node, node.astext()).join(joiners))
+    raise nodes.SkipNode
+
+
+def write_formula(writer, node):
+    """Write a formula on lines of its own, with its number; the theme lets it scroll where it is too wide."""
+    text = node.astext()
+    number = "".join(f'<span class="eqno">({number})</span>' for number in TAG.findall(text))
+    formula = f'<div class="pst-scrollable-table-container">{as_mathml(node, TAG.sub("", text))}</div>'
+    writer.body.append(f'<div class="math">{number}{formula}</div>\n')
+    raise nodes.SkipNode
+
+
 def setup(app):
+    app.add_html_math_renderer("mathml", (write_inline_formula, None), (write_formula, None))
     app.connect("builder-inited", write_commands)
+    app.connect("builder-inited", replace_thumbnails, priority=900)
     app.connect("autodoc-process-docstring", convert_docstring)

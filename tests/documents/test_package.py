@@ -116,6 +116,24 @@ def test_the_address_of_the_project_is_one():
     assert [address for address in own if not address.startswith(HOME)] == []
 
 
+def test_the_bibtex_of_the_readme_says_what_the_citation_file_says():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
+    (paper,) = citation["references"]
+    people = [f"{author['family-names']}, {author['given-names']}" for author in paper["authors"]]
+    expected = [
+        {
+            "title": citation["title"],
+            "author": f"{{{citation['authors'][0]['name']}}}",
+            "version": citation["version"],
+            "url": citation["repository-code"],
+        },
+        {"title": paper["title"].replace("UAV", "{UAV}"), "author": " and ".join(people)},
+    ]
+    text = (ROOT / "README.md").read_text("utf-8").partition("```bibtex\n")[2].partition("```")[0]
+    found = [dict(re.findall(r"(\w+)\s+= \{(.*)\}", entry)) for entry in text.split("\n\n")]
+    assert found == expected
+
+
 WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
 
 

@@ -22,9 +22,11 @@ PAGES = [
     "notebooks/5-campaign.html",
     "pictures/index.html",
     "reference/planning.html",
+    "theory.html",
     "wind.html",
     "search.html",
 ]
+FORMULAS = ["theory", "proof", "wind"]
 
 
 @pytest.fixture(scope="module")
@@ -140,6 +142,88 @@ def test_every_public_name_is_in_the_reference(pages, package):
 def browser():
     with browsing() as browser:
         yield browser
+
+
+@pytest.fixture
+def desk(browser):
+    """A page on a screen of 1440 pixels, and the addresses that it has asked for."""
+    page = browser.new_page(viewport={"width": 1440, "height": 900})
+    asked = []
+    page.on("request", lambda request: asked.append(request.url))
+    yield page, asked
+    page.close()
+
+
+def test_no_code_is_cut_off_on_a_desk(desk, pages):
+    """And a line of 120 characters is whole: there is room for it."""
+    page, _ = desk
+    cut, narrow = [], []
+    for path in pages:
+        page.goto(path.as_uri())
+        blocks = page.evaluate(
+            """() => [...document.querySelectorAll(".bd-main pre")].map(block => {
+                const ruler = block.appendChild(document.createElement("span"));
+                ruler.textContent = "0".repeat(120);
+                const [lines, long] = [ruler.getClientRects().length, block.parentElement.matches(".highlight")];
+                ruler.remove();
+                return {cut: block.scrollWidth > block.clientWidth, narrow: long && lines > 1};
+            })"""
+        )
+        cut += [path.name for block in blocks if block["cut"]]
+        # Examples inside descriptions of functions are indented.
+        narrow += [path.name for block in blocks if block["narrow"] and path.parent.name != "reference"]
+    assert (cut, narrow) == ([], [])
+
+
+@pytest.mark.parametrize("name", FORMULAS)
+def test_formulas_are_rendered_without_a_network(desk, site, name):
+    page, asked = desk
+    page.context.set_offline(True)
+    page.goto((site / f"{name}.html").as_uri())
+    page.wait_for_load_state()
+    drawn = page.evaluate(
+        """() => ({
+            formulas: [...document.querySelectorAll("math")].map(each => each.getBoundingClientRect().width),
+            fractions: [...document.querySelectorAll("mfrac")].map(({children: [above, below]}) =>
+                above.getBoundingClientRect().bottom <= below.getBoundingClientRect().top + 1),
+            numbers: [...document.querySelectorAll(".eqno")].map(each => each.textContent),
+            text: [...document.querySelectorAll("article :is(p, li, td)")].map(each => each.innerText).join(" "),
+        })"""
+    )
+    assert len(drawn["formulas"]) > 100
+    assert min(drawn["formulas"]) > 2.0
+    assert drawn["fractions"]
+    assert all(drawn["fractions"])
+    assert drawn["numbers"] == [f"({tag})" for tag in re.findall(r"\\tag\{(\w+)\}", source(name))]
+    assert re.findall(r"[$\\]", drawn["text"]) == []
+    assert [url for url in asked if not url.startswith(("file://", "data:"))] == []
+
+
+@pytest.mark.parametrize("name", FORMULAS)
+def test_formulas_are_written_so_that_github_renders_them(name):
+    """GitHub reads Markdown first: emphasis, escapes, tags and links in a line must not be what formulas contain."""
+    text = re.sub(r"^ *```.*?^ *```$|^    \$ [^\n]*$", "", source(name), flags=re.MULTILINE | re.DOTALL)
+    formulas = re.findall(r"\$([^$]+)\$", text)
+    hazards = re.compile(r"\*|(?<![A-Za-z0-9])_|\\[^A-Za-z]|<\S|\]\(|^\s|\s$|\n|`")
+    assert [formula for formula in formulas if hazards.search(formula)] == []
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    assert [row for row in rows if re.search(r"\$[^$]*\|[^$]*\$", re.sub(r"\$[^$|]+\$", "", row))] == []
+
+
+def source(name):
+    return (ROOT / "docs" / f"{name}.md").read_text("utf-8")
+
+
+def test_thumbnails_are_wide_enough_to_be_seen(desk, site):
+    page, _ = desk
+    for width in (1440, 1024, 390):
+        page.set_viewport_size({"width": width, "height": 900})
+        page.goto((site / "pictures" / "index.html").as_uri())
+        shown = page.evaluate(
+            "[...document.querySelectorAll('.sphx-glr-thumbcontainer img')].map(each => each.clientWidth)"
+        )
+        assert len(shown) >= 8
+        assert min(shown) >= 220
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
@@ -28,7 +29,7 @@ from loiter.cli.numbers import (
     turn_name,
     turn_rate,
 )
-from loiter.errors import InvalidArgument, positive
+from loiter.errors import InvalidArgument, RadiusTooSmall, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
 from loiter.geo.frame import degrees_of
 from loiter.geo.placed import PlacedProblem
@@ -630,6 +631,16 @@ def _places_remark(start: StartOptions, frame: LocalFrame | None) -> str:
         return ""
     lat, lon, _ = start.pose_lla
     return f"Start {degrees_of(lat, lon)}, circle {degrees_of(frame.latitude_deg, frame.longitude_deg)}."
+
+
+@contextmanager
+def fit_proposed() -> Iterator[None]:
+    """Add to the refusal of a circle that cannot be held that `--fit` plans for one that can."""
+    try:
+        yield
+    except RadiusTooSmall as error:
+        r = error.fitted_radius_m
+        raise RadiusTooSmall(f"{error}; --fit plans for {r:.4g} m", r) from error
 
 
 def _fit_remark(asked: Orbit, planned: Orbit) -> str:

@@ -29,6 +29,7 @@ from loiter.cli.options import (
     WatchedAircraftOptions,
     WindOptions,
     fence_check,
+    fit_proposed,
     output,
     read_options,
 )
@@ -173,7 +174,8 @@ def _plan_mission(
     along_path = waypoints.along_path
     (problem, frame), remark = read_options(pose, circle, uav, air, fit=fit, datum=datum)
     assert frame is not None  # both places are in degrees
-    best = fastest(problem)
+    with fit_proposed():
+        best = fastest(problem)
     to_mission = partial(
         loiter.io.mission,
         best,

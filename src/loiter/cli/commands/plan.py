@@ -21,6 +21,7 @@ from loiter.cli.options import (
     StartOptions,
     WindOptions,
     fence_check,
+    fit_proposed,
     missions,
     output,
     read_options,
@@ -116,7 +117,8 @@ def plan(
     pictures.check()
     _check_formats(save)
     along_path = any(map(is_mission, save)) and waypoints.along_path
-    best, others = best_and_others(problem)
+    with fit_proposed():
+        best, others = best_and_others(problem)
     first, *ties = best
     shown = best if all_ else [first]
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
