@@ -41,8 +41,3 @@ def test_the_room_is_there_and_documented():
         assert getattr(loiter.batch, name).__doc__
     with pytest.raises(AttributeError, match="no attribute 'fly'"):
         loiter.batch.fly  # noqa: B018
-
-
-def test_former_names_are_the_same_classes():
-    assert loiter.batch.Summary is loiter.batch.JobSummary
-    assert loiter.batch.Progress is loiter.batch.JobProgress

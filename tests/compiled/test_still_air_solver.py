@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from loiter.compiled import still_air_solver, ufuncs
 from loiter.compiled.still_air_solver import _plain_optimum
-from loiter.guidance.entry import LoiterEntry
+from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.kernel.synthesis import duration
 from loiter.planning.model import Aircraft, Orbit
 from strategies import coordinates, radii, sides

@@ -11,7 +11,7 @@ from kernel.slow_scenes import CORNERS, SLOW, VALLEYS
 from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.compiled import wind_solver
 from loiter.compiled.wind_solver import PLAIN, WindSolver
-from loiter.guidance.entry import LoiterEntry
+from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.kernel import wind_search
 
 

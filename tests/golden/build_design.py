@@ -14,7 +14,6 @@ BEGIN, END = "<!-- From the docstrings: tests/golden/build_design.py -->\n", "<!
 # From the mathematics up to the front ends.
 ORDER = ["kernel", "compiled", "planning", "arrays", "geo", "verify", "guidance", "batch", "io", "plot", "mavlink"]
 ORDER += ["web", "cli"]
-FORMER = "Former import path"
 
 
 def summary(path: Path) -> str:
@@ -24,9 +23,8 @@ def summary(path: Path) -> str:
 
 
 def table(folder: Path) -> str:
-    """The rows of a folder: its modules, but for those that only keep a former import path."""
+    """The rows of a folder: its modules."""
     rows = {path.stem: summary(path) for path in sorted(folder.glob("*.py")) if path.name != "__init__.py"}
-    rows = {name: text for name, text in rows.items() if not text.startswith(FORMER)}
     lines = [f"| `{name}.py` | {text} |" for name, text in rows.items()]
     return "\n".join(["| | |", "|---|---|", *lines])
 

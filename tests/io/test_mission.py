@@ -12,7 +12,7 @@ from earth import FRAME, SCENES, UAV, apart_m, at_time, entry, off_lines, on_ear
 from loiter import Orbit, Pose, Turn, plan
 from loiter.errors import InvalidArgument, OutOfRange
 from loiter.geo import LocalFrame
-from loiter.io import Autopilot, Command, Frame, mission
+from loiter.io import Autopilot, Frame, MavCommand, mission
 from loiter.io.maps.track import step_counts, vertices
 from loiter.io.missions.mission import BEND_PER_M, MAX_ITEMS
 from loiter.io.missions.signs import circle
@@ -31,7 +31,7 @@ def test_waypoints_along_the_path_lie_on_the_track_and_the_loiter_on_the_centre(
     times = vertices(m, step_counts(m, None, 1.0, BEND_PER_M)).time_s[1:]
     assert len(times) == len(waypoints)
     for item, time in zip(waypoints, times, strict=True):
-        assert (item.command, item.frame, item.params) == (Command.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0,) * 4)
+        assert (item.command, item.frame, item.params) == (MavCommand.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0,) * 4)
         assert (item.altitude_m, item.autocontinue) == (600.0, True)
         place = on_earth(frame, *at_time(m, time)[:2])[:2]
         assert apart_m((item.latitude_deg, item.longitude_deg), place) < 1e-6
@@ -39,7 +39,7 @@ def test_waypoints_along_the_path_lie_on_the_track_and_the_loiter_on_the_centre(
 
 
 def check_loiter(loiter, m, frame):
-    assert (loiter.command, loiter.frame, loiter.altitude_m) == (Command.NAV_LOITER_UNLIM, Frame.ABOVE_SEA, 600.0)
+    assert (loiter.command, loiter.frame, loiter.altitude_m) == (MavCommand.NAV_LOITER_UNLIM, Frame.ABOVE_SEA, 600.0)
     assert circle(loiter.command, loiter.params) == (m.orbit.radius_m, m.turn)
     centre = on_earth(frame, m.orbit.east_m, m.orbit.north_m)[:2]
     assert apart_m((loiter.latitude_deg, loiter.longitude_deg), centre) < 1e-6
@@ -68,7 +68,7 @@ def test_a_mission_is_a_loiter_and_at_most_the_point_of_joining(name):
     check_loiter(loiter, m, frame)
     assert len(waypoints) == STRAIGHT[name]
     for item in waypoints:
-        assert (item.command, item.frame, item.altitude_m) == (Command.NAV_WAYPOINT, Frame.ABOVE_SEA, 600.0)
+        assert (item.command, item.frame, item.altitude_m) == (MavCommand.NAV_WAYPOINT, Frame.ABOVE_SEA, 600.0)
         join = on_earth(frame, m.join.east_m, m.join.north_m)[:2]
         assert apart_m((item.latitude_deg, item.longitude_deg), join) < 1e-6
 

@@ -14,7 +14,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from earth import SCENES, entry
 from loiter.errors import InvalidArgument
-from loiter.io import AltitudeDatum, Autopilot, Command, Frame, Mission, MissionItem, mission, read_mission, save
+from loiter.io import AltitudeDatum, Autopilot, Frame, MavCommand, Mission, MissionItem, mission, read_mission, save
 from loiter.io.missions.qgcplan import qgcplan
 from loiter.io.missions.wpl import wpl
 from loiter.io.reading import MAX_BYTES, Source
@@ -102,7 +102,7 @@ def test_mavsdk_reads_the_waypoints(peer, tmp_path, name, ending):
     expected = mission(m, frame, 600.0)
     check_sent(sent, expected.items, homes=1 + int(autopilot == Autopilot.ARDUPILOT))
     check_place(sent[0], *expected.home[:2])
-    assert (sent[0].current, sent[0].command, sent[0].z) == (1, Command.NAV_WAYPOINT, 600.0)
+    assert (sent[0].current, sent[0].command, sent[0].z) == (1, MavCommand.NAV_WAYPOINT, 600.0)
 
 
 @pytest.mark.parametrize("name", SCENES)

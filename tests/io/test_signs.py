@@ -10,7 +10,7 @@ from pymavlink.dialects.v20 import all as mavlink
 
 from loiter import Turn
 from loiter.errors import InvalidArgument
-from loiter.io import Autopilot, Command, Frame
+from loiter.io import Autopilot, Frame, MavCommand
 from loiter.io.missions.signs import COMMANDS, RADIUS_PARAMETERS, circle, radius_and_turn, signed_radius_m, with_circle
 
 DEFINITIONS = mavlink.enums["MAV_CMD"]
@@ -18,7 +18,7 @@ ONE_WAY = st.sampled_from([Turn.CW, Turn.CCW])
 RADII = st.floats(1e-3, 1e6)
 
 
-@pytest.mark.parametrize("command", Command)
+@pytest.mark.parametrize("command", MavCommand)
 def test_commands_have_the_names_and_numbers_of_mavlink(command):
     assert DEFINITIONS[command].name == f"MAV_CMD_{command.name}"
 
@@ -71,14 +71,14 @@ def test_every_command_that_mavlink_gives_a_loiter_radius_with_a_sign_is_in_the_
 @pytest.mark.parametrize(
     ("command", "turn", "expected"),
     [
-        (Command.NAV_LOITER_UNLIM, Turn.CW, (7.0, 7.0, 80.0, 7.0)),
-        (Command.NAV_LOITER_UNLIM, Turn.CCW, (7.0, 7.0, -80.0, 7.0)),
-        (Command.NAV_LOITER_TURNS, Turn.CCW, (7.0, 7.0, -80.0, 7.0)),
-        (Command.NAV_LOITER_TIME, Turn.CCW, (7.0, 7.0, -80.0, 7.0)),
-        (Command.NAV_LOITER_TO_ALT, Turn.CCW, (7.0, -80.0, 7.0, 7.0)),
-        (Command.DO_ORBIT, Turn.CCW, (-80.0, 7.0, 7.0, 7.0)),
-        (Command.DO_REPOSITION, Turn.CW, (7.0, 7.0, 80.0, 0.0)),
-        (Command.DO_REPOSITION, Turn.CCW, (7.0, 7.0, 80.0, 1.0)),
+        (MavCommand.NAV_LOITER_UNLIM, Turn.CW, (7.0, 7.0, 80.0, 7.0)),
+        (MavCommand.NAV_LOITER_UNLIM, Turn.CCW, (7.0, 7.0, -80.0, 7.0)),
+        (MavCommand.NAV_LOITER_TURNS, Turn.CCW, (7.0, 7.0, -80.0, 7.0)),
+        (MavCommand.NAV_LOITER_TIME, Turn.CCW, (7.0, 7.0, -80.0, 7.0)),
+        (MavCommand.NAV_LOITER_TO_ALT, Turn.CCW, (7.0, -80.0, 7.0, 7.0)),
+        (MavCommand.DO_ORBIT, Turn.CCW, (-80.0, 7.0, 7.0, 7.0)),
+        (MavCommand.DO_REPOSITION, Turn.CW, (7.0, 7.0, 80.0, 0.0)),
+        (MavCommand.DO_REPOSITION, Turn.CCW, (7.0, 7.0, 80.0, 1.0)),
     ],
 )
 def test_circles_as_they_are_sent(command, turn, expected):
@@ -102,7 +102,7 @@ def test_the_parameters_of_both_autopilots_are_there():
 
 @pytest.mark.parametrize("direction", [0.0, nan])
 def test_a_reposition_without_a_direction_is_clockwise(direction):
-    assert circle(Command.DO_REPOSITION, (-1.0, 1.0, 80.0, direction)) == (80.0, Turn.CW)
+    assert circle(MavCommand.DO_REPOSITION, (-1.0, 1.0, 80.0, direction)) == (80.0, Turn.CW)
 
 
 @pytest.mark.parametrize("radius_m", [0.0, -0.0, nan, inf])
@@ -116,10 +116,10 @@ def test_no_radius_is_no_circle(command, radius_m):
 
 def test_a_reposition_takes_no_negative_radius():
     with pytest.raises(InvalidArgument, match=r"^radius is -80: the command DO_REPOSITION takes no negative one$"):
-        circle(Command.DO_REPOSITION, (-1.0, 1.0, -80.0, 0.0))
+        circle(MavCommand.DO_REPOSITION, (-1.0, 1.0, -80.0, 0.0))
 
 
-@pytest.mark.parametrize("command", [Command.NAV_WAYPOINT, 22, 0])
+@pytest.mark.parametrize("command", [MavCommand.NAV_WAYPOINT, 22, 0])
 def test_other_commands_fly_no_circle(command):
     sentence = rf"^command is {int(command)}: it flies no circle; NAV_LOITER_UNLIM, .* do$"
     with pytest.raises(InvalidArgument, match=sentence):

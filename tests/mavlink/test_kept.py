@@ -2,7 +2,7 @@
 
 import pytest
 
-from loiter.io.missions.items import Autopilot, Command, Frame, Mission, MissionItem
+from loiter.io.missions.items import Autopilot, Frame, MavCommand, Mission, MissionItem
 from loiter.mavlink.connection.link import Vehicle
 from loiter.mavlink.missions.stored_items import decode, differences, encode
 
@@ -11,20 +11,20 @@ HOME = (47.0, 8.0, 400.0)
 
 # Vehicle, command, parameters sent, parameters kept: AP_Mission's bytes and bits, and what PX4 has a use for.
 KEPT = [
-    (PLANE, Command.NAV_WAYPOINT, (7.5, 30.5, 41.75, 90.0), (0.0, 30.0, 41.0, 0.0)),
-    (PLANE, Command.NAV_WAYPOINT, (7.5, 300.5, 256.0, 90.0), (0.0, 255.0, 255.0, 0.0)),
-    (PLANE, Command.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, 90.0), (0.0, 0.0, -80.0, 0.0)),
-    (PLANE, Command.NAV_LOITER_TURNS, (2.5, 3.5, -80.5, 0.5), (2.0, 0.0, -80.0, 1.0)),
-    (PLANE, Command.NAV_LOITER_TURNS, (300.5, 3.5, 1234.0, -0.5), (255.0, 0.0, 1230.0, 0.0)),
-    (PLANE, Command.NAV_LOITER_TIME, (60.5, 3.5, -80.5, 0.5), (60.0, 0.0, -1.0, 1.0)),
-    (PLANE, Command.NAV_LOITER_TIME, (60.5, 3.5, 0.0, -0.5), (60.0, 0.0, 1.0, 0.0)),
-    (PLANE, Command.NAV_LOITER_TO_ALT, (0.5, -80.5, 3.5, 0.5), (0.0, -80.0, 0.0, 1.0)),
-    (PX4, Command.NAV_WAYPOINT, (7.5, 30.5, 41.75, -90.0), (7.5, 30.5, 0.0, 270.0)),
-    (PX4, Command.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, -90.0), (0.0, 0.0, -80.5, 270.0)),
-    (PX4, Command.NAV_LOITER_TIME, (60.5, 0.5, -80.5, 0.5), (60.5, 1.0, -80.5, 1.0)),
-    (PX4, Command.NAV_LOITER_TIME, (60.5, -0.5, 80.5, -0.5), (60.5, 0.0, 80.5, 0.0)),
-    (PX4, Command.NAV_LOITER_TO_ALT, (0.5, 80.5, 3.5, 0.5), (1.0, 80.5, 0.0, 1.0)),
-    (PX4, Command.NAV_LOITER_TO_ALT, (-0.5, 80.5, 3.5, -0.5), (0.0, 80.5, 0.0, 0.0)),
+    (PLANE, MavCommand.NAV_WAYPOINT, (7.5, 30.5, 41.75, 90.0), (0.0, 30.0, 41.0, 0.0)),
+    (PLANE, MavCommand.NAV_WAYPOINT, (7.5, 300.5, 256.0, 90.0), (0.0, 255.0, 255.0, 0.0)),
+    (PLANE, MavCommand.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, 90.0), (0.0, 0.0, -80.0, 0.0)),
+    (PLANE, MavCommand.NAV_LOITER_TURNS, (2.5, 3.5, -80.5, 0.5), (2.0, 0.0, -80.0, 1.0)),
+    (PLANE, MavCommand.NAV_LOITER_TURNS, (300.5, 3.5, 1234.0, -0.5), (255.0, 0.0, 1230.0, 0.0)),
+    (PLANE, MavCommand.NAV_LOITER_TIME, (60.5, 3.5, -80.5, 0.5), (60.0, 0.0, -1.0, 1.0)),
+    (PLANE, MavCommand.NAV_LOITER_TIME, (60.5, 3.5, 0.0, -0.5), (60.0, 0.0, 1.0, 0.0)),
+    (PLANE, MavCommand.NAV_LOITER_TO_ALT, (0.5, -80.5, 3.5, 0.5), (0.0, -80.0, 0.0, 1.0)),
+    (PX4, MavCommand.NAV_WAYPOINT, (7.5, 30.5, 41.75, -90.0), (7.5, 30.5, 0.0, 270.0)),
+    (PX4, MavCommand.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, -90.0), (0.0, 0.0, -80.5, 270.0)),
+    (PX4, MavCommand.NAV_LOITER_TIME, (60.5, 0.5, -80.5, 0.5), (60.5, 1.0, -80.5, 1.0)),
+    (PX4, MavCommand.NAV_LOITER_TIME, (60.5, -0.5, 80.5, -0.5), (60.5, 0.0, 80.5, 0.0)),
+    (PX4, MavCommand.NAV_LOITER_TO_ALT, (0.5, 80.5, 3.5, 0.5), (1.0, 80.5, 0.0, 1.0)),
+    (PX4, MavCommand.NAV_LOITER_TO_ALT, (-0.5, 80.5, 3.5, -0.5), (0.0, 80.5, 0.0, 0.0)),
 ]
 
 
@@ -52,7 +52,7 @@ def test_what_is_kept_is_expected_and_any_other_parameter_is_not(vehicle, comman
 # MAV_FRAME: GLOBAL, GLOBAL_RELATIVE_ALT, GLOBAL_TERRAIN_ALT, and each with INT.
 @pytest.mark.parametrize(("frame", "twin"), [(0, 5), (3, 6), (10, 11)])
 def test_px4_answers_in_the_frame_whose_name_ends_in_int(frame, twin):
-    sent = sent_to(PX4, Command.NAV_WAYPOINT, (0.0, 0.0, 0.0, 0.0), Frame(frame))
+    sent = sent_to(PX4, MavCommand.NAV_WAYPOINT, (0.0, 0.0, 0.0, 0.0), Frame(frame))
     back = [sent[0]._replace(frame=twin)]
     assert differences(sent, back, PX4) == ([], [])
     (item,) = decode(back, PX4).items
@@ -60,7 +60,7 @@ def test_px4_answers_in_the_frame_whose_name_ends_in_int(frame, twin):
 
 
 def test_items_without_a_place_keep_their_parameters_in_px4():
-    sent = sent_to(PX4, Command.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, -90.0), Frame.NOWHERE)
+    sent = sent_to(PX4, MavCommand.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, -90.0), Frame.NOWHERE)
     kept = [sent[0]._replace(params=(0.0, 0.0, -80.5, 270.0))]
     assert len(differences(sent, kept, PX4)[0]) == 3
     assert differences(sent, sent, PX4) == ([], [])

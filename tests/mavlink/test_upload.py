@@ -9,7 +9,7 @@ import time
 import pytest
 
 from loiter.errors import InvalidArgument, LinkFailed
-from loiter.io.missions.items import Command, Frame, Mission, MissionItem
+from loiter.io.missions.items import Frame, MavCommand, Mission, MissionItem
 from loiter.mavlink import download, upload
 from loiter.mavlink.missions import transfer
 from loiter.mavlink.missions.exchange import TIMEOUT_S
@@ -606,7 +606,7 @@ def test_an_item_without_a_place_goes_as_it_is():
 
 def test_a_parameter_may_be_the_autopilots_own():
     nan = float("nan")
-    new = Mission((MissionItem(Command.NAV_WAYPOINT, 0, (0.0, 0.0, 0.0, nan), 47.0, 8.0, 500.0),), NEW.home)
+    new = Mission((MissionItem(MavCommand.NAV_WAYPOINT, 0, (0.0, 0.0, 0.0, nan), 47.0, 8.0, 500.0),), NEW.home)
     with flying(Vehicle()) as vehicle:
         assert upload(new, vehicle.connection, system=1).cut == ()
 

@@ -17,7 +17,7 @@ import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from loiter.errors import LinkFailed
-from loiter.io.missions.items import Command, Frame, Mission, MissionItem
+from loiter.io.missions.items import Frame, MavCommand, Mission, MissionItem
 from loiter.io.missions.signs import with_circle
 from loiter.mavlink.connection import command, link, parameters
 from loiter.mavlink.missions import start, transfer
@@ -51,9 +51,9 @@ def mission(turn="cw", waypoints=4, radius_m=80.0):
     """A mission to send: waypoints and a loiter that ArduPilot and PX4 keep to the last bit."""
     none = (0.0, 0.0, 0.0, 0.0)
     places = [(47.0 + i * 1.23e-4, 8.0 - i * 3.21e-5, 500.0 + 0.5 * i) for i in range(waypoints)]
-    loiter = with_circle(Command.NAV_LOITER_UNLIM, none, radius_m, turn)
-    items = [MissionItem(Command.NAV_WAYPOINT, Frame.ABOVE_SEA, none, *place) for place in places]
-    last = MissionItem(Command.NAV_LOITER_UNLIM, Frame.ABOVE_SEA, loiter, 47.001, 8.002, 510.0)
+    loiter = with_circle(MavCommand.NAV_LOITER_UNLIM, none, radius_m, turn)
+    items = [MissionItem(MavCommand.NAV_WAYPOINT, Frame.ABOVE_SEA, none, *place) for place in places]
+    last = MissionItem(MavCommand.NAV_LOITER_UNLIM, Frame.ABOVE_SEA, loiter, 47.001, 8.002, 510.0)
     return Mission((*items, last), (47.0, 8.0, 400.0))
 
 

@@ -21,12 +21,10 @@ if TYPE_CHECKING:
     from loiter.batch.jobs import job
     from loiter.batch.jobs.job import JobProgress as JobProgress
     from loiter.batch.jobs.job import JobSummary as JobSummary
-    from loiter.batch.jobs.job import Progress as Progress
-    from loiter.batch.jobs.job import Summary as Summary
 else:
     job = LazyModule("loiter.batch.jobs.job")
 
-__all__ = ["JobProgress", "JobSummary", "Progress", "Summary", "plan", "run"]
+__all__ = ["JobProgress", "JobSummary", "plan", "run"]
 
 
 def run(
@@ -136,6 +134,6 @@ def _need_packages(*names: str) -> None:
 
 def __getattr__(name: str) -> Any:
     # The module of these classes needs pyarrow.
-    if name in {"JobProgress", "JobSummary", "Progress", "Summary"}:
+    if name in {"JobProgress", "JobSummary"}:
         return getattr(import_module("loiter.batch.jobs.job"), name)
     raise AttributeError(f"module 'loiter.batch' has no attribute {name!r}")

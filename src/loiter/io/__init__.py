@@ -1,10 +1,10 @@
 """Write maneuvers as files for maps, ground stations and autopilots; read missions and parameter files."""
 
 from loiter.io.files import FORMATS, check_format, read_mission, save
-from loiter.io.mission import mission
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
 from loiter.io.missions.fence import Fence, FenceCheck, FenceCircle, FencePolygon
-from loiter.io.missions.items import Autopilot, Command, Frame, MavCommand, Mission, MissionItem
+from loiter.io.missions.items import Autopilot, Frame, MavCommand, Mission, MissionItem
+from loiter.io.missions.mission import mission
 from loiter.io.missions.parameters import Preset, read_parameters
 from loiter.io.missions.site import MissionCircle, Site, read_site
 
@@ -14,7 +14,6 @@ __all__ = [
     "AltitudeDatum",
     "AltitudeReference",
     "Autopilot",
-    "Command",
     "Fence",
     "FenceCheck",
     "FenceCircle",

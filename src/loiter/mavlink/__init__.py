@@ -2,7 +2,7 @@
 
 from loiter.mavlink.guiding.guide import guide
 from loiter.mavlink.guiding.report import GuideReport, Stage
-from loiter.mavlink.missions.exchange import MissionSummary, Summary, download, upload
+from loiter.mavlink.missions.exchange import MissionSummary, download, upload
 from loiter.mavlink.watching.telemetry import WindSource
 from loiter.mavlink.watching.watch import Report, watch
 
@@ -11,7 +11,6 @@ __all__ = [
     "MissionSummary",
     "Report",
     "Stage",
-    "Summary",
     "WindSource",
     "download",
     "guide",

@@ -63,10 +63,6 @@ class JobSummary:
     first_malformed: str = ""
 
 
-# The former names, which stay public.
-Progress = JobProgress
-Summary = JobSummary
-
 ReportProgress = Callable[[JobProgress], object]
 
 

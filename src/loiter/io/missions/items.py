@@ -47,10 +47,6 @@ class MavCommand(IntEnum):
     DO_REPOSITION = 192
 
 
-# The public name.
-Command = MavCommand
-
-
 class MissionItem(NamedTuple):
     """A mission item: MAVLink's MISSION_ITEM_INT with latitude and longitude in degrees.
 

@@ -57,10 +57,6 @@ class MissionSummary:
     started: bool = False
 
 
-# The former name, which stays public.
-Summary = MissionSummary
-
-
 class Position:
     """The position of a vehicle from its last GLOBAL_POSITION_INT: `place` is latitude and longitude in 1e-7 degrees.
 
