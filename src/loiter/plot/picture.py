@@ -43,8 +43,8 @@ FAINT = "#b0b0b0"
 # The slower maneuvers are bands below the path, the slower the wider and the paler, so that each can be followed from
 # the start, also where it shares its first turn with others. Hues show the turns.
 SLOWER: tuple[dict[str, Any], ...] = (
-    {"color": "#b2b2b2", "linewidth": 4.4, "zorder": 1.2},
-    {"color": "#dcdcdc", "linewidth": 7.6, "zorder": 1.1},
+    {"color": "#b2b2b2", "linewidth": 4.4, "zorder": 1.2, "solid_capstyle": "butt"},
+    {"color": "#dcdcdc", "linewidth": 7.6, "zorder": 1.1, "solid_capstyle": "butt"},
 )
 AT_THE_START: dict[str, Any] = {"color": FAINT, "linewidth": 1.2, "linestyle": "--"}
 
@@ -133,7 +133,7 @@ def _draw_panel(
     first, *_ = best
     prepare_plan(axes)
     for maneuver, style in zip(slower, SLOWER, strict=False):
-        axes.plot(*_track(maneuver), **style, solid_capstyle="butt", gid=f"slower {maneuver.turn}")
+        axes.plot(*_track(maneuver), **style, gid=f"slower {maneuver.turn}")
     if first.orbit.moves:
         _draw_movement(axes, first)
     draw_circle(axes, first.orbit_at_join)
