@@ -193,14 +193,19 @@ def test_the_headline_says_word_direction_time_and_distance(shown):
 
 def test_where_to_peel_off(shown):
     text = shown(f"plan {FAR} --turn cw")
-    later = re.search(r"^Peel off: turn left in ([\d.]+) s, ([\d.]+) m from the centre\.$", text, re.MULTILINE)
-    assert [float(value) for value in later.groups()] == pytest.approx([16.650, 118.109], abs=0.06)
+    later = re.search(
+        r"^Peel off: turn left in (\S+) s, (\S+) m from the centre, at (\S+) m east, (\S+) m north\.$", text, re.M
+    )
+    _, distance, east, north = found = [float(value) for value in later.groups()]
+    assert found == pytest.approx([16.650, 118.109, -112.963, 34.475], abs=0.06)
+    assert distance == pytest.approx(hypot(east, north), abs=0.1)
 
 
 def test_on_the_last_arc_already_the_aircraft_peels_off_now(shown):
     text = shown("plan --pose -40 120 180 --orbit 0 0 80 --turn cw --airspeed 18 --turn-radius 40")
-    now = re.search(r"^Peel off: turn left now, ([\d.]+) m from the centre\.$", text, re.MULTILINE)
+    now = re.search(r"^Peel off: turn left now, (\S+) m from the centre, at (.*)\.$", text, re.MULTILINE)
     assert float(now[1]) == pytest.approx(hypot(40, 120), abs=0.06)
+    assert now[2] == "-40.0 m east, 120.0 m north"
 
 
 @pytest.mark.parametrize(

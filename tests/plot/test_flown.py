@@ -34,9 +34,64 @@ def test_tracks_bank_and_time_to_join_are_those_of_the_flights(flights):
         assert np.array_equal(line(tracks, f"track {name}"), [flight.track.east_m, flight.track.north_m])
         time_s = flight.track.time_s - flight.track.time_s[0]
         assert np.array_equal(line(bank, f"bank {name}"), [time_s, flight.track.bank_deg])
-        assert np.array_equal(line(join, f"join {name}"), [time_s, flight.track.time_to_join_s], equal_nan=True)
         [east], [north] = line(tracks, f"settled {name}")
         assert np.hypot(east, north) == pytest.approx(80.0, rel=0.05)
+    track = flights["optimal"].track
+    assert np.array_equal(line(join, "join optimal"), [track.elapsed_s, track.time_to_join_s], equal_nan=True)
+
+
+def test_laws_that_predict_no_time_to_join_are_named(flights):
+    """Such a law reports 0 on the circle, which is no countdown."""
+    _, _, join = draw(TRIAL.ideal, flights).axes
+    assert [line.get_gid() for line in join.get_lines()] == ["join optimal"]
+    assert [text.get_text() for text in join.texts] == ["not predicted by l1"]
+    _, _, join = draw(TRIAL.ideal, {"optimal": flights["optimal"]}).axes
+    assert not join.texts
+
+
+def test_the_legend_has_a_dot_for_each_law_that_settled(flights):
+    legend = draw(TRIAL.ideal, flights).axes[0].get_legend()
+    labels = [text.get_text() for text in legend.get_texts()]
+    laws = [f"{name}: settled in {flight.settled_s:.1f} s (dot)" for name, flight in flights.items()]
+    assert labels == ["fastest entry", "holding circle", *laws]
+    assert [handle.get_marker() for handle in legend.legend_handles] == ["None", "None", "o", "o"]
+
+
+def test_an_arrow_on_each_track_and_four_on_the_circle_point_the_way_flown(flights):
+    axes = draw(TRIAL.ideal, flights).axes[0]
+    for name, flight in flights.items():
+        [arrow] = [text for text in axes.texts if text.get_gid() == f"direction {name}"]
+        east, north = np.array(arrow.xy) - np.array(arrow.xyann)
+        i = np.argmin(np.hypot(flight.track.east_m - arrow.xy[0], flight.track.north_m - arrow.xy[1]))
+        assert 0.0 < flight.track.elapsed_s[i] < flight.joined_s
+        assert east * flight.track.velocity_east_m_s[i] + north * flight.track.velocity_north_m_s[i] > 0.0
+    assert len([text for text in axes.texts if text.get_gid() == f"held {TRIAL.ideal.turn}"]) == 4
+    [start] = [mark for mark in axes.get_lines() if mark.get_gid() == "start"]
+    assert np.allclose(start.get_xydata(), [[-300.0, 120.0]])
+
+
+def test_from_far_away_a_panel_enlarges_the_circle():
+    ideal = plan(Pose(-4000.0, 120.0, 90.0), TRIAL.ideal.orbit, TRIAL.ideal.aircraft)
+    setting, far = settings.kinematic_setting(), Trial(ideal, 1)
+    flight = fly(setting.laws["optimal"](far), setting.simulator(far), ideal.orbit)
+    figure = draw(ideal, {"optimal": flight})
+    tracks, circle, _, _ = figure.axes
+    (west, east), (south, north) = circle.get_xlim(), circle.get_ylim()
+    assert west < -80.0 < 80.0 < east < 200.0
+    assert south < -80.0 < 80.0 < north < 200.0
+    for axes, expected in ((tracks, []), (circle, ["settled optimal"])):
+        assert [mark.get_gid() for mark in axes.get_lines() if str(mark.get_gid()).startswith("settled")] == expected
+    assert figure.get_suptitle().startswith("Law optimal in closed loop\n")
+    assert tracks.get_legend().legend_handles[-1].get_marker() == "o"
+
+
+def test_a_start_on_the_circle_has_no_fastest_entry_in_the_legend():
+    ideal = plan(Pose(80.0, 0.0, 180.0), Orbit(0.0, 0.0, 80.0), TRIAL.ideal.aircraft)
+    setting, on_circle = settings.kinematic_setting(), Trial(ideal, 1)
+    flight = fly(setting.laws["optimal"](on_circle), setting.simulator(on_circle), ideal.orbit)
+    axes = draw(ideal, {"optimal": flight}).axes[0]
+    assert not [artist for artist in axes.get_lines() if artist.get_gid() == "ideal"]
+    assert axes.get_legend().get_texts()[0].get_text() == "holding circle"
 
 
 def test_the_fastest_entry_lies_beneath(flights):
@@ -49,7 +104,11 @@ def test_who_has_not_settled_is_said_so():
     setting = settings.kinematic_setting()
     short = fly(setting.laws["l1"](TRIAL), setting.simulator(TRIAL), TRIAL.ideal.orbit, limit_s=1.0)
     axes = draw(TRIAL.ideal, {"l1": short}).axes[0]
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["fastest entry", "l1: not settled"]
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == [
+        "fastest entry",
+        "holding circle",
+        "l1: not settled",
+    ]
     assert not [artist for artist in axes.get_lines() if artist.get_gid() == "settled l1"]
 
 

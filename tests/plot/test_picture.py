@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from itertools import pairwise
 from math import cos, hypot, radians, sin
 
 import numpy as np
@@ -11,6 +12,7 @@ from matplotlib.colors import same_color, to_rgb
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan_all
 from loiter.geo import LocalFrame
 from loiter.plot.picture import draw
+from loiter.plot.sizes import resize
 from planning.flying import fly
 
 UAV, UNIT = Aircraft(18.0, max_bank_deg=35.0), Aircraft(1.0, min_turn_radius_m=1.0)
@@ -163,16 +165,33 @@ def test_each_letter_has_its_colour_and_the_legend_tells_it():
     assert len({to_rgb(line.get_color()) for line in segment_lines(axes)}) == 3
 
 
+def track_size(line):
+    return np.ptp(points(line), axis=0).max()
+
+
 @each_scene
-def test_an_arrow_on_each_segment_points_the_way_flown(scene):
-    axes, [best], _ = drawn(scene)
-    arrows = [arrow for arrow in axes.texts if arrow.arrowprops and arrow.arrowprops["color"] != "black"]
-    assert len(arrows) == len(best.segments)
-    for arrow, line in zip(arrows, segment_lines(axes), strict=True):
+def test_an_arrow_on_each_segment_but_the_shortest_points_the_way_flown(scene):
+    axes, _, _ = drawn(scene)
+    shown = np.vstack([points(line) for line in axes.lines])
+    lines = [line for line in segment_lines(axes) if track_size(line) > 0.05 * np.ptp(shown, axis=0).max()]
+    arrows = [arrow for arrow in axes.texts if (arrow.get_gid() or "").startswith("arrow")]
+    assert len(lines) <= len(arrows) <= len(segment_lines(axes))
+    for line in lines:
+        [arrow] = [arrow for arrow in arrows if np.hypot(*(points(line) - arrow.xy).T).min() < 1e-9 * size(scene)]
         tail, head = np.array(arrow.xyann), np.array(arrow.xy)
         nearest = int(np.argmin(np.hypot(*(points(line) - head).T)))
         before, after = points(line)[max(nearest - 1, 0)], points(line)[min(nearest + 1, len(points(line)) - 1)]
         assert (head - tail) @ (after - before) > 0.0
+
+
+def test_a_segment_shorter_than_its_arrow_has_none():
+    axes = draw(plan_all(*FAR)[:1]).axes[0]
+    first, *_ = segment_lines(axes)
+    assert track_size(first) < 480.0 / 30.0
+    assert [arrow.get_gid() for arrow in axes.texts if (arrow.get_gid() or "").startswith("arrow")] == [
+        "arrow S",
+        "arrow L",
+    ]
 
 
 # Marks
@@ -230,20 +249,43 @@ def test_arrows_on_the_circle_point_the_way_it_is_held(scene, everything):
     assert set(senses) == {maneuver.turn.value for maneuver in best}
 
 
+@pytest.mark.parametrize("size_mm", [(203.0, 163.0), (84.0, 70.0), (174.0, 60.0)])
 @each_scene
-def test_the_scale_bar_is_as_long_as_it_says_and_north_is_up(scene):
+def test_the_scale_bar_is_as_long_as_it_says_and_hides_nothing(scene, size_mm):
     axes, _, _ = drawn(scene)
-    axes.figure.draw_without_rendering()
-    [bar] = [artist for artist in axes.artists if artist.get_gid() == "scale"]
-    box = bar.size_bar.get_children()[0]
-    assert box.get_linewidth() == 0.0
-    number, unit = bar.txt_label.get_text().split()
-    assert box.get_width() == pytest.approx(float(number) * {"m": 1.0, "km": 1000.0}[unit], rel=1e-9)
+    figure = axes.figure
+    resize(figure, *size_mm)
+    figure.draw_without_rendering()
+    [bar] = artists(axes, "scale")
+    number, unit = bar.label.get_text().split()
+    assert bar.bar.get_linewidth() == 0.0
+    assert bar.bar.get_width() == pytest.approx(float(number) * {"m": 1.0, "km": 1000.0}[unit], rel=1e-9)
     west, east = axes.get_xlim()
-    assert 0.04 < box.get_width() / (east - west) < 0.4
-    [north] = [arrow for arrow in axes.texts if arrow.get_gid() == "north"]
+    assert 0.04 < bar.bar.get_width() / (east - west) <= 0.2
+    assert bar.bar.get_window_extent().height * 72.0 / figure.dpi == pytest.approx(2.5, rel=0.02)
+    box = bar.get_window_extent()
+    assert 0.0 <= box.y0 < box.y1 < axes.bbox.y0
+    assert axes.xaxis.label.get_window_extent().x1 < box.x0 < box.x1 <= figure.bbox.x1
+    ticks = [label.get_window_extent() for label in axes.get_xticklabels() if label.get_text()]
+    assert not any(box.overlaps(tick) for tick in ticks)
+
+
+@pytest.mark.parametrize("size_mm", [(203.0, 163.0), (84.0, 70.0), (84.0, 84.0), (174.0, 60.0)])
+@pytest.mark.parametrize("scene", [FAR, ON_CIRCLE], ids=["two lines", "one line"])
+def test_the_north_arrow_points_north_and_is_whole(scene, size_mm):
+    """Also where the title, which gives the arrow its room, has one line only."""
+    axes, _, _ = drawn(scene)
+    figure = axes.figure
+    resize(figure, *size_mm)
+    figure.draw_without_rendering()
+    [north] = artists(axes, "north")
+    assert north.get_text() == "N"
     assert north.xy[0] == north.xyann[0]
     assert north.xy[1] > north.xyann[1]
+    box, arrow = north.get_window_extent(), north.arrow_patch.get_window_extent()
+    assert axes.bbox.y1 < box.y0 < arrow.y0 < arrow.y1 <= box.y1 <= figure.bbox.y1
+    assert box.x1 <= figure.bbox.x1
+    assert not box.overlaps(axes.title.get_window_extent())
 
 
 def test_the_axes_say_where_on_earth_they_begin():
@@ -262,44 +304,59 @@ def test_arrows_of_both_directions_stand_apart():
 # The losers
 
 
+def soonest(others):
+    """The soonest of each direction of holding, the sooner first."""
+    flown = sorted((m for m in others if m.segments), key=lambda m: m.duration_s)
+    return [next(m for m in flown if m.turn == turn) for turn in dict.fromkeys(m.turn for m in flown)]
+
+
+def bands(axes):
+    return [line for line in axes.lines if (line.get_gid() or "").startswith("slower")]
+
+
 @each_scene
-def test_losers_are_drawn_faint_and_below(scene):
+def test_the_soonest_loser_of_each_direction_is_a_band_from_the_start_below_the_path(scene):
     axes, [best], others = drawn(scene)
-    faint = artists(axes, "candidate")
-    assert len(faint) == len(others) > 0
-    for line, other in zip(faint, others, strict=True):
+    losers = soonest(others)
+    assert len(bands(axes)) == len(losers) > 0
+    for line, other in zip(bands(axes), losers, strict=True):
         assert points(line)[0] == place(best.start)
         assert points(line)[-1] == pytest.approx([other.join.east_m, other.join.north_m], abs=1e-9 * size(scene))
-        assert line.get_alpha() < 1.0
-        assert all(line.get_linewidth() < bold.get_linewidth() for bold in segment_lines(axes))
+        # Wider than the path above it, so that it is seen where both are the same.
+        assert all(line.get_linewidth() > bold.get_linewidth() + 1.0 for bold in segment_lines(axes))
         assert all(line.get_zorder() < bold.get_zorder() for bold in segment_lines(axes))
 
 
 @each_scene
-def test_the_soonest_losers_are_labelled_with_their_cost(scene):
-    axes, [best], others = drawn(scene)
-    labels = legend(axes)
-    for other in others[:3]:
-        cost = other.duration_s - best.duration_s
-        told = "as fast" if cost < 1e-9 else f"{cost:.3g} s later"
-        assert f"{other.word} {other.turn.value}: {told}" in labels
-    assert (f"{len(others) - 3} more, slower still" in labels) == (len(others) > 3)
+def test_the_slower_loser_is_wider_paler_and_below(scene):
+    """So it is seen, too, where both are the same."""
+    axes, _, _ = drawn(scene)
+    for sooner, later in pairwise(bands(axes)):
+        assert later.get_linewidth() > sooner.get_linewidth() + 2.0
+        assert later.get_zorder() < sooner.get_zorder()
+        assert min(to_rgb(later.get_color())) > max(to_rgb(sooner.get_color())) + 0.1
+
+
+def test_the_order_of_the_losers_does_not_matter():
+    best, *others = candidates(*LRL)
+    assert list(legend(draw([best], others).axes[0])) == list(legend(draw([best], others[::-1]).axes[0]))
 
 
 @each_scene
-def test_each_labelled_loser_has_a_line_of_its_own(scene):
-    """In the picture as in the legend; greys and dashes are told apart without seeing colours."""
-    axes, _, others = drawn(scene)
-    found = axes.get_legend()
-    labelled = [
-        (line.get_color(), line.is_dashed(), text.get_text())
-        for text, line in zip(found.get_texts(), found.get_lines(), strict=True)
-        if re.search(r" (cw|ccw): ", text.get_text())
-    ]
-    lines = [(line.get_color(), line.is_dashed()) for line in artists(axes, "candidate")]
-    assert [style[:2] for style in labelled] == lines[:3]
-    assert len({colour for colour, _ in lines[:3]}) == len(labelled) == min(3, len(others))
-    assert sum(dashed for _, dashed in lines) == max(0, len(labelled) - 1)
+def test_each_loser_is_labelled_with_its_cost_in_its_own_style(scene):
+    axes, [best], others = drawn(scene)
+    labels = legend(axes)
+    for line, other in zip(bands(axes), soonest(others), strict=True):
+        cost = other.duration_s - best.duration_s
+        entry = labels[f"{other.word} {other.turn.value}: {'as fast' if cost < 1e-9 else f'{cost:.3g} s later'}"]
+        assert (entry.get_color(), entry.get_linewidth()) == (line.get_color(), line.get_linewidth())
+
+
+def test_numbers_are_written_in_full():
+    far, soon = draw(plan_all(Pose(80000.0, 0.0, 90.0), FAR[1], UAV)), candidates(*FAR)
+    assert re.search(r"joins in \d{4} s, 8\d{4} m$", far.get_suptitle())
+    slow = replace(soon[-1], segments=tuple(replace(s, duration_s=1000.0 * s.duration_s) for s in soon[-1].segments))
+    assert any(re.search(r"(cw|ccw): \d{5} s later", label) for label in legend(draw(soon[:1], [slow]).axes[0]))
 
 
 @each_scene
@@ -312,8 +369,109 @@ def test_the_aircraft_hides_no_path(scene):
 def test_without_others_no_loser_is_drawn_or_labelled():
     best = plan_all(*FAR)
     axes = draw(best).axes[0]
-    assert artists(axes, "candidate") == []
+    assert bands(axes) == []
     assert set(legend(axes)) == {"right turn", "straight", "left turn", "holding circle", "switch", "join"}
+
+
+# The legend
+
+LABELS = {
+    "right turn": "segment R",
+    "straight": "segment S",
+    "left turn": "segment L",
+    "holding circle": "circle",
+    "circle at the start": "circle at the start",
+    "switch": "switch",
+    "join": "join",
+}
+
+
+def drawn_labels(figure):
+    """The labels of the kinds of artists that are drawn on any panel."""
+    gids = {artist.get_gid() for axes in figure.axes for artist in axes.get_children()}
+    return {label for label, gid in LABELS.items() if gid in gids}
+
+
+@pytest.mark.parametrize("everything", [False, True])
+@each_scene
+def test_the_legend_lists_what_is_drawn(scene, everything):
+    axes, best, _ = drawn(scene, everything)
+    listed = {label for label in legend(axes) if not re.search(r" (cw|ccw): ", label)}
+    assert listed == drawn_labels(axes.figure)
+    assert ("switch" in listed) == any(len(maneuver.segments) > 1 for maneuver in best)
+
+
+# Long entries
+
+LONG = {
+    "100 radii": (Pose(-8000.0, 1500.0, 300.0), Orbit(0.0, 0.0, 80.0), UAV),
+    "a large circle": (Pose(-3000.0, 1000.0, 90.0), Orbit(0.0, 0.0, 1500.0), UAV),
+    "in wind": (Pose(6000.0, 0.0, 90.0), Orbit(0.0, 0.0, 120.0), UAV, Wind(5.0, 200.0)),
+    "a circle that moves": (Pose(-6000.0, 1200.0, 350.0), Orbit(0.0, 0.0, 120.0, "either", 4.2, -4.2), UAV),
+}
+each_long_scene = pytest.mark.parametrize("scene", LONG.values(), ids=LONG)
+
+
+@each_scene
+def test_a_short_entry_has_one_panel(scene):
+    axes, _, _ = drawn(scene)
+    assert axes.figure.axes == [axes]
+
+
+@pytest.mark.parametrize("size_mm", [(203.0, 163.0), (84.0, 84.0), (174.0, 60.0)])
+@each_long_scene
+def test_a_second_panel_enlarges_the_last_turn_of_a_long_entry(scene, size_mm):
+    axes, [best], _ = drawn(scene)
+    figure = axes.figure
+    resize(figure, *size_mm)
+    figure.draw_without_rendering()
+    _, detail = figure.axes
+    *_, last = best.segments
+    *_, turn = segment_lines(detail)
+    pixels = detail.transData.transform(points(turn))
+    assert np.all((pixels > detail.bbox.min) & (pixels < detail.bbox.max))
+    [join] = artists(detail, "join")
+    assert points(join)[0] == place(best.join)
+    # A turn radius is larger than the mark of the join.
+    pixels_per_metre = detail.bbox.width / np.diff(detail.get_xlim())[0]
+    assert UAV.turn_radius_m * pixels_per_metre > join.get_markersize() * figure.dpi / 72.0
+    assert len([arrow for arrow in detail.texts if arrow.get_gid() == f"held {best.turn}"]) == 4
+    assert f"arrow {last.letter}" in [arrow.get_gid() for arrow in detail.texts]
+
+
+@each_long_scene
+def test_the_overview_frames_what_is_enlarged_and_leaves_its_marks_out(scene):
+    axes, [best], _ = drawn(scene)
+    detail = axes.figure.axes[1]
+    axes.figure.draw_without_rendering()
+    [frame] = artists(axes, "frame")
+    corners = frame.get_bbox().get_points()
+    assert corners[:, 0] == pytest.approx(detail.get_xlim())
+    assert corners[:, 1] == pytest.approx(detail.get_ylim())
+    assert artists(axes, "join") == []
+    assert not [arrow for arrow in axes.texts if (arrow.get_gid() or "").startswith("held")]
+    ends = [points(line)[[0, -1]] for line in segment_lines(axes)]
+    assert ends[0][0] == place(best.start)
+    assert ends[-1][-1] == place(best.join)
+    lines = [line for line in axes.figure.artists if line.get_gid() == "connection"]
+    assert len(lines) == 2
+
+
+@each_long_scene
+def test_a_long_entry_has_title_and_legend_once(scene):
+    axes, [best], _ = drawn(scene)
+    detail = axes.figure.axes[1]
+    assert axes.figure.get_suptitle().startswith(f"{best.word} {best.turn.described}\njoins in ")
+    assert axes.get_title() == ""
+    assert detail.get_legend() is None
+    listed = {label for label in legend(axes) if not re.search(r" (cw|ccw): ", label)}
+    assert listed == drawn_labels(axes.figure) >= {"join", "switch", "holding circle"}
+
+
+def test_a_long_entry_is_drawn_without_a_warning(caplog):
+    axes, _, _ = drawn(LONG["100 radii"])
+    axes.figure.draw_without_rendering()
+    assert not caplog.records
 
 
 # The ends of what can be drawn

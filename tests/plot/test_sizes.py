@@ -16,7 +16,7 @@ from loiter.cli.app import main
 from loiter.errors import InvalidArgument
 from loiter.plot import draw
 from loiter.plot.files import save
-from loiter.plot.sizes import LEAST_POINTS, PictureFormat, resize
+from loiter.plot.sizes import LEAST_POINTS, PictureFormat, _balanced, resize
 
 SCENE = (Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0))
 BEST, *OTHERS = candidates(*SCENE)
@@ -117,7 +117,7 @@ def test_in_a_narrow_picture_the_title_stands_above_the_wind_and_the_legend_is_w
     (axes,), (legend,) = figure.axes, figure.legends
     title = axes.title.get_window_extent()
     labels = [text for text in axes.texts if text.get_text()]
-    assert {text.get_gid() for text in labels} == {"wind label", "north label"}
+    assert {text.get_gid() for text in labels} == {"wind label", "north"}
     assert not any(text.get_window_extent().overlaps(title) for text in labels)
     assert 0.0 <= legend.get_window_extent().x0 < legend.get_window_extent().x1 <= figure.bbox.width
     assert title.y1 <= figure.bbox.height
@@ -164,3 +164,40 @@ def test_what_cannot_be_drawn_is_refused(arguments, sentence):
         PictureFormat(**arguments)
     with pytest.raises(InvalidArgument, match=sentence):
         draw(BEST, **arguments)
+
+
+def test_arrows_shrink_with_the_text():
+    """Annotations would give their arrows the old size again when they are drawn."""
+    figure = draw(BEST, OTHERS)
+    full = arrow_sizes(figure)
+    resize(figure, 84.0, 84.0)
+    assert arrow_sizes(figure) == pytest.approx([0.7 * size for size in full])
+
+
+def arrow_sizes(figure):
+    figure.draw_without_rendering()
+    return [text.arrow_patch.get_mutation_scale() for text in figure.axes[0].texts if text.arrow_patch is not None]
+
+
+@pytest.mark.parametrize("size_mm", [(84.0, 84.0), (174.0, 60.0)])
+def test_a_narrow_legend_leaves_the_axes_even_if_it_is_short(size_mm):
+    on_circle = plan(Pose(80.0, 0.0, 180.0), *SCENE[1:])
+    figure = draw(on_circle, size_mm=size_mm)
+    figure.draw_without_rendering()
+    (axes,), (legend,) = figure.axes, figure.legends
+    box = legend.get_window_extent()
+    assert axes.get_legend() is None
+    assert not box.overlaps(axes.bbox)
+    assert figure.bbox.x0 <= box.x0 < box.x1 <= figure.bbox.x1
+    assert (box.x0 > axes.bbox.x1) == (size_mm[0] > 2.0 * size_mm[1])
+
+
+def test_a_title_breaks_into_lines_of_like_length():
+    assert _balanced("Laws optimal, l1, vector-field and tangent in closed loop", 50) == [
+        "Laws optimal, l1, vector-field",
+        "and tangent in closed loop",
+    ]
+    assert _balanced("one line", 50) == ["one line"]
+    assert _balanced("", 50) == []
+    assert _balanced("of an-unbroken-word", 10) == ["of an-", "unbroken-", "word"]
+    assert max(map(len, _balanced("of anunbrokenword", 10))) <= 10

@@ -24,6 +24,15 @@ def test_the_papers_figure_4_has_its_regions_and_curves():
     assert gids(axes, "straight") == {"straight LSR RSL"}
     targets = [line.get_xydata()[0].tolist() for line in axes.lines if line.get_gid() == "target"]
     assert targets == [[0.0, 1.0], [0.0, -1.0]]
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels == [
+        "T jumps",
+        "switching curve",
+        "straight flight",
+        "two controls tie",
+        "first control the same",
+        "circle joined",
+    ]
 
 
 def test_labels_stand_in_their_regions():

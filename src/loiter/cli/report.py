@@ -212,12 +212,12 @@ def _windy(maneuver: Maneuver) -> bool:
 
 
 def peel_off(maneuver: Maneuver, frame: LocalFrame | None = None) -> str:
-    """Where the last segment begins: "Peel off: turn left in 12.4 s, 138 m from the centre."."""
+    """Where the last segment begins: "Peel off: turn left in 12.4 s, 138 m from the centre, at 9 m east, ..."."""
     *before, last = maneuver.segments
     when = f"in {_seconds(maneuver, last.start_s)}" if before else "now"
     distance = _metres(maneuver, maneuver.orbit.after(last.start_s).distance_m(last.start))
-    where = f", at {_place(maneuver, last.start, frame)}" if _windy(maneuver) or frame is not None else ""
-    return f"Peel off: {ACTIONS[last.letter]} {when}, {distance} from the centre{where}."
+    where = _place(maneuver, last.start, frame)
+    return f"Peel off: {ACTIONS[last.letter]} {when}, {distance} from the centre, at {where}."
 
 
 def other_direction(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> str:

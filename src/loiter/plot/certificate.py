@@ -32,7 +32,7 @@ def draw(certificate: Certificate) -> Figure:
         _draw_values(adjoint, pieces, name)
     if certificate.lam is not None:
         adjoint.axhline(certificate.lam, color="#808080", linestyle="--", label="λ", gid="lambda")
-        adjoint.legend(loc="best", fontsize="small")
+        adjoint.legend(loc="best", ncols=3, fontsize="small")
     for axes in (control, switching, adjoint):
         for switch in certificate.switches:
             axes.axvline(switch.time_s, color="#808080", linewidth=0.8, linestyle=":", gid="switch")

@@ -23,7 +23,8 @@ from loiter.kernel.switching_curves import last_arc_abscissa, switching_abscissa
 from loiter.kernel.synthesis import Entry, duration, optima, ranked
 from loiter.kernel.words import Side, Word, controls
 from loiter.planning.model import CONTROLS
-from loiter.plot.picture import CHORD_RAD, COLOURS, MARKS
+from loiter.plot.marks import CHORD_RAD
+from loiter.plot.picture import COLOURS, MARKS
 
 Floats = NDArray[np.float64]
 

@@ -10,7 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from loiter.plot.flown import BANK_LABEL, COLOURS
+from loiter.planning.model import Orbit, Pose
+from loiter.plot.flown import BANK_LABEL, COLOURS, prepare_timeline
+from loiter.plot.marks import Floats, draw_aircraft, draw_arrow, draw_turns, prepare_plan
 from loiter.plot.picture import FAINT
 
 Columns = Mapping[str, Sequence[Any]]
@@ -31,34 +33,49 @@ def draw(log: Columns) -> Figure:
         ("outside_m", "outside the circle", COLOURS[0]),
         ("crosstrack_m", "left of the path", COLOURS[1]),
     ):
-        axes["offset"].plot(time_s, np.asarray(log[name], float), color=colour, linewidth=1.2, label=label, gid=name)
+        _draw_values(axes["offset"], time_s, log, name, label, colour)
     holding = [stage == "holding" for stage in log["stage"]]
     _limit_offset(axes["offset"], np.asarray(log["outside_m"], float), np.asarray(log["crosstrack_m"], float), holding)
     for name, label, colour in (("command_deg", "commanded", COLOURS[1]), ("bank_deg", "measured", COLOURS[0])):
-        axes["bank"].plot(time_s, np.asarray(log[name], float), color=colour, linewidth=1.2, label=label, gid=name)
+        _draw_values(axes["bank"], time_s, log, name, label, colour)
     axes["offset"].set_ylabel("distance (m)")
     axes["bank"].set_ylabel(BANK_LABEL)
     axes["bank"].set_xlabel("time (s)")
     axes["offset"].sharex(axes["bank"])
-    for panel in axes.values():
-        panel.grid(color="#e6e6e6", linewidth=0.8)
-        panel.set_axisbelow(True)
-        panel.legend(loc="best", fontsize="small", framealpha=0.9)
+    for panel in (axes["offset"], axes["bank"]):
+        prepare_timeline(panel)
+    for panel, columns in ((axes["track"], 1), (axes["offset"], 2), (axes["bank"], 2)):
+        if panel.get_legend_handles_labels()[0]:
+            panel.legend(loc="best", ncols=columns, fontsize="small", framealpha=0.9)
     return figure
 
 
+def _draw_values(axes: Axes, time_s: Floats, log: Columns, name: str, label: str, colour: str) -> None:
+    """Draw a column over time, unless it has no value at all."""
+    values = np.asarray(log[name], float)
+    if np.isfinite(values).any():
+        axes.plot(time_s, values, color=colour, linewidth=1.2, label=label, gid=name)
+
+
 def _draw_track(axes: Axes, log: Columns) -> None:
-    centre = log["orbit_east_m"][-1], log["orbit_north_m"][-1]
-    axes.add_patch(Circle(centre, log["orbit_radius_m"][-1], fill=False, color=FAINT, linewidth=5.0, gid="circle"))
+    prepare_plan(axes)
+    *_, radius_m = log["orbit_radius_m"]
+    *_, turn = log["turn"]
+    orbit = Orbit(log["orbit_east_m"][-1], log["orbit_north_m"][-1], radius_m, turn)
+    centre = (orbit.east_m, orbit.north_m)
+    axes.add_patch(Circle(centre, radius_m, fill=False, color=FAINT, linewidth=5.0, gid="circle"))
+    axes.plot([], [], color=FAINT, linewidth=5.0, label="holding circle")  # a legend shows a circle as a rectangle
+    draw_turns(axes, orbit, {orbit.turn})
     east, north = np.asarray(log["east_m"], float), np.asarray(log["north_m"], float)
     holding = np.array([stage != "joining" for stage in log["stage"]])
     for label, part, colour in (("joining", ~holding, COLOURS[0]), ("on the circle", holding, COLOURS[2])):
-        x, y = np.where(part, east, np.nan), np.where(part, north, np.nan)
-        axes.plot(x, y, color=colour, linewidth=1.3, label=label, gid=label)
-    axes.plot(east[:1], north[:1], color=COLOURS[0], marker="o", linestyle="none", gid="start")
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.set_xlabel("east (m)")
-    axes.set_ylabel("north (m)")
+        if part.any():
+            x, y = np.where(part, east, np.nan), np.where(part, north, np.nan)
+            axes.plot(x, y, color=colour, linewidth=1.3, label=label, gid=label)
+    draw_aircraft(axes, Pose(east[0], north[0], log["heading_deg"][0]))
+    middle = int(np.count_nonzero(~holding)) // 2
+    if middle > 0:
+        draw_arrow(axes, east, north, middle, COLOURS[0], gid="direction")
 
 
 def _limit_offset(axes: Axes, outside: Any, crosstrack: Any, holding: Sequence[bool]) -> None:

@@ -11,124 +11,149 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
-from matplotlib.text import OffsetFrom
-from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
-from numpy.typing import NDArray
 
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
-from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.flight import along
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Orbit, Pose, Segment, Turn, Wind
+from loiter.planning.model import Segment, Turn
+from loiter.plot.marks import (
+    CHORD_RAD,
+    Box,
+    Points,
+    corners,
+    draw_aircraft,
+    draw_arrow,
+    draw_circle,
+    draw_north,
+    draw_turns,
+    draw_wind,
+    drawn_gids,
+    enlarge,
+    mark,
+    prepare_plan,
+)
+from loiter.plot.sizes import OUTSIDE_IF_NARROW
 
 # Okabe and Ito's palette, which people with all common forms of colour blindness can distinguish.
 COLOURS = {"L": "#009E73", "S": "#0072B2", "R": "#D55E00"}
 MEANINGS = {"L": "left turn", "S": "straight", "R": "right turn"}
 FAINT = "#b0b0b0"
 
-# The slower maneuvers in the legend differ in dashes and shade, not in hue: hues show the turns. The rest are faint.
+# The slower maneuvers are bands below the path, the slower the wider and the paler, so that each can be followed from
+# the start, also where it shares its first turn with others. Hues show the turns.
 SLOWER: tuple[dict[str, Any], ...] = (
-    {"color": "#606060", "linestyle": "-"},
-    {"color": "#505050", "linestyle": (0, (6, 2))},
-    {"color": "#404040", "linestyle": (0, (1, 1.5))},
+    {"color": "#b2b2b2", "linewidth": 4.4, "zorder": 1.2, "solid_capstyle": "butt"},
+    {"color": "#dcdcdc", "linewidth": 7.6, "zorder": 1.1, "solid_capstyle": "butt"},
 )
-STILL_SLOWER: dict[str, Any] = {"color": FAINT, "linestyle": "-"}
 AT_THE_START: dict[str, Any] = {"color": FAINT, "linewidth": 1.2, "linestyle": "--"}
 
-ARROW: dict[str, Any] = {"arrowstyle": "-|>", "shrinkA": 0.0, "shrinkB": 0.0}
-
-# The wind's arrow, in points: its middle from the upper left corner of the axes, and its length.
-WIND_COLOUR = "#505050"
-WIND_PLACE, WIND_LENGTH = np.array([14.0, 14.0]), 22.0
 MARKS: dict[str, dict[str, Any]] = {
     "switch": {"marker": "o", "markersize": 6, "markerfacecolor": "white"},
     "join": {"marker": "o", "markersize": 9, "markerfacecolor": "black"},
 }
 
-# Chords of 2 degrees differ from an arc by 0.015 % of its radius, less than the width of a line.
-CHORD_RAD = math.radians(2.0)
+# Turns with a radius below this share of the picture are specks: a second panel enlarges the last of them. Segments
+# that are shorter have no arrow: it would hide them.
+SPECK = 1.0 / 30.0
+
+# The second panel shows the whole circle if its radius is at most this many turn radii, and the whole path if that is
+# at most this many turn radii long.
+WHOLE_CIRCLE, WHOLE_PATH = 4.0, 12.0
 
 
 def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: LocalFrame | None = None) -> Figure:
-    """Draw maneuvers from one start: `best` coloured by segment, `others` thin and grey; start, switches, join marked.
+    """Draw maneuvers from one start: `best` coloured by segment, over the soonest of `others` in each direction.
 
     East is to the right, north up, axes equal, in metres, with a scale bar; with a frame the axes are labelled with its
-    origin on Earth. The first of `best` gives the title. In wind, tracks are ground tracks, and an arrow beside the
+    origin on Earth. Start, switches and join are marked. If the turns are specks, a second panel enlarges the last one,
+    with the circle. The first of `best` gives the title. In wind, tracks are ground tracks, and an arrow beside the
     title shows the direction in which the air moves. A moving circle is drawn where it is when it is joined, and faint
     where it is at the start; each of `others` ends on the circle at its own time of joining.
     """
     first, *_ = best
+    slower = soonest_each_way(others)
+    whole = _whole(best, slower)
+    enlarged = _enlarged(best, whole)
     figure = Figure(figsize=(8.0, 6.4), layout="constrained")
-    axes = figure.add_subplot()
-    axes.set_aspect("equal", adjustable="datalim")
-    # Coordinates of a national grid are shown in full, not as an offset and a difference.
-    axes.ticklabel_format(useOffset=False, style="plain")
-    axes.grid(color="#e6e6e6", linewidth=0.8)
-    axes.set_axisbelow(True)
-    for i, maneuver in enumerate(others):
-        if maneuver.segments:
-            axes.plot(*_track(maneuver), **_slower_style(i), linewidth=1.0, alpha=0.8, zorder=1, gid="candidate")
-    if first.orbit.moves:
-        _draw_movement(axes, first)
-    _draw_circle(axes, first.orbit_at_join, {maneuver.turn for maneuver in best})
-    for maneuver in best:
-        _draw_path(axes, maneuver)
-    _draw_aircraft(axes, first.start)
-    origin = "" if frame is None else f" of {degrees_of(frame.latitude_deg, frame.longitude_deg)}"
-    axes.set_xlabel(f"east{origin} (m)")
-    axes.set_ylabel("north (m)")
-    axes.set_title(_title(best))
+    if enlarged is None:
+        axes = figure.add_subplot()
+        axes.set_title(_title(best))
+    else:
+        axes, detail = figure.subplots(1, 2)
+        figure.suptitle(_title(best), fontsize="large")
+        _draw_panel(detail, best, slower, enlarged)
+        enlarge(detail, enlarged, axes)
+    _draw_panel(axes, best, slower, whole, elsewhere=enlarged)
+    if frame is not None:
+        axes.set_xlabel(f"east of {degrees_of(frame.latitude_deg, frame.longitude_deg)} (m)")
     if first.wind.speed_m_s > 0.0:
-        _draw_wind(axes, first.wind)
-    axes.margins(0.08)
-    _draw_north(axes)
-    _draw_scale(axes)
-    axes.legend(handles=_legend(best, others), loc="best", fontsize="small", handlelength=2.6, framealpha=0.9)
+        draw_wind(axes, first.wind)
+    draw_north(axes)
+    handles = _legend(figure, best, slower)
+    legend = axes.legend(handles=handles, loc="best", fontsize="small", handlelength=2.6, framealpha=0.9)
+    legend.set_gid(OUTSIDE_IF_NARROW)
     return figure
 
 
-def _slower_style(i: int) -> dict[str, Any]:
-    """The colour and dashes of the slower maneuver with index i."""
-    return SLOWER[i] if i < len(SLOWER) else STILL_SLOWER
+def soonest_each_way(others: Sequence[Maneuver]) -> list[Maneuver]:
+    """The soonest maneuver in each direction of holding, the sooner first; none for those without segments."""
+    found: dict[Turn, Maneuver] = {}
+    for maneuver in sorted(others, key=lambda other: other.duration_s):
+        if maneuver.segments:
+            found.setdefault(maneuver.turn, maneuver)
+    return list(found.values())
 
 
-def _title(best: Sequence[Maneuver]) -> str:
+def _whole(best: Sequence[Maneuver], slower: Sequence[Maneuver]) -> Box:
+    """The box around all that is drawn."""
     first, *_ = best
-    words = " or ".join(f"{m.word} {m.turn.described}".strip() for m in best)
-    if not first.segments:
-        return f"on the circle already, {words}"
-    air = " through the air" if first.wind.speed_m_s > 0.0 or first.orbit.moves else ""
-    return f"{words}\njoins in {first.duration_s:.4g} s, {first.length_m:.4g} m{air}"
+    circles = [corners(first.orbit), corners(first.orbit_at_join)]
+    return Box.around([*circles, *(_track(maneuver) for maneuver in (*best, *slower))])
 
 
-def _draw_path(axes: Axes, maneuver: Maneuver) -> None:
+def _enlarged(best: Sequence[Maneuver], whole: Box) -> Box | None:
+    """The part of a plan that a second panel enlarges; None where the turns are no specks."""
+    first, *_ = best
+    orbit, radius = first.orbit_at_join, first.aircraft.turn_radius_m
+    if not first.segments or radius >= SPECK * whole.size:
+        return None
+    shown = Box.around(_track(maneuver) for maneuver in best)
+    if shown.size > WHOLE_PATH * radius:
+        shown = Box.around(_last_turn(maneuver) for maneuver in best)
+    if orbit.radius_m <= WHOLE_CIRCLE * radius:
+        shown = Box.around([shown.corners, corners(orbit)])
+    return shown.widened(max(radius, 0.1 * shown.size))
+
+
+def _draw_panel(
+    axes: Axes, best: Sequence[Maneuver], slower: Sequence[Maneuver], shown: Box, elsewhere: Box | None = None
+) -> None:
+    """Draw the plan on the axes of a panel that shows a box, without the marks that another panel enlarges."""
+    first, *_ = best
+    prepare_plan(axes)
+    for maneuver, style in zip(slower, SLOWER, strict=False):
+        axes.plot(*_track(maneuver), **style, gid=f"slower {maneuver.turn}")
+    if first.orbit.moves:
+        _draw_movement(axes, first)
+    draw_circle(axes, first.orbit_at_join)
+    if elsewhere is None:
+        draw_turns(axes, first.orbit_at_join, {maneuver.turn for maneuver in best})
+    for maneuver in best:
+        _draw_path(axes, maneuver, shown, elsewhere)
+    draw_aircraft(axes, first.start)
+
+
+def _draw_path(axes: Axes, maneuver: Maneuver, shown: Box, elsewhere: Box | None) -> None:
     for segment in maneuver.segments:
         east, north = _segment_track(segment, maneuver)
         axes.plot(east, north, color=COLOURS[segment.letter], linewidth=2.6, zorder=3, gid=f"segment {segment.letter}")
-        _arrow(axes, east, north, COLOURS[segment.letter])
-    for segment in maneuver.segments[1:]:
-        _mark(axes, segment.start, gid="switch", **MARKS["switch"])
-    _mark(axes, maneuver.join, gid="join", **MARKS["join"])
-
-
-def _mark(axes: Axes, pose: Pose, **style: Any) -> None:
-    mark: dict[str, Any] = {"color": "black", "linestyle": "none", "zorder": 5} | style
-    axes.plot([pose.east_m], [pose.north_m], **mark)
-
-
-def _draw_circle(axes: Axes, orbit: Orbit, turns: set[Turn]) -> None:
-    centre = east_m, north_m = orbit.east_m, orbit.north_m
-    axes.add_patch(Circle(centre, orbit.radius_m, fill=False, color="black", linewidth=1.4, zorder=2, gid="circle"))
-    axes.plot(*centre, marker="+", color="black", markersize=8, linestyle="none", gid="centre")
-    for turn in turns:
-        sense = -1.0 if turn == Turn.CW else 1.0
-        # Where both directions tie, their arrows are drawn apart.
-        for quarter in range(4):
-            angle = math.radians(45.0 + 90.0 * quarter - 8.0 * sense * (len(turns) - 1))
-            arc = angle + sense * np.array([0.0, CHORD_RAD])
-            east, north = east_m + orbit.radius_m * np.cos(arc), north_m + orbit.radius_m * np.sin(arc)
-            _arrow(axes, east, north, "black", gid=f"held {turn}")
+        if Box.around([(east, north)]).size >= SPECK * shown.size:
+            draw_arrow(axes, east, north, len(east) // 2, COLOURS[segment.letter], gid=f"arrow {segment.letter}")
+    switches = [("switch", segment.start) for segment in maneuver.segments[1:]]
+    for name, pose in [*switches, ("join", maneuver.join)]:
+        if elsewhere is None or not elsewhere.contains(pose):
+            mark(axes, pose, gid=name, **MARKS[name])
 
 
 def _draw_movement(axes: Axes, maneuver: Maneuver) -> None:
@@ -138,110 +163,64 @@ def _draw_movement(axes: Axes, maneuver: Maneuver) -> None:
     axes.add_patch(Circle(centre, before.radius_m, fill=False, zorder=1, gid="circle at the start", **AT_THE_START))
     east, north = np.linspace(centre, (after.east_m, after.north_m), 3).T
     axes.plot(east, north, color=FAINT, linewidth=1.0, linestyle=":", gid="way of the centre")
-    _arrow(axes, east, north, FAINT)
+    draw_arrow(axes, east, north, 1, FAINT)
 
 
-def _draw_wind(axes: Axes, wind: Wind) -> None:
-    """Draw an arrow in the direction of the moving air, beside the title, where it hides nothing."""
-    towards = np.array(wind.velocity_m_s) / wind.speed_m_s
-    tail, head = WIND_PLACE - 0.5 * WIND_LENGTH * towards, WIND_PLACE + 0.5 * WIND_LENGTH * towards
-    corner: dict[str, Any] = {"xycoords": OffsetFrom(axes.patch, (0.0, 1.0)), "annotation_clip": False}
-    style = ARROW | {"color": WIND_COLOUR, "linewidth": 2.0, "mutation_scale": 14.0}
-    axes.annotate(
-        "", xy=tuple(head), xytext=tuple(tail), textcoords=corner["xycoords"], arrowprops=style, gid="wind", **corner
-    )
-    label = f"wind {wind.speed_m_s:.3g} m/s\nfrom {wrapped(wind.from_deg):.0f} deg"
-    beside = WIND_PLACE + np.array([0.6 * WIND_LENGTH, 0.0])
-    axes.annotate(label, xy=tuple(beside), va="center", fontsize="small", color=WIND_COLOUR, gid="wind label", **corner)
+def _title(best: Sequence[Maneuver]) -> str:
+    first, *_ = best
+    words = " or ".join(f"{m.word} {m.turn.described}".strip() for m in best)
+    if not first.segments:
+        return f"on the circle already, {words}"
+    air = " through the air" if first.wind.speed_m_s > 0.0 or first.orbit.moves else ""
+    return f"{words}\njoins in {_digits(first.duration_s, 4)} s, {_digits(first.length_m, 4)} m{air}"
 
 
-def _draw_north(axes: Axes) -> None:
-    """Draw an arrow to the north, to the right of the title; the arrow of the wind is on the left."""
-    corner: dict[str, Any] = {"xycoords": OffsetFrom(axes.patch, (1.0, 1.0)), "annotation_clip": False}
-    ends: dict[str, Any] = {"xy": (-12.0, 27.0), "xytext": (-12.0, 5.0), "textcoords": corner["xycoords"]}
-    style = ARROW | {"color": "black", "linewidth": 1.6, "mutation_scale": 13.0}
-    axes.annotate("", **ends, arrowprops=style, gid="north", **corner)
-    axes.annotate("N", xy=(-20.0, 11.0), ha="right", fontsize="medium", gid="north label", **corner)
+def _digits(value: float, digits: int) -> str:
+    """A number with some digits, and all of those before the point."""
+    return f"{value:.{digits}g}" if abs(value) < 10.0**digits - 0.5 else f"{value:.0f}"
 
 
-def _draw_scale(axes: Axes) -> None:
-    """Draw a bar of a round length in the lower right corner, about a fifth of the axes wide."""
-    axes.apply_aspect()
-    west, east = axes.get_xlim()
-    length = round_length((east - west) / 5.0)
-    text = f"{length / 1000.0:g} km" if length >= 1000.0 else f"{length:g} m"
-    bar = AnchoredSizeBar(
-        axes.transData, length, text, "lower right", pad=0.8, frameon=False, size_vertical=length / 60.0
-    )
-    for patch in bar.size_bar.get_children():
-        patch.set_linewidth(0.0)  # an edge would make the bar longer than it says
-    bar.set_gid("scale")
-    axes.add_artist(bar)
-
-
-def round_length(most: float) -> float:
-    """The largest of 1, 2, 5 times a power of ten that is at most `most`.
-
-    >>> round_length(237.0), round_length(0.05)
-    (200.0, 0.05)
-    """
-    decade = 10.0 ** math.floor(math.log10(most))
-    return max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= most)
-
-
-def _arrow(
-    axes: Axes, east: NDArray[np.float64], north: NDArray[np.float64], colour: str, gid: str | None = None
-) -> None:
-    i = len(east) // 2
-    axes.annotate(
-        "",
-        xy=(east[i], north[i]),
-        xytext=(east[i - 1], north[i - 1]),
-        arrowprops=ARROW | {"color": colour, "mutation_scale": 15.0},
-        gid=gid,
-        zorder=4,
-    )
-
-
-def _draw_aircraft(axes: Axes, pose: Pose) -> None:
-    # A dart along the heading, wide enough to show it, under the path, whose first turn may be short.
-    e, n = heading_vector(pose.heading_deg)
-    outline = np.array([[1.0, 0.0], [-0.7, 0.6], [-0.35, 0.0], [-0.7, -0.6]]) @ np.array([[e, n], [-n, e]])
-    _mark(axes, pose, marker=outline, markersize=16, zorder=2.5, gid="start")
-
-
-def _segment_track(segment: Segment, maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _segment_track(segment: Segment, maneuver: Maneuver) -> Points:
     turned = abs(segment.curvature_per_m) * segment.length_m
     steps = 3 + math.ceil(turned / CHORD_RAD)  # a straight segment needs a point in the middle, for its arrow
     east, north, _ = along(segment, np.linspace(0.0, segment.length_m, steps), maneuver.aircraft, maneuver.wind)
     return east, north
 
 
-def _track(maneuver: Maneuver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    tracks = [_segment_track(segment, maneuver) for segment in maneuver.segments]
-    return np.concatenate([east for east, _ in tracks]), np.concatenate([north for _, north in tracks])
+def _track(maneuver: Maneuver) -> Points:
+    """The track from the start to the join: the start alone for a maneuver without segments."""
+    start = (np.array([maneuver.start.east_m]), np.array([maneuver.start.north_m]))
+    east, north = zip(start, *(_segment_track(segment, maneuver) for segment in maneuver.segments), strict=True)
+    return np.concatenate(east), np.concatenate(north)
 
 
-def _legend(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> list[Line2D]:
+def _last_turn(maneuver: Maneuver) -> Points:
+    """The track of the last segment, of which the end alone if it is straight."""
+    *_, last = maneuver.segments
+    east, north = _segment_track(last, maneuver)
+    return (east[-1:], north[-1:]) if last.letter == "S" else (east, north)
+
+
+def _legend(figure: Figure, best: Sequence[Maneuver], slower: Sequence[Maneuver]) -> list[Line2D]:
+    """An entry for each kind of line and mark that is drawn."""
     letters = dict.fromkeys(segment.letter for maneuver in best for segment in maneuver.segments)
-    handles = [Line2D([], [], color=COLOURS[letter], linewidth=2.6, label=MEANINGS[letter]) for letter in letters]
-    handles.append(Line2D([], [], color="black", linewidth=1.4, label="holding circle"))
-    fastest, *_ = best
-    if fastest.orbit.moves:
-        handles.append(Line2D([], [], label="circle at the start", **AT_THE_START))
-    handles += [Line2D([], [], color="black", linestyle="none", **style, label=label) for label, style in MARKS.items()]
-    handles += [
-        Line2D([], [], **style, linewidth=1.0, label=f"{other.word} {other.turn.value}: {_later(other, best)}")
-        for other, style in zip(others, SLOWER, strict=False)
-    ]
-    if len(others) > len(SLOWER):
-        label = f"{len(others) - len(SLOWER)} more, slower still"
-        handles.append(Line2D([], [], **STILL_SLOWER, linewidth=1.0, label=label))
-    return handles
+    bands = {
+        f"slower {other.turn}": style | {"label": f"{other.word} {other.turn.value}: {_later(other, best)}"}
+        for other, style in zip(slower, SLOWER, strict=False)
+    }
+    styles: dict[str, dict[str, Any]] = {
+        **{f"segment {u}": {"color": COLOURS[u], "linewidth": 2.6, "label": MEANINGS[u]} for u in letters},
+        "circle": {"color": "black", "linewidth": 1.4, "label": "holding circle"},
+        "circle at the start": {"label": "circle at the start", **AT_THE_START},
+        **{name: {"color": "black", "linestyle": "none", "label": name, **style} for name, style in MARKS.items()},
+        **bands,
+    }
+    drawn = drawn_gids(figure)
+    return [Line2D([], [], **style) for gid, style in styles.items() if gid in drawn]
 
 
 def _later(maneuver: Maneuver, best: Sequence[Maneuver]) -> str:
     fastest, *_ = best
     later = maneuver.duration_s - fastest.duration_s
     # The resolution of a picture; the table and JSON show smaller differences.
-    return f"{later:.3g} s later" if later > 1e-6 * maneuver.duration_s else "as fast"
+    return f"{_digits(later, 3)} s later" if later > 1e-6 * maneuver.duration_s else "as fast"

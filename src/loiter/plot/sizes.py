@@ -11,6 +11,7 @@ from loiter.errors import InvalidArgument, number
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.legend import Legend
+    from matplotlib.text import Annotation, Text
 
 MM_PER_INCH = 25.4
 
@@ -34,8 +35,11 @@ LEAST_SHRINKING, LEAST_POINTS = 0.7, 7.0
 # In a narrow picture a legend with more entries than this would hide what it explains.
 MOST_ENTRIES = 3
 
-# The gid of a legend that moves below a narrow figure however few its entries.
-BELOW_IF_NARROW = "legend below if narrow"
+# In a figure that is wider than so many times its height, a legend is moved beside the axes.
+BESIDE_IF_WIDER = 1.8
+
+# The gid of a legend that moves out of the axes of a narrow figure however few its entries.
+OUTSIDE_IF_NARROW = "legend outside if narrow"
 
 # The shortest line of a title that is broken.
 LEAST_LETTERS = 20
@@ -103,37 +107,54 @@ def _shrink(figure: Figure, factor: float) -> None:
     """Make text, lines, marks and arrows smaller."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import FancyArrowPatch
-    from matplotlib.text import Text
+    from matplotlib.text import Annotation, Text
 
     for text in figure.findobj(Text):
         points = float(text.get_fontsize())  # a number, also where the size was set by name
         text.set_fontsize(max(min(LEAST_POINTS, points), factor * points))
+        if isinstance(text, Annotation):
+            _shrink_annotation(text, factor)
     for line in figure.findobj(Line2D):
         line.set_linewidth(factor * line.get_linewidth())
         line.set_markersize(factor * line.get_markersize())
     for arrow in figure.findobj(FancyArrowPatch):
-        arrow.set_mutation_scale(factor * arrow.get_mutation_scale())
+        arrow.set_linewidth(factor * arrow.get_linewidth())
     for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
         # For ticks that are added when the figure is drawn.
         first, *_ = axis.get_major_ticks(1)
         axis.set_tick_params(labelsize=first.label1.get_fontsize())
 
 
+def _shrink_annotation(annotation: Annotation, factor: float) -> None:
+    """Make the arrow of an annotation smaller, and move both nearer to the corner from which they are measured."""
+    from matplotlib.text import OffsetFrom
+
+    # The annotation gives the arrow patch this size whenever it is drawn.
+    if annotation.arrowprops and "mutation_scale" in annotation.arrowprops:
+        annotation.arrowprops["mutation_scale"] *= factor
+    if isinstance(annotation.xycoords, OffsetFrom):
+        annotation.xy, annotation.xyann = ((factor * x, factor * y) for x, y in (annotation.xy, annotation.xyann))
+
+
 def _move_legends(figure: Figure) -> None:
-    """Move the legends with many entries from their axes to below the figure, in as many columns as there is room."""
+    """Move the legends with many entries out of their axes."""
     for axes in figure.axes:
         legend = axes.get_legend()
         if legend is None:
             continue
-        if legend.get_gid() == BELOW_IF_NARROW or len(legend.get_texts()) > MOST_ENTRIES:
-            _legend_below(figure, legend)
+        if legend.get_gid() == OUTSIDE_IF_NARROW or len(legend.get_texts()) > MOST_ENTRIES:
+            _legend_outside(figure, legend)
             legend.remove()
 
 
-def _legend_below(figure: Figure, legend: Legend) -> None:
+def _legend_outside(figure: Figure, legend: Legend) -> None:
+    """Add the legend beside the axes or, in as many columns as there is room, below them."""
     first, *_ = texts = legend.get_texts()
     handles = [handle for handle in legend.legend_handles if handle is not None]
     labels, points = [text.get_text() for text in texts], first.get_fontsize()
+    if figure.get_figwidth() > BESIDE_IF_WIDER * figure.get_figheight():
+        figure.legend(handles, labels, loc="outside right upper", fontsize=points)
+        return
     for columns in (3, 2, 1):
         below = figure.legend(handles, labels, loc="outside lower center", ncols=columns, fontsize=points)
         if columns == 1 or _width_of(figure, below) < figure.bbox.width:
@@ -150,16 +171,28 @@ def _width_of(figure: Figure, legend: Legend) -> float:
     return legend.get_window_extent().width
 
 
+def _titles(figure: Figure) -> list[Text]:
+    """The titles of the axes, and that of the figure."""
+    return [*(axes.title for axes in figure.axes), *figure.texts]
+
+
 def _wrap_titles(figure: Figure) -> None:
     """Break the lines of titles that are cut at the edge of the figure."""
     figure.draw_without_rendering()
-    for axes in figure.axes:
-        lines = axes.get_title().split("\n")
+    for title in _titles(figure):
+        lines = title.get_text().split("\n")
         for letters in range(max(map(len, lines)), LEAST_LETTERS, -1):
-            box = axes.title.get_window_extent()
+            box = title.get_window_extent()
             if box.x0 >= 0.0 and box.x1 <= figure.bbox.width:
                 break
-            axes.title.set_text("\n".join(part for line in lines for part in wrap(line, letters)))
+            title.set_text("\n".join(part for line in lines for part in _balanced(line, letters)))
+
+
+def _balanced(line: str, letters: int) -> list[str]:
+    """A line in as few parts of at most so many letters as possible, none much shorter than the others."""
+    longest_word = max(map(len, line.split()), default=1)
+    widths = range(min(longest_word, letters), letters + 1)
+    return min((wrap(line, width) for width in widths), key=len)
 
 
 def _raise_titles(figure: Figure) -> None:

@@ -51,7 +51,7 @@ def draw(regions: Partition, curves: Sequence[Boundary], show: str = "words") ->
     else:
         _paint_values(figure, axes, regions, show)
     handles = [_draw_curve(axes, regions, kind, curves) for kind in LINES if any(c.kind == kind for c in curves)]
-    _draw_targets(axes, regions)
+    handles.append(_draw_targets(axes, regions))
     axes.set_xlim(regions.x.min(), regions.x.max())
     axes.set_ylim(regions.y.min(), regions.y.max())
     axes.set_xlabel("x: passed the centre by (turn radii)")
@@ -123,7 +123,10 @@ def _draw_curve(axes: Axes, regions: Partition, kind: str, curves: Sequence[Boun
     return Line2D([], [], **style)
 
 
-def _draw_targets(axes: Axes, regions: Partition) -> None:
+def _draw_targets(axes: Axes, regions: Partition) -> Line2D:
+    """Draw the states in which the circle is joined; returns their entry in the legend."""
     ends = {Turn.CW: [1.0], Turn.CCW: [-1.0], Turn.EITHER: [1.0, -1.0]}[regions.turn]
+    style: dict[str, Any] = {"marker": "o", "color": "black", "linestyle": "none"}
     for sign in ends:
-        axes.plot([0.0], [sign * regions.radius], "o", color="black", markersize=8, gid="target")
+        axes.plot([0.0], [sign * regions.radius], markersize=8, gid="target", **style)
+    return Line2D([], [], markersize=6, label="circle joined", **style)
