@@ -75,7 +75,7 @@ class StartOptions:
             group=scene,
             converter=several(latitude, longitude, direction),
             metavar="LAT LON HEADING",
-            help="Pose of the aircraft: WGS84 degrees, and heading in degrees clockwise from true north.",
+            help="Pose of the aircraft: WGS84 degrees, 47.1 8.2 or 47.1N 8.2E, and heading in degrees clockwise from true north.",
         ),
     ] = None
 

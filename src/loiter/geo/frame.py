@@ -105,10 +105,6 @@ class LocalFrame:
         heading = wrapped(pose.heading_deg) - float(self.convergence_deg(latitude, longitude))
         return Place(latitude, longitude, wrapped(heading))
 
-    def is_swapped(self, latitude_deg: float, longitude_deg: float) -> bool:
-        """Whether a place is more than 100 km from the origin, and would be nearer with its coordinates swapped."""
-        return not self._reaches(latitude_deg, longitude_deg) and self._reaches(longitude_deg, latitude_deg)
-
     def _too_far(self, where: str, hint: str = "") -> OutOfRange:
         return OutOfRange(
             f"the place {where} is more than {REACH_M / 1000.0:g} km from the origin {self.latitude_deg:g} "
@@ -167,6 +163,11 @@ def from_plane(
     azimuth, distance = np.degrees(np.arctan2(east, north)), np.hypot(east, north)
     longitude, latitude, _ = _geod().fwd(lon0, lat0, azimuth, distance)
     return np.where(near, latitude, np.nan), np.where(near, longitude, np.nan)
+
+
+def is_swapped(frame: LocalFrame, latitude_deg: float, longitude_deg: float) -> bool:
+    """Whether a place is more than 100 km from the origin, and would be nearer with its coordinates swapped."""
+    return not frame._reaches(latitude_deg, longitude_deg) and frame._reaches(longitude_deg, latitude_deg)
 
 
 def degrees_of(latitude_deg: float, longitude_deg: float) -> str:

@@ -79,7 +79,7 @@ Save = Annotated[
     Parameter(
         group=output,
         metavar="FILE",
-        help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl), .waypoints or .txt (both QGC WPL 110) for autopilots; may be repeated.",
+        help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) for autopilots, .waypoints or .txt (both QGC WPL 110) for ArduPilot; may be repeated.",
     ),
 ]
 AutopilotChoice = Annotated[

@@ -13,6 +13,7 @@ from typing import Any
 
 from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
+from loiter.geo.frame import is_swapped
 from loiter.guidance.protocol import State
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.model import Wind
@@ -164,7 +165,7 @@ class Measurements:
     def swapped(self) -> bool:
         """Whether the vehicle is too far from the circle, and would be near it with coordinates swapped."""
         last = self._position
-        return last is not None and self._frame.is_swapped(last.lat / 1e7, last.lon / 1e7)
+        return last is not None and is_swapped(self._frame, last.lat / 1e7, last.lon / 1e7)
 
     def _check_clock(self, last: Any, message: Any) -> None:
         if last is not None and message.time_boot_ms < last.time_boot_ms - 1e3 * RESTARTED_S:

@@ -8,7 +8,7 @@ from math import nan
 from typing import Any, NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed, positive
-from loiter.geo.frame import LocalFrame, degrees_of
+from loiter.geo.frame import LocalFrame, degrees_of, is_swapped
 from loiter.io.missions.items import Autopilot, Frame, Mission
 from loiter.mavlink.connection.enumerations import autopilot_name
 from loiter.mavlink.connection.link import Link, Vehicle, open_link
@@ -225,7 +225,7 @@ def check_not_swapped(mission: Mission, home: StoredItem | None, position: Posit
     if not known or item is None:
         return
     here = LocalFrame(known[0] / PER_DEGREE, known[1] / PER_DEGREE)
-    if here.is_swapped(item.latitude_deg, item.longitude_deg):
+    if is_swapped(here, item.latitude_deg, item.longitude_deg):
         raise InvalidArgument(
             "mission",
             f"begins at {degrees_of(item.latitude_deg, item.longitude_deg)}, far from the vehicle at "
