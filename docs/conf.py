@@ -192,13 +192,24 @@ def as_mathml(node, text):
 
 
 def write_inline_formula(writer, node):
-    """Write a formula in a line, which does not end between the formula and a parenthesis or comma next to it."""
-    i, siblings = node.parent.index(node), node.parent.children
-    before = siblings[i - 1].astext()[-1:] if i else ""
-    after = siblings[i + 1].astext()[:1] if i + 1 < len(siblings) else ""
-    joiners = ["\u2060" if neighbour.strip() else "" for neighbour in (before, after)]
-    writer.body.append(as_mathml(node, node.astext()).join(joiners))
+    writer.body.append(as_mathml(node, node.astext()))
     raise nodes.SkipNode
+
+
+def join_punctuation(app, doctree, name):
+    """Join each formula in a line with the parentheses and commas next to it: browsers would break the line between."""
+    for formula in list(doctree.findall(nodes.math)):
+        parent, i = formula.parent, formula.parent.index(formula)
+        joined = nodes.inline("", "", formula.deepcopy(), classes=["formula"])
+        if i + 1 < len(parent) and isinstance(parent[i + 1], nodes.Text):
+            closing, rest = re.fullmatch(r"([^\s\w]*)(.*)", parent[i + 1], re.DOTALL).groups()
+            joined.append(nodes.Text(closing))
+            parent[i + 1] = nodes.Text(rest)
+        if i > 0 and isinstance(parent[i - 1], nodes.Text):
+            text, opening = re.fullmatch(r"(.*?)([(\[]*)", parent[i - 1], re.DOTALL).groups()
+            joined.insert(0, nodes.Text(opening))
+            parent[i - 1] = nodes.Text(text)
+        parent[i] = joined
 
 
 def write_formula(writer, node):
@@ -212,6 +223,7 @@ def write_formula(writer, node):
 
 def setup(app):
     app.add_html_math_renderer("mathml", (write_inline_formula, None), (write_formula, None))
+    app.connect("doctree-resolved", join_punctuation)
     app.connect("builder-inited", write_commands)
     app.connect("builder-inited", replace_thumbnails, priority=900)
     app.connect("autodoc-process-docstring", convert_docstring)

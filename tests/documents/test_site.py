@@ -190,7 +190,7 @@ def test_formulas_are_rendered_without_a_network(desk, site, name):
             text: [...document.querySelectorAll("article :is(p, li, td)")].map(each => each.innerText).join(" "),
         })"""
     )
-    assert len(drawn["formulas"]) > 100
+    assert len(drawn["formulas"]) == len(inline_formulas(name)) + source(name).count("```math\n") > 100
     assert min(drawn["formulas"]) > 2.0
     assert drawn["fractions"]
     assert all(drawn["fractions"])
@@ -202,16 +202,21 @@ def test_formulas_are_rendered_without_a_network(desk, site, name):
 @pytest.mark.parametrize("name", FORMULAS)
 def test_formulas_are_written_so_that_github_renders_them(name):
     """GitHub reads Markdown first: emphasis, escapes, tags and links in a line must not be what formulas contain."""
-    text = re.sub(r"^ *```.*?^ *```$|^    \$ [^\n]*$", "", source(name), flags=re.MULTILINE | re.DOTALL)
-    formulas = re.findall(r"\$([^$]+)\$", text)
+    formulas = inline_formulas(name)
     hazards = re.compile(r"\*|(?<![A-Za-z0-9])_|\\[^A-Za-z]|<\S|\]\(|^\s|\s$|\n|`")
     assert [formula for formula in formulas if hazards.search(formula)] == []
-    rows = [line for line in text.splitlines() if line.startswith("|")]
+    rows = [line for line in source(name).splitlines() if line.startswith("|")]
     assert [row for row in rows if re.search(r"\$[^$]*\|[^$]*\$", re.sub(r"\$[^$|]+\$", "", row))] == []
 
 
 def source(name):
     return (ROOT / "docs" / f"{name}.md").read_text("utf-8")
+
+
+def inline_formulas(name):
+    """The formulas in lines of text; blocks, and the prompts of commands, are left out."""
+    text = re.sub(r"^ *```.*?^ *```$|^    \$ [^\n]*$", "", source(name), flags=re.MULTILINE | re.DOTALL)
+    return re.findall(r"\$([^$]+)\$", text)
 
 
 def test_thumbnails_are_wide_enough_to_be_seen(desk, site):
