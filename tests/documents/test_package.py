@@ -127,7 +127,11 @@ def test_the_bibtex_of_the_readme_says_what_the_citation_file_says():
             "version": citation["version"],
             "url": citation["repository-code"],
         },
-        {"title": paper["title"].replace("UAV", "{UAV}"), "author": " and ".join(people)},
+        {
+            "title": paper["title"].replace("UAV", "{UAV}"),
+            "author": " and ".join(people),
+            **{name: str(paper[name]) for name in ("journal", "volume", "year", "doi")},
+        },
     ]
     text = (ROOT / "README.md").read_text("utf-8").partition("```bibtex\n")[2].partition("```")[0]
     found = [dict(re.findall(r"(\w+)\s+= \{(.*)\}", entry)) for entry in text.split("\n\n")]
