@@ -24,7 +24,6 @@ DOCUMENTS = [
 TRUE = [
     "proves, from Filippov's, Pontryagin's and Dubins' theorems, that this is the optimum for every circle",
     "checks the formulas and inequalities of the proof in exact arithmetic",
-    "the proof that the fastest of these extremals is the optimum in still air",
     "Dubins proved that in 1957 for paths between two poses",
     "what is proved of it and what is checked",
     "what is proved of the answer and what is cross-checked",
@@ -44,7 +43,7 @@ TRUE_OF_SERVICE = [
 CLAIM = re.compile(r"\b(proofs?|prov(?:e|es|ed|en|ing)|witness\w*)\b", re.IGNORECASE)
 # Names of an option, a command, a document and a folder.
 NAMED = re.compile(
-    r"--witness \w+|loiter prove|prove Check|prove\.py|theory proof certificate paper|(docs/)?proof\.md|verify/proof\b"
+    r"--witness \w+|loiter prove|prove Check|prove\.py|theory proof certificate checks paper|(docs/)?proof\.md|verify/proof\b"
 )
 
 
