@@ -43,7 +43,8 @@ TRUE_OF_SERVICE = [
 CLAIM = re.compile(r"\b(proofs?|prov(?:e|es|ed|en|ing)|witness\w*)\b", re.IGNORECASE)
 # Names of an option, a command, a document and a folder.
 NAMED = re.compile(
-    r"--witness \w+|loiter prove|prove Check|prove\.py|theory proof certificate checks paper|(docs/)?proof\.md|verify/proof\b"
+    r"--witness \w+|loiter prove|prove Check|prove\.py|theory proof certificate checks paper|(docs/)?proof\.md|"
+    r"verify/proof\b"
 )
 
 

@@ -166,7 +166,11 @@ def test_places_that_cannot_be_planned_have_a_status():
             "map latitude_deg='lat', longitude_deg='lon', heading_deg='hea",
         ),
         ("x [ft],y [ft],yaw", ["--orbit", "0", "0", "80"], "map east_m='x [ft]', north_m='y [ft]', heading_deg='yaw'"),
-        ("latitude_deg,longitude_deg,heading_deg", ["--orbit", "0", "0", "80"], "--orbit is in metres, but positions"),
+        (
+            "latitude_deg,longitude_deg,heading_deg",
+            ["--orbit", "0", "0", "80"],
+            "--orbit-lla is needed: positions are in degrees",
+        ),
         ("latitude_deg,longitude_deg,heading_deg", [], "--orbit-lla is needed: the table has no columns orbit_lat"),
         ("east_m,north_m,heading_deg", ["--orbit-lla", "47", "8", "80"], "--orbit-lla is given, but the table has no"),
         (

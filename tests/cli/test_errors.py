@@ -87,7 +87,7 @@ BAD_SHAPES = [
     (plan(turn_rate="20", turn_radius="50"), ["--bank and --turn-radius and --turn-rate"]),
     ([*plan(), "--airspeed", "19"], ["--airspeed is given twice"]),
     (["fly", "--law", "l1", "--law", "optimal"], ["--law is given twice: it takes one law, and --compare flies all"]),
-    ([*plan(), "--wind", "1"], ["--wind needs 2 numbers, SPEED FROM: 1 was given"]),
+    ([*plan(), "--wind", "1"], ["--wind needs 2 numbers, SPEED FROM, or one like 250/15kn: 1 was given"]),
     ([*plan(), "--json", "--json"], ["--json is given twice"]),
     (plan(speed="18"), ["--speed"]),
     ([*plan(), "--quiet"], ["--quiet"]),

@@ -18,7 +18,10 @@ The mission is at 550 m above mean sea level, not above the ground.
 The altitude of home is not known, so it is 550 m too; --home-altitude sets it.
 """
 STORED = "ArduPlane stores the radius in whole metres: 120 m instead of 120.7."
-WIDENED = "At 900 m it holds 130.9 m, unless NAVL1_LIM_BANK is the bank limit of the aircraft."
+WIDENED = (
+    "In the thinner air at {} m ArduPlane holds {} m, unless NAVL1_LIM_BANK is the bank limit of the aircraft; loiter "
+    "upload --true-radius compensates for it."
+)
 PLACED = "--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120"
 
 
@@ -282,14 +285,15 @@ def test_far_away_places_have_no_digits_of_rounding(shown, planned, tmp_path):
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ("--altitude 550 --save a.plan --save a.waypoints", HOME_UNKNOWN),
+        ("--altitude 550 --save a.plan --save a.waypoints", f"{HOME_UNKNOWN}{WIDENED.format(550, 126.5)}\n"),
         (
             "--altitude 550 --home-altitude 430 --save a.txt",
-            "The mission is at 550 m above mean sea level, not above the ground.\n",
+            f"The mission is at 550 m above mean sea level, not above the ground.\n{WIDENED.format(550, 126.5)}\n",
         ),
         (
             "--altitude 100 --altitude-reference home --home-altitude 430 --save a.plan",
-            "The mission is at 100 m above home; home is at 430 m above mean sea level.\n",
+            "The mission is at 100 m above home; home is at 430 m above mean sea level.\n"
+            f"{WIDENED.format(530, 126.3)}\n",
         ),
         ("--altitude 550 --save a.kml", ""),
         (
@@ -298,7 +302,7 @@ def test_far_away_places_have_no_digits_of_rounding(shown, planned, tmp_path):
         ),
         (
             "--orbit-lla 47.11 8.23 120.7 --altitude 100 --altitude-reference home --home-altitude 800 --save a.txt",
-            f"The mission is at 100 m above home; home is at 800 m above mean sea level.\n{STORED} {WIDENED}\n",
+            f"The mission is at 100 m above home; home is at 800 m above mean sea level.\n{STORED} {WIDENED.format(900, 130.9)}\n",
         ),
         (
             "--orbit-lla 47.11 8.23 120.7 --altitude 100 --altitude-reference ground --home-altitude 800 --save a.txt",

@@ -72,12 +72,17 @@ def test_a_pose_needs_finite_numbers(place, value):
         Pose(*numbers)
 
 
-@pytest.mark.parametrize("value", [*BAD_NUMBERS, 0.0, -80.0])
+@pytest.mark.parametrize("value", [*BAD_NUMBERS, 0.0])
 def test_an_orbit_needs_a_positive_radius(value):
     with pytest.raises(
         InvalidArgument, match=r"^orbit radius_m is .*: it must be a positive, finite number of metres$"
     ):
         Orbit(0.0, 0.0, value)
+
+
+def test_a_negative_radius_is_refused_with_what_it_may_mean():
+    with pytest.raises(InvalidArgument, match=r"^orbit radius_m is -80.0: .*; the turn ccw holds counter-clockwise$"):
+        Orbit(0.0, 0.0, -80.0)
 
 
 @pytest.mark.parametrize("value", ["left", "CW", "", 1, None, nan])

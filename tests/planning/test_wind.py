@@ -401,7 +401,7 @@ SWAPPED = (
 
 @pytest.mark.parametrize(
     ("speed", "from_deg", "swapped"),
-    [(250.0, 15.0, True), (250.0, 18.0, False), (250.0, 0.0, False), (30.0, 250.0, False), (400.0, 15.0, False)],
+    [(250.0, 15.0, True), (250.0, 36.0, False), (250.0, 0.0, False), (30.0, 250.0, False), (400.0, 15.0, False)],
 )
 def test_a_wind_whose_direction_comes_first_is_recognised(speed, from_deg, swapped):
     solvers = (lambda: plan(POSE, ORBIT, UAV, Wind(speed, from_deg)), lambda: ORBIT.fitted(UAV, Wind(speed, from_deg)))
@@ -410,6 +410,11 @@ def test_a_wind_whose_direction_comes_first_is_recognised(speed, from_deg, swapp
             solve()
         assert str(refused.value).endswith(SWAPPED) == swapped
         assert ("comes first" in str(refused.value)) == swapped
+
+
+def test_a_swapped_wind_may_be_in_knots():
+    with pytest.raises(WindTooStrong, match="for a wind of 25 knots from 250 degrees the speed comes first"):
+        plan(POSE, ORBIT, UAV, Wind(250.0, 25.0))
 
 
 def test_a_scene_beyond_doubles_and_a_bad_tolerance_are_refused():

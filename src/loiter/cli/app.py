@@ -43,7 +43,7 @@ app = App(
 
 An aircraft of constant speed turns left or right, no tighter than its minimum turn radius. The plan joins a circle tangentially in the least time and stays on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum (docs/proof.md). In wind, and onto a circle that moves, a search (branch and bound over the point of joining) finds the answer.
 
-Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north. Speeds are in metres per second and lengths in metres, or have a unit: 35kn, 65km/h, 40mph, 3000ft, 2NM. Directions are true, 90 or 90T; magnetic ones, 87M, need --declination. A wind is its speed and the direction that it comes from, 15kn 250, or as in weather reports 250/15kn. Latitudes come before longitudes; with their letters, 47.1N, N47.1, 47°06'N, 47:06:00N or N47 06.0, they cannot be confused. Commas may separate the numbers of an option.
+Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north. Speeds are in metres per second and lengths in metres, or have a unit: 35kn, 65km/h, 40mph, 3000ft, 2NM. Directions are true, 90 or 90T; magnetic ones, 87M, need --declination. A wind is its speed and the direction that it comes from, 15kn 250, or as in weather reports 250/15kn or 25015KT. Latitudes come before longitudes; with their letters, 47.1N, N47.1, 47°06'N, 47:06:00N or N47 06.0, they cannot be confused. Commas may separate the numbers of an option.
 
 loiter COMMAND --help shows the options of a command.""",
     help_epilogue=program_epilogue("plan", "completion"),

@@ -16,8 +16,10 @@ SIGNED = ("--altitude", "--home-altitude", "--declination")
 # A negative number, which may have a unit or a hemisphere.
 NEGATIVE = re.compile(r"-(\.?\d.*)")
 
-# A wind as weather reports have it, direction first: 250/15kn.
+# A wind as forecasts have it, direction first, 250/15kn, and as a METAR has it, 25015G25KT, whose gusts are left out.
 REPORTED_WIND = re.compile(r"(\d+(?:\.\d*)?°?[TM]?)/(\d.*)", re.IGNORECASE)
+METAR_WIND = re.compile(r"(\d{3})(\d{2,3})(?:G\d{2,3})?(KT|MPS|KMH)", re.IGNORECASE)
+METAR_UNITS = {"KT": "kn", "MPS": "m/s", "KMH": "km/h"}
 
 # Degrees, minutes or seconds without a hemisphere.
 NO_LETTER = re.compile(r"""[\d.:°'’′"”″]+""")
@@ -31,6 +33,8 @@ def prepared(arguments: Iterable[str]) -> list[str]:
 
     >>> prepared(["plan", "--pose", "-400,120,90", "--orbit=0,", "0,", "80", "--wind", "250/15kn"])
     ['plan', '--pose', '-400', '120', '90', '--orbit', '0', '0', '80', '--wind', '15kn', '250']
+    >>> prepared(["--wind", "25015G25KT"])
+    ['--wind', '15kn', '250']
     >>> prepared(["--pose-lla", "N47", "06.0", "E8", "12.0", "90"])
     ['--pose-lla', 'N47 06.0', 'E8 12.0', '90']
     """
@@ -79,6 +83,10 @@ def _negative(word: str) -> str:
 
 def _wind(word: str) -> list[str]:
     """The speed and the direction of a wind as weather reports have it; any other word as it is."""
+    metar = METAR_WIND.fullmatch(word)
+    if metar is not None:
+        from_deg, speed, unit = metar.groups()
+        return [speed + METAR_UNITS[unit.upper()], from_deg]
     match = REPORTED_WIND.fullmatch(word)
     if match is None:
         return [word]

@@ -41,7 +41,7 @@ EXAMPLES = {
     "synthesis": r"""
   loiter synthesis --radius 1.5 --turn cw --plot map.png
   loiter synthesis --plot map.pdf --size 84 90 --dpi 600
-  loiter synthesis --radius 2 --show worth --save map.npz""",
+  loiter synthesis --radius 2 --turn cw --show worth --save map.npz""",
     "figures": r"""
   loiter figures --out figures --format svg""",
     "verify": r"""

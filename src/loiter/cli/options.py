@@ -319,13 +319,16 @@ class AircraftOptions:
     def aircraft(self, preset: Preset | None) -> Aircraft:
         """The aircraft; options take precedence over the parameter file."""
         limits = {
-            "max_bank_deg": self.bank,
+            "max_bank_deg": self._bank(preset),
             "min_turn_radius_m": self.turn_radius,
             "max_turn_rate_deg_s": self.turn_rate,
         }
-        if preset is not None and not any(value is not None for value in limits.values()):
-            limits["max_bank_deg"] = preset.max_bank_deg
         return Aircraft(self._true_airspeed(preset), **limits)
+
+    def _bank(self, preset: Preset | None) -> float | None:
+        """The bank limit, degrees: that of the parameter file where no option limits the turn."""
+        is_limited = any(value is not None for value in (self.bank, self.turn_radius, self.turn_rate))
+        return self.bank if preset is None or is_limited else preset.max_bank_deg
 
     def indicated(self, preset: Preset | None) -> float | None:
         """The indicated airspeed, metres per second; None where the true airspeed is given."""
@@ -340,15 +343,17 @@ class AircraftOptions:
         return self.indicated_airspeed
 
     def remark(self, preset: Preset | None) -> str:
-        """A line with the true airspeed where the indicated one was given; otherwise empty."""
-        indicated = self.indicated(preset)
-        if indicated is None:
-            return ""
-        density_altitude = density_altitude_m(self._altitude_m, self.temperature)
-        return (
-            f"True airspeed {self._true_airspeed(preset):.4g} m/s: {indicated:g} indicated, "
-            f"density altitude {density_altitude:.0f} m."
-        )
+        """A line with the true airspeed where the indicated one was given, and with the bank limit of a file."""
+        indicated, bank, sentences = self.indicated(preset), self._bank(preset), []
+        if indicated is not None:
+            density_altitude = density_altitude_m(self._altitude_m, self.temperature)
+            sentences.append(
+                f"True airspeed {self._true_airspeed(preset):.4g} m/s: {indicated:g} indicated, "
+                f"density altitude {density_altitude:.0f} m."
+            )
+        if bank is not None and bank != self.bank and self.params is not None:
+            sentences.append(f"Bank limit {bank:g} deg, from {self.params.name}.")
+        return " ".join(sentences)
 
     def _true_airspeed(self, preset: Preset | None) -> float:
         indicated = self.indicated(preset)
@@ -389,7 +394,10 @@ class WatchedAircraftOptions(AircraftOptions):
     ] = None
 
 
-WIND_HELP = "Wind speed, metres per second, and the compass direction that the wind comes from; or 250/15kn, as in weather reports"
+# Places in degrees that are read as metres lie no further apart than this.
+FEW_DEGREES = 2.0
+
+WIND_HELP = "Wind speed, metres per second, and the compass direction that the wind comes from; or as in weather reports, 250/15kn or 25015KT"
 DeclinationDegrees = Annotated[
     float | None,
     Parameter(
@@ -444,7 +452,7 @@ Fit = Annotated[
     bool,
     Parameter(
         group=air,
-        help="Where the aircraft cannot hold the circle in the wind, take the least radius that it can hold, and say so.",
+        help="Where the aircraft cannot hold the circle, take the least radius that it can hold, and say so.",
     ),
 ]
 
@@ -619,6 +627,7 @@ def read_options(
     remarks = [
         orbit.site_remark(),
         _places_remark(start, frame),
+        "" if frame else _metres_remark(pose, circle),
         aircraft.remark(preset),
         _fit_remark(circle, planned),
     ]
@@ -631,6 +640,15 @@ def _places_remark(start: StartOptions, frame: LocalFrame | None) -> str:
         return ""
     lat, lon, _ = start.pose_lla
     return f"Start {degrees_of(lat, lon)}, circle {degrees_of(frame.latitude_deg, frame.longitude_deg)}."
+
+
+def _metres_remark(pose: Pose, circle: Orbit) -> str:
+    """A line where positions in metres look like latitudes and longitudes; otherwise empty."""
+    numbers = (pose.east_m, pose.north_m, circle.east_m, circle.north_m)
+    looks_like_degrees = all(0.0 < abs(each) <= 180.0 and each % 1.0 for each in numbers)
+    if not looks_like_degrees or circle.distance_m(pose) > FEW_DEGREES:
+        return ""
+    return "These positions are metres: --pose-lla and --orbit-lla take latitudes and longitudes."
 
 
 @contextmanager

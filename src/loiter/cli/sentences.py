@@ -67,7 +67,8 @@ def _missing(error: MissingArgumentError, argument: Argument) -> str:
         return f"{name} {metavar} is needed"
     if count <= 1:
         return f"{name} needs a value, {metavar}"
-    return f"{name} needs {count} numbers, {metavar}: {given(len(error.tokens_so_far) % count)}"
+    reported = ", or one like 250/15kn" if name == "--wind" else ""
+    return f"{name} needs {count} numbers, {metavar}{reported}: {given(len(error.tokens_so_far) % count)}"
 
 
 def _option(error: CycloptsError) -> str:

@@ -150,6 +150,8 @@ def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> b
             f"is px4, which would fly to the home line of a {ending} file as to its first waypoint: write a .plan file "
             "for PX4",
         )
+    if arguments.autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
+        raise InvalidArgument("altitude_reference", "is ground: PX4 flies no missions with altitudes above the ground")
     if altitude_m is None:
         raise InvalidArgument("altitude_m", f"is missing: a {ending} file needs {datum.unit}")
     plan = mission(
@@ -167,7 +169,5 @@ def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> b
         plan = plan._replace(home=site.home)
     if ending != ".plan":
         return wpl(plan)
-    if arguments.autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
-        raise InvalidArgument("altitude_reference", "is ground: PX4 flies no missions with altitudes above the ground")
     fence = None if site is None else site.fence_document
     return qgcplan(plan, arguments.autopilot, arguments.maneuver.aircraft.airspeed_m_s, fence)

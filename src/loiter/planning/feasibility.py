@@ -11,6 +11,7 @@ from loiter.kernel.synthesis import ROUNDING
 from loiter.kernel.wind_search import WindProblem
 from loiter.kernel.words import Side
 from loiter.planning.model import Aircraft, Orbit, Wind
+from loiter.planning.units import KNOT
 
 
 class RelativeWind(NamedTuple):
@@ -105,13 +106,14 @@ def _swapped_hint(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> str:
     """The likely meaning of a wind whose direction comes first, as in weather reports; empty where it has none."""
     if wind is None or not 0.0 < wind.from_deg < wind.speed_m_s <= 360.0:
         return ""
-    likely = Wind(wind.from_deg, wind.speed_m_s)
-    if hypot(*relative_wind(orbit, aircraft, likely)) >= 1.0:
-        return ""
-    return (
-        f"; for a wind of {likely.speed_m_s:g} m/s from {likely.from_deg:g} degrees the speed comes first "
-        "(weather reports have the direction first, and knots)"
-    )
+    speed, from_deg = wind.from_deg, wind.speed_m_s
+    for unit, size in {"m/s": 1.0, "knots": KNOT}.items():
+        if hypot(*relative_wind(orbit, aircraft, Wind(speed * size, from_deg))) < 1.0:
+            return (
+                f"; for a wind of {speed:g} {unit} from {from_deg:g} degrees the speed comes first "
+                "(weather reports have the direction first, and knots)"
+            )
+    return ""
 
 
 def _air(orbit: Orbit, speed: float) -> str:

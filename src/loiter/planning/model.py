@@ -159,6 +159,11 @@ class Orbit:
 
     def __post_init__(self) -> None:
         east_m, north_m = number("orbit east_m", self.east_m, "metres"), number("orbit north_m", self.north_m, "metres")
+        # The sign with which autopilots mean counter-clockwise.
+        if -inf < as_float(self.radius_m) < 0.0:
+            raise InvalidArgument(
+                "orbit radius_m", f"is {self.radius_m}: it must be positive; the turn ccw holds counter-clockwise"
+            )
         _keep(self, east_m=east_m, north_m=north_m, radius_m=positive("orbit radius_m", self.radius_m, "metres"))
         if self.turn not in tuple(Turn):
             raise InvalidArgument("turn", f"is {self.turn!r}: it must be cw, ccw or either")

@@ -226,7 +226,7 @@ def _is_placed(
     if absent:
         first, *_ = absent
         raise InvalidArgument(
-            argument, f"has no column {first}: it needs {', '.join(POSE)}{_proposal(absent, names, text=text)}"
+            argument, f"has no column {first}: it needs {', '.join(POSE)}{_proposal(absent, names, options, text=text)}"
         )
     if not is_placed and options.origin is not None:
         raise InvalidArgument("origin", f"is given, but the table has no columns {' and '.join(PLACE)}")
@@ -242,7 +242,7 @@ def _check_names(argument: str, names: list[str], meaning: Columns) -> None:
             raise InvalidArgument(argument, f"has a column {name}, a name that the output needs: rename it")
 
 
-def _proposal(absent: list[str], names: list[str], *, text: bool) -> str:
+def _proposal(absent: list[str], names: list[str], options: SharedValues, *, text: bool) -> str:
     """What to do about columns of the pose that are absent: which columns may hold them, or what the table has."""
     separator = _separator(names)
     if separator:
@@ -250,6 +250,9 @@ def _proposal(absent: list[str], names: list[str], *, text: bool) -> str:
     places = [likely_column(name, names) for name in PLACE]
     wanted = [*PLACE, *(name for name in absent if name == HEADING)] if all(places) else absent
     likely = {name: column for name in wanted if (column := likely_column(name, names))}
+    airspeed = likely_column(AIRSPEED, names)
+    if likely and airspeed and AIRSPEED not in (*names, *options.numbers, *options.mapped):
+        likely[AIRSPEED] = airspeed
     if likely:
         return f"; if that is it, map {', '.join(f'{name}={column!r}' for name, column in likely.items())}"
     question = ": is the first line a header?" if text else ""
@@ -261,7 +264,9 @@ def _separator(names: list[str]) -> str:
     separators = {";": "semicolons", "\t": "tabs", "|": "vertical bars"}
     for separator, described in separators.items():
         if len(names) == 1 and separator in names[0]:
-            return f"; its fields are separated by {described}: they must be separated by commas"
+            recipe = f'pandas.read_csv("in.csv", sep={separator!r}, decimal=",").to_csv("out.csv", index=False)'
+            problem = f"its fields are separated by {described}: they must be separated by commas"
+            return f"; {problem}, for example by {recipe}"
     return ""
 
 
@@ -284,9 +289,7 @@ class _Given(NamedTuple):
     def require_circles_on_earth(self) -> None:
         """Raise `InvalidArgument` if the columns do not give each circle on Earth."""
         if any(name in self.numbers for name in ORBIT):
-            raise InvalidArgument(
-                "orbit", f"is in metres, but positions are in degrees: give the circle in degrees, or {ORBIT_PLACE[0]}"
-            )
+            raise InvalidArgument("origin", "is needed: positions are in degrees, so the circle must be there too")
         if any(name not in self.mapped for name in ORBIT_PLACE):
             raise InvalidArgument(
                 "origin",

@@ -107,21 +107,21 @@ def mission(
 
 
 def stored_radius_remark(radius_m: float, altitude_m: float | None) -> str:
-    """Sentences on the radius that ArduPlane flies, where it cannot store that of a mission; otherwise empty.
+    """Sentences on the radius that ArduPlane flies, where that is not the one of a mission; otherwise empty.
 
     It stores whole metres, and widens loiters with the altitude above mean sea level, `altitude_m`, unless a parameter
     says otherwise; None where that altitude is not known.
     """
-    stored_m = truncated(radius_m)
-    if stored_m == radius_m:
-        return ""
-    text = f"ArduPlane stores the radius in whole metres: {stored_m:g} m instead of {radius_m:g}."
+    stored_m, sentences = truncated(radius_m), []
+    if stored_m != radius_m:
+        sentences.append(f"ArduPlane stores the radius in whole metres: {stored_m:g} m instead of {radius_m:g}.")
     flown_m = stored_m if altitude_m is None else stored_m * eas2tas_squared(altitude_m)
-    if abs(flown_m - stored_m) < LEAST_REPORTED_M:
-        return text
-    return (
-        f"{text} At {altitude_m:g} m it holds {flown_m:.1f} m, unless {BANK_LIMIT} is the bank limit of the aircraft."
-    )
+    if abs(flown_m - stored_m) >= LEAST_REPORTED_M:
+        sentences.append(
+            f"In the thinner air at {altitude_m:g} m ArduPlane holds {flown_m:.1f} m, unless {BANK_LIMIT} is the bank "
+            "limit of the aircraft; loiter upload --true-radius compensates for it."
+        )
+    return " ".join(sentences)
 
 
 def approach_waypoints(maneuver: Maneuver, autopilot: int) -> tuple[Waypoint, ...]:

@@ -354,4 +354,6 @@ def _sender(message: Any) -> tuple[int, int]:
 
 
 def _reason(error: OSError) -> str:
-    return (error.strerror or str(error)).lower()
+    text = error.strerror or str(error)
+    # Only the first letter, since the text of pyserial contains the name of the port.
+    return text[:1].lower() + text[1:]
