@@ -292,8 +292,10 @@ def test_far_away_places_have_no_digits_of_rounding(shown, planned, tmp_path):
         ),
         (
             "--altitude 100 --altitude-reference home --home-altitude 430 --save a.plan",
-            "The mission is at 100 m above home; home is at 430 m above mean sea level.\n"
-            f"{WIDENED.format(530, 126.3)}\n",
+            (
+                "The mission is at 100 m above home; home is at 430 m above mean sea level.\n"
+                f"{WIDENED.format(530, 126.3)}\n"
+            ),
         ),
         ("--altitude 550 --save a.kml", ""),
         (
@@ -302,7 +304,10 @@ def test_far_away_places_have_no_digits_of_rounding(shown, planned, tmp_path):
         ),
         (
             "--orbit-lla 47.11 8.23 120.7 --altitude 100 --altitude-reference home --home-altitude 800 --save a.txt",
-            f"The mission is at 100 m above home; home is at 800 m above mean sea level.\n{STORED} {WIDENED.format(900, 130.9)}\n",
+            (
+                "The mission is at 100 m above home; home is at 800 m above mean sea level.\n"
+                f"{STORED} {WIDENED.format(900, 130.9)}\n"
+            ),
         ),
         (
             "--orbit-lla 47.11 8.23 120.7 --altitude 100 --altitude-reference ground --home-altitude 800 --save a.txt",
