@@ -21,7 +21,7 @@ from loiter.guidance.vehicle.rolling import Roll
 
 # The models: each of these multiples of the declared time constant and rate limit. They make steps of `STEP_S` seconds,
 # and the delays are whole steps; the longest, the first, is 1.3 s.
-TIMES, RATES = 1.5 ** np.arange(-4.0, 3.0), 1.3 ** np.arange(-2.0, 4.0)
+TIMES, RATES = 1.5 ** np.arange(-4.0, 3.0), 1.5 ** np.arange(-3.0, 3.0)
 STEP_S = 0.05
 DELAYS_S = STEP_S * np.arange(26.0, -1.0, -1.0)
 

@@ -261,7 +261,7 @@ class LoiterEntry:
             self._update_limits()
         known, history = self._vehicle.estimates, self._vehicle.history
         turning = Turning(known.turn_ratio, known.course_lead_s)
-        measured = self._observer.update(state, history.delayed_deg(known.delay_s), turning)
+        measured = self._observer.update(known.unbiased(state), history.delayed_deg(known.delay_s), turning)
         return measured.at_present(history, known.delay_s)
 
     def _update_limits(self) -> None:
