@@ -72,7 +72,7 @@ DEVIATION, LONGEST_BEND = 0.1, 0.1
 LOST_OFFSET, LOST_COURSE = 0.5, 1.0
 
 # Without data the last command is kept for this time, seconds. Older measurements are not averaged with new ones.
-BLIND_S = 1.0
+BLIND_S = 3.0
 
 # Where the bank overshoots its limit, less than that is commanded, but at least this multiple of the circle's bank.
 LEAST_LIMIT = 1.2
