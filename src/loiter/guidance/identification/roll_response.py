@@ -34,7 +34,7 @@ SPREAD, DELAY_SPREAD_S = 0.7, 0.2
 
 # Prediction errors have this standard deviation, degrees, and are correlated over this time, seconds; larger ones than
 # `LARGEST_ERROR_DEG` count as that.
-ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 3.0, 0.2, 10.0
+ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 1.5, 0.2, 10.0
 
 # Errors are forgotten over this time, seconds, while the predictions differ by more than `EXCITED_DEG`.
 MEMORY_S, EXCITED_DEG = 10.0, 3.0
