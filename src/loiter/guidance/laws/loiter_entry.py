@@ -39,8 +39,7 @@ RESERVE = 0.1
 
 # They are wider again by this share of the angle that the aircraft turns at its limit during the delay of its roll: the
 # slower the roll, the farther an error of its estimate takes the aircraft off the last arc.
-import os
-ROLL_RESERVE = float(os.environ.get("RR","0.08"))
+ROLL_RESERVE = 0.08
 
 # The averaging time of measurements, and their dead time, seconds.
 SMOOTHING_S, DELAY_S = 0.5, 0.1
@@ -98,7 +97,7 @@ WIND_DIFFERS, WIND_KEPT = 0.1, 0.05
 # On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn, at this share of the
 # gain at which it would begin to oscillate, up to the second share of the circle's rate of turn, and only while the
 # error is less than the third, in radii.
-TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.25, 0.15, 0.1
+TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.12, 0.15, 0.05
 
 
 class ResponsePoint(NamedTuple):
