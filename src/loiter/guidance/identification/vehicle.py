@@ -29,8 +29,12 @@ WIND_MEMORY_S, DECLARED_WIND_S = 60.0, 30.0
 # radians, from an air velocity with errors of the second, airspeeds, that are correlated over the third, seconds.
 HEADING_BIAS_SPREAD, AIR_ERROR, AIR_ERROR_S = 0.06, 0.05, 4.0
 
-# The same for the bank bias, degrees; the errors are those of `SLOW_TURNS`. It stays within the second, degrees.
-BANK_BIAS_SPREAD_DEG, LARGEST_BANK_BIAS_DEG = 1.5, 6.0
+# Turn ratio and bank bias are fitted to angles that are high-pass filtered and forgotten over these times, seconds.
+TURN_FILTER_S, TURN_MEMORY_S = 3.0, 60.0
+
+# What is declared of them counts as if it had been measured with these standard deviations, from headings with errors
+# of the third, degrees, that are correlated over the filter time. The bias stays within the last, degrees.
+TURN_RATIO_SPREAD, BANK_BIAS_SPREAD_DEG, TURN_ERROR_DEG, LARGEST_BANK_BIAS_DEG = 0.1, 1.5, 1.7, 6.0
 
 # The same for the airspeed.
 AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
@@ -71,8 +75,8 @@ class VehicleEstimates(NamedTuple):
     turn_airspeed_m_s: float
     overshoot_deg: float
     turns_unknown: float
-    heading_bias_deg: float = 0.0
-    bank_bias_deg: float = 0.0
+    heading_bias_deg: float
+    bank_bias_deg: float
 
     def unbiased(self, state: State) -> State:
         """A measured state without the biases of heading and bank."""
@@ -117,7 +121,7 @@ class IdentifiedVehicle:
     def __init__(self, declared: VehicleEstimates, tightest_deg: float, *, wind_declared: bool) -> None:
         self.estimates, self.history = declared, BankHistory()
         self._roll = RollIdentifier(declared.roll, declared.delay_s)
-        self._turning, self._lead = SlowTurns(declared.turn_ratio, SLOW_TURNS), CourseLead(declared.course_lead_s)
+        self._turning, self._lead = SlowTurns(declared.turn_ratio), CourseLead(declared.course_lead_s)
         self._quick_turning = TurnRatio(declared.turn_ratio, QUICK_TURNS)
         wind_s = DECLARED_WIND_S if wind_declared else 0.0
         self._air = WindAndHeading(declared.wind_east_m_s, declared.wind_north_m_s, wind_s)
@@ -269,15 +273,13 @@ class RatioSettings(NamedTuple):
     saturation_deg: float
 
 
-# The ratio of slow turns, from headings, and that of quick ones, from courses.
-SLOW_TURNS = RatioSettings(filter_s=3.0, mean_s=inf, memory_s=60.0, spread=0.1, error_deg=1.7, saturation_deg=inf)
+# The ratio of quick turns, from courses.
 QUICK_TURNS = RatioSettings(filter_s=0.3, mean_s=0.5, memory_s=6.0, spread=0.5, error_deg=0.5, saturation_deg=0.5)
 
 
 class TurnRatio:
     """The angle that a vehicle turns, divided by that of coordinated turns at its bank and airspeed: g tan(bank)/V.
 
-    The ratio of slow turns is below 1 where the vehicle slips, and off where its airspeed or bank is measured wrongly.
     Both angles are high-pass filtered, so that errors of the measured one do not add up, and related by least squares.
     """
 
@@ -307,46 +309,49 @@ class TurnRatio:
 
 
 class SlowTurns:
-    """The ratio of slow turns and the bank bias, which together turn a measured bank into a turn rate.
+    """The ratio of slow turns and the bank bias: what a measured bank says of the turn rate, by least squares.
 
-    The turn rate is ratio (g tan(bank)/V - bias g/(V cos^2 bank)) with the measured bank. The three angles of it, high-pass
-    filtered, are related by least squares. On a circle only their sum shows; straight flight and opposite turns
-    separate them.
+    The turn rate is ratio (g tan(bank)/V - bias g/(V cos^2 bank)), with the measured bank. The ratio is below 1 where
+    the vehicle slips, and off where its airspeed is measured wrongly. The measured angle and the angles of both terms
+    are high-pass filtered, so that errors of the measured one do not add up. On a circle only the sum of both terms
+    shows; straight flight and opposite turns separate them.
     """
 
-    def __init__(self, declared: float, settings: RatioSettings) -> None:
-        self._settings, self._declared = settings, declared
-        error = settings.error_deg**2 * settings.filter_s
-        self._ratio_prior, self._bias_prior = error / settings.spread**2, error / BANK_BIAS_SPREAD_DEG**2
-        # The sums of products: of the computed angle, that of a bias of a degree, and the measured angle.
+    def __init__(self, declared: float) -> None:
+        self._declared = self.ratio = declared
+        self.bank_bias_deg = 0.0
+        error = TURN_ERROR_DEG**2 * TURN_FILTER_S
+        self._ratio_prior, self._bias_prior = error / TURN_RATIO_SPREAD**2, error / BANK_BIAS_SPREAD_DEG**2
+        # The sums of products: of the computed angle x, the angle u of a bias of a degree, and the measured angle y.
         self._xx = self._xu = self._uu = self._xy = self._uy = 0.0
-        self.ratio, self.bank_bias_deg = declared, 0.0
         self.restart()
 
     def restart(self) -> None:
         """Do not relate later measurements to earlier ones."""
         self._last_deg = self._last_rate = self._last_slope = nan
-        filter_s = self._settings.filter_s
-        self._measured, self._computed, self._of_bias = _HighPass(filter_s), _HighPass(filter_s), _HighPass(filter_s)
+        self._measured, self._computed, self._of_bias = (_HighPass(TURN_FILTER_S) for _ in range(3))
 
     def measure(self, heading_deg: float, bank_deg: float, airspeed_m_s: float, dt: float) -> None:
         """Take a measured heading, bank and airspeed, `dt` seconds after the last."""
+        # Degrees per second, and degrees per second for each degree of bank: tan(45 degrees) is 1.
         rate = degrees(rate_at_bank(bank_deg, airspeed_m_s))
         slope = rate_at_bank(45.0, airspeed_m_s) / cos(radians(bank_deg)) ** 2
         turned = computed = of_bias = 0.0
         if self._last_deg == self._last_deg:
             turned = remainder(heading_deg - self._last_deg, 360.0)
-            computed, of_bias = 0.5 * dt * (self._last_rate + rate), 0.5 * dt * (self._last_slope + slope)
+            computed, of_bias = 0.5 * dt * (self._last_rate + rate), -0.5 * dt * (self._last_slope + slope)
         self._last_deg, self._last_rate, self._last_slope = heading_deg, rate, slope
         y, x = self._measured.changed(turned, dt), self._computed.changed(computed, dt)
-        u = -self._of_bias.changed(of_bias, dt)
-        kept = exp(-dt / self._settings.memory_s)
-        self._xx, self._xu, self._uu = kept * self._xx + dt * x * x, kept * self._xu + dt * x * u, kept * self._uu + dt * u * u
-        self._xy, self._uy = kept * self._xy + dt * x * y, kept * self._uy + dt * u * y
+        u, kept = self._of_bias.changed(of_bias, dt), exp(-dt / TURN_MEMORY_S)
+        self._xx = kept * self._xx + dt * x * x
+        self._xu = kept * self._xu + dt * x * u
+        self._uu = kept * self._uu + dt * u * u
+        self._xy = kept * self._xy + dt * x * y
+        self._uy = kept * self._uy + dt * u * y
         self._solve()
 
     def _solve(self) -> None:
-        """Set ratio and bias from the sums."""
+        """Set ratio and bias from the sums and the priors."""
         xx, xu, uu = self._xx + self._ratio_prior, self._xu, self._uu + self._bias_prior
         xy, uy = self._xy + self._ratio_prior * self._declared, self._uy
         determinant = xx * uu - xu * xu

@@ -1,4 +1,4 @@
-"""Telemetry of a simulated aircraft: measurements arrive at a low rate, with jitter; some are lost; there are outages."""
+"""Telemetry of a simulated aircraft: a low rate with jitter, losses and outages."""
 
 from __future__ import annotations
 
