@@ -37,9 +37,9 @@ from loiter.planning.sides import SIDES
 # to twice as large until the vehicle has flown a tight turn, which may be wider than declared.
 RESERVE = 0.1
 
-# They are wider again by this share of the angle that the aircraft turns at its limit during the delay of its roll: the
-# slower the roll, the farther an error of its estimate takes the aircraft off the last arc.
-ROLL_RESERVE = 0.08
+# The reserve grows by this share for each radian that the aircraft could turn during the delay of its roll: the slower
+# the roll, the farther an error of its estimate takes the aircraft off the last arc.
+ROLL_RESERVE = 0.8
 
 # The averaging time of measurements, and their dead time, seconds.
 SMOOTHING_S, DELAY_S = 0.5, 0.1
@@ -283,7 +283,7 @@ class LoiterEntry:
             self._roll, self._limit_deg, self._onsets = known.roll, limit_deg, {}
         tightest_m = radius_at_bank(known.turn_airspeed_m_s, limit_deg) / known.turn_ratio
         turned = self._lead_s(0.0, self._limit_deg) * V / tightest_m
-        reserve = self._reserve * (1.0 + known.turns_unknown) + ROLL_RESERVE * turned
+        reserve = self._reserve * (1.0 + known.turns_unknown + ROLL_RESERVE * turned)
         self._limits = TurnLimits(V, tightest_m, min(tightest_m * (1.0 + reserve), widest_m))
         self._hold_deg = self._bank_deg(V / R)
         self._planned_deg = self._bank_deg(V / self._limits.planned_m)
