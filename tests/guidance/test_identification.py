@@ -11,10 +11,10 @@ from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.guidance.identification.roll_response import RollIdentifier
 from loiter.guidance.identification.vehicle import (
     QUICK_TURNS,
-    SLOW_TURNS,
     Average,
     CourseLead,
     Overshoot,
+    SlowTurns,
     TurnRatio,
 )
 from loiter.guidance.laws.loiter_entry import LoiterEntry
@@ -25,7 +25,7 @@ from loiter.guidance.simulators.sensors import EXACT, Noise
 from loiter.guidance.trials.flight import fly
 from loiter.guidance.trials.varied import varied_trials
 from loiter.guidance.vehicle.rolling import Roll
-from loiter.guidance.vehicle.turning import rate_at_bank
+from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 
 UAV, ORBIT = Aircraft(18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, 120.0)
 START = Pose(-400.0, 120.0, 200.0)
@@ -118,13 +118,13 @@ def test_the_lead_of_the_course_is_found_in_wind(lead_s):
 @pytest.mark.parametrize("gain", [0.8, 1.0, 2.2])
 def test_quick_turns_have_a_ratio_of_their_own(gain):
     """A steady turn with an oscillation of 0.75 Hz, in which the course turns `gain` times as far as the bank says."""
-    slow, quick, w = TurnRatio(1.0, SLOW_TURNS), TurnRatio(1.0, QUICK_TURNS), 2.0 * pi * 0.75
+    slow, quick, w = SlowTurns(1.0), TurnRatio(1.0, QUICK_TURNS), 2.0 * pi * 0.75
     for i in range(1200):
         t = i * 0.025
         rate_deg_s = 15.0 + 5.0 * sin(w * t + pi / 2)
         course_deg = 0.9 * 15.0 * t + gain * 5.0 / w * sin(w * t)
-        for ratio in (slow, quick):
-            ratio.measure(course_deg, rate_deg_s, 0.025)
+        slow.measure(course_deg, bank_at_rate(radians(rate_deg_s), 18.0), 18.0, 0.025)
+        quick.measure(course_deg, rate_deg_s, 0.025)
     assert slow.ratio == pytest.approx(0.9, abs=0.06)
     # The prior of 1 keeps a share.
     assert quick.ratio == pytest.approx(gain, abs=0.35 * abs(gain - 1.0) + 0.03)
@@ -232,3 +232,27 @@ def test_tight_turns_are_unknown_until_one_was_flown():
     assert unknown[100] == 1.0, "flying straight"
     assert unknown[-1] < 0.3, "after the last arc"
     assert unknown == sorted(unknown, reverse=True)
+
+
+@pytest.mark.parametrize(("heading_deg", "bank_deg"), [(-4.0, 2.7), (5.0, -3.0), (0.0, 0.0)])
+def test_the_biases_of_heading_and_bank_are_found(heading_deg, bank_deg):
+    noise = Noise(heading_bias_deg=heading_deg, bank_bias_deg=bank_deg)
+    law, mass = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, Wind(2.0, 70.0), seed=5, gust=0.0, noise=noise)
+    for _ in range(4000):
+        mass.advance(law.step(mass.measured_state(), 0.02), 0.02)
+    assert law.estimates.heading_bias_deg == pytest.approx(heading_deg, abs=0.6)
+    assert law.estimates.bank_bias_deg == pytest.approx(bank_deg, abs=0.6)
+    east, north = Wind(2.0, 70.0).velocity_m_s
+    assert law.estimates.wind_east_m_s == pytest.approx(east, abs=0.25)
+    assert law.estimates.wind_north_m_s == pytest.approx(north, abs=0.25)
+
+
+def test_a_constant_heading_bias_in_straight_flight_counts_as_wind():
+    law, mass = (
+        LoiterEntry(ORBIT, UAV),
+        PointMass(Pose(-2000.0, 120.0, 90.0), UAV, seed=3, gust=0.0, noise=Noise(heading_bias_deg=5.0)),
+    )
+    for _ in range(1000):
+        mass.advance(law.step(mass.measured_state(), 0.02), 0.02)
+    assert abs(law.estimates.heading_bias_deg) < 1.0
+    assert law.estimates.wind_north_m_s == pytest.approx(18.0 * sin(radians(5.0)), abs=0.4)

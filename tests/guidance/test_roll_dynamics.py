@@ -93,3 +93,14 @@ def test_telemetry_arrives_at_its_rate_and_repeats_the_last_measurement():
 def test_telemetry_that_cannot_be(values, sentence):
     with pytest.raises(InvalidArgument, match=sentence):
         Telemetry(**values)
+
+
+def test_telemetry_has_an_outage_in_each_period():
+    vehicle = WithTelemetry(Kinematic(Pose(0.0, 0.0, 0.0), UAV), Telemetry(50.0, outage_s=3.0), seed=3)
+    command, stamps = Command(0.0, 0.0, Phase.STRAIGHT, 0.0, Turn.CW, Phase.HOLD, 0.0), []
+    for _ in range(10000):
+        stamps.append(vehicle.measured_state().time_s)
+        vehicle.advance(command, 0.02)
+    gaps = np.diff(sorted(set(stamps)))
+    assert 8 <= np.sum(gaps > 0.1) <= 10, "in 200 seconds one in 20"
+    assert 2.0 < gaps.max() < 3.1

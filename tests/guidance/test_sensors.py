@@ -1,6 +1,6 @@
 """Sensors: the effects of noise and delay."""
 
-from dataclasses import astuple
+from dataclasses import astuple, replace
 
 import numpy as np
 import pytest
@@ -44,11 +44,18 @@ def test_noise_has_the_given_deviations():
     for i in range(1, 4001):
         sensors.measure(FIRST._replace(time_s=2.0 + i))
         rows.append(np.array(sensors.latest[1:]) - FIRST[1:])
-    position, heading, bank, velocity, airspeed, _ = astuple(noise)
+    position, heading, bank, velocity, airspeed, *_ = astuple(noise)
     deviations = [position, position, heading, bank, velocity, velocity, airspeed]
     assert np.std(rows, axis=0) == pytest.approx(deviations, rel=0.06)
     assert np.mean(rows, axis=0) == pytest.approx(np.zeros(7), abs=0.06)
     assert np.corrcoef(np.array(rows).T) == pytest.approx(np.eye(7), abs=0.07)
+
+
+def test_biases_are_added_to_heading_and_bank():
+    biased = replace(EXACT, heading_bias_deg=-50.0, bank_bias_deg=2.5)
+    assert list(latest(biased, 5)) == [later(i)._replace(heading_deg=355.0, bank_deg=5.5) for i in range(5)]
+    with pytest.raises(InvalidArgument, match=r"^bank_bias_deg is nan"):
+        Noise(bank_bias_deg=float("nan"))
 
 
 def test_noise_is_not_negative():

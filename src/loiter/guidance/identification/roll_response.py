@@ -21,7 +21,7 @@ from loiter.guidance.vehicle.rolling import Roll
 
 # The models: each of these multiples of the declared time constant and rate limit. They make steps of `STEP_S` seconds,
 # and the delays are whole steps; the longest, the first, is 1.3 s.
-TIMES, RATES = 1.5 ** np.arange(-4.0, 3.0), 1.3 ** np.arange(-2.0, 4.0)
+TIMES, RATES = 1.5 ** np.arange(-4.0, 3.0), 1.3 ** np.arange(-4.0, 4.0)
 STEP_S = 0.05
 DELAYS_S = STEP_S * np.arange(26.0, -1.0, -1.0)
 
@@ -34,7 +34,7 @@ SPREAD, DELAY_SPREAD_S = 0.7, 0.2
 
 # Prediction errors have this standard deviation, degrees, and are correlated over this time, seconds; larger ones than
 # `LARGEST_ERROR_DEG` count as that.
-ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 3.0, 0.2, 10.0
+ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 2.0, 0.2, 10.0
 
 # Errors are forgotten over this time, seconds, while the predictions differ by more than `EXCITED_DEG`.
 MEMORY_S, EXCITED_DEG = 10.0, 3.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees, exp, inf, nan, remainder
+from math import atan2, cos, degrees, exp, inf, nan, radians, remainder
 from typing import NamedTuple, Protocol
 
 from loiter.guidance.identification.bank_history import BankHistory
@@ -24,6 +24,17 @@ LEAD_FILTER_S, LEAD_MEMORY_S, LEAD_SPREAD_S, DIRECTION_ERROR, LARGEST_LEAD_S = 1
 # The wind is the average of the air's velocity over the first time, seconds, at most. A declared wind counts as if it
 # had been averaged over the second; without one the average begins with the first measurement.
 WIND_MEMORY_S, DECLARED_WIND_S = 60.0, 30.0
+
+# The heading bias counts, before it shows, as if it had been measured to be 0 with the first standard deviation,
+# radians, from an air velocity with errors of the second, airspeeds, that are correlated over the third, seconds.
+HEADING_BIAS_SPREAD, AIR_ERROR, AIR_ERROR_S = 0.06, 0.05, 4.0
+
+# Turn ratio and bank bias are fitted to angles that are high-pass filtered and forgotten over these times, seconds.
+TURN_FILTER_S, TURN_MEMORY_S = 3.0, 60.0
+
+# What is declared of them counts as if it had been measured with these standard deviations, from headings with errors
+# of the third, degrees, that are correlated over the filter time. The bias stays within the last, degrees.
+TURN_RATIO_SPREAD, BANK_BIAS_SPREAD_DEG, TURN_ERROR_DEG, LARGEST_BANK_BIAS_DEG = 0.1, 1.5, 1.7, 6.0
 
 # The same for the airspeed.
 AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
@@ -49,7 +60,8 @@ class VehicleEstimates(NamedTuple):
     the direction of flight is ahead of the heading in a turn; the steady wind towards the east and the north, and the
     true airspeed, metres per second, in all and in the tightest turns: autopilots do not hold it exactly there. By
     how many degrees the bank has lately overshot the bank limit, beyond `NORMAL_OVERSHOOT_DEG`; and the share of what
-    is declared in the airspeed of tight turns, 1 before the first one.
+    is declared in the airspeed of tight turns, 1 before the first one. What the measured heading and the measured bank
+    exceed the true ones by, degrees.
     """
 
     roll: Roll
@@ -63,6 +75,15 @@ class VehicleEstimates(NamedTuple):
     turn_airspeed_m_s: float
     overshoot_deg: float
     turns_unknown: float
+    heading_bias_deg: float
+    bank_bias_deg: float
+
+    def unbiased(self, state: State) -> State:
+        """A measured state without the biases of heading and bank."""
+        if self.heading_bias_deg == self.bank_bias_deg == 0.0:
+            return state
+        heading_deg, bank_deg = state.heading_deg - self.heading_bias_deg, state.bank_deg - self.bank_bias_deg
+        return state._replace(heading_deg=heading_deg, bank_deg=bank_deg)
 
 
 class Vehicle(Protocol):
@@ -100,11 +121,10 @@ class IdentifiedVehicle:
     def __init__(self, declared: VehicleEstimates, tightest_deg: float, *, wind_declared: bool) -> None:
         self.estimates, self.history = declared, BankHistory()
         self._roll = RollIdentifier(declared.roll, declared.delay_s)
-        self._turning, self._lead = TurnRatio(declared.turn_ratio, SLOW_TURNS), CourseLead(declared.course_lead_s)
+        self._turning, self._lead = SlowTurns(declared.turn_ratio), CourseLead(declared.course_lead_s)
         self._quick_turning = TurnRatio(declared.turn_ratio, QUICK_TURNS)
         wind_s = DECLARED_WIND_S if wind_declared else 0.0
-        self._east = Average(declared.wind_east_m_s, wind_s, WIND_MEMORY_S)
-        self._north = Average(declared.wind_north_m_s, wind_s, WIND_MEMORY_S)
+        self._air = WindAndHeading(declared.wind_east_m_s, declared.wind_north_m_s, wind_s)
         self._airspeed = Average(declared.airspeed_m_s, DECLARED_AIRSPEED_S, AIRSPEED_MEMORY_S)
         self._turn_airspeed = Average(declared.turn_airspeed_m_s, DECLARED_TURN_AIRSPEED_S, AIRSPEED_MEMORY_S)
         self._tight_deg, self._overshoot = TIGHT_SHARE * tightest_deg, Overshoot(tightest_deg)
@@ -116,48 +136,85 @@ class IdentifiedVehicle:
         if 0.0 < dt < SHORTEST_GAP_S:
             return False
         first, self._last_s = self._last_s == -inf, state.time_s
-        if first:
-            self._roll.begin(state.bank_deg)
-            self.history.begin(state.bank_deg)
-        self._roll.measure(state.bank_deg)
         if not 0.0 < dt <= LARGEST_GAP_S:
             dt = 0.0
             self._turning.restart()
             self._quick_turning.restart()
             self._lead.restart()
-        self._measure_turns(state, dt)
-        self._airspeed.add(state.airspeed_m_s, dt)
+        self._turning.measure(state.heading_deg, state.bank_deg, state.airspeed_m_s, dt)
+        self.estimates = self._estimates_from(self.estimates.unbiased(state), dt, first=first)
+        return True
+
+    def _estimates_from(self, state: State, dt: float, *, first: bool) -> VehicleEstimates:
+        """The estimates including a state without biases, `dt` seconds after the last."""
+        if first:
+            self._roll.begin(state.bank_deg)
+            self.history.begin(state.bank_deg)
+        self._roll.measure(state.bank_deg)
+        turning, V, air = self._turning, state.airspeed_m_s, self._air
+        rate = rate_at_bank(state.bank_deg, V)
+        course_deg = degrees(atan2(state.velocity_east_m_s - air.east_m_s, state.velocity_north_m_s - air.north_m_s))
+        self._quick_turning.measure(course_deg, degrees(rate), dt)
+        self._lead.measure(state, turning.ratio, (air.east_m_s, air.north_m_s), dt)
+        self._airspeed.add(V, dt)
         if abs(state.bank_deg) > self._tight_deg:
-            self._turn_airspeed.add(state.airspeed_m_s, dt)
-        (c, s), V = heading_vector(state.heading_deg), state.airspeed_m_s
+            self._turn_airspeed.add(V, dt)
         # The direction of flight is to the right of the heading by this angle.
-        off = self._lead.lead_s * self._turning.ratio * rate_at_bank(state.bank_deg, V)
-        self.estimates = VehicleEstimates(
+        air.add(state, self._lead.lead_s * turning.ratio * rate, self.estimates.heading_bias_deg, dt)
+        return VehicleEstimates(
             *self._roll.estimate,
-            self._turning.ratio,
+            turning.ratio,
             self._quick_turning.ratio,
             self._lead.lead_s,
-            self._east.add(state.velocity_east_m_s - V * (c + off * s), dt),
-            self._north.add(state.velocity_north_m_s - V * (s - off * c), dt),
+            air.east_m_s,
+            air.north_m_s,
             self._airspeed.value,
             self._turn_airspeed.value,
             self._overshoot.add(state.bank_deg, dt),
             self._turn_airspeed.declared_share,
+            air.heading_bias_deg,
+            turning.bank_bias_deg,
         )
-        return True
-
-    def _measure_turns(self, state: State, dt: float) -> None:
-        """Relate heading and course to the bank."""
-        east, north = state.velocity_east_m_s - self._east.value, state.velocity_north_m_s - self._north.value
-        rate_deg_s = degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s))
-        self._turning.measure(state.heading_deg, rate_deg_s, dt)
-        self._quick_turning.measure(degrees(atan2(east, north)), rate_deg_s, dt)
-        self._lead.measure(state, self._turning.ratio, (self._east.value, self._north.value), dt)
 
     def record(self, command_deg: float, dt: float) -> None:
         """Record a command that is given for `dt` seconds."""
         self._roll.record(command_deg, dt)
         self.history.record(self._roll.bank_deg, dt)
+
+
+class WindAndHeading:
+    """The steady wind and the heading bias: an airspeed along wrong headings looks like a wind that turns with them.
+
+    The velocity over the ground less the airspeed along the heading is w - b n, with the wind w, the bias b to the
+    right and n, the airspeed to the right of the heading. Least squares over up to `WIND_MEMORY_S`: while n is constant
+    all of it counts as wind, and the bias is 0.
+    """
+
+    def __init__(self, east_m_s: float, north_m_s: float, known_s: float) -> None:
+        self.east_m_s, self.north_m_s, self.heading_bias_deg = east_m_s, north_m_s, 0.0
+        self._known_s = known_s
+        # The means of the air velocity, of n, and of their products.
+        self._air, self._n = (east_m_s, north_m_s), (0.0, 0.0)
+        self._product = self._square = 0.0
+
+    def add(self, state: State, off: float, removed_deg: float, dt: float) -> None:
+        """Take a state whose heading was corrected by `removed_deg`; the flight is `off` radians to its right."""
+        self._known_s = min(self._known_s + max(dt, 1e-3), WIND_MEMORY_S)
+        share, V = min(max(dt, 1e-3) / self._known_s, 1.0), state.airspeed_m_s
+        c, s = heading_vector(state.heading_deg + removed_deg + degrees(off))
+        n_east, n_north = V * s, -V * c
+        east, north = state.velocity_east_m_s - V * c, state.velocity_north_m_s - V * s
+        (air_east, air_north), (mean_east, mean_north) = self._air, self._n
+        air_east, air_north = air_east + share * (east - air_east), air_north + share * (north - air_north)
+        mean_east, mean_north = mean_east + share * (n_east - mean_east), mean_north + share * (n_north - mean_north)
+        self._air, self._n = (air_east, air_north), (mean_east, mean_north)
+        self._product += share * (n_east * east + n_north * north - self._product)
+        self._square += share * (V * V - self._square)
+        prior = (AIR_ERROR * V / HEADING_BIAS_SPREAD) ** 2 * AIR_ERROR_S / self._known_s
+        spread = self._square - mean_east * mean_east - mean_north * mean_north
+        bias = -(self._product - air_east * mean_east - air_north * mean_north) / (spread + prior)
+        self.heading_bias_deg = degrees(bias)
+        self.east_m_s, self.north_m_s = air_east + bias * mean_east, air_north + bias * mean_north
 
 
 class Average:
@@ -216,15 +273,13 @@ class RatioSettings(NamedTuple):
     saturation_deg: float
 
 
-# The ratio of slow turns, from headings, and that of quick ones, from courses.
-SLOW_TURNS = RatioSettings(filter_s=3.0, mean_s=inf, memory_s=60.0, spread=0.1, error_deg=1.7, saturation_deg=inf)
+# The ratio of quick turns, from courses.
 QUICK_TURNS = RatioSettings(filter_s=0.3, mean_s=0.5, memory_s=6.0, spread=0.5, error_deg=0.5, saturation_deg=0.5)
 
 
 class TurnRatio:
     """The angle that a vehicle turns, divided by that of coordinated turns at its bank and airspeed: g tan(bank)/V.
 
-    The ratio of slow turns is below 1 where the vehicle slips, and off where its airspeed or bank is measured wrongly.
     Both angles are high-pass filtered, so that errors of the measured one do not add up, and related by least squares.
     """
 
@@ -251,6 +306,57 @@ class TurnRatio:
         computed_deg = self._computed_mean.filtered(self._computed.changed(computed_turn_deg, dt), dt)
         weight = 1.0 / max(abs(computed_deg) / self._settings.saturation_deg, 1.0) ** 2
         self.ratio = bounded_turn_ratio(self._fit.ratio(measured_deg, computed_deg, weight, dt))
+
+
+class SlowTurns:
+    """The ratio of slow turns and the bank bias: what a measured bank says of the turn rate, by least squares.
+
+    The turn rate is ratio (g tan(bank)/V - bias g/(V cos^2 bank)), with the measured bank. The ratio is below 1 where
+    the vehicle slips, and off where its airspeed is measured wrongly. The measured angle and the angles of both terms
+    are high-pass filtered, so that errors of the measured one do not add up. On a circle only the sum of both terms
+    shows; straight flight and opposite turns separate them.
+    """
+
+    def __init__(self, declared: float) -> None:
+        self._declared = self.ratio = declared
+        self.bank_bias_deg = 0.0
+        error = TURN_ERROR_DEG**2 * TURN_FILTER_S
+        self._ratio_prior, self._bias_prior = error / TURN_RATIO_SPREAD**2, error / BANK_BIAS_SPREAD_DEG**2
+        # The sums of products: of the computed angle x, the angle u of a bias of a degree, and the measured angle y.
+        self._xx = self._xu = self._uu = self._xy = self._uy = 0.0
+        self.restart()
+
+    def restart(self) -> None:
+        """Do not relate later measurements to earlier ones."""
+        self._last_deg = self._last_rate = self._last_slope = nan
+        self._measured, self._computed, self._of_bias = (_HighPass(TURN_FILTER_S) for _ in range(3))
+
+    def measure(self, heading_deg: float, bank_deg: float, airspeed_m_s: float, dt: float) -> None:
+        """Take a measured heading, bank and airspeed, `dt` seconds after the last."""
+        # Degrees per second, and degrees per second for each degree of bank: tan(45 degrees) is 1.
+        rate = degrees(rate_at_bank(bank_deg, airspeed_m_s))
+        slope = rate_at_bank(45.0, airspeed_m_s) / cos(radians(bank_deg)) ** 2
+        turned = computed = of_bias = 0.0
+        if self._last_deg == self._last_deg:
+            turned = remainder(heading_deg - self._last_deg, 360.0)
+            computed, of_bias = 0.5 * dt * (self._last_rate + rate), -0.5 * dt * (self._last_slope + slope)
+        self._last_deg, self._last_rate, self._last_slope = heading_deg, rate, slope
+        y, x = self._measured.changed(turned, dt), self._computed.changed(computed, dt)
+        u, kept = self._of_bias.changed(of_bias, dt), exp(-dt / TURN_MEMORY_S)
+        self._xx = kept * self._xx + dt * x * x
+        self._xu = kept * self._xu + dt * x * u
+        self._uu = kept * self._uu + dt * u * u
+        self._xy = kept * self._xy + dt * x * y
+        self._uy = kept * self._uy + dt * u * y
+        self._solve()
+
+    def _solve(self) -> None:
+        """Set ratio and bias from the sums and the priors."""
+        xx, xu, uu = self._xx + self._ratio_prior, self._xu, self._uu + self._bias_prior
+        xy, uy = self._xy + self._ratio_prior * self._declared, self._uy
+        determinant = xx * uu - xu * xu
+        self.ratio = bounded_turn_ratio((uu * xy - xu * uy) / determinant)
+        self.bank_bias_deg = clip((xx * uy - xu * xy) / (determinant * self.ratio), LARGEST_BANK_BIAS_DEG)
 
 
 def bounded_turn_ratio(ratio: float) -> float:

@@ -37,6 +37,10 @@ from loiter.planning.sides import SIDES
 # to twice as large until the vehicle has flown a tight turn, which may be wider than declared.
 RESERVE = 0.1
 
+# The reserve grows by this share for each radian that the aircraft could turn during the delay of its roll: the slower
+# the roll, the farther an error of its estimate takes the aircraft off the last arc.
+ROLL_RESERVE = 0.8
+
 # The averaging time of measurements, and their dead time, seconds.
 SMOOTHING_S, DELAY_S = 0.5, 0.1
 
@@ -71,8 +75,9 @@ DEVIATION, LONGEST_BEND = 0.1, 0.1
 # Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is accepted.
 LOST_OFFSET, LOST_COURSE = 0.5, 1.0
 
-# Without data the last command is kept for this time, seconds. Older measurements are not averaged with new ones.
-BLIND_S = 1.0
+# Without a usable measurement the last command is kept for the first time, seconds. Until the next measurement arrives
+# the last one is extrapolated, but no longer than for the second; older ones are not averaged with new ones.
+BLIND_S, EXTRAPOLATED_S = 1.0, 3.0
 
 # Where the bank overshoots its limit, less than that is commanded, but at least this multiple of the circle's bank.
 LEAST_LIMIT = 1.2
@@ -93,7 +98,7 @@ WIND_DIFFERS, WIND_KEPT = 0.1, 0.05
 # On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn, at this share of the
 # gain at which it would begin to oscillate, up to the second share of the circle's rate of turn, and only while the
 # error is less than the third, in radii.
-TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.25, 0.15, 0.1
+TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.12, 0.15, 0.05
 
 
 class ResponsePoint(NamedTuple):
@@ -112,10 +117,11 @@ class LoiterEntry:
 
     `orbit` gives the circle at `State.time_s` = 0; a circle that moves keeps its velocity. The law identifies the
     vehicle while it flies, from the commands that it gives and the measurements: the roll response, the delay of
-    measurements, the ratio of turn rates, the steady wind and the airspeed. `wind`, `roll` and `delay_s` are first
-    guesses; without `wind` it is taken from the first measurements. With `identify` False the vehicle is as declared.
-    `reserve` is the share by which planned turns are wider than the tightest (up to twice that until one was flown),
-    `smoothing_s` the shortest averaging time of measurements, `gain` the gain of course corrections.
+    measurements, the ratio of turn rates, the biases of heading and bank, the steady wind and the airspeed. `wind`,
+    `roll` and `delay_s` are first guesses; without `wind` it is taken from the first measurements. With `identify`
+    False the vehicle is as declared. `reserve` is the share by which planned turns are wider than the tightest (up to
+    twice that until one was flown, and more where the roll is slow), `smoothing_s` the shortest averaging time of
+    measurements, `gain` the gain of course corrections.
     `command_limit_deg`, which may be set at any time, limits the commanded banks further, but not the turns that are
     planned. Call `step` 10 to 400 times a second.
 
@@ -123,12 +129,12 @@ class LoiterEntry:
     lost, so that noise causes neither switching between plans nor a go-around. docs/guidance.md describes the method
     and its performance.
 
-    Measurements may come less often than steps: a step then gets the last one again, and the law extrapolates it, for a
-    second at most. Where a measurement is not finite, or earlier than the last one, or where no new one has come for a
-    second, the phase is `NO_DATA`: the last command is kept until a second after the last measurement; then the wings
-    are levelled or, on the circle, the bank of the circle is kept. The first good measurement ends this phase. A clock
-    that jumps back, or more than an hour ahead, is accepted when its stamps have advanced by a second; the position of
-    a moving circle is then taken from the new clock.
+    Measurements may come less often than steps: a step then gets the last one again, and the law extrapolates it, for
+    three seconds at most. Where a measurement is not finite, or earlier than the last one, or where no new one has come
+    for three seconds, the phase is `NO_DATA`: the last command is kept until a second after the last measurement; then
+    the wings are levelled or, on the circle, the bank of the circle is kept. The first good measurement ends this
+    phase. A clock that jumps back, or more than an hour ahead, is accepted when its stamps have advanced by a second;
+    the position of a moving circle is then taken from the new clock.
 
     Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held, `InvalidArgument` for numbers below 0.
     """
@@ -167,6 +173,8 @@ class LoiterEntry:
             turn_airspeed_m_s=aircraft.airspeed_m_s,
             overshoot_deg=0.0,
             turns_unknown=0.0,
+            heading_bias_deg=0.0,
+            bank_bias_deg=0.0,
         )
         self._vehicle: Vehicle = DeclaredVehicle(declared)
         # The machine code is loaded before the flight, where it is compiled; a wind may have to be planned with.
@@ -232,14 +240,14 @@ class LoiterEntry:
     def _present_estimate(self, state: State) -> Estimate | None:
         """The estimate of the present state; None where there is no usable measurement.
 
-        Telemetry may be slower than the steps: until the next measurement, but no longer than `BLIND_S`, the last
-        estimate is extrapolated with the modelled bank.
+        Telemetry may be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the
+        last estimate is extrapolated with the modelled bank.
         """
         if not is_usable(state):
             return None
         history = self._vehicle.history
         if state.time_s == self._clock.time_s:
-            if self._present is None or self._clock.since_s > BLIND_S:
+            if self._present is None or self._clock.since_s > EXTRAPOLATED_S:
                 return None
             bank_deg = history.current_deg + self._bias_deg
             self._present = self._present.with_bank(bank_deg).after(self._elapsed_s)
@@ -255,13 +263,13 @@ class LoiterEntry:
         """The estimate of the present state from a new measurement."""
         if self._clock.jump_s != 0.0:
             self._shift_clock(self._clock.jump_s)
-        if self._clock.jump_s != 0.0 or self._clock.gap_s > BLIND_S:
+        if self._clock.jump_s != 0.0 or self._clock.gap_s > EXTRAPOLATED_S:
             self._observer.reset()
         if self._vehicle.measure(state):
             self._update_limits()
         known, history = self._vehicle.estimates, self._vehicle.history
         turning = Turning(known.turn_ratio, known.course_lead_s)
-        measured = self._observer.update(state, history.delayed_deg(known.delay_s), turning)
+        measured = self._observer.update(known.unbiased(state), history.delayed_deg(known.delay_s), turning)
         return measured.at_present(history, known.delay_s)
 
     def _update_limits(self) -> None:
@@ -274,7 +282,8 @@ class LoiterEntry:
         if _differs(known.roll, self._roll) or limit_deg != self._limit_deg:
             self._roll, self._limit_deg, self._onsets = known.roll, limit_deg, {}
         tightest_m = radius_at_bank(known.turn_airspeed_m_s, limit_deg) / known.turn_ratio
-        reserve = self._reserve * (1.0 + known.turns_unknown)
+        turned = self._lead_s(0.0, self._limit_deg) * V / tightest_m
+        reserve = self._reserve * (1.0 + known.turns_unknown + ROLL_RESERVE * turned)
         self._limits = TurnLimits(V, tightest_m, min(tightest_m * (1.0 + reserve), widest_m))
         self._hold_deg = self._bank_deg(V / R)
         self._planned_deg = self._bank_deg(V / self._limits.planned_m)

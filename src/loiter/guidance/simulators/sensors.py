@@ -1,4 +1,4 @@
-"""Sensors: noise on each quantity of a state, and a delay before a measurement is available."""
+"""Sensors: noise and constant biases of a measured state, and a delay before a measurement is available."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections import deque
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
-from loiter.errors import not_negative
+from loiter.errors import not_negative, number
 from loiter.guidance.protocol import State
 from loiter.planning.compass import wrapped
 
@@ -19,10 +19,11 @@ BLOCK = 1024
 
 @dataclass(frozen=True)
 class Noise:
-    """Standard deviations of white noise, drawn for each measurement, and the delay of measurements, seconds.
+    """Standard deviations of white noise, drawn for each measurement, the delay of measurements, seconds, and biases.
 
-    `velocity_m_s` applies to each component over the ground. Raises `InvalidArgument` for values that are negative or
-    not finite.
+    `velocity_m_s` applies to each component over the ground. The biases are what a measured heading and a measured bank
+    exceed the true ones by. Raises `InvalidArgument` for values that are not finite, and for deviations and delays
+    below 0.
     """
 
     position_m: float = 1.0
@@ -31,10 +32,13 @@ class Noise:
     velocity_m_s: float = 0.3
     airspeed_m_s: float = 0.3
     delay_s: float = 0.1
+    heading_bias_deg: float = 0.0
+    bank_bias_deg: float = 0.0
 
     def __post_init__(self) -> None:
         for field in fields(self):
-            object.__setattr__(self, field.name, not_negative(field.name, getattr(self, field.name), "its unit"))
+            check = number if field.name.endswith("_bias_deg") else not_negative
+            object.__setattr__(self, field.name, check(field.name, getattr(self, field.name), "its unit"))
 
 
 EXACT = Noise(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -76,8 +80,8 @@ class Sensors:
             state.time_s,
             state.east_m + n.position_m * a,
             state.north_m + n.position_m * b,
-            wrapped(state.heading_deg + n.heading_deg * c),
-            state.bank_deg + n.bank_deg * d,
+            wrapped(state.heading_deg + n.heading_bias_deg + n.heading_deg * c),
+            state.bank_deg + n.bank_bias_deg + n.bank_deg * d,
             state.velocity_east_m_s + n.velocity_m_s * e,
             state.velocity_north_m_s + n.velocity_m_s * f,
             state.airspeed_m_s + n.airspeed_m_s * g,

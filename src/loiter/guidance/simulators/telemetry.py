@@ -1,4 +1,4 @@
-"""Telemetry of a simulated aircraft: measurements arrive at a low rate, with jitter, and some are lost."""
+"""Telemetry of a simulated aircraft: a low rate with jitter, losses and outages."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from loiter.errors import InvalidArgument, positive
+from loiter.errors import InvalidArgument, not_negative, positive
 from loiter.guidance.protocol import Command, Simulator, State
 
 
@@ -14,15 +14,20 @@ from loiter.guidance.protocol import Command, Simulator, State
 class Telemetry:
     """How measurements reach a law: `rate_hz` a second, at intervals that vary by the share `jitter`, `loss` are lost.
 
-    Raises `InvalidArgument` for a rate that is not positive, and for shares outside [0, 1).
+    In each period of `outage_period_s` seconds there is an outage of up to `outage_s` seconds, in which all are lost.
+    Raises `InvalidArgument` for a rate or a period that is not positive, an outage below 0, and shares outside [0, 1).
     """
 
     rate_hz: float = 50.0
     jitter: float = 0.0
     loss: float = 0.0
+    outage_s: float = 0.0
+    outage_period_s: float = 20.0
 
     def __post_init__(self) -> None:
         positive("rate_hz", self.rate_hz, "measurements per second")
+        not_negative("outage_s", self.outage_s, "seconds")
+        positive("outage_period_s", self.outage_period_s, "seconds")
         for name in ("jitter", "loss"):
             if not 0.0 <= getattr(self, name) < 1.0:
                 raise InvalidArgument(name, f"is {getattr(self, name)}: it must be at least 0 and below 1")
@@ -38,7 +43,11 @@ class WithTelemetry:
         self._simulator, self._telemetry = simulator, telemetry
         self._random = np.random.default_rng(seed)
         self._latest = simulator.measured_state()
-        self._next_s = simulator.true_state().time_s + self._interval_s()
+        self._start_s = simulator.true_state().time_s
+        self._next_s = self._start_s + self._interval_s()
+        # Outages have their own random numbers, so that intervals and losses are the same without them.
+        self._outage_random = np.random.default_rng((seed, 1))
+        self._period, self._outage_from_s, self._outage_to_s = -1, 0.0, 0.0
 
     def true_state(self) -> State:
         """The true state."""
@@ -57,8 +66,17 @@ class WithTelemetry:
             return
         while self._next_s <= now_s + 1e-9:
             self._next_s += self._interval_s()
-        if self._random.random() >= self._telemetry.loss:
+        lost = self._random.random() < self._telemetry.loss
+        if not (lost or self._is_outage(now_s)):
             self._latest = self._simulator.measured_state()
+
+    def _is_outage(self, now_s: float) -> bool:
+        period_s, random = self._telemetry.outage_period_s, self._outage_random
+        while self._period < int((now_s - self._start_s) / period_s):
+            self._period += 1
+            begin_s = self._start_s + (self._period + random.random()) * period_s
+            self._outage_from_s, self._outage_to_s = begin_s, begin_s + self._telemetry.outage_s * random.random()
+        return self._outage_from_s <= now_s < self._outage_to_s
 
     def _interval_s(self) -> float:
         jitter = self._telemetry.jitter

@@ -21,6 +21,7 @@ from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.simulators.telemetry import Telemetry, WithTelemetry
 from loiter.guidance.trials.campaign import Trial, at_least, random_entry
+from loiter.guidance.vehicle.rolling import Roll
 from loiter.planning.model import Aircraft, Wind
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ class VariedTrial(Trial):
     """
 
     declared: Aircraft
-    response: RollResponse
+    response: Roll | RollResponse
     turn_ratio: float
     telemetry: Telemetry
     noise: Noise
@@ -136,4 +137,5 @@ VARIED_LAWS: dict[str, Callable[..., Law]] = {
 
 
 def _roll_delay_s(trial: VariedTrial) -> float:
-    return trial.response.dead_time_s + trial.response.time_s
+    roll = trial.response
+    return roll.time_s if isinstance(roll, Roll) else roll.dead_time_s + roll.time_s
