@@ -3,7 +3,7 @@
 from math import hypot
 from typing import NamedTuple
 
-from loiter.errors import RadiusTooSmall, WindTooStrong
+from loiter.errors import RadiusTooSmall, WindTooStrong, instance
 from loiter.kernel import wind_search
 from loiter.kernel.hold import tightest_radius
 from loiter.kernel.statuses import Status
@@ -26,7 +26,12 @@ class RelativeWind(NamedTuple):
 
 
 def relative_wind(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> RelativeWind:
-    """The velocity of the air relative to the circle, divided by the airspeed; zero where only rounding remains."""
+    """The velocity of the air relative to the circle, divided by the airspeed; zero where only rounding remains.
+
+    Raises `InvalidArgument` for a value of another class: every function that takes these three begins here.
+    """
+    for name, value, kind in (("orbit", orbit, Orbit), ("aircraft", aircraft, Aircraft), ("wind", wind, Wind)):
+        instance(name, value, kind)
     circle = orbit.velocity_east_m_s, orbit.velocity_north_m_s
     return RelativeWind(*relative_velocity(wind.velocity_m_s, circle, aircraft.airspeed_m_s))
 

@@ -49,10 +49,9 @@ class Problem:
     relative_wind: RelativeWind = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        for name, kind in (("pose", Pose), ("orbit", Orbit), ("aircraft", Aircraft), ("wind", Wind)):
-            instance(name, getattr(self, name), kind)
-        object.__setattr__(self, "tolerance_m", not_negative("tolerance_m", self.tolerance_m, "metres"))
+        instance("pose", self.pose, Pose)
         object.__setattr__(self, "relative_wind", relative_wind(self.orbit, self.aircraft, self.wind))
+        object.__setattr__(self, "tolerance_m", not_negative("tolerance_m", self.tolerance_m, "metres"))
 
     @property
     def still(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from loiter.geo import LocalFrame
@@ -45,11 +45,13 @@ def draw(
     from loiter.plot.sizes import PictureFormat
 
     chosen = PictureFormat(size_mm, dpi)
-    maneuvers = [best] if isinstance(best, Maneuver) else list(best)
-    for maneuver in (*maneuvers, *others):
+    maneuvers, slower = (list(given) if isinstance(given, Iterable) else [given] for given in (best, others))
+    for maneuver in (*maneuvers, *slower):
         instance("maneuver", maneuver, Maneuver)
+    if frame is not None:
+        instance("frame", frame, LocalFrame)
     if not maneuvers:
         raise InvalidArgument("maneuver", "is missing: there is none to draw")
-    figure = picture.draw(maneuvers, others, frame=frame)
+    figure = picture.draw(maneuvers, slower, frame=frame)
     chosen.apply(figure)
     return figure

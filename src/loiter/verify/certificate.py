@@ -15,7 +15,7 @@ from itertools import pairwise
 from math import isfinite
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, instance
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
 from loiter.planning.problem import Problem, problem_of
@@ -178,6 +178,7 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
     >>> c.valid, c.lam, c.runner_up.word, round(c.margin_s, 2)
     (True, 1.0, 'LSL', 16.45)
     """
+    instance("maneuver", maneuver, Maneuver)
     problem = problem_of(maneuver, tolerance_m)
     others = _others(maneuver, problem)
     trajectory = trajectory_of(maneuver, problem)
