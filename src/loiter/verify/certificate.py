@@ -275,7 +275,7 @@ def _table(residuals: tuple[Residual, ...]) -> Iterator[str]:
 
 
 def _legend(certificate: Certificate) -> Iterator[str]:
-    source = "of the paper, in docs/theory.md" if problem_of(certificate.maneuver).still else "in docs/wind.md"
+    source = "of the paper, listed in docs/paper.md" if problem_of(certificate.maneuver).still else "in docs/wind.md"
     yield f"Numbers in parentheses: equations {source}; lengths in turn radii. docs/certificate.md explains each row."
 
 
