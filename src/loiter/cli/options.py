@@ -346,7 +346,7 @@ class AircraftOptions:
             return ""
         density_altitude = density_altitude_m(self._altitude_m, self.temperature)
         return (
-            f"True airspeed {self._true_airspeed(preset):.4g} m/s: {indicated:g} indicated, "
+            f"True airspeed {self._true_airspeed(preset):.4g} m/s: {indicated:.4g} indicated, "
             f"density altitude {density_altitude:.0f} m."
         )
 

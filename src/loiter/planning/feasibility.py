@@ -59,7 +59,7 @@ def check_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind, wind: Wind |
     if status == Status.WIND_TOO_STRONG:
         V, speed = aircraft.airspeed_m_s, hypot(*air) * aircraft.airspeed_m_s
         raise WindTooStrong(
-            f"in {_air(orbit, speed)} an aircraft of {V:g} m/s can hold no circle: "
+            f"in {_air(orbit, speed)} an aircraft of {V:.4g} m/s can hold no circle: "
             f"its airspeed must be above {speed:.4g} m/s{_swapped_hint(orbit, aircraft, wind)}"
         )
     if status in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
@@ -102,7 +102,7 @@ def too_tight(orbit: Orbit, aircraft: Aircraft) -> str:
         limit, need = "", f"{needed:.4g} deg of bank"
     return (
         f"orbit radius {orbit.radius_m:g} m is tighter than the aircraft can turn: "
-        f"{r:.4g} m at {V:g} m/s{limit}; it needs {need}"
+        f"{r:.4g} m at {V:.4g} m/s{limit}; it needs {need}"
     )
 
 
@@ -114,7 +114,7 @@ def _swapped_hint(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> str:
     if hypot(*relative_wind(orbit, aircraft, likely)) >= 1.0:
         return ""
     return (
-        f"; for a wind of {likely.speed_m_s:g} m/s from {likely.from_deg:g} degrees the speed comes first "
+        f"; for a wind of {likely.speed_m_s:.4g} m/s from {likely.from_deg:g} degrees the speed comes first "
         "(weather reports have the direction first, and knots)"
     )
 
@@ -136,5 +136,5 @@ def _not_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> str:
         limit, need = f"a turn radius of {r:.4g} m", f"a turn radius of {orbit.radius_m / tightest:.4g} m"
     return (
         f"orbit radius {orbit.radius_m:g} m cannot be held in {_air(orbit, hypot(*air) * V)} "
-        f"at {V:g} m/s and {limit}: it needs {tightest * r:.4g} m, or {need}"
+        f"at {V:.4g} m/s and {limit}: it needs {tightest * r:.4g} m, or {need}"
     )
