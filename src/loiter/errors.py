@@ -1,5 +1,7 @@
 """Public exceptions, each with one sentence that a user can act on, and checks of arguments."""
 
+import os
+import sys
 from math import inf, isfinite, nan
 from numbers import Real
 from typing import Any, NoReturn, Self
@@ -102,6 +104,9 @@ def in_unit(value: Any, unit: str) -> Any:
         return value
 
 
+# Longer values are not shown in error messages.
+MOST_LETTERS = 160
+
 # Units that pint calls by other names.
 PINT_UNITS = {"degrees Celsius": "degC"}
 
@@ -109,7 +114,27 @@ PINT_UNITS = {"degrees Celsius": "degC"}
 def instance(argument: str, value: object, kind: type) -> None:
     """Raise `InvalidArgument` for a value that is not of a class of this package, such as a tuple for a pose."""
     if not isinstance(value, kind):
-        raise InvalidArgument(argument, f"is {value!r}: it must be a loiter.{kind.__name__}")
+        raise InvalidArgument(argument, f"{_shown(value)}: it must be a {_public_name(kind)}")
+
+
+def file_path(argument: str, value: object) -> str:
+    """A path as text; raises `InvalidArgument` for what is neither text nor a path."""
+    if not isinstance(value, str | os.PathLike) or not isinstance(path := os.fspath(value), str):
+        raise InvalidArgument(argument, f"{_shown(value)}: it must be the path of a file, as text or a pathlib.Path")
+    return path
+
+
+def _shown(value: object) -> str:
+    """What a value of another class is: itself where it is short, otherwise its class."""
+    text = repr(value)
+    return f"is {text}" if len(text) <= MOST_LETTERS and "\n" not in text else f"is of type {type(value).__name__}"
+
+
+def _public_name(kind: type) -> str:
+    """The name by which a user imports a class: "loiter.Pose", "loiter.geo.LocalFrame"."""
+    package = ".".join(kind.__module__.split(".")[:2])
+    public = (name for name in ("loiter", package) if getattr(sys.modules.get(name), kind.__name__, None) is kind)
+    return f"{next(public, kind.__module__)}.{kind.__name__}"
 
 
 def as_float(value: object) -> float:
@@ -126,5 +151,5 @@ def as_float(value: object) -> float:
 
 
 def _refuse(argument: str, value: object, need: str) -> NoReturn:
-    shown = value if isinstance(value, Real) or hasattr(value, "m_as") else repr(value)
-    raise InvalidArgument(argument, f"is {shown}: it must be {need}")
+    shown = f"is {value}" if isinstance(value, Real) or hasattr(value, "m_as") else _shown(value)
+    raise InvalidArgument(argument, f"{shown}: it must be {need}")

@@ -102,6 +102,8 @@ IMPOSSIBLE = [
     (plan(orbit="0 0 40", bank=None, turn_rate="20"), ["orbit radius 40 m", "25.78 deg/s", "39.56 deg of bank"]),
     (plan(wind="8 250"), ["orbit radius 80 m", "a wind of 8 m/s at 18 m/s", "98.45 m", "40.75 deg"]),
     (plan(orbit_velocity="3 4", orbit="0 0 60"), ["air that passes the circle at 5 m/s", "77.04 m", "41.96 deg"]),
+    (plan(wind="8 250", airspeed="40kn"), ["a wind of 8 m/s at 20.58 m/s and"]),
+    (plan(wind="45kn 250", airspeed="40kn"), ["an aircraft of 20.58 m/s can hold no circle"]),
     (plan(wind="20 250"), ["wind of 20 m/s", "18 m/s", "airspeed must be above 20 m/s"]),
     (plan(wind="2 250", pose="1e30 0 0"), ["too large", "1e+30 m"]),
     (plan(pose="1e30 0 0"), ["too large", "1e+30 m"]),

@@ -3,10 +3,13 @@
 import csv
 import json
 import re
+from math import nan
 
 import pytest
 
 from loiter.cli.app import main
+from loiter.cli.flights import campaign_table
+from loiter.guidance.trials.campaign import Outcome
 
 UAV = "--airspeed 18 --bank 35"
 SCENE = f"--pose -300 120 90 --orbit 0 0 80 {UAV}"
@@ -98,6 +101,19 @@ def test_many_starts_become_a_row_for_each_law(shown, tmp_path):
     assert {row["settled"] for row in rows(text).values()} == {"4 of 4"}
     with (tmp_path / "runs.csv").open() as file:
         assert len(list(csv.DictReader(file))) == 16
+
+
+def test_flights_that_did_not_settle_take_no_infinite_seconds():
+    flown = [Outcome(0, 10.0, settled_s, settled_s, 2.0, 5.0, 180.0, False, 0.1) for settled_s in (11.0, nan)]
+    table = campaign_table({"optimal": flown})
+    cells = {column.header: next(iter(column.cells)) for column in table.columns}
+    assert cells["settled"] == "1 of 2"
+    assert (cells["of the fastest"], cells["90 %"], cells["late"], cells["99 %"]) == (
+        "1.100",
+        "never",
+        "1.00 s",
+        "never",
+    )
 
 
 def test_six_degrees_of_freedom(shown):

@@ -86,3 +86,14 @@ def test_defaults_are_written_as_on_the_command_line(capsys, monkeypatch):
     out = capsys.readouterr().out
     assert "[default: 0 0]" in out
     assert "[default: msl]" in " ".join(out.replace("│", " ").split())
+
+
+@pytest.mark.parametrize(
+    ("command", "others"),
+    [("batch", ["vehicle", "guid"]), ("upload", ["guid"]), ("watch", ["guid"]), ("guide", ["batch"])],
+)
+def test_the_exit_statuses_of_a_command_do_not_mention_other_commands(capsys, command, others):
+    main([command, "--help"])
+    _, _, statuses = capsys.readouterr().out.partition("\nExit status\n")
+    assert statuses
+    assert not [word for word in others if word in statuses]

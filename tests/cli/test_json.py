@@ -113,6 +113,7 @@ def test_a_verification(capsys):
     # Some circles are as wide as 1e6 turn radii, on which 1e-13 R/30 is allowed.
     assert method["rows"][-1]["beyond"] == 0
     assert 0.0 <= method["rows"][-1]["largest_error"] < 1e-13 * 1e6 / 30.0
+    assert 0.0 <= method["rows"][-1]["share_of_allowed"] <= 1.0
 
 
 @pytest.mark.parametrize("vehicle", [Vehicle(), Plane([])])

@@ -75,6 +75,7 @@ def test_the_digits_are_compared_alone(capsys):
     assert main(["verify", "--witness", "digits", "--states", "16"]) == 0
     out = capsys.readouterr().out
     assert out.startswith("digits: agrees\n")
+    assert "share of allowed" in out
     assert "switching curve" in out
 
 

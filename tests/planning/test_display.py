@@ -115,7 +115,7 @@ def test_a_maneuver_can_be_drawn():
     shown = {artist.get_gid() for artist in figure.axes[0].get_children()}
     assert {"segment R", "segment S", "segment L", "circle", "start", "join"} <= shown
     several = loiter.plot.draw(loiter.plan_all(POSE, STILL.orbit, UAV), loiter.candidates(POSE, STILL.orbit, UAV)[1:])
-    assert {"slower cw", "slower ccw"} & {artist.get_gid() for artist in several.axes[0].get_children()}
+    assert "slower cw" in {artist.get_gid() for artist in several.axes[0].get_children()}
 
 
 @pytest.mark.parametrize(

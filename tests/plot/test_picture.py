@@ -8,8 +8,9 @@ from math import cos, hypot, radians, sin
 import numpy as np
 import pytest
 from matplotlib.colors import same_color, to_rgb
+from matplotlib.text import Annotation
 
-from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan_all
+from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan, plan_all
 from loiter.geo import LocalFrame
 from loiter.plot.picture import draw
 from loiter.plot.sizes import resize
@@ -188,10 +189,41 @@ def test_a_segment_shorter_than_its_arrow_has_none():
     axes = draw(plan_all(*FAR)[:1]).axes[0]
     first, *_ = segment_lines(axes)
     assert track_size(first) < 480.0 / 30.0
-    assert [arrow.get_gid() for arrow in axes.texts if (arrow.get_gid() or "").startswith("arrow")] == [
-        "arrow S",
-        "arrow L",
-    ]
+    axes.figure.draw_without_rendering()
+    assert shown_arrows(axes) == ["arrow S", "arrow L"]
+
+
+def shown_arrows(axes):
+    """The gids of the arrows on segments that are long enough for one."""
+    return [gid for arrow in axes.texts if (gid := arrow.get_gid() or "").startswith("arrow") and arrow.is_shown]
+
+
+def test_in_a_narrow_picture_a_last_turn_shorter_than_three_marks_has_no_arrow(monkeypatch):
+    """There the arrow would lie below the circles of the switch and of the join."""
+    figure = draw([plan(Pose(-560.0, 30.0, 90.0), Orbit(0.0, 0.0, 80.0), UAV)])
+    [axes] = figure.axes
+    figure.draw_without_rendering()
+    assert "arrow L" in shown_arrows(axes)
+    resize(figure, 84.0, 60.0)
+    figure.draw_without_rendering()
+    assert shown_arrows(axes) == ["arrow S"]
+    drawn_gids = []
+    monkeypatch.setattr(Annotation, "draw", lambda self, renderer: drawn_gids.append(self.get_gid()))
+    figure.draw_without_rendering()
+    assert "arrow S" in drawn_gids
+    assert "arrow L" not in drawn_gids
+
+
+def test_what_is_slower_is_not_drawn_as_the_best():
+    extremals = candidates(*FAR)
+    figure = draw(extremals)
+    [axes] = figure.axes
+    best = plan_all(*FAR)
+    assert len(extremals) > len(best)
+    assert axes.get_title() == draw(best).axes[0].get_title()
+    assert len(segment_lines(axes)) == sum(len(maneuver.segments) for maneuver in best)
+    assert artists(axes, "slower cw")
+    assert draw(extremals[::-1]).axes[0].get_title().count(" or ") == len(best) - 1
 
 
 # Marks
@@ -437,6 +469,25 @@ def test_a_second_panel_enlarges_the_last_turn_of_a_long_entry(scene, size_mm):
     assert UAV.turn_radius_m * pixels_per_metre > join.get_markersize() * figure.dpi / 72.0
     assert len([arrow for arrow in detail.texts if arrow.get_gid() == f"held {best.turn}"]) == 4
     assert f"arrow {last.letter}" in [arrow.get_gid() for arrow in detail.texts]
+
+
+@each_long_scene
+def test_the_second_panel_says_what_it_enlarges_and_its_numbers_are_apart_from_the_lines(scene):
+    axes, [best], _ = drawn(scene)
+    figure, detail = axes.figure, axes.figure.axes[1]
+    starts = np.array([[segment.start.east_m, segment.start.north_m] for segment in best.segments])
+    box = np.array([detail.get_xlim(), detail.get_ylim()])
+    whole = bool(np.all((starts >= box[:, 0]) & (starts <= box[:, 1])))
+    assert detail.get_title() == ("the path, enlarged" if whole else "the last turn, enlarged")
+    figure.draw_without_rendering()
+    numbers = [label.get_window_extent() for label in detail.get_yticklabels() if label.get_text()]
+    assert numbers
+    assert all(number.x0 > detail.bbox.x1 for number in numbers)
+
+
+def test_a_wide_scene_with_a_second_panel_has_a_low_picture():
+    heights = {name: drawn(scene)[0].figure.get_figheight() for name, scene in LONG.items()}
+    assert heights["100 radii"] < 0.7 * heights["a large circle"]
 
 
 @each_long_scene

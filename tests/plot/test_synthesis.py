@@ -30,7 +30,7 @@ def test_the_papers_figure_4_has_its_regions_and_curves():
         "switching curve",
         "straight flight",
         "two controls tie",
-        "first control the same",
+        "same first control",
         "circle joined",
     ]
 
@@ -50,6 +50,15 @@ def test_values_have_a_scale_and_a_title(show, title):
     axes = drawn(1.5, "cw", show)
     assert axes.get_title() == f"{title}, R = 1.5, clockwise"
     assert len(axes.figure.axes) == 2
+
+
+def test_curves_over_values_have_a_white_outline():
+    """Without it violet and black cannot be seen on the dark end of the colours."""
+    for show, outlined in (("words", False), ("time", True), ("worth", True)):
+        axes = drawn(1.5, "either", show)
+        curves = [line for line in axes.lines if line.get_gid() != "target"]
+        assert curves
+        assert all(bool(line.get_path_effects()) == outlined for line in curves)
 
 
 def test_a_curve_is_drawn_in_order():

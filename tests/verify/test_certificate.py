@@ -367,13 +367,21 @@ def test_a_certificate_is_frozen_and_reads_as_a_table():
     assert sum(line.endswith("holds") for line in lines) == len(certificate.residuals)
     assert "The adjoint psi is unique: the condition phi = 0 at a switch determines it." in lines
     assert lines[-2] == (
-        "Numbers in parentheses: equations of the paper, in docs/theory.md; lengths in turn radii. "
+        "Numbers in parentheses: equations of the paper, listed in docs/paper.md; lengths in turn radii. "
         "docs/certificate.md explains each row."
     )
     assert lines[-1] == (
         "Theorem 1: in each direction the optimum is one of nine words; "
         "of the 5 extremals with these words none is faster; the runner-up RL cw takes 0.647 s more."
     )
+
+
+def test_every_equation_of_a_certificate_is_in_the_document_that_it_names():
+    listed = set(re.findall(r"^\| \((\d+)\) \|", Path("docs/paper.md").read_text(encoding="utf-8"), re.MULTILINE))
+    certificate = loiter.verify.certify(plan(*unit_scene(-0.53, 0.31)))
+    named = {number for r in certificate.residuals for number in re.findall(r"\((\d+)\)", r.equation)}
+    assert named
+    assert named <= listed
 
 
 @pytest.mark.parametrize(("formulation", "number"), [(IN_STILL_AIR, 21), (IN_WIND, 15)], ids=["still air", "wind"])

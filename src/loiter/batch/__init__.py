@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from loiter.errors import InvalidArgument, MissingPackage
+from loiter.errors import InvalidArgument, MissingPackage, file_path
 from loiter.geo import LocalFrame
 from loiter.lazy import LazyModule
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
@@ -76,8 +76,8 @@ def run(
         _workers(workers, scheduler),
         shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns),
     )
-    kept = None if rejects is None else Path(rejects)
-    request = check_request(os.fspath(source), os.fspath(target), given, tolerance_m, kept)
+    kept = None if rejects is None else Path(file_path("rejects", rejects))
+    request = check_request(file_path("source", source), file_path("target", target), given, tolerance_m, kept)
     return job.run_request(request, count, scheduler, progress)
 
 

@@ -59,7 +59,11 @@ EXAMPLES = {
   loiter completion fish > ~/.config/fish/completions/loiter.fish""",
 }
 
-# Each exit status as the help shows it, and the commands that end with it; no commands: all.
+# The commands of a text that only the help of the program shows.
+PROGRAM_ONLY = ("",)
+
+# Each exit status as the help shows it, and the commands that end with it; no commands: all. The help of the program
+# shows the first text of each.
 STATUSES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("  0  done", ()),
     ("  1  a check failed (loiter verify, loiter prove, loiter plan --certify)", ("plan", "verify", "prove")),
@@ -71,16 +75,30 @@ STATUSES: tuple[tuple[str, tuple[str, ...]], ...] = (
     (
         """  3  the vehicle cannot be reached, does not answer or refuses, or guiding
      had to stop: the sentence says what the vehicle has or does now""",
-        ("upload", "watch", "guide"),
+        ("guide",),
+    ),
+    (
+        """  3  the vehicle cannot be reached, does not answer or refuses: the sentence
+     says what it has now""",
+        ("upload", "watch"),
     ),
     (
         """  130  interrupted; finished parts of a batch job are kept, and a guided
      vehicle flies its fall-back circle""",
-        ("batch", "guide"),
+        PROGRAM_ONLY,
+    ),
+    (
+        """  130  interrupted; finished parts of a batch job are kept""",
+        ("batch",),
+    ),
+    (
+        """  130  interrupted; a guided vehicle flies its fall-back circle""",
+        ("guide",),
     ),
 )
 
-EXIT_STATUSES = "\n".join(("\n\nExit status", *(text for text, _ in STATUSES)))
+_OF_THE_PROGRAM = {text.split()[0]: text for text, _ in reversed(STATUSES)}
+EXIT_STATUSES = "\n".join(("\n\nExit status", *reversed(_OF_THE_PROGRAM.values())))
 
 
 def epilogue(command: str) -> str:

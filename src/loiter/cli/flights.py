@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from itertools import groupby
-from math import isfinite
+from math import isfinite, isnan
 from operator import itemgetter
 from statistics import median
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -152,15 +152,22 @@ def campaign_table(outcomes: Mapping[str, Sequence[Outcome]]) -> Table:
             name,
             f"{s.settled} of {s.flights}",
             f"{s.round_again}",
-            f"{s.median_ratio:.3f}",
-            f"{s.ninth_decile_ratio:.2f}",
-            f"{s.median_late_s:.2f} s",
-            f"{s.percentile_99_late_s:.1f} s",
+            _or_never(s.median_ratio, ".3f"),
+            _or_never(s.ninth_decile_ratio, ".2f"),
+            _or_never(s.median_late_s, ".2f", " s"),
+            _or_never(s.percentile_99_late_s, ".1f", " s"),
             f"{s.median_overshoot_m:.1f} m",
             f"{s.bank_rate_deg_s:.1f} deg/s",
             *([f"{s.sooner:.1%}" if isfinite(s.sooner) else ""] * (len(outcomes) > 1)),
         )
     return rows
+
+
+def _or_never(value: float, decimals: str, unit: str = "") -> str:
+    """A figure as text: "never" where so many flights did not settle that it is infinite, empty for nan."""
+    if isnan(value):
+        return ""
+    return f"{value:{decimals}}{unit}" if isfinite(value) else "never"
 
 
 def campaign_document(outcomes: Mapping[str, Sequence[Outcome]]) -> dict[str, object]:

@@ -348,7 +348,7 @@ class AircraftOptions:
         if indicated is not None:
             density_altitude = density_altitude_m(self._altitude_m, self.temperature)
             sentences.append(
-                f"True airspeed {self._true_airspeed(preset):.4g} m/s: {indicated:g} indicated, "
+                f"True airspeed {self._true_airspeed(preset):.4g} m/s: {indicated:.4g} indicated, "
                 f"density altitude {density_altitude:.0f} m."
             )
         if bank is not None and bank != self.bank and self.params is not None:

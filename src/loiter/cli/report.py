@@ -175,7 +175,7 @@ def begins(maneuver: Maneuver, lead_s: float, frame: LocalFrame | None) -> str:
 def weather(maneuver: Maneuver) -> str:
     """One line: the wind, and the velocity of a moving circle."""
     wind, orbit = maneuver.wind, maneuver.orbit
-    text = f"Wind {wind.speed_m_s:g} m/s from {_degrees(wind.from_deg)} deg" if wind.speed_m_s else "Still air"
+    text = f"Wind {wind.speed_m_s:.4g} m/s from {_degrees(wind.from_deg)} deg" if wind.speed_m_s else "Still air"
     if not orbit.moves:
         return f"{text}."
     east, north = orbit.velocity_east_m_s, orbit.velocity_north_m_s

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from loiter.errors import InvalidArgument, OutOfRange, number
+from loiter.errors import InvalidArgument, OutOfRange, instance, number
 from loiter.lazy import LazyModule
 from loiter.planning.compass import wrapped
 from loiter.planning.model import Pose
@@ -99,6 +99,7 @@ class LocalFrame:
 
         Raises `OutOfRange` for one more than 100 km from the origin.
         """
+        instance("pose", pose, Pose)
         latitude, longitude = (float(value) for value in self.to_geodetic(pose.east_m, pose.north_m))
         if latitude != latitude:
             raise self._too_far(f"{pose.east_m:g} m east, {pose.north_m:g} m north")

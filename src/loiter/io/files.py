@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, file_path, instance
 from loiter.geo.frame import LocalFrame
 from loiter.io.maps.chart import Chart, chart
 from loiter.io.maps.geojson import geojson
@@ -46,9 +46,9 @@ class SaveArguments(NamedTuple):
     site: Site | None = None
 
 
-def check_format(path: Path) -> None:
+def check_format(path: str | Path) -> None:
     """Raise `InvalidArgument` unless the ending of `path` names a format that `save` writes."""
-    if path.suffix.lower() not in FORMATS:
+    if Path(file_path("path", path)).suffix.lower() not in FORMATS:
         raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in {', '.join(FORMATS)}")
 
 
@@ -84,7 +84,7 @@ def save(
     The file appears whole or not at all; an older file stays until then. Raises `InvalidArgument` for an unknown
     ending, missing arguments, impossible numbers and a file that cannot be written, and otherwise like `mission`.
     """
-    path = Path(path)
+    path = Path(file_path("path", path))
     arguments = SaveArguments(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path, site)
     content = file_content(path, arguments)
     write_content("save", path, content)
@@ -93,6 +93,11 @@ def save(
 def file_content(path: Path, arguments: SaveArguments) -> bytes:
     """The content that `save` writes to `path`; it raises the errors of `save`, but for those of writing."""
     check_format(path)
+    instance("maneuver", arguments.maneuver, Maneuver)
+    instance("datum", arguments.datum, AltitudeDatum)
+    for name, value, kind in (("frame", arguments.frame, LocalFrame), ("site", arguments.site, Site)):
+        if value is not None:
+            instance(name, value, kind)
     if arguments.altitude_m is not None:
         arguments = arguments._replace(altitude_m=arguments.datum.checked(arguments.altitude_m))
     if arguments.autopilot not in tuple(Autopilot):
@@ -107,7 +112,7 @@ def read_mission(path: str | Path) -> Mission:
     Raises `InvalidArgument`, which names the file and the place in it, for another format and for a file that cannot be
     read.
     """
-    source = Source("mission", Path(path))
+    source = Source("mission", Path(file_path("path", path)))
     text = source.text()
     if text.startswith(MARK):
         return read_wpl(source, text)

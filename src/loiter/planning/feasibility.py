@@ -3,7 +3,7 @@
 from math import hypot
 from typing import NamedTuple
 
-from loiter.errors import RadiusTooSmall, WindTooStrong
+from loiter.errors import RadiusTooSmall, WindTooStrong, instance
 from loiter.kernel import wind_search
 from loiter.kernel.hold import tightest_radius
 from loiter.kernel.statuses import Status
@@ -27,7 +27,12 @@ class RelativeWind(NamedTuple):
 
 
 def relative_wind(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> RelativeWind:
-    """The velocity of the air relative to the circle, divided by the airspeed; zero where only rounding remains."""
+    """The velocity of the air relative to the circle, divided by the airspeed; zero where only rounding remains.
+
+    Raises `InvalidArgument` for a value of another class: every function that takes these three begins here.
+    """
+    for name, value, kind in (("orbit", orbit, Orbit), ("aircraft", aircraft, Aircraft), ("wind", wind, Wind)):
+        instance(name, value, kind)
     circle = orbit.velocity_east_m_s, orbit.velocity_north_m_s
     return RelativeWind(*relative_velocity(wind.velocity_m_s, circle, aircraft.airspeed_m_s))
 
@@ -55,7 +60,7 @@ def check_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind, wind: Wind |
     if status == Status.WIND_TOO_STRONG:
         V, speed = aircraft.airspeed_m_s, hypot(*air) * aircraft.airspeed_m_s
         raise WindTooStrong(
-            f"in {_air(orbit, speed)} an aircraft of {V:g} m/s can hold no circle: "
+            f"in {_air(orbit, speed)} an aircraft of {V:.4g} m/s can hold no circle: "
             f"its airspeed must be above {speed:.4g} m/s{_swapped_hint(orbit, aircraft, wind)}"
         )
     if status in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
@@ -98,7 +103,7 @@ def too_tight(orbit: Orbit, aircraft: Aircraft) -> str:
         limit, need = "", f"{needed:.4g} deg of bank"
     return (
         f"orbit radius {orbit.radius_m:g} m is tighter than the aircraft can turn: "
-        f"{r:.4g} m at {V:g} m/s{limit}; it needs {need}"
+        f"{r:.4g} m at {V:.4g} m/s{limit}; it needs {need}"
     )
 
 
@@ -110,7 +115,7 @@ def _swapped_hint(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> str:
     for unit, size in {"m/s": 1.0, "knots": KNOT}.items():
         if hypot(*relative_wind(orbit, aircraft, Wind(speed * size, from_deg))) < 1.0:
             return (
-                f"; for a wind of {speed:g} {unit} from {from_deg:g} degrees the speed comes first "
+                f"; for a wind of {speed:.4g} {unit} from {from_deg:g} degrees the speed comes first "
                 "(weather reports have the direction first, and knots)"
             )
     return ""
@@ -133,5 +138,5 @@ def _not_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> str:
         limit, need = f"a turn radius of {r:.4g} m", f"a turn radius of {orbit.radius_m / tightest:.4g} m"
     return (
         f"orbit radius {orbit.radius_m:g} m cannot be held in {_air(orbit, hypot(*air) * V)} "
-        f"at {V:g} m/s and {limit}: it needs {tightest * r:.4g} m, or {need}"
+        f"at {V:.4g} m/s and {limit}: it needs {tightest * r:.4g} m, or {need}"
     )

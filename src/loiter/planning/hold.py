@@ -105,15 +105,17 @@ def hold(orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, turn: Tu
     """Heading, ground speed and bank needed to hold a circle. `turn` replaces the direction of the orbit.
 
     Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held, `InvalidArgument` for a turn that is
-    neither cw nor ccw.
+    neither cw nor ccw, and for a value of another class.
 
     >>> from loiter import Aircraft, Orbit, Wind, hold
     >>> h = hold(Orbit(0.0, 0.0, 120.0, "cw"), Aircraft(18.0, max_bank_deg=35.0), Wind(8.0, from_deg=250.0))
     >>> round(h.least_bank_deg, 1), round(h.largest_bank_deg, 1), round(h.largest_bank_azimuth_deg)
     (4.9, 29.9, 340)
     """
-    wind, turn = CALM if wind is None else wind, orbit.turn if turn is None else turn
+    wind = CALM if wind is None else wind
+    air = relative_wind(orbit, aircraft, wind)
+    turn = orbit.turn if turn is None else turn
     if turn not in (Turn.CW, Turn.CCW):
         raise InvalidArgument("turn", f"is {str(turn)!r}: a circle is held cw or ccw")
-    check_held(orbit, aircraft, relative_wind(orbit, aircraft, wind), wind)
+    check_held(orbit, aircraft, air, wind)
     return Hold(orbit, aircraft, wind, Turn(turn))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
-from loiter.errors import InvalidArgument, MissingPackage, positive
+from loiter.errors import InvalidArgument, MissingPackage, instance, positive
 from loiter.planning.display import drawing
 from loiter.planning.display.values import maneuver_values
 from loiter.planning.flight import over_ground, sampled
@@ -69,6 +69,7 @@ class Maneuver:
 
     def over_ground(self, pose: Pose) -> tuple[float, float]:
         """Ground track (compass degrees) and ground speed (metres per second) at a pose of this maneuver."""
+        instance("pose", pose, Pose)
         return over_ground(pose.heading_deg, self.aircraft, self.wind)
 
     def sample(self, step_s: float) -> Samples:

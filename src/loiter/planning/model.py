@@ -7,7 +7,7 @@ from enum import StrEnum
 from math import atan2, degrees, hypot, inf, radians, tan
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
-from loiter.errors import InvalidArgument, as_float, not_negative, number, positive
+from loiter.errors import InvalidArgument, as_float, instance, not_negative, number, positive
 from loiter.planning.compass import heading_vector, wrapped
 
 if TYPE_CHECKING:
@@ -180,7 +180,7 @@ class Orbit:
         """The circle `time_s` seconds later; the same object where it does not move."""
         if not self.moves:
             return self
-        east_m, north_m = self.centre_after(time_s)
+        east_m, north_m = self.centre_after(number("time_s", time_s, "seconds"))
         return replace(self, east_m=east_m, north_m=north_m)
 
     def centre_after(self, time_s: AnyTime) -> tuple[AnyTime, AnyTime]:
@@ -206,6 +206,7 @@ class Orbit:
 
     def distance_m(self, pose: Pose) -> float:
         """Distance of a pose from the centre, metres."""
+        instance("pose", pose, Pose)
         return hypot(pose.east_m - self.east_m, pose.north_m - self.north_m)
 
 

@@ -49,10 +49,9 @@ class Problem:
     relative_wind: RelativeWind = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        for name, kind in (("pose", Pose), ("orbit", Orbit), ("aircraft", Aircraft), ("wind", Wind)):
-            instance(name, getattr(self, name), kind)
-        object.__setattr__(self, "tolerance_m", not_negative("tolerance_m", self.tolerance_m, "metres"))
+        instance("pose", self.pose, Pose)
         object.__setattr__(self, "relative_wind", relative_wind(self.orbit, self.aircraft, self.wind))
+        object.__setattr__(self, "tolerance_m", not_negative("tolerance_m", self.tolerance_m, "metres"))
 
     @property
     def still(self) -> bool:
@@ -128,8 +127,8 @@ class Problem:
     def _too_large(self) -> LoiterError:
         return OutOfRange(
             f"the scene is too large for double precision: {self.orbit.distance_m(self.pose):g} m from the centre of a "
-            f"circle of {self.orbit.radius_m:g} m, with a turn radius of {self.aircraft.turn_radius_m:g} m at an "
-            f"airspeed of {self.aircraft.airspeed_m_s:g} m/s; distances must stay below 2**52 turn radii"
+            f"circle of {self.orbit.radius_m:g} m, with a turn radius of {self.aircraft.turn_radius_m:.4g} m at an "
+            f"airspeed of {self.aircraft.airspeed_m_s:.4g} m/s; distances must stay below 2**52 turn radii"
         )
 
 

@@ -153,7 +153,7 @@ def _not_converged(problem: Problem) -> NotConverged:
     pose, wind = problem.pose, problem.wind
     return NotConverged(
         f"{Status.NOT_CONVERGED.message}: pose {pose.east_m:g} {pose.north_m:g} {pose.heading_deg:g}, wind "
-        f"{wind.speed_m_s:g} m/s from {wind.from_deg:g}; try a pose moved by a millimetre"
+        f"{wind.speed_m_s:.4g} m/s from {wind.from_deg:g}; try a pose moved by a millimetre"
     )
 
 

@@ -91,3 +91,12 @@ OPTIONS = {
     "wind speed_m_s": "--wind SPEED",
     "wind from_deg": "--wind FROM",
 }
+
+# The kinds of curves between the regions of a synthesis.
+BOUNDARIES = {
+    "jump": "T jumps",
+    "same": "same first control",
+    "straight": "straight flight",
+    "switch": "switching curve",
+    "tie": "two controls tie",
+}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from loiter.geo import LocalFrame
@@ -27,13 +27,14 @@ def draw(
 ) -> figures.Figure:
     """A matplotlib figure of a maneuver, or of several from one start, seen from above, in metres.
 
-    The segments of `best` are coloured; of `others`, such as slower ones of `loiter.candidates`, the soonest in each
-    direction is a grey band below. If the turns are too small to see, a second panel enlarges the last one. With a
-    frame the axes name its origin on Earth. `size_mm` is the width and height of the figure, 203 mm by 163 mm if
-    absent; in narrow figures text shrinks to 7 points at the least. `dpi` are the dots per inch in which
-    `Figure.savefig` writes a PNG. Raises `InvalidArgument` for something that is no maneuver, and for none; for sizes
-    below 80 mm by 60 mm or above 1189 mm, for resolutions that are not from 30 to 1200, and for more than 200 million
-    pixels.
+    The segments of `best` are coloured, if they are as fast as the fastest of them; slower ones count as `others`. Of
+    `others`, such as the remaining ones of `loiter.candidates`, the soonest in each direction is a grey band below; the
+    rest is not drawn: it would hide the path. If the turns are too small to see, a second panel enlarges the last one.
+    With a frame the axes name its origin on Earth. `size_mm` is the width and height of the figure, by default 203 mm
+    by 163 mm, or by 107 mm for a wide scene with a second panel; in narrow figures text shrinks to 7 points at the
+    least. `dpi` are the dots per inch in which `Figure.savefig` writes a PNG. Raises `InvalidArgument` for something
+    that is no maneuver, and for none; for sizes below 80 mm by 60 mm or above 1189 mm, for resolutions that are not
+    from 30 to 1200, and for more than 200 million pixels.
 
     >>> from loiter import Aircraft, Orbit, Pose, plan
     >>> m = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0))
@@ -45,11 +46,13 @@ def draw(
     from loiter.plot.sizes import PictureFormat
 
     chosen = PictureFormat(size_mm, dpi)
-    maneuvers = [best] if isinstance(best, Maneuver) else list(best)
-    for maneuver in (*maneuvers, *others):
+    maneuvers, slower = (list(given) if isinstance(given, Iterable) else [given] for given in (best, others))
+    for maneuver in (*maneuvers, *slower):
         instance("maneuver", maneuver, Maneuver)
+    if frame is not None:
+        instance("frame", frame, LocalFrame)
     if not maneuvers:
         raise InvalidArgument("maneuver", "is missing: there is none to draw")
-    figure = picture.draw(maneuvers, others, frame=frame)
+    figure = picture.draw(maneuvers, slower, frame=frame)
     chosen.apply(figure)
     return figure

@@ -61,7 +61,7 @@ def draw(ideal: Maneuver, flights: Mapping[str, Flight], *, conditions: str = ""
     else:
         figure.suptitle(title, fontsize="medium")
         _draw_tracks(axes["circle"], ideal, flights)
-        enlarge(axes["circle"], enlarged, axes["tracks"])
+        enlarge(axes["circle"], enlarged, axes["tracks"], "the circle, enlarged")
     legend = axes["tracks"].legend(handles=_legend(figure, flights), loc="best", fontsize="small", framealpha=0.9)
     legend.set_gid(OUTSIDE_IF_NARROW)
     _draw_bank(axes["bank"], flights)

@@ -13,8 +13,8 @@ from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 from matplotlib.offsetbox import AnchoredOffsetbox, AuxTransformBox, HPacker, TextArea
 from matplotlib.patches import Circle, ConnectionPatch, Rectangle
-from matplotlib.text import OffsetFrom
-from matplotlib.transforms import Bbox
+from matplotlib.text import Annotation, OffsetFrom
+from matplotlib.transforms import Bbox, IdentityTransform
 from numpy.typing import NDArray
 
 from loiter.planning.compass import heading_vector, wrapped
@@ -99,16 +99,40 @@ def draw_turns(axes: Axes, orbit: Orbit, turns: set[Turn]) -> None:
             draw_arrow(axes, east, north, 1, "black", gid=f"held {turn}")
 
 
-def draw_arrow(axes: Axes, east: Floats, north: Floats, i: int, colour: str, gid: str | None = None) -> None:
-    """Draw an arrowhead at point i of a track, in the direction from the point before it."""
-    axes.annotate(
-        "",
-        xy=(east[i], north[i]),
-        xytext=(east[i - 1], north[i - 1]),
-        arrowprops=ARROW | {"color": colour, "mutation_scale": 15.0},
-        gid=gid,
-        zorder=4,
-    )
+def draw_arrow(
+    axes: Axes, east: Floats, north: Floats, i: int, colour: str, gid: str | None = None, least: float = 0.0
+) -> None:
+    """Draw an arrowhead at point i of a track, in the direction from the point before it.
+
+    It is not drawn where the track is shorter than `least` times the size of the arrow.
+    """
+    arrow = TrackArrow((east, north), i, least, color=colour, mutation_scale=15.0)
+    arrow.set(gid=gid, zorder=4)
+    axes.add_artist(arrow)
+
+
+class TrackArrow(Annotation):
+    """An arrowhead on a track, which is not drawn where the track is short in the figure, whose size may change."""
+
+    def __init__(self, track: Points, i: int, least: float, **style: Any) -> None:
+        east, north = track
+        self._track, self._least = np.column_stack(track), least
+        ends: dict[str, Any] = {"xy": (east[i], north[i]), "xytext": (east[i - 1], north[i - 1])}
+        super().__init__("", **ends, xycoords="data", arrowprops=ARROW | style)
+        self.set_transform(IdentityTransform())
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether the track is long enough."""
+        assert self.axes is not None  # it is drawn on axes only
+        sides = np.diff(self.axes.transData.transform(self._track), axis=0)
+        size = (self.arrowprops or {})["mutation_scale"] * self.axes.figure.dpi / 72.0
+        return bool(np.hypot(*sides.T).sum() >= self._least * size)
+
+    def draw(self, renderer: RendererBase) -> None:
+        """Draw the arrowhead if the track is long enough."""
+        if self.is_shown:
+            super().draw(renderer)
 
 
 def draw_aircraft(axes: Axes, pose: Pose) -> None:
@@ -162,11 +186,13 @@ def prepare_plan(axes: Axes) -> None:
     axes.add_artist(ScaleBar(axes))
 
 
-def enlarge(detail: Axes, box: Box, overview: Axes) -> None:
+def enlarge(detail: Axes, box: Box, overview: Axes, title: str) -> None:
     """Show the box on the panel `detail`, to the right of the overview, and there a frame and lines to this panel."""
-    detail.set(xlim=(box.west, box.east), ylim=(box.south, box.north), ylabel="", title="the frame, enlarged")
+    detail.set(xlim=(box.west, box.east), ylim=(box.south, box.north), ylabel="", title=title)
     detail.title.set_fontsize("small")
     detail.set_adjustable("box")
+    # The lines from the frame end on the left.
+    detail.yaxis.tick_right()
     # Narrow panels have room for few numbers.
     detail.locator_params(nbins=3)
     overview.locator_params(axis="x", nbins=3)

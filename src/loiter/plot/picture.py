@@ -53,9 +53,19 @@ MARKS: dict[str, dict[str, Any]] = {
     "join": {"marker": "o", "markersize": 9, "markerfacecolor": "black"},
 }
 
-# Turns with a radius below this share of the picture are specks: a second panel enlarges the last of them. Segments
-# that are shorter have no arrow: it would hide them.
+# Turns with a radius below this share of the picture are specks: a second panel enlarges the last of them.
 SPECK = 1.0 / 30.0
+
+# Segments shorter than three of the marks at their ends, in sizes of an arrow, have no arrow: it would lie below the
+# marks.
+LEAST_TRACK = 1.5
+
+# Beside a second panel, a scene that is wider than so many times its height leaves most of its panel empty: its picture
+# is lower, by default so many inches.
+FLAT, FLAT_HEIGHT = 2.0, 4.2
+
+# The resolution of times in a picture, relative.
+RESOLUTION = 1e-6
 
 # The second panel shows the whole circle if its radius is at most this many turn radii, and the whole path if that is
 # at most this many turn radii long.
@@ -65,26 +75,31 @@ WHOLE_CIRCLE, WHOLE_PATH = 4.0, 12.0
 def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: LocalFrame | None = None) -> Figure:
     """Draw maneuvers from one start: `best` coloured by segment, over the soonest of `others` in each direction.
 
+    Those of `best` that are slower than the fastest of them count as `others`.
+
     East is to the right, north up, axes equal, in metres, with a scale bar; with a frame the axes are labelled with its
     origin on Earth. Start, switches and join are marked. If the turns are specks, a second panel enlarges the last one,
     with the circle. The first of `best` gives the title. In wind, tracks are ground tracks, and an arrow beside the
     title shows the direction in which the air moves. A moving circle is drawn where it is when it is joined, and faint
     where it is at the start; each of `others` ends on the circle at its own time of joining.
     """
+    fastest = min(best, key=lambda maneuver: maneuver.duration_s)
+    slower = soonest_each_way([*others, *(maneuver for maneuver in best if _is_later(maneuver, fastest))])
+    best = [maneuver for maneuver in best if not _is_later(maneuver, fastest)]
     first, *_ = best
-    slower = soonest_each_way(others)
     whole = _whole(best, slower)
     enlarged = _enlarged(best, whole)
-    figure = Figure(figsize=(8.0, 6.4), layout="constrained")
+    flat = enlarged is not None and whole.east - whole.west > FLAT * (whole.north - whole.south)
+    figure = Figure(figsize=(8.0, FLAT_HEIGHT if flat else 6.4), layout="constrained")
     if enlarged is None:
         axes = figure.add_subplot()
         axes.set_title(_title(best))
     else:
         axes, detail = figure.subplots(1, 2)
         figure.suptitle(_title(best), fontsize="large")
-        _draw_panel(detail, best, slower, enlarged)
-        enlarge(detail, enlarged, axes)
-    _draw_panel(axes, best, slower, whole, elsewhere=enlarged)
+        _draw_panel(detail, best, slower)
+        enlarge(detail, enlarged, axes, f"{_enlarged_part(best, enlarged)}, enlarged")
+    _draw_panel(axes, best, slower, elsewhere=enlarged)
     if frame is not None:
         axes.set_xlabel(f"east of {degrees_of(frame.latitude_deg, frame.longitude_deg)} (m)")
     if first.wind.speed_m_s > 0.0:
@@ -126,10 +141,16 @@ def _enlarged(best: Sequence[Maneuver], whole: Box) -> Box | None:
     return shown.widened(max(radius, 0.1 * shown.size))
 
 
-def _draw_panel(
-    axes: Axes, best: Sequence[Maneuver], slower: Sequence[Maneuver], shown: Box, elsewhere: Box | None = None
-) -> None:
-    """Draw the plan on the axes of a panel that shows a box, without the marks that another panel enlarges."""
+def _enlarged_part(best: Sequence[Maneuver], enlarged: Box) -> str:
+    """What of the path a second panel shows, in words."""
+    first, *_ = best
+    if all(enlarged.contains(segment.start) for segment in first.segments):
+        return "the path"
+    return "the point of joining" if first.segments[-1].letter == "S" else "the last turn"
+
+
+def _draw_panel(axes: Axes, best: Sequence[Maneuver], slower: Sequence[Maneuver], elsewhere: Box | None = None) -> None:
+    """Draw the plan on the axes of a panel, without the marks that another panel enlarges."""
     first, *_ = best
     prepare_plan(axes)
     for maneuver, style in zip(slower, SLOWER, strict=False):
@@ -140,16 +161,16 @@ def _draw_panel(
     if elsewhere is None:
         draw_turns(axes, first.orbit_at_join, {maneuver.turn for maneuver in best})
     for maneuver in best:
-        _draw_path(axes, maneuver, shown, elsewhere)
+        _draw_path(axes, maneuver, elsewhere)
     draw_aircraft(axes, first.start)
 
 
-def _draw_path(axes: Axes, maneuver: Maneuver, shown: Box, elsewhere: Box | None) -> None:
+def _draw_path(axes: Axes, maneuver: Maneuver, elsewhere: Box | None) -> None:
     for segment in maneuver.segments:
         east, north = _segment_track(segment, maneuver)
         axes.plot(east, north, color=COLOURS[segment.letter], linewidth=2.6, zorder=3, gid=f"segment {segment.letter}")
-        if Box.around([(east, north)]).size >= SPECK * shown.size:
-            draw_arrow(axes, east, north, len(east) // 2, COLOURS[segment.letter], gid=f"arrow {segment.letter}")
+        gid = f"arrow {segment.letter}"
+        draw_arrow(axes, east, north, len(east) // 2, COLOURS[segment.letter], gid=gid, least=LEAST_TRACK)
     switches = [("switch", segment.start) for segment in maneuver.segments[1:]]
     for name, pose in [*switches, ("join", maneuver.join)]:
         if elsewhere is None or not elsewhere.contains(pose):
@@ -220,7 +241,11 @@ def _legend(figure: Figure, best: Sequence[Maneuver], slower: Sequence[Maneuver]
 
 
 def _later(maneuver: Maneuver, best: Sequence[Maneuver]) -> str:
-    fastest, *_ = best
-    later = maneuver.duration_s - fastest.duration_s
-    # The resolution of a picture; the table and JSON show smaller differences.
-    return f"{_digits(later, 3)} s later" if later > 1e-6 * maneuver.duration_s else "as fast"
+    first, *_ = best
+    later = maneuver.duration_s - first.duration_s
+    return f"{_digits(later, 3)} s later" if _is_later(maneuver, first) else "as fast"
+
+
+def _is_later(maneuver: Maneuver, other: Maneuver) -> bool:
+    """Whether a maneuver takes visibly longer than another; the table and JSON show smaller differences."""
+    return maneuver.duration_s - other.duration_s > RESOLUTION * maneuver.duration_s

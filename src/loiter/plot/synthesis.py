@@ -10,11 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from loiter.arrays.partition import Boundary, Partition, lines, worth
 from loiter.kernel.words import Word
 from loiter.planning.model import Turn
+from loiter.planning.vocabulary import BOUNDARIES
 
 # The hue of a region shows its first control (as in the plan view); shades distinguish words with the same first
 # control.
@@ -33,12 +35,15 @@ SHADES = {
     Word.SL: "#0072B2",
 }
 LINES: dict[str, dict[str, Any]] = {
-    "jump": {"color": "black", "linewidth": 2.6, "label": "T jumps"},
-    "switch": {"color": "#7b3294", "linewidth": 2.0, "label": "switching curve"},
-    "straight": {"color": "#0072B2", "linewidth": 2.6, "label": "straight flight"},
-    "tie": {"color": "black", "linewidth": 1.4, "linestyle": (0, (4, 2)), "label": "two controls tie"},
-    "same": {"color": "#808080", "linewidth": 0.8, "label": "first control the same"},
+    "jump": {"color": "black", "linewidth": 2.6, "label": BOUNDARIES["jump"]},
+    "switch": {"color": "#7b3294", "linewidth": 2.0, "label": BOUNDARIES["switch"]},
+    "straight": {"color": "#0072B2", "linewidth": 2.6, "label": BOUNDARIES["straight"]},
+    "tie": {"color": "black", "linewidth": 1.4, "linestyle": (0, (4, 2)), "label": BOUNDARIES["tie"]},
+    "same": {"color": "#808080", "linewidth": 0.8, "label": BOUNDARIES["same"]},
 }
+
+# The points by which an outline makes a line wider: dark lines cannot be seen on the dark end of viridis.
+OUTLINE = 2.0
 
 
 def draw(regions: Partition, curves: Sequence[Boundary], show: str = "words") -> Figure:
@@ -50,7 +55,11 @@ def draw(regions: Partition, curves: Sequence[Boundary], show: str = "words") ->
         _paint_words(axes, regions)
     else:
         _paint_values(figure, axes, regions, show)
-    handles = [_draw_curve(axes, regions, kind, curves) for kind in LINES if any(c.kind == kind for c in curves)]
+    handles = [
+        _draw_curve(axes, regions, kind, curves, outlined=show != "words")
+        for kind in LINES
+        if any(c.kind == kind for c in curves)
+    ]
     handles.append(_draw_targets(axes, regions))
     axes.set_xlim(regions.x.min(), regions.x.max())
     axes.set_ylim(regions.y.min(), regions.y.max())
@@ -113,8 +122,12 @@ def _depth(inside: NDArray[np.bool_]) -> NDArray[np.int64]:
     return depth
 
 
-def _draw_curve(axes: Axes, regions: Partition, kind: str, curves: Sequence[Boundary]) -> Line2D:
+def _draw_curve(axes: Axes, regions: Partition, kind: str, curves: Sequence[Boundary], *, outlined: bool) -> Line2D:
+    """Draw the curves of a kind, with a white outline where colours below show values; returns their legend entry."""
     style = LINES[kind]
+    if outlined:
+        outline = withStroke(linewidth=style["linewidth"] + OUTLINE, foreground="white")
+        style = style | {"path_effects": [outline]}
     for curve in curves:
         if curve.kind == kind:
             # nan separates two lines.

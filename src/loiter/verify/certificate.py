@@ -15,7 +15,7 @@ from itertools import pairwise
 from math import isfinite
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, instance
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
 from loiter.planning.problem import Problem, problem_of
@@ -178,6 +178,7 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
     >>> c.valid, c.lam, c.runner_up.word, round(c.margin_s, 2)
     (True, 1.0, 'LSL', 16.45)
     """
+    instance("maneuver", maneuver, Maneuver)
     problem = problem_of(maneuver, tolerance_m)
     others = _others(maneuver, problem)
     trajectory = trajectory_of(maneuver, problem)
@@ -274,7 +275,7 @@ def _table(residuals: tuple[Residual, ...]) -> Iterator[str]:
 
 
 def _legend(certificate: Certificate) -> Iterator[str]:
-    source = "of the paper, in docs/theory.md" if problem_of(certificate.maneuver).still else "in docs/wind.md"
+    source = "of the paper, listed in docs/paper.md" if problem_of(certificate.maneuver).still else "in docs/wind.md"
     yield f"Numbers in parentheses: equations {source}; lengths in turn radii. docs/certificate.md explains each row."
 
 

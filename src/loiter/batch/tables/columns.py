@@ -26,7 +26,7 @@ from loiter.batch.tables.mapping import (
     likely_column,
     mapped_columns,
 )
-from loiter.errors import InvalidArgument, not_negative
+from loiter.errors import InvalidArgument, instance, not_negative
 from loiter.geo import LocalFrame
 from loiter.kernel.statuses import Status
 from loiter.kernel.words import Word
@@ -112,6 +112,13 @@ def shared_values(
     mapped: Mapping[str, str] | None = None,
 ) -> SharedValues:
     """The values of the options, checked. `aircraft` may be incomplete, with the names of `Aircraft`."""
+    for name, value, kind in (("orbit", orbit, Orbit), ("wind", wind, Wind), ("origin", origin, LocalFrame)):
+        if value is not None:
+            instance(name, value, kind)
+    if aircraft is not None and not isinstance(aircraft, Mapping):
+        instance("aircraft", aircraft, Aircraft)
+    if mapped is not None and not isinstance(mapped, Mapping):
+        raise InvalidArgument("columns", f"is {mapped!r}: it must map quantities to columns, {{'east_m': 'x'}}")
     numbers = _velocity(orbit, orbit_velocity_m_s)
     if wind is not None:
         numbers |= zip(WIND, (wind.speed_m_s, wind.from_deg), strict=True)
@@ -131,7 +138,12 @@ def _velocity(orbit: Orbit | None, velocity_m_s: tuple[float, float] | None) -> 
         return {} if orbit is None or not orbit.moves else _velocity_columns(orbit)
     if orbit is not None and orbit.moves:
         raise InvalidArgument("orbit_velocity_m_s", "is given, and by the orbit too")
-    return _velocity_columns(Orbit(0.0, 0.0, 1.0, Turn.EITHER, *velocity_m_s))
+    try:
+        east_m_s, north_m_s = velocity_m_s
+    except (TypeError, ValueError):
+        need = "it must be a pair of metres per second, east and north"
+        raise InvalidArgument("orbit_velocity_m_s", f"is {velocity_m_s!r}: {need}") from None
+    return _velocity_columns(Orbit(0.0, 0.0, 1.0, Turn.EITHER, east_m_s, north_m_s))
 
 
 def _velocity_columns(orbit: Orbit) -> dict[str, float]:

@@ -14,16 +14,9 @@ from loiter.cli.numbers import turn_name, whole
 from loiter.cli.options import MapPictureOptions, output
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
+from loiter.planning.vocabulary import BOUNDARIES
 from loiter.plot import files
 from loiter.writing import write_whole
-
-MEANINGS = {
-    "jump": "T jumps",
-    "same": "same first control",
-    "straight": "straight flight",
-    "switch": "switching curve",
-    "tie": "two controls tie",
-}
 
 
 def synthesis(
@@ -96,7 +89,7 @@ def table(curves: tuple[Boundary, ...]) -> Table:
         rows.add_column(heading, justify="right")
     for curve in curves:
         rise = f"{curve.rise.min():.3f} to {curve.rise.max():.3f}" if curve.kind == "jump" else ""
-        rows.add_row(*curve.words, MEANINGS[curve.kind], str(len(curve.points)), *[rise] * jumps)
+        rows.add_row(*curve.words, BOUNDARIES[curve.kind], str(len(curve.points)), *[rise] * jumps)
     return rows
 
 

@@ -53,7 +53,7 @@ class Findings(NamedTuple):
 
 
 # Decimals of the numbers that are not tiny, by key; the others have an exponent.
-DECIMALS = {"spacing": 3, "mean_difference": 3}
+DECIMALS = {"spacing": 3, "mean_difference": 3, "share_of_allowed": 2}
 
 
 def _shown(key: str, value: str | int | float | bool) -> str:
@@ -145,11 +145,12 @@ def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
         rows: list[Row] = []
         for place, here in _by_place([(r.place, r) for r in found]):
             beyond = sum(not r.passed for r in here)
-            error = max(r.error for r in here)
-            rows.append({"next_to": place, "states": len(here), "largest_error": float(error), "beyond": beyond})
+            errors: Row = {"largest_error": float(max(r.error for r in here))}
+            share = float(max(r.share for r in here))
+            rows.append({"next_to": place, "states": len(here), **errors, "share_of_allowed": share, "beyond": beyond})
         note = (
             f"Rounding of T, relative, within 1e-12 to 1e-7 of each boundary; {WORST:.0e} is allowed, R/{WIDE:g} times "
-            f"that on circles of more than {WIDE:g} turn radii."
+            f"that on circles of more than {WIDE:g} turn radii; share: the largest share of what is allowed."
         )
         return Findings(rows, note, all(r.passed for r in found))
 

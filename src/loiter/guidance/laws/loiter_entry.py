@@ -6,7 +6,7 @@ from math import degrees, hypot, inf, nan
 from typing import NamedTuple
 
 from loiter.compiled import still_air_solver, wind_solver
-from loiter.errors import not_negative, positive
+from loiter.errors import instance, not_negative, positive
 from loiter.guidance.identification.vehicle import (
     DeclaredVehicle,
     IdentifiedVehicle,
@@ -153,6 +153,7 @@ class LoiterEntry:
         identify: bool = True,
     ) -> None:
         air = CALM if wind is None else wind
+        instance("roll", roll, Roll)
         check_held(orbit, aircraft, relative_wind(orbit, aircraft, air), air)
         self._orbit, self._declared_wind = orbit, air.velocity_m_s
         # The bank limit, as declared, and at present: lower where the bank overshoots it.
@@ -224,6 +225,7 @@ class LoiterEntry:
         Raises `InvalidArgument` where `dt` is not positive and finite; the law is then unchanged.
         """
         dt = positive("dt", dt, "seconds")
+        instance("state", state, State)
         estimate = self._present_estimate(state)
         if estimate is None:
             return self._command_without_data(dt)

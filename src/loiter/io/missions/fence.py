@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from loiter.errors import OutOfRange
+from loiter.errors import OutOfRange, instance
 from loiter.geo.frame import REACH_M, LocalFrame
 from loiter.planning.maneuver import Maneuver
 
@@ -69,6 +69,8 @@ class Fence(NamedTuple):
         """
         import numpy as np
 
+        instance("maneuver", maneuver, Maneuver)
+        instance("frame", frame, LocalFrame)
         if not self.circles and not self.polygons:
             return None
         time_s, east_m, north_m = _positions(maneuver)

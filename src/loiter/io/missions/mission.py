@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument, positive
+from loiter.errors import InvalidArgument, instance, positive
 from loiter.geo.atmosphere import eas2tas_squared
 from loiter.geo.frame import REACH_M, LocalFrame
 from loiter.io.maps.places import degrees
@@ -87,6 +87,9 @@ def mission(
     >>> len(mission(m, LocalFrame(47.0, 8.0), altitude_m=600.0, along_path=True).items)
     6
     """
+    for name, value, kind in (("maneuver", maneuver, Maneuver), ("frame", frame, LocalFrame)):
+        instance(name, value, kind)
+    instance("datum", datum, AltitudeDatum)
     altitude_m = datum.checked(altitude_m)
     chord_error_m = positive("chord_error_m", chord_error_m, "metres")
     home_m = datum.planned_home_m(altitude_m)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+from loiter.errors import file_path
 from loiter.io.missions.items import Autopilot
 from loiter.io.missions.signs import RADIUS_PARAMETERS, radius_and_turn
 from loiter.io.reading import Source, shown
@@ -83,7 +84,7 @@ def read_parameters(path: str | Path) -> Preset:
     another format and a file that cannot be read, for a value that is not a number or is impossible, for values that
     contradict each other, and for a file without any of these parameters.
     """
-    source = Source("parameters", Path(path))
+    source = Source("parameters", Path(file_path("path", path)))
     lines = _known_lines(source, source.text())
     if not lines:
         raise source.fault(f"it has none of {', '.join(PARAMETERS)}")

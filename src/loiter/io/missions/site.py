@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, file_path
 from loiter.io.missions import qgcplan, signs
 from loiter.io.missions.fence import Fence, FenceCircle, FencePolygon
 from loiter.io.missions.items import Frame, MissionItem
@@ -47,7 +47,7 @@ def read_site(path: str | Path, argument: str = "mission") -> Site:
     Surveys and other complex items of a plan are passed over. Raises `InvalidArgument`, for the argument named, which
     names the file and the place in it, for another format and for a file that cannot be read.
     """
-    source = Source(argument, Path(path))
+    source = Source(argument, Path(file_path("path", path)))
     text = source.text()
     if text.startswith(MARK):
         mission = read_wpl(source, text)

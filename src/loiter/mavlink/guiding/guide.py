@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from loiter.compiled import wind_solver
-from loiter.errors import InvalidArgument, LinkFailed, number, positive
+from loiter.errors import InvalidArgument, LinkFailed, file_path, instance, number, positive
 from loiter.geo import LocalFrame
 from loiter.mavlink.connection.link import check_connection, dialect, open_link
 from loiter.mavlink.guiding.contact import Contact
@@ -72,9 +72,13 @@ def guide(
         max_bank_deg = positive("max_bank_deg", max_bank_deg, "degrees")
     if altitude_m is not None:
         altitude_m = number("altitude_m", altitude_m, "metres")
+    for name, value, kind in (("orbit", orbit, Orbit), ("frame", frame, LocalFrame)):
+        instance(name, value, kind)
+    if wind is not None:
+        instance("wind", wind, Wind)
     if orbit.moves:
         raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
-    path = None if log is None else Path(log)
+    path = None if log is None else Path(file_path("log", log))
     check_log(path)
     request = GuideRequest(orbit, frame, airspeed_m_s, max_bank_deg, wind, altitude_m, keep, dry_run)
     target = _Target(connection, system, component, timeout_s)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from math import nan
 from typing import Any, NamedTuple
 
-from loiter.errors import InvalidArgument, LinkFailed, positive
+from loiter.errors import InvalidArgument, LinkFailed, instance, positive
 from loiter.geo.frame import LocalFrame, degrees_of, is_swapped
 from loiter.io.missions.items import Autopilot, Frame, Mission
 from loiter.mavlink.connection.enumerations import autopilot_name
@@ -117,6 +117,8 @@ def upload(
     and missions that cannot be sent; `MissingPackage` without pymavlink.
     """
     check_target(system, component, timeout_s)
+    if not callable(mission):
+        instance("mission", mission, Mission)
     texts, position = StatusTexts(), Position()
 
     def on_message(message: Any, now: float) -> None:
@@ -125,6 +127,7 @@ def upload(
 
     with open_link(connection, system, component, timeout_s, on_message=on_message) as link:
         new = mission(link.vehicle.autopilot) if callable(mission) else mission
+        instance("mission", new, Mission)
         check_mission(new, link.vehicle)
         scaling = query_scaling(link, scaling_parameters(link.vehicle), true_radius=true_radius)
         behaviour = Behaviour(scaling, true_radius, _requirement(link))

@@ -138,7 +138,7 @@ class Telemetry:
         if not speeds or max(speeds.values()) >= FLYING_SHARE * airspeed_m_s:
             return ""
         measured = " and ".join(f"{name} {value:.1f} m/s" for name, value in speeds.items())
-        return f"{measured}, far below {airspeed_m_s:g} m/s"
+        return f"{measured}, far below {airspeed_m_s:.4g} m/s"
 
     def _speeds(self, now: float) -> dict[str, float]:
         """The speeds, metres per second, from VFR_HUD, or without it the ground speed from the last position."""

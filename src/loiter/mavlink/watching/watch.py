@@ -8,7 +8,7 @@ from math import inf, isnan, nan
 from time import monotonic
 from typing import Any, NamedTuple
 
-from loiter.errors import InvalidArgument, LoiterError, not_negative, number, positive
+from loiter.errors import InvalidArgument, LoiterError, instance, not_negative, number, positive
 from loiter.geo import LocalFrame
 from loiter.mavlink.connection.command import hold_circle
 from loiter.mavlink.connection.link import Link, check_connection, dialect, open_link
@@ -148,6 +148,10 @@ def watch(
     tolerance_m = not_negative("tolerance_m", tolerance_m, "metres")
     if altitude_m is not None:
         altitude_m = number("altitude_m", altitude_m, "metres")
+    for name, value, kind in (("orbit", orbit, Orbit), ("frame", frame, LocalFrame), ("aircraft", aircraft, Aircraft)):
+        instance(name, value, kind)
+    if wind is not None:
+        instance("wind", wind, Wind)
     if send and orbit.moves:
         raise InvalidArgument("send", "commands a vehicle to hold a circle at rest: this one moves")
     if true_radius and not send:

@@ -47,9 +47,14 @@ class RoundingError:
     error: float
 
     @property
+    def share(self) -> float:
+        """The error as a share of the one that is allowed on this circle."""
+        return self.error / allowed_error(self.R)
+
+    @property
     def passed(self) -> bool:
         """Whether the error is allowed."""
-        return self.error <= allowed_error(self.R)
+        return self.share <= 1.0
 
 
 def precision(states: int, seed: int) -> Iterator[RoundingError]:

@@ -1,0 +1,121 @@
+"""Values of another class are refused in one sentence by every public function, never by an error of Python."""
+
+from inspect import isclass, isfunction, signature
+
+import pytest
+
+import loiter
+from loiter import Aircraft, Maneuver, Orbit, Pose, Wind, batch, geo, guidance, io, mavlink, plot, verify
+from loiter.errors import InvalidArgument
+from loiter.guidance import State
+from loiter.io import Mission, Site
+from test_types import public_callables
+
+POSE, ORBIT, UAV = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0)
+WIND, FRAME, MANEUVER = Wind(8.0, 250.0), geo.LocalFrame(47.0, 8.0), loiter.plan(POSE, ORBIT, UAV)
+LAW = guidance.LoiterEntry(ORBIT, UAV, identify=False)
+STATE = guidance.State(0.0, -400.0, 120.0, 90.0, 0.0, 18.0, 0.0, 18.0)
+FENCE, LINK = io.Fence((io.FenceCircle(47.0, 8.0, 900.0, True),)), "udpin:127.0.0.1:14999"
+TABLE = {"columns": {"east_m": "x"}, "origin": FRAME, "orbit_velocity_m_s": (1.0, 0.0)}
+SCENE = {"orbit": ORBIT, "aircraft": UAV, "wind": WIND}
+SAVED = {"maneuver": MANEUVER, "frame": FRAME, "datum": io.AltitudeDatum(), "altitude_m": 900.0}
+
+# A function, arguments that it accepts, and those of them that may be of a wrong class.
+CALLS = [
+    (loiter.plan, {"pose": POSE, **SCENE}, "pose orbit aircraft wind"),
+    (loiter.plan_all, {"pose": POSE, **SCENE}, "pose orbit aircraft wind"),
+    (loiter.candidates, {"pose": POSE, **SCENE}, "pose orbit aircraft wind"),
+    (loiter.hold, {**SCENE, "turn": "cw"}, "orbit aircraft wind turn"),
+    (loiter.reduce, {"east_m": 0, "north_m": 0, "heading_deg": 0, "orbit": ORBIT, "aircraft": UAV}, "orbit aircraft"),
+    (ORBIT.fitted, {"aircraft": UAV, "wind": WIND}, "aircraft wind"),
+    (ORBIT.distance_m, {"pose": POSE}, "pose"),
+    (Orbit(0.0, 0.0, 80.0, "cw", 1.0).after, {"time_s": 2.0}, "time_s"),
+    (MANEUVER.over_ground, {"pose": POSE}, "pose"),
+    (verify.certify, {"maneuver": MANEUVER}, "maneuver"),
+    (FRAME.place, {"pose": POSE}, "pose"),
+    (guidance.LoiterEntry, SCENE, "orbit aircraft wind roll"),
+    (guidance.LoiterEntry.exact, SCENE, "orbit aircraft wind"),
+    (LAW.step, {"state": STATE, "dt": 0.02}, "state"),
+    (FENCE.check, {"maneuver": MANEUVER, "frame": FRAME}, "maneuver frame"),
+    (io.mission, SAVED, "maneuver frame datum"),
+    (io.save, {"path": "x.plan", "site": None, **SAVED}, "maneuver path frame datum site"),
+    (io.save, {"path": "x.kml", "maneuver": MANEUVER}, "maneuver path"),
+    (io.check_format, {"path": "x.kml"}, "path"),
+    (io.read_mission, {"path": "x.plan"}, "path"),
+    (io.read_site, {"path": "x.plan"}, "path"),
+    (io.read_parameters, {"path": "x.param"}, "path"),
+    (plot.draw, {"best": MANEUVER, "others": [], "frame": FRAME}, "best others frame"),
+    (mavlink.upload, {"mission": io.mission(**SAVED), "connection": LINK}, "mission connection"),
+    (mavlink.download, {"connection": LINK}, "connection"),
+    (mavlink.watch, {"connection": LINK, "frame": FRAME, **SCENE}, "connection orbit frame aircraft wind"),
+    (mavlink.guide, {"connection": LINK, "orbit": ORBIT, "frame": FRAME}, "connection orbit frame wind log"),
+    (batch.plan, {"frame": None, **SCENE, **TABLE}, "frame orbit aircraft wind turn origin columns orbit_velocity_m_s"),
+    (
+        batch.run,
+        {"source": "x.csv", "target": "y.csv", **SCENE, **TABLE},
+        "source target rejects orbit aircraft wind turn origin columns orbit_velocity_m_s",
+    ),
+]
+WRONG = [5, (0.0, 0.0, 80.0), [5, 6, 7], {1, 2, 3}, POSE, UAV, object()]
+
+
+def wrong_values(argument):
+    """Values of other classes than that of the argument."""
+    right = {"pose": Pose, "aircraft": Aircraft, "time_s": int, "timeout_s": int}.get(argument, ())
+    return [value for value in WRONG if not isinstance(value, right)]
+
+
+@pytest.mark.parametrize(
+    ("function", "accepted", "argument"),
+    [
+        pytest.param(function, accepted, argument, id=f"{function.__qualname__}-{argument}")
+        for function, accepted, arguments in CALLS
+        for argument in arguments.split()
+    ],
+)
+def test_a_value_of_another_class_is_refused(function, accepted, argument, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for value in wrong_values(argument):
+        with pytest.raises(InvalidArgument) as refused:
+            function(**{**accepted, argument: value})
+        named = {"best": "maneuver", "others": "maneuver"}.get(argument, argument)
+        assert refused.value.argument == named, str(refused.value)
+        assert "\n" not in str(refused.value)
+        assert len(str(refused.value)) < 400
+
+
+def test_every_public_function_with_such_arguments_is_tested():
+    tested = {(getattr(function, "__qualname__", ""), name) for function, _, names in CALLS for name in names.split()}
+    classes = {kind.__name__ for kind in (Pose, Orbit, Aircraft, Wind, Maneuver, State, Site, Mission)}
+    classes |= {geo.LocalFrame.__name__, io.AltitudeDatum.__name__}
+    for name, value in public_callables():
+        if not isfunction(value) or isclass(value) or not value.__module__.startswith("loiter") or ".errors" in name:
+            continue
+        for argument, parameter in signature(value).parameters.items():
+            words = str(parameter.annotation).replace("|", " ").replace("[", " ").replace("]", " ").split()
+            if any(word.strip("'").rpartition(".")[2] in classes for word in words) and "Protocol" not in name:
+                qualified = value.__qualname__
+                assert (qualified, argument) in tested or qualified.split(".")[0] in ("Law", "Simulator"), name
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: batch.plan(None, wind=(8, 250)), "wind is (8, 250): it must be a loiter.Wind"),
+        (lambda: verify.certify("x"), "maneuver is 'x': it must be a loiter.Maneuver"),
+        (lambda: verify.certify([MANEUVER]), "maneuver is of type list: it must be a loiter.Maneuver"),
+        (lambda: guidance.LoiterEntry(UAV, ORBIT), f"orbit is {UAV!r}: it must be a loiter.Orbit"),
+        (lambda: LAW.step((0.0, 1.0), 0.02), "state is (0.0, 1.0): it must be a loiter.guidance.State"),
+        (
+            lambda: io.save(MANEUVER, "x.plan", frame=(47, 8), altitude_m=900),
+            "frame is (47, 8): it must be a loiter.geo.LocalFrame",
+        ),
+        (lambda: io.save(MANEUVER, 5), "path is 5: it must be the path of a file, as text or a pathlib.Path"),
+        (lambda: io.save("m", "x.kml"), "maneuver is 'm': it must be a loiter.Maneuver"),
+        (lambda: mavlink.upload(LINK, "x.plan"), f"mission is {LINK!r}: it must be a loiter.io.Mission"),
+    ],
+)
+def test_sentences(call, sentence):
+    with pytest.raises(InvalidArgument) as refused:
+        call()
+    assert str(refused.value) == sentence
