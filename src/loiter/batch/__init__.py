@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 else:
     job = LazyModule("loiter.batch.jobs.job")
 
-# A data frame of any library.
-Frame = TypeVar("Frame")
+# A data frame of pandas, Dask, Polars or Arrow.
+AnyFrame = TypeVar("AnyFrame")
 
 __all__ = ["JobProgress", "JobSummary", "plan", "run"]
 
@@ -85,7 +85,7 @@ def run(
 
 
 def plan(
-    frame: Frame,
+    frame: AnyFrame,
     *,
     orbit: Orbit | None = None,
     aircraft: Aircraft | Mapping[str, float] | None = None,
@@ -95,7 +95,7 @@ def plan(
     origin: LocalFrame | None = None,
     columns: Mapping[str, str] | None = None,
     tolerance_m: float = 0.0,
-) -> Frame:
+) -> AnyFrame:
     """The fastest entries of the rows of a data frame of pandas, Dask, Polars or Arrow: the same with added columns.
 
     The frame has columns as docs/batch.md describes them: `east_m`, `north_m` in metres, `heading_deg` in degrees, and
@@ -111,7 +111,7 @@ def plan(
     from loiter.batch.tables.columns import shared_values
 
     options = shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns)
-    planned: Frame = plan_frame(frame, options, tolerance_m)
+    planned: AnyFrame = plan_frame(frame, options, tolerance_m)
     return planned
 
 
