@@ -62,10 +62,27 @@ def test_a_turn_may_be_named_wherever_one_is_asked_for(checked):
     ) == (["Success: no issues found in 1 source file"], 0)
 
 
-def test_another_word_is_an_error(checked):
-    said, status = checked("from loiter import Orbit", 'orbit = Orbit(0.0, 0.0, 80.0, turn="left")')
+@pytest.mark.parametrize(
+    ("call", "name"),
+    [
+        ("Orbit(0.0, 0.0, 80.0, turn='left')", "Orbit"),
+        ("loiter.hold(Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0), turn='left')", "hold"),
+        ("loiter.batch.run('states.csv', 'entries.csv', turn='left')", "run"),
+    ],
+)
+def test_another_word_is_an_error(checked, call, name):
+    said, status = checked("import loiter", "from loiter import Aircraft, Orbit", f"value = {call}")
     assert status == 1
-    assert 'Argument "turn" to "Orbit" has incompatible type' in said[0]
+    assert f'Argument "turn" to "{name}" has incompatible type' in said[0]
+
+
+def test_the_frame_of_a_plan_is_of_the_kind_of_its_argument(checked):
+    assert checked(
+        "from typing import assert_type",
+        "from loiter import batch",
+        "class Table: ...",
+        "assert_type(batch.plan(Table(), turn='cw'), Table)",
+    ) == (["Success: no issues found in 1 source file"], 0)
 
 
 @pytest.mark.parametrize("kind", [Aircraft, Orbit, Pose, Wind])

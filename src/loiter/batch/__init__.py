@@ -10,12 +10,12 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from loiter.errors import InvalidArgument, MissingPackage, file_path
 from loiter.geo import LocalFrame
 from loiter.lazy import LazyModule
-from loiter.planning.model import Aircraft, Orbit, Turn, Wind
+from loiter.planning.model import Aircraft, Orbit, Turn, TurnName, Wind
 
 if TYPE_CHECKING:
     from loiter.batch.jobs import job
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from loiter.batch.jobs.job import JobSummary as JobSummary
 else:
     job = LazyModule("loiter.batch.jobs.job")
+
+# A data frame of pandas, Dask, Polars or Arrow.
+AnyFrame = TypeVar("AnyFrame")
 
 __all__ = ["JobProgress", "JobSummary", "plan", "run"]
 
@@ -32,7 +35,7 @@ def run(
     target: str | os.PathLike[str],
     *,
     orbit: Orbit | None = None,
-    turn: Turn | str | None = None,
+    turn: Turn | TurnName | None = None,
     aircraft: Aircraft | Mapping[str, float] | None = None,
     wind: Wind | None = None,
     orbit_velocity_m_s: tuple[float, float] | None = None,
@@ -82,17 +85,17 @@ def run(
 
 
 def plan(
-    frame: Any,
+    frame: AnyFrame,
     *,
     orbit: Orbit | None = None,
     aircraft: Aircraft | Mapping[str, float] | None = None,
     wind: Wind | None = None,
-    turn: Turn | str | None = None,
+    turn: Turn | TurnName | None = None,
     orbit_velocity_m_s: tuple[float, float] | None = None,
     origin: LocalFrame | None = None,
     columns: Mapping[str, str] | None = None,
     tolerance_m: float = 0.0,
-) -> Any:
+) -> AnyFrame:
     """The fastest entries of the rows of a data frame of pandas, Dask, Polars or Arrow: the same with added columns.
 
     The frame has columns as docs/batch.md describes them: `east_m`, `north_m` in metres, `heading_deg` in degrees, and
@@ -107,9 +110,9 @@ def plan(
     from loiter.batch.frames import plan_frame
     from loiter.batch.tables.columns import shared_values
 
-    return plan_frame(
-        frame, shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns), tolerance_m
-    )
+    options = shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns)
+    planned: AnyFrame = plan_frame(frame, options, tolerance_m)
+    return planned
 
 
 def _workers(workers: int | None, scheduler: str | None) -> int:

@@ -11,7 +11,7 @@ from loiter.kernel.hold import hold_pose, hold_rate, phase_of
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.feasibility import check_held, radius_in_turns, relative_wind
 from loiter.planning.flight import over_ground
-from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind
+from loiter.planning.model import CALM, Aircraft, Orbit, Turn, TurnName, Wind
 from loiter.planning.sides import SIDES
 
 if TYPE_CHECKING:
@@ -101,7 +101,7 @@ class Hold:
         return HoldPoint(wrapped(degrees(atan2(x, y))), heading_deg, track_deg, speed, bank_deg)
 
 
-def hold(orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, turn: Turn | str | None = None) -> Hold:
+def hold(orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, turn: Turn | TurnName | None = None) -> Hold:
     """Heading, ground speed and bank needed to hold a circle. `turn` replaces the direction of the orbit.
 
     Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held, `InvalidArgument` for a turn that is
