@@ -7,9 +7,10 @@ from random import Random
 
 import pytest
 
-from loiter.verify.proof.algebra import NotProved, flint
+from loiter.verify.proof.algebra import flint
 from loiter.verify.proof.selection import compared_words
-from loiter.verify.proof.selection.signs import Impossible, Quantity, Relation, Signs, Table, Unknown, every_case
+from loiter.verify.proof.selection.signs import Quantity, Relation, Signs, Table, Unknown, every_case
+from loiter.verify.proof.sign_proofs import Impossible, NotProved
 
 pytest.importorskip("flint")
 
