@@ -187,6 +187,9 @@ CHOICES = [
     ("lr", "fold >= 0.0", "fold > 0.0"),
     ("lrl", "fold <= 0.0", "fold < 0.0"),
     ("lrl", "D >= 0.0", "D > 0.0"),
+    # A word that would exist where it misses the target.
+    ("lrl", " and D >= 0.0", ""),
+    ("lrl", "R <= 3.0 and ", ""),
     ("is_near_circle", "<= beyond2 <=", "< beyond2 <="),
     ("is_near_circle", "<= beyond2 <=", "<= beyond2 >="),
     ("is_near_circle", "<= beyond2 <= distance * (2.0 * radius + distance)", "<= beyond2"),
@@ -352,7 +355,8 @@ def test_signs_of_sums_with_roots_are_those_of_their_squares():
     assert (X - 1.0).signs == POSITIVE
     assert (X - R).signs == POSITIVE
     assert (R + 1.0 - X).signs == POSITIVE
-    assert (X - 2.0 * R).signs == {-1, 0, 1}
+    assert (2.0 * R - X).signs == POSITIVE
+    assert (X - 1.5 * R).signs == {-1, 0, 1}
 
 
 def test_a_sum_proves_a_sign_only_where_it_is_equal_and_its_terms_agree():

@@ -38,21 +38,22 @@ class Condition(NamedTuple):
 
 
 class Case(NamedTuple):
-    """A word: the kernel's function, its crossing, the centre of its first arc, and where it exists.
+    """A word: the name of the kernel's function, its crossing, the centre of its first arc, and where it exists.
 
     `splits` are further quantities whose signs decide which formula is used.
     """
 
-    word: Callable[..., kernel.Extremal]
+    name: str
     crossing: tuple[float, ...]
     centre: float
     conditions: tuple[Condition, ...]
     splits: tuple[str, ...] = ()
 
     @property
-    def name(self) -> str:
-        """The name of the kernel's function."""
-        return self.word.__name__
+    def word(self) -> Callable[..., kernel.Extremal]:
+        """The kernel's function."""
+        function: Callable[..., kernel.Extremal] = getattr(kernel, self.name)
+        return function
 
 
 # Where each word exists. The circle rm = R + 3, of `far`, is the last on which RL exists.
@@ -63,14 +64,14 @@ _LSL, _RSL = (Condition("outer", NEVER_NEGATIVE),), (Condition("onto_right", NEV
 _LSR = _WIDE, Condition("left", NEVER_NEGATIVE), Condition("from_left", NEVER_POSITIVE)
 _RSR = _WIDE, Condition("right", NEVER_NEGATIVE), Condition("inner", NEVER_POSITIVE)
 CASES = {
-    "LSL": Case(kernel.lsl, (), -1.0, _LSL, ("left", "x")),
-    "RSL": Case(kernel.rsl, (), 1.0, _RSL, ("right", "x")),
-    "LSR": Case(kernel.lsr, (), -1.0, _LSR, ("x",)),
-    "RSR": Case(kernel.rsr, (), 1.0, _RSR, ("x",)),
-    "RL, left crossing": Case(kernel.rl, (-1.0,), 1.0, _RL),
-    "RL, right crossing": Case(kernel.rl, (1.0,), 1.0, _RL),
-    "LR, left crossing": Case(kernel.lr, (-1.0,), -1.0, _LR),
-    "LR, right crossing": Case(kernel.lr, (1.0,), -1.0, _LR),
+    "LSL": Case("lsl", (), -1.0, _LSL, ("left", "x")),
+    "RSL": Case("rsl", (), 1.0, _RSL, ("right", "x")),
+    "LSR": Case("lsr", (), -1.0, _LSR, ("x",)),
+    "RSR": Case("rsr", (), 1.0, _RSR, ("x",)),
+    "RL, left crossing": Case("rl", (-1.0,), 1.0, _RL),
+    "RL, right crossing": Case("rl", (1.0,), 1.0, _RL),
+    "LR, left crossing": Case("lr", (-1.0,), -1.0, _LR),
+    "LR, right crossing": Case("lr", (1.0,), -1.0, _LR),
 }
 
 

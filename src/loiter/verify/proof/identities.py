@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from loiter.verify.proof.algebra import Expression, Field, NotProved
+from loiter.verify.proof.algebra import Expression, Field
 from loiter.verify.proof.exact_paths import Point, squared
+from loiter.verify.proof.sign_proofs import NotProved
 
 
 def require(holds: bool, sentence: str) -> None:

@@ -120,7 +120,8 @@ def dropped() -> int:
 
         def run(controls: tuple[int, ...] = controls, given: list[Any] = given) -> None:
             code = words.encode(*padded(controls))
-            word, *found = synthesis.drop_short_pieces(code, *given, values.short, values.no_angle)
+            t1, t2, t3 = given
+            word, *found = synthesis.drop_short_pieces(code, t1, t2, t3, values.short, values.no_angle)
             pieces = left_after(list(zip(controls, given, strict=False)), values)
             require(words.controls(word) == padded([u for u, _ in pieces]), f"the word that is flown of {controls}")
             expected = [t for _, t in pieces] + [0.0] * (3 - len(pieces))
@@ -322,7 +323,7 @@ def solved_states() -> int:
         R, field = variables("R")
         field.assume(R, POSITIVE)
         code = words.encode(*padded(controls))
-        law = synthesis.first_control(R, synthesis.Entry(side, code, 0.0, 0.0, 0.0))  # type: ignore[arg-type]
+        law = synthesis.first_control(R, synthesis.Entry(side, code, 0.0, 0.0, 0.0))
         zero("`first_control`", field.of(law) - (controls[0] if controls else field.constant(-side) / R))
         cases += 1
     return cases

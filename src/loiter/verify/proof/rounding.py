@@ -174,12 +174,12 @@ def check_lengths(case: Case, region: WordRegion) -> None:
     field, point, R, _ = region.plane
     (word,) = exact(field, case.word)
     extremal = word(region.start, *case.crossing)
-    name, square, scale = case.word.__name__, squared(point, case.centre), field.constant(1.0)
+    name, square, scale = case.name, squared(point, case.centre), field.constant(1.0)
     if case.crossing:
         last = R + case.centre
         zero(f"the last rotation of {name}", square_of(extremal.middle) - last * last)
     else:
-        end = -1.0 if case.word in (kernel.lsl, kernel.rsl) else 1.0
+        end = -1.0 if case.name in ("lsl", "rsl") else 1.0
         if (end * point.x).signs == POSITIVE:
             scale = field.sqrt(square - 1.0) + end * point.x
     zero(f"the first rotation of {name}", square_of(extremal.first) - square * square * scale * scale)

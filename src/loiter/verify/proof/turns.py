@@ -164,7 +164,8 @@ class Folds:
         require(is_same((cross, dot), (c, d)), "the arctangent is not that of the sum")
         require(sorted(self.parts[-1]) == [0, 1, 2], "the sum does not have the three angles")
         require(self.used == set(range(len(self.parts) - 1)), "an angle that is folded is not in the sum")
-        return self.angle
+        result: Expression = self.angle
+        return result
 
 
 def sum_of_three() -> None:

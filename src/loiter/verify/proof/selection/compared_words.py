@@ -153,9 +153,14 @@ def check_selection(q: Named, found: set[Described], exactly: bool, signs: Signs
 
     All states with the signs chosen in this run are checked at once.
     """
-    # Lemma 1 is about the other words, wherever they reach the target.
+    # Lemma 1 is about the other words, wherever they reach the target, and lemma 5 about LRL.
+    require(LRL not in found or lrl_exists(q), f"LRL ends beside the target: signs {signs.chosen}")
     require(ARC_L not in found or q.outer == 0.0, f"L ends beside the target: signs {signs.chosen}")
     require(ARC_R not in found or (q.inner == 0.0 and q.R > 1.0), f"R ends beside the target: signs {signs.chosen}")
+    if not exactly:
+        # Within a tolerance a single arc is faster than the words of which it is the limit.
+        require((q.outer == 0.0) == (ARC_L in found), f"L does not compete: signs {signs.chosen}")
+        require((q.inner == 0.0 and q.R > 1.0) == (ARC_R in found), f"R does not compete: signs {signs.chosen}")
     if exactly and q.R == 1.0 and q.y >= 0.0:
         require(len(found) == 1, f"times are compared at R = 1: {found}, signs {signs.chosen}")
         required = set(words_at_turn_radius(q))
@@ -178,7 +183,7 @@ def words_at_turn_radius(q: Named) -> Iterator[Described]:
         if q.x <= 0.0:
             yield ARC_L
             return
-    elif q.fold <= 0.0 and q.D >= 0.0 and q.h < 6.0 and q.turn >= 0.0:
+    elif lrl_exists(q) and q.turn >= 0.0:
         yield LRL
         return
     yield from words_to_the_right(q)
@@ -224,8 +229,13 @@ def words_that_can_win(q: Named) -> Iterator[Described]:
         yield ARC_R
     if q.outer == 0.0:
         yield ARC_L
-    if q.R < 3.0 and q.fold <= 0.0 and q.D >= 0.0 and q.h < 6.0:
+    if lrl_exists(q):
         yield LRL
+
+
+def lrl_exists(q: Named) -> bool:
+    """Whether LRL exists, by lemma 5."""
+    return bool(q.R <= 3.0 and q.fold <= 0.0 and q.D >= 0.0 and q.h < 6.0)
 
 
 def exists(case: Case, q: Named) -> bool:
