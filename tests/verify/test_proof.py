@@ -190,6 +190,8 @@ CHOICES = [
     # A word that would exist where it misses the target.
     ("lrl", " and D >= 0.0", ""),
     ("lrl", "R <= 3.0 and ", ""),
+    # A root of a negative number where the word does not exist.
+    ("lrl", "max(D, 0.0)", "max(D, -0.0009765625)"),
     ("is_near_circle", "<= beyond2 <=", "< beyond2 <="),
     ("is_near_circle", "<= beyond2 <=", "<= beyond2 >="),
     ("is_near_circle", "<= beyond2 <= distance * (2.0 * radius + distance)", "<= beyond2"),

@@ -9,7 +9,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
-from loiter.verify.proof import arrivals, maneuvers, rlr, rounding, switching, turns
+from loiter.verify.proof import arrivals, rlr, rounding, switching
+from loiter.verify.proof.answers import maneuvers, turns
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.selection import coinciding, compared_words
 

@@ -1,4 +1,4 @@
-"""Signs of polynomials on a region, proved: nothing here looks at a sample point.
+"""Signs of polynomials on a whole region, as they follow from facts: nothing here looks at a sample point.
 
 A region is all values of the variables at which some facts hold, each the signs that one polynomial may have. The sign
 of another polynomial follows from its factors, from those of its monomials, from the bounds of its variables, or, where

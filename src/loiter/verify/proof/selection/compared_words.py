@@ -15,13 +15,13 @@ from loiter.compiled.rebinding import rebinding
 from loiter.kernel import extremals as kernel
 from loiter.kernel.words import Word
 from loiter.verify.proof.algebra import flint
+from loiter.verify.proof.answers.turns import StandIn
 from loiter.verify.proof.arrivals import CASES, Case
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.exact_paths import Point, without_tolerance
 from loiter.verify.proof.identities import quantities, require
 from loiter.verify.proof.selection.signs import Quantity, Signs, Table, Unknown, every_case
 from loiter.verify.proof.sign_proofs import Impossible, NotProved
-from loiter.verify.proof.turns import StandIn
 
 # A word, and for RL and LR on which side of the axis x = 0 the arcs meet: -1 left, 1 right, 0 for other words.
 Described = tuple[int, int]
@@ -329,15 +329,26 @@ def faster_of(least: Compared, best: Compared | kernel.Extremal, other: kernel.E
     return compared, compared
 
 
-def nonnegative(*of_what: object) -> Unknown:
-    """A root, or the larger of a number and 0."""
+def larger(*numbers: object) -> Unknown:
+    """The largest of some numbers, which is not negative where one of them is not."""
+    return Unknown(int(any(is_never_negative(number) for number in numbers)))
+
+
+def is_never_negative(number: object) -> bool:
+    """Whether a number, or a number that no choice may depend on, is known not to be negative."""
+    return number.sign == 1 if isinstance(number, Unknown) else isinstance(number, float | int) and number >= 0.0
+
+
+def root(number: object) -> Unknown:
+    """A root. Lemma 1 checks those of polynomials; others must be of numbers that are never negative."""
+    require(isinstance(number, Quantity) or is_never_negative(number), "a root of a number that may be negative")
     return Unknown(1)
 
 
 # What replaces the kernel's globals. Both branches of `onto_axis` compute the same rotation: lemma 1 checks each.
 NUMBERS = {
-    "sqrt": nonnegative,
-    "max": nonnegative,
+    "sqrt": root,
+    "max": larger,
     "TINY": 0.0,
     "SMALLEST_SCALE": inf,
     "snap_full_turn": without_tolerance,

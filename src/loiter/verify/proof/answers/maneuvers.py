@@ -17,11 +17,11 @@ from loiter.kernel import motion, synthesis, words
 from loiter.kernel.statuses import Status
 from loiter.kernel.words import ABSENT, Side, Word
 from loiter.verify.proof.algebra import Field, flint
+from loiter.verify.proof.answers.turns import StandIn, is_same
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.identities import require, variables, zero
 from loiter.verify.proof.selection.signs import Quantity, Signs, Table, every_case
 from loiter.verify.proof.sign_proofs import NEGATIVE, NEVER_NEGATIVE, POSITIVE, ZERO
-from loiter.verify.proof.turns import StandIn, is_same
 
 LETTERS = {"L": 1, "S": 0, "R": -1}
 NAMES = ("", "R", "L", "SR", "SL", "RL", "LR", "RSR", "RSL", "LSR", "LSL", "RLR", "LRL")
