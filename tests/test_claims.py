@@ -23,7 +23,7 @@ DOCUMENTS = [
 # In still air docs/proof.md proves the optimum; in wind a bound is proved.
 TRUE = [
     "proves, from Filippov's, Pontryagin's and Dubins' theorems, that this is the optimum for every circle",
-    "checks the formulas and inequalities of the proof in exact arithmetic",
+    "checks the formulas of the proof, for all states and radii, and the way from a state to its maneuver",
     "Dubins proved that in 1957 for paths between two poses",
     "what is proved of it and what is checked",
     "what is proved of the answer and what is cross-checked",

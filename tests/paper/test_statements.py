@@ -314,6 +314,20 @@ def test_a_last_switch_has_one_before_it_only_near_the_target():
     assert hypot(*np.subtract(switching_points(x, y, best(x, y))[0], (0.0, 1.0))) > 1.0
 
 
+def test_a_last_switch_in_the_disk_has_exactly_one_before_it():
+    """On the last circle the disk is y1 >= 3/4; (19) and (20) leave one y, which increases with y1 from 0 to 1."""
+    before = [y1 * (4.0 * y1 - 3.0) / (3.0 - 2.0 * y1) for y1 in np.linspace(0.75, 1.0, 101)]
+    assert (before[0], before[-1]) == pytest.approx((0.0, 1.0))
+    assert all(a < b for a, b in pairwise(before))
+    for y1, y in zip(np.linspace(0.75, 1.0, 101)[1:-1], before[1:-1], strict=True):
+        x1 = -sqrt(4.0 - (y1 + 1.0) ** 2)
+        assert x1 * x1 + (y1 - 1.0) ** 2 <= 1.0
+        # On the line of (19), on the circle of the switch about (0, 1), and on the curve (22).
+        x = -x1 / y1 * y
+        assert hypot(x, y - 1.0) == pytest.approx(hypot(x1, y1 - 1.0), abs=LENGTH_TOLERANCE)
+        assert x == pytest.approx(switching_abscissa(y, 1.0), abs=1e-9)
+
+
 def test_no_more_than_two_switches():
     assert max(len(word) for word in words_of(swarm()[2].word)) == 3
 

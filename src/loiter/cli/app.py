@@ -137,7 +137,7 @@ app.command(
     group=theory,
     sort_key=10,
     help_epilogue=epilogue("prove"),
-    help="Check the lemmas of docs/proof.md on the kernel's own formulas, in exact algebra and ball arithmetic.",
+    help="Check the lemmas of docs/proof.md on the kernel's own formulas, for all states and radii, in exact algebra and ball arithmetic. What docs/proof.md argues in words or cites is not checked.",
 )
 app.command(
     "loiter.cli.commands.serve:serve",

@@ -4,24 +4,32 @@ An `Expression` is a quotient of polynomials over the rationals, in variables an
 expressions. The kernel's own functions accept expressions in place of doubles (`loiter.compiled.rebinding`), so a
 formula of the kernel becomes an identity that holds or does not hold, exactly.
 
-A comparison is decided at one sample point, and the expression that was compared is recorded in `Field.compared`. What
-is proved then holds for every state at which these expressions have the same signs.
+What is proved holds on a region: all values of the variables at which the facts of the field hold (`Field.assume`).
+Every comparison, every choice by `max` or `min`, the sign of every root, and that no denominator is 0, is decided by
+signs that are proved on the whole region (`sign_proofs`). Where a sign cannot be proved, the check fails.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from math import inf, isqrt, sqrt
+from math import inf, isqrt
 from typing import Any
 
 from loiter.errors import MissingPackage
+from loiter.verify.proof.sign_proofs import (
+    NEVER_NEGATIVE,
+    NEVER_POSITIVE,
+    POSITIVE,
+    ZERO,
+    NotProved,
+    Possible,
+    Signs,
+    times,
+)
 
-# Square roots that one field can have.
-ROOTS = 8
-
-# Values at the sample point closer to 0 than this cannot be decided; samples are chosen away from all boundaries.
-UNDECIDED = 1e-9
+# Square roots that one field can have, and terms of a polynomial after which a check gives up.
+ROOTS, MOST_TERMS = 8, 1_000
 
 
 def flint() -> Any:
@@ -35,22 +43,16 @@ def flint() -> Any:
     return flint
 
 
-class NotProved(Exception):
-    """A lemma that a check could not establish; the message says which step."""
-
-
 class Field:
-    """The expressions in some variables, given with their values at the sample point."""
+    """The expressions in some variables, on the region where its facts hold."""
 
-    def __init__(self, sample: Mapping[str, float]) -> None:
+    def __init__(self, names: Sequence[str]) -> None:
         self.flint = flint()
-        names = (*sample, *(f"root{i}" for i in range(ROOTS)))
-        self.context = self.flint.fmpq_mpoly_ctx.get(names, self.flint.Ordering.lex)
+        self.context = self.flint.fmpq_mpoly_ctx.get((*names, *(f"root{i}" for i in range(ROOTS))), "lex")
         self.generators = self.context.gens()
-        self.variables = len(sample)
-        self.values = [float(value) for value in sample.values()]
+        self.variables = len(names)
         self.squares: list[Any] = []
-        self.compared: list[Expression] = []
+        self.proofs = Signs(self)
 
     def variable(self, name: str) -> Expression:
         """The variable of a name."""
@@ -66,15 +68,24 @@ class Field:
         """A number or an expression as an expression."""
         return value if isinstance(value, Expression) else self.constant(value)  # type: ignore[arg-type]
 
-    def at_sample(self, polynomial: Any) -> float:
-        """The value of a polynomial at the sample point."""
-        total = 0.0
-        for powers, coefficient in polynomial.to_dict().items():
-            term = float(Fraction(int(coefficient.p), int(coefficient.q)))
-            for value, power in zip(self.values, powers, strict=False):
-                term *= value ** int(power)
-            total += term
-        return total
+    def assume(self, expression: Expression, possible: Possible) -> None:
+        """Restrict the region to where an expression has one of the given signs."""
+        self.proofs.learn(expression.num, times(possible, expression.den_signs))
+
+    def derive(self, expression: Expression, *terms: Expression) -> None:
+        """Prove the sign of an expression from a sum that it is equal to, and remember it.
+
+        Raises `NotProved` where they differ, or where the signs of the terms leave that of the sum open.
+        """
+        total = self.constant(0.0)
+        for term in terms:
+            total = total + term
+        if not (total - expression).is_zero:
+            raise NotProved("a sum is not what it is said to be")
+        possible = self.proofs.of_sum([term.signs for term in terms])
+        if len(possible) == 3:
+            raise NotProved(f"the sign of a sum is open: {[sorted(term.signs) for term in terms]}")
+        self.assume(expression, possible)
 
     def reduced(self, polynomial: Any) -> Any:
         """A polynomial with the square of each root replaced, so that no root has a power above 1."""
@@ -92,18 +103,35 @@ class Field:
         return polynomial
 
     def sqrt(self, value: object, known: Iterable[Expression] = ()) -> Expression:
-        """The nonnegative root: one of `known` where its square is the value, a polynomial, or a new root."""
+        """The nonnegative root: one of `known` where its square is the value, a polynomial, or a new root.
+
+        Raises `NotProved` where the value may be negative, or the sign of a root found is not the same everywhere.
+        """
         square = self.of(value)
         for root in known:
-            if root * root == square:
-                return root if root.sample >= 0.0 else -root
+            if (root * root - square).is_zero:
+                return self.size(root)
         product = self.reduced(square.num * square.den)
+        if not self.proofs.of(product) <= NEVER_NEGATIVE:
+            raise NotProved("a root of a number that may be negative")
         root = self._polynomial_root(product) or self._new_root(product)
-        root = root / Expression(self, square.den, self.context.constant(1))
-        return root if root.sample >= 0.0 else -root
+        return self.size(root / Expression(self, square.den, self.context.constant(1)))
+
+    def size(self, expression: Expression) -> Expression:
+        """The absolute value of an expression whose sign is known."""
+        return self.greater(expression, -expression, "the sign of a root is not the same everywhere")
+
+    def greater(
+        self, a: Expression, b: Expression, failure: str = "a maximum is not the same everywhere"
+    ) -> Expression:
+        """The larger of two expressions: the same one everywhere, otherwise `NotProved`."""
+        possible = (a - b).signs
+        if not (possible <= NEVER_NEGATIVE or possible <= NEVER_POSITIVE):
+            raise NotProved(failure)
+        return a if possible <= NEVER_NEGATIVE else b
 
     def _polynomial_root(self, polynomial: Any) -> Expression | None:
-        """The root of a polynomial that is a square, otherwise None."""
+        """A root of a polynomial that is a square, of either sign, otherwise None."""
         if polynomial.is_zero():
             return self.constant(0.0)
         factor, powers = polynomial.factor_squarefree()
@@ -119,43 +147,33 @@ class Field:
         return found
 
     def _new_root(self, polynomial: Any) -> Expression:
-        value = self.at_sample(polynomial)
-        if value < 0.0:
-            raise NotProved(f"a root of a negative number, {value:g} at the sample point")
         if polynomial not in self.squares:
             self.squares.append(polynomial)
-            self.values.append(sqrt(value))
+            root = self.generators[self.variables + len(self.squares) - 1]
+            self.proofs.learn(root, self.proofs.of(polynomial))
         generator = self.generators[self.variables + self.squares.index(polynomial)]
         return Expression(self, generator, self.context.constant(1))
 
     def is_positive(self, difference: Expression) -> bool:
-        """Whether an expression is positive at the sample point; it is recorded in `compared`."""
-        if difference.is_zero:
+        """Whether an expression is positive on the whole region; raises `NotProved` where it is only on a part."""
+        possible = difference.signs
+        if possible == POSITIVE:
+            return True
+        if 1 not in possible:
             return False
-        self.compared.append(difference)
-        value = difference.sample
-        if abs(value) < UNDECIDED:
-            raise NotProved("the sample point lies on a boundary")
-        return value > 0.0
+        raise NotProved("a choice is not the same everywhere")
 
     def names(self, known: Iterable[Expression] = ()) -> dict[str, object]:
         """What replaces the kernel's globals: roots and choices on expressions, and no guards against rounding.
 
-        `max` and `min` guard roots of numbers that rounding has made negative. So they are not recorded.
+        The guards are numbers that the kernel adds so that nothing is divided by 0; `constants` checks their size.
         """
         roots = tuple(known)
-
-        def larger(a: object, b: object) -> Expression:
-            return max(self.of(a), self.of(b), key=lambda value: value.sample)
-
-        def smaller(a: object, b: object) -> Expression:
-            return min(self.of(a), self.of(b), key=lambda value: value.sample)
-
         zero = self.constant(0.0)
         return {
             "sqrt": lambda value: self.sqrt(value, roots),
-            "max": larger,
-            "min": smaller,
+            "max": lambda a, b: self.greater(self.of(a), self.of(b)),
+            "min": lambda a, b: -self.greater(-self.of(a), -self.of(b), "a minimum is not the same everywhere"),
             "TINY": zero,
             "SMALLEST_SCALE": zero,
         }
@@ -172,23 +190,28 @@ class Expression:
     def __init__(self, field: Field, num: Any, den: Any) -> None:
         self.field = field
         num, den = field.reduced(num), field.reduced(den)
+        if max(len(num), len(den)) > MOST_TERMS:
+            raise NotProved("an expression has too many terms")
         common = num.gcd(den)
         self.num, self.den = (num, den) if common.is_constant() else (num / common, den / common)
 
     @property
-    def sample(self) -> float:
-        """The value at the sample point."""
-        return self.field.at_sample(self.num) / self.field.at_sample(self.den)
+    def signs(self) -> Possible:
+        """The signs that this has on the region, as far as they can be proved; its denominator must not vanish."""
+        return times(self.field.proofs.of(self.num), self.den_signs)
+
+    @property
+    def den_signs(self) -> Possible:
+        """The signs of the denominator; raises `NotProved` where it may be 0."""
+        possible = self.field.proofs.of(self.den)
+        if 0 in possible:
+            raise NotProved("a denominator may be 0")
+        return possible
 
     @property
     def is_zero(self) -> bool:
         """Whether this is 0 at every point."""
         return bool(self.num.is_zero())
-
-    @property
-    def is_number(self) -> bool:
-        """Whether this is the same number at every point."""
-        return bool(self.num.is_constant() and self.den.is_constant())
 
     def __add__(self, other: object) -> Expression:
         b = self.field.of(other)
@@ -200,6 +223,8 @@ class Expression:
 
     def __truediv__(self, other: object) -> Expression:
         b = self.field.of(other)
+        if 0 in b.signs:
+            raise NotProved("a divisor may be 0")
         return Expression(self.field, self.num * b.den, self.den * b.num)
 
     def __neg__(self) -> Expression:
@@ -217,7 +242,13 @@ class Expression:
     __radd__, __rmul__ = __add__, __mul__
 
     def __eq__(self, other: object) -> bool:
-        return other not in (inf, -inf) and (self - other).is_zero
+        if other is inf:
+            return False
+        difference = self - other
+        possible = ZERO if difference.is_zero else difference.signs
+        if 0 in possible and possible != ZERO:
+            raise NotProved("two quantities are equal on a part of the region only")
+        return possible == ZERO
 
     def __lt__(self, other: object) -> bool:
         return True if other is inf else self.field.is_positive(self.field.of(other) - self)

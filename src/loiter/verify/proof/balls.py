@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-from loiter.verify.proof.algebra import NotProved, flint
+from loiter.verify.proof.algebra import flint
+from loiter.verify.proof.sign_proofs import NotProved
 
 # Boxes after which a check gives up: many times what any lemma needs.
 MOST_BOXES = 100_000

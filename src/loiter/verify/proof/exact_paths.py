@@ -9,6 +9,7 @@ from loiter.compiled.rebinding import Function, rebinding
 from loiter.kernel import extremals as kernel
 from loiter.kernel.words import controls
 from loiter.verify.proof.algebra import Expression, Field
+from loiter.verify.proof.sign_proofs import POSITIVE, NotProved
 
 
 class Point(NamedTuple):
@@ -23,17 +24,50 @@ def without_tolerance(rotated: Any, radius2: Any, arc_tolerance: Any) -> Any:
     return rotated
 
 
-def exact(field: Field, *functions: Function, known: Iterable[Expression] = ()) -> list[Function]:
+def exact(
+    field: Field,
+    *functions: Function,
+    known: Iterable[Expression] = (),
+    snap: Function = without_tolerance,
+) -> list[Function]:
     """Kernel functions that take expressions; `known` are roots that the field does not find by itself."""
-    copied = rebinding(field.names(known) | {"snap_full_turn": without_tolerance})
+    copied = rebinding(field.names(known) | {"snap_full_turn": snap})
     return [copied(function) for function in functions]
 
 
 def start_at(field: Field, x: Expression, y: Expression, R: Expression) -> kernel.Start:
     """The kernel's start at expressions, without a tolerance."""
     (function,) = exact(field, kernel.start_at)
-    start: kernel.Start = function(x, y, R, field.constant(0.0))
+    tolerance = field.constant(0.0)
+    start: kernel.Start = function(x, y, R, tolerance)
+    if any(a is not b for a, b in zip(start[:4], (x, y, R, tolerance), strict=True)):  # type: ignore[comparison-overlap]
+        raise NotProved("`start_at` has another state, radius or tolerance")
     return start
+
+
+class Snapped(tuple):  # type: ignore[type-arg]
+    """A rotation that `snap_full_turn` has got."""
+
+
+class SnappedArcs:
+    """In place of `snap_full_turn`: what it got, the rotation, the squared radius and the tolerance, and no change."""
+
+    def __init__(self) -> None:
+        self.arcs: list[tuple[Snapped, Any, Any]] = []
+
+    def __call__(self, rotated: Any, radius2: Any, arc_tolerance: Any) -> Snapped:
+        """The rotation itself; what was given is kept."""
+        self.arcs.append((Snapped(rotated), radius2, arc_tolerance))
+        return self.arcs[-1][0]
+
+    def check(self, name: str, tolerance: object, *expected: tuple[Any, Expression]) -> None:
+        """Raise `NotProved` where it did not get exactly the expected arcs, with their squared radii."""
+        same = len(expected) == len(self.arcs) and all(
+            any(arc is rotated and given is tolerance and (radius2 - found).is_zero for arc, found, given in self.arcs)
+            for rotated, radius2 in expected
+        )
+        if not same:
+            raise NotProved(f"{name}: the tolerance is not that of its arcs")
 
 
 def squared(point: Point, centre: float) -> Expression:
@@ -66,7 +100,7 @@ def flown(start: Point, extremal: kernel.Extremal, known: Iterable[Expression] =
 
 
 def is_rotation(rotation: Any, cosine: Expression, sine: Expression) -> bool:
-    """Whether a rotation is that by the angle of (cosine, sine)."""
+    """Whether a rotation is that by the angle of (cosine, sine), on the whole region."""
     field = cosine.field
     cross, dot = field.of(rotation[0]), field.of(rotation[1])
-    return (cross * cosine - dot * sine).is_zero and (cross * sine + dot * cosine).sample > 0.0
+    return (cross * cosine - dot * sine).is_zero and (cross * sine + dot * cosine).signs == POSITIVE

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from loiter.verify.proof.algebra import Expression, Field, NotProved
+from loiter.verify.proof.algebra import Expression, Field
 from loiter.verify.proof.exact_paths import Point, squared
+from loiter.verify.proof.sign_proofs import NotProved
 
 
 def require(holds: bool, sentence: str) -> None:
@@ -18,12 +18,12 @@ def require(holds: bool, sentence: str) -> None:
 def zero(sentence: str, *expressions: Expression) -> None:
     """Raise `NotProved` where an expression is not 0 at every point."""
     for expression in expressions:
-        require(expression.is_zero, f"{sentence}: off by {expression.sample:.3g} at the sample point")
+        require(expression.is_zero, f"{sentence}: off by {expression.num}")
 
 
-def variables(names: str, sample: Iterable[float]) -> Any:
+def variables(names: str) -> Any:
     """The variables of a new field, and the field."""
-    field = Field(dict(zip(names.split(), sample, strict=True)))
+    field = Field(names.split())
     return *map(field.variable, names.split()), field
 
 
@@ -37,6 +37,9 @@ class Quantities(NamedTuple):
     from_left: Expression  # rp^2 - (R - 1)^2
     tall: Expression  # R - 1
     wide: Expression  # R - 2
+    far: Expression  # rm^2 - (R + 3)^2
+    left: Expression  # rp^2 - 1
+    right: Expression  # rm^2 - 1
 
 
 def quantities(start: Point, R: Expression) -> Quantities:
@@ -50,34 +53,15 @@ def quantities(start: Point, R: Expression) -> Quantities:
         left - (R - 1.0) * (R - 1.0),
         R - 1.0,
         R - 2.0,
+        right - (R + 3.0) * (R + 3.0),
+        left - 1.0,
+        right - 1.0,
     )
 
 
-def check_end(name: str, field: Field, R: Expression, end: Point) -> None:
+def check_end(name: str, R: Expression, end: Point) -> None:
     """Raise `NotProved` where a path does not end at (0, R)."""
     zero(f"{name} misses the target", end.x, end.y - R)
-
-
-def check_decisions(
-    name: str, field: Field, deciding: Iterable[Expression], further: Iterable[Expression] = ()
-) -> None:
-    """Raise `NotProved` where a kernel function compared anything but the given quantities, or not all `deciding`."""
-    deciding = tuple(deciding)
-    known = (*deciding, *further)
-    for compared in field.compared:
-        sound = any(compared == quantity or compared == -quantity for quantity in known)
-        # A root, such as c, is compared with 0, and is never negative.
-        require(sound or is_root(compared) or compared.is_number, f"{name} decides by an unknown quantity")
-    for quantity in deciding:
-        used = any(compared == quantity or compared == -quantity for compared in field.compared)
-        require(used, f"{name} does not decide by the quantity of the text")
-
-
-def is_root(expression: Expression) -> bool:
-    """Whether an expression, or its opposite, is a root by itself."""
-    powers = [tuple(map(int, exponents)) for exponents in expression.num.to_dict()]
-    variables_only = expression.field.variables
-    return len(powers) == 1 and sum(powers[0]) == 1 and not any(powers[0][:variables_only])
 
 
 def rotation_about(a: Point, b: Point, centre: float) -> tuple[Expression, Expression]:

@@ -10,6 +10,7 @@ from functools import partial
 from typing import NamedTuple
 
 from loiter.verify.proof import arrivals, rlr, rounding, switching
+from loiter.verify.proof.answers import maneuvers, turns
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.selection import coinciding, compared_words
 
@@ -34,6 +35,14 @@ LEMMAS = (
     Lemma("lemma 7 d", "RSR is faster than the tail of RLR for q > 2", rlr.rsr_faster),
     Lemma("theorem 2 a", "where two rows of the table meet, their words are one path", coinciding.coinciding),
     Lemma("theorem 2 b", "the words that `fastest` compares are those of the text", compared_words.selection),
+    Lemma("theorem 2 c", "the time of a word is the sum of its pieces, each turn below 2 pi", turns.times_of_turns),
+    Lemma("theorem 2 d", "a tolerance leaves out arcs, and widens circles, by no more than it says", turns.tolerances),
+    Lemma("theorem 2 e", "the list of all extremals has each word once", maneuvers.all_extremals),
+    Lemma("theorem 2 f", "words are encoded, mirrored and shortened without loss", maneuvers.all_words),
+    Lemma("theorem 2 g", "the maneuver has the pieces of the word, without those that are short", maneuvers.flown),
+    Lemma("theorem 2 h", "the sides, the tolerances and the faster of two maneuvers", maneuvers.optima),
+    Lemma("theorem 2 i", "states that are solved, the feedback law, and the motion itself", maneuvers.laws),
+    Lemma("section 9", "rounding errors of first order are added where digits would be lost", turns.rounding_errors),
 )
 
 

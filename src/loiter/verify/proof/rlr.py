@@ -6,6 +6,7 @@ Names are those of the text: s = sin alpha, c = cos alpha, q = w/s, g = R - 1, a
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any, NamedTuple
 
 from loiter.compiled.rebinding import rebinding
@@ -15,6 +16,7 @@ from loiter.verify.proof.algebra import Expression, Field, flint
 from loiter.verify.proof.balls import Certainty, Interval
 from loiter.verify.proof.exact_paths import Point, exact, flown, is_rotation, squared, start_at, without_tolerance
 from loiter.verify.proof.identities import require, rotation_about, variables, zero
+from loiter.verify.proof.sign_proofs import NEVER_NEGATIVE, POSITIVE
 
 
 class Tail(NamedTuple):
@@ -28,20 +30,37 @@ class Tail(NamedTuple):
     A: Point
 
 
-def tail(s: float, q: float) -> Tail:
-    """The tail of RLR at s and q: w = q s."""
-    s_, q_, field = variables("s q", (s, q))
-    c = field.sqrt(1.0 - s_ * s_)
-    g = field.sqrt(c * c + q_ * q_ * s_ * s_)
-    length = s_ * (3.0 - q_)
-    return Tail(field, s_, c, q_, g, Point(length * c, -length * s_))
+def tail(least_q: Fraction, largest_q: Fraction) -> Tail:
+    """The tail of RLR for 0 < s < 1 and a closed interval of q = w/s, without q = 3."""
+    s, q, field = variables("s q")
+    field.assume(s, POSITIVE)
+    field.assume(1.0 - s, POSITIVE)
+    field.assume(q - field.constant(least_q), NEVER_NEGATIVE)
+    field.assume(field.constant(largest_q) - q, NEVER_NEGATIVE)
+    field.assume(3.0 - q, POSITIVE)
+    c2 = 1.0 - s * s
+    c = field.sqrt(c2)
+    field.derive(c * c + q * q * s * s, c * c, q * q * s * s)
+    g = field.sqrt(c * c + q * q * s * s)
+    # rp^2, rm^2, and outer = -4 (g + 1 - s^2 (1 - q)), fold = 4 (g - 1 + s^2 (1 - q)).
+    field.derive(c * c + s * s * (q - 2.0) * (q - 2.0), c2, s * s * (q - 2.0) * (q - 2.0))
+    field.derive(1.0 + s * s * (3.0 - q) * (5.0 - q), field.constant(1.0), s * s * (3.0 - q) * (5.0 - q))
+    field.derive(1.0 - s * s * (1.0 - q), c2, s * s * q)
+    # RL: (R + 3)^2 - rm^2 = 8 (g + 2 - s^2 (2 - q)).
+    field.derive(2.0 - s * s * (2.0 - q), 2.0 * c2, s * s * q)
+    length = s * (3.0 - q)
+    return Tail(field, s, c, q, g, Point(length * c, -length * s))
+
+
+# A little below 2 - sqrt 3.
+LEAST_Q, ONE, TWO = Fraction(267, 1000), Fraction(1), Fraction(2)
 
 
 def rlr_tail() -> Certainty:
     """Lemma 7 (a): the tail of RLR lasts 3 pi - 3 alpha + omega; inner and y1 - yA are what it says."""
-    # B is the left crossing for q > 1, the right one for q < 1.
-    for q_, branch in ((0.6, 1.0), (1.4, -1.0)):
-        t = tail(0.8, q_)
+    # B is the left crossing for q > 1, the right one for q < 1; RL has a crossing for q <= 2.
+    for least, largest, branch in ((LEAST_Q, ONE, 1.0), (ONE, TWO, -1.0), (TWO, Fraction(3), -1.0)):
+        t = tail(least, largest)
         s, c, q, g = t.s, t.c, t.q, t.g
         start = start_at(t.field, t.A.x, t.A.y, 1.0 + g)
         x1 = (1.0 - q) * s * c
@@ -53,14 +72,17 @@ def rlr_tail() -> Certainty:
         cosine, sine = -(c * c + q * s * s) / g, (s * c - q * s * c) / g
         require(is_rotation(extremal.middle, cosine, sine), "its R does not last pi - alpha + omega")
         zero("inner", start.inner - 8.0 * s * s * (2.0 - q))
-        crossing, _, _ = flown(t.A, rl(start, 1.0))
-        zero("y1 - yA", crossing.y - t.A.y - (1.0 + g - s * s * (1.0 - q)))
-    return Certainty(2, 0)
+        if largest <= TWO:
+            crossing, _, _ = flown(t.A, rl(start, 1.0), [2.0 + g])
+            zero("y1 - yA", crossing.y - t.A.y - (1.0 + g - s * s * (1.0 - q)))
+    return Certainty(3, 0)
 
 
 def rlr_excess() -> Certainty:
     """Lemma 7 (b): E = pi - 3 alpha + omega + a rises with q and, at q = 2 - sqrt 3, falls with alpha."""
-    h, q, field = variables("h q", (0.4, 0.7))
+    h, q, field = variables("h q")
+    for bound in (h, 1.0 - h, q, 3.0 - q):
+        field.assume(bound, POSITIVE)
     # h = tan(alpha/2), so that s and c are rational; d alpha = 2 dh/(1 + h^2).
     s, c = 2.0 * h / (1.0 + h * h), (1.0 - h * h) / (1.0 + h * h)
     length = s * (3.0 - q)
@@ -81,6 +103,7 @@ def rlr_excess() -> Certainty:
 def angle_slope(direction: tuple[Expression, Expression], name: str) -> Expression:
     """The derivative by a variable of the angle of a direction."""
     x, y = direction
+    x.field.derive(x * x + y * y, x * x, y * y)
     return (x * y.derivative(name) - y * x.derivative(name)) / (x * x + y * y)
 
 
@@ -152,7 +175,7 @@ LONGEST_X = 2.8285
 
 def rsr_faster() -> Certainty:
     """Lemma 7 (d): for q from 2 to 3 RSR from A takes at most pi + X - atan X, X <= sqrt 8, less than 2 pi."""
-    t = tail(0.8, 2.4)
+    t = tail(TWO, Fraction(3))
     R = 1.0 + t.g
     start = start_at(t.field, t.A.x, t.A.y, R)
     X2 = R * (R - 2.0)

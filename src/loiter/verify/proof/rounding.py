@@ -16,11 +16,13 @@ from loiter.kernel import angles, synthesis
 from loiter.kernel import extremals as kernel
 from loiter.kernel.words import Word
 from loiter.verify.proof import balls
-from loiter.verify.proof.algebra import NotProved, flint
-from loiter.verify.proof.arrivals import arrival_cases
+from loiter.verify.proof.algebra import flint
+from loiter.verify.proof.arrivals import CASES, Case
+from loiter.verify.proof.arrivals import Region as WordRegion
+from loiter.verify.proof.arrivals import regions as regions_of
 from loiter.verify.proof.balls import Box, Certainty, Interval
-from loiter.verify.proof.exact_paths import Point, exact, squared, start_at, without_tolerance
-from loiter.verify.proof.identities import variables, zero
+from loiter.verify.proof.exact_paths import exact, squared, without_tolerance
+from loiter.verify.proof.identities import zero
 from loiter.verify.proof.rounded import (
     BRANCHES,
     OF_SUM,
@@ -34,6 +36,7 @@ from loiter.verify.proof.rounded import (
     total_angle,
     with_length,
 )
+from loiter.verify.proof.sign_proofs import POSITIVE, NotProved
 
 # The largest bound allowed, in units of 2^-52 (1 + |x| + |y| + R).
 LIMIT = 64.0
@@ -158,30 +161,28 @@ def undecided_as_zero(margin: Callable[..., Any]) -> Callable[..., Any]:
 def lengths() -> Certainty:
     """The lengths of rotations in closed form that bounds use: `about_left`, `about_right`, `of_arc`."""
     cases = 0
-    for case in arrival_cases():
-        x, y, R, field = variables("x y R", case.sample)
-        point, start = Point(x, y), start_at(field, x, y, R)
-        (word,) = exact(field, case.word)
-        extremal = word(start, *case.crossing)
-        from_left = case.word in (kernel.lsl, kernel.lsr, kernel.lr)
-        square = squared(point, -1.0 if from_left else 1.0)
-        if case.crossing:
-            last = R - 1.0 if from_left else R + 1.0
-            zero(f"the last rotation of {case.word.__name__}", square_of(extremal.middle) - last * last)
-            scale = field.constant(1.0)
-        else:
-            (onto_axis,) = exact(field, kernel.onto_axis)
-            _, c = onto_axis(x, y if from_left else -y, 1.0, 0.0)
-            zero("c", c * c - (square - 1.0))
-            end = -1.0 if case.word in (kernel.lsl, kernel.rsl) else 1.0
-            along = end * x
-            scale = field.sqrt(square - 1.0) + along if along.sample > 0.0 else field.constant(1.0)
-        zero(
-            f"the first rotation of {case.word.__name__}",
-            square_of(extremal.first) - square * square * scale * scale,
-        )
-        cases += 1
+    for case in CASES.values():
+        for region in regions_of(case):
+            if region.exists:
+                check_lengths(case, region)
+                cases += 1
     return Certainty(cases, 0)
+
+
+def check_lengths(case: Case, region: WordRegion) -> None:
+    """Raise `NotProved` where a rotation of a word has another length on a region."""
+    field, point, R, _ = region.plane
+    (word,) = exact(field, case.word)
+    extremal = word(region.start, *case.crossing)
+    name, square, scale = case.name, squared(point, case.centre), field.constant(1.0)
+    if case.crossing:
+        last = R + case.centre
+        zero(f"the last rotation of {name}", square_of(extremal.middle) - last * last)
+    else:
+        end = -1.0 if case.name in ("lsl", "rsl") else 1.0
+        if (end * point.x).signs == POSITIVE:
+            scale = field.sqrt(square - 1.0) + end * point.x
+    zero(f"the first rotation of {name}", square_of(extremal.first) - square * square * scale * scale)
 
 
 def square_of(rotation: Any) -> Any:

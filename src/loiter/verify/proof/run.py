@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 from time import perf_counter
 from typing import NamedTuple
 
-from loiter.verify.proof.algebra import NotProved, flint
+from loiter.verify.proof.algebra import flint
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.lemmas import LEMMAS, Lemma
+from loiter.verify.proof.sign_proofs import NotProved
 
 
 class Finding(NamedTuple):
@@ -41,4 +42,7 @@ def check(lemma: Lemma) -> Finding:
         certainty = lemma.check()
     except NotProved as reason:
         failure = str(reason)
+    except Exception as error:  # noqa: BLE001
+        # A formula that the arithmetic cannot evaluate has not been checked.
+        failure = f"{type(error).__name__}: {error}"
     return Finding(lemma, certainty, perf_counter() - started, failure)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from itertools import product
 from math import inf
 from typing import Any, NamedTuple
 
@@ -15,7 +14,8 @@ from loiter.kernel import extremals as kernel
 from loiter.verify.proof.algebra import Expression, Field
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.exact_paths import exact, start_at
-from loiter.verify.proof.identities import is_root, require, zero
+from loiter.verify.proof.identities import require, variables, zero
+from loiter.verify.proof.sign_proofs import NEVER_NEGATIVE, POSITIVE, ZERO, Possible
 
 Word = Callable[[kernel.Start], kernel.Extremal]
 
@@ -39,7 +39,8 @@ class Words(NamedTuple):
 def words(field: Field, R: Expression) -> Words:
     """The words on the expressions of a field."""
     # Roots that the field would not see to be multiples of one another.
-    known = [4.0 * field.sqrt(square) for square in (R * (R + 2.0), R * (R - 2.0)) if square.sample > 0.0]
+    squares = R * (R + 2.0), R * (R - 2.0)
+    known = [4.0 * field.sqrt(square) for square in squares if square.signs <= NEVER_NEGATIVE]
     functions = kernel.l, kernel.r, kernel.lsl, kernel.rsl, kernel.lsr, kernel.rsr, kernel.lrl, kernel.rl, kernel.lr
     *others, rl, lr = exact(field, *functions, known=known)
     crossings = [partial(word, branch=branch) for word in (rl, lr) for branch in (-1.0, 1.0)]
@@ -47,16 +48,17 @@ def words(field: Field, R: Expression) -> Words:
 
 
 class Circle(NamedTuple):
-    """A circle about (0, centre), from a least R on, and the comparison of the words there.
+    """A circle about (0, centre), what is checked there, and the range of R.
 
-    `factors` are those of the quantities by which the words decide there: none changes its sign on the range of R.
+    `possible` are the signs of R - `least`; the quantities of `largest` are positive.
     """
 
     centre: float
     radius: Callable[[Expression], Expression]
-    least_radius: float
     compare: Callable[[Words, kernel.Start], None]
-    factors: Callable[[Expression], tuple[Expression, ...]] = lambda R: (R, R + 1.0, R + 2.0, R - 1.0)
+    least: float
+    possible: Possible
+    largest: Callable[[Expression], tuple[Expression, ...]] = lambda R: ()
 
 
 def on_outer(w: Words, start: kernel.Start) -> None:
@@ -115,65 +117,45 @@ def on_fold_at_any_radius(w: Words, start: kernel.Start) -> None:
     require_same_turn("LR, both crossings", left.middle, right.middle)
 
 
-def wide(R: Expression) -> tuple[Expression, ...]:
-    """Factors that are not negative for R >= 2."""
-    return R, R - 1.0, R - 2.0
-
-
-def narrow(R: Expression) -> tuple[Expression, ...]:
-    """Factors that do not change their sign for 1 <= R <= 1 + sqrt 3."""
-    return R + 1.0, R - 1.0, R - 3.0, R - 4.0, R * R - 2.0 * R - 2.0
-
-
 CIRCLES = (
-    Circle(-1.0, lambda R: R + 1.0, 1.0, on_outer),
-    Circle(1.0, lambda R: R - 1.0, 1.0, on_inner),
-    Circle(1.0, lambda R: R - 1.0, 2.0, on_inner_of_wide, wide),
-    Circle(1.0, lambda R: R + 1.0, 1.0, on_onto_right),
-    Circle(-1.0, lambda R: R - 1.0, 2.0, on_from_left, wide),
-    Circle(-1.0, lambda R: 3.0 - R, 1.0, on_fold, narrow),
-    Circle(-1.0, lambda R: 3.0 - R, 1.0, on_fold_at_any_radius),
-    Circle(-1.0, lambda R: R - 3.0, 3.0, on_fold_at_any_radius),
+    Circle(-1.0, lambda R: R + 1.0, on_outer, 1.0, POSITIVE),
+    Circle(-1.0, lambda R: R + 1.0, on_outer_at_turn_radius, 1.0, ZERO),
+    Circle(1.0, lambda R: R - 1.0, on_inner, 1.0, POSITIVE),
+    Circle(1.0, lambda R: R - 1.0, on_inner_of_wide, 2.0, NEVER_NEGATIVE),
+    Circle(1.0, lambda R: R + 1.0, on_onto_right, 1.0, NEVER_NEGATIVE),
+    Circle(-1.0, lambda R: R - 1.0, on_from_left, 2.0, NEVER_NEGATIVE),
+    Circle(-1.0, lambda R: 3.0 - R, on_fold, 1.0, POSITIVE, lambda R: (3.0 - R, 2.0 + 2.0 * R - R * R)),
+    Circle(-1.0, lambda R: 3.0 - R, on_fold_at_any_radius, 1.0, POSITIVE, lambda R: (3.0 - R,)),
+    Circle(-1.0, lambda R: R - 3.0, on_fold_at_any_radius, 3.0, POSITIVE),
 )
-AT_TURN_RADIUS = CIRCLES[0]._replace(compare=on_outer_at_turn_radius)
 
 
 def coinciding() -> Certainty:
-    """Theorem 2: the words of two rows, on the circle on which the rows meet, from both sides of the axis x = 0."""
+    """Theorem 2: the words of two rows, on the circle on which the rows meet, left and right of x = 0 and on it."""
     cases = 0
-    for circle, side in product((*CIRCLES, AT_TURN_RADIUS), (-1.0, 1.0)):
-        names = {"y": circle.centre - 0.375} | ({} if circle is AT_TURN_RADIUS else {"R": circle.least_radius + 0.5})
-        field = Field(names)
-        R = field.variable("R") if "R" in names else field.constant(1.0)
-        start = start_on(circle, side, field, R)
-        field.compared.clear()
-        circle.compare(words(field, R), start)
-        for compared in field.compared:
-            require_constant_sign(compared, circle.factors(R))
-        cases += 1
+    for circle in CIRCLES:
+        for side, end in ((-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0)):
+            field, start = start_on(circle, side, end)
+            circle.compare(words(field, field.of(start.R)), start)
+            cases += 1
     return Certainty(cases, 0)
 
 
-def require_constant_sign(compared: Expression, factors: tuple[Expression, ...]) -> None:
-    """Raise `NotProved` where a word decides by something else than x, a root, or a product of the factors."""
-    if is_root(compared):
-        return
-    for polynomial in (compared.num, compared.den):
-        for base, power in polynomial.factor()[1]:
-            known = any(is_multiple(factor.num, base) for factor in factors)
-            require(power % 2 == 0 or known, f"a word decides by an unknown quantity, {base}, on a circle")
-
-
-def is_multiple(a: Any, b: Any) -> bool:
-    """Whether a polynomial is another one times a number."""
-    return bool(a * b.leading_coefficient() == b * a.leading_coefficient())
-
-
-def start_on(circle: Circle, side: float, field: Field, R: Expression) -> kernel.Start:
-    """The start on a circle at the ordinate y, to the left or to the right of the axis x = 0."""
-    y = field.variable("y")
+def start_on(circle: Circle, side: float, end: float) -> tuple[Field, kernel.Start]:
+    """The start on a circle: at the ordinate y, left or right of x = 0 by `side`, or at its top or bottom by `end`."""
+    y, R, field = variables("y R")
+    if circle.possible == ZERO:
+        R = field.constant(circle.least)
+    else:
+        field.assume(R - circle.least, circle.possible)
+    for quantity in circle.largest(R):
+        field.assume(quantity, POSITIVE)
     radius, height = circle.radius(R), y - circle.centre
-    return start_at(field, side * field.sqrt(radius * radius - height * height), y, R)
+    if side == 0.0:
+        return field, start_at(field, field.constant(0.0), circle.centre + end * radius, R)
+    for bound in (radius - height, radius + height):
+        field.assume(bound, POSITIVE)
+    return field, start_at(field, side * field.sqrt((radius - height) * (radius + height)), y, R)
 
 
 def field_of(start: kernel.Start) -> Field:
@@ -200,14 +182,14 @@ def total(extremal: kernel.Extremal) -> Any:
 def require_same_turn(name: str, a: Any, b: Any) -> None:
     """Raise `NotProved` where two rotations have not the same direction."""
     zero(f"{name}: the arcs", a[0] * b[1] - a[1] * b[0])
-    require((a[0] * b[0] + a[1] * b[1]).sample > 0.0, f"{name}: the arcs are opposite")
+    require((a[0] * b[0] + a[1] * b[1]).signs == POSITIVE, f"{name}: the arcs are opposite")
 
 
 def require_no_turn(name: str, arc: Any) -> None:
     """Raise `NotProved` where the last arc of a word is not empty."""
     cross, dot = arc
     zero(f"{name}: the last arc", cross)
-    require(dot.sample > 0.0, f"{name}: the last arc is half a turn")
+    require(dot.signs == POSITIVE, f"{name}: the last arc is half a turn")
 
 
 def require_two_arcs(
@@ -230,7 +212,7 @@ def require_no_less(name: str, a: kernel.Extremal, b: kernel.Extremal) -> None:
     number of whole turns, b takes no less.
     """
     (cross, dot), (other_cross, other_dot) = last_arc(a), last_arc(b)
-    require(cross.sample > 0.0, f"{name}: the last arc is longer than half a turn")
+    require(cross.signs <= NEVER_NEGATIVE, f"{name}: the last arc is longer than half a turn")
     zero(f"{name}: the last arcs", cross + other_cross, dot - other_dot)
     require_same_turn(f"{name}: both crossings", total(a), total(b))
 

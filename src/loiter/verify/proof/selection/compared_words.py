@@ -7,18 +7,21 @@ that no relation excludes, the words that it compares are held against those of 
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import inf
 from typing import Any, NamedTuple
 
-from loiter.compiled.rebinding import Function, rebinding
+from loiter.compiled.rebinding import rebinding
 from loiter.kernel import extremals as kernel
 from loiter.kernel.words import Word
-from loiter.verify.proof.algebra import NotProved, flint
+from loiter.verify.proof.algebra import flint
+from loiter.verify.proof.answers.turns import StandIn
+from loiter.verify.proof.arrivals import CASES, Case
 from loiter.verify.proof.balls import Certainty
-from loiter.verify.proof.exact_paths import Point, squared, without_tolerance
+from loiter.verify.proof.exact_paths import Point, without_tolerance
 from loiter.verify.proof.identities import quantities, require
-from loiter.verify.proof.selection.signs import Impossible, Quantity, Signs, Table, Unknown, every_case
+from loiter.verify.proof.selection.signs import Quantity, Signs, Table, Unknown, every_case
+from loiter.verify.proof.sign_proofs import Impossible, NotProved
 
 # A word, and for RL and LR on which side of the axis x = 0 the arcs meet: -1 left, 1 right, 0 for other words.
 Described = tuple[int, int]
@@ -45,6 +48,8 @@ class Named(NamedTuple):
     fold: Any
     onto_right: Any  # rm^2 - (R + 1)^2
     from_left: Any  # rp^2 - (R - 1)^2
+    tall: Any  # R - 1
+    wide: Any  # R - 2
     far: Any  # rm^2 - (R + 3)^2
     left: Any  # rp^2 - 1
     right: Any  # rm^2 - 1
@@ -57,11 +62,8 @@ def named(x: Any, y: Any, R: Any, turn: Any) -> Named:
     """The quantities at a state, written without the kernel."""
     point = Point(x, y)
     q = quantities(point, R)
-    left, right = squared(point, -1.0) - 1.0, squared(point, 1.0) - 1.0
-    h, d = 0.5 * (R * (R + 2.0) + left), 0.25 * (R * (R + 2.0) - left)
-    far = right + 1.0 - (R + 3.0) * (R + 3.0)
-    D = h * h - 3.0 * d * d
-    return Named(x, y, R, q.outer, q.inner, q.fold, q.onto_right, q.from_left, far, left, right, h, D, turn)
+    h, d = 0.5 * (R * (R + 2.0) + q.left), 0.25 * (R * (R + 2.0) - q.left)
+    return Named(x, y, R, *q, h, h * h - 3.0 * d * d, turn)
 
 
 # Each sum is 0 at every state: checked on polynomials. What follows is in docs/proof.md, section 8.
@@ -96,12 +98,16 @@ RELATIONS = (
 )
 
 
+# Quantities that have another name in `RELATIONS`, or that only differ by a number from one that decides.
+OTHERS = "R", "tall", "wide", "h"
+
+
 def table_of(context: Any) -> Table:
     """The quantities by which the kernel and the text may decide, and the relations between them."""
     x, y, R, turn = context.gens()
     # `named` also takes doubles such as 0.5, which a polynomial by itself does not.
     q = named(*(Quantity(Signs(Table()), variable) for variable in (x, y, R, turn)))
-    deciding = {name: quantity.polynomial for name, quantity in q._asdict().items() if name not in ("R", "h")}
+    deciding = {name: quantity.polynomial for name, quantity in q._asdict().items() if name not in OTHERS}
     deciding |= {"(h-6)": q.h.polynomial - 6, "(R+1)": R + 1, "(R-1)": R - 1, "(R-2)": R - 2, "(R-3)": R - 3}
     # D on the circle rp = 3 - R is the square of `wave`.
     auxiliary = {"wave": (R - 1) * (R - 1) - 3, "(y-1)": y - 1}
@@ -109,16 +115,22 @@ def table_of(context: Any) -> Table:
 
 
 def selection() -> Certainty:
-    """Theorem 2: `fastest` compares the words of the text, or words that are the same path, at every state."""
-    context = flint().fmpq_mpoly_ctx.get(("x", "y", "R", "turn"), flint().Ordering.lex)
-    signs = Signs(table_of(context))
-    q = named(*(Quantity(signs, variable) for variable in context.gens()))
-    fastest = recording_fastest(q)
+    """Theorem 2: `fastest` compares the words of the text, or words that are the same path, at every state.
 
-    def run() -> None:
-        check_selection(q, compared_words(q, fastest), signs)
+    Once where the tolerance is that of rounding alone, and once where a user's tolerance adds the single arcs.
+    """
+    cases = taking_the_faster()
+    for exactly in (True, False):
+        context = flint().fmpq_mpoly_ctx.get(("x", "y", "R", "turn"), flint().Ordering.lex)
+        signs = Signs(table_of(context))
+        q = named(*(Quantity(signs, variable) for variable in context.gens()))
+        fastest = recording_fastest(q, exactly)
 
-    return Certainty(every_case(signs, run) + taking_the_faster(), 0)
+        def run(q: Named = q, fastest: Any = fastest, exactly: bool = exactly, signs: Signs = signs) -> None:
+            check_selection(q, compared_words(fastest), exactly, signs)
+
+        cases += every_case(signs, run)
+    return Certainty(cases, 0)
 
 
 def taking_the_faster() -> int:
@@ -136,15 +148,20 @@ def taking_the_faster() -> int:
     return every_case(signs, run)
 
 
-def check_selection(q: Named, found: set[Described], signs: Signs) -> None:
+def check_selection(q: Named, found: set[Described], exactly: bool, signs: Signs) -> None:
     """Raise `NotProved` where `fastest` leaves out a word of the text, or takes an arc that ends beside the target.
 
     All states with the signs chosen in this run are checked at once.
     """
-    # Lemma 1 is about the other words, wherever they reach the target.
+    # Lemma 1 is about the other words, wherever they reach the target, and lemma 5 about LRL.
+    require(LRL not in found or lrl_exists(q), f"LRL ends beside the target: signs {signs.chosen}")
     require(ARC_L not in found or q.outer == 0.0, f"L ends beside the target: signs {signs.chosen}")
     require(ARC_R not in found or (q.inner == 0.0 and q.R > 1.0), f"R ends beside the target: signs {signs.chosen}")
-    if q.R == 1.0 and q.y >= 0.0:
+    if not exactly:
+        # Within a tolerance a single arc is faster than the words of which it is the limit.
+        require((q.outer == 0.0) == (ARC_L in found), f"L does not compete: signs {signs.chosen}")
+        require((q.inner == 0.0 and q.R > 1.0) == (ARC_R in found), f"R does not compete: signs {signs.chosen}")
+    if exactly and q.R == 1.0 and q.y >= 0.0:
         require(len(found) == 1, f"times are compared at R = 1: {found}, signs {signs.chosen}")
         required = set(words_at_turn_radius(q))
     else:
@@ -166,56 +183,80 @@ def words_at_turn_radius(q: Named) -> Iterator[Described]:
         if q.x <= 0.0:
             yield ARC_L
             return
-    elif q.fold <= 0.0 and q.D >= 0.0 and q.h < 6.0 and q.turn >= 0.0:
+    elif lrl_exists(q) and q.turn >= 0.0:
         yield LRL
         return
     yield from words_to_the_right(q)
 
 
+# The words of lemma 1, as `fastest` records them.
+WORDS = {
+    "LSL": LSL,
+    "RSL": RSL,
+    "LSR": LSR,
+    "RSR": RSR,
+    "RL, left crossing": RL_LEFT,
+    "RL, right crossing": RL_RIGHT,
+    "LR, left crossing": LR_LEFT,
+    "LR, right crossing": LR_RIGHT,
+}
+
+# The words whose first arc crosses the axis where y >= 0: section 6 (b).
+CROSSING_THE_AXIS = LSL, RSR, RL_RIGHT, LR_LEFT
+
+
 def words_to_the_right(q: Named) -> Iterator[Described]:
-    """The rows of the table for the first turn R, without RSR."""
-    if q.inner >= 0.0 and q.onto_right <= 0.0:
-        yield RL_LEFT
-    if q.onto_right >= 0.0:
-        yield RSL
+    """The words that can win and begin with R, for y >= 0."""
+    for name in ("RL, left crossing", "RSL"):
+        if exists(CASES[name], q) and is_extremal(CASES[name], q):
+            yield WORDS[name]
 
 
 def words_that_can_win(q: Named) -> Iterator[Described]:
-    """The words of the table in docs/theory.md, section 4, boundaries included, less those of section 6 (a) and (b).
+    """The words that exist by lemmas 1 and 5, less those that the text excludes.
 
-    The single arcs are words on their circles.
+    Excluded are crossings at which the switching function would have the wrong sign (`is_extremal`), and what section 6
+    (a) and (b) leave out. This is the table of docs/theory.md, section 4.
     """
-    yield from words_to_the_right(q)
+    for name, case in CASES.items():
+        word = WORDS[name]
+        if not exists(case, q) or not is_extremal(case, q):
+            continue
+        crosses = word in CROSSING_THE_AXIS and q.y >= 0.0
+        if not crosses and not (word == LR_RIGHT and is_left_out(q)):
+            yield word
     if q.inner == 0.0 and q.R > 1.0:
         yield ARC_R
     if q.outer == 0.0:
         yield ARC_L
-    if q.R < 3.0 and q.fold <= 0.0 and q.D >= 0.0 and q.h < 6.0:
+    if lrl_exists(q):
         yield LRL
-    if q.R >= 2.0 and q.left >= 0.0 and q.from_left <= 0.0:
-        yield LSR
-    if lr_exists(q) and q.from_left >= 0.0 and not is_left_out(q):
-        yield LR_RIGHT
-    if q.y < 0.0:
-        yield from words_below_the_axis(q)
 
 
-def words_below_the_axis(q: Named) -> Iterator[Described]:
-    """The words that section 6 (b) excludes for y >= 0."""
-    if q.outer >= 0.0:
-        yield LSL
-    if q.R >= 2.0 and q.right >= 0.0 and q.inner <= 0.0:
-        yield RSR
-    if q.onto_right >= 0.0 and q.far <= 0.0:
-        yield RL_RIGHT
-    if lr_exists(q) and q.from_left <= 0.0:
-        yield LR_LEFT
+def lrl_exists(q: Named) -> bool:
+    """Whether LRL exists, by lemma 5."""
+    return bool(q.R <= 3.0 and q.fold <= 0.0 and q.D >= 0.0 and q.h < 6.0)
 
 
-def lr_exists(q: Named) -> bool:
-    """Whether the circles of LR meet."""
-    exists: bool = q.R > 1.0 and q.fold >= 0.0 and q.outer <= 0.0
-    return exists
+def exists(case: Case, q: Named) -> bool:
+    """Whether a word exists, by lemma 1."""
+    return all(sign_of(getattr(q, condition.quantity)) in condition.possible for condition in case.conditions)
+
+
+def is_extremal(case: Case, q: Named) -> bool:
+    """Whether the switching function can change as the controls do at the crossing (x1, y1) of two arcs.
+
+    That is x1 y1 <= 0 for RL and x1 y1 >= 0 for LR, where 4 y1 is -`onto_right` or `from_left`, by lemma 1.
+    """
+    if not case.crossing:
+        return True
+    above = -sign_of(q.onto_right) if case.centre > 0.0 else sign_of(q.from_left)
+    return case.centre * case.crossing[0] * above <= 0.0
+
+
+def sign_of(quantity: Any) -> int:
+    """The sign of a quantity."""
+    return 0 if quantity == 0.0 else 1 if quantity > 0.0 else -1
 
 
 def is_left_out(q: Named) -> bool:
@@ -243,27 +284,29 @@ def with_same_paths(words: Iterable[Described], q: Named) -> set[Described]:
     return found
 
 
-def recording_fastest(q: Named) -> Function:
+def recording_fastest(q: Named, exactly: bool) -> Callable[[], tuple[Compared, Any]]:
     """The kernel's `fastest` on quantities, with the extremals that it has compared in place of times."""
     copied = rebinding(NUMBERS)
     start, lrl = copied(kernel.start_at)(q.x, q.y, q.R, 0.0), copied(kernel.lrl)
+    arc_tolerance = object()
 
     def lrl_with_turn(given: kernel.Start) -> kernel.Extremal:
         extremal: kernel.Extremal = lrl(given)
         return extremal._replace(first=(q.turn, extremal.first[1]))
 
     names: dict[str, object] = {
-        "start_at": lambda *state: start,
+        "start_at": StandIn("start_at", (q.x, q.y, q.R, arc_tolerance), start),
         "lrl": lrl_with_turn,
         "duration": lambda extremal: Compared((extremal,)),
         "faster_of": faster_of,
     }
-    return rebinding(NUMBERS | names)(kernel.fastest)
+    fastest = rebinding(NUMBERS | names)(kernel.fastest)
+    return lambda: fastest(q.x, q.y, q.R, arc_tolerance, exactly)
 
 
-def compared_words(q: Named, fastest: Function) -> set[Described]:
-    """The words that the kernel's `fastest` compares, without a tolerance, as far as they reach the target."""
-    least, best = fastest(q.x, q.y, q.R, 0.0, True)
+def compared_words(fastest: Callable[[], tuple[Compared, Any]]) -> set[Described]:
+    """The words that the kernel's `fastest` compares, as far as they reach the target."""
+    least, best = fastest()
     require(least.same_as(best), "the least time is not that of the words that were compared")
     return {described(extremal) for extremal in least.extremals if extremal.straight is not inf}
 
@@ -286,15 +329,26 @@ def faster_of(least: Compared, best: Compared | kernel.Extremal, other: kernel.E
     return compared, compared
 
 
-def nonnegative(*of_what: object) -> Unknown:
-    """A root, or the larger of a number and 0."""
+def larger(*numbers: object) -> Unknown:
+    """The largest of some numbers, which is not negative where one of them is not."""
+    return Unknown(int(any(is_never_negative(number) for number in numbers)))
+
+
+def is_never_negative(number: object) -> bool:
+    """Whether a number, or a number that no choice may depend on, is known not to be negative."""
+    return number.sign == 1 if isinstance(number, Unknown) else isinstance(number, float | int) and number >= 0.0
+
+
+def root(number: object) -> Unknown:
+    """A root. Lemma 1 checks those of polynomials; others must be of numbers that are never negative."""
+    require(isinstance(number, Quantity) or is_never_negative(number), "a root of a number that may be negative")
     return Unknown(1)
 
 
 # What replaces the kernel's globals. Both branches of `onto_axis` compute the same rotation: lemma 1 checks each.
 NUMBERS = {
-    "sqrt": nonnegative,
-    "max": nonnegative,
+    "sqrt": root,
+    "max": larger,
     "TINY": 0.0,
     "SMALLEST_SCALE": inf,
     "snap_full_turn": without_tolerance,

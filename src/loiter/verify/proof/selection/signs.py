@@ -14,7 +14,8 @@ from functools import cache
 from math import inf
 from typing import Any, NamedTuple
 
-from loiter.verify.proof.algebra import NotProved, flint
+from loiter.verify.proof.algebra import flint
+from loiter.verify.proof.sign_proofs import Impossible, NotProved
 
 SIGNS = (-1, 0, 1)
 
@@ -51,10 +52,6 @@ class Signs:
             raise Impossible
         self.alternatives += [(*made, sign) for sign in possible[1:]]
         return possible[0]
-
-
-class Impossible(Exception):
-    """No state has the signs chosen so far."""
 
 
 class Quantity:
