@@ -1,9 +1,7 @@
 """The commands, and `main`, which turns errors into one sentence and an exit status."""
 
-import os
 import sys
 from collections.abc import Sequence
-from contextlib import suppress
 from typing import Any, Literal
 
 from cyclopts import App, CycloptsError, Group, Parameter
@@ -12,7 +10,7 @@ import loiter
 from loiter.cli.arguments import prepared
 from loiter.cli.examples import epilogue, program_epilogue
 from loiter.cli.sentences import sentence
-from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR
+from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR, abandon_output
 from loiter.compiled import announce_with
 from loiter.errors import LinkFailed, LoiterError
 
@@ -183,12 +181,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
     except (BrokenPipeError, SystemExit):
         # The reader of a pipe, such as `head`, has closed it: no error. In the help, rich raises SystemExit for it.
-        _abandon_output()
+        abandon_output()
         return 0
     except (LoiterError, CycloptsError, OSError) as error:
         print(f"loiter: {sentence(error)}", file=sys.stderr)  # noqa: T201
         if isinstance(error, OSError):
-            _abandon_output()
+            abandon_output()
         return LINK_FAILED if isinstance(error, LinkFailed) else USAGE_ERROR
     except KeyboardInterrupt as interrupt:
         # The message of a batch job says which parts are kept.
@@ -196,9 +194,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print(f"loiter: {interrupt}", file=sys.stderr)  # noqa: T201
         return INTERRUPTED
     return status or 0
-
-
-def _abandon_output() -> None:
-    # Otherwise the interpreter would fail again when it exits and flushes its buffers.
-    with suppress(OSError, ValueError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

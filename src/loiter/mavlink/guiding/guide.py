@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
@@ -22,6 +22,7 @@ from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
 from loiter.planning.model import Orbit, Wind
 
 INTERRUPTED = StopReason("guiding was interrupted")
+OUTPUT_CLOSED = StopReason("standard output was closed")
 
 
 def guide(
@@ -39,6 +40,8 @@ def guide(
     altitude_m: float | None = None,
     keep: bool = False,
     dry_run: bool = False,
+    accept_fly_away: bool = False,
+    confirm: Callable[[], bool] | None = None,
     log: str | Path | None = None,
 ) -> Generator[GuideReport, None, None]:
     """Guide a vehicle in flight onto a circle by bank commands, and hand it over to its own hold of that circle.
@@ -47,14 +50,18 @@ def guide(
     `system` and `component` are those of `upload`; `orbit` is a circle at rest in the local metres of `frame`. The
     true airspeed, metres per second, and the largest bank, degrees, are those of the autopilot's parameters unless they
     are given. `wind` is a first guess; without it that is the wind which the vehicle reports. `altitude_m` is the
-    altitude above mean sea level at which the circle is held, by default the present one.
+    altitude above mean sea level at which the circle is held, by default the present one; the vehicle and the circle
+    must be at least 30 m above home.
 
-    The vehicle must be in flight: it is neither armed nor made to take off or land. First it is commanded to hold the
-    circle by its own guidance, the fall-back circle. Then its bank is commanded: ArduPlane by SET_ATTITUDE_TARGET in
-    GUIDED, PX4 by SET_POSITION_TARGET_LOCAL_NED in OFFBOARD; the autopilot holds altitude and airspeed. When it has
-    held the circle for some seconds, it is handed over: it confirms that it holds the circle by its own guidance, and
-    nothing more is sent. With `keep` the circle is flown until the generator is closed. With `dry_run` nothing is
-    commanded: reports show what would be. `log` is a file, .csv or .parquet, for every step.
+    The vehicle must be in flight: it is neither armed nor made to take off or land. The first report, whose stage is
+    `READY`, comes before the first command; its notices are a summary of what will happen. `confirm`, if it is given,
+    is then called many times a second, and must return at once: the first command is sent when it returns True. PX4 is
+    refused if it would neither circle nor come home when the link dies, unless `accept_fly_away` is true. First it is
+    commanded to hold the circle by its own guidance, the fall-back circle. Then its bank is commanded: ArduPlane by
+    SET_ATTITUDE_TARGET in GUIDED, PX4 by SET_POSITION_TARGET_LOCAL_NED in OFFBOARD; the autopilot holds altitude and
+    airspeed. When it has held the circle for some seconds, it is handed over: it confirms that it holds the circle by
+    its own guidance, and nothing more is sent. With `keep` the circle is flown until the generator is closed. With
+    `dry_run` nothing is commanded: reports show what would be. `log` is a file, .csv or .parquet, for every step.
 
     docs/autopilots.md lists what ends the flight early, and what the vehicle does then: at once it is commanded back to
     the fall-back circle, if the link is alive and neither the pilot nor a failsafe has changed its mode. `LinkFailed`
@@ -76,7 +83,9 @@ def guide(
         raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
     path = None if log is None else Path(log)
     check_log(path)
-    request = GuideRequest(orbit, frame, airspeed_m_s, max_bank_deg, wind, altitude_m, keep, dry_run)
+    request = GuideRequest(
+        orbit, frame, airspeed_m_s, max_bank_deg, wind, altitude_m, keep, dry_run, accept_fly_away, confirm
+    )
     target = _Target(connection, system, component, timeout_s)
     return _guide(target, request, period_s, path)
 
@@ -106,6 +115,9 @@ def _guide(
                 raise LinkFailed(flight.stop(StopReason(str(failure), ours=False))) from failure
             except KeyboardInterrupt:
                 raise KeyboardInterrupt(flight.stop(INTERRUPTED)) from None
+            except BrokenPipeError:
+                # The caller has thrown it.
+                raise LinkFailed(flight.stop(OUTPUT_CLOSED)) from None
             except BaseException:
                 flight.stop(INTERRUPTED)
                 raise

@@ -112,6 +112,11 @@ class Measurements:
         return nan if self._position is None else self._position.alt / 1e3
 
     @property
+    def height_m(self) -> float:
+        """The height above home, metres; nan if it is not known."""
+        return nan if self._position is None else self._position.relative_alt / 1e3
+
+    @property
     def place(self) -> tuple[float, float]:
         """Latitude and longitude of the last position, degrees."""
         return (nan, nan) if self._position is None else (self._position.lat / 1e7, self._position.lon / 1e7)
@@ -160,6 +165,11 @@ class Measurements:
             speed * north,
             self.airspeed(wind, now)[0],
         )
+
+    @property
+    def is_far(self) -> bool:
+        """Whether a position has arrived that the frame does not reach."""
+        return self._position is not None and not isfinite(self._east_m)
 
     @property
     def swapped(self) -> bool:
