@@ -37,7 +37,7 @@ def flown(vehicle, arguments, capsys, interrupt=()):
 def test_a_line_a_second_and_the_hand_over(kind, capsys):
     vehicle = kind()
     status, out, _ = flown(vehicle, GUIDE, capsys)
-    *summary, ready, first, second = out.splitlines()[:7]
+    *summary, ready, second = out.splitlines()[:6]
     *lines, handed_over, last = out.splitlines()
     assert status == 0
     assert summary[0].startswith("system 1 (")
@@ -50,7 +50,7 @@ def test_a_line_a_second_and_the_hand_over(kind, capsys):
     )
     assert any(re.search(r"s: joining clockwise in 5\.\d s; bank -?\d of -?\d deg; ", x) for x in lines)
     assert any(re.search(r": holding clockwise; bank 2\d of 2\d deg; 600 m, .*(side|on circle)", x) for x in lines)
-    assert max(map(len, lines)) < 120
+    assert max(len(x) for x in lines if " s: " in x) < 115
     assert re.fullmatch(r"Handed over: system 1 \(\w+\) holds the circle clockwise by its own guidance\.", handed_over)
     assert "handed over clockwise" in last
     assert vehicle.airframe.airspeed == 18.0
@@ -62,7 +62,7 @@ def test_ctrl_c_commands_the_vehicle_back(capsys):
     assert err == (
         "loiter: guiding was interrupted: guiding has stopped, and system 1 (ArduPilot) flies the fall-back circle\n"
     )
-    assert out.count("\n") == 5 + 9
+    assert out.count("\n") == 13
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
@@ -219,7 +219,7 @@ def test_a_log_is_replayed_and_drawn(tmp_path, capsys):
         )
     assert texts[0] == texts[1]
     first, *_, last = texts[0]
-    assert re.fullmatch(r" +0\.\d s  joining: turn right, commanded bank \d+ deg", first)
+    assert re.fullmatch(r" +1\.\d s  joining: turn right, commanded bank \d+ deg", first)
     assert re.fullmatch(
         r"\d+ steps in \d+\.\d s; on the circle \d\.\d m (in|out)side in the mean, \d\.\d m at most\.", last
     )
@@ -287,8 +287,8 @@ def test_a_line_says_what_is_known():
     state = State(1.0, 0.0, 0.0, 10.0, -0.4, 18.0, 0.0, 18.0)
     known = SimpleNamespace(roll=Roll(0.2, 80.0), delay_s=0.15, turn_ratio=0.97, wind_east_m_s=4.0, wind_north_m_s=-3.0)
     report = GuideReport(
-        12.04, Stage.JOINING, state, 600.0, -20.0, phase=Phase.STRAIGHT, time_to_join_s=8.2, turn=Turn.CCW, command_deg=0.3,
-        crosstrack_m=-1.26, outside_m=90.0, rate_hz=39.6, age_s=0.0131, estimates=known,
+        12.04, Stage.JOINING, state, 600.0, -20.0, phase=Phase.STRAIGHT, time_to_join_s=8.2, turn=Turn.CCW,
+        command_deg=0.3, crosstrack_m=-1.26, outside_m=90.0, rate_hz=39.6, age_s=0.0131, estimates=known,
     )  # fmt: skip
     assert line(report) == (
         "  12.0 s: joining counter-clockwise in 8.2 s; bank 0 of 0 deg; 600 m, 20 below home; "

@@ -5,10 +5,11 @@ from types import SimpleNamespace
 
 import pytest
 
+from loiter import Orbit
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.mavlink import Stage
 from loiter.mavlink.guiding.sticks import Sticks
-from mavlink.flyer import GUIDED, HOLD, ORBIT, GuidedPlane, OffboardPx4, guided, miss_m
+from mavlink.flyer import GUIDED, HOLD, ORBIT, FlightPort, GuidedPlane, OffboardPx4, guided, miss_m
 from mavlink.vehicle import mavlink
 
 KINDS = [GuidedPlane, OffboardPx4]
@@ -353,3 +354,48 @@ def test_a_circle_on_the_other_side_of_the_earth_is_refused_at_once():
     outcome = guided(Swapped())
     assert "are the circle's latitude and longitude swapped" in outcome.end
     assert outcome.ended_at < 1.5
+
+
+def delayed(extra_s, since_s=JOINING_S, until_s=math.inf):
+    """A port whose packets from the vehicle take longer during some time."""
+
+    class Delayed(FlightPort):
+        def queue(self, way, packet):
+            slow = way is self.incoming and since_s < self.now - 1000.0 < until_s
+            self.latency_s = 0.02 + extra_s * slow
+            super().queue(way, packet)
+
+    return Delayed
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_measurements_that_arrive_late_end_the_flight(kind):
+    vehicle = kind()
+    outcome = guided(vehicle, port=delayed(1.3)(vehicle.take_time()))
+    assert "the measurements arrive 1.3 s late: guiding has stopped" in outcome.end
+    assert outcome.ended_at < JOINING_S + 7.0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("at_s", [JOINING_S, 16.0])
+def test_an_uplink_that_is_lost_is_noticed(kind, at_s):
+    outcome = guided(later(kind(), at_s, lambda v: setattr(v, "silent", True)), keep=True)
+    assert outcome.ended_at < at_s + 9.5
+    if kind == GuidedPlane:
+        assert "has answered nothing for 3 s: it may not hear us" in outcome.end
+        assert "nothing more is sent" in outcome.end
+        assert abs(miss_m(outcome.vehicle)) < 30.0
+
+
+def test_a_circle_that_is_never_held_steadily_is_given_up():
+    class Rough(GuidedPlane):
+        """A position that wanders out of the band."""
+
+        def idle(self, now):
+            self.shift[0] = 15.0 * math.sin(0.8 * now)
+            super().idle(now)
+
+    outcome = guided(Rough(), Orbit(30.0, -20.0, 80.0), seconds=400.0)
+    assert "the circle was not held steadily within" in outcome.end
+    assert outcome.end.endswith("flies the fall-back circle")
+    assert outcome.ended_at < 240.0

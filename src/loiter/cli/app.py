@@ -94,9 +94,9 @@ app.command(
     help_epilogue=epilogue("guide"),
     help="""Guide a vehicle in flight onto the circle in least time, then hand it over to its own hold of the circle.
 
-First the vehicle is commanded to hold the circle by its own guidance, the fall-back circle. Then its bank is commanded many times a second: ArduPlane's in GUIDED, PX4's in OFFBOARD; the autopilot holds altitude and airspeed. Once the circle is held steadily, the vehicle confirms that it holds it by its own guidance, and nothing more is sent. The vehicle must be in flight: it is never armed, and never takes off or lands.
+First the vehicle is commanded to hold the circle by its own guidance, the fall-back circle. Then its bank is commanded many times a second: ArduPlane's in GUIDED, PX4's in OFFBOARD; the autopilot holds altitude and airspeed. Once the circle is held steadily, the vehicle confirms that it holds it by its own guidance, and nothing more is sent. The vehicle must be in flight, and it and the circle at least 30 m above home: it is never armed, and never takes off or lands.
 
-Guiding stops at once, and one sentence says why, if the link or the telemetry is lost, the pilot or a failsafe changes the mode, or at Ctrl-C; the vehicle then flies the fall-back circle, or what the pilot wants. Airspeed and bank limit are those of the autopilot's parameters unless options give them. docs/autopilots.md has the details.""",
+Before the first command a summary shows what is taken over and what happens if the link dies, and a question is asked; --yes answers it. Guiding stops at once, and one sentence says why, if the link or the telemetry is lost, the pilot or a failsafe changes the mode, another station commands, the altitude departs, or at Ctrl-C; the vehicle then flies the fall-back circle, or what the pilot wants. Airspeed and bank limit are those of the autopilot's parameters unless options give them. docs/autopilots.md has the details.""",
 )
 app.command(
     "loiter.cli.commands.fly:fly",

@@ -112,6 +112,7 @@ class Contact:
         """Send the requests that are due in flight: for streams that have become slow, and for the round trip time."""
         self.streams.request(self.link, now, self.measurements.rate_hz(now))
         self.round_trip.request(self.link, now)
+        self.monitor.unanswered_s = self.round_trip.unanswered_s()
 
     def request_heartbeat(self, now: float) -> None:
         """Request a heartbeat if that is due: it shows a change of mode sooner than the next regular one."""

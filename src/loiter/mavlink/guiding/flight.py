@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from contextlib import suppress
 from dataclasses import replace
-from math import inf
+from math import inf, isfinite
 from time import monotonic
 from typing import Any
 
@@ -54,6 +54,9 @@ WIND_SLACK = 1.15
 # Seconds between checks of the wind, and steps of a law that is thrown away: they load and compile what it needs.
 WIND_S, WARM_STEPS = 1.0, 3
 
+
+# The law has twice the time of its first plan and this, seconds, until the circle is held steadily.
+HAND_OVER_S = 180.0
 
 # What a refused circle may mean.
 OUTSIDE_FENCE = "; its fence is on: is the circle outside?"
@@ -227,9 +230,14 @@ class Flight:
         self._contact.pending = None
         self._stage, self._steered = Stage.JOINING, True
         self._law = self._new_law()
-        self._last_step = monotonic() - STEP_S
+        began = monotonic()
+        limit_s, self._last_step = inf, began - STEP_S
         while not (self._steady.settled and not self._request.keep):
             self._step()
+            if limit_s == inf and not self._request.keep and isfinite(self._report.time_to_join_s):
+                limit_s = 2.0 * self._report.time_to_join_s + HAND_OVER_S
+            if monotonic() > began + limit_s:
+                raise GuidingStopped(StopReason(f"the circle was not held steadily within {limit_s:.0f} s"))
             if monotonic() >= self._next_report:
                 yield self._take_report(monotonic())
             self._check(self._contact.listen())

@@ -13,6 +13,10 @@ from loiter.mavlink.guiding.measurements import Measurements
 # within which some message must have arrived for the link to be alive.
 SILENT_S, STALE_S, ALIVE_S = 2.0, 1.0, 0.5
 
+# Measurements may be late by this, seconds, for this time, seconds; and the vehicle may leave our requests for its time
+# unanswered for this time, seconds.
+LATE_S, LATE_FOR_S, UNHEARD_S = 1.0, 0.5, 3.0
+
 # The least rate of measurements, per second, with some tolerance, and the seconds for which it may be lower.
 LEAST_HZ, SLOW_S = 4.5, 2.0
 
@@ -68,7 +72,8 @@ class ConditionTimer:
 class Monitor:
     """Watches a vehicle and its link; `check` gives the first reason to stop.
 
-    `circle_altitude_m` is the altitude of the circle above mean sea level, metres, nan before it is commanded.
+    `circle_altitude_m` is the altitude of the circle above mean sea level, metres, nan before it is commanded;
+    `unanswered_s` is how long the vehicle has not answered, seconds; `stick_moved` whether the pilot moves a stick.
     """
 
     def __init__(self, vehicle: Vehicle, measurements: Measurements, began: float) -> None:
@@ -79,12 +84,13 @@ class Monitor:
         self.last_message = began
         self.wind_problem = ""
         self.stick_moved = False
+        self.unanswered_s = 0.0
         self.command_deg = self.bank_deg = 0.0
         self.circle_altitude_m, self._nearest_m = nan, inf
         self._estimator_ok = True
         self._fence_breached = self._grounded = False
-        self._bad, self._slow, self._windy, self._off, self._departed, self._stick = (
-            ConditionTimer() for _ in range(6)
+        self._bad, self._slow, self._windy, self._off, self._departed, self._stick, self._late = (
+            ConditionTimer() for _ in range(7)
         )
 
     def update(self, message: Any, now: float) -> None:
@@ -165,6 +171,10 @@ class Monitor:
             return StopReason(f"no attitude arrived for {STALE_S:g} s", measured=False)
         if alive and now - m.position_arrived > STALE_S:
             return StopReason(f"no position arrived for {STALE_S:g} s", measured=False)
+        if self._late.update(m.late_s > LATE_S, now) > LATE_FOR_S:
+            return StopReason(f"the measurements arrive {m.late_s:.1f} s late", measured=False)
+        if self.unanswered_s > UNHEARD_S:
+            return StopReason(f"{self._vehicle.named} has answered nothing for {UNHEARD_S:g} s: it may not hear us")
         rate_hz = m.rate_hz(now)
         if self._slow.update(rate_hz < LEAST_HZ, now) > SLOW_S:
             return StopReason(f"only {rate_hz:.1f} measurements a second arrive, and {LEAST_HZ:.0f} are needed")
