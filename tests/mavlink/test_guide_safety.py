@@ -8,7 +8,7 @@ import pytest
 from loiter import Orbit
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.mavlink import Stage
-from loiter.mavlink.guiding.sticks import Sticks
+from loiter.mavlink.autopilots.sticks import Sticks
 from mavlink.flyer import GUIDED, HOLD, ORBIT, FlightPort, GuidedPlane, OffboardPx4, guided, miss_m
 from mavlink.vehicle import mavlink
 

@@ -12,6 +12,7 @@ from loiter.guidance.protocol import State
 from loiter.io.missions.items import Autopilot
 from loiter.mavlink.autopilots.settings import NAMES
 from loiter.mavlink.autopilots.steering import Steering
+from loiter.mavlink.autopilots.sticks import Sticks
 from loiter.mavlink.connection.command import long_command
 from loiter.mavlink.connection.fast_streams import FastStreams, fastest_hz
 from loiter.mavlink.connection.link import BAUD, Link
@@ -22,7 +23,6 @@ from loiter.mavlink.connection.status_text import StatusTexts
 from loiter.mavlink.guiding.measurements import Measurements
 from loiter.mavlink.guiding.monitor import Monitor
 from loiter.mavlink.guiding.own_target import OwnTarget
-from loiter.mavlink.guiding.sticks import Sticks
 from loiter.mavlink.missions.start import REQUEST_MESSAGE
 from loiter.mavlink.watching.telemetry import EXTENDED_SYS_STATE, Telemetry, WindSource
 from loiter.planning.model import Wind
