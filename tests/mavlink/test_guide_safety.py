@@ -399,3 +399,48 @@ def test_a_circle_that_is_never_held_steadily_is_given_up():
     assert "the circle was not held steadily within" in outcome.end
     assert outcome.end.endswith("flies the fall-back circle")
     assert outcome.ended_at < 240.0
+
+
+def losing(vehicle, for_s, at_s=JOINING_S, event=lambda vehicle: None):
+    """A vehicle whose link is lost for some seconds; the event happens meanwhile."""
+
+    def lose(vehicle):
+        vehicle.silent = vehicle.muted = True
+        event(vehicle)
+
+    def find(vehicle):
+        vehicle.silent = vehicle.muted = False
+
+    return later(later(vehicle, at_s, lose), at_s + for_s, find)
+
+
+@pytest.mark.parametrize("at_s", [JOINING_S, 14.0])
+def test_guiding_is_resumed_after_a_short_loss(at_s):
+    outcome = guided(losing(GuidedPlane(), 10.0, at_s), resume=True)
+    assert outcome.end == ""
+    assert [report.stage for report in outcome.reports].count(Stage.READY) == 2
+    assert outcome.reports[-1].stage == Stage.HANDED_OVER
+    times = [report.time_s for report in outcome.reports]
+    assert times == sorted(times)
+    assert abs(miss_m(outcome.vehicle)) < 3.0
+
+
+@pytest.mark.parametrize(
+    ("options", "for_s", "event"),
+    [
+        ({}, 10.0, lambda v: None),
+        ({"resume": True}, 90.0, lambda v: None),
+        ({"resume": True}, 10.0, lambda v: v.change_mode(5)),
+        ({"resume": True}, 10.0, lambda v: v.loiter_here(GUIDED)),
+    ],
+)
+def test_guiding_is_not_resumed_after_a_long_loss_or_when_another_commands(options, for_s, event):
+    vehicle = losing(GuidedPlane(), for_s, event=event)
+    outcome = guided(vehicle, **options)
+    assert outcome.end.startswith("nothing was heard from system 1 (ArduPilot) for 2 s: guiding has stopped")
+    assert [message.command for message in vehicle.commands] == [192]
+
+
+def test_a_px4_is_not_resumed():
+    outcome = guided(losing(OffboardPx4(), 10.0), resume=True)
+    assert "guiding has stopped, nothing more is sent" in outcome.end

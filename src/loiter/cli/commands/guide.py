@@ -133,6 +133,13 @@ def guide(
             help="Guide PX4 although it does not stay near if this program or the link dies: COM_OBL_RC_ACT is neither hold nor return.",
         ),
     ] = False,
+    resume: Annotated[
+        bool,
+        Parameter(
+            group=connection,
+            help="After a lost link begin anew if the vehicle is heard within a minute, still on its way to the circle: ArduPlane only.",
+        ),
+    ] = False,
     circle: GuidedOrbitOptions = GuidedOrbitOptions(),
     uav: GuidedVehicleOptions = GuidedVehicleOptions(),
     air: WindOptions = WindOptions(),
@@ -167,6 +174,7 @@ def guide(
         dry_run=dry_run,
         accept_fly_away=accept_fly_away,
         confirm=None if yes else _question(),
+        resume=resume,
         log=log,
     )
     with _ending_signals(), closing(reports):

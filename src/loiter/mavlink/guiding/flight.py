@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from contextlib import suppress
 from dataclasses import replace
-from math import inf, isfinite
+from math import ceil, inf, isfinite
 from time import monotonic
 from typing import Any
 
@@ -73,13 +73,13 @@ class GuidingStopped(Exception):
 class Flight:
     """A guided flight; `stages` flies it, `stop` ends it early.
 
-    `record` is called with a report for every step.
+    `record` is called with a report for every step. The times of reports count from `began`.
     """
 
-    def __init__(self, contact: Contact, request: GuideRequest, period_s: float) -> None:
+    def __init__(self, contact: Contact, request: GuideRequest, period_s: float, began: float) -> None:
         self.orbit = request.orbit
         self.record: Callable[[GuideReport], None] = lambda report: None
-        self._contact, self._request, self._period_s = contact, request, period_s
+        self._contact, self._request, self._period_s, self._began = contact, request, period_s, began
         self._monitor, self._modes = contact.monitor, contact.monitor.modes
         self._setup: FlightSetup
         self._law: LoiterEntry
@@ -94,7 +94,8 @@ class Flight:
         self._stage = Stage.SHOWING if request.dry_run else Stage.FALL_BACK
         self._report = GuideReport(0.0, self._stage)
         self._last_step = contact.began
-        self._next_report, self._next_wind = contact.began + period_s, -inf
+        periods = ceil(max(contact.began - began, 0.0) / period_s + 1e-9) or 1
+        self._next_report, self._next_wind = began + periods * period_s, -inf
 
     # The stages.
 
@@ -254,7 +255,25 @@ class Flight:
         self._notices.append(f"Handed over: {self._contact.name} holds the circle {turn} by its own guidance.")
         return self._take_report(monotonic())
 
-    # The end.
+    # A lost link, and the end.
+
+    def vehicle_returns(self, timeout_s: float) -> bool:
+        """Wait until a lost vehicle is heard again; returns whether it may be guided on. Nothing is commanded.
+
+        It must be ArduPlane that was steered, still in GUIDED, and report the circle as its target if it reports one.
+        """
+        if not self._steered or self._contact.flies_px4:
+            return False
+        lost_at = monotonic()
+        deadline, monitor, target = lost_at + timeout_s, self._monitor, self._contact.own_target
+        while monitor.heartbeat_arrived < lost_at and monotonic() < deadline:
+            self._contact.listen()
+        elsewhere = target.arrived > lost_at and target.difference(self.orbit, self._setup.altitude_m)
+        return monitor.heartbeat_arrived >= lost_at and self._modes.mode == GUIDED and not elsewhere
+
+    def request_again(self) -> GuideRequest:
+        """The request with which guiding begins anew: the same altitude and direction, without a question."""
+        return self._request._replace(orbit=self.orbit, altitude_m=self._setup.altitude_m, confirm=None)
 
     def stop(self, stop: StopReason) -> str:
         """Stop guiding: command the fall-back circle where that is allowed; returns the sentence that says why."""
@@ -375,7 +394,7 @@ class Flight:
         """Make and record the report of a step."""
         m, position = self._contact.measurements, self._steady.update(state)
         self._report = GuideReport(
-            time_s=now - self._contact.began,
+            time_s=now - self._began,
             stage=self._stage,
             state=state,
             altitude_m=m.altitude_m,
@@ -435,7 +454,7 @@ class Flight:
         """The present report with the notices; the next one is due a period later."""
         self._next_report = max(self._next_report + self._period_s, now)
         notices, self._notices = tuple(self._notices), []
-        time_s = now - self._contact.began
+        time_s = now - self._began
         m = self._contact.measurements
         return self._report._replace(
             time_s=time_s,

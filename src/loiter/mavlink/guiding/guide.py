@@ -6,6 +6,7 @@ import gc
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from time import monotonic
 from typing import NamedTuple
 
 from loiter.compiled import wind_solver
@@ -23,6 +24,9 @@ from loiter.planning.model import Orbit, Wind
 
 INTERRUPTED = StopReason("guiding was interrupted")
 OUTPUT_CLOSED = StopReason("standard output was closed")
+
+# Seconds for which a lost vehicle is awaited.
+RESUME_S = 60.0
 
 
 def guide(
@@ -42,6 +46,7 @@ def guide(
     dry_run: bool = False,
     accept_fly_away: bool = False,
     confirm: Callable[[], bool] | None = None,
+    resume: bool = False,
     log: str | Path | None = None,
 ) -> Generator[GuideReport, None, None]:
     """Guide a vehicle in flight onto a circle by bank commands, and hand it over to its own hold of that circle.
@@ -62,6 +67,10 @@ def guide(
     airspeed. When it has held the circle for some seconds, it is handed over: it confirms that it holds the circle by
     its own guidance, and nothing more is sent. With `keep` the circle is flown until the generator is closed. With
     `dry_run` nothing is commanded: reports show what would be. `log` is a file, .csv or .parquet, for every step.
+
+    With `resume` a lost link does not end the flight at once: nothing is sent, and if within a minute the vehicle is
+    heard again, still in ArduPlane's GUIDED and on its way to the circle, guiding begins anew. PX4 has then left
+    OFFBOARD, as a pilot may have wanted.
 
     docs/autopilots.md lists what ends the flight early, and what the vehicle does then: at once it is commanded back to
     the fall-back circle, if the link is alive and neither the pilot nor a failsafe has changed its mode. `LinkFailed`
@@ -87,7 +96,7 @@ def guide(
         orbit, frame, airspeed_m_s, max_bank_deg, wind, altitude_m, keep, dry_run, accept_fly_away, confirm
     )
     target = _Target(connection, system, component, timeout_s)
-    return _guide(target, request, period_s, path)
+    return _guide(target, request, period_s, path, resume=resume)
 
 
 class _Target(NamedTuple):
@@ -100,15 +109,26 @@ class _Target(NamedTuple):
 
 
 def _guide(
-    target: _Target, request: GuideRequest, period_s: float, log: Path | None
+    target: _Target, request: GuideRequest, period_s: float, log: Path | None, *, resume: bool
 ) -> Generator[GuideReport, None, None]:
     # The compiled search in wind is loaded now, not while a vehicle flies.
     wind_solver.load()
     with open_link(*target, listen_s=0.0) as link:
-        flight = Flight(Contact(link, target.connection, request.frame), request, period_s)
+        began = monotonic()
+        flight = Flight(Contact(link, target.connection, request.frame), request, period_s, began)
         with step_log(log, lambda: flight.orbit) as flight.record, _without_garbage_collection():
             try:
-                yield from flight.stages(target.timeout_s, only_vehicle=target.system is None)
+                while True:
+                    try:
+                        yield from flight.stages(target.timeout_s, only_vehicle=target.system is None)
+                        return
+                    except GuidingStopped as stopped:
+                        if not (resume and stopped.stop.lost and flight.vehicle_returns(RESUME_S)):
+                            raise
+                    contact = Contact(link, target.connection, request.frame)
+                    again, record = flight.request_again(), flight.record
+                    flight = Flight(contact, again, period_s, began)
+                    flight.record = record
             except GuidingStopped as stopped:
                 raise LinkFailed(flight.stop(stopped.stop)) from None
             except LinkFailed as failure:

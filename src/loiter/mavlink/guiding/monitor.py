@@ -45,12 +45,14 @@ class StopReason(NamedTuple):
     """A reason to stop, as the beginning of a sentence.
 
     `ours` is whether the vehicle may be commanded once more, back to the fall-back circle: not if the link is lost, and
-    not if the pilot or a failsafe has taken over. `measured` is whether its state is still known.
+    not if the pilot or a failsafe has taken over. `measured` is whether its state is still known. `lost` is whether
+    nothing is heard of the vehicle.
     """
 
     reason: str
     ours: bool = True
     measured: bool = True
+    lost: bool = False
 
 
 class ConditionTimer:
@@ -119,7 +121,7 @@ class Monitor:
 
     def _taken_over(self, now: float) -> StopReason | None:
         if silent := self.silent(now):
-            return StopReason(silent, ours=False, measured=False)
+            return StopReason(silent, ours=False, measured=False, lost=True)
         if unexpected_mode := self.modes.unexpected_mode(now):
             return StopReason(unexpected_mode, ours=False)
         if self.heartbeat is not None and self.heartbeat.system_status >= TERMINATION:
