@@ -1,6 +1,7 @@
 """What the user is told and refused: altitude, who else commands, a lost link, and true last sentences."""
 
 import math
+from itertools import pairwise
 from types import SimpleNamespace
 
 import pytest
@@ -127,7 +128,16 @@ def test_nothing_is_commanded_until_it_is_confirmed(kind):
     outcome = guided(vehicle, confirm=confirm)
     assert outcome.end == ""
     assert vehicle.heard_at[0] > 9.0
+    times = [report.time_s for report in outcome.reports[1:-1]]
+    assert all(after - before > 0.9 for before, after in pairwise(times))
     assert abs(miss_m(vehicle)) < 5.0
+
+
+def test_the_summary_says_that_arduplane_is_commanded_already():
+    vehicle = GuidedPlane()
+    vehicle.mode = GUIDED
+    first = guided(vehicle).reports[0].notices[0]
+    assert "flies in GUIDED already: another station or program has commanded it; it is at 600 m" in first
 
 
 def test_a_refused_summary():
@@ -372,7 +382,7 @@ def delayed(extra_s, since_s=JOINING_S, until_s=math.inf):
 def test_measurements_that_arrive_late_end_the_flight(kind):
     vehicle = kind()
     outcome = guided(vehicle, port=delayed(1.3)(vehicle.take_time()))
-    assert "the measurements arrive 1.3 s late: guiding has stopped" in outcome.end
+    assert "the measurements arrive 1.1 s late: guiding has stopped" in outcome.end
     assert outcome.ended_at < JOINING_S + 7.0
 
 

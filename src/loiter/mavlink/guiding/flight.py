@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from contextlib import suppress
 from dataclasses import replace
-from math import ceil, inf, isfinite
+from math import inf, isfinite
 from time import monotonic
 from typing import Any
 
@@ -94,8 +94,8 @@ class Flight:
         self._stage = Stage.SHOWING if request.dry_run else Stage.FALL_BACK
         self._report = GuideReport(0.0, self._stage)
         self._last_step = contact.began
-        periods = ceil(max(contact.began - began, 0.0) / period_s + 1e-9) or 1
-        self._next_report, self._next_wind = began + periods * period_s, -inf
+        self._next_report, self._next_wind = inf, -inf
+        self._plan_report(contact.began)
 
     # The stages.
 
@@ -146,6 +146,7 @@ class Flight:
         request = self._request._replace(altitude_m=self._setup.altitude_m)
         self._begin(choose(contact, request, self._setup.settings)._replace(notices=()))
         self._stage = Stage.FALL_BACK
+        self._plan_report(monotonic())
 
     @property
     def _summary(self) -> tuple[str, ...]:
@@ -464,6 +465,10 @@ class Flight:
             height_m=m.height_m,
             notices=notices,
         )
+
+    def _plan_report(self, now: float) -> None:
+        """Make the next report due at the next whole period."""
+        self._next_report = self._began + (int((now - self._began) / self._period_s) + 1) * self._period_s
 
     def _send_level(self) -> None:
         steering = self._contact.steering

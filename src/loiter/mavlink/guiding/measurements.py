@@ -37,9 +37,9 @@ RESTARTED_S = 1.0
 JUMP_M, JUMP_SHARE = 30.0, 0.5
 
 
-# The least delay of messages may grow by this, seconds per second: clocks differ, and so do links. A state is
-# extrapolated over no more than this lateness, seconds.
-DELAY_GROWTH, LONGEST_EXTRAPOLATION_S = 0.02, 0.5
+# The least delay of messages may grow by this, seconds per second: links change, and an overloaded simulator is slower
+# than real time. A state is extrapolated over no more than this lateness, seconds.
+DELAY_GROWTH, LONGEST_EXTRAPOLATION_S = 0.1, 0.5
 
 # A rate of roll lasts no longer than this, seconds.
 LONGEST_ROLL_S = 0.15

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from loiter.mavlink.autopilots.modes import GUIDED
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.preparation import FlightSetup
 
@@ -35,6 +36,8 @@ def loss_consequence(contact: Contact, setup: FlightSetup) -> str:
 
 
 def _from_mode(contact: Contact) -> str:
+    if contact.monitor.modes.mode == GUIDED and not contact.flies_px4:
+        return f"{contact.name} flies in GUIDED already: another station or program has commanded it"
     modes = "HOLD and then to OFFBOARD" if contact.flies_px4 else "GUIDED"
     return f"{contact.name} flies in {contact.monitor.modes.name}, and is commanded to change to {modes}"
 
