@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import re
 import signal
 from math import nan
@@ -18,7 +19,7 @@ from loiter.mavlink import GuideReport, Stage
 from loiter.planning.model import Turn
 from mavlink.flyer import FlightPort, GuidedPlane, OffboardPx4, miss_m, simulated_time
 
-GUIDE = "guide --connect udpout:127.0.0.1:14550 --system 1 --orbit-lla 47 8 80"
+GUIDE = "guide --connect udpout:127.0.0.1:14550 --system 1 --orbit-lla 47 8 80 --yes"
 
 
 def flown(vehicle, arguments, capsys, interrupt=()):
@@ -36,16 +37,22 @@ def flown(vehicle, arguments, capsys, interrupt=()):
 def test_a_line_a_second_and_the_hand_over(kind, capsys):
     vehicle = kind()
     status, out, _ = flown(vehicle, GUIDE, capsys)
+    *summary, ready, second = out.splitlines()[:6]
     *lines, handed_over, last = out.splitlines()
     assert status == 0
-    assert re.match(r" +1\.0 s: joining, clockwise in \d+\.\d s; ", lines[0])
-    assert any(
-        re.search(r"s: joining, clockwise in 5\.\d s; fly straight, bank -?\d, commanded -?\d deg; ", x) for x in lines
+    assert summary[0].startswith("system 1 (")
+    assert summary[2].startswith("If this program or the link dies, ")
+    assert re.fullmatch(r" +1\.\d s: ready; 600 m, 100 above home", ready)
+    assert re.fullmatch(
+        r" +\d\.\d s: joining clockwise in \d+\.\d s; bank \d+ of \d+ deg; 600 m, 100 above home; "
+        r"(\d\.\d m \w+ of|on) path(; wind 0\.\d m/s from \d+)?",
+        second,
     )
-    assert re.search(r"; \d+ Hz, \d+ ms old; roll 0\.\d\d s, delay 0\.\d\d s, turns [01]\.\d\d", lines[3])
-    assert any(re.search(r": holding, clockwise; hold, bank 2\d, commanded 2\d deg; .* the circle; ", x) for x in lines)
+    assert any(re.search(r"s: joining clockwise in 5\.\d s; bank -?\d of -?\d deg; ", x) for x in lines)
+    assert any(re.search(r": holding clockwise; bank 2\d of 2\d deg; 600 m, .*(side|on circle)", x) for x in lines)
+    assert max(len(x) for x in lines if " s: " in x) < 115
     assert re.fullmatch(r"Handed over: system 1 \(\w+\) holds the circle clockwise by its own guidance\.", handed_over)
-    assert "handed over, clockwise" in last
+    assert "handed over clockwise" in last
     assert vehicle.airframe.airspeed == 18.0
 
 
@@ -55,7 +62,7 @@ def test_ctrl_c_commands_the_vehicle_back(capsys):
     assert err == (
         "loiter: guiding was interrupted: guiding has stopped, and system 1 (ArduPilot) flies the fall-back circle\n"
     )
-    assert out.count("\n") == 9
+    assert out.count("\n") == 13
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
@@ -64,7 +71,7 @@ def test_a_signal_between_two_lines_does_too(capsys, monkeypatch, number):
 
     def write(*lines):
         printed.extend(lines)
-        if len(printed) == 4:
+        if len(printed) == 9:
             signal.raise_signal(number)
 
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -77,6 +84,69 @@ def test_a_signal_between_two_lines_does_too(capsys, monkeypatch, number):
     assert "flies the fall-back circle" in err
 
 
+def test_an_interrupt_counts_where_a_shell_has_it_ignored(capsys, monkeypatch):
+    """As a shell does for programs that it starts in the background."""
+    printed = []
+
+    def write(*lines):
+        printed.extend(lines)
+        if len(printed) == 9:
+            signal.raise_signal(signal.SIGINT)
+
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    monkeypatch.setattr("loiter.cli.commands.guide.report.write", write)
+    try:
+        status, _, err = flown(GuidedPlane(), GUIDE, capsys)
+        assert signal.getsignal(signal.SIGINT) == signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert status == 130
+    assert "flies the fall-back circle" in err
+
+
+def test_a_closed_output_ends_the_flight_with_a_sentence(capsys, monkeypatch):
+    printed = []
+
+    def write(*lines):
+        printed.extend(lines)
+        if len(printed) == 9:
+            raise BrokenPipeError
+
+    monkeypatch.setattr("loiter.cli.commands.guide.report.write", write)
+    monkeypatch.setattr("loiter.cli.commands.guide.abandon_output", lambda: None)
+    status, _, err = flown(GuidedPlane(), GUIDE, capsys)
+    assert status == 3
+    assert err == (
+        "loiter: standard output was closed: guiding has stopped, and system 1 (ArduPilot) flies the fall-back circle\n"
+    )
+
+
+@pytest.mark.parametrize(("answer", "status"), [(b"y\n", 0), (b"Yes\n", 0), (b"n\n", 3), (b"\n", 3), (b"", 3)])
+def test_the_summary_is_confirmed_at_a_terminal(answer, status, monkeypatch, capsys):
+    vehicle = GuidedPlane()
+    reader, writer = os.pipe()
+    os.write(writer, answer)
+    os.close(writer)
+    monkeypatch.setattr("sys.stdin", SimpleNamespace(isatty=lambda: True, fileno=lambda: reader))
+    port = FlightPort(vehicle.take_time())
+    with simulated_time(port):
+        assert main(GUIDE.replace(" --yes", "").split()) == status
+    os.close(reader)
+    _, err = capsys.readouterr()
+    assert err.startswith("Begin? [y/N] ")
+    assert ("the summary was not confirmed; nothing was commanded" in err) == (status == 3)
+    assert (vehicle.commands == []) == (status == 3)
+
+
+def test_px4_without_a_safe_action_needs_an_option(capsys):
+    class Px4(OffboardPx4):
+        parameters = OffboardPx4.parameters | {"COM_OBL_RC_ACT": (0, 6)}
+
+    status, _, err = flown(Px4(), GUIDE, capsys)
+    assert (status, err.partition(":")[2].split(":")[0]) == (2, " --accept-fly-away is needed")
+    assert flown(Px4(), f"{GUIDE} --accept-fly-away", capsys)[0] == 0
+
+
 def test_a_pilot_who_takes_over_ends_it_with_a_sentence(capsys):
     vehicle = GuidedPlane(events=[(5.0, lambda v: v.change_mode(5))])
     status, _, err = flown(vehicle, GUIDE, capsys)
@@ -86,10 +156,11 @@ def test_a_pilot_who_takes_over_ends_it_with_a_sentence(capsys):
 
 def test_a_dry_run_says_what_it_would_command(capsys):
     status, out, err = flown(GuidedPlane(), f"{GUIDE} --dry-run", capsys, interrupt=[4.0])
-    first, second, *_ = out.splitlines()
+    first, *summary, last = out.splitlines()
     assert (status, err) == (130, "loiter: guiding was interrupted\n")
     assert first == "Dry run: nothing is commanded; only telemetry and parameters are requested."
-    assert re.match(r" +1\.0 s: dry run, \S+ in \d+\.\d s; ", second)
+    assert summary[0].startswith("system 1 (ArduPilot) flies in AUTO, and is commanded to change to GUIDED")
+    assert re.match(r" +\d\.0 s: dry run \S+ in \d+\.\d s; ", last)
 
 
 @pytest.mark.parametrize(
@@ -116,6 +187,8 @@ def test_the_limits_come_from_options_or_from_the_vehicle(options, asked_deg, ca
         (f"{GUIDE} --log flight.txt", "--log is 'flight.txt': the file name must end in .csv or .parquet"),
         (f"{GUIDE} --log /nowhere/flight.csv", "--log is '/nowhere/flight.csv': it cannot be written"),
         (f"{GUIDE} --every 0", "--every is 0"),
+        (f"{GUIDE} --altitude 5", "--altitude is 5: 495 m below home"),
+        (GUIDE.replace(" --yes", ""), "--yes is needed where nobody can answer: standard input is not a terminal"),
         (f"{GUIDE} --bank 60", "--bank is 60: the autopilot banks no steeper than 50 degrees"),
         (f"{GUIDE} --wind 30 0", "can hold no circle"),
         (GUIDE.replace("80", "20"), "orbit radius 20 m is tighter than the aircraft can turn"),
@@ -146,7 +219,7 @@ def test_a_log_is_replayed_and_drawn(tmp_path, capsys):
         )
     assert texts[0] == texts[1]
     first, *_, last = texts[0]
-    assert re.fullmatch(r" +0\.\d s  joining: turn right, commanded bank \d+ deg", first)
+    assert re.fullmatch(r" +1\.\d s  joining: turn right, commanded bank \d+ deg", first)
     assert re.fullmatch(
         r"\d+ steps in \d+\.\d s; on the circle \d\.\d m (in|out)side in the mean, \d\.\d m at most\.", last
     )
@@ -214,15 +287,14 @@ def test_a_line_says_what_is_known():
     state = State(1.0, 0.0, 0.0, 10.0, -0.4, 18.0, 0.0, 18.0)
     known = SimpleNamespace(roll=Roll(0.2, 80.0), delay_s=0.15, turn_ratio=0.97, wind_east_m_s=4.0, wind_north_m_s=-3.0)
     report = GuideReport(
-        12.04, Stage.JOINING, state, 600.0, phase=Phase.STRAIGHT, time_to_join_s=8.2, turn=Turn.CCW, command_deg=0.3,
-        crosstrack_m=-1.26, outside_m=90.0, rate_hz=39.6, age_s=0.0131, estimates=known,
+        12.04, Stage.JOINING, state, 600.0, -20.0, phase=Phase.STRAIGHT, time_to_join_s=8.2, turn=Turn.CCW,
+        command_deg=0.3, crosstrack_m=-1.26, outside_m=90.0, rate_hz=39.6, age_s=0.0131, estimates=known,
     )  # fmt: skip
     assert line(report) == (
-        "  12.0 s: joining, counter-clockwise in 8.2 s; fly straight, bank 0, commanded 0 deg; "
-        "1.3 m right of the path; 40 Hz, 13 ms old; roll 0.20 s, delay 0.15 s, turns 0.97; wind 5.0 m/s from 307"
+        "  12.0 s: joining counter-clockwise in 8.2 s; bank 0 of 0 deg; 600 m, 20 below home; "
+        "1.3 m right of path; wind 5.0 m/s from 307"
     )
-    on_path = line(report._replace(crosstrack_m=0.01, estimates=None))
-    assert "; on the path; 40 Hz" in on_path
+    assert line(report._replace(crosstrack_m=0.01, estimates=None)).endswith("; on path")
     holding = report._replace(stage=Stage.HOLDING, phase=Phase.HOLD, outside_m=-2.0, time_to_join_s=0.0)
-    assert "holding, counter-clockwise; hold, bank 0, commanded 0 deg; 2.0 m inside the circle; " in line(holding)
+    assert "holding counter-clockwise; bank 0 of 0 deg; 600 m, 20 below home; 2.0 m inside; " in line(holding)
     assert line(GuideReport(1.0, Stage.FALL_BACK)) == "   1.0 s: fall-back circle"

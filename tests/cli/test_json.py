@@ -151,7 +151,8 @@ def test_a_guided_flight_prints_a_json_object_a_line(capsys):
     documents = [strict(line) for line in out.splitlines()]
     assert status == 0
     stages = list(dict.fromkeys(document["stage"] for document in documents))
-    assert stages[0] == "joining"
+    assert stages[:2] == ["ready", "joining"]
+    assert documents[0]["height_above_home_m"] == 100.0
     assert stages[-1] == "handed over"
     flying_ = next(document for document in documents if document["stage"] == "joining")
     assert abs(flying_["commanded_bank_deg"]) <= 50.0

@@ -19,6 +19,7 @@ from loiter.io.missions.signs import circle
 from loiter.mavlink import guide
 from loiter.mavlink.connection import link, parameters
 from loiter.mavlink.guiding import contact, flight, preparation
+from loiter.mavlink.guiding import guide as guiding
 from mavlink.vehicle import ACCEPTED, Plane, Port, Vehicle, mavlink
 
 FRAME = LocalFrame(47.0, 8.0)
@@ -75,7 +76,8 @@ class Flyer:
     system_status = 4
     armed = True
     reports_airspeed = True
-    altitude_m = 600.0
+    altitude_m, home_m, climb_m_s = 600.0, 500.0, 0.0
+    sticks_us = 1500, 1500
     estimator_flags = 0b1111111
     ids = {"ATTITUDE": 30, "GLOBAL_POSITION_INT": 33, "VFR_HUD": 74}  # noqa: RUF012
 
@@ -90,6 +92,7 @@ class Flyer:
         self.banks, self.asked, self.heard_at = [], [], []
         self.modes = []
         self.hold_circle = None
+        self.altitude_target_m = self.altitude_m
         self.boot_offset_s = -900.0
         self.shift = [0.0, 0.0]
         self.denied = 0
@@ -127,6 +130,7 @@ class Flyer:
         while self.last < now - 1e-9:
             self.last += STEP_S
             self.airframe.advance(self.target(self.last))
+            self.altitude_m += STEP_S * self.climb_m_s
             self.banks.append((self.last - self.began, degrees(self.airframe.bank)))
         self.beat_s = min(self.intervals.get(0, self.beat_real_s), self.beat_real_s)
         super().idle(now)
@@ -154,7 +158,12 @@ class Flyer:
             self.transmit_safe(mavlink.MAVLink_attitude_message(ms, a.bank, 0.0, yaw, *body))
         elif number == 33:
             lat, lon = FRAME.to_geodetic(a.east + self.shift[0], a.north + self.shift[1])
-            place = round(float(lat) * 1e7), round(float(lon) * 1e7), round(self.altitude_m * 1e3), 100_000
+            place = (
+                round(float(lat) * 1e7),
+                round(float(lon) * 1e7),
+                round(self.altitude_m * 1e3),
+                round((self.altitude_m - self.home_m) * 1e3),
+            )
             hdg = round(degrees(a.heading) % 360.0 * 100.0) % 36000
             self.transmit_safe(
                 mavlink.MAVLink_global_position_int_message(
@@ -166,10 +175,34 @@ class Flyer:
             self.transmit_safe(
                 mavlink.MAVLink_vfr_hud_message(a.airspeed / eas2tas, hypot(east, north), 0, 50, 600.0, 0.0)
             )
+        elif number == 65:
+            channels = [*self.sticks_us, 1000, 1500, *[0] * 14]
+            self.transmit_safe(mavlink.MAVLink_rc_channels_message(ms, 16, *channels, 255))
+        elif number == 87 and self.reports_target and self.hold_circle is not None:
+            self.report_target(ms)
         elif number == 245:
             self.transmit_safe(mavlink.MAVLink_extended_sys_state_message(0, self.landed_state))
         elif number in (193, 230):
             self.estimator(number)
+
+    reports_target = True
+
+    def report_target(self, ms):
+        lat, lon = FRAME.to_geodetic(*self.hold_circle[0])
+        place = round(float(lat) * 1e7), round(float(lon) * 1e7), self.altitude_target_m
+        self.transmit_safe(mavlink.MAVLink_position_target_global_int_message(ms, 0, 0, *place, *[0.0] * 8))
+
+    def hear_station(self, component, kind, status=4, system=250):
+        """Forward the heartbeat of another station."""
+        own = self.mav.srcSystem, self.mav.srcComponent
+        self.mav.srcSystem, self.mav.srcComponent = system, component
+        self.transmit_safe(mavlink.MAVLink_heartbeat_message(kind, 8, 0, 0, status, 3))
+        self.mav.srcSystem, self.mav.srcComponent = own
+
+    def loiter_here(self, mode):
+        """Hold a circle about the present place by its own guidance, as no command of ours says."""
+        self.hold_circle = (self.airframe.east, self.airframe.north), 80.0, "cw"
+        self.change_mode(mode)
 
     def estimator(self, number):
         if number == 193:
@@ -250,6 +283,9 @@ class GuidedPlane(Flyer, Plane):
         "RLL2SRV_RMAX": (75.0, 9),
         "ARSPD_USE": (1.0, 9),
         "NAVL1_PERIOD": (15.0, 9),
+        "FENCE_ENABLE": (0.0, 2),
+        "RCMAP_ROLL": (1.0, 2),
+        "RCMAP_PITCH": (2.0, 2),
     }
     roll_s, roll_at = 0.0, -1e9
 
@@ -305,7 +341,10 @@ class OffboardPx4(Flyer, Vehicle):
         "FW_R_RMAX": (70.0, 9),
         "FW_PN_R_SLEW_MAX": (90.0, 9),
         "COM_OF_LOSS_T": (1.0, 9),
-        "COM_OBL_RC_ACT": (0, 6),
+        "COM_OBL_RC_ACT": (5, 6),
+        "GF_ACTION": (2, 6),
+        "RC_MAP_ROLL": (1, 6),
+        "RC_MAP_PITCH": (2, 6),
     }
     setpoint, setpoint_at, first_at = None, -1e9, 1e9
 
@@ -341,9 +380,7 @@ class OffboardPx4(Flyer, Vehicle):
         if self.mode != OFFBOARD:
             return self.fly_own()
         if now - self.setpoint_at > 1.0:
-            # Its failsafe, COM_OBL_RC_ACT; here it holds a circle where it is.
-            self.change_mode(3 << 16)
-            self.hold_circle = (self.airframe.east, self.airframe.north), 80.0, "cw"
+            self.fail_safe()
             return 0.0
         s = self.setpoint
         speed = hypot(s.vx, s.vy) or 1.0
@@ -357,7 +394,17 @@ class OffboardPx4(Flyer, Vehicle):
         limit = tan(radians(self.bank_limit_deg))
         return atan(max(-limit, min(limit, accel / G)))
 
+    def fail_safe(self):
+        """What COM_OBL_RC_ACT says: it holds a circle where it is, or flies straight on in the position mode."""
+        if self.parameters["COM_OBL_RC_ACT"][0] == 5:
+            self.loiter_here(HOLD)
+        else:
+            self.hold_circle = None
+            self.change_mode(3 << 16)
+
     def stream(self, number, now):
+        if number == 87 and self.mode != HOLD:
+            return
         if number == 32 and number not in self.muted_kinds:
             a = self.airframe
             east, north = a.velocity
@@ -431,7 +478,7 @@ class Guided:
 def simulated_time(port):
     """Connections lead to a port while this lasts, and the library's clock is that of the port."""
     with pytest.MonkeyPatch.context() as patch:
-        for module in (link, parameters, contact, flight, preparation):
+        for module in (link, parameters, contact, flight, preparation, guiding):
             patch.setattr(module, "monotonic", lambda: port.now)
         for name, seconds in REAL.items():
             patch.setattr(*name, seconds)

@@ -239,6 +239,17 @@ def test_the_round_trip_is_the_fastest_of_the_last_answers():
     assert trip.seconds == pytest.approx(0.06)
 
 
+def test_an_unanswered_request_for_the_time_is_noticed_where_others_were_answered():
+    link, trip = Sent(), RoundTrip()
+    for now in (1.0, 2.0, 3.0):
+        trip.request(link, now)
+    assert trip.unanswered_s() == 0.0
+    trip.update(mavlink.MAVLink_timesync_message(1, link.messages[-1].ts1), 3.1)
+    assert trip.unanswered_s() == 0.0
+    trip.request(link, 7.0)
+    assert trip.unanswered_s() == pytest.approx(3.9)
+
+
 # Modes and parameters.
 
 
@@ -330,13 +341,13 @@ def test_the_older_of_attitude_and_position_is_extrapolated():
     m.update(attitude(1200, 0.1, 0.0, (0.5, 0.0, 0.3)), 5.2)
     state = m.state(None, 5.2)
     # 0.2 s north at 18 m/s; a turn to the right by 0.06 rad.
-    assert (state.time_s, state.north_m) == (1.2, pytest.approx(3.6, abs=0.02))
+    assert (state.time_s, state.north_m) == (pytest.approx(1.2), pytest.approx(3.6, abs=0.02))
     assert state.east_m == pytest.approx(100.0 + 3.6 * 0.03, abs=0.02)
     assert degrees(0.1) == pytest.approx(state.bank_deg)
     assert math.atan2(state.velocity_east_m_s, state.velocity_north_m_s) == pytest.approx(0.2 * m.yaw_rate, abs=1e-3)
     m.update(position(1300, 100.0, 5.4), 5.3)
     later = m.state(None, 5.3)
-    assert (later.time_s, later.north_m) == (1.3, pytest.approx(5.4, abs=0.02))
+    assert (later.time_s, later.north_m) == (pytest.approx(1.3), pytest.approx(5.4, abs=0.02))
     assert later.bank_deg == pytest.approx(degrees(0.1 + 0.05), abs=1e-6)
     assert later.heading_deg == pytest.approx(degrees(0.1 * m.yaw_rate), abs=0.01)
 
@@ -346,6 +357,23 @@ def test_attitude_and_position_that_are_half_a_second_apart_give_no_state():
     m.update(position(1000), 5.0)
     m.update(attitude(1600), 5.6)
     assert m.state(None, 5.6) is None
+
+
+@pytest.mark.parametrize(("late_s", "extrapolated_s"), [(0.0, 0.0), (0.3, 0.27), (2.0, 0.5)])
+def test_late_measurements_are_extrapolated_to_the_time_of_on_time_ones(late_s, extrapolated_s):
+    m = Measurements(FRAME)
+    m.declared_m_s = 18.0
+    for i in range(20):
+        m.update(attitude(1000 + 50 * i), 5.0 + 0.05 * i)
+        m.update(position(1000 + 50 * i, 0.0, 0.9 * i), 5.0 + 0.05 * i)
+    assert m.late_s == pytest.approx(0.0, abs=0.02)
+    m.update(attitude(2000), 6.0 + late_s)
+    m.update(position(2000, 0.0, 18.0), 6.0 + late_s)
+    # The shortest delay may grow by 10 % of the time.
+    assert m.late_s == pytest.approx(0.9 * late_s, abs=0.02)
+    state = m.state(None, 6.0 + late_s)
+    assert state.time_s == pytest.approx(2.0 + extrapolated_s, abs=0.02)
+    assert state.north_m == pytest.approx(18.0 + 18.0 * extrapolated_s, abs=0.3)
 
 
 def test_indicated_airspeed_becomes_true_and_a_missing_one_is_replaced():

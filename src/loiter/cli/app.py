@@ -1,9 +1,7 @@
 """The commands, and `main`, which turns errors into one sentence and an exit status."""
 
-import os
 import sys
 from collections.abc import Sequence
-from contextlib import suppress
 from typing import Any, Literal
 
 from cyclopts import App, CycloptsError, Group, Parameter
@@ -12,7 +10,7 @@ import loiter
 from loiter.cli.arguments import prepared
 from loiter.cli.examples import epilogue, program_epilogue
 from loiter.cli.sentences import sentence
-from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR
+from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR, abandon_output
 from loiter.compiled import announce_with
 from loiter.errors import LinkFailed, LoiterError
 
@@ -96,9 +94,9 @@ app.command(
     help_epilogue=epilogue("guide"),
     help="""Guide a vehicle in flight onto the circle in least time, then hand it over to its own hold of the circle.
 
-First the vehicle is commanded to hold the circle by its own guidance, the fall-back circle. Then its bank is commanded many times a second: ArduPlane's in GUIDED, PX4's in OFFBOARD; the autopilot holds altitude and airspeed. Once the circle is held steadily, the vehicle confirms that it holds it by its own guidance, and nothing more is sent. The vehicle must be in flight: it is never armed, and never takes off or lands.
+First the vehicle is commanded to hold the circle by its own guidance, the fall-back circle. Then its bank is commanded many times a second: ArduPlane's in GUIDED, PX4's in OFFBOARD; the autopilot holds altitude and airspeed. Once the circle is held steadily, the vehicle confirms that it holds it by its own guidance, and nothing more is sent. The vehicle must be in flight, and it and the circle at least 30 m above home: it is never armed, and never takes off or lands.
 
-Guiding stops at once, and one sentence says why, if the link or the telemetry is lost, the pilot or a failsafe changes the mode, or at Ctrl-C; the vehicle then flies the fall-back circle, or what the pilot wants. Airspeed and bank limit are those of the autopilot's parameters unless options give them. docs/autopilots.md has the details.""",
+Before the first command a summary shows what is taken over and what happens if the link dies, and a question is asked; --yes answers it. Guiding stops at once, and one sentence says why, if the link or the telemetry is lost, the pilot or a failsafe changes the mode, another station commands, the altitude departs, or at Ctrl-C; the vehicle then flies the fall-back circle, or what the pilot wants. Airspeed and bank limit are those of the autopilot's parameters unless options give them. docs/autopilots.md has the details.""",
 )
 app.command(
     "loiter.cli.commands.fly:fly",
@@ -183,12 +181,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
     except (BrokenPipeError, SystemExit):
         # The reader of a pipe, such as `head`, has closed it: no error. In the help, rich raises SystemExit for it.
-        _abandon_output()
+        abandon_output()
         return 0
     except (LoiterError, CycloptsError, OSError) as error:
         print(f"loiter: {sentence(error)}", file=sys.stderr)  # noqa: T201
         if isinstance(error, OSError):
-            _abandon_output()
+            abandon_output()
         return LINK_FAILED if isinstance(error, LinkFailed) else USAGE_ERROR
     except KeyboardInterrupt as interrupt:
         # The message of a batch job says which parts are kept.
@@ -196,9 +194,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print(f"loiter: {interrupt}", file=sys.stderr)  # noqa: T201
         return INTERRUPTED
     return status or 0
-
-
-def _abandon_output() -> None:
-    # Otherwise the interpreter would fail again when it exits and flushes its buffers.
-    with suppress(OSError, ValueError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

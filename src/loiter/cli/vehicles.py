@@ -61,6 +61,7 @@ def guided(vehicle: GuideReport) -> dict[str, object]:
         if vehicle.state is None
         else {name: json_value(value) for name, value in vehicle.state._asdict().items()},
         "altitude_m": json_value(vehicle.altitude_m),
+        "height_above_home_m": json_value(vehicle.height_m),
         "airspeed_source": vehicle.airspeed_source.value,
         "commanded_bank_deg": json_value(vehicle.command_deg),
         "crosstrack_m": json_value(vehicle.crosstrack_m),

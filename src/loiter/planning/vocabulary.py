@@ -59,6 +59,8 @@ OPTIONS = {
     "system": "--system",
     "timeout_s": "--timeout",
     "period_s": "--every",
+    "yes": "--yes",
+    "accept_fly_away": "--accept-fly-away",
     "reports": "--reports",
     "send": "--send",
     "log": "--log",

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
-from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from math import isnan
 from pathlib import Path
+from queue import Empty, Queue
+from threading import Thread
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Group, Parameter
@@ -19,7 +22,8 @@ from loiter.cli.commands.mavlink import Connect, JsonLines, System, Timeout, con
 from loiter.cli.coordinates import latitude, longitude
 from loiter.cli.numbers import altitude, angle, metres, metres_per_second, one, several, turn_name
 from loiter.cli.options import PlacedOrbitOptions, WindOptions, output, scene, written_altitude
-from loiter.errors import InvalidArgument
+from loiter.cli.status import abandon_output
+from loiter.errors import InvalidArgument, LinkFailed
 from loiter.mavlink.missions.exchange import TIMEOUT_S
 from loiter.planning.model import TurnName, wind_from_velocity
 
@@ -29,8 +33,9 @@ if TYPE_CHECKING:
 # Winds below this, metres per second, and offsets below this, metres, are omitted: they would print as 0.
 LEAST_WIND_M_S, LEAST_OFFSET_M = 0.05, 0.05
 
-# Signals that end the program: the vehicle is commanded back to the fall-back circle first, as at Ctrl-C.
-ENDING_SIGNALS = ("SIGTERM", "SIGHUP")
+# Signals that end the program: the vehicle is commanded back to the fall-back circle first. Shells let programs that
+# they start in the background ignore SIGINT.
+ENDING_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
 
 
 vehicle_limits = Group("Aircraft: what is absent comes from the vehicle's parameters", sort_key=2)
@@ -117,6 +122,24 @@ def guide(
             help="Command nothing, and show what would be commanded. Only heartbeats and requests for telemetry and parameters are sent.",
         ),
     ] = False,
+    yes: Annotated[
+        bool,
+        Parameter(group=connection, help="Begin without a question after the summary: for scripts."),
+    ] = False,
+    accept_fly_away: Annotated[
+        bool,
+        Parameter(
+            group=connection,
+            help="Guide PX4 although it does not stay near if this program or the link dies: COM_OBL_RC_ACT is neither hold nor return.",
+        ),
+    ] = False,
+    resume: Annotated[
+        bool,
+        Parameter(
+            group=connection,
+            help="After a lost link begin anew if the vehicle is heard within a minute, still on its way to the circle: ArduPlane only.",
+        ),
+    ] = False,
     circle: GuidedOrbitOptions = GuidedOrbitOptions(),
     uav: GuidedVehicleOptions = GuidedVehicleOptions(),
     air: WindOptions = WindOptions(),
@@ -131,6 +154,8 @@ def guide(
     """Guide a vehicle in flight onto the circle by bank commands, then hand it over to its own hold."""
     if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
+    if not (yes or dry_run or sys.stdin.isatty()):
+        raise InvalidArgument("yes", "is needed where nobody can answer: standard input is not a terminal")
     air.check_declination()
     orbit, frame = circle.circle(None)
     assert frame is not None  # the circle is in degrees
@@ -147,6 +172,9 @@ def guide(
         altitude_m=written_altitude(uav.altitude),
         keep=keep,
         dry_run=dry_run,
+        accept_fly_away=accept_fly_away,
+        confirm=None if yes else _question(),
+        resume=resume,
         log=log,
     )
     with _ending_signals(), closing(reports):
@@ -157,11 +185,37 @@ def guide(
                     continue
                 report.write(*vehicle.notices, line(vehicle))
                 sys.stdout.flush()
+        except BrokenPipeError:
+            # The vehicle is commanded back, and the error says so.
+            abandon_output()
+            reports.throw(BrokenPipeError)
         except KeyboardInterrupt as interrupt:
             if str(interrupt):
                 raise
             # It came between two reports: the vehicle is commanded back, and the interrupt says so.
             reports.throw(KeyboardInterrupt)
+
+
+def _question() -> Callable[[], bool]:
+    """A function that asks whether to begin when it is first called, and returns whether the user has agreed.
+
+    The answer is read in the background: the vehicle is listened to meanwhile. Raises `LinkFailed` after a no.
+    """
+    answers: Queue[bytes] = Queue()
+    reader = Thread(target=lambda: answers.put(os.read(sys.stdin.fileno(), 1024)), daemon=True)
+
+    def agreed() -> bool:
+        if reader.ident is None:
+            sys.stderr.write("Begin? [y/N] ")
+            sys.stderr.flush()
+            reader.start()
+        with suppress(Empty):
+            if answers.get_nowait().strip().lower() not in (b"y", b"yes"):
+                raise LinkFailed("the summary was not confirmed")
+            return True
+        return False
+
+    return agreed
 
 
 @contextmanager
@@ -177,10 +231,9 @@ def _ending_signals() -> Iterator[None]:
 
 
 def line(vehicle: GuideReport) -> str:
-    """A report in a line: "12.0 s: joining counter-clockwise in 8.2 s; right, bank 44 of 45 deg; 0.3 m left; ..."."""
-    clock = f"{vehicle.time_s:6.1f} s"
-    parts = [_progress(vehicle), *_bank(vehicle), *_offset(vehicle), *_link(vehicle), *_estimates(vehicle)]
-    return f"{clock}: {'; '.join(parts)}"
+    """A report in a line: "  12.0 s: joining clockwise in 8.2 s; bank 44 of 45 deg; 600 m, 100 above home; ..."."""
+    parts = [_progress(vehicle), *_bank(vehicle), *_altitude(vehicle), *_offset(vehicle), *_wind(vehicle)]
+    return f"{vehicle.time_s:6.1f} s: {'; '.join(parts)}"
 
 
 def _progress(vehicle: GuideReport) -> str:
@@ -188,14 +241,23 @@ def _progress(vehicle: GuideReport) -> str:
         return str(vehicle.stage)
     turn = vehicle.turn.described
     if vehicle.stage in ("joining", "dry run"):
-        return f"{vehicle.stage}, {turn} in {vehicle.time_to_join_s:.1f} s"
-    return f"{vehicle.stage}, {turn}"
+        return f"{vehicle.stage} {turn} in {vehicle.time_to_join_s:.1f} s"
+    return f"{vehicle.stage} {turn}"
 
 
 def _bank(vehicle: GuideReport) -> list[str]:
+    """The measured and the commanded bank."""
     if vehicle.state is None or isnan(vehicle.command_deg):
         return []
-    return [f"{vehicle.phase}, bank {round(vehicle.state.bank_deg)}, commanded {round(vehicle.command_deg)} deg"]
+    return [f"bank {round(vehicle.state.bank_deg)} of {round(vehicle.command_deg)} deg"]
+
+
+def _altitude(vehicle: GuideReport) -> list[str]:
+    if isnan(vehicle.altitude_m):
+        return []
+    side = "above" if vehicle.height_m >= 0.0 else "below"
+    height = "" if isnan(vehicle.height_m) else f", {abs(round(vehicle.height_m))} {side} home"
+    return [f"{round(vehicle.altitude_m)} m{height}"]
 
 
 def _offset(vehicle: GuideReport) -> list[str]:
@@ -207,22 +269,15 @@ def _offset(vehicle: GuideReport) -> list[str]:
     if isnan(offset_m):
         return []
     side = sides[0] if offset_m > 0.0 else sides[1]
-    place = "the circle" if on_circle else "the path"
-    beside = side if on_circle else f"{side} of"
-    return [f"on {place}" if abs(offset_m) < LEAST_OFFSET_M else f"{abs(offset_m):.1f} m {beside} {place}"]
+    place = "circle" if on_circle else "path"
+    beside = side if on_circle else f"{side} of path"
+    return [f"on {place}" if abs(offset_m) < LEAST_OFFSET_M else f"{abs(offset_m):.1f} m {beside}"]
 
 
-def _link(vehicle: GuideReport) -> list[str]:
-    return [] if isnan(vehicle.age_s) else [f"{vehicle.rate_hz:.0f} Hz, {1e3 * vehicle.age_s:.0f} ms old"]
-
-
-def _estimates(vehicle: GuideReport) -> list[str]:
-    """The law's estimates: roll response, delay, turn rate over that of the bank, wind."""
+def _wind(vehicle: GuideReport) -> list[str]:
+    """The wind that the law estimates."""
     e = vehicle.estimates
     if e is None:
         return []
-    parts = [f"roll {e.roll.time_s:.2f} s, delay {e.delay_s:.2f} s, turns {e.turn_ratio:.2f}"]
     wind = wind_from_velocity(e.wind_east_m_s, e.wind_north_m_s)
-    if wind.speed_m_s >= LEAST_WIND_M_S:
-        parts.append(f"wind {wind.speed_m_s:.1f} m/s from {wind.from_deg:03.0f}")
-    return parts
+    return [f"wind {wind.speed_m_s:.1f} m/s from {wind.from_deg:03.0f}"] if wind.speed_m_s >= LEAST_WIND_M_S else []

@@ -36,6 +36,9 @@ LOSS_ACTIONS = {
     7: "disarm",
 }
 
+# Those of them after which PX4 circles or comes home: return, hold.
+SAFE_LOSS_ACTIONS = {3, 5}
+
 # The names of parameters, and those of them that must be known before guiding begins: one of each group.
 NAMES = {
     Autopilot.ARDUPILOT: [
@@ -48,6 +51,9 @@ NAMES = {
         "ARSPD_USE",
         BANK_LIMIT,
         "NAVL1_PERIOD",
+        "FENCE_ENABLE",
+        "RCMAP_ROLL",
+        "RCMAP_PITCH",
     ],
     Autopilot.PX4: [
         "FW_AIRSPD_TRIM",
@@ -57,6 +63,9 @@ NAMES = {
         "FW_PN_R_SLEW_MAX",
         "COM_OF_LOSS_T",
         "COM_OBL_RC_ACT",
+        "GF_ACTION",
+        "RC_MAP_ROLL",
+        "RC_MAP_PITCH",
     ],
 }
 NEEDED = {
@@ -65,8 +74,22 @@ NEEDED = {
 }
 # Those that are waited for while others are: later versions have them all.
 WANTED = {
-    Autopilot.ARDUPILOT: [{"RLL2SRV_TCONST"}, {"RLL2SRV_RMAX"}, {"NAVL1_PERIOD"}],
-    Autopilot.PX4: [{"FW_R_TC"}, {"FW_R_RMAX"}, {"COM_OBL_RC_ACT"}],
+    Autopilot.ARDUPILOT: [
+        {"RLL2SRV_TCONST"},
+        {"RLL2SRV_RMAX"},
+        {"NAVL1_PERIOD"},
+        {"FENCE_ENABLE"},
+        {"RCMAP_ROLL"},
+        {"RCMAP_PITCH"},
+    ],
+    Autopilot.PX4: [
+        {"FW_R_TC"},
+        {"FW_R_RMAX"},
+        {"COM_OBL_RC_ACT"},
+        {"GF_ACTION"},
+        {"RC_MAP_ROLL"},
+        {"RC_MAP_PITCH"},
+    ],
 }
 
 
@@ -74,7 +97,8 @@ class AutopilotSettings(NamedTuple):
     """The settings of an autopilot: indicated cruise airspeed, metres per second, and largest bank, degrees, or nan.
 
     `has_airspeed_sensor` is whether it uses an airspeed sensor, as far as its parameters tell. `loss_action` is what
-    PX4 does when setpoints stop.
+    PX4 does when setpoints stop, `flies_away` whether it then neither circles nor comes home. `fence` is what its
+    parameters say about a fence.
     """
 
     airspeed_m_s: float
@@ -82,6 +106,8 @@ class AutopilotSettings(NamedTuple):
     roll: Roll
     has_airspeed_sensor: bool = True
     loss_action: str = ""
+    flies_away: bool = False
+    fence: str = "unknown"
 
     @property
     def guided_bank_deg(self) -> float:
@@ -111,17 +137,26 @@ def _plane_settings(known: dict[str, float]) -> AutopilotSettings:
         known.get("ROLL_LIMIT_DEG", known.get("LIM_ROLL_CD", nan) / 100.0),
         _roll(known.get("RLL2SRV_TCONST", ROLL_TIME_S), known.get("RLL2SRV_RMAX", 0.0)),
         known.get("ARSPD_USE", 1.0) != 0.0,
+        fence=_fence(known.get("FENCE_ENABLE")),
     )
 
 
 def _px4_settings(known: dict[str, float]) -> AutopilotSettings:
     rates = [known.get(name, 0.0) for name in ("FW_R_RMAX", "FW_PN_R_SLEW_MAX")]
+    action = round(known.get("COM_OBL_RC_ACT", -1.0))
     return AutopilotSettings(
         known.get("FW_AIRSPD_TRIM", nan),
         known.get("FW_R_LIM", nan),
         _roll(known.get("FW_R_TC", ROLL_TIME_S), min((rate for rate in rates if rate > 0.0), default=0.0)),
-        loss_action=LOSS_ACTIONS.get(round(known.get("COM_OBL_RC_ACT", -1.0)), "what COM_OBL_RC_ACT says"),
+        loss_action=LOSS_ACTIONS.get(action, "what COM_OBL_RC_ACT says"),
+        flies_away=action not in SAFE_LOSS_ACTIONS,
+        fence=_fence(known.get("GF_ACTION")),
     )
+
+
+def _fence(setting: float | None) -> str:
+    """What FENCE_ENABLE or GF_ACTION says about a fence: 0 is none."""
+    return "unknown" if setting is None else "on" if setting else "off"
 
 
 def _roll(time_s: float, rate_deg_s: float) -> Roll:

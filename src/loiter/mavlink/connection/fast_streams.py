@@ -49,13 +49,16 @@ FAST = {
     Autopilot.ARDUPILOT: [ATTITUDE, GuideStream(33, 6), GuideStream(74, 11)],
     Autopilot.PX4: [ATTITUDE, GuideStream(33, 6), GuideStream(32, 6), GuideStream(74, 11)],
 }
-# HEARTBEAT, EXTENDED_SYS_STATE, the wind, the estimator's state and, for ArduPlane, the fence.
+# HEARTBEAT, EXTENDED_SYS_STATE, the wind, the estimator's state, the target of the own guidance, the sticks and, for
+# ArduPlane, the fence.
 SLOW = {
     Autopilot.ARDUPILOT: [
         GuideStream(0, 0, HEARTBEAT_HZ),
         GuideStream(245, 2, STATE_HZ),
         GuideStream(168, 12, WIND_HZ),
         GuideStream(193, 12, STATE_HZ),
+        GuideStream(87, 2, STATE_HZ),
+        GuideStream(65, 3, HEARTBEAT_HZ),
         GuideStream(162, 2, STATE_HZ),
     ],
     Autopilot.PX4: [
@@ -63,6 +66,8 @@ SLOW = {
         GuideStream(245, 2, STATE_HZ),
         GuideStream(231, 12, WIND_HZ),
         GuideStream(230, 12, STATE_HZ),
+        GuideStream(87, 2, STATE_HZ),
+        GuideStream(65, 3, HEARTBEAT_HZ),
     ],
 }
 

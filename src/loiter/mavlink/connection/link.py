@@ -6,6 +6,7 @@ A port is a pymavlink connection, of which only `recv_match`, `mav` and `close` 
 
 from __future__ import annotations
 
+import os
 import re
 import socket
 from collections.abc import Callable, Collection, Iterator
@@ -24,6 +25,13 @@ OUR_SYSTEM, OUR_COMPONENT = 250, 190
 # MAV_TYPE_ONBOARD_CONTROLLER without an autopilot, MAV_AUTOPILOT_INVALID: PX4 takes heartbeats of the type MAV_TYPE_GCS
 # for those of its ground station.
 OUR_TYPE, NO_AUTOPILOT = 18, 8
+
+# A program that guides a vehicle has a component id of its own, one of MAV_COMP_ID_USER1 to 75: autopilots do not
+# forward the heartbeats of a component to a line on which they have heard that component themselves.
+FIRST_GUIDE, GUIDES = 25, 75
+
+# MAV_TYPE_GCS; MAV_STATE_STANDBY and MAV_STATE_ACTIVE: a program that guides a vehicle is active once it commands.
+GROUND_STATION, STANDBY, ACTIVE = 6, 3, 4
 
 # Seconds between heartbeats, as usual in MAVLink.
 HEARTBEAT_S = 1.0
@@ -67,7 +75,8 @@ class Link:
     """A port with a vehicle at its other end; only its messages to us or to all are received.
 
     With `heartbeats` a heartbeat is sent every second. `on_message` is called with every message of the vehicle and the
-    time. `others` are the other vehicles whose heartbeats were received.
+    time. `others` are the other vehicles whose heartbeats were received, `ground_stations` the ids of ground stations;
+    `rivals` says whether another program guides a vehicle. `status` is the MAV_STATE in our heartbeats.
     """
 
     def __init__(
@@ -81,6 +90,9 @@ class Link:
         self.vehicle = vehicle
         self.on_message = on_message
         self.others: set[Vehicle] = set()
+        self.ground_stations: set[int] = set()
+        self.rivals = False
+        self.status = ACTIVE
         self._port = port
         self._heartbeats = heartbeats
         self._next_heartbeat = monotonic()
@@ -99,6 +111,11 @@ class Link:
         """Our system and component id."""
         return self._port.mav.srcSystem, self._port.mav.srcComponent
 
+    def become_guide(self) -> None:
+        """Take the component id of a program that guides, which does not command yet."""
+        self._port.mav.srcComponent = FIRST_GUIDE + os.getpid() % GUIDES
+        self.status = STANDBY
+
     def send(self, message: Any) -> None:
         """Send a message; raises `LinkLost` if the connection is lost."""
         _send(self._port, message, mavlink1=self.vehicle.mavlink1)
@@ -107,7 +124,7 @@ class Link:
         """The next message of one of the types, or None at the deadline; raises `LinkLost` like `send`."""
         while (now := monotonic()) < deadline:
             if self._heartbeats and now >= self._next_heartbeat:
-                self.send(heartbeat())
+                self.send(heartbeat(self.status))
                 self._next_heartbeat = now + HEARTBEAT_S
             message = _receive(self._port, min(deadline - now, HEARTBEAT_S))
             if message is not None and self._from_vehicle(message):
@@ -125,7 +142,18 @@ class Link:
     def _from_vehicle(self, message: Any) -> bool:
         if _is_heartbeat(message) and message.get_srcSystem() != self.vehicle.system:
             self.others.add(_vehicle(message, self.vehicle.component))
+        elif message.get_type() == "HEARTBEAT" and message.autopilot == NO_AUTOPILOT:
+            self._note_station(message)
         return _sender(message) == (self.vehicle.system, self.vehicle.component)
+
+    def _note_station(self, heartbeat: Any) -> None:
+        """Take a heartbeat of a ground station, or of another program that guides."""
+        system, component = _sender(heartbeat)
+        guides = system == OUR_SYSTEM and FIRST_GUIDE <= component < FIRST_GUIDE + GUIDES
+        if heartbeat.type == GROUND_STATION:
+            self.ground_stations.add(system)
+        elif guides and (system, component) != self.us and heartbeat.system_status == ACTIVE:
+            self.rivals = True
 
     def _to_us(self, message: Any) -> bool:
         our_system, our_component = self.us
@@ -233,9 +261,9 @@ def find_vehicle(
     raise LinkFailed(not_found(connection, system, vehicles.values(), timeout_s))
 
 
-def heartbeat() -> Any:
-    """Our heartbeat, which is neither that of a vehicle nor that of a ground station."""
-    return dialect().MAVLink_heartbeat_message(OUR_TYPE, NO_AUTOPILOT, 0, 0, 4, 3)
+def heartbeat(status: int = ACTIVE) -> Any:
+    """Our heartbeat with a MAV_STATE, which is neither that of a vehicle nor that of a ground station."""
+    return dialect().MAVLink_heartbeat_message(OUR_TYPE, NO_AUTOPILOT, 0, 0, status, 3)
 
 
 def dialect() -> Any:

@@ -12,6 +12,7 @@ from loiter.guidance.protocol import State
 from loiter.io.missions.items import Autopilot
 from loiter.mavlink.autopilots.settings import NAMES
 from loiter.mavlink.autopilots.steering import Steering
+from loiter.mavlink.autopilots.sticks import Sticks
 from loiter.mavlink.connection.command import long_command
 from loiter.mavlink.connection.fast_streams import FastStreams, fastest_hz
 from loiter.mavlink.connection.link import BAUD, Link
@@ -21,6 +22,7 @@ from loiter.mavlink.connection.round_trip import RoundTrip
 from loiter.mavlink.connection.status_text import StatusTexts
 from loiter.mavlink.guiding.measurements import Measurements
 from loiter.mavlink.guiding.monitor import Monitor
+from loiter.mavlink.guiding.own_target import OwnTarget
 from loiter.mavlink.missions.start import REQUEST_MESSAGE
 from loiter.mavlink.watching.telemetry import EXTENDED_SYS_STATE, Telemetry, WindSource
 from loiter.planning.model import Wind
@@ -52,6 +54,7 @@ class Contact:
         self.measurements = Measurements(frame)
         self.monitor = Monitor(vehicle, self.measurements, self.began)
         self.telemetry, self.texts = Telemetry(), StatusTexts()
+        self.own_target, self.sticks = OwnTarget(frame), Sticks()
         self.streams = FastStreams(self.autopilot, fastest_hz(connection, BAUD))
         self.parameters = Parameters(NAMES[self.autopilot], vehicle.autopilot)
         self.round_trip = RoundTrip()
@@ -61,6 +64,7 @@ class Contact:
         self.version = 0
         self._next_request = -inf
         link.on_message = self._on_message
+        link.become_guide()
 
     @property
     def name(self) -> str:
@@ -71,6 +75,11 @@ class Contact:
     def flies_px4(self) -> bool:
         """Whether the autopilot is PX4; otherwise it is ArduPilot."""
         return self.autopilot == Autopilot.PX4
+
+    @property
+    def home_altitude_m(self) -> float:
+        """The altitude of home above mean sea level, metres; nan if it is not known."""
+        return self.measurements.altitude_m - self.measurements.height_m
 
     def listen(self) -> float:
         """Receive messages until a new state is complete, or for `STEP_S`; returns the time."""
@@ -103,6 +112,7 @@ class Contact:
         """Send the requests that are due in flight: for streams that have become slow, and for the round trip time."""
         self.streams.request(self.link, now, self.measurements.rate_hz(now))
         self.round_trip.request(self.link, now)
+        self.monitor.unanswered_s = self.round_trip.unanswered_s()
 
     def request_heartbeat(self, now: float) -> None:
         """Request a heartbeat if that is due: it shows a change of mode sooner than the next regular one."""
@@ -131,6 +141,9 @@ class Contact:
         self.parameters.update(message)
         self.texts.update(message)
         self.round_trip.update(message, now)
+        self.own_target.update(message, now)
+        self.sticks.update(message, self.parameters.known)
+        self.monitor.stick_moved = self.sticks.moved
         if self.steering is not None:
             self.steering.update(message, now)
         if self.pending is not None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
+from contextlib import suppress
 from dataclasses import replace
-from math import inf
+from math import inf, isfinite
 from time import monotonic
 from typing import Any
 
@@ -17,15 +18,18 @@ from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign, sign_o
 from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD, PX4_OFFBOARD
 from loiter.mavlink.autopilots.steering import AccelerationSteering, RollSteering, Steering
 from loiter.mavlink.connection.command import hold_command, long_command
+from loiter.mavlink.connection.link import ACTIVE
 from loiter.mavlink.connection.pending_command import PendingCommand
 from loiter.mavlink.guiding.contact import STEP_S, Contact
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.monitor import StopReason
-from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, prepare
+from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, choose, prepare
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import SteadyHoldDetector
+from loiter.mavlink.guiding.summary import loss_consequence, summary
 from loiter.mavlink.missions.start import CUSTOM_MODE, DO_SET_MODE
 from loiter.planning.feasibility import RelativeWind, check_held, relative_velocity
+from loiter.planning.model import Turn
 
 # Seconds for a command to be confirmed: the fall-back circle, PX4's offboard mode, the hand-over.
 CONFIRM_S = 4.0
@@ -33,8 +37,12 @@ CONFIRM_S = 4.0
 # Seconds until PX4's change of mode is commanded again: it is refused until PX4 has noticed the setpoints.
 MODE_REPEAT_S = 0.25
 
-# Seconds to wait for a heartbeat before PX4's mode is changed.
-NEXT_HEARTBEAT_S = 0.3
+# Seconds to wait for a heartbeat before PX4's mode is changed, and before the first command.
+NEXT_HEARTBEAT_S, FIRST_HEARTBEAT_S = 0.3, 2.0
+
+# Seconds after an accepted circle in which the vehicle may still report the place to which it flew before; seconds for
+# which a report is awaited at an early end, and the age of one that still counts.
+TARGET_CHANGE_S, OBSERVE_S, RECENT_S = 1.0, 2.0, 1.0
 
 # The first guess of the age of measurements without that of the link, seconds, before the law has identified it.
 DELAY_S = 0.1
@@ -45,6 +53,13 @@ WIND_SLACK = 1.15
 
 # Seconds between checks of the wind, and steps of a law that is thrown away: they load and compile what it needs.
 WIND_S, WARM_STEPS = 1.0, 3
+
+
+# The law has twice the time of its first plan and this, seconds, until the circle is held steadily.
+HAND_OVER_S = 180.0
+
+# What a refused circle may mean.
+OUTSIDE_FENCE = "; its fence is on: is the circle outside?"
 
 
 class GuidingStopped(Exception):
@@ -58,19 +73,20 @@ class GuidingStopped(Exception):
 class Flight:
     """A guided flight; `stages` flies it, `stop` ends it early.
 
-    `record` is called with a report for every step.
+    `record` is called with a report for every step. The times of reports count from `began`.
     """
 
-    def __init__(self, contact: Contact, request: GuideRequest, period_s: float) -> None:
+    def __init__(self, contact: Contact, request: GuideRequest, period_s: float, began: float) -> None:
         self.orbit = request.orbit
         self.record: Callable[[GuideReport], None] = lambda report: None
-        self._contact, self._request, self._period_s = contact, request, period_s
+        self._contact, self._request, self._period_s, self._began = contact, request, period_s, began
         self._monitor, self._modes = contact.monitor, contact.monitor.modes
         self._setup: FlightSetup
         self._law: LoiterEntry
         self._steady = SteadyHoldDetector(self.orbit)
         # What has been done: whether the fall-back circle was commanded and accepted, whether banks are commanded.
         self._commanded = self._accepted = self._steered = False
+        self._accepted_at = inf
         # How often the vehicle was found to bank opposite to its commands.
         self._reversals = 0
         self._notices: list[str] = []
@@ -78,7 +94,8 @@ class Flight:
         self._stage = Stage.SHOWING if request.dry_run else Stage.FALL_BACK
         self._report = GuideReport(0.0, self._stage)
         self._last_step = contact.began
-        self._next_report, self._next_wind = contact.began + period_s, -inf
+        self._next_report, self._next_wind = inf, -inf
+        self._plan_report(contact.began)
 
     # The stages.
 
@@ -87,6 +104,7 @@ class Flight:
         self._begin(prepare(self._contact, self._request, timeout_s, only_vehicle=only_vehicle))
         if self._request.dry_run:
             yield from self._show()
+        yield from self._await_confirmation()
         yield from self._fall_back()
         if self._contact.flies_px4:
             yield from self._enter_offboard()
@@ -104,6 +122,36 @@ class Flight:
         self._law = self._new_law()
         self._contact.steering = self._new_steering()
 
+    def _await_confirmation(self) -> Generator[GuideReport, None, None]:
+        """Show the summary, wait until it is confirmed, and check that the mode is still the one that it names."""
+        contact, mode, confirm = self._contact, self._modes.name, self._request.confirm
+        self._notices += self._summary
+        self._stage = Stage.READY
+        yield self._take_report(monotonic())
+        confirmed_at = inf
+        while contact.monitor.heartbeat_arrived <= confirmed_at:
+            now = contact.listen()
+            self._check(now)
+            if self._modes.name != mode:
+                raise GuidingStopped(
+                    StopReason(f"the mode changed from {mode} to {self._modes.name} before the first command")
+                )
+            if confirmed_at == inf:
+                confirmed_at = now if confirm is None or confirm() else inf
+            elif now > confirmed_at + FIRST_HEARTBEAT_S:
+                raise LinkFailed(f"{contact.name} sends no heartbeat")
+            contact.request_in_flight(now)
+            contact.request_heartbeat(now)
+        # Meanwhile the vehicle has flown on; the altitude is the one that was confirmed.
+        request = self._request._replace(altitude_m=self._setup.altitude_m)
+        self._begin(choose(contact, request, self._setup.settings)._replace(notices=()))
+        self._stage = Stage.FALL_BACK
+        self._plan_report(monotonic())
+
+    @property
+    def _summary(self) -> tuple[str, ...]:
+        return summary(self._contact, self._setup, turn_given=self._request.orbit.turn != Turn.EITHER)
+
     def _new_law(self) -> LoiterEntry:
         p = self._setup
         delay_s = DELAY_S + self._contact.round_trip.seconds
@@ -120,6 +168,7 @@ class Flight:
     def _show(self) -> Generator[GuideReport, None, None]:
         """Show what would be commanded, until the generator is closed; nothing is commanded."""
         self._notices.append("Dry run: nothing is commanded; only telemetry and parameters are requested.")
+        self._notices += self._summary
         while True:
             now = self._contact.listen()
             self._check(now)
@@ -133,12 +182,13 @@ class Flight:
     def _fall_back(self) -> Generator[GuideReport, None, None]:
         """Command the fall-back circle, and wait until the vehicle has accepted it."""
         pending = self._contact.pending = PendingCommand(self._hold_command())
-        self._commanded = True
+        self._commanded, self._contact.link.status = True, ACTIVE
+        self._monitor.circle_altitude_m = self._setup.altitude_m
         self._modes.expect(self._hold_mode)
         # PX4 accepts the offboard mode only while setpoints arrive: they begin here.
         yield from self._await(pending, "hold the circle")
-        self._accepted = True
-        self._modes.accepted(monotonic())
+        self._accepted, self._accepted_at = True, monotonic()
+        self._modes.accepted(self._accepted_at)
 
     def _enter_offboard(self) -> Generator[GuideReport, None, None]:
         """Change PX4's mode to offboard, once a heartbeat has shown the hold: the pilot may have taken over.
@@ -163,7 +213,8 @@ class Flight:
         deadline = monotonic() + CONFIRM_S
         while not pending.accepted:
             if pending.final or (pending.refusal and monotonic() > deadline):
-                raise LinkFailed(f"{self._contact.name} refused to {action}: {pending.refusal}{self._texts}")
+                fence = OUTSIDE_FENCE if self._setup.settings.fence == "on" and not self._accepted else ""
+                raise LinkFailed(f"{self._contact.name} refused to {action}: {pending.refusal}{fence}{self._texts}")
             if monotonic() > deadline:
                 raise LinkFailed(f"{self._contact.name} did not answer the command to {action} in {CONFIRM_S:g} s")
             pending.send(self._contact.link, monotonic())
@@ -181,9 +232,14 @@ class Flight:
         self._contact.pending = None
         self._stage, self._steered = Stage.JOINING, True
         self._law = self._new_law()
-        self._last_step = monotonic() - STEP_S
+        began = monotonic()
+        limit_s, self._last_step = inf, began - STEP_S
         while not (self._steady.settled and not self._request.keep):
             self._step()
+            if limit_s == inf and not self._request.keep and isfinite(self._report.time_to_join_s):
+                limit_s = 2.0 * self._report.time_to_join_s + HAND_OVER_S
+            if monotonic() > began + limit_s:
+                raise GuidingStopped(StopReason(f"the circle was not held steadily within {limit_s:.0f} s"))
             if monotonic() >= self._next_report:
                 yield self._take_report(monotonic())
             self._check(self._contact.listen())
@@ -200,7 +256,25 @@ class Flight:
         self._notices.append(f"Handed over: {self._contact.name} holds the circle {turn} by its own guidance.")
         return self._take_report(monotonic())
 
-    # The end.
+    # A lost link, and the end.
+
+    def vehicle_returns(self, timeout_s: float) -> bool:
+        """Wait until a lost vehicle is heard again; returns whether it may be guided on. Nothing is commanded.
+
+        It must be ArduPlane that was steered, still in GUIDED, and report the circle as its target if it reports one.
+        """
+        if not self._steered or self._contact.flies_px4:
+            return False
+        lost_at = monotonic()
+        deadline, monitor, target = lost_at + timeout_s, self._monitor, self._contact.own_target
+        while monitor.heartbeat_arrived < lost_at and monotonic() < deadline:
+            self._contact.listen()
+        elsewhere = target.arrived > lost_at and target.difference(self.orbit, self._setup.altitude_m)
+        return monitor.heartbeat_arrived >= lost_at and self._modes.mode == GUIDED and not elsewhere
+
+    def request_again(self) -> GuideRequest:
+        """The request with which guiding begins anew: the same altitude and direction, without a question."""
+        return self._request._replace(orbit=self.orbit, altitude_m=self._setup.altitude_m, confirm=None)
 
     def stop(self, stop: StopReason) -> str:
         """Stop guiding: command the fall-back circle where that is allowed; returns the sentence that says why."""
@@ -212,19 +286,36 @@ class Flight:
                     return f"{stop.reason}: guiding has stopped, and {self._contact.name} flies the fall-back circle"
             except (LoiterError, GuidingStopped) as failure:
                 stop = StopReason(f"{stop.reason}, and then {failure}", ours=False)
-        return f"{stop.reason}: guiding has stopped, nothing more is sent, and {self._consequence}"
+        return f"{stop.reason}: guiding has stopped, nothing more is sent, and {self._consequence()}{self._texts}"
 
-    @property
     def _consequence(self) -> str:
-        """What the vehicle does by itself when nothing more is sent."""
-        name, mode = self._contact.name, self._modes.mode
-        if mode is not None and mode not in (GUIDED, OFFBOARD, HOLD):
-            return f"{name} flies in {self._modes.name}"
-        if not self._steered or mode == HOLD:
-            return f"{name} flies the fall-back circle" if self._accepted else f"{name} flies in {self._modes.name}"
-        if self._contact.flies_px4:
-            return f"PX4 follows COM_OBL_RC_ACT: {self._setup.settings.loss_action}"
-        return "ArduPlane keeps its bank for up to 3 s and then flies the fall-back circle"
+        """What the vehicle does when nothing more is sent: what it was observed to do, or is set to do."""
+        contact, mode = self._contact, self._modes.mode
+        lost = bool(self._monitor.silent(monotonic()))
+        if mode not in (GUIDED, OFFBOARD, HOLD) or not self._accepted:
+            return f"{contact.name} {'was last seen' if lost else 'flies'} in {self._modes.name}"
+        elsewhere = self._observe_elsewhere()
+        if elsewhere:
+            return f"{contact.name} flies in {self._modes.name} {elsewhere}"
+        if self._steered and self._modes.mode in (GUIDED, OFFBOARD):
+            return loss_consequence(contact, self._setup)
+        if elsewhere is None and self._modes.mode == HOLD and self._steered:
+            return f"{contact.name} flies in {self._modes.name} and does not report where"
+        return f"{contact.name} flies the fall-back circle"
+
+    def _observe_elsewhere(self) -> str | None:
+        """Where the vehicle flies by its own guidance if not on the circle, in words; None if it does not report that.
+
+        Listens for a while, if the link is alive; nothing is commanded.
+        """
+        contact, now = self._contact, monotonic()
+        began, target = now, contact.own_target
+        with suppress(LinkFailed):
+            while target.arrived < began and now < began + OBSERVE_S and not self._monitor.silent(now):
+                now = contact.listen()
+        if target.arrived < began - RECENT_S:
+            return None
+        return target.difference(self.orbit, self._setup.altitude_m)
 
     def _command_hold(self, *, measured: bool) -> bool:
         """Command the circle, and keep the vehicle steered until it has confirmed it; returns whether it has.
@@ -243,7 +334,7 @@ class Flight:
                 contact.request_heartbeat(monotonic())
             levelled = self._keep_steering(measured=measured, levelled=levelled)
             now = contact.listen()
-            if (stop := self._monitor.check(now)) and not stop.ours:
+            if (stop := self._reason(now)) and not stop.ours:
                 raise GuidingStopped(stop)
         if measured and self._steered:
             self._send_last()
@@ -304,10 +395,11 @@ class Flight:
         """Make and record the report of a step."""
         m, position = self._contact.measurements, self._steady.update(state)
         self._report = GuideReport(
-            time_s=now - self._contact.began,
+            time_s=now - self._began,
             stage=self._stage,
             state=state,
             altitude_m=m.altitude_m,
+            height_m=m.height_m,
             airspeed_source=m.airspeed(self._contact.reported_wind(), now)[1],
             phase=command.phase,
             time_to_join_s=command.time_to_join_s,
@@ -342,15 +434,41 @@ class Flight:
         return self._state
 
     def _check(self, now: float) -> None:
-        if stop := self._monitor.check(now):
+        if stop := self._reason(now):
             raise GuidingStopped(stop)
+
+    def _reason(self, now: float) -> StopReason | None:
+        """The reason to stop, or None."""
+        return self._monitor.check(now) or self._other_commander()
+
+    def _other_commander(self) -> StopReason | None:
+        """That another station or program commands the vehicle as well."""
+        contact, target = self._contact, self._contact.own_target
+        if contact.link.rivals:
+            return StopReason("another program guides the vehicle too", ours=False)
+        if contact.flies_px4 or target.arrived < self._accepted_at + TARGET_CHANGE_S or self._modes.mode != GUIDED:
+            return None
+        elsewhere = target.difference(self.orbit, self._setup.altitude_m)
+        return StopReason(f"another station has sent the vehicle {elsewhere}", ours=False) if elsewhere else None
 
     def _take_report(self, now: float) -> GuideReport:
         """The present report with the notices; the next one is due a period later."""
         self._next_report = max(self._next_report + self._period_s, now)
         notices, self._notices = tuple(self._notices), []
-        time_s = now - self._contact.began
-        return self._report._replace(time_s=time_s, stage=self._stage, state=self._state, notices=notices)
+        time_s = now - self._began
+        m = self._contact.measurements
+        return self._report._replace(
+            time_s=time_s,
+            stage=self._stage,
+            state=self._state,
+            altitude_m=m.altitude_m,
+            height_m=m.height_m,
+            notices=notices,
+        )
+
+    def _plan_report(self, now: float) -> None:
+        """Make the next report due at the next whole period."""
+        self._next_report = self._began + (int((now - self._began) / self._period_s) + 1) * self._period_s
 
     def _send_level(self) -> None:
         steering = self._contact.steering

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from time import monotonic
 from typing import NamedTuple
 
 from loiter.compiled import wind_solver
@@ -22,6 +23,10 @@ from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
 from loiter.planning.model import Orbit, Wind
 
 INTERRUPTED = StopReason("guiding was interrupted")
+OUTPUT_CLOSED = StopReason("standard output was closed")
+
+# Seconds for which a lost vehicle is awaited.
+RESUME_S = 60.0
 
 
 def guide(
@@ -39,6 +44,9 @@ def guide(
     altitude_m: float | None = None,
     keep: bool = False,
     dry_run: bool = False,
+    accept_fly_away: bool = False,
+    confirm: Callable[[], bool] | None = None,
+    resume: bool = False,
     log: str | Path | None = None,
 ) -> Generator[GuideReport, None, None]:
     """Guide a vehicle in flight onto a circle by bank commands, and hand it over to its own hold of that circle.
@@ -47,14 +55,22 @@ def guide(
     `system` and `component` are those of `upload`; `orbit` is a circle at rest in the local metres of `frame`. The
     true airspeed, metres per second, and the largest bank, degrees, are those of the autopilot's parameters unless they
     are given. `wind` is a first guess; without it that is the wind which the vehicle reports. `altitude_m` is the
-    altitude above mean sea level at which the circle is held, by default the present one.
+    altitude above mean sea level at which the circle is held, by default the present one; the vehicle and the circle
+    must be at least 30 m above home.
 
-    The vehicle must be in flight: it is neither armed nor made to take off or land. First it is commanded to hold the
-    circle by its own guidance, the fall-back circle. Then its bank is commanded: ArduPlane by SET_ATTITUDE_TARGET in
-    GUIDED, PX4 by SET_POSITION_TARGET_LOCAL_NED in OFFBOARD; the autopilot holds altitude and airspeed. When it has
-    held the circle for some seconds, it is handed over: it confirms that it holds the circle by its own guidance, and
-    nothing more is sent. With `keep` the circle is flown until the generator is closed. With `dry_run` nothing is
-    commanded: reports show what would be. `log` is a file, .csv or .parquet, for every step.
+    The vehicle must be in flight: it is neither armed nor made to take off or land. The first report, whose stage is
+    `READY`, comes before the first command; its notices are a summary of what will happen. `confirm`, if it is given,
+    is then called many times a second, and must return at once: the first command is sent when it returns True. PX4 is
+    refused if it would neither circle nor come home when the link dies, unless `accept_fly_away` is true. First it is
+    commanded to hold the circle by its own guidance, the fall-back circle. Then its bank is commanded: ArduPlane by
+    SET_ATTITUDE_TARGET in GUIDED, PX4 by SET_POSITION_TARGET_LOCAL_NED in OFFBOARD; the autopilot holds altitude and
+    airspeed. When it has held the circle for some seconds, it is handed over: it confirms that it holds the circle by
+    its own guidance, and nothing more is sent. With `keep` the circle is flown until the generator is closed. With
+    `dry_run` nothing is commanded: reports show what would be. `log` is a file, .csv or .parquet, for every step.
+
+    With `resume` a lost link does not end the flight at once: nothing is sent, and if within a minute the vehicle is
+    heard again, still in ArduPlane's GUIDED and on its way to the circle, guiding begins anew. PX4 has then left
+    OFFBOARD, as a pilot may have wanted.
 
     docs/autopilots.md lists what ends the flight early, and what the vehicle does then: at once it is commanded back to
     the fall-back circle, if the link is alive and neither the pilot nor a failsafe has changed its mode. `LinkFailed`
@@ -80,9 +96,11 @@ def guide(
         raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
     path = None if log is None else Path(file_path("log", log))
     check_log(path)
-    request = GuideRequest(orbit, frame, airspeed_m_s, max_bank_deg, wind, altitude_m, keep, dry_run)
+    request = GuideRequest(
+        orbit, frame, airspeed_m_s, max_bank_deg, wind, altitude_m, keep, dry_run, accept_fly_away, confirm
+    )
     target = _Target(connection, system, component, timeout_s)
-    return _guide(target, request, period_s, path)
+    return _guide(target, request, period_s, path, resume=resume)
 
 
 class _Target(NamedTuple):
@@ -95,21 +113,35 @@ class _Target(NamedTuple):
 
 
 def _guide(
-    target: _Target, request: GuideRequest, period_s: float, log: Path | None
+    target: _Target, request: GuideRequest, period_s: float, log: Path | None, *, resume: bool
 ) -> Generator[GuideReport, None, None]:
     # The compiled search in wind is loaded now, not while a vehicle flies.
     wind_solver.load()
     with open_link(*target, listen_s=0.0) as link:
-        flight = Flight(Contact(link, target.connection, request.frame), request, period_s)
+        began = monotonic()
+        flight = Flight(Contact(link, target.connection, request.frame), request, period_s, began)
         with step_log(log, lambda: flight.orbit) as flight.record, _without_garbage_collection():
             try:
-                yield from flight.stages(target.timeout_s, only_vehicle=target.system is None)
+                while True:
+                    try:
+                        yield from flight.stages(target.timeout_s, only_vehicle=target.system is None)
+                        return
+                    except GuidingStopped as stopped:
+                        if not (resume and stopped.stop.lost and flight.vehicle_returns(RESUME_S)):
+                            raise
+                    contact = Contact(link, target.connection, request.frame)
+                    again, record = flight.request_again(), flight.record
+                    flight = Flight(contact, again, period_s, began)
+                    flight.record = record
             except GuidingStopped as stopped:
                 raise LinkFailed(flight.stop(stopped.stop)) from None
             except LinkFailed as failure:
                 raise LinkFailed(flight.stop(StopReason(str(failure), ours=False))) from failure
             except KeyboardInterrupt:
                 raise KeyboardInterrupt(flight.stop(INTERRUPTED)) from None
+            except BrokenPipeError:
+                # The caller has thrown it.
+                raise LinkFailed(flight.stop(OUTPUT_CLOSED)) from None
             except BaseException:
                 flight.stop(INTERRUPTED)
                 raise

@@ -1,14 +1,15 @@
 """Measured states of a vehicle, assembled from its messages ATTITUDE, GLOBAL_POSITION_INT and VFR_HUD.
 
-A state has the time stamp of the newer of attitude and position, by the clock of the autopilot; the older one is
-extrapolated to it. Indicated airspeed becomes true airspeed by the density of standard air at the altitude.
+A state has the time stamp of the newer of attitude and position, by the clock of the autopilot, plus the time that it
+was under way longer than the fastest message: so its age is always the same. Both are extrapolated to that time.
+Indicated airspeed becomes true airspeed by the density of standard air at the altitude.
 """
 
 from __future__ import annotations
 
 from collections import deque
 from enum import StrEnum
-from math import atan2, cos, degrees, hypot, isfinite, nan, sin, tan
+from math import atan2, cos, degrees, hypot, inf, isfinite, nan, sin, tan
 from typing import Any
 
 from loiter.geo import LocalFrame
@@ -34,6 +35,14 @@ RESTARTED_S = 1.0
 # A position that differs from the dead reckoned one by more than this, metres, plus this share of the distance flown
 # since, is a jump: no aircraft flies it.
 JUMP_M, JUMP_SHARE = 30.0, 0.5
+
+
+# The least delay of messages may grow by this, seconds per second: links change, and an overloaded simulator is slower
+# than real time. A state is extrapolated over no more than this lateness, seconds.
+DELAY_GROWTH, LONGEST_EXTRAPOLATION_S = 0.1, 0.5
+
+# A rate of roll lasts no longer than this, seconds.
+LONGEST_ROLL_S = 0.15
 
 
 class AirspeedSource(StrEnum):
@@ -63,6 +72,7 @@ class Measurements:
         self.attitude_arrived = self.position_arrived = -1e9
         self.restarted = False
         self.jump_m = 0.0
+        self._fastest, self._fastest_at = inf, 0.0
         self.declared_m_s = nan
 
     def update(self, message: Any, now: float) -> None:
@@ -74,11 +84,13 @@ class Measurements:
             self._arrivals.append(now)
             self._unused.add(kind)
             self.attitude_arrived = now
+            self._note_delay(message, now)
         elif kind == "GLOBAL_POSITION_INT" and (message.lat or message.lon):
             self._check_clock(self._position, message)
             self._place(message)
             self._unused.add(kind)
             self.position_arrived = now
+            self._note_delay(message, now)
         elif kind == "VFR_HUD" and isfinite(message.airspeed):
             self._airspeed_m_s, self._airspeed_at = message.airspeed, now
         while self._arrivals and self._arrivals[0] <= now - RATE_S:
@@ -88,6 +100,12 @@ class Measurements:
     def arrived(self) -> float:
         """The time of arrival of the newest message of a state."""
         return max(self.attitude_arrived, self.position_arrived)
+
+    @property
+    def late_s(self) -> float:
+        """How much later than the fastest messages the newest measurement arrived, seconds, from its time stamp."""
+        stamps = [message.time_boot_ms for message in (self._attitude, self._position) if message is not None]
+        return max(self.arrived - self._fastest - max(stamps) / 1e3, 0.0) if stamps else 0.0
 
     @property
     def complete(self) -> bool:
@@ -110,6 +128,11 @@ class Measurements:
     def altitude_m(self) -> float:
         """The altitude above mean sea level, metres; nan if it is not known."""
         return nan if self._position is None else self._position.alt / 1e3
+
+    @property
+    def height_m(self) -> float:
+        """The height above home, metres; nan if it is not known."""
+        return nan if self._position is None else self._position.relative_alt / 1e3
 
     @property
     def place(self) -> tuple[float, float]:
@@ -141,7 +164,7 @@ class Measurements:
         if a is None or p is None or not isfinite(self._east_m):
             return None
         attitude_s, position_s = a.time_boot_ms / 1e3, p.time_boot_ms / 1e3
-        time_s = max(attitude_s, position_s)
+        time_s = max(attitude_s, position_s) + min(self.late_s, LONGEST_EXTRAPOLATION_S)
         if abs(attitude_s - position_s) > LARGEST_SKEW_S:
             return None
         rate, since_s, old_s = self.yaw_rate, time_s - position_s, time_s - attitude_s
@@ -155,17 +178,28 @@ class Measurements:
             self._east_m + speed * middle_east * since_s,
             self._north_m + speed * middle_north * since_s,
             wrapped(degrees(a.yaw + rate * old_s) + self._convergence_deg),
-            degrees(a.roll + _roll_rate(a) * old_s),
+            degrees(a.roll + _roll_rate(a) * min(old_s, LONGEST_ROLL_S)),
             speed * east,
             speed * north,
             self.airspeed(wind, now)[0],
         )
 
     @property
+    def is_far(self) -> bool:
+        """Whether a position has arrived that the frame does not reach."""
+        return self._position is not None and not isfinite(self._east_m)
+
+    @property
     def swapped(self) -> bool:
         """Whether the vehicle is too far from the circle, and would be near it with coordinates swapped."""
         last = self._position
         return last is not None and is_swapped(self._frame, last.lat / 1e7, last.lon / 1e7)
+
+    def _note_delay(self, message: Any, now: float) -> None:
+        """Compare the time from the stamp of a message to its arrival with the shortest so far."""
+        delay_s = now - message.time_boot_ms / 1e3
+        self._fastest = min(delay_s, self._fastest + DELAY_GROWTH * (now - self._fastest_at))
+        self._fastest_at = now
 
     def _check_clock(self, last: Any, message: Any) -> None:
         if last is not None and message.time_boot_ms < last.time_boot_ms - 1e3 * RESTARTED_S:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf, nan
 from typing import Any, NamedTuple
 
 from loiter.mavlink.autopilots.modes import CRITICAL, TERMINATION, ModeWatch
@@ -12,14 +13,28 @@ from loiter.mavlink.guiding.measurements import Measurements
 # within which some message must have arrived for the link to be alive.
 SILENT_S, STALE_S, ALIVE_S = 2.0, 1.0, 0.5
 
+# Measurements may be late by this, seconds, for this time, seconds; and the vehicle may leave our requests for its time
+# unanswered for this time, seconds.
+LATE_S, LATE_FOR_S, UNHEARD_S = 1.0, 0.5, 3.0
+
 # The least rate of measurements, per second, with some tolerance, and the seconds for which it may be lower.
 LEAST_HZ, SLOW_S = 4.5, 2.0
 
 # Seconds for which the estimator may report that it has no position, and for which the wind may be too strong.
 BAD_ESTIMATE_S, STRONG_WIND_S = 1.0, 3.0
 
+# Seconds for which the pilot may move a stick.
+STICK_S = 0.3
+
 # The bank may differ from the command by more than this, degrees, for this time, seconds.
 UNRESPONSIVE_DEG, UNRESPONSIVE_S = 25.0, 3.0
+
+# The altitude may depart by this, metres, from the nearest that it has been to that of the circle, for this time,
+# seconds.
+DEPARTED_M, DEPARTED_S = 25.0, 0.5
+
+# The least height above home, metres, of a vehicle that begins to be guided, of its circle, and in flight.
+LEAST_HEIGHT_M, LOWEST_HEIGHT_M = 30.0, 15.0
 
 # Flags of EKF_STATUS_REPORT and ESTIMATOR_STATUS: attitude, horizontal velocity and absolute position are needed; a
 # constant position means that the estimator has none.
@@ -30,12 +45,14 @@ class StopReason(NamedTuple):
     """A reason to stop, as the beginning of a sentence.
 
     `ours` is whether the vehicle may be commanded once more, back to the fall-back circle: not if the link is lost, and
-    not if the pilot or a failsafe has taken over. `measured` is whether its state is still known.
+    not if the pilot or a failsafe has taken over. `measured` is whether its state is still known. `lost` is whether
+    nothing is heard of the vehicle.
     """
 
     reason: str
     ours: bool = True
     measured: bool = True
+    lost: bool = False
 
 
 class ConditionTimer:
@@ -55,22 +72,27 @@ class ConditionTimer:
 
 
 class Monitor:
-    """Watches a vehicle and its link; `check` gives the first reason to stop."""
+    """Watches a vehicle and its link; `check` gives the first reason to stop.
+
+    `circle_altitude_m` is the altitude of the circle above mean sea level, metres, nan before it is commanded;
+    `unanswered_s` is how long the vehicle has not answered, seconds; `stick_moved` whether the pilot moves a stick.
+    """
 
     def __init__(self, vehicle: Vehicle, measurements: Measurements, began: float) -> None:
         self._vehicle, self._measurements = vehicle, measurements
         self.modes = ModeWatch(vehicle.autopilot)
         self.heartbeat: Any = None
+        self.heartbeat_arrived = -inf
         self.last_message = began
         self.wind_problem = ""
+        self.stick_moved = False
+        self.unanswered_s = 0.0
         self.command_deg = self.bank_deg = 0.0
+        self.circle_altitude_m, self._nearest_m = nan, inf
         self._estimator_ok = True
         self._fence_breached = self._grounded = False
-        self._bad, self._slow, self._windy, self._off = (
-            ConditionTimer(),
-            ConditionTimer(),
-            ConditionTimer(),
-            ConditionTimer(),
+        self._bad, self._slow, self._windy, self._off, self._departed, self._stick, self._late = (
+            ConditionTimer() for _ in range(7)
         )
 
     def update(self, message: Any, now: float) -> None:
@@ -78,7 +100,7 @@ class Monitor:
         self.last_message = now
         kind = message.get_type()
         if kind == "HEARTBEAT":
-            self.heartbeat = message
+            self.heartbeat, self.heartbeat_arrived = message, now
             self.modes.update(message)
         elif kind in ("EKF_STATUS_REPORT", "ESTIMATOR_STATUS"):
             flags = message.flags
@@ -99,13 +121,15 @@ class Monitor:
 
     def _taken_over(self, now: float) -> StopReason | None:
         if silent := self.silent(now):
-            return StopReason(silent, ours=False, measured=False)
+            return StopReason(silent, ours=False, measured=False, lost=True)
         if unexpected_mode := self.modes.unexpected_mode(now):
             return StopReason(unexpected_mode, ours=False)
         if self.heartbeat is not None and self.heartbeat.system_status >= TERMINATION:
             return StopReason("the autopilot has terminated the flight", ours=False)
         if self.heartbeat is not None and not self.heartbeat.base_mode & 128:
             return StopReason("the vehicle is disarmed", ours=False)
+        if self._stick.update(self.stick_moved, now) > STICK_S:
+            return StopReason("the pilot moves a stick", ours=False)
         if self._grounded:
             return StopReason("the vehicle reports that it is on the ground", ours=False)
         return None
@@ -115,10 +139,24 @@ class Monitor:
             return StopReason("the vehicle is outside its fence")
         if self.heartbeat is not None and self.heartbeat.system_status >= CRITICAL:
             return StopReason("the autopilot reports a failsafe")
+        if problem := self._altitude(now):
+            return problem
         if self._windy.update(bool(self.wind_problem), now) > STRONG_WIND_S:
             return StopReason(f"the circle cannot be held: {self.wind_problem}")
         if self._off.update(abs(self.command_deg - self.bank_deg) > UNRESPONSIVE_DEG, now) > UNRESPONSIVE_S:
             return StopReason(f"the vehicle does not follow the commanded bank, {self.command_deg:.0f} degrees")
+        return None
+
+    def _altitude(self, now: float) -> StopReason | None:
+        """That the vehicle is too low, or that its altitude departs from that of the circle."""
+        m, circle_m = self._measurements, self.circle_altitude_m
+        off_m = abs(m.altitude_m - circle_m)
+        self._nearest_m = min(self._nearest_m, off_m)
+        if self._departed.update(off_m > self._nearest_m + DEPARTED_M, now) > DEPARTED_S:
+            side = "above" if m.altitude_m > circle_m else "below"
+            return StopReason(f"the vehicle is at {m.altitude_m:.0f} m, {off_m:.0f} m {side} the circle")
+        if circle_m == circle_m and m.height_m < LOWEST_HEIGHT_M:
+            return StopReason(f"the vehicle is only {m.height_m:.0f} m above home", measured=False)
         return None
 
     def _unmeasured(self, now: float) -> StopReason | None:
@@ -135,6 +173,10 @@ class Monitor:
             return StopReason(f"no attitude arrived for {STALE_S:g} s", measured=False)
         if alive and now - m.position_arrived > STALE_S:
             return StopReason(f"no position arrived for {STALE_S:g} s", measured=False)
+        if self._late.update(m.late_s > LATE_S, now) > LATE_FOR_S:
+            return StopReason(f"the measurements arrive {m.late_s:.1f} s late", measured=False)
+        if self.unanswered_s > UNHEARD_S:
+            return StopReason(f"{self._vehicle.named} has answered nothing for {UNHEARD_S:g} s: it may not hear us")
         rate_hz = m.rate_hz(now)
         if self._slow.update(rate_hz < LEAST_HZ, now) > SLOW_S:
             return StopReason(f"only {rate_hz:.1f} measurements a second arrive, and {LEAST_HZ:.0f} are needed")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import isfinite
 from time import monotonic
@@ -16,12 +17,12 @@ from loiter.mavlink.autopilots.settings import AutopilotSettings, autopilot_sett
 from loiter.mavlink.connection.link import not_found
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.measurements import AirspeedSource
-from loiter.mavlink.guiding.monitor import LEAST_HZ
+from loiter.mavlink.guiding.monitor import LEAST_HEIGHT_M, LEAST_HZ
 from loiter.planning.compass import wrapped
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.solve import plan
 
-# Seconds to listen for a second vehicle: heartbeats come once a second.
+# Seconds to listen for other vehicles and stations: heartbeats come once a second.
 OTHERS_S = 1.1
 
 # Seconds for everything that is needed to arrive, and for PX4's version, without which the flight begins too.
@@ -42,6 +43,8 @@ class GuideRequest(NamedTuple):
     altitude_m: float | None
     keep: bool
     dry_run: bool
+    accept_fly_away: bool
+    confirm: Callable[[], bool] | None
 
 
 class FlightSetup(NamedTuple):
@@ -59,21 +62,30 @@ class FlightSetup(NamedTuple):
 def prepare(contact: Contact, request: GuideRequest, timeout_s: float, *, only_vehicle: bool) -> FlightSetup:
     """Wait until everything that is needed has arrived, and choose aircraft, altitude and direction.
 
-    `only_vehicle` is whether a second vehicle must be listened for. Raises `LinkFailed` where something does not
-    arrive, and for a vehicle that must not be guided; `InvalidArgument` where the options do not suit it.
+    `only_vehicle` is whether a second vehicle is refused. Raises `LinkFailed` where something does not arrive, and for
+    a vehicle that must not be guided; `InvalidArgument` where the options do not suit it.
     """
-    _await_data(contact, min(timeout_s, PREPARE_S), OTHERS_S if only_vehicle else 0.0)
+    _await_data(contact, min(timeout_s, PREPARE_S))
     if only_vehicle and contact.link.others:
         vehicles = {contact.link.vehicle, *contact.link.others}
         raise LinkFailed(not_found("the connection", None, vehicles, 0.0))
     if problem := refusal(contact.monitor.heartbeat, contact.extended):
         raise LinkFailed(f"{contact.name} cannot be guided: {problem}")
+    if contact.link.rivals:
+        raise LinkFailed(f"{contact.name} cannot be guided: another program guides it already")
     settings = autopilot_settings(contact.autopilot, contact.parameters.known)
+    if contact.flies_px4 and settings.flies_away and not (request.accept_fly_away or request.dry_run):
+        raise InvalidArgument("accept_fly_away", _fly_away_problem(settings))
+    return choose(contact, request, settings)
+
+
+def choose(contact: Contact, request: GuideRequest, settings: AutopilotSettings) -> FlightSetup:
+    """Choose aircraft, altitude and direction, for the present state; raises like `prepare`."""
     bank_deg = _bank_limit_deg(request, settings)
     airspeed, notices = _airspeed(contact, request, settings)
     contact.measurements.declared_m_s = airspeed
     aircraft = Aircraft(airspeed, max_bank_deg=bank_deg)
-    altitude_m = contact.measurements.altitude_m if request.altitude_m is None else request.altitude_m
+    altitude_m = _circle_altitude_m(contact, request)
     wind, state = request.wind or contact.reported_wind(), contact.state()
     assert state is not None  # it was waited for
     orbit = request.orbit
@@ -83,10 +95,18 @@ def prepare(contact: Contact, request: GuideRequest, timeout_s: float, *, only_v
     return FlightSetup(orbit, aircraft, settings, altitude_m, state, wind, notices)
 
 
-def _await_data(contact: Contact, timeout_s: float, listen_s: float) -> None:
-    """Request and receive until nothing is lacking, and at least for `listen_s` seconds."""
+def _fly_away_problem(settings: AutopilotSettings) -> str:
+    """What is wrong with PX4's action when setpoints stop, and what to do."""
+    lost = "is needed: if this program or the link dies, PX4 does not stay here but follows COM_OBL_RC_ACT"
+    return f"{lost}, {settings.loss_action}; set that parameter to 5 (hold) or 3 (return) instead"
+
+
+def _await_data(contact: Contact, timeout_s: float) -> None:
+    """Request and receive until nothing is lacking, and at least for `OTHERS_S` seconds."""
     now = contact.began
-    while (lacking := _missing_data(contact, now)) or now < contact.began + listen_s:
+    while (lacking := _missing_data(contact, now)) or now < contact.began + OTHERS_S:
+        if contact.measurements.is_far:
+            raise LinkFailed(f"{contact.name} {_far(contact)}")
         if silent := contact.monitor.silent(now):
             raise LinkFailed(silent)
         if lacking and now - contact.began > timeout_s:
@@ -106,10 +126,8 @@ def _missing_data(contact: Contact, now: float) -> str:
         return f"does not report its parameter {unknown[0]}"
     if not contact.parameters.done and not is_complete(contact.autopilot, contact.parameters.known):
         return "does not report its parameters"
-    if contact.state() is None and m.swapped:
-        return "is more than 100 km from the circle: are the circle's latitude and longitude swapped?"
     if contact.state() is None:
-        return "sends no position and attitude, or is more than 100 km from the circle"
+        return "sends no position and attitude"
     if m.rate_hz(now) < LEAST_HZ:
         return f"sends {m.rate_hz(now):.1f} measurements a second, and {LEAST_HZ:.0f} are needed"
     if contact.flies_px4 and not contact.telemetry.gap_s("LOCAL_POSITION_NED", now) < 1.0:
@@ -117,6 +135,36 @@ def _missing_data(contact: Contact, now: float) -> str:
     if contact.flies_px4 and not contact.version and now < contact.began + VERSION_S:
         return "does not report its version"
     return "" if contact.streams.settled else "does not answer requests for streams"
+
+
+def _far(contact: Contact) -> str:
+    """That the vehicle is out of the reach of the circle's frame."""
+    swapped = ": are the circle's latitude and longitude swapped?" if contact.measurements.swapped else ""
+    return f"is more than 100 km from the circle{swapped}"
+
+
+def _circle_altitude_m(contact: Contact, request: GuideRequest) -> float:
+    """The altitude of the circle above mean sea level, metres: the present one unless it is given.
+
+    Raises `LinkFailed` for a vehicle that is too low, and `InvalidArgument` for a circle that is.
+    """
+    m = contact.measurements
+    if m.height_m < LEAST_HEIGHT_M:
+        height = f"it is {m.height_m:.0f} m above home"
+        raise LinkFailed(f"{contact.name} cannot be guided: {height}, and must be at least {LEAST_HEIGHT_M:g} m above")
+    home_m, altitude_m = m.altitude_m - m.height_m, request.altitude_m
+    if altitude_m is None:
+        return m.altitude_m
+    if altitude_m >= home_m + LEAST_HEIGHT_M:
+        return altitude_m
+    side, off_m = ("above" if altitude_m >= home_m else "below"), abs(altitude_m - home_m)
+    problem = f"is {altitude_m:g}: {off_m:.0f} m {side} home, which is {home_m:.0f} m above mean sea level"
+    # A number that would be high enough as a height above home is probably meant as one.
+    if altitude_m >= LEAST_HEIGHT_M:
+        proposal = f"was {altitude_m:g} m above home meant? That is {altitude_m + home_m:.0f}"
+    else:
+        proposal = f"the lowest circle is {LEAST_HEIGHT_M:g} m above home, at {LEAST_HEIGHT_M + home_m:.0f}"
+    raise InvalidArgument("altitude_m", f"{problem}; {proposal}")
 
 
 def _bank_limit_deg(request: GuideRequest, settings: AutopilotSettings) -> float:
