@@ -451,6 +451,14 @@ def test_guiding_is_not_resumed_after_a_long_loss_or_when_another_commands(optio
     assert [message.command for message in vehicle.commands] == [192]
 
 
+def test_a_vehicle_that_must_not_be_guided_again_is_not_said_to_be_untouched():
+    outcome = guided(losing(GuidedPlane(), 10.0, event=lambda v: setattr(v, "home_m", 580.0)), resume=True)
+    assert outcome.end == (
+        "system 1 (ArduPilot) cannot be guided: it is 20 m above home, and must be at least 30 m above; "
+        "nothing more was commanded"
+    )
+
+
 def test_a_px4_is_not_resumed():
     outcome = guided(losing(OffboardPx4(), 10.0), resume=True)
     assert "guiding has stopped, nothing more is sent" in outcome.end

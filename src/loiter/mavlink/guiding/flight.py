@@ -73,11 +73,13 @@ class GuidingStopped(Exception):
 class Flight:
     """A guided flight; `stages` flies it, `stop` ends it early.
 
-    `record` is called with a report for every step. The times of reports count from `began`.
+    `record` is called with a report for every step. The times of reports count from `began`. `resumed` is whether an
+    earlier flight has already commanded the vehicle.
     """
 
     def __init__(self, contact: Contact, request: GuideRequest, period_s: float, began: float) -> None:
         self.orbit = request.orbit
+        self.resumed = False
         self.record: Callable[[GuideReport], None] = lambda report: None
         self._contact, self._request, self._period_s, self._began = contact, request, period_s, began
         self._monitor, self._modes = contact.monitor, contact.monitor.modes
@@ -279,7 +281,8 @@ class Flight:
     def stop(self, stop: StopReason) -> str:
         """Stop guiding: command the fall-back circle where that is allowed; returns the sentence that says why."""
         if not self._commanded:
-            return stop.reason if self._request.dry_run else f"{stop.reason}; nothing was commanded"
+            more = " more" if self.resumed else ""
+            return stop.reason if self._request.dry_run else f"{stop.reason}; nothing{more} was commanded"
         if stop.ours:
             try:
                 if self._command_hold(measured=stop.measured):

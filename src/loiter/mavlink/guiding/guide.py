@@ -132,7 +132,7 @@ def _guide(
                     contact = Contact(link, target.connection, request.frame)
                     again, record = flight.request_again(), flight.record
                     flight = Flight(contact, again, period_s, began)
-                    flight.record = record
+                    flight.record, flight.resumed = record, True
             except GuidingStopped as stopped:
                 raise LinkFailed(flight.stop(stopped.stop)) from None
             except LinkFailed as failure:
