@@ -82,6 +82,8 @@ ONCE_CERTAIN = [
         "(X, sqrt((R - 1.25) * (R - 1.25)) - R + 2.25)",
     ),
     ("lemma 5", extremals, "lrl", "max(D, 0.0)", "max(D, 0.001)"),
+    ("lemma 5", switching_curves, "switching_abscissa", "excess >= 0.0", "excess != 0.0"),
+    ("lemma 5", switching_curves, "switching_abscissa", " or A + sqrt(B2) <= 0.0", ""),
     ("theorem 2 c", angles, "total_angle", "fold_half_turn(third, halves)", "fold_half_turn(third, 0.0)"),
     ("theorem 2 c", angles, "fold_half_turn", "cross < 0.0 or", "cross < 0.0 and dot < 0.0 or"),
     ("theorem 2 c", angles, "angle", "turned + TWO_PI if turned < 0.0 else turned + 0.0", "turned"),
