@@ -102,6 +102,7 @@ ONCE_CERTAIN = [
     ("theorem 2 f", words, "opposed", "-u", "u"),
     ("theorem 2 g", synthesis, "drop_short_pieces", "t1 + t3", "t1"),
     ("theorem 2 g", synthesis, "drop_short_pieces", "t2 <= short", "t2 <= no_angle"),
+    ("theorem 2 g", synthesis, "drop_short_pieces", "t1 + t3, 0.0, 0.0", "t1 + t3, 0.25, 0.0"),
     ("theorem 2 g", synthesis, "flown_entry", "length_tolerance / 3.0", "length_tolerance"),
     ("theorem 2 i", synthesis, "first_control", "-maneuver.side", "maneuver.side"),
 ]
