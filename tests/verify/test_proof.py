@@ -82,6 +82,8 @@ ONCE_CERTAIN = [
         "(X, sqrt((R - 1.25) * (R - 1.25)) - R + 2.25)",
     ),
     ("lemma 5", extremals, "lrl", "max(D, 0.0)", "max(D, 0.001)"),
+    ("lemma 5", switching_curves, "switching_abscissa", "excess >= 0.0", "excess != 0.0"),
+    ("lemma 5", switching_curves, "switching_abscissa", " or A + sqrt(B2) <= 0.0", ""),
     ("theorem 2 c", angles, "total_angle", "fold_half_turn(third, halves)", "fold_half_turn(third, 0.0)"),
     ("theorem 2 c", angles, "fold_half_turn", "cross < 0.0 or", "cross < 0.0 and dot < 0.0 or"),
     ("theorem 2 c", angles, "angle", "turned + TWO_PI if turned < 0.0 else turned + 0.0", "turned"),
@@ -100,6 +102,7 @@ ONCE_CERTAIN = [
     ("theorem 2 f", words, "opposed", "-u", "u"),
     ("theorem 2 g", synthesis, "drop_short_pieces", "t1 + t3", "t1"),
     ("theorem 2 g", synthesis, "drop_short_pieces", "t2 <= short", "t2 <= no_angle"),
+    ("theorem 2 g", synthesis, "drop_short_pieces", "t1 + t3, 0.0, 0.0", "t1 + t3, 0.25, 0.0"),
     ("theorem 2 g", synthesis, "flown_entry", "length_tolerance / 3.0", "length_tolerance"),
     ("theorem 2 i", synthesis, "first_control", "-maneuver.side", "maneuver.side"),
 ]

@@ -112,14 +112,18 @@ class Field:
             if (root * root - square).is_zero:
                 return self.size(root)
         product = self.reduced(square.num * square.den)
-        if not self.proofs.of(product) <= NEVER_NEGATIVE:
+        possible = square.signs & self.proofs.of(product)
+        if not possible <= NEVER_NEGATIVE:
             raise NotProved("a root of a number that may be negative")
-        root = self._polynomial_root(product) or self._new_root(product)
+        root = self._polynomial_root(product) or self._new_root(product, possible)
         return self.size(root / Expression(self, square.den, self.context.constant(1)))
 
     def size(self, expression: Expression) -> Expression:
         """The absolute value of an expression whose sign is known."""
-        return self.greater(expression, -expression, "the sign of a root is not the same everywhere")
+        possible = expression.signs
+        if not (possible <= NEVER_NEGATIVE or possible <= NEVER_POSITIVE):
+            raise NotProved("the sign of a root is not the same everywhere")
+        return expression if possible <= NEVER_NEGATIVE else -expression
 
     def greater(
         self, a: Expression, b: Expression, failure: str = "a maximum is not the same everywhere"
@@ -146,11 +150,11 @@ class Field:
             found = found * Expression(self, base ** (power // 2), self.context.constant(1))
         return found
 
-    def _new_root(self, polynomial: Any) -> Expression:
+    def _new_root(self, polynomial: Any, possible: Possible) -> Expression:
         if polynomial not in self.squares:
             self.squares.append(polynomial)
             root = self.generators[self.variables + len(self.squares) - 1]
-            self.proofs.learn(root, self.proofs.of(polynomial))
+            self.proofs.learn(root, possible)
         generator = self.generators[self.variables + self.squares.index(polynomial)]
         return Expression(self, generator, self.context.constant(1))
 

@@ -6,6 +6,7 @@ Names are those of the text: s = sin alpha, c = cos alpha, q = w/s, and the swit
 from __future__ import annotations
 
 from itertools import product
+from math import isnan
 from typing import NamedTuple
 
 from loiter.kernel import extremals as kernel
@@ -15,7 +16,15 @@ from loiter.verify.proof.arrivals import CASES, check_crossing, check_word, rest
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.exact_paths import Point, SnappedArcs, exact, flown, is_rotation, squared, start_at
 from loiter.verify.proof.identities import check_end, require, rotation_about, variables, zero
-from loiter.verify.proof.sign_proofs import NEVER_NEGATIVE, NOT_ZERO, POSITIVE, ZERO, Possible
+from loiter.verify.proof.sign_proofs import (
+    NEGATIVE,
+    NEVER_NEGATIVE,
+    NEVER_POSITIVE,
+    NOT_ZERO,
+    POSITIVE,
+    ZERO,
+    Possible,
+)
 
 
 class Switches(NamedTuple):
@@ -78,7 +87,7 @@ def kernel_lrl() -> Certainty:
     for left, (rest, spread) in product((-1.0, 1.0), ((POSITIVE, NEVER_NEGATIVE), (ZERO, POSITIVE))):
         lrl_on(left, rest, spread)
         cases += 1
-    return Certainty(cases + curve(), 0)
+    return Certainty(cases + curve() + off_curve(), 0)
 
 
 def lrl_on(left: float, rest: Possible, spread: Possible) -> None:
@@ -146,6 +155,30 @@ def curve() -> int:
     (abscissa,) = exact(field, switching_curves.switching_abscissa, known=[root, c / s])
     zero("the switching curve", abscissa(y, R) - x)
     return 1
+
+
+def off_curve() -> int:
+    """`switching_abscissa` is nan where a root does not exist, or y sqrt(8/(A + B) - 1); the number of cases."""
+    cases = 0
+    signs = (NEGATIVE, NEVER_NEGATIVE), (NEVER_POSITIVE, POSITIVE), (NEGATIVE, NEVER_NEGATIVE)
+    for square, total, excess in product(*signs):
+        y, R, field = variables("y R")
+        field.assume(R - 1.0, NEVER_NEGATIVE)
+        K = R * (R + 2.0)
+        B2, A = y * y + 3.0 * K * y + 0.25 * K * K, 3.0 * y + 0.5 * K
+        field.assume(B2, square)
+        if square != NEGATIVE:
+            field.assume(A + field.sqrt(B2), total)
+            field.assume(8.0 - A - field.sqrt(B2), excess)
+        (abscissa,) = exact(field, switching_curves.switching_abscissa)
+        found = abscissa(y, R)
+        if (square, total, excess) == (NEVER_NEGATIVE, POSITIVE, NEVER_NEGATIVE):
+            root = field.sqrt(8.0 / (A + field.sqrt(B2)) - 1.0)
+            zero("the switching curve", found - y * root)
+        else:
+            require(isinstance(found, float) and isnan(found), "the switching curve does not end where it should")
+        cases += 1
+    return cases
 
 
 def rl_bound() -> Certainty:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -134,8 +135,10 @@ def dropped() -> int:
 
 def polynomial_of(value: Any, signs: Signs) -> Any:
     """The polynomial of a quantity or a number."""
-    zero_ = next(iter(signs.table.deciding.values())) * 0
-    return value.polynomial if isinstance(value, Quantity) else zero_ + int(value)
+    if isinstance(value, Quantity):
+        return value.polynomial
+    exact = Fraction(value)
+    return next(iter(signs.table.deciding.values())) * 0 + flint().fmpq(exact.numerator, exact.denominator)
 
 
 def left_after(pieces: list[tuple[int, Any]], lengths: Lengths) -> list[tuple[int, Any]]:
