@@ -154,22 +154,23 @@ def guide(
     """Guide a vehicle in flight onto the circle by bank commands, then hand it over to its own hold."""
     if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
-    if not (yes or dry_run or sys.stdin.isatty()):
-        raise InvalidArgument("yes", "is needed where nobody can answer: standard input is not a terminal")
     air.check_declination()
     orbit, frame = circle.circle(None)
     assert frame is not None  # the circle is in degrees
+    wind, altitude_m = None if air.wind is None else air.moving_air, written_altitude(uav.altitude)
+    if not (yes or dry_run or sys.stdin.isatty()):
+        raise InvalidArgument("yes", "is needed where nobody can answer: standard input is not a terminal")
     reports = loiter.mavlink.guide(
         connect,
         orbit,
         frame,
         airspeed_m_s=uav.airspeed,
         max_bank_deg=uav.bank,
-        wind=None if air.wind is None else air.moving_air,
+        wind=wind,
         system=system,
         period_s=every,
         timeout_s=timeout,
-        altitude_m=written_altitude(uav.altitude),
+        altitude_m=altitude_m,
         keep=keep,
         dry_run=dry_run,
         accept_fly_away=accept_fly_away,
