@@ -163,10 +163,10 @@ def test_the_hooks_use_the_versions_of_the_tests(name):
     assert revisions[name] == f"v{pinned[1]}"
 
 
-def test_a_bare_python_runs_the_examples_of_readme():
+def test_a_bare_python_runs_the_examples_of_the_overview():
     """The script that tries wheels; with this Python."""
     done = subprocess.run(
-        [sys.executable, ROOT / "tests/documents/examples.py", ROOT / "README.md"],
+        [sys.executable, ROOT / "tests/documents/examples.py", ROOT / "docs/overview.md"],
         capture_output=True,
         text=True,
         timeout=300,

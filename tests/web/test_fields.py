@@ -175,7 +175,11 @@ def refused(page):
     [
         ("airspeed", "0", "Airspeed is 0.0: it must be a positive, finite number of metres per second"),
         ("limit", "95", "Bank limit is 95.0: "),
-        ("circle-radius", "-80", "Radius of the circle is -80.0: it must be a positive, finite number of metres"),
+        (
+            "circle-radius",
+            "-80",
+            "Radius of the circle is -80.0: it must be positive; the turn ccw holds counter-clockwise",
+        ),
         ("circle-radius", "40", "Orbit radius 40 m is tighter than the aircraft can turn"),
     ],
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from http import HTTPStatus
+from math import isfinite
 from typing import Any, NamedTuple
 
 from fastapi import FastAPI, Request
@@ -142,7 +143,10 @@ def _library_error(request: Request, error: Exception) -> Response:
     detail, path = sentence_and_path(error)
     place = {"pointer": f"#/{path}"} if request.method == "POST" else {"parameter": _parameter(request, path)}
     errors = [{"detail": detail, **place}] if path else []
-    fitted_radius_m = error.fitted_radius_m if isinstance(error, RadiusTooSmall) else None
+    # Next to the largest double the radius may be infinite, which JSON cannot say.
+    fitted_radius_m = None
+    if isinstance(error, RadiusTooSmall) and isfinite(error.fitted_radius_m):
+        fitted_radius_m = error.fitted_radius_m
     return problem(
         status,
         detail,
