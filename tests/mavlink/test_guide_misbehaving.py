@@ -610,29 +610,29 @@ def test_a_closed_generator(kind):
     falls_back(outcome)
 
 
-def test_a_vehicle_far_away():
-    class Far(GuidedPlane):
+def plane_at(latitude_deg, longitude_deg):
+    """A plane that reports to be at a place."""
+
+    class Elsewhere(GuidedPlane):
         def stream(self, number, now):
             if number == 33:
-                place = round(50.0 * 1e7), round(8.0 * 1e7), 600_000, 100_000
+                place = round(latitude_deg * 1e7), round(longitude_deg * 1e7), 600_000, 100_000
                 self.transmit_safe(mavlink.MAVLink_global_position_int_message(self.boot_ms(now), *place, 0, 0, 0, 0))
             else:
                 super().stream(number, now)
 
-    far = Far()
+    return Elsewhere()
+
+
+def test_a_vehicle_far_away():
+    far = plane_at(50.0, 8.0)
     ended(guided(far), "is more than 100 km from the circle")
     assert far.commands == []
 
 
-def test_a_circle_whose_latitude_and_longitude_are_swapped():
-    class Swapped(GuidedPlane):
-        def stream(self, number, now):
-            if number == 33:
-                place = round(8.0 * 1e7), round(47.0 * 1e7), 600_000, 100_000
-                self.transmit_safe(mavlink.MAVLink_global_position_int_message(self.boot_ms(now), *place, 0, 0, 0, 0))
-            else:
-                super().stream(number, now)
-
-    vehicle = Swapped()
-    ended(guided(vehicle), "are the circle's latitude and longitude swapped")
-    assert vehicle.commands == []
+def test_a_circle_whose_latitude_and_longitude_are_swapped_is_refused_at_once():
+    swapped = plane_at(8.0, 47.0)
+    outcome = guided(swapped)
+    ended(outcome, "are the circle's latitude and longitude swapped")
+    assert outcome.ended_at < 1.5
+    assert swapped.commands == []

@@ -352,20 +352,6 @@ def test_a_refused_circle_where_the_fence_is_on(result):
 # Time.
 
 
-def test_a_circle_on_the_other_side_of_the_earth_is_refused_at_once():
-    class Swapped(GuidedPlane):
-        def stream(self, number, now):
-            if number == 33:
-                place = round(8.0 * 1e7), round(47.0 * 1e7), 600_000, 100_000
-                self.transmit_safe(mavlink.MAVLink_global_position_int_message(self.boot_ms(now), *place, 0, 0, 0, 0))
-            else:
-                super().stream(number, now)
-
-    outcome = guided(Swapped())
-    assert "are the circle's latitude and longitude swapped" in outcome.end
-    assert outcome.ended_at < 1.5
-
-
 def delayed(extra_s, since_s=JOINING_S, until_s=math.inf):
     """A port whose packets from the vehicle take longer during some time."""
 

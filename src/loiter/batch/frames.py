@@ -8,7 +8,7 @@ import pyarrow as pa
 
 from loiter.batch.answers import added_columns
 from loiter.batch.tables.columns import Columns, SharedValues, carried_columns, columns
-from loiter.batch.tables.mapping import KNOWN, TURN
+from loiter.batch.tables.mapping import TURN, mapped_columns
 from loiter.errors import InvalidArgument
 
 # Rows of an Arrow table that are solved at a time.
@@ -55,14 +55,10 @@ def _plan_pandas(frame: Any, options: SharedValues, tolerance_m: float) -> Any:
 
 
 def _known_columns(frame: Any, options: SharedValues) -> pa.RecordBatch:
-    """The columns that may hold quantities; of one that is mapped with its unit, "x [m]", the name may begin so."""
-    known = [
-        name
-        for name in frame.columns
-        if name in KNOWN or any(mapped.startswith(str(name)) for mapped in options.mapped.values())
-    ]
+    """The columns that hold quantities; others need not be of types that Arrow knows."""
+    held = {column.name for column in mapped_columns(list(map(str, frame.columns)), options.mapped).values()}
     try:
-        return pa.RecordBatch.from_pandas(frame[known], preserve_index=False)
+        return pa.RecordBatch.from_pandas(frame[[n for n in frame.columns if n in held]], preserve_index=False)
     except pa.ArrowException as error:
         raise InvalidArgument("frame", f"has a column of mixed types: {error}") from error
 

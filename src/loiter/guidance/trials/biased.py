@@ -14,7 +14,7 @@ import numpy as np
 from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.simulators.telemetry import Telemetry
-from loiter.guidance.trials.campaign import at_least
+from loiter.guidance.trials.campaign import random_trials
 from loiter.guidance.trials.varied import VariedTrial
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.kernel.hold import tightest_radius
@@ -49,9 +49,7 @@ def biased_trials(runs: int, seed: int) -> list[VariedTrial]:
 
     Raises `InvalidArgument` for fewer than one run and a seed below 0.
     """
-    at_least(1, "runs", runs)
-    at_least(0, "seed", seed)
-    return [_biased_trial(np.random.default_rng((seed, i))) for i in range(runs)]
+    return random_trials(_biased_trial, runs, seed)
 
 
 def _biased_trial(random: Generator) -> VariedTrial:

@@ -7,7 +7,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from math import cos, degrees, pi, sin, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -31,6 +31,8 @@ from loiter.planning.solve import plan
 
 if TYPE_CHECKING:
     from numpy.random import Generator
+
+AnyTrial = TypeVar("AnyTrial", bound="Trial")
 
 
 @dataclass(frozen=True)
@@ -109,14 +111,21 @@ def trials(
     that can be held in the wind; in still air that is the turn radius. The start is within `reach` radii of the centre,
     on any heading. Raises `InvalidArgument` for fewer than one run and a seed below 0, and the same as `plan`.
     """
+
+    def draw(random: Generator) -> Trial:
+        return Trial(random_entry(random, aircraft, wind, radii, reach), int(random.integers(2**63)))
+
+    return random_trials(draw, runs, seed)
+
+
+def random_trials(draw: Callable[[Generator], AnyTrial], runs: int, seed: int) -> list[AnyTrial]:
+    """Trials that a function draws; trial i depends on the seed and on i alone, not on `runs`.
+
+    Raises `InvalidArgument` for fewer than one run and a seed below 0.
+    """
     at_least(1, "runs", runs)
     at_least(0, "seed", seed)
-    return [_trial(seed, i, aircraft, wind, radii, reach) for i in range(runs)]
-
-
-def _trial(seed: int, i: int, aircraft: Aircraft, wind: Wind | None, radii: tuple[float, float], reach: float) -> Trial:
-    random = np.random.default_rng((seed, i))
-    return Trial(random_entry(random, aircraft, wind, radii, reach), int(random.integers(2**63)))
+    return [draw(np.random.default_rng((seed, i))) for i in range(runs)]
 
 
 def random_entry(

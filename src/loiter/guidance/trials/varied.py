@@ -9,8 +9,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from loiter.guidance.laws.l1 import L1, advised_period_s
 from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.laws.tangent import Tangent
@@ -20,7 +18,7 @@ from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.simulators.telemetry import Telemetry, WithTelemetry
-from loiter.guidance.trials.campaign import Trial, at_least, random_entry
+from loiter.guidance.trials.campaign import Trial, random_entry, random_trials
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.planning.model import Aircraft, Wind
 
@@ -63,9 +61,7 @@ def varied_trials(runs: int, seed: int) -> list[VariedTrial]:
 
     Raises `InvalidArgument` for fewer than one run and a seed below 0.
     """
-    at_least(1, "runs", runs)
-    at_least(0, "seed", seed)
-    return [_varied_trial(np.random.default_rng((seed, i))) for i in range(runs)]
+    return random_trials(_varied_trial, runs, seed)
 
 
 def _varied_trial(random: Generator) -> VariedTrial:
