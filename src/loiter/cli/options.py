@@ -34,7 +34,7 @@ from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
 from loiter.geo.frame import degrees_of
 from loiter.geo.placed import PlacedProblem
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind, circle_radius_m
 from loiter.planning.problem import Problem
 from loiter.plot import files
 from loiter.plot.sizes import PictureFormat
@@ -156,7 +156,7 @@ class OrbitOptions:
             radius, turn = own_radius or radius, own_turn or turn
         if radius is None:
             raise InvalidArgument("orbit_from", "has a loiter without a radius, which --params with a radius gives")
-        positive("origin radius_m", radius, "metres")
+        circle_radius_m("origin radius_m", radius)
         return Orbit(0.0, 0.0, radius, self._turn(turn), *self.orbit_velocity), LocalFrame(lat, lon)
 
     @property

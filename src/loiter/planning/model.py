@@ -128,6 +128,14 @@ class Aircraft:
 TURN_LIMITS = {"max_bank_deg": "degrees", "min_turn_radius_m": "metres", "max_turn_rate_deg_s": "degrees per second"}
 
 
+def circle_radius_m(argument: str, radius_m: object) -> float:
+    """The radius of a circle as a float, metres; raises `InvalidArgument` unless it is positive and finite."""
+    # Autopilots mean counter-clockwise by a negative one.
+    if -inf < as_float(radius_m) < 0.0:
+        raise InvalidArgument(argument, f"is {radius_m}: it must be positive; the turn ccw holds counter-clockwise")
+    return positive(argument, radius_m, "metres")
+
+
 @dataclass(frozen=True)
 class Orbit:
     """The holding circle: its centre (metres, local east and north), its radius and the requested direction.
@@ -159,12 +167,7 @@ class Orbit:
 
     def __post_init__(self) -> None:
         east_m, north_m = number("orbit east_m", self.east_m, "metres"), number("orbit north_m", self.north_m, "metres")
-        # The sign with which autopilots mean counter-clockwise.
-        if -inf < as_float(self.radius_m) < 0.0:
-            raise InvalidArgument(
-                "orbit radius_m", f"is {self.radius_m}: it must be positive; the turn ccw holds counter-clockwise"
-            )
-        _keep(self, east_m=east_m, north_m=north_m, radius_m=positive("orbit radius_m", self.radius_m, "metres"))
+        _keep(self, east_m=east_m, north_m=north_m, radius_m=circle_radius_m("orbit radius_m", self.radius_m))
         if self.turn not in tuple(Turn):
             raise InvalidArgument("turn", f"is {self.turn!r}: it must be cw, ccw or either")
         _keep(self, turn=Turn(self.turn))

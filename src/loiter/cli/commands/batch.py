@@ -31,10 +31,10 @@ from loiter.cli.numbers import (
 )
 from loiter.cli.options import WIND_HELP, DeclinationDegrees, moving_air
 from loiter.cli.report import print_json
-from loiter.errors import InvalidArgument, positive
+from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.kernel.statuses import Status
-from loiter.planning.model import Orbit, Turn, TurnName
+from loiter.planning.model import Orbit, Turn, TurnName, circle_radius_m
 
 if TYPE_CHECKING:
     from loiter.batch import JobProgress, JobSummary
@@ -215,7 +215,7 @@ def _circle(
     if orbit is not None:
         raise InvalidArgument("orbit", "and --orbit-lla are given: one of them is needed")
     lat, lon, radius = orbit_lla
-    return Orbit(0.0, 0.0, positive("origin radius_m", radius, "metres")), LocalFrame(lat, lon)
+    return Orbit(0.0, 0.0, circle_radius_m("origin radius_m", radius)), LocalFrame(lat, lon)
 
 
 def _mapped(texts: list[str]) -> dict[str, str]:
