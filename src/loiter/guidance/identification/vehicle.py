@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, degrees, exp, inf, nan, radians, remainder
+from math import atan2, cos, degrees, exp, hypot, inf, nan, radians, remainder, sqrt
 from typing import NamedTuple, Protocol
 
 from loiter.guidance.identification.bank_history import BankHistory
@@ -24,6 +24,11 @@ LEAD_FILTER_S, LEAD_MEMORY_S, LEAD_SPREAD_S, DIRECTION_ERROR, LARGEST_LEAD_S = 1
 # The wind is the average of the air's velocity over the first time, seconds, at most. A declared wind counts as if it
 # had been averaged over the second; without one the average begins with the first measurement.
 WIND_MEMORY_S, DECLARED_WIND_S = 60.0, 30.0
+
+# The wind has changed where the velocity of the air, averaged over the first time, seconds, differs from the estimated
+# wind for the second time by more than the first share of the airspeed, and by more than the last multiple of what is
+# usual. That is the root mean square difference over the third time, which begins with the second share.
+SWIFT_S, CHANGED_S, USUAL_S, CHANGED_SHARE, USUAL_SHARE, USUAL_MULTIPLE = 0.3, 1.5, 20.0, 0.2, 0.05, 2.5
 
 # The heading bias counts, before it shows, as if it had been measured to be 0 with the first standard deviation,
 # radians, from an air velocity with errors of the second, airspeeds, that are correlated over the third, seconds.
@@ -155,6 +160,8 @@ class IdentifiedVehicle:
         rate = rate_at_bank(state.bank_deg, V)
         course_deg = degrees(atan2(state.velocity_east_m_s - air.east_m_s, state.velocity_north_m_s - air.north_m_s))
         self._quick_turning.measure(course_deg, degrees(rate), dt)
+        if air.is_changing:
+            self._lead.restart()
         self._lead.measure(state, turning.ratio, (air.east_m_s, air.north_m_s), dt)
         self._airspeed.add(V, dt)
         if abs(state.bank_deg) > self._tight_deg:
@@ -196,14 +203,27 @@ class WindAndHeading:
         # The means of the air velocity, of n, and of their products.
         self._air, self._n = (east_m_s, north_m_s), (0.0, 0.0)
         self._product = self._square = 0.0
+        self._change = WindChange()
+
+    @property
+    def is_changing(self) -> bool:
+        """Whether the last measurements differ from the wind as if it had changed."""
+        return self._change.since_s > 0.0
 
     def add(self, state: State, off: float, removed_deg: float, dt: float) -> None:
         """Take a state whose heading was corrected by `removed_deg`; the flight is `off` radians to its right."""
-        self._known_s = min(self._known_s + max(dt, 1e-3), WIND_MEMORY_S)
-        share, V = min(max(dt, 1e-3) / self._known_s, 1.0), state.airspeed_m_s
+        dt, V, bias = max(dt, 1e-3), state.airspeed_m_s, radians(self.heading_bias_deg)
         c, s = heading_vector(state.heading_deg + removed_deg + degrees(off))
         n_east, n_north = V * s, -V * c
         east, north = state.velocity_east_m_s - V * c, state.velocity_north_m_s - V * s
+        if self._known_s > 0.0:
+            off_east, off_north = east + bias * n_east - self.east_m_s, north + bias * n_north - self.north_m_s
+            if self._change.add(off_east, off_north, V, dt):
+                self._shift(*self._change.mean)
+            if self.is_changing:
+                return
+        self._known_s = min(self._known_s + dt, WIND_MEMORY_S)
+        share = min(dt / self._known_s, 1.0)
         (air_east, air_north), (mean_east, mean_north) = self._air, self._n
         air_east, air_north = air_east + share * (east - air_east), air_north + share * (north - air_north)
         mean_east, mean_north = mean_east + share * (n_east - mean_east), mean_north + share * (n_north - mean_north)
@@ -215,6 +235,43 @@ class WindAndHeading:
         bias = -(self._product - air_east * mean_east - air_north * mean_north) / (spread + prior)
         self.heading_bias_deg = degrees(bias)
         self.east_m_s, self.north_m_s = air_east + bias * mean_east, air_north + bias * mean_north
+
+    def _shift(self, east_m_s: float, north_m_s: float) -> None:
+        """Restart the average at another wind: what was measured counts as if the wind had been that one."""
+        (air_east, air_north), (mean_east, mean_north) = self._air, self._n
+        self._air = air_east + east_m_s, air_north + north_m_s
+        self._product += east_m_s * mean_east + north_m_s * mean_north
+        self.east_m_s, self.north_m_s = self.east_m_s + east_m_s, self.north_m_s + north_m_s
+        self._known_s = CHANGED_S
+
+
+class WindChange:
+    """Whether the velocity of the air differs from the estimated wind, longer and more than gusts do: `add` says so.
+
+    `since_s` is for how long that has been so, seconds, `mean` the mean difference since then, east and north.
+    """
+
+    def __init__(self) -> None:
+        self._swift = self.mean = 0.0, 0.0
+        self.since_s = 0.0
+        self._usual_square = USUAL_SHARE * USUAL_SHARE
+
+    def add(self, east_m_s: float, north_m_s: float, airspeed_m_s: float, dt: float) -> bool:
+        """Take a difference, `dt` seconds after the last, and whether the wind has changed."""
+        share, (swift_east, swift_north) = 1.0 - exp(-dt / SWIFT_S), self._swift
+        self._swift = swift_east + share * (east_m_s - swift_east), swift_north + share * (north_m_s - swift_north)
+        off = hypot(*self._swift) / airspeed_m_s
+        if off <= max(CHANGED_SHARE, USUAL_MULTIPLE * sqrt(self._usual_square)):
+            self._usual_square += (1.0 - exp(-dt / USUAL_S)) * (off * off - self._usual_square)
+            self.since_s = 0.0
+            return False
+        self.since_s += dt
+        share, (mean_east, mean_north) = min(dt / self.since_s, 1.0), self.mean
+        self.mean = mean_east + share * (east_m_s - mean_east), mean_north + share * (north_m_s - mean_north)
+        if self.since_s < CHANGED_S:
+            return False
+        self._swift, self.since_s = (0.0, 0.0), 0.0
+        return True
 
 
 class Average:

@@ -1,0 +1,76 @@
+"""A wind that changes in flight: how soon the law knows it, and what is not taken for a change."""
+
+from math import cos, hypot, pi, sin
+
+import numpy as np
+import pytest
+
+from loiter import Aircraft, Orbit, Pose
+from loiter.guidance.identification.vehicle import CHANGED_S, WindChange
+from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.simulators.point_mass import PointMass
+from loiter.guidance.simulators.sensors import Noise
+from loiter.guidance.vehicle.rolling import Roll
+
+UAV, STEP_S = Aircraft(22.0, max_bank_deg=45.0), 0.02
+NOISE = Noise(0.5, 0.5, 0.5, 0.2, 0.2, 0.24)
+
+
+def flown(orbit, start, change_s, velocity, seed):
+    """The wind that the law believes 3 s after a change, and the distances from the circle from 5 s after joining."""
+    vehicle = PointMass(start, UAV, seed=seed, roll=Roll(0.3, 90.0), gust=0.02, noise=NOISE)
+    law, believed, outside, joined_s = LoiterEntry(orbit, UAV), None, [], None
+    for k in range(round(90.0 / STEP_S)):
+        now_s = k * STEP_S
+        if now_s >= change_s:
+            vehicle._wind = velocity
+        command = law.step(vehicle.measured_state(), STEP_S)
+        vehicle.advance(command, STEP_S)
+        if believed is None and now_s >= change_s + 3.0:
+            believed = law.estimates.wind_east_m_s, law.estimates.wind_north_m_s
+        joined_s = now_s if joined_s is None and command.time_to_join_s == 0.0 else joined_s
+        if joined_s is not None and now_s > joined_s + 5.0:
+            state = vehicle.true_state()
+            outside.append(abs(hypot(state.east_m, state.north_m) - orbit.radius_m))
+    return believed, outside
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("change_s", [3.0, 40.0])
+def test_a_wind_that_changes_is_known_after_three_seconds(seed, change_s):
+    random = np.random.default_rng(seed)
+    distance, azimuth, heading = random.uniform((300.0, -pi, 0.0), (1200.0, pi, 360.0))
+    towards = random.uniform(-pi, pi)
+    velocity = 12.0 * sin(towards), 12.0 * cos(towards)
+    start = Pose(distance * sin(azimuth), distance * cos(azimuth), heading)
+    believed, outside = flown(Orbit(0.0, 0.0, 250.0, "cw"), start, change_s, velocity, seed)
+    assert hypot(believed[0] - velocity[0], believed[1] - velocity[1]) < 1.3
+    if change_s < 10.0:
+        # Before the circle is reached nothing is lost; a change on the circle moves any aircraft off it.
+        assert max(outside) < 5.0
+
+
+def test_a_gust_is_no_change_of_the_wind():
+    change, changed = WindChange(), []
+    for k in range(400):
+        off = 9.0 if 200 <= k < 200 + round(0.8 * CHANGED_S / 0.1) else 0.5
+        changed.append(change.add(off, 0.0, 22.0, 0.1))
+    assert not any(changed)
+    assert change.since_s == 0.0
+
+
+def test_a_change_is_the_mean_since_it_began():
+    change = WindChange()
+    for _ in range(100):
+        assert not change.add(0.5, 0.0, 22.0, 0.1)
+    steps = next(k for k in range(1, 100) if change.add(8.0, -4.0, 22.0, 0.1))
+    assert CHANGED_S <= 0.1 * steps <= CHANGED_S + 0.5
+    assert change.mean == pytest.approx((8.0, -4.0))
+
+
+def test_in_constant_gusts_a_change_must_be_larger():
+    """Where differences of 0.2 airspeeds are usual, one of 0.3 is no change."""
+    change, random = WindChange(), np.random.default_rng(4)
+    usual = [change.add(*(0.2 * 22.0 * random.normal(size=2)), 22.0, 0.1) for _ in range(3000)]
+    assert sum(usual) <= 2
+    assert not any(change.add(0.3 * 22.0, 0.0, 22.0, 0.1) for _ in range(10))
