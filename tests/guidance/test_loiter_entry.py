@@ -1,7 +1,7 @@
 """The law that flies the fastest entry: exact with the vehicle of the theory, settling in noise, safe without data."""
 
 from itertools import pairwise
-from math import cos, hypot, inf, isnan, nan, radians
+from math import cos, hypot, inf, isnan, nan, radians, sin
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Phase, State
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import EXACT
+from loiter.guidance.simulators.sensors import EXACT, Noise
 from loiter.guidance.trials.flight import fly
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.planning.model import Turn
@@ -409,3 +409,66 @@ def test_a_lower_limit_holds_without_data_too():
     law.command_limit_deg = 5.0
     blind = law.step(mass.measured_state()._replace(east_m=nan), 0.02)
     assert (blind.phase, abs(blind.bank_deg)) == ("no data", 5.0)
+
+
+@pytest.mark.parametrize(("turn", "side"), [("cw", 1.0), ("ccw", -1.0)])
+@pytest.mark.parametrize("outside_m", [-3.0, 0.0, 3.0])
+def test_a_flight_that_begins_on_the_circle_holds_it(turn, side, outside_m):
+    """It has nothing to join: no turn away from the circle and back, which the fastest entry in theory has."""
+    orbit = Orbit(0.0, 0.0, 120.0, turn)
+    held_deg = side * UAV.bank_deg(orbit.radius_m)
+    start = Pose(0.0, orbit.radius_m + outside_m, 90.0 if turn == "cw" else 270.0)
+    law, vehicle = (
+        LoiterEntry(orbit, UAV),
+        PointMass(start, UAV, seed=3, start_bank_deg=held_deg, gust=0.0, noise=EXACT),
+    )
+    for _ in range(250):
+        command = law.step(vehicle.measured_state(), 0.02)
+        assert command.phase == Phase.HOLD
+        assert command.time_to_join_s == 0.0
+        assert vehicle.true_state().bank_deg == pytest.approx(held_deg, abs=12.0)
+        vehicle.advance(command, 0.02)
+
+
+def test_a_flight_that_begins_on_the_circle_the_other_way_does_not_hold_it():
+    law = LoiterEntry(Orbit(0.0, 0.0, 120.0, "cw"), UAV)
+    state = PointMass(Pose(0.0, 120.0, 270.0), UAV, seed=3, noise=EXACT).measured_state()
+    assert law.step(state, 0.02).phase != Phase.HOLD
+
+
+class Swinging:
+    """A point mass whose heading follows each change of bank at once, by `YAW` seconds of it, and whose links are slow.
+
+    ArduPlane's own aeroplane with a strong yaw damper is like that: at 0.75 Hz it turns twice as fast as its bank says.
+    """
+
+    def __init__(self, start, bank_deg):
+        self.mass = PointMass(
+            start, FAST, seed=5, roll=Roll(0.08, 90.0), gust=0.0, noise=CLEAN, start_bank_deg=bank_deg
+        )
+        self.banks = []
+
+    def advance(self, command, dt):
+        before = self.mass.true_state().bank_deg
+        self.mass.advance(command, dt)
+        after = self.mass.true_state().bank_deg
+        self.banks.append(after)
+        # The yaw that a roll brings with it: a heading ahead of that of the bank.
+        x, y, c, s = self.mass._pose
+        angle = -YAW * radians(after - before)
+        self.mass._pose = type(self.mass._pose)(x, y, c * cos(angle) - s * sin(angle), s * cos(angle) + c * sin(angle))
+
+
+FAST, CLEAN, YAW = Aircraft(22.5, max_bank_deg=44.5), Noise(0.2, 0.2, 0.2, 0.1, 0.1, 0.24), 0.2
+
+
+def test_a_vehicle_that_yaws_with_its_roll_does_not_swing_about_the_circle():
+    orbit = Orbit(0.0, 0.0, 80.0, "ccw")
+    vehicle, law = Swinging(Pose(40.0, 150.0, 220.0), 0.0), LoiterEntry(orbit, FAST)
+    joined = None
+    for k in range(round(40.0 / 0.02)):
+        command = law.step(vehicle.mass.measured_state(), 0.02)
+        vehicle.advance(command, 0.02)
+        joined = joined or (k if command.phase == Phase.HOLD else None)
+    # From 3 to 10 s after joining; with the gain of the path to the circle it is 7 degrees.
+    assert np.std(vehicle.banks[joined + 150 : joined + 500]) < 2.0

@@ -28,6 +28,7 @@ from loiter.guidance.protocol import Command, Phase, State, phase_of_control
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll, TurnOnset
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
+from loiter.kernel.words import Side, Word
 from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind, radius_at_bank
 from loiter.planning.sides import SIDES
@@ -52,6 +53,10 @@ GAIN, PLACE_GAIN = 4.0, 0.25
 # gusts change the course by this angle in a second, radians (root mean square).
 CALM_GAIN, ROUGH_AIR = 0.75, 0.02
 
+# On the circle nothing is in a hurry: there it falls to this share, but rises with weaker gusts already. A vehicle
+# whose turns lag behind its bank would swing about the circle otherwise.
+CALM_HOLD_GAIN, ROUGH_HOLD = 0.35, 0.015
+
 # In heavy gusts it rises in proportion to them, from this angle on and up to this multiple.
 HEAVY_GUSTS, HEAVY_GAIN = 0.04, 1.5
 
@@ -74,6 +79,10 @@ DEVIATION, LONGEST_BEND = 0.1, 0.1
 
 # Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is accepted.
 LOST_OFFSET, LOST_COURSE = 0.5, 1.0
+
+# A flight that begins on the circle, within half of the reserve and this angle, radians, holds it at once.
+ON_COURSE = 0.09
+NO_TIMES = 0.0, 0.0, 0.0
 
 # Without a usable measurement the last command is kept for the first time, seconds. Until the next measurement arrives
 # the last one is extrapolated, but no longer than for the second; older ones are not averaged with new ones.
@@ -408,7 +417,11 @@ class LoiterEntry:
     def _reconsider(self, route: Route, response: ResponsePoint) -> bool:
         """Search for another plan if that is due; return whether one was adopted."""
         offset, r = response.offset, self._limits.planned_m
-        if abs(offset.crosstrack) > LOST_OFFSET * r or abs(offset.course_error) > LOST_COURSE:
+        if (
+            abs(offset.crosstrack) > LOST_OFFSET * r
+            or abs(offset.course_error) > LOST_COURSE
+            or self._in_other_wind(route)
+        ):
             return self._search(response.state)
         if route.is_holding:
             return False
@@ -416,8 +429,16 @@ class LoiterEntry:
         deviates = max(abs(offset.crosstrack), later_m) > DEVIATION * r
         return self._search(response.state, route, update=deviates or self._wind == (0.0, 0.0))
 
+    def _in_other_wind(self, route: Route) -> bool:
+        """Whether a plan was made for a wind that differs so much from the present one that it means nothing."""
+        (east, north), (planned_east, planned_north) = self._wind, route.entry.wind
+        off = hypot(east - planned_east, north - planned_north)
+        return not route.is_holding and off > WIND_DIFFERS * self._limits.airspeed_m_s
+
     def _first_search(self, estimate: Estimate) -> None:
         """Adopt the fastest entry from where a command takes effect, which depends on the bank and the first turn."""
+        if self._begin_on_circle(estimate):
+            return
         lead_s = self._lead_s(estimate.bank_deg, 0.0)
         entry = self._fastest_entry(self._relative_state(estimate.after(lead_s)))
         if entry is None:
@@ -425,6 +446,22 @@ class LoiterEntry:
         first = next(iter(controls_of(entry.word)), None)
         bank_deg = -first * self._limit_deg if first is not None else entry.side * self._hold_deg
         self._search(self._relative_state(estimate.after(self._lead_s(estimate.bank_deg, bank_deg))))
+
+    def _begin_on_circle(self, estimate: Estimate) -> bool:
+        """Hold the circle at once if the flight begins on it; return whether it does."""
+        state, limits = self._relative_state(estimate), self._limits
+        for side in (self._side,) if self._side else (Side.CW, Side.CCW):
+            entry = PlannedEntry(side, Word.EMPTY, NO_TIMES, limits.planned_m, limits.airspeed_m_s, self._wind)
+            route = Route(state, entry, self._orbit.radius_m)
+            offset = route.offset(state)
+            if (
+                abs(offset.crosstrack) < 0.5 * self._reserve * self._orbit.radius_m
+                and abs(offset.course_error) < ON_COURSE
+            ):
+                self._route, self._join_time_s = route, state.time_s
+                self._planned_join_time_s = state.time_s
+                return True
+        return False
 
     def _search(self, state: RelativeState, route: Route | None = None, *, update: bool = True) -> bool:
         """Adopt the fastest entry from a state if it is better than `route`; return whether it was adopted.
@@ -476,7 +513,7 @@ class LoiterEntry:
             return -route.control * self._limit_deg
         state, offset, _ = response
         vx, vy = route.velocity(state)
-        gain, speed = self._present_gain(), hypot(vx, vy)
+        gain, speed = self._present_gain(holds=route.is_holding), hypot(vx, vy)
         response_s = self._lag_s + self._observer.smoothing_s + gain * dt
         bandwidth, turn_rate = 1.0 / response_s, self._limits.airspeed_m_s / self._orbit.radius_m
         place_gain = HOLD_GAIN * speed / self._orbit.radius_m if route.is_holding else PLACE_GAIN * bandwidth
@@ -487,12 +524,13 @@ class LoiterEntry:
         # At the present airspeed, which differs from the mean one where an autopilot holds it less exactly.
         return bank_at_rate(rate / self._vehicle.estimates.turn_ratio, hypot(state.hx, state.hy))
 
-    def _present_gain(self) -> float:
+    def _present_gain(self, *, holds: bool) -> float:
         """The gain for the present air, lower for a vehicle that turns faster than its bank where that changes."""
         known = self._vehicle.estimates
         lively = max(known.quick_turn_ratio / known.turn_ratio, 1.0)
         roughness = self._observer.roughness
-        share = max(min(roughness / ROUGH_AIR, 1.0), min(roughness / HEAVY_GUSTS, HEAVY_GAIN), CALM_GAIN)
+        calm_share, rough = (CALM_HOLD_GAIN, ROUGH_HOLD) if holds else (CALM_GAIN, ROUGH_AIR)
+        share = max(min(roughness / rough, 1.0), min(roughness / HEAVY_GUSTS, HEAVY_GAIN), calm_share)
         return self._gain * share / lively
 
     def _trimmed(self, crosstrack_m: float, course_gain: float, turn_rate: float, dt: float) -> float:
@@ -514,6 +552,12 @@ def _differs(roll: Roll, other: Roll) -> bool:
     """Whether two roll responses differ by more than `ROLL_CHANGED`."""
     time_differs = abs(roll.time_s - other.time_s) > ROLL_CHANGED * other.time_s
     return time_differs or abs(roll.rate_deg_s - other.rate_deg_s) > ROLL_CHANGED * other.rate_deg_s
+
+
+def _is_left_behind(route: Route, offset: PathOffset, radius_m: float) -> bool:
+    """Whether the aircraft is outside a turn before the last piece: it cannot bank more to reach that path again."""
+    is_turn = bool(route.control) and route.next_control is not None
+    return is_turn and -(route.control or 0) * offset.crosstrack > DEVIATION * radius_m
 
 
 def _reverses(entry: PlannedEntry) -> bool:

@@ -15,9 +15,13 @@ from loiter.planning.compass import heading_vector
 # second time.
 GUST_LAG_S, GUST_AVERAGE_S = 1.0, 10.0
 
-# What is assumed until then: gusts of about 10 % of the airspeed, as the mean square change of each component in a
-# second, and noise of 0.4 m/s; (m/s)^2.
-FIRST_GUST, FIRST_NOISE = 0.6, 0.16
+# What is assumed until then, as if it had been measured for the last time, seconds: gusts of about 10 % of the
+# airspeed, as the mean square change of each component in a second, and noise of 0.4 m/s; (m/s)^2.
+FIRST_GUST, FIRST_NOISE, ASSUMED_S = 0.6, 0.16, 1.0
+
+# A change of the turn rate changes the slip. What that changes in the velocity of the air, with an error of this much,
+# seconds, in the time by which the direction of flight leads the heading, is no gust.
+SLIP_ERROR_S = 0.2
 
 # In calm air, where gusts turn the course by less than `CALM_COURSE` in a second, radians, only noise is left: averages
 # take longer, up to this multiple. They have at least this many measurements; of their mean interval each is this
@@ -118,8 +122,8 @@ class AirVelocityFilter:
     def __init__(self, longest_s: float) -> None:
         self._longest_s = longest_s
         self._east = self._north = 0.0
-        self._recent: deque[tuple[float, float, float]] = deque()
-        self._time_s = 0.0
+        self._recent: deque[tuple[float, float, float, float]] = deque()
+        self._time_s, self._known_s = 0.0, ASSUMED_S
         # The mean square differences of neighbours and over the lag, and the mean times between them.
         self._near = _Difference(0.02, 2.0 * FIRST_NOISE)
         self._far = _Difference(GUST_LAG_S, 2.0 * FIRST_NOISE + FIRST_GUST * GUST_LAG_S)
@@ -129,27 +133,31 @@ class AirVelocityFilter:
     def reset(self, east_m_s: float, north_m_s: float) -> None:
         """Restart the average from a velocity."""
         self._east, self._north = east_m_s, north_m_s
-        self._recent = deque([(self._time_s, east_m_s, north_m_s)])
+        self._recent = deque([(self._time_s, east_m_s, north_m_s, 0.0)])
 
-    def update(self, east_m_s: float, north_m_s: float, dt: float) -> tuple[float, float]:
-        """The average, east and north, including a velocity measured `dt` seconds after the last."""
+    def update(self, east_m_s: float, north_m_s: float, dt: float, slip_m_s: float = 0.0) -> tuple[float, float]:
+        """The average, east and north, including a velocity measured `dt` seconds after the last.
+
+        `slip_m_s` is how much an error of the slip may account for, with the sign of the turn.
+        """
         self._time_s += dt
-        self._measure_differences(east_m_s, north_m_s, dt)
+        self._measure_differences(east_m_s, north_m_s, dt, slip_m_s)
         averaging_s = self._averaging_s
         share = 1.0 - exp(-dt / averaging_s) if averaging_s > 0.0 else 1.0
         self._east += share * (east_m_s - self._east)
         self._north += share * (north_m_s - self._north)
         return self._east, self._north
 
-    def _measure_differences(self, east_m_s: float, north_m_s: float, dt: float) -> None:
-        weight, recent, now_s = 1.0 - exp(-dt / GUST_AVERAGE_S), self._recent, self._time_s
+    def _measure_differences(self, east_m_s: float, north_m_s: float, dt: float, slip_m_s: float) -> None:
+        self._known_s = min(self._known_s + dt, GUST_AVERAGE_S)
+        weight, recent, now_s = 1.0 - exp(-dt / self._known_s), self._recent, self._time_s
         while len(recent) > 1 and now_s - recent[1][0] >= GUST_LAG_S:
             recent.popleft()
-        for (time_s, east, north), mean in ((recent[-1], self._near), (recent[0], self._far)):
-            e, n = east_m_s - east, north_m_s - north
+        for (time_s, east, north, slip), mean in ((recent[-1], self._near), (recent[0], self._far)):
+            e, n, slipped = east_m_s - east, north_m_s - north, slip_m_s - slip
             mean.time_s += weight * (now_s - time_s - mean.time_s)
-            mean.square += weight * (0.5 * (e * e + n * n) - mean.square)
-        recent.append((now_s, east_m_s, north_m_s))
+            mean.square += weight * (0.5 * (e * e + n * n - slipped * slipped) - mean.square)
+        recent.append((now_s, east_m_s, north_m_s, slip_m_s))
         self.gust = self._present_gust()
 
     def _present_gust(self) -> float:
@@ -213,7 +221,8 @@ class Observer:
         begin = _rotated(last.pose, turning.lead_s * (turn_rate - last.turn_rate))
         predicted = constant_turn(begin, V, turn_rate, dt, (last.air_east_m_s, last.air_north_m_s))
         pose = _blended(predicted, _flight_pose(state, turning), share)
-        air = self._air.update(state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s, dt)
+        east, north = state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s
+        air = self._air.update(east, north, dt, SLIP_ERROR_S * V * turn_rate)
         self._last = Estimate(state.time_s, pose, V, turn_rate, bank_deg, *air, turning)
         return self._last
 

@@ -11,8 +11,9 @@ import numpy as np
 from loiter.errors import InvalidArgument, as_float, not_negative
 from loiter.guidance.vehicle.limits import clip
 
-# The commanded change of bank is this many times the change that is wanted, where the limits leave room.
-COMMAND_GAIN = 2.5
+# The commanded change of bank is this many times the change that is wanted, where the limits leave room, but no more
+# than makes the time constant this, seconds: a roll that is quick gains nothing, and errors would be amplified.
+COMMAND_GAIN, QUICKEST_S = 2.5, 0.15
 
 # A smaller change of bank, degrees, takes effect like an infinitely small one where only the last range is passed.
 SMALL_CHANGE_DEG = 5.0
@@ -56,20 +57,29 @@ class Roll:
         """Whether the bank follows a command instantly."""
         return self.time_s == 0.0 and self.rate_deg_s == inf
 
+    @property
+    def command_gain(self) -> float:
+        """How many times the change of bank that is wanted is commanded."""
+        return min(max(self.time_s / QUICKEST_S, 1.0), COMMAND_GAIN)
+
+    def _free_deg(self, room_deg: float) -> float:
+        """The missing bank, degrees, below which a demand is within a bank limit `room_deg` beyond the target."""
+        return room_deg / (self.command_gain - 1.0) if self.command_gain > 1.0 else inf
+
     def demand_deg(self, bank_deg: float, target_deg: float, limit_deg: float) -> float:
-        """The command that brings the bank to a target `COMMAND_GAIN` times as fast as commanding the target would.
+        """The command that brings the bank to a target `command_gain` times as fast as commanding the target would.
 
         It lies beyond the target, but never beyond the bank limit.
         """
         if self.time_s == 0.0:
             return target_deg
-        return clip(bank_deg + COMMAND_GAIN * (target_deg - bank_deg), limit_deg)
+        return clip(bank_deg + self.command_gain * (target_deg - bank_deg), limit_deg)
 
     def onset(self, bank_deg: float, target_deg: float, limit_deg: float) -> TurnOnset:
         """When a change of bank under `demand_deg` changes the turn rate, which is proportional to tan(bank)."""
-        missing_deg, last_s = abs(target_deg - bank_deg), self.time_s / COMMAND_GAIN
+        missing_deg, last_s = abs(target_deg - bank_deg), self.time_s / self.command_gain
         room_deg = max(limit_deg - (target_deg if target_deg >= bank_deg else -target_deg), 0.0)
-        small = missing_deg <= min(room_deg / (COMMAND_GAIN - 1.0), self.rate_deg_s * last_s, SMALL_CHANGE_DEG)
+        small = missing_deg <= min(self._free_deg(room_deg), self.rate_deg_s * last_s, SMALL_CHANGE_DEG)
         if self.is_instant or missing_deg == 0.0 or small:
             return TurnOnset(last_s, last_s * last_s)
         sign = 1.0 if target_deg > bank_deg else -1.0
@@ -87,14 +97,14 @@ class Roll:
         """Missing banks that are passed, when, and their shares of the whole change; degrees, seconds, degrees.
 
         Let m be the missing bank, p the limit of the roll rate, and g how far the bank limit lies beyond the target.
-        The bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `COMMAND_GAIN` m/tau. As
+        The bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `command_gain` m/tau. As
         m shrinks these apply in that order. The time at which m is left follows from each in closed form. The missing
         banks and their shares are those of Gauss's rules over each range.
         """
-        tau, p, last_s = self.time_s, self.rate_deg_s, self.time_s / COMMAND_GAIN
+        tau, p, last_s = self.time_s, self.rate_deg_s, self.time_s / self.command_gain
         # The missing bank at which the rate leaves its limit, and at which the command leaves the bank limit.
         slow = min(max(p * tau - g, p * last_s), m)
-        free = min(g / (COMMAND_GAIN - 1.0), slow)
+        free = min(self._free_deg(g), slow)
         passages, time_s = [], (m - slow) / p
         if slow < m:
             passages = [(slow + x * (m - slow), (1.0 - x) * time_s, w * (m - slow)) for x, w in LEGENDRE]
