@@ -205,11 +205,30 @@ def test_options_stand_above_the_parameters():
     assert outcome.end == ""
 
 
-def test_a_vehicle_off_its_cruise_airspeed_is_planned_for_as_it_flies():
-    outcome = guided(GuidedPlane(airframe(STARTS[0], airspeed=24.0)), Orbit(30.0, -20.0, 120.0))
+def test_a_vehicle_that_holds_another_airspeed_in_guided_is_planned_for_as_it_flies():
+    vehicle = GuidedPlane(airframe(STARTS[0], airspeed=24.0))
+    vehicle.mode = GUIDED
+    outcome = guided(vehicle, Orbit(30.0, -20.0, 120.0))
     assert (
         outcome.notices[0]
         == "The vehicle flies at 24.0 m/s, not at its cruise airspeed of 18.0 m/s: the plan is for 24.0 m/s."
+    )
+    assert held_m(outcome, Orbit(30.0, -20.0, 120.0)) < 5.0
+
+
+def test_a_vehicle_that_will_fly_at_its_cruise_airspeed_is_planned_for_at_that():
+    """ArduPlane forgets a commanded airspeed when it changes to GUIDED: here it speeds up from 13 to 18 m/s."""
+
+    class Accelerating(GuidedPlane):
+        def stream(self, number, now):
+            if self.mode == GUIDED:
+                self.airframe.airspeed = min(self.airframe.airspeed + 0.02, 18.0)
+            super().stream(number, now)
+
+    outcome = guided(Accelerating(airframe(STARTS[0], airspeed=13.0)), Orbit(30.0, -20.0, 120.0))
+    assert outcome.notices[0] == (
+        "The vehicle flies at 13.0 m/s, not at its cruise airspeed of 18.0 m/s, to which it will change: "
+        "the plan is for that."
     )
     assert held_m(outcome, Orbit(30.0, -20.0, 120.0)) < 5.0
 

@@ -567,8 +567,29 @@ def test_a_wind_that_grows_above_the_airspeed(kind):
         pass
 
     outcome = guided(with_event(Blown, JOINING_S, lambda v: setattr(v.airframe, "wind", (21.0, 0.0))))
-    ended(outcome, "the circle cannot be held: in a wind of 21 m/s")
+    ended(outcome, "the circle cannot be held: in a wind of 21")
     assert outcome.end.endswith("flies the fall-back circle")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_wind_that_grows_too_strong_ends_the_flight_within_five_seconds(kind):
+    outcome = guided(with_event(commanding(kind), JOINING_S, lambda v: setattr(v.airframe, "wind", (16.0, 0.0))))
+    ended(outcome, "the circle cannot be held: orbit radius 80 m cannot be held in a wind of")
+    assert outcome.ended_at - JOINING_S < 5.0
+
+
+def test_a_wind_that_the_vehicle_reports_wrongly_is_not_believed():
+    """One WIND of 26 m/s had a flight refused: ground speed, heading and airspeed say that it is calm."""
+
+    class Mistaken(Windy, GuidedPlane):
+        def stream(self, number, now):
+            wind, self.airframe.wind = self.airframe.wind, (26.0, 0.0)
+            if number != 168:
+                self.airframe.wind = wind
+            super().stream(number, now)
+            self.airframe.wind = wind
+
+    assert guided(Mistaken()).end == ""
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import exp, hypot, inf, nan
 from time import monotonic
 from typing import Any
 
@@ -10,6 +10,7 @@ from loiter.errors import LinkFailed
 from loiter.geo import LocalFrame
 from loiter.guidance.protocol import State
 from loiter.io.missions.items import Autopilot
+from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD
 from loiter.mavlink.autopilots.settings import NAMES
 from loiter.mavlink.autopilots.steering import Steering
 from loiter.mavlink.autopilots.sticks import Sticks
@@ -20,18 +21,23 @@ from loiter.mavlink.connection.parameters import Parameters
 from loiter.mavlink.connection.pending_command import PendingCommand
 from loiter.mavlink.connection.round_trip import RoundTrip
 from loiter.mavlink.connection.status_text import StatusTexts
-from loiter.mavlink.guiding.measurements import Measurements
+from loiter.mavlink.guiding.measurements import LEAST_SHARE, AirspeedSource, Measurements
 from loiter.mavlink.guiding.monitor import Monitor
 from loiter.mavlink.guiding.own_target import OwnTarget
 from loiter.mavlink.missions.start import REQUEST_MESSAGE
 from loiter.mavlink.watching.telemetry import EXTENDED_SYS_STATE, Telemetry, WindSource
-from loiter.planning.model import Wind
+from loiter.planning.compass import heading_vector
+from loiter.planning.model import Wind, wind_from_velocity
 
 # The longest time between two setpoints, seconds, and the time to wait for the second message of a state.
 STEP_S, PARTNER_S = 0.05, 0.006
 
 # Seconds until a request for a message is repeated.
 REQUEST_S = 0.5
+
+# The velocity of the air is averaged over this time, seconds. The reported wind counts unless it differs from that by
+# more than this share of the airspeed.
+AIR_S, WIND_DIFFERS = 1.0, 0.2
 
 # Numbers of messages that are requested once.
 HEARTBEAT, AUTOPILOT_VERSION = 0, 148
@@ -63,6 +69,9 @@ class Contact:
         self.extended: Any = None
         self.version = 0
         self._next_request = -inf
+        # The mean velocity of the air, east and north, from ground speed, heading and airspeed, the mean airspeed, and
+        # the time of the last state in them.
+        self._air, self._air_s = (nan, nan, nan), -inf
         link.on_message = self._on_message
         link.become_guide()
 
@@ -75,6 +84,11 @@ class Contact:
     def flies_px4(self) -> bool:
         """Whether the autopilot is PX4; otherwise it is ArduPilot."""
         return self.autopilot == Autopilot.PX4
+
+    @property
+    def is_commanded(self) -> bool:
+        """Whether the vehicle is already in a mode in which guiding would leave it, and has kept what it was told."""
+        return self.monitor.modes.mode in ((HOLD, OFFBOARD) if self.flies_px4 else (GUIDED,))
 
     @property
     def home_altitude_m(self) -> float:
@@ -91,7 +105,27 @@ class Contact:
                 break
             until = min(until, monotonic() + PARTNER_S)
         self.link.process_pending(monotonic() + PARTNER_S)
+        self._average_air()
         return monotonic()
+
+    def _average_air(self) -> None:
+        """Update the mean velocity of the air, if a new state with a measured airspeed has arrived."""
+        state = self.state()
+        if state is None or state.time_s <= self._air_s:
+            return
+        if self.measurements.airspeed(None, monotonic())[1] != AirspeedSource.MEASURED:
+            return
+        (c, s), V = heading_vector(state.heading_deg), state.airspeed_m_s
+        measured = state.velocity_east_m_s - V * c, state.velocity_north_m_s - V * s, V
+        if self._air_s == -inf:
+            self._air = measured
+        share, (east, north, airspeed) = 1.0 - exp((self._air_s - state.time_s) / AIR_S), self._air
+        self._air = (
+            east + share * (measured[0] - east),
+            north + share * (measured[1] - north),
+            airspeed + share * (measured[2] - airspeed),
+        )
+        self._air_s = state.time_s
 
     def request_all(self, now: float) -> None:
         """Send the requests that are due before the flight begins."""
@@ -124,6 +158,19 @@ class Contact:
         """The wind that the vehicle reports, or None."""
         wind, source = self.telemetry.wind(monotonic())
         return wind if source == WindSource.VEHICLE else None
+
+    def likely_wind(self, airspeed_m_s: float) -> Wind | None:
+        """The wind that the vehicle reports, or the measured velocity of the air where that differs; None if unknown.
+
+        A reported wind is the estimate of a filter that may need a minute after a change.
+        """
+        reported, (east, north, measured_m_s) = self.reported_wind(), self._air
+        if not measured_m_s > LEAST_SHARE * airspeed_m_s:
+            return reported
+        reported_east, reported_north = (0.0, 0.0) if reported is None else reported.velocity_m_s
+        if hypot(east - reported_east, north - reported_north) <= WIND_DIFFERS * airspeed_m_s:
+            return reported
+        return wind_from_velocity(east, north)
 
     def state(self) -> State | None:
         """The last measured state, or None."""

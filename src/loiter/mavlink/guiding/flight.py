@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from contextlib import suppress
-from dataclasses import replace
 from math import inf, isfinite
 from time import monotonic
 from typing import Any
@@ -23,12 +22,11 @@ from loiter.mavlink.connection.pending_command import PendingCommand
 from loiter.mavlink.guiding.contact import STEP_S, Contact
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.monitor import StopReason
-from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, choose, prepare
+from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, check_nearly_held, choose, prepare
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import SteadyHoldDetector
 from loiter.mavlink.guiding.summary import loss_consequence, summary
 from loiter.mavlink.missions.start import CUSTOM_MODE, DO_SET_MODE
-from loiter.planning.feasibility import RelativeWind, check_held, relative_velocity
 from loiter.planning.model import Turn
 
 # Seconds for a command to be confirmed: the fall-back circle, PX4's offboard mode, the hand-over.
@@ -47,13 +45,8 @@ TARGET_CHANGE_S, OBSERVE_S, RECENT_S = 1.0, 2.0, 1.0
 # The first guess of the age of measurements without that of the link, seconds, before the law has identified it.
 DELAY_S = 0.1
 
-# The circle counts as impossible to hold in the wind if one that is wider by this factor is: an estimate has errors,
-# and an aircraft that drifts outside a little is not in danger.
-WIND_SLACK = 1.15
-
 # Seconds between checks of the wind, and steps of a law that is thrown away: they load and compile what it needs.
-WIND_S, WARM_STEPS = 1.0, 3
-
+WIND_S, WARM_STEPS = 0.5, 3
 
 # The law has twice the time of its first plan and this, seconds, until the circle is held steadily.
 HAND_OVER_S = 180.0
@@ -157,8 +150,7 @@ class Flight:
     def _new_law(self) -> LoiterEntry:
         p = self._setup
         delay_s = DELAY_S + self._contact.round_trip.seconds
-        wind = self._request.wind or self._contact.reported_wind()
-        return LoiterEntry(self.orbit, p.aircraft, wind, roll=p.settings.roll, delay_s=delay_s)
+        return LoiterEntry(self.orbit, p.aircraft, p.wind, roll=p.settings.roll, delay_s=delay_s)
 
     def _new_steering(self) -> Steering:
         vehicle, p = self._contact.link.vehicle, self._setup
@@ -417,17 +409,13 @@ class Flight:
         self.record(self._report)
 
     def _check_wind(self, now: float) -> None:
-        """Note whether the circle can be held in the wind that the law estimates, or that the vehicle reports."""
+        """Note whether the circle can be held in the wind that the law estimates: a mean of what was measured."""
         if now < self._next_wind:
             return
-        self._next_wind = now + WIND_S
-        e, reported = self._law.estimates, self._contact.reported_wind()
-        winds = [(e.wind_east_m_s, e.wind_north_m_s), *([reported.velocity_m_s] if reported else [])]
-        wider, aircraft = replace(self.orbit, radius_m=WIND_SLACK * self.orbit.radius_m), self._setup.aircraft
+        self._next_wind, estimates = now + WIND_S, self._law.estimates
         self._monitor.wind_problem = ""
         try:
-            for wind in winds:
-                check_held(wider, aircraft, RelativeWind(*relative_velocity(wind, (0.0, 0.0), aircraft.airspeed_m_s)))
+            check_nearly_held(self.orbit, self._setup.aircraft, (estimates.wind_east_m_s, estimates.wind_north_m_s))
         except LoiterError as error:
             self._monitor.wind_problem = str(error)
 

@@ -23,8 +23,9 @@ from loiter.planning.model import Aircraft, Orbit, Turn, wind_from_velocity
 # ArduPlane's parameter for the period of its guidance, seconds.
 PERIOD = "NAVL1_PERIOD"
 
-# The largest share of the radius by which it is corrected.
-LARGEST_SHARE = 0.3
+# The largest share of the radius by which it is corrected, and the deviation of the turn ratio from 1 below which it is
+# not: that much is noise.
+LARGEST_SHARE, COORDINATED = 0.3, 0.12
 
 # The time, seconds, for which ArduPlane keeps the last bank: it suits the middle of that time.
 KEPT_S = 3.0
@@ -44,7 +45,8 @@ def sent_radius_m(
     scaling, radius_m = loiter_scaling(parameters), orbit.radius_m
     if scaling is None:
         return radius_m
-    if estimates is not None and parameters.get(PERIOD, 0.0) > 0.0:
+    slips = estimates is not None and abs(estimates.turn_ratio - 1.0) > COORDINATED
+    if estimates is not None and slips and parameters.get(PERIOD, 0.0) > 0.0:
         error_m = _steady_error_m(radius_m, estimates.airspeed_m_s, estimates.turn_ratio, parameters[PERIOD])
         radius_m -= min(max(error_m, -LARGEST_SHARE * radius_m), LARGEST_SHARE * radius_m)
     return scaling.sent_whole_m(radius_m, altitude_m)

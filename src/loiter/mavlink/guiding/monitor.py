@@ -21,7 +21,7 @@ LATE_S, LATE_FOR_S, UNHEARD_S = 1.0, 0.5, 3.0
 LEAST_HZ, SLOW_S = 4.5, 2.0
 
 # Seconds for which the estimator may report that it has no position, and for which the wind may be too strong.
-BAD_ESTIMATE_S, STRONG_WIND_S = 1.0, 3.0
+BAD_ESTIMATE_S, STRONG_WIND_S = 1.0, 2.0
 
 # Seconds for which the pilot may move a stick.
 STICK_S = 0.3

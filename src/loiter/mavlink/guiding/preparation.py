@@ -8,7 +8,7 @@ from math import isfinite
 from time import monotonic
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument, LinkFailed
+from loiter.errors import InvalidArgument, LinkFailed, LoiterError
 from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.protocol import State
@@ -19,6 +19,7 @@ from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.measurements import AirspeedSource
 from loiter.mavlink.guiding.monitor import LEAST_HEIGHT_M, LEAST_HZ
 from loiter.planning.compass import wrapped
+from loiter.planning.feasibility import RelativeWind, check_held, relative_velocity, relative_wind
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.solve import plan
 
@@ -27,6 +28,10 @@ OTHERS_S = 1.1
 
 # Seconds for everything that is needed to arrive, and for PX4's version, without which the flight begins too.
 PREPARE_S, VERSION_S = 8.0, 1.5
+
+# The circle counts as impossible to hold in the wind if one that is wider by this factor is: an estimate has errors,
+# and an aircraft that drifts outside a little is not in danger.
+WIND_SLACK = 1.15
 
 # The share by which the measured airspeed may differ from the declared one before the plan uses the measured one.
 AIRSPEED_SHARE = 0.15
@@ -86,13 +91,41 @@ def choose(contact: Contact, request: GuideRequest, settings: AutopilotSettings)
     contact.measurements.declared_m_s = airspeed
     aircraft = Aircraft(airspeed, max_bank_deg=bank_deg)
     altitude_m = _circle_altitude_m(contact, request)
-    wind, state = request.wind or contact.reported_wind(), contact.state()
+    state, orbit = contact.state(), request.orbit
     assert state is not None  # it was waited for
-    orbit = request.orbit
+    wind = request.wind or _nearly_holdable(orbit, aircraft, contact.likely_wind(airspeed))
     if orbit.turn == Turn.EITHER:
         start = Pose(state.east_m, state.north_m, wrapped(state.heading_deg))
         orbit = replace(orbit, turn=plan(start, orbit, aircraft, wind).turn)
     return FlightSetup(orbit, aircraft, settings, altitude_m, state, wind, notices)
+
+
+def _nearly_holdable(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> Wind | None:
+    """An estimated wind if the circle can be held in it, and None if it just cannot: the law then finds it out itself.
+
+    Raises `LoiterError` as `check_nearly_held` does.
+    """
+    if wind is None:
+        return None
+    check_nearly_held(orbit, aircraft, wind.velocity_m_s)
+    try:
+        check_held(orbit, aircraft, relative_wind(orbit, aircraft, wind))
+    except LoiterError:
+        return None
+    return wind
+
+
+def check_nearly_held(orbit: Orbit, aircraft: Aircraft, wind: tuple[float, float]) -> None:
+    """Raise `LoiterError` if neither the circle nor one that is wider by `WIND_SLACK` can be held.
+
+    `wind` is an estimated velocity, east and north, metres per second.
+    """
+    air = RelativeWind(*relative_velocity(wind, (0.0, 0.0), aircraft.airspeed_m_s))
+    try:
+        check_held(replace(orbit, radius_m=WIND_SLACK * orbit.radius_m), aircraft, air)
+    except LoiterError:
+        # The sentence is about the circle itself.
+        check_held(orbit, aircraft, air)
 
 
 def _fly_away_problem(settings: AutopilotSettings) -> str:
@@ -187,5 +220,8 @@ def _airspeed(contact: Contact, request: GuideRequest, settings: AutopilotSettin
         return declared, (f"The vehicle reports no airspeed; the airspeed is {source}.",)
     if request.airspeed_m_s is None and isfinite(measured) and abs(measured - declared) > AIRSPEED_SHARE * declared:
         text = f"The vehicle flies at {measured:.1f} m/s, not at its cruise airspeed of {declared:.1f} m/s"
-        return measured, (f"{text}: the plan is for {measured:.1f} m/s.",)
+        # A change of mode ends an airspeed that was commanded; where the mode stays, that airspeed does too.
+        if contact.is_commanded:
+            return measured, (f"{text}: the plan is for {measured:.1f} m/s.",)
+        return declared, (f"{text}, to which it will change: the plan is for that.",)
     return declared, ()

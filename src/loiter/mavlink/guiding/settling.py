@@ -17,12 +17,14 @@ RADIAL, COURSE_DEG, STAY_S, STAY_DEG = 0.05, 5.0, 8.0, 90.0
 GUSTY_DEG, NEAR = 360.0, 4.0
 
 # Then a quiet moment is waited for, no longer than this much of the circle, degrees: the mean position and course of
-# the last time, seconds, are within these shares of the band.
-LONGEST_WAIT_DEG, MEAN_S, QUIET = 180.0, 1.0, 0.3
+# the last time, seconds, are within these shares of the band, and for the second time, seconds, the bank has been
+# within this many degrees of its mean.
+LONGEST_WAIT_DEG, MEAN_S, QUIET, QUIET_S, QUIET_BANK_DEG = 180.0, 1.0, 0.3, 2.0, 1.5
 
 # The turn ratio on the circle is averaged over this time, seconds: it changes for some seconds after an aircraft has
-# begun to turn, while its sideslip settles. The coordinated turn must be at least this, degrees.
-RATIO_S, LEAST_TURN_DEG = 3.0, 10.0
+# begun to turn, while its sideslip settles, and a swing of the bank disturbs a shorter average. The coordinated turn
+# must be at least this, degrees.
+RATIO_S, LEAST_TURN_DEG = 6.0, 10.0
 
 
 class CirclePosition(NamedTuple):
@@ -60,6 +62,8 @@ class SteadyHoldDetector:
         self._last: State | None = None
         self._azimuth_deg = nan
         self._near_deg = 0.0
+        # The mean bank, and the time since when the bank has been near it.
+        self._bank_deg = self._quiet_since_s = nan
         # The mean position relative to the circle.
         self.mean = MeanPosition(nan, nan)
         self._leave()
@@ -95,7 +99,8 @@ class SteadyHoldDetector:
             self._flown_deg += turned_deg
             if state.time_s - self._since_s >= STAY_S and self._flown_deg >= STAY_DEG:
                 self._waited_deg += turned_deg
-                self.settled = self._is_within(self.mean, QUIET) or self._waited_deg >= LONGEST_WAIT_DEG
+                quiet = self._is_within(self.mean, QUIET) and state.time_s - self._quiet_since_s >= QUIET_S
+                self.settled = quiet or self._waited_deg >= LONGEST_WAIT_DEG
         return position
 
     def _average(self, state: State, position: CirclePosition) -> None:
@@ -103,6 +108,7 @@ class SteadyHoldDetector:
         last, self._last = self._last, state
         if last is None:
             self.mean = MeanPosition(position.outside_m, position.course_error_deg)
+            self._bank_deg, self._quiet_since_s = state.bank_deg, state.time_s
             return
         dt = max(state.time_s - last.time_s, 0.0)
         share = 1.0 - exp(-dt / MEAN_S)
@@ -111,6 +117,9 @@ class SteadyHoldDetector:
             outside_m + share * (position.outside_m - outside_m),
             error_deg + share * (position.course_error_deg - error_deg),
         )
+        self._bank_deg += share * (state.bank_deg - self._bank_deg)
+        if abs(state.bank_deg - self._bank_deg) > QUIET_BANK_DEG:
+            self._quiet_since_s = state.time_s
         turned_deg = remainder(state.heading_deg - last.heading_deg, 360.0)
         coordinated_deg = degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s)) * dt
         kept = exp(-dt / RATIO_S)
