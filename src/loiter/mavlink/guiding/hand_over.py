@@ -25,7 +25,7 @@ PERIOD = "NAVL1_PERIOD"
 
 # The largest share of the radius by which it is corrected, and the deviation of the turn ratio from 1 below which it is
 # not: that much is noise.
-LARGEST_SHARE, COORDINATED = 0.3, 0.12
+LARGEST_SHARE, COORDINATED = 0.3, 0.18
 
 # The time, seconds, for which ArduPlane keeps the last bank: it suits the middle of that time.
 KEPT_S = 3.0
