@@ -5,6 +5,7 @@
 # make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
 # make docs   the documentation site, in build/docs: every warning and every broken link is an error
 # make notebooks  run the notebooks of docs/notebooks and write their outputs
+# make generate  translate the kernel's Python to C: src/loiter/native/*.h
 # make pins   rewrite the requirement files from pyproject.toml
 PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin
@@ -42,7 +43,7 @@ $(BIN)/python:
 /usr/bin/chromium:
 	@requirements/apt-install chromium
 
-.PHONY: demo check test bench verify docs notebooks pins lint
+.PHONY: demo check test bench verify docs notebooks generate pins lint
 demo: .venv/base.stamp
 	$(BIN)/loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 --plot demo.png
 
@@ -74,6 +75,9 @@ docs: .venv/docs.stamp
 
 notebooks: .venv/dev.stamp
 	cd tests && ../$(BIN)/python -m documents.notebooks
+
+generate: .venv/base.stamp
+	$(BIN)/python -m codegen
 
 pins: .venv/dev.stamp
 	$(BIN)/python -m pip install -q uv

@@ -1,9 +1,10 @@
 """Which extremal is the fastest: the optimum, every extremal in order, the feedback law."""
 
 from itertools import pairwise
-from math import cbrt, hypot, inf, isfinite
+from math import cbrt, inf, isfinite
 from typing import NamedTuple
 
+from loiter.kernel.angles import length
 from loiter.kernel.extremals import Extremal, durations, extremals, fastest
 from loiter.kernel.motion import flow
 from loiter.kernel.statuses import Status
@@ -224,4 +225,4 @@ def miss(x: float, y: float, R: float, maneuver: Entry) -> float:
     for u, t in zip(controls(word), (t1, t2, t3)):
         if u != ABSENT:
             x, y = flow(x, y, u, t)
-    return hypot(x, y - side * R)
+    return length(x, y - side * R)

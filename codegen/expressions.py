@@ -1,0 +1,374 @@
+"""Expressions of Python as expressions of C, with their kinds."""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from enum import EnumType
+from types import FunctionType
+from typing import Any, NamedTuple
+
+from codegen.arithmetic import Arithmetic
+from codegen.kinds import (
+    INTEGER,
+    NOTHING,
+    REAL,
+    REALS,
+    TRUTH,
+    Kind,
+    NotTranslated,
+    kind_of_type,
+    kind_of_value,
+    safe,
+    tuple_of,
+)
+
+# How tightly the operators of C bind.
+PRIMARY, UNARY, PRODUCT, SUM, ORDER, EQUALITY, AND, OR, CHOICE = 12, 11, 10, 9, 7, 6, 4, 3, 2
+
+OPERATORS = {ast.Add: ("+", SUM), ast.Sub: ("-", SUM), ast.Mult: ("*", PRODUCT), ast.Div: ("/", PRODUCT)}
+BITS = {ast.BitAnd: "&", ast.BitOr: "|", ast.RShift: ">>"}
+COMPARED = {
+    ast.Lt: ("<", ORDER),
+    ast.LtE: ("<=", ORDER),
+    ast.Gt: (">", ORDER),
+    ast.GtE: (">=", ORDER),
+    ast.Eq: ("==", EQUALITY),
+    ast.NotEq: ("!=", EQUALITY),
+}
+
+
+class Expression(NamedTuple):
+    """An expression of C: its text, its kind, and how tightly its outermost operator binds."""
+
+    text: str
+    kind: Kind
+    level: int = PRIMARY
+
+    def within(self, level: int) -> str:
+        """The text as an operand of an operator that binds as tightly as this."""
+        return self.text if self.level >= level else f"({self.text})"
+
+
+class Names(NamedTuple):
+    """What an expression may refer to: functions and constants, which the unit provides, and local variables."""
+
+    arithmetic: Arithmetic
+    globals: dict[str, Any]
+    local: dict[str, Kind]
+    replaced: dict[str, Any]
+    function: Callable[[FunctionType], tuple[str, dict[str, Kind], Kind]]
+    constant: Callable[[str, Any], Expression]
+
+
+class Expressions:
+    """The translation of expressions within one function."""
+
+    def __init__(self, names: Names, file: str) -> None:
+        self.names = names
+        self.file = file
+        # Statements that must stand before the one that is translated now.
+        self.before: list[str] = []
+        self.temporaries = 0
+        self.is_lazy = False
+
+    def refused(self, node: ast.AST, what: str) -> NotTranslated:
+        """The error for a node."""
+        return NotTranslated(
+            f"{self.file}:{getattr(node, 'lineno', 0)}: {what} is not part of the kernel's subset of Python"
+        )
+
+    def translate(self, node: ast.expr) -> Expression:
+        """An expression."""
+        method = getattr(self, f"_{type(node).__name__}", None)
+        if method is None:
+            raise self.refused(node, f"the expression {ast.unparse(node)!r}")
+        found: Expression = method(node)
+        return found
+
+    def condition(self, node: ast.expr) -> Expression:
+        """An expression as a truth value; a number is true unless it is zero."""
+        if isinstance(node, ast.BoolOp):
+            return self._BoolOp(node)
+        found = self.translate(node)
+        if found.kind == TRUTH:
+            return found
+        if found.kind in (INTEGER, REAL):
+            return Expression(f"{found.within(EQUALITY + 1)} != {self.zero(found.kind)}", TRUTH, EQUALITY)
+        raise self.refused(node, f"{ast.unparse(node)!r} as a condition")
+
+    def zero(self, kind: Kind) -> str:
+        """Zero of a kind."""
+        return "0" if kind == INTEGER else self.literal(0.0)
+
+    def literal(self, value: float) -> str:
+        """A number of the arithmetic."""
+        if math.isnan(value):
+            return "NAN"
+        if math.isinf(value):
+            return "INFINITY" if value > 0 else "-INFINITY"
+        return f"{value!r}{self.names.arithmetic.suffix}"
+
+    def temporary(self, found: Expression, stem: str) -> str:
+        """The name of a new constant with this value."""
+        if self.is_lazy:
+            raise NotTranslated(
+                f"{self.file}: a structure is taken apart where it may not be computed, in {found.text!r}"
+            )
+        self.temporaries += 1
+        name = f"{stem}_{self.temporaries}"
+        self.before.append(f"const {found.kind.name} {name} = {found.text};")
+        return name
+
+    def parts(self, node: ast.expr) -> list[Expression]:
+        """The elements of an expression that is a tuple."""
+        if isinstance(node, ast.Tuple):
+            return [self.translate(one) for one in node.elts]
+        if isinstance(node, ast.IfExp) and isinstance(node.body, ast.Tuple):
+            return self._chosen_parts(node)
+        found = self.translate(node)
+        if not found.kind.fields:
+            raise self.refused(node, f"{ast.unparse(node)!r} as a tuple")
+        name = found.text
+        if not isinstance(node, ast.Name | ast.Attribute):
+            stem = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else "parts"
+            name = self.temporary(found, stem)
+        return [Expression(f"{name}.{field}", kind) for field, kind in found.kind.fields]
+
+    def _chosen_parts(self, node: ast.IfExp) -> list[Expression]:
+        """The elements of a choice between two tuples, each chosen by itself."""
+        test = self.condition(node.test)
+        chosen = test.within(CHOICE + 1)
+        if not isinstance(node.test, ast.Name):
+            chosen = self.temporary(Expression(test.text, TRUTH), "chosen")
+        with self.lazily():
+            pairs = list(zip(self.parts(node.body), self.parts(node.orelse), strict=True))
+        return [Expression(f"{chosen} ? {a.within(CHOICE + 1)} : {b.within(CHOICE)}", a.kind, CHOICE) for a, b in pairs]
+
+    @contextmanager
+    def lazily(self) -> Iterator[None]:
+        """Within this, an expression may not be computed at all."""
+        outer, self.is_lazy = self.is_lazy, True
+        yield
+        self.is_lazy = outer
+
+    def structure(self, kind: Kind, values: list[Expression]) -> Expression:
+        """A structure made from its fields."""
+        return Expression(f"({kind.name}){{{', '.join(value.text for value in values)}}}", kind)
+
+    def _Constant(self, node: ast.Constant) -> Expression:
+        if isinstance(node.value, bool):
+            return Expression("true" if node.value else "false", TRUTH)
+        if isinstance(node.value, int):
+            return Expression(str(node.value), INTEGER)
+        if isinstance(node.value, float):
+            return Expression(self.literal(node.value), REAL)
+        raise self.refused(node, f"the constant {node.value!r}")
+
+    def _Name(self, node: ast.Name) -> Expression:
+        if node.id in self.names.local:
+            return Expression(safe(node.id), self.names.local[node.id])
+        if node.id not in self.names.globals:
+            raise self.refused(node, f"the name {node.id!r} without a value")
+        value = self.names.globals[node.id]
+        if getattr(math, node.id, None) is value and isinstance(value, float):
+            level = PRIMARY if value >= 0.0 or math.isnan(value) else UNARY
+            return Expression(self.literal(value), REAL, level)
+        return self.names.constant(node.id, self.names.globals)
+
+    def _Attribute(self, node: ast.Attribute) -> Expression:
+        if isinstance(node.value, ast.Name) and isinstance(self.names.globals.get(node.value.id), EnumType):
+            member = self.names.globals[node.value.id][node.attr]
+            return Expression(f"{type(member).__name__.upper()}_{node.attr}", INTEGER)
+        found = self.translate(node.value)
+        kinds = dict(found.kind.fields)
+        if safe(node.attr) not in kinds or found.kind.is_tuple:
+            raise self.refused(node, f"the attribute {ast.unparse(node)!r}")
+        return Expression(f"{found.within(PRIMARY)}.{safe(node.attr)}", kinds[safe(node.attr)])
+
+    def _Subscript(self, node: ast.Subscript) -> Expression:
+        array, index = self.translate(node.value), self.translate(node.slice)
+        if array.kind != REALS or index.kind != INTEGER:
+            raise self.refused(node, f"{ast.unparse(node)!r}")
+        return Expression(f"{array.text}[{index.text}]", REAL)
+
+    def _Tuple(self, node: ast.Tuple) -> Expression:
+        values = [self.translate(one) for one in node.elts]
+        return self.structure(tuple_of(tuple(value.kind for value in values)), values)
+
+    def _UnaryOp(self, node: ast.UnaryOp) -> Expression:
+        if isinstance(node.op, ast.Not):
+            return Expression(f"!{self.condition(node.operand).within(UNARY)}", TRUTH, UNARY)
+        found = self.translate(node.operand)
+        if isinstance(node.op, ast.USub) and found.kind in (REAL, INTEGER):
+            operand = found.within(UNARY)
+            return Expression(f"-({operand})" if operand.startswith("-") else f"-{operand}", found.kind, UNARY)
+        if isinstance(node.op, ast.Invert) and found.kind == INTEGER:
+            return Expression(f"~{found.within(UNARY)}", INTEGER, UNARY)
+        raise self.refused(node, f"{ast.unparse(node)!r}")
+
+    def _BinOp(self, node: ast.BinOp) -> Expression:
+        a, b, operator = self.translate(node.left), self.translate(node.right), type(node.op)
+        if not {a.kind, b.kind} <= {REAL, INTEGER}:
+            raise self.refused(node, f"{ast.unparse(node)!r}")
+        whole = a.kind == b.kind == INTEGER
+        if operator in OPERATORS:
+            sign, level = OPERATORS[operator]
+            left = a.within(level)
+            if operator is ast.Div and whole:
+                left = f"(real){a.within(UNARY)}"
+            kind = INTEGER if whole and operator is not ast.Div else REAL
+            return Expression(f"{left} {sign} {b.within(level + 1)}", kind, level)
+        if operator is ast.Mod and not whole:
+            return Expression(f"real_modulo({a.text}, {b.text})", REAL)
+        helpers = {ast.LShift: "shift_left", ast.Mod: "integer_modulo", ast.FloorDiv: "integer_quotient"}
+        if whole and operator in helpers:
+            return Expression(f"{helpers[operator]}({a.text}, {b.text})", INTEGER)
+        if whole and operator in BITS:
+            # In parentheses, since the precedence of C's operators on bits is not Python's.
+            return Expression(f"({a.within(UNARY)} {BITS[operator]} {b.within(UNARY)})", INTEGER)
+        raise self.refused(node, f"{ast.unparse(node)!r}")
+
+    def _BoolOp(self, node: ast.BoolOp) -> Expression:
+        sign, level = ("&&", AND) if isinstance(node.op, ast.And) else ("||", OR)
+        first, *others = node.values
+        texts = [self.condition(first).within(EQUALITY)]
+        with self.lazily():
+            texts += [self.condition(one).within(EQUALITY) for one in others]
+        return Expression(f" {sign} ".join(texts), TRUTH, level)
+
+    def _Compare(self, node: ast.Compare) -> Expression:
+        operands = [node.left, *node.comparators]
+        if any(isinstance(op, ast.In) for op in node.ops):
+            return self._member(node)
+        if any(not isinstance(one, ast.Name | ast.Attribute | ast.Constant | ast.UnaryOp) for one in operands[1:-1]):
+            raise self.refused(node, f"the comparison {ast.unparse(node)!r} with a computed value in its middle")
+        values = [self.translate(one) for one in operands]
+        texts = []
+        for a, op, b in zip(values, node.ops, values[1:], strict=False):
+            if type(op) not in COMPARED or not {a.kind, b.kind} <= {REAL, INTEGER, TRUTH}:
+                raise self.refused(node, f"the comparison {ast.unparse(node)!r}")
+            sign, level = COMPARED[type(op)]
+            texts.append(f"{a.within(level + 1)} {sign} {b.within(level + 1)}")
+        level = COMPARED[type(node.ops[0])][1] if len(texts) == 1 else AND
+        return Expression(" && ".join(texts), TRUTH, level)
+
+    def _member(self, node: ast.Compare) -> Expression:
+        """Whether a value is one of a few: `x in (a, b)`."""
+        (choices,) = node.comparators
+        if not isinstance(choices, ast.Tuple) or not isinstance(node.left, ast.Name):
+            raise self.refused(node, f"{ast.unparse(node)!r}")
+        value = self.translate(node.left)
+        texts = [f"{value.text} == {self.translate(one).within(EQUALITY + 1)}" for one in choices.elts]
+        return Expression(" || ".join(texts), TRUTH, OR)
+
+    def _IfExp(self, node: ast.IfExp) -> Expression:
+        if isinstance(node.body, ast.Tuple):
+            values = self._chosen_parts(node)
+            return self.structure(tuple_of(tuple(value.kind for value in values)), values)
+        if isinstance(node.orelse, ast.Tuple):
+            raise self.refused(node, f"the choice {ast.unparse(node)!r} with a tuple as its second part only")
+        test = self.condition(node.test)
+        with self.lazily():
+            a, b = self.translate(node.body), self.translate(node.orelse)
+        kind = REAL if {a.kind, b.kind} == {REAL, INTEGER} else a.kind
+        if kind != a.kind and kind != b.kind:
+            raise self.refused(node, f"the choice {ast.unparse(node)!r} between two kinds")
+        return Expression(f"{test.within(CHOICE + 1)} ? {a.within(CHOICE + 1)} : {b.within(CHOICE)}", kind, CHOICE)
+
+    def _Call(self, node: ast.Call) -> Expression:
+        if not isinstance(node.func, ast.Name) or node.func.id in self.names.local:
+            raise self.refused(node, f"the call {ast.unparse(node)!r}")
+        name = node.func.id
+        called = self.names.replaced.get(name, self.names.globals.get(name))
+        arguments = [value for one in node.args for value in self._argument(one)]
+        if called is None and hasattr(self, f"_call_{name}"):
+            found: Expression = getattr(self, f"_call_{name}")(node, arguments)
+            return found
+        if isinstance(called, type) and issubclass(called, tuple):
+            return self._constructed(node, called, arguments)
+        if isinstance(called, FunctionType):
+            title, parameters, result = self.names.function(called)
+            arguments += self._defaults(node, called, list(parameters), len(arguments))
+            return self._called(title, list(parameters.values()), arguments, result)
+        if called is not None and getattr(math, name, None) is called:
+            return self._of_math(node, name, arguments)
+        raise self.refused(node, f"the call {ast.unparse(node)!r}")
+
+    def _argument(self, node: ast.expr) -> list[Expression]:
+        """The values of an argument: of several where it is starred."""
+        return self.parts(node.value) if isinstance(node, ast.Starred) else [self.translate(node)]
+
+    def _defaults(self, node: ast.Call, called: FunctionType, names: list[str], given: int) -> list[Expression]:
+        """The arguments after the `given` ones: by keyword, or by default."""
+        keywords = {keyword.arg: self.translate(keyword.value) for keyword in node.keywords}
+        defaults = dict(zip(reversed(names), reversed(called.__defaults__ or ()), strict=False))
+        values = []
+        for name in names[given:]:
+            if name not in keywords and name not in defaults:
+                raise self.refused(node, f"the call {ast.unparse(node)!r} without {name!r}")
+            values.append(keywords[name] if name in keywords else Expression(str(defaults[name]), INTEGER, UNARY))
+        return values
+
+    def _called(self, title: str, kinds: list[Kind], arguments: list[Expression], result: Kind) -> Expression:
+        for kind, argument in zip(kinds, arguments, strict=True):
+            if kind != argument.kind and (kind, argument.kind) not in ((REAL, INTEGER), (INTEGER, TRUTH)):
+                raise NotTranslated(f"{self.file}: {title} is called with {argument.text!r}, which is no {kind.name}")
+        return Expression(f"{title}({', '.join(argument.text for argument in arguments)})", result)
+
+    def _constructed(self, node: ast.Call, called: type, arguments: list[Expression]) -> Expression:
+        kind = kind_of_type(called, f"{self.file}:{node.lineno}")
+        if node.keywords:
+            given = {str(keyword.arg): self.translate(keyword.value) for keyword in node.keywords}
+            arguments += [given[name] for name in called._fields[len(arguments) :]]  # type: ignore[attr-defined]
+        if len(arguments) != len(kind.fields):
+            raise self.refused(node, f"{called.__name__} with {len(arguments)} of {len(kind.fields)} fields")
+        return self.structure(kind, arguments)
+
+    def _of_math(self, node: ast.Call, name: str, arguments: list[Expression]) -> Expression:
+        texts = ", ".join(argument.text for argument in arguments)
+        if name == "isfinite":
+            return Expression(f"isfinite({texts})", TRUTH)
+        if name not in self.names.arithmetic.functions:
+            raise self.refused(node, f"the function {name!r} of math")
+        call = f"{self.names.arithmetic.functions[name]}({texts})"
+        # Python's `ceil` gives an integer; so does its `floor`, which the kernel uses as a real number only.
+        return Expression(f"integer_of({call})", INTEGER) if name == "ceil" else Expression(call, REAL)
+
+    def _call_min(self, node: ast.Call, arguments: list[Expression]) -> Expression:
+        return self._folded("min", arguments)
+
+    def _call_max(self, node: ast.Call, arguments: list[Expression]) -> Expression:
+        return self._folded("max", arguments)
+
+    def _folded(self, name: str, arguments: list[Expression]) -> Expression:
+        """The least or largest of several, compared from left to right as Python does."""
+        kind = INTEGER if all(argument.kind == INTEGER for argument in arguments) else REAL
+        text, *others = (argument.text for argument in arguments)
+        for other in others:
+            text = f"{name}_{kind.name}({text}, {other})"
+        return Expression(text, kind)
+
+    def _call_abs(self, node: ast.Call, arguments: list[Expression]) -> Expression:
+        (value,) = arguments
+        if value.kind != REAL:
+            raise self.refused(node, f"{ast.unparse(node)!r} of an integer")
+        return Expression(f"{self.names.arithmetic.functions['fabs']}({value.text})", REAL)
+
+    def _call_float(self, node: ast.Call, arguments: list[Expression]) -> Expression:
+        (value,) = arguments
+        return Expression(f"(real){value.within(UNARY)}", REAL, UNARY)
+
+
+def constant_value(value: Any, place: str, literal: Callable[[float], str]) -> Expression:
+    """A constant of Python as a constant of C: a number, or a structure."""
+    kind = kind_of_value(value, place)
+    if kind == REAL:
+        return Expression(literal(value), REAL, PRIMARY if value >= 0.0 else UNARY)
+    if kind in (INTEGER, TRUTH):
+        return Expression(str(int(value)), kind, PRIMARY if value >= 0 else UNARY)
+    if kind == NOTHING or not kind.fields:
+        raise NotTranslated(f"{place}: a constant {value!r} is not part of the kernel's subset of Python")
+    return Expression("{" + ", ".join(constant_value(one, place, literal).text for one in value) + "}", kind)

@@ -1,0 +1,81 @@
+"""Kinds of values in C: real numbers, integers, truth values, structures, and arrays of numbers."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from types import FunctionType, GenericAlias
+from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
+
+
+class NotTranslated(Exception):
+    """Something outside the subset of Python that is translated; its text is one sentence."""
+
+
+class Kind(NamedTuple):
+    """A kind of value: its name in C, and the fields where it is a structure."""
+
+    name: str
+    fields: tuple[tuple[str, Kind], ...] = ()
+    is_tuple: bool = False
+
+
+REAL, INTEGER, TRUTH, NOTHING, REALS = Kind("real"), Kind("integer"), Kind("bool"), Kind("void"), Kind("real *")
+
+
+def tuple_of(kinds: tuple[Kind, ...]) -> Kind:
+    """The structure for a tuple without a name: `real_2`, `integer_real_3`; its fields are `a0`, `a1`, ..."""
+    runs: list[tuple[Kind, int]] = []
+    for kind in kinds:
+        if runs and runs[-1][0] == kind:
+            runs[-1] = kind, runs[-1][1] + 1
+        else:
+            runs.append((kind, 1))
+    name = "_".join(kind.name if count == 1 else f"{kind.name}_{count}" for kind, count in runs)
+    return Kind(name, tuple((f"a{i}", kind) for i, kind in enumerate(kinds)), is_tuple=True)
+
+
+def kind_of_type(hint: Any, place: str) -> Kind:
+    """The kind for a type of Python."""
+    if hint is type(None):
+        return NOTHING
+    if get_origin(hint) is tuple and Ellipsis not in get_args(hint):
+        return tuple_of(tuple(kind_of_type(one, place) for one in get_args(hint)))
+    if isinstance(hint, GenericAlias) and hint == list[float]:
+        return REALS
+    if isinstance(hint, type):
+        if issubclass(hint, bool):
+            return TRUTH
+        if issubclass(hint, IntEnum | int):
+            return INTEGER
+        if issubclass(hint, float):
+            return REAL
+        if issubclass(hint, tuple) and hasattr(hint, "_fields"):
+            hints = get_type_hints(hint)
+            return Kind(hint.__name__, tuple((safe(name), kind_of_type(hints[name], place)) for name in hint._fields))
+    raise NotTranslated(f"{place}: the type {hint} is not part of the kernel's subset of Python")
+
+
+def kind_of_value(value: Any, place: str) -> Kind:
+    """The kind of a constant."""
+    if isinstance(value, tuple) and not hasattr(value, "_fields"):
+        return tuple_of(tuple(kind_of_value(one, place) for one in value))
+    return kind_of_type(type(value), place)
+
+
+def signature(function: FunctionType, place: str) -> tuple[dict[str, Kind], Kind]:
+    """The kinds of the parameters of a function, and that of its result."""
+    hints = get_type_hints(function)
+    result = kind_of_type(hints.pop("return", None), place)
+    names = function.__code__.co_varnames[: function.__code__.co_argcount]
+    if missing := [name for name in names if name not in hints]:
+        raise NotTranslated(f"{place}: the parameter {missing[0]!r} of {function.__name__} has no annotation")
+    return {name: kind_of_type(hints[name], place) for name in names}, result
+
+
+# Words of C that are names in Python.
+RESERVED = {"short", "long", "double", "float", "int", "register", "union", "auto", "const", "restrict", "default"}
+
+
+def safe(name: str) -> str:
+    """A name that is none of C's words."""
+    return f"{name}_" if name in RESERVED else name

@@ -1,0 +1,286 @@
+"""A file of C: the functions that some functions of the kernel need, in one arithmetic."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import inspect
+import io
+import tokenize
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from enum import EnumType
+from functools import cache
+from pathlib import Path
+from sys import modules
+from types import FunctionType, ModuleType
+from typing import Any
+
+from codegen.arithmetic import CONSTANTS, Arithmetic
+from codegen.expressions import PRIMARY, Expression, Expressions, Names, constant_value
+from codegen.kinds import Kind, NotTranslated, kind_of_value, safe, signature
+from codegen.statements import STEP, Function, comment, wrapped
+from loiter.version import __version__
+
+ROOT = Path(__file__).parents[1]
+HELPERS = Path(__file__).with_name("helpers.h").read_text("utf-8")
+
+# Names of the C library, and of POSIX, that functions of the kernel have too.
+TAKEN = {"atan2", "sin", "cos", "hypot", "select", "l", "r"}
+
+
+@cache
+def syntax(module: ModuleType) -> dict[str, ast.FunctionDef]:
+    """The functions of a module."""
+    tree = ast.parse(inspect.getsource(module))
+    return {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+
+
+@cache
+def assigned(module: ModuleType) -> dict[str, ast.expr]:
+    """The constants of a module: the expressions by which they are set."""
+    found: dict[str, ast.expr] = {}
+    for node in ast.parse(inspect.getsource(module)).body:
+        if isinstance(node, ast.Assign) and len(node.targets) == 1:
+            (target,) = node.targets
+            whole = isinstance(target, ast.Name)
+            names = [target] if whole else getattr(target, "elts", [])
+            values = [node.value] if whole else getattr(node.value, "elts", [])
+            found |= {name.id: value for name, value in zip(names, values, strict=True) if isinstance(name, ast.Name)}
+    return found
+
+
+@cache
+def comments_of(module: ModuleType) -> dict[int, str]:
+    """The comments of a module that stand on lines of their own, by line."""
+    source = inspect.getsource(module)
+    found = {}
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type == tokenize.COMMENT and token.line.lstrip().startswith("#"):
+            found[token.start[0]] = token.string.lstrip("# ")
+    return found
+
+
+class Unit:
+    """The file of the functions `roots`, and of what they need."""
+
+    def __init__(self, title: str, arithmetic: Arithmetic, roots: Sequence[Any]) -> None:
+        self.title, self.arithmetic = title, arithmetic
+        self.functions: dict[FunctionType, list[str]] = {}
+        self.constants: dict[tuple[str, str], list[str]] = {}
+        self.constant_kinds: dict[tuple[str, str], Kind] = {}
+        self.structures: dict[str, Kind] = {}
+        self.documented: dict[str, str] = {}
+        self.enums: dict[str, EnumType] = {}
+        self.open: list[FunctionType] = []
+        reached = self._reachable(roots)
+        self.shared = {name for name, count in Counter(f.__name__ for f in reached).items() if count > 1}
+        for root in roots:
+            self._add(root)
+
+    def _reachable(self, roots: Sequence[Any]) -> set[FunctionType]:
+        """All functions that are called: by name, whether or not they are replaced."""
+        found: set[FunctionType] = set()
+        waiting = list(roots)
+        while waiting:
+            function = waiting.pop()
+            if function not in found:
+                found.add(function)
+                replaced = self._replaced(function)
+                for name in function.__code__.co_names:
+                    value = replaced.get(name, function.__globals__.get(name))
+                    if isinstance(value, FunctionType) and value.__module__.startswith("loiter."):
+                        waiting.append(value)
+        return found
+
+    def _replaced(self, function: FunctionType) -> dict[str, Any]:
+        """What stands in for the globals of a function; replacements are themselves as they are written."""
+        is_replacement = function.__module__ == "loiter.compiled.branchless"
+        return {} if is_replacement else self.arithmetic.replaced
+
+    def name(self, function: FunctionType) -> str:
+        """The name in C: that in Python, after that of the module where two functions share it, or C has it too."""
+        module = function.__module__.rpartition(".")[2]
+        taken = function.__name__ in self.shared or function.__name__ in TAKEN
+        return f"{module}_{function.__name__}" if taken else function.__name__
+
+    def _add(self, function: FunctionType) -> tuple[str, dict[str, Kind], Kind]:
+        """Translate a function unless that is done; its name, parameters and result."""
+        module = modules[function.__module__]
+        place = str(Path(inspect.getfile(module)).relative_to(ROOT))
+        parameters, result = signature(function, place)
+        for kind in (*parameters.values(), result):
+            self._structure(kind)
+        title = self.name(function)
+        if function in self.open:
+            raise NotTranslated(f"{place}: {function.__name__} calls itself, which a kernel function must not")
+        if function not in self.functions:
+            self.open.append(function)
+            lines = self._translated(function, module, place, parameters, result)
+            self.open.pop()
+            self.functions[function] = lines
+        return title, parameters, result
+
+    def _translated(
+        self, function: FunctionType, module: ModuleType, place: str, parameters: dict[str, Kind], result: Kind
+    ) -> list[str]:
+        node = syntax(module)[function.__name__]
+        if node.args.vararg or node.args.kwarg or node.args.kwonlyargs or node.decorator_list:
+            raise NotTranslated(f"{place}:{node.lineno}: {node.name} has arguments or decorators that C does not have")
+        names = Names(
+            self.arithmetic,
+            function.__globals__,
+            dict(parameters),
+            self._replaced(function),
+            self._add,
+            self._constant,
+        )
+        body = Function(node, names, result, place, comments_of(module)).body()
+        for kind in names.local.values():
+            self._structure(kind)
+        listed = ", ".join(_declaration(kind, safe(name)) for name, kind in parameters.items()) or "void"
+        if node.name in self.arithmetic.faster:
+            body = ["#ifdef FP_FAST_FMA", STEP + self.arithmetic.faster[node.name], "#else", *body, "#endif"]
+        doc = ast.get_docstring(node)
+        head = f"{self.arithmetic.storage} {result.name} {self.name(function)}({listed}) {{"
+        return [*(comment(doc) if doc else ()), *wrapped(head), *body, "}", ""]
+
+    def _structure(self, kind: Kind) -> None:
+        """Declare a structure, after those of its fields."""
+        for _, inner in kind.fields:
+            self._structure(inner)
+        if kind.fields and kind.name not in self.structures:
+            self.structures[kind.name] = kind
+
+    def _constant(self, name: str, names: dict[str, Any]) -> Expression:
+        """A constant of the module with these globals, where it is defined."""
+        value = names[name]
+        owner = self._owner(name, value, names["__name__"])
+        module = owner.__name__.rpartition(".")[2]
+        value = CONSTANTS[module, name](self.arithmetic) if (module, name) in CONSTANTS else value
+        if isinstance(value, EnumType):
+            raise NotTranslated(f"{owner.__name__}: the class {name} is used as a value")
+        key = module, name
+        kind = kind_of_value(value, owner.__name__)
+        self._structure(kind)
+        if key not in self.constants:
+            literal = Expressions(Names(self.arithmetic, {}, {}, {}, self._add, self._constant), "").literal
+            found = constant_value(value, owner.__name__, literal)
+            source = ast.unparse(assigned(owner)[name])
+            if kind.fields:
+                line = f"static const {kind.name} {name} = {found.text};"
+            else:
+                line = f"#define {name} {found.text if found.level == PRIMARY else f'({found.text})'}"
+            shown = "" if source in (found.text, repr(value)) else f" /* {source} */"
+            above = list(comment_above(owner, name))
+            known = any(above == lines[:-1] for lines in self.constants.values())
+            self.constants[key] = [*(() if known else above), line + shown]
+            self.constant_kinds[key] = kind
+        return Expression(name, kind)
+
+    def _owner(self, name: str, value: Any, importer: str) -> ModuleType:
+        """The module that defines a constant."""
+        if name in assigned(modules[importer]):
+            return modules[importer]
+        for title, module in sorted(modules.items()):
+            if title.startswith("loiter.") and getattr(module, name, None) is value and name in assigned(module):
+                return module
+        raise NotTranslated(f"{importer}: the constant {name!r} is defined nowhere in the kernel")
+
+    def text(self) -> str:
+        """The whole file."""
+        used = "\n".join(line for lines in self.functions.values() for line in lines)
+        parts: list[str] = [*self._head(), *self._types(), HELPERS, *self._enums(used)]
+        for kind in self.structures.values():
+            parts += [*self._structure_lines(kind), ""]
+        for lines in self.constants.values():
+            parts += lines
+        parts.append("")
+        for lines in self.functions.values():
+            parts += lines
+        parts.append("#endif")
+        return "\n".join(parts) + "\n"
+
+    def _head(self) -> Iterator[str]:
+        guard = f"LOITER_{Path(self.title).stem.upper()}_H"
+        yield from comment(
+            f"{DESCRIPTIONS[self.title]}\n\nGenerated from the Python of loiter {__version__} by `make generate`; "
+            f"do not edit.\n\nSHA-256 of the source: {digest(self.sources())}"
+        )
+        yield f"#ifndef {guard}\n#define {guard}\n"
+
+    def _types(self) -> Iterator[str]:
+        yield "#include <math.h>\n#include <stdbool.h>\n#include <stdint.h>\n"
+        unsigned = f"u{self.arithmetic.integer}"
+        yield f"typedef {self.arithmetic.real} real;"
+        yield f"typedef {self.arithmetic.integer} integer;\ntypedef {unsigned} unsigned_integer;\n"
+
+    def _enums(self, used: str) -> Iterator[str]:
+        from loiter.kernel.statuses import Status
+        from loiter.kernel.words import Side, Word
+
+        for kind in (Side, Status, Word):
+            if f"{kind.__name__.upper()}_" in used:
+                members = ", ".join(f"{kind.__name__.upper()}_{member.name} = {int(member)}" for member in kind)
+                yield from comment(kind.__doc__ or kind.__name__)
+                yield from wrapped(f"enum {{ {members} }};")
+                yield ""
+
+    def _structure_lines(self, kind: Kind) -> Iterator[str]:
+        if not kind.is_tuple:
+            yield from comment(self._class_of(kind).__doc__ or kind.name)
+        by_kind: list[tuple[str, list[str]]] = []
+        for name, inner in kind.fields:
+            if by_kind and by_kind[-1][0] == inner.name:
+                by_kind[-1][1].append(name)
+            else:
+                by_kind.append((inner.name, [name]))
+        fields = " ".join(f"{title} {', '.join(names)};" for title, names in by_kind)
+        yield from wrapped(f"typedef struct {{ {fields} }} {kind.name};")
+
+    def _class_of(self, kind: Kind) -> type:
+        for function in self.functions:
+            found = function.__globals__.get(kind.name)
+            if isinstance(found, type):
+                return found
+        raise NotTranslated(f"the class {kind.name} is not imported where it is used")
+
+    def sources(self) -> list[Path]:
+        """The files of Python from which the functions come."""
+        found = {Path(inspect.getfile(modules[function.__module__])) for function in self.functions}
+        return sorted(found)
+
+
+def _declaration(kind: Kind, name: str) -> str:
+    return f"{kind.name}{'' if kind.name.endswith('*') else ' '}{name}"
+
+
+def comment_above(module: ModuleType, name: str) -> Iterator[str]:
+    """The comment above a constant."""
+    comments, line = comments_of(module), assigned(module)[name].lineno - 1
+    block: list[str] = []
+    while line in comments:
+        block.insert(0, comments[line])
+        line -= 1
+    if block:
+        yield from ["", *comment(" ".join(block))]
+
+
+def digest(files: list[Path]) -> str:
+    """A digest of the sources."""
+    found = hashlib.sha256()
+    for file in files:
+        found.update(file.read_bytes())
+    return found.hexdigest()
+
+
+DESCRIPTIONS = {
+    "kernel.h": (
+        "The fastest way onto a holding circle, in still air and in wind, in double precision, with the functions of "
+        "the C library: the same answers as in Python, to the last bit."
+    ),
+    "still_air_loops.h": (
+        "The fastest way onto a holding circle in still air, in double precision, without branches and without calls "
+        "of the C library, for loops that a compiler vectorises."
+    ),
+}

@@ -1,0 +1,68 @@
+"""The committed C is that of the Python beside it, and what cannot be translated is refused in a sentence."""
+
+import re
+from importlib import import_module
+
+import pytest
+from codegen.arithmetic import CONSTANTS, DOUBLE
+from codegen.files import FOLDER, files
+from codegen.kinds import NotTranslated
+from codegen.unit import Unit
+
+from native import untranslatable
+
+
+def test_make_generate_was_run_after_the_last_change():
+    for name, text in files().items():
+        assert (FOLDER / name).read_text("utf-8") == text, f"{name}: run make generate"
+
+
+def test_no_other_file_claims_to_be_generated():
+    made = {path.name for path in FOLDER.glob("*.[ch]") if "do not edit" in path.read_text("utf-8")}
+    assert made == set(files())
+
+
+@pytest.mark.parametrize(("module", "name"), CONSTANTS)
+def test_the_constants_of_the_arithmetic_of_doubles_are_those_of_the_kernel(module, name):
+    folder = "loiter.kernel.wind" if module == "minimum" else "loiter.kernel"
+    assert CONSTANTS[module, name](DOUBLE) == getattr(import_module(f"{folder}.{module}"), name)
+
+
+def test_an_arithmetic_of_fewer_digits_has_its_own_constants():
+    short = DOUBLE._replace(real="float", suffix="f", digits=24, exponents=126)
+    text = Unit("kernel.h", short, (untranslatable.rounds,)).text()
+    assert "typedef float real;" in text
+    assert "#define ROUNDING 7.62939453125e-06f" in text
+
+
+REFUSED = {
+    "lists": "[x for x in (1.0, 2.0)]' is not part of the kernel's subset of Python",
+    "unannotated": "the parameter 'x' of unannotated has no annotation",
+    "recursive": "recursive calls itself, which a kernel function must not",
+    "two_kinds": "the variable 'found' with values of the kinds real and real_2",
+    "text": "the constant 'text' is not part of",
+    "raises": "the statement 'raise ValueError(x)' is not part of",
+    "calls_method": "the call 'x.hex()' is not part of",
+    "unknown_function": "the function 'gamma' of math is not part of",
+    "loop_variable": "the variable 'i' of a loop, set elsewhere too,",
+    "computed_middle": "with a computed value in its middle is not part of",
+    "lazy_tuple": "a structure is taken apart where it may not be computed",
+    "wrong_argument": "is called with '(real_2){x, x}', which is no real",
+}
+
+
+@pytest.mark.parametrize(("name", "sentence"), REFUSED.items())
+def test_what_is_outside_the_subset_is_refused_in_one_sentence(name, sentence):
+    with pytest.raises(NotTranslated, match=re.escape(sentence)) as refusal:
+        Unit("kernel.h", DOUBLE, (getattr(untranslatable, name),))
+    assert "\n" not in str(refusal.value)
+    assert str(refusal.value).startswith("tests/native/untranslatable.py")
+
+
+def test_every_function_of_the_refused_ones_is_tried():
+    names = {
+        name
+        for name, value in vars(untranslatable).items()
+        if getattr(value, "__module__", "") == untranslatable.__name__
+    }
+    assert names - {"rounds", "halved", "taken"} == set(REFUSED)

@@ -1,0 +1,71 @@
+"""Functions with one thing each that is outside the kernel's subset of Python; and `rounds`, which is inside."""
+
+from math import gamma
+
+from loiter.kernel.synthesis import ROUNDING
+
+
+def rounds(x: float) -> float:
+    return ROUNDING * x
+
+
+def halved(x: float) -> tuple[float, float]:
+    return 0.5 * x, 0.5 * x
+
+
+def lists(x: float) -> float:
+    return sum([x for x in (1.0, 2.0)])  # noqa: C416
+
+
+def unannotated(x) -> float:
+    return x
+
+
+def recursive(x: float) -> float:
+    return recursive(x - 1.0) if x > 0.0 else 0.0
+
+
+def two_kinds(x: float) -> float:
+    found = x
+    found = halved(x)
+    return found  # noqa: RET504
+
+
+def text(x: float) -> float:
+    name = "text"
+    return x if name else 0.0
+
+
+def raises(x: float) -> float:
+    raise ValueError(x)
+
+
+def calls_method(x: float) -> float:
+    return x.hex()
+
+
+def unknown_function(x: float) -> float:
+    return gamma(x)
+
+
+def loop_variable(x: float) -> float:
+    i = 0
+    for i in range(3):  # noqa: B007
+        x = x + 1.0
+    return x + i
+
+
+def computed_middle(x: float) -> bool:
+    return 0.0 < x + 1.0 < 2.0
+
+
+def wrong_argument(x: float) -> float:
+    return rounds((x, x))
+
+
+def taken(x: float, y: float) -> float:
+    return x + y
+
+
+def lazy_tuple(x: float) -> float:
+    return taken(*halved(x)) if x > 0.0 else 0.0
