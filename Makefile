@@ -19,7 +19,14 @@ $(BIN)/python:
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || requirements/apt-install python3-venv
 	$(PYTHON) -m venv .venv
 
-.venv/base.stamp: $(BIN)/python requirements/base.txt pyproject.toml
+# A C compiler and Python's headers, with which the package is built; on Debian they are separate packages.
+.venv/compiler.stamp: $(BIN)/python
+	@command -v cc >/dev/null || requirements/apt-install gcc libc6-dev
+	@$(BIN)/python -c 'import pathlib, sys, sysconfig; \
+	  sys.exit(not pathlib.Path(sysconfig.get_path("include"), "Python.h").exists())' || requirements/apt-install python3-dev
+	@touch $@
+
+.venv/base.stamp: .venv/compiler.stamp requirements/base.txt pyproject.toml hatch_build.py $(wildcard src/loiter/native/*)
 	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/base.txt
 	$(BIN)/python -m pip install -q --disable-pip-version-check --no-deps -e .
 	@touch $@

@@ -109,7 +109,6 @@ def wind() -> list[Row]:
 
 def single_scenes(windiest: float, count: int) -> list[float]:
     """Seconds of machine code for each of some random scenes with wind, the least of seven calls."""
-    wind_solver.prepare()
     problems = [
         WindProblem(*s.start[:2], cos(s.start.angle), sin(s.start.angle), s.radius, s.side, s.wind_east, s.wind_north)
         for s in wind_scan_check.random_problems(count, 5, windiest)

@@ -12,7 +12,6 @@ import time
 from importlib import import_module
 from pathlib import Path
 
-from loiter.arrays.entries import compile_kernel
 from loiter.batch.jobs import cluster
 from loiter.batch.tables import files, ingest, outputs
 from loiter.cli.app import main
@@ -111,8 +110,7 @@ if __name__ == "__main__":
     what, source, out, seed, times, *options = sys.argv[1:]
     small()
     # What a child would have to load takes longer than its job.
-    compile_kernel()
-    for module in ("loiter.batch.jobs.job", "loiter.cli.commands.batch"):
+    for module in ("loiter.compiled.ufuncs", "loiter.batch.jobs.job", "loiter.cli.commands.batch"):
         import_module(module)
     if what == "kill":
         kill(["batch", source, out, *options], Path(out), int(seed), int(times))

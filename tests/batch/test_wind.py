@@ -248,13 +248,3 @@ def test_another_wind_starts_the_job_over(tmp_path, monkeypatch, small):
     assert run(BREEZE).resumed_parts > 0
     for one in read(Path("out.parquet"))[:5]:
         assert_planned(one, orbit=ORBIT, aircraft=UAV, wind=BREEZE)
-
-
-@pytest.mark.parametrize("wind", [BREEZE, None])
-def test_the_search_in_wind_is_compiled_before_the_threads_start(tmp_path, monkeypatch, small, wind):
-    """An interrupt does not reach other threads."""
-    started = []
-    monkeypatch.setattr("loiter.batch.jobs.runner.compile_kernel", lambda in_wind: started.append(in_wind))
-    given = {"orbit": ORBIT, "aircraft": UAV, "wind": wind}
-    loiter.batch.run(write(poses(60), tmp_path / "in.parquet"), tmp_path / "out.parquet", **given)
-    assert started == [wind is not None]

@@ -20,7 +20,6 @@ COMMANDS = [
     "verify",
     "prove",
     "serve",
-    "warm-up",
     "completion",
 ]
 LIMITS = ["--turn", "--turn-radius", "--turn-rate"]

@@ -43,7 +43,6 @@ def test_each_command_has_examples_of_its_own(examples, command):
     ("command", "statuses"),
     [
         ((), ["0", "1", "2", "3", "130"]),
-        (("warm-up",), ["0", "2"]),
         (("plan",), ["0", "1", "2"]),
         (("guide",), ["0", "2", "3", "130"]),
     ],

@@ -3,18 +3,25 @@
 import re
 from importlib import import_module
 
+import hatch_build
 import pytest
 from codegen.arithmetic import CONSTANTS, DOUBLE
 from codegen.files import FOLDER, files
 from codegen.kinds import NotTranslated
-from codegen.unit import Unit
+from codegen.unit import ROOT, Unit
 
+from loiter.compiled.still_air_solver import single
 from native import untranslatable
 
 
 def test_make_generate_was_run_after_the_last_change():
     for name, text in files().items():
         assert (FOLDER / name).read_text("utf-8") == text, f"{name}: run make generate"
+
+
+@pytest.mark.skipif(single is None, reason="this package has no machine code")
+def test_the_machine_code_is_that_of_the_c_beside_it():
+    assert single.sources == hatch_build.digest(ROOT), "run make demo, or python hatch_build.py"
 
 
 def test_no_other_file_claims_to_be_generated():

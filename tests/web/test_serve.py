@@ -12,10 +12,9 @@ import httpx
 import pytest
 import uvicorn
 
-from loiter import compiled
 from loiter.cli.app import main
 from loiter.errors import MissingPackage
-from loiter.web import serve, server
+from loiter.web import serve
 from loiter.web.app import create_app
 from loiter.web.server import Server, listening_socket
 from web.serving import connected, serving
@@ -217,14 +216,3 @@ def test_importing_the_package_does_not_load_the_framework():
     code = "import loiter, sys; loiter.web.serve; print({'fastapi', 'uvicorn', 'pydantic'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "set()\n"
-
-
-@pytest.mark.parametrize("needed", [True, False])
-def test_the_terminal_says_when_something_is_compiled_at_the_start_and_when_it_is_done(monkeypatch, needed):
-    monkeypatch.setattr(server, "synthesis", lambda *_: compiled.announce("compiling x") if needed else None)
-    monkeypatch.setattr(server.wind_solver, "prepare", lambda: None)
-    monkeypatch.setattr(server.objects, "compilations", lambda: int(needed))
-    monkeypatch.setattr(compiled, "_LISTENERS", [])
-    said = []
-    Server(uvicorn.Config(create_app()), said.append)._warm_up()
-    assert said == (["Compiling x.", "Compiled: the page answers at full speed now."] if needed else [])

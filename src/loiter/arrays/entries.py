@@ -79,7 +79,7 @@ class Entries(NamedTuple):
 
 
 def entries(states: States) -> Entries:
-    """The fastest entry of each row, as `plan` returns it; the first call loads the kernel, which may take seconds."""
+    """The fastest entry of each row, as `plan` returns it."""
     n = len(states.east_m)
     found: list[Any] = [np.empty(n, dtype=np.int8 if name in _CODES else np.float64) for name in Entries._fields]
     with np.errstate(all="ignore"):
@@ -89,15 +89,6 @@ def entries(states: States) -> Entries:
         if windy.size:
             _solve(states, windy, _in_wind, found)
     return Entries(*found)
-
-
-def compile_kernel(*, in_wind: bool = False) -> None:
-    """Load and compile what `entries` needs, so that the work itself is not interrupted."""
-    one = np.zeros(1)
-    calm = States(one, one, one, 0.0, 0.0, 1.0, 0, 1.0, 1.0, "min_turn_radius_m")
-    entries(calm)
-    if in_wind:
-        entries(calm._replace(orbit_radius_m=2.0, wind_speed_m_s=0.1))
 
 
 def _solve(states: States, rows: Any, solve: Callable[[States], Entries], found: list[Any]) -> None:
@@ -215,9 +206,9 @@ def _kernel(x: Any, y: Any, R: Any, side: Any, tolerance: Any) -> tuple[Any, ...
 
 def _kernel_in_wind(*columns: Any) -> tuple[Any, ...]:
     """Time, word, durations, status, side, azimuth, miss. The only place where the kernel is called for wind."""
-    from loiter.compiled import wind_ufuncs
+    from loiter.compiled import ufuncs
 
-    result: tuple[Any, ...] = wind_ufuncs.solve_in_wind(*columns, np.empty(3))
+    result: tuple[Any, ...] = ufuncs.solve_in_wind(*columns, np.empty(3))
     return result
 
 

@@ -109,8 +109,7 @@ def min_time(
     values where `where`, an array of bool, is false. Dask arrays, pandas columns and xarray's arrays give results of
     the same kind. A state that cannot be solved (nan, infinite, radius < 1) gives nan; the status of `solve` gives the
     reason. `workers` threads share NumPy arrays; -1 means one per core. Raises `InvalidArgument` for an unknown turn or
-    number of workers, and for `where` without `out`. The first call on a machine compiles the kernel, which takes about
-    ten seconds; the code is kept in the user's cache folder.
+    number of workers, and for `where` without `out`.
 
     >>> round(float(loiter.min_time(4.0, 4.0)), 4)
     6.9136

@@ -113,7 +113,7 @@ def min_time_in_wind(
     wind less the circle's own velocity) over the airspeed; all of them broadcast, and the result has their shape.
     `turn`, `tolerance` (turn radii), `out`, `where`, `workers` and the kinds of arrays are as for `min_time`. Raises
     `InvalidArgument` for an unknown turn or number of workers, and for `where` without `out`. A state takes some 60
-    microseconds. The first call on a machine compiles the search, which takes about twenty seconds.
+    microseconds.
 
     >>> round(float(loiter.min_time_in_wind(-10.0, 0.0, 0.0, 3.0, "cw", 0.3, 0.0)), 4)
     5.9162

@@ -11,7 +11,6 @@ from loiter.cli.arguments import prepared
 from loiter.cli.examples import epilogue, program_epilogue
 from loiter.cli.sentences import sentence
 from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR, abandon_output
-from loiter.compiled import announce_with
 from loiter.errors import LinkFailed, LoiterError
 
 
@@ -144,15 +143,6 @@ app.command(
     help_epilogue=epilogue("serve"),
     help="Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.",
 )
-app.command(
-    "loiter.cli.commands.warm_up:warm_up",
-    group=program,
-    sort_key=11,
-    help_epilogue=epilogue("warm-up"),
-    help="""Compile for this machine, once, what commands would otherwise compile when they first need it.
-
-Batches, synthesis, the page, many flights and arrays use machine code that is compiled on each machine, once for each version of the program, and kept in the user's cache folder. That takes up to half a minute. Without this command it happens when the code is first needed, and a line on standard error says so if that is a terminal.""",
-)
 
 
 @app.command(help_epilogue=epilogue("completion"))
@@ -169,8 +159,6 @@ def completion(shell: Literal["bash", "zsh", "fish"], /) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit status; an error prints one sentence to standard error."""
-    if sys.stderr.isatty():
-        announce_with(lambda line: print(f"loiter: {line} (loiter warm-up does it beforehand)", file=sys.stderr))  # noqa: T201
     try:
         status = app(
             prepared(sys.argv[1:] if arguments is None else arguments),

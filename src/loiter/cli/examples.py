@@ -52,8 +52,6 @@ EXAMPLES = {
     "serve": r"""
   loiter serve
   loiter serve --port 8080 --cors http://localhost:8000""",
-    "warm-up": r"""
-  loiter warm-up""",
     "completion": r"""
   eval "$(loiter completion bash)"
   loiter completion fish > ~/.config/fish/completions/loiter.fish""",

@@ -1,31 +1,25 @@
-"""The kernel's functions for still air, unchanged, as NumPy ufuncs. Importing this module loads or compiles them.
+"""The kernel's functions as NumPy ufuncs: those of the extension module `loops`, or plain Python where it is missing.
 
 `min_time(x, y, R, side, tolerance)` and `control(...)` return one array, `reduce(x, y, c, s)` two. `solve(x, y, R,
 side, tolerance, three)` returns time, word, durations (..., 3), status, side and miss; `three` is any array of length
-3, which NumPy needs to know the number of durations. Words, statuses and sides are the int8 codes of `words` and
-`codes`. The ufuncs broadcast, take `out=`, release the interpreter's lock, and allocate nothing beyond the results.
+3, which NumPy needs to know the number of durations. `min_time_in_wind(x, y, c, s, R, side, wx, wy, tolerance)` takes
+the numbers of a `WindProblem`, returns one array; `solve_in_wind(..., three)` returns time, word, durations (..., 3),
+status, side, azimuth and miss. Words, statuses and sides are the int8 codes of `words` and `statuses`. The ufuncs
+broadcast, take `out=`, release the interpreter's lock, and allocate nothing beyond the results.
 """
 
 from typing import Any
 
-from loiter.compiled.numpy_api import Operands, new_ufunc
-from loiter.compiled.objects import addresses, kernel_sources
-from loiter.compiled.still_air_solver import NAMES
+NAMES = ("min_time", "control", "reduce", "solve", "min_time_in_wind", "solve_in_wind")
 
-OPERANDS = {
-    "min_time": Operands("ddddd", "d"),
-    "control": Operands("ddddd", "d"),
-    "reduce": Operands("dddd", "dd"),
-    "solve": Operands("dddddd", "dbdbbd", "(),(),(),(),(),(n)->(),(),(n),(),(),()"),
-}
+try:
+    from loiter.compiled import loops as _functions
+except ImportError:
+    from loiter.compiled import plain as _functions  # type: ignore[no-redef]
 
-
-def _build() -> Any:
-    from loiter.compiled.loops import build
-
-    return build()
-
-
-min_time, control, reduce, solve = map(
-    new_ufunc, OPERANDS, OPERANDS.values(), addresses(NAMES, kernel_sources(), _build, "array functions")
-)
+min_time: Any = _functions.min_time
+control: Any = _functions.control
+reduce: Any = _functions.reduce
+solve: Any = _functions.solve
+min_time_in_wind: Any = _functions.min_time_in_wind
+solve_in_wind: Any = _functions.solve_in_wind

@@ -69,7 +69,7 @@ class WindEntry(NamedTuple):
 
 
 class WindSolver(NamedTuple):
-    """The two functions that search: `fastest`, and `local_minima` for one side. `compiled.wind` has faster ones."""
+    """The two functions that search: `fastest`, and `local_minima` for one side. `compiled` has faster ones."""
 
     fastest: Callable[[WindProblem], WindEntry]
     local_minima: Callable[[WindProblem], list[WindEntry]]

@@ -4,11 +4,11 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from loiter.compiled import wind_solver
+from loiter.compiled import still_air_solver, wind_solver
 from loiter.errors import NotConverged
 from loiter.kernel import wind_search
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import Entry, duration, is_tie_in_wind, miss, optima, optimum, ranked
+from loiter.kernel.synthesis import Entry, duration, is_tie_in_wind, miss, optima, ranked
 from loiter.kernel.wind_search import WindEntry, WindProblem
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
@@ -171,7 +171,8 @@ def _tied(known: Sequence[Solved], problem: Problem) -> tuple[Maneuver, ...]:
 
 
 def _optimum_alone(*arguments: Any) -> list[Entry]:
-    return [optimum(*arguments)]
+    best = still_air_solver.optimum(*arguments)
+    return [] if best is None else [best]
 
 
 def _fastest_alone(problem: WindProblem) -> list[WindEntry]:

@@ -15,7 +15,6 @@ from pydantic import ValidationError
 from starlette.middleware.cors import CORSMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from loiter.compiled.warming import is_loaded
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
 from loiter.version import __version__
@@ -123,8 +122,8 @@ def _add_maps(api: FastAPI, pool: BoundedPool) -> None:
 
     @api.get("/healthz", response_model=models.Health)
     async def health() -> Any:
-        """Whether the service is running, its version, and whether its machine code is compiled and loaded."""
-        return {"status": "ok", "version": __version__, "ready": is_loaded()}
+        """Whether the service is running, and its version."""
+        return {"status": "ok", "version": __version__}
 
 
 def _add_exports(api: FastAPI, pool: BoundedPool, picture_pool: BoundedPool) -> None:

@@ -399,6 +399,3 @@ class Health(Answer):
 
     status: Literal["ok"]
     version: str
-    ready: bool = Field(
-        description="Whether the machine code is loaded; until then, at the first start, answers take up to a minute."
-    )

@@ -8,14 +8,11 @@ import signal
 import socket
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from threading import Thread
 from urllib.parse import urlsplit
 
 import uvicorn
 
-from loiter.compiled import announce_with, objects, wind_solver
 from loiter.errors import InvalidArgument
-from loiter.web.answers.synthesis import DEFAULT_CELLS, synthesis
 from loiter.web.app import create_app
 from loiter.web.connections import Connection
 from loiter.web.headers import is_loopback
@@ -53,32 +50,11 @@ def serve(host: str, port: int, cors: str | None, announce: Callable[[str], obje
         )
         for line in _announcements(listener):
             announce(line)
-        Server(config, announce).run(sockets=[listener])
+        Server(config).run(sockets=[listener])
 
 
 class Server(uvicorn.Server):
     """uvicorn's server, which shuts down even if connections are accepted during the shutdown."""
-
-    def __init__(self, config: uvicorn.Config, announce: Callable[[str], object] = lambda line: None) -> None:
-        super().__init__(config)
-        self._announce = announce
-
-    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Start, compute the map that the page shows first, and load the search in wind, in a thread.
-
-        Both are compiled, once on a machine, in ten and twenty seconds. The thread starts only after uvicorn has
-        installed its signal handlers: before that, a signal could interrupt an import and block the import of another
-        thread for ever.
-        """
-        await super().startup(sockets)
-        Thread(target=self._warm_up).start()
-
-    def _warm_up(self) -> None:
-        announce_with(lambda sentence: self._announce(f"{sentence[0].upper()}{sentence[1:]}."))
-        synthesis(1.0, "either", None, DEFAULT_CELLS)
-        wind_solver.prepare()
-        if objects.compilations():
-            self._announce("Compiled: the page answers at full speed now.")
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Shut down, and close connections that are accepted meanwhile; uvicorn would wait until its time-out."""

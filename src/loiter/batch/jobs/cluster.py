@@ -66,11 +66,10 @@ def _without_logs(*names: str) -> Iterator[None]:
 
 
 @contextmanager
-def cluster_executors(client: Any, counter: RowCounter, *, append_only: bool, in_wind: bool) -> Iterator[Executors]:
+def cluster_executors(client: Any, counter: RowCounter) -> Iterator[Executors]:
     """Executors that solve on the workers of a cluster and append in this process.
 
-    If a worker is lost, the scheduler gives its parts to others. `append_only` and `in_wind` matter to the threads of
-    this process only.
+    If a worker is lost, the scheduler gives its parts to others.
     """
     submitted: set[Any] = set()
 

@@ -207,7 +207,7 @@ def _solve_and_write(
     report: ReportProgress,
 ) -> dict[str, int]:
     """Solve the remaining parts and complete the output; returns the number of rows of each status that occurs."""
-    total, in_wind = sum(part.rows for part in parts), may_drift(request.columns)
+    total = sum(part.rows for part in parts)
     counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
     with _open_output(request, job, total) as append:
         # A row of a file is counted when it is solved, and when it is appended.
@@ -215,7 +215,7 @@ def _solve_and_write(
         appended = None
         if append is not None:
             appended = partial(append_part, job, append=append, count_rows=counter.count_or_stop)
-        with open_executors(counter, append_only=len(finished) == len(parts), in_wind=in_wind) as executors:
+        with open_executors(counter) as executors:
             counts = run_parts(
                 job,
                 parts,

@@ -9,7 +9,6 @@ from contextlib import contextmanager
 from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from loiter.arrays.entries import compile_kernel
 from loiter.batch.jobs.parts import Job, solve_part
 from loiter.batch.tables.files import Part
 
@@ -62,14 +61,8 @@ class Executors(NamedTuple):
 
 
 @contextmanager
-def thread_executors(workers: int, counter: RowCounter, *, append_only: bool, in_wind: bool) -> Iterator[Executors]:
-    """Executors in this process: `workers` threads that solve and append, or only append.
-
-    `in_wind` says whether rows may be in wind.
-    """
-    if not append_only:
-        # Compiling is done here, since an interrupt does not reach other threads.
-        compile_kernel(in_wind=in_wind)
+def thread_executors(workers: int, counter: RowCounter) -> Iterator[Executors]:
+    """Executors in this process: `workers` threads that solve and append."""
     with thread_pool(workers, counter) as pool:
         yield Executors(
             lambda job, part: pool.submit(solve_part, job, part, counter.count_or_stop),

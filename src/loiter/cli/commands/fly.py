@@ -21,7 +21,6 @@ from loiter.cli.numbers import whole
 from loiter.cli.options import AircraftOptions, OrbitOptions, PictureOptions, StartOptions, WindOptions, output, placed
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
-from loiter.planning.problem import problem_of
 from loiter.plot import files
 from loiter.plot.sizes import LEAST_FLIGHT_HEIGHT_MM
 from loiter.writing import check_writable, write_content
@@ -315,11 +314,7 @@ def _steps(flights: Mapping[str, Flight]) -> Iterator[Sequence[object]]:
 def _fly_many(starts: Sequence[Trial], simulated: SimulationOptions, wanted: Output) -> None:
     """Fly laws from many starts, and write a table with a row for each law."""
     from loiter.cli import flights as shown
-    from loiter.compiled import wind_solver
     from loiter.guidance.trials.campaign import campaign
-
-    if not problem_of(starts[0].ideal).still:
-        wind_solver.prepare()
 
     setting, conditions, workers = simulated.setting(), simulated.conditions, simulated.workers
     laws = {name: setting.laws[name] for name in simulated.laws}

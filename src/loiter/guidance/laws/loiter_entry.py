@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import degrees, hypot, inf, nan
 from typing import NamedTuple
 
-from loiter.compiled import still_air_solver, wind_solver
 from loiter.errors import instance, not_negative, positive
 from loiter.guidance.identification.vehicle import (
     DeclaredVehicle,
@@ -187,9 +186,6 @@ class LoiterEntry:
             bank_bias_deg=0.0,
         )
         self._vehicle: Vehicle = DeclaredVehicle(declared)
-        # The machine code is loaded before the flight, where it is compiled; a wind may have to be planned with.
-        still_air_solver.load()
-        wind_solver.load()
         if identify:
             self._vehicle = IdentifiedVehicle(declared, self._limit_deg, wind_declared=wind is not None)
         self._side = SIDES[orbit.turn]

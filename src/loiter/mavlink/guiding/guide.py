@@ -9,7 +9,6 @@ from pathlib import Path
 from time import monotonic
 from typing import NamedTuple
 
-from loiter.compiled import wind_solver
 from loiter.errors import InvalidArgument, LinkFailed, file_path, instance, number, positive
 from loiter.geo import LocalFrame
 from loiter.mavlink.connection.link import check_connection, dialect, open_link
@@ -115,8 +114,6 @@ class _Target(NamedTuple):
 def _guide(
     target: _Target, request: GuideRequest, period_s: float, log: Path | None, *, resume: bool
 ) -> Generator[GuideReport, None, None]:
-    # The compiled search in wind is loaded now, not while a vehicle flies.
-    wind_solver.load()
     with open_link(*target, listen_s=0.0) as link:
         began = monotonic()
         flight = Flight(Contact(link, target.connection, request.frame), request, period_s, began)

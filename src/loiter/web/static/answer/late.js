@@ -10,9 +10,6 @@ import { byId, show } from "../shared/dom.js";
 
 const MOMENT_MS = 120; // a shorter wait is not seen as one
 
-/** Why the first answers of a service on a new machine take long. */
-export const COMPILING = "The solver is being compiled, some 20 s, once per machine.";
-
 /** Keep `isLate` up to date. @param {Store} store */
 export function watchDelay(store) {
   let timer = 0;
@@ -37,11 +34,11 @@ export function watchDelay(store) {
 export function lateView(store) {
   const note = byId("late", HTMLElement);
   store.watch(
-    ({ isLate, answer, isCompiling }) => [isLate, answer === null, isCompiling],
-    ({ isLate, answer, failure, isCompiling }) => {
+    ({ isLate, answer }) => [isLate, answer === null],
+    ({ isLate, answer, failure }) => {
       byId("main", HTMLElement).classList.toggle("late", isLate);
       show(note, isLate && failure === null);
-      const reason = isCompiling ? COMPILING : "Waiting for the service.";
+      const reason = "Waiting for the service.";
       note.textContent = answer ? `${reason} This is the previous plan.` : reason;
     },
   );

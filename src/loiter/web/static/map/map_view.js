@@ -10,7 +10,6 @@
  * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("../shared/geometry.js").View} View
  */
-import { COMPILING } from "../answer/late.js";
 import { byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { toScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
@@ -103,13 +102,13 @@ function drawPlan(layers, ghost, store) {
   );
 }
 
-/** Why the map is not there yet: it takes long only while the service compiles. @param {Store} store */
+/** Why the map is not there yet. @param {Store} store */
 function drawWait(store) {
   const note = byId("map-wait", HTMLElement);
   store.watch(
-    ({ requests, isCompiling, synthesis }) => [requests.map, isCompiling, synthesis === null],
-    ({ requests, isCompiling, synthesis }) => {
-      const text = isCompiling ? COMPILING : synthesis ? "" : "The map is being computed.";
+    ({ requests, synthesis }) => [requests.map, synthesis === null],
+    ({ requests, synthesis }) => {
+      const text = synthesis ? "" : "The map is being computed.";
       note.textContent = requests.map === "asking" ? text : "";
     },
   );

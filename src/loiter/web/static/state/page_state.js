@@ -66,7 +66,6 @@
  * @property {number} step  number of the step of the user that led here, for undo and the browser's Back
  * @property {number} lastStep  the newest step; larger than `step` after an undo
  * @property {boolean} isLate  whether the answer to the newest request is awaited for longer than a moment
- * @property {boolean} isCompiling  whether the service compiles its machine code, so that answers take long
  * @property {number} pausedRevision  number of the newest request after which a drag has paused
  * @property {Record<"plan" | "certificate" | "map", Status>} requests
  * @property {Answer | null} answer  the newest plan
@@ -108,7 +107,6 @@ export const INITIAL_STATE = {
   step: 0,
   lastStep: 0,
   isLate: false,
-  isCompiling: false,
   requests: { plan: "idle", certificate: "idle", map: "idle" },
   answer: null,
   failure: null,

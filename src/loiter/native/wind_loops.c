@@ -1,0 +1,70 @@
+/* The inner loops of NumPy's ufuncs for arrays in wind, over the search of loiter.h. */
+#include "wind_loops.h"
+
+#include <fenv.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "loiter.h"
+
+/* The operands by number: those of a problem, and the results. `solve_in_wind` has one more input, only for the number
+ * 3 of durations; after the strides of all operands come those along the axis of length 3, of that input and of the
+ * durations. */
+enum { X, Y, COSINE, SINE, RADIUS, SIDE, WIND_X, WIND_Y, TOLERANCE, MIN_TIME };
+enum { TIME = 10, WORD, DURATIONS, STATUS, SIDE_HELD, AZIMUTH, MISS, NEXT_DURATION = 18 };
+
+static double number_at(char **args, const ptrdiff_t *steps, int operand, ptrdiff_t i) {
+    return *(const double *)(args[operand] + i * steps[operand]);
+}
+
+static void put_number(char **args, const ptrdiff_t *steps, int operand, ptrdiff_t i, double value) {
+    *(double *)(args[operand] + i * steps[operand]) = value;
+}
+
+static void put_code(char **args, const ptrdiff_t *steps, int operand, ptrdiff_t i, int code) {
+    *(int8_t *)(args[operand] + i * steps[operand]) = (int8_t)code;
+}
+
+static loiter_wind_entry solved(char **args, const ptrdiff_t *steps, ptrdiff_t i) {
+    const double side = number_at(args, steps, SIDE, i);
+    const loiter_wind_problem problem = {
+        .x = number_at(args, steps, X, i),
+        .y = number_at(args, steps, Y, i),
+        .c = number_at(args, steps, COSINE, i),
+        .s = number_at(args, steps, SINE, i),
+        .R = number_at(args, steps, RADIUS, i),
+        .side = side > 0.0 ? 1 : side < 0.0 ? -1 : 0,
+        .wx = number_at(args, steps, WIND_X, i),
+        .wy = number_at(args, steps, WIND_Y, i),
+        .tolerance = number_at(args, steps, TOLERANCE, i),
+    };
+    return loiter_fastest_in_wind(&problem);
+}
+
+void loiter_min_time_in_wind(char **args, const ptrdiff_t *dimensions, const ptrdiff_t *steps, void *data) {
+    (void)data;
+    for (ptrdiff_t i = 0; i < dimensions[0]; i++) {
+        const loiter_wind_entry entry = solved(args, steps, i);
+        put_number(args, steps, MIN_TIME, i, entry.t1 + entry.t2 + entry.t3);
+    }
+    feclearexcept(FE_ALL_EXCEPT);
+}
+
+void loiter_solve_in_wind(char **args, const ptrdiff_t *dimensions, const ptrdiff_t *steps, void *data) {
+    const ptrdiff_t next = steps[NEXT_DURATION];
+    (void)data;
+    for (ptrdiff_t i = 0; i < dimensions[0]; i++) {
+        const loiter_wind_entry entry = solved(args, steps, i);
+        char *row = args[DURATIONS] + i * steps[DURATIONS];
+        put_number(args, steps, TIME, i, entry.t1 + entry.t2 + entry.t3);
+        put_code(args, steps, WORD, i, entry.word);
+        *(double *)row = entry.t1;
+        *(double *)(row + next) = entry.t2;
+        *(double *)(row + 2 * next) = entry.t3;
+        put_code(args, steps, STATUS, i, entry.status);
+        put_code(args, steps, SIDE_HELD, i, entry.side);
+        put_number(args, steps, AZIMUTH, i, entry.azimuth);
+        put_number(args, steps, MISS, i, entry.miss);
+    }
+    feclearexcept(FE_ALL_EXCEPT);
+}
