@@ -41,24 +41,6 @@ def test_an_answer_under_way_is_finished_first():
         assert process.wait(20) == 0
 
 
-# Prints who handles SIGTERM when the first map is begun: Python's own handler would interrupt an import.
-FIRST_MAP = """
-import signal
-from loiter.web import server
-server.synthesis = lambda *_: print(signal.getsignal(signal.SIGTERM) is signal.default_int_handler, flush=True)
-server.serve("127.0.0.1", 0, None, lambda line: None)
-"""
-
-
-def test_the_first_map_is_begun_when_signals_are_handled():
-    with subprocess.Popen([sys.executable, "-c", FIRST_MAP], stdout=subprocess.PIPE) as process:
-        try:
-            assert process.stdout.readline() == b"False\n"
-        finally:
-            process.terminate()
-        assert process.wait(20) == 0
-
-
 class Late:
     """A connection that is accepted after the server has begun to close the others."""
 
