@@ -76,6 +76,12 @@ def test_packages_are_installed_by_the_script_that_waits(make):
     assert make("--dry-run", "--always-make", "/usr/bin/chromium").stdout == "requirements/apt-install chromium\n"
 
 
+def test_a_missing_compiler_is_installed_by_the_same_script(make):
+    commands = make("--dry-run", "--always-make", ".venv/compiler.stamp").stdout
+    assert "command -v cc >/dev/null || requirements/apt-install gcc libc6-dev\n" in commands
+    assert "|| requirements/apt-install python3-dev\n" in commands
+
+
 @pytest.fixture
 def apt(tmp_path, monkeypatch):
     """Runs the script with an apt of its own: empty lists, and a package called `there` that is installed."""

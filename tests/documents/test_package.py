@@ -1,5 +1,6 @@
 """The files that are distributed, and what stands about the project in several places."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -76,6 +77,31 @@ def test_the_wheel_has_the_library_and_nothing_else(built, tracked):
     assert names - modules == library
     assert {name.partition(".")[0] for name in modules} == {"loiter/compiled/loops", "loiter/compiled/single"}
     assert "loiter/py.typed" in names
+
+
+def test_without_a_compiler_a_sentence_says_what_to_do():
+    done = subprocess.run(
+        [sys.executable, ROOT / "hatch_build.py"],
+        env=os.environ | {"CC": "no-such-compiler"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 1
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith("loiter is built with a C compiler, and compiling failed (")
+    assert "install one (on Debian: apt-get install gcc libc6-dev python3-dev), or set LOITER_PURE=1" in last
+    assert "Traceback" not in done.stderr
+
+
+def test_a_package_in_plain_python_is_for_every_platform(tmp_path):
+    command = [sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", tmp_path, ROOT]
+    done = subprocess.run(command, env=os.environ | {"LOITER_PURE": "1"}, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    (wheel,) = tmp_path.glob("*.whl")
+    assert wheel.name.endswith("-py3-none-any.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        assert not any(name.endswith((".so", ".pyd")) for name in archive.namelist())
 
 
 def metadata(wheel):
