@@ -8,10 +8,20 @@ from random import Random
 import numpy as np
 import pytest
 
-from loiter.compiled import ufuncs
+from loiter.compiled import branchless, ufuncs
+from loiter.compiled.rebinding import rebinding
 from loiter.kernel import motion
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import duration, first_control, miss, optimum, rounding, status_of
+from loiter.kernel.synthesis import (
+    duration,
+    first_control,
+    least_time,
+    miss,
+    optimum,
+    optimum_on_side,
+    rounding,
+    status_of,
+)
 from loiter.kernel.words import Side
 
 RADII = (1.0, 1.0, 1.0 + 1e-6, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 30.0)
@@ -136,3 +146,16 @@ def test_smaller_types_become_doubles_and_complex_ones_are_refused():
     assert ufuncs.min_time(np.float32(4.0), np.int8(4), 1, 0, 0).dtype == np.float64
     with pytest.raises(TypeError):
         ufuncs.min_time(1j, 0.0, 1.0, 0, 0.0)
+
+
+@pytest.mark.skipif(not hasattr(ufuncs._functions, "processor"), reason="this package has no machine code")
+def test_the_loops_give_the_bits_of_their_own_arithmetic_in_plain_python():
+    names = {name: getattr(branchless, name) for name in ("atan2", "sin", "cos", "select")}
+    plain_time, plain_optimum = map(rebinding(names), (least_time, optimum_on_side))
+    rows = [(x, y, q, side or (-1 if y < 0.0 else 1), t) for x, y, q, side, t in ROWS[:4000]]
+    x, y, q, sides, tolerance = np.array(rows).T
+    rounded = [(x, y, 1.0 if q < 1.0 else q, side, t) for x, y, q, side, t in rows]
+    assert ufuncs.min_time(x, y, q, sides, tolerance).tolist() == [plain_time(*row) for row in rounded]
+    _, word, durations, _, _, _ = ufuncs.solve(x, y, q, sides, tolerance, THREE)
+    found = [tuple(row) for row in np.column_stack([word, durations]).tolist()]
+    assert found == [plain_optimum(*row)[1:] for row in rounded]
