@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 55c312f0ab84faf322c0dd9ea5710546e137ff3994474922ace4b440fa31c4a4
+ * SHA-256 of the source: b24b95656b215684c639fe8fac373e938e6fd13efabca6d4039d68ea06aeb144
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
