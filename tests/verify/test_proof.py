@@ -11,7 +11,7 @@ import pytest
 
 from loiter.cli.app import main
 from loiter.errors import MissingPackage
-from loiter.kernel import angles, exact, extremals, switching_curves, synthesis, words
+from loiter.kernel import angles, exact, extremals, motion, switching_curves, synthesis, words
 from loiter.kernel.synthesis import optima
 from loiter.kernel.words import Side
 from loiter.verify.proof import balls, lemmas, rlr, switching
@@ -98,13 +98,17 @@ ONCE_CERTAIN = [
     ("theorem 2 h", synthesis, "arc_tolerance_of", "/ 3.0", "/ 2.0"),
     ("theorem 2 b", extremals, "fastest", "duration(right), right, left)\n", "duration(right), right, only_left)\n"),
     ("theorem 2 b", extremals, "fastest", "faster_of(least, best, only_right)", "(least, best)"),
+    ("theorem 2 c", angles, "angle", "turned + 0.0", "turned"),
     ("theorem 2 e", extremals, "extremals", "rl(start, 1.0)", "rl(start, -1.0)"),
+    ("theorem 2 e", extremals, "extremals", "rl(start, 1.0)", "lrl(start)"),
+    ("theorem 2 e", extremals, "extremals", "lsl(start),\n        rsl(start)", "rsl(start),\n        lsl(start)"),
     ("theorem 2 f", words, "opposed", "-u", "u"),
     ("theorem 2 g", synthesis, "drop_short_pieces", "t1 + t3", "t1"),
     ("theorem 2 g", synthesis, "drop_short_pieces", "t2 <= short", "t2 <= no_angle"),
     ("theorem 2 g", synthesis, "drop_short_pieces", "t1 + t3, 0.0, 0.0", "t1 + t3, 0.25, 0.0"),
     ("theorem 2 g", synthesis, "flown_entry", "length_tolerance / 3.0", "length_tolerance"),
     ("theorem 2 i", synthesis, "first_control", "-maneuver.side", "maneuver.side"),
+    ("theorem 2 i", motion, "flow", "cos(t)", "cos(w)"),
 ]
 
 # A boundary of a region moved by about 1e-3.
@@ -195,6 +199,13 @@ CHOICES = [
     ("lrl", "R <= 3.0 and ", ""),
     # A root of a negative number where the word does not exist.
     ("lrl", "max(D, 0.0)", "max(D, -0.0009765625)"),
+    # A divisor that vanishes where the word does not exist.
+    ("lrl", "6.0 - h + root if exists else 1.0", "6.0 - h + root"),
+    ("lrl", "root if exists", "root if root"),
+    # A crossing on the right side, but elsewhere.
+    ("left_first", "lr(start, 1.0)", "lr(start, 1.0009765625)"),
+    ("right_first", "rl(start, -1.0)", "rl(start, -1.0009765625)"),
+    ("detour", "rl(start, 1.0)", "rl(start, 1.0009765625)"),
     ("is_near_circle", "<= beyond2 <=", "< beyond2 <="),
     ("is_near_circle", "<= beyond2 <=", "<= beyond2 >="),
     ("is_near_circle", "<= beyond2 <= distance * (2.0 * radius + distance)", "<= beyond2"),

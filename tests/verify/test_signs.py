@@ -10,7 +10,7 @@ import pytest
 from loiter.verify.proof.algebra import flint
 from loiter.verify.proof.selection import compared_words
 from loiter.verify.proof.selection.signs import Quantity, Relation, Signs, Table, Unknown, every_case
-from loiter.verify.proof.sign_proofs import Impossible, NotProved
+from loiter.verify.proof.sign_proofs import NEVER_NEGATIVE, NEVER_POSITIVE, POSITIVE, Impossible, NotProved
 
 pytest.importorskip("flint")
 
@@ -70,17 +70,36 @@ def test_a_choice_by_an_unnamed_number_is_noticed():
     _, x, y = plane(lambda x, y: {"x": x})
     assert (-2.0 * x > 0.0) == (x < 0.0)
     assert x < inf
-    assert Unknown(1) >= 0.0
+    root = Unknown(lambda: NEVER_NEGATIVE)
+    assert root >= 0.0
     assert Unknown() < inf
-    assert (-2.0 * Unknown(1)).sign == -1
+    assert (-2.0 * root).possible == NEVER_POSITIVE
+    assert (1.0 / (1.0 + root)).possible == POSITIVE
     for compare in (
         lambda: x + y > 0.0,
         lambda: x + 1e-6 > 0.0,
         lambda: Unknown() < 0.0,
-        lambda: x * Unknown(1) >= 0.0,
+        lambda: x * root >= 0.0,
+        lambda: bool(root),
+        lambda: 1.0 / root,
+        lambda: root / (1.0 - root),
+        lambda: root / y,
     ):
         with pytest.raises(NotProved):
             compare()
+
+
+def test_a_divisor_may_have_a_sign_that_was_chosen():
+    signs, x, y = plane(lambda x, y: {"x": x, "y": y})
+    root = Unknown(lambda: NEVER_NEGATIVE)
+
+    def run():
+        if x > 0.0:
+            assert (root / (x + root)).possible == NEVER_NEGATIVE
+        with pytest.raises(NotProved):
+            root / (y + root)
+
+    assert every_case(signs, run) == 3
 
 
 def states(random):

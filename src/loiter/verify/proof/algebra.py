@@ -115,7 +115,9 @@ class Field:
         possible = square.signs & self.proofs.of(product)
         if not possible <= NEVER_NEGATIVE:
             raise NotProved("a root of a number that may be negative")
-        root = self._polynomial_root(product) or self._new_root(product, possible)
+        root = self._polynomial_root(product)
+        if root is None:
+            root = self._new_root(product, possible)
         return self.size(root / Expression(self, square.den, self.context.constant(1)))
 
     def size(self, expression: Expression) -> Expression:
@@ -265,6 +267,9 @@ class Expression:
 
     def __ge__(self, other: object) -> bool:
         return not self < other
+
+    def __bool__(self) -> bool:
+        return self != 0.0
 
     def derivative(self, name: str) -> Expression:
         """The partial derivative by a variable, of an expression without roots."""

@@ -64,12 +64,13 @@ def all_words() -> Certainty:
 
 
 def all_extremals() -> Certainty:
-    """`extremals` has each of the nine words, RL and LR with both crossings, and both single arcs, once."""
+    """`extremals` has each of the nine words, RL and LR with both crossings, once; the order decides ties."""
     numbers, start = tuple(object() for _ in range(4)), object()
     found = rebinding({"start_at": StandIn("start_at", numbers, start), **labels(start)})(kernel.extremals)(*numbers)
-    singles = {(name, 0.0) for name in ("l", "r", "lsl", "rsl", "lsr", "rsr", "lrl")}
-    expected = singles | {(name, branch) for name in ("rl", "lr") for branch in (-1.0, 1.0)}
-    require(set(found) == expected, "`extremals` leaves out a word, or has another one")
+    singles = [(name, 0.0) for name in ("l", "r", "lsl", "rsl", "lsr", "rsr")]
+    crossings = [(name, branch) for name in ("rl", "lr") for branch in (-1.0, 1.0)]
+    expected = (*singles, *crossings, ("lrl", 0.0))
+    require(found == expected, "`extremals` leaves out a word, has another one, or has them in another order")
     return Certainty(len(expected), 0)
 
 
@@ -351,7 +352,7 @@ def expected_status(x: float, y: float, R: float, tolerance: float, least: float
 def motions() -> int:
     """`flow` turns about (0, -u) clockwise for u = 1, or shifts along x; `reduce` is (2), of which it is the motion."""
     x, y, ce, se, t, _ = variables("x y ce se t")
-    copied = rebinding({"cos": lambda angle: ce, "sin": lambda angle: se})(motion.flow)
+    copied = rebinding({"cos": StandIn("cos", (t,), ce), "sin": StandIn("sin", (t,), se)})(motion.flow)
     for u in (-1, 1):
         end = copied(x, y, u, t)
         zero("`flow`", end[0] - (x * ce + u * (y + u) * se), end[1] - ((y + u) * ce - u * x * se - u))

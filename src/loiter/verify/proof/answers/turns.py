@@ -93,6 +93,7 @@ def angle_of(cross_sign: Possible, dot_sign: Possible) -> None:
     zero("`angle`", field.of(found) - (turned + whole if cross_sign == NEGATIVE else turned))
     at_most_half = rebinding(field.names())(angles.is_at_most_half_turn)((cross, dot))
     require(at_most_half == (cross_sign != NEGATIVE), "`is_at_most_half_turn` is not about the angle")
+    require(math.copysign(1.0, angles.angle((-0.0, 1.0))) == 1.0, "a duration of 0 has a negative sign")
 
 
 class StandIn:

@@ -20,8 +20,8 @@ from loiter.verify.proof.arrivals import CASES, Case
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.exact_paths import Point, without_tolerance
 from loiter.verify.proof.identities import quantities, require
-from loiter.verify.proof.selection.signs import Quantity, Signs, Table, Unknown, every_case
-from loiter.verify.proof.sign_proofs import Impossible, NotProved
+from loiter.verify.proof.selection.signs import Quantity, Signs, Table, Unknown, every_case, possible_signs
+from loiter.verify.proof.sign_proofs import ANY, NEVER_NEGATIVE, NEVER_POSITIVE, Impossible, NotProved
 
 # A word, and for RL and LR on which side of the axis x = 0 the arcs meet: -1 left, 1 right, 0 for other words.
 Described = tuple[int, int]
@@ -86,6 +86,8 @@ RELATIONS = (
     # LRL on the circle rp = 3 - R: D is a square, and h < 6 up to R = 1 + sqrt 3.
     "D - wave wave - fold (R-1) (R-1) - 3 fold (R-1) - 3 fold - 1/16 fold fold",
     "(h-6) - (R-2) (R-1) - (R-2) + 2 - 1/2 fold",
+    # h is positive, so that `lrl` never divides by 0.
+    "h - 1/2 x x - 1/2 (y+1) (y+1) - 1/2 (R-1) (R-1) - 2 (R-1) - 1",
     # With these there are fewer combinations.
     "(R-2) - (R-3) - 1",
     "from_left - fold + 4 (R-2)",
@@ -99,7 +101,7 @@ RELATIONS = (
 
 
 # Quantities that have another name in `RELATIONS`, or that only differ by a number from one that decides.
-OTHERS = "R", "tall", "wide", "h"
+OTHERS = "R", "tall", "wide"
 
 
 def table_of(context: Any) -> Table:
@@ -110,7 +112,7 @@ def table_of(context: Any) -> Table:
     deciding = {name: quantity.polynomial for name, quantity in q._asdict().items() if name not in OTHERS}
     deciding |= {"(h-6)": q.h.polynomial - 6, "(R+1)": R + 1, "(R-1)": R - 1, "(R-2)": R - 2, "(R-3)": R - 3}
     # D on the circle rp = 3 - R is the square of `wave`.
-    auxiliary = {"wave": (R - 1) * (R - 1) - 3, "(y-1)": y - 1}
+    auxiliary = {"wave": (R - 1) * (R - 1) - 3, "(y-1)": y - 1, "(y+1)": y + 1}
     return Table(deciding, auxiliary, RELATIONS, {"(R-1)": (0, 1)})
 
 
@@ -287,16 +289,25 @@ def with_same_paths(words: Iterable[Described], q: Named) -> set[Described]:
 def recording_fastest(q: Named, exactly: bool) -> Callable[[], tuple[Compared, Any]]:
     """The kernel's `fastest` on quantities, with the extremals that it has compared in place of times."""
     copied = rebinding(NUMBERS)
-    start, lrl = copied(kernel.start_at)(q.x, q.y, q.R, 0.0), copied(kernel.lrl)
+    start = copied(kernel.start_at)(q.x, q.y, q.R, 0.0)
     arc_tolerance = object()
 
-    def lrl_with_turn(given: kernel.Start) -> kernel.Extremal:
-        extremal: kernel.Extremal = lrl(given)
-        return extremal._replace(first=(q.turn, extremal.first[1]))
+    def given_start(word: Callable[..., kernel.Extremal]) -> Callable[..., kernel.Extremal]:
+        """A word, which must get the start, and whose side must be -1 or 1."""
+        described = copied(word)
 
+        def checked(given: kernel.Start, *branch: float) -> kernel.Extremal:
+            require(given is start, f"`{word.__name__}` gets another start")
+            require(branch in ((), (-1.0,), (1.0,)), f"`{word.__name__}` gets a side that is no sign")
+            extremal: kernel.Extremal = described(given, *branch)
+            return extremal._replace(first=(q.turn, extremal.first[1])) if word is kernel.lrl else extremal
+
+        return checked
+
+    words = kernel.l, kernel.r, kernel.lsl, kernel.rsl, kernel.lsr, kernel.rsr, kernel.rl, kernel.lr, kernel.lrl
     names: dict[str, object] = {
         "start_at": StandIn("start_at", (q.x, q.y, q.R, arc_tolerance), start),
-        "lrl": lrl_with_turn,
+        **{word.__name__: given_start(word) for word in words},
         "duration": lambda extremal: Compared((extremal,)),
         "faster_of": faster_of,
     }
@@ -331,18 +342,16 @@ def faster_of(least: Compared, best: Compared | kernel.Extremal, other: kernel.E
 
 def larger(*numbers: object) -> Unknown:
     """The largest of some numbers, which is not negative where one of them is not."""
-    return Unknown(int(any(is_never_negative(number) for number in numbers)))
-
-
-def is_never_negative(number: object) -> bool:
-    """Whether a number, or a number that no choice may depend on, is known not to be negative."""
-    return number.sign == 1 if isinstance(number, Unknown) else isinstance(number, float | int) and number >= 0.0
+    # Numbers such as 0.0 come last in the kernel.
+    never_negative = any(possible_signs(number) <= NEVER_NEGATIVE for number in reversed(numbers))
+    return Unknown(lambda: NEVER_NEGATIVE if never_negative else ANY)
 
 
 def root(number: object) -> Unknown:
     """A root. Lemma 1 checks those of polynomials; others must be of numbers that are never negative."""
-    require(isinstance(number, Quantity) or is_never_negative(number), "a root of a number that may be negative")
-    return Unknown(1)
+    never_negative = isinstance(number, Quantity) or possible_signs(number) <= NEVER_NEGATIVE
+    require(never_negative, "a root of a number that may be negative")
+    return Unknown(lambda: NEVER_NEGATIVE)
 
 
 # What replaces the kernel's globals. Both branches of `onto_axis` compute the same rotation: lemma 1 checks each.
@@ -361,6 +370,8 @@ def described(extremal: kernel.Extremal) -> Described:
     if word not in (Word.RL, Word.LR):
         return word, 0
     cross: Any = extremal.middle[0]
-    if not isinstance(cross, Unknown) or cross.sign == 0:
+    right = NEVER_NEGATIVE if word == Word.LR else NEVER_POSITIVE
+    possible = possible_signs(cross)
+    if not (possible <= NEVER_NEGATIVE or possible <= NEVER_POSITIVE):
         raise NotProved("the side of a crossing is not known")
-    return word, -cross.sign if word == Word.RL else cross.sign
+    return word, 1 if possible <= right else -1

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
-from functools import cache
+from functools import cache, cached_property
 from math import inf
 from typing import Any, NamedTuple
 
 from loiter.verify.proof.algebra import flint
-from loiter.verify.proof.sign_proofs import Impossible, NotProved
+from loiter.verify.proof.sign_proofs import ANY, NEVER_NEGATIVE, Impossible, NotProved, Possible, plus, times
 
 SIGNS = (-1, 0, 1)
 
@@ -43,11 +43,24 @@ class Signs:
             self.chosen[name] = self._choose(name)
         return factor * self.chosen[name]
 
+    def known(self, polynomial: Any) -> Possible:
+        """The signs that a polynomial may have after the choices of the present run; nothing is chosen."""
+        if polynomial.is_constant() or not self.table.has_name(polynomial):
+            return frozenset({self.of(polynomial)}) if polynomial.is_constant() else ANY
+        name, factor = self.table.named(polynomial)
+        return frozenset(factor * sign for sign in self._possible(name))
+
+    def _possible(self, name: str) -> list[int]:
+        """The signs of a named quantity that no relation excludes."""
+        if name in self.chosen:
+            return [self.chosen[name]]
+        return [sign for sign in SIGNS if not self.table.excludes(self.chosen | {name: sign}, name)]
+
     def _choose(self, name: str) -> int:
         made = tuple(self.chosen.values())
         if len(made) < len(self.choices):
             return self.choices[len(made)]
-        possible = [sign for sign in SIGNS if not self.table.excludes(self.chosen | {name: sign}, name)]
+        possible = self._possible(name)
         if not possible:
             raise Impossible
         self.alternatives += [(*made, sign) for sign in possible[1:]]
@@ -106,6 +119,9 @@ class Quantity:
     def __ge__(self, other: object) -> bool:
         return self._compared(other) >= 0
 
+    def __bool__(self) -> bool:
+        return self != 0.0
+
 
 def _exact(value: object) -> Any:
     """What a polynomial can be added to: the polynomial of a quantity, or a rational number."""
@@ -120,27 +136,56 @@ def _rational(value: float) -> Any:
     return flint().fmpq(exact.numerator, exact.denominator)
 
 
+def possible_signs(number: object) -> Possible:
+    """The signs that a number, a quantity or an unknown number may have."""
+    match number:
+        case Unknown(possible=possible):
+            return possible
+        case Quantity(signs=signs, polynomial=polynomial):
+            return signs.known(polynomial)
+        case float() | int():
+            return frozenset({(number > 0.0) - (number < 0.0)})
+    return ANY
+
+
 class Unknown:
     """A finite number that no choice may depend on, such as a root.
 
-    `sign` is 1 where the number is known to be not negative, -1 where it is not positive, and 0 otherwise.
+    `possible` are the signs that it may have, which are found when they are asked for.
     """
 
-    def __init__(self, sign: int = 0) -> None:
-        self.sign = sign
+    def __init__(self, possible: Callable[[], Possible] = lambda: ANY) -> None:
+        self._possible = possible
+
+    @cached_property
+    def possible(self) -> Possible:
+        """The signs that the number may have."""
+        return self._possible()
+
+    def __add__(self, other: object) -> Unknown:
+        return Unknown(lambda: plus(self.possible, possible_signs(other)))
 
     def __mul__(self, other: object) -> Unknown:
-        factor = (other > 0.0) - (other < 0.0) if isinstance(other, float | int) else 0
-        return Unknown(self.sign * factor)
+        return Unknown(lambda: times(self.possible, possible_signs(other)))
 
     def __neg__(self) -> Unknown:
-        return Unknown(-self.sign)
+        return self * -1.0
 
-    def _unknown(self, other: object) -> Unknown:
-        return Unknown()
+    def __sub__(self, other: object) -> Unknown:
+        return self + Unknown(lambda: possible_signs(other)) * -1.0
 
-    __rmul__ = __mul__
-    __add__ = __radd__ = __sub__ = __rsub__ = __truediv__ = __rtruediv__ = _unknown
+    def __rsub__(self, other: object) -> Unknown:
+        return -self + other
+
+    def __truediv__(self, other: object) -> Unknown:
+        if 0 in possible_signs(other):
+            raise NotProved("a divisor may be 0")
+        return self * other
+
+    def __rtruediv__(self, other: object) -> Unknown:
+        return Unknown(lambda: possible_signs(other)) / self
+
+    __radd__, __rmul__ = __add__, __mul__
 
     def __lt__(self, other: object) -> bool:
         if isinstance(other, float) and other == inf:
@@ -148,9 +193,12 @@ class Unknown:
         raise NotProved("a choice depends on a number that the text does not name")
 
     def __ge__(self, other: object) -> bool:
-        if isinstance(other, float) and other == 0.0 and self.sign == 1:
+        if isinstance(other, float) and other == 0.0 and self.possible <= NEVER_NEGATIVE:
             return True
         return not self < other
+
+    def __bool__(self) -> bool:
+        return self < 0.0
 
     __gt__ = __le__ = __lt__
 
@@ -244,6 +292,10 @@ class Table:
         self.related = {name: [r for r in self.relations if r.mentions(name)] for name in deciding}
         self.names = {_scaled(polynomial): name for name, polynomial in deciding.items()}
         self.leading = {name: polynomial.leading_coefficient() for name, polynomial in deciding.items()}
+
+    def has_name(self, polynomial: Any) -> bool:
+        """Whether a polynomial is a multiple of a named one."""
+        return _scaled(polynomial) in self.names
 
     def named(self, polynomial: Any) -> tuple[str, int]:
         """The name of a polynomial up to a factor, and the sign of the factor; raises `NotProved`."""
