@@ -187,6 +187,7 @@ CHOICES = [
     ("fastest", "detour(start)", "left"),
     ("faster_of", "time if time < least", "time if time > least"),
     ("faster_of", "select(time < least", "select(time > least"),
+    ("faster_of", "duration(other)", "duration(best)"),
     # On a boundary alone: states that no sample of an open region would show.
     ("rl", "inner >= 0.0 and", "inner > 0.0 and"),
     ("rl", "p >= 0.0", "p > 0.0"),
