@@ -115,9 +115,8 @@ class Field:
         possible = square.signs & self.proofs.of(product)
         if not possible <= NEVER_NEGATIVE:
             raise NotProved("a root of a number that may be negative")
-        root = self._polynomial_root(product)
-        if root is None:
-            root = self._new_root(product, possible)
+        found = self._polynomial_root(product)
+        root = self._new_root(product, possible) if found is None else found
         return self.size(root / Expression(self, square.den, self.context.constant(1)))
 
     def size(self, expression: Expression) -> Expression:
