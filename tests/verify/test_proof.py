@@ -200,6 +200,7 @@ CHOICES = [
     ("lrl", "R <= 3.0 and ", ""),
     # A root of a negative number where the word does not exist.
     ("lrl", "max(D, 0.0)", "max(D, -0.0009765625)"),
+    ("lrl", "max(D, 0.0)", "D"),
     # A divisor that vanishes where the word does not exist.
     ("lrl", "6.0 - h + root if exists else 1.0", "6.0 - h + root"),
     ("lrl", "root if exists", "root if root"),

@@ -294,7 +294,8 @@ def recording_fastest(q: Named, exactly: bool) -> Callable[[], tuple[Compared, A
 
     def given_start(word: Callable[..., kernel.Extremal]) -> Callable[..., kernel.Extremal]:
         """A word, which must get the start, and whose side must be -1 or 1."""
-        described = copied(word)
+        # Lemma 1 is not about LRL: no number whose root it takes may be negative.
+        described = rebinding(NUMBERS | {"sqrt": never_negative_root})(word) if word is kernel.lrl else copied(word)
 
         def checked(given: kernel.Start, *branch: float) -> kernel.Extremal:
             require(given is start, f"`{word.__name__}` gets another start")
@@ -351,6 +352,12 @@ def root(number: object) -> Unknown:
     """A root. Lemma 1 checks those of polynomials; others must be of numbers that are never negative."""
     never_negative = isinstance(number, Quantity) or possible_signs(number) <= NEVER_NEGATIVE
     require(never_negative, "a root of a number that may be negative")
+    return Unknown(lambda: NEVER_NEGATIVE)
+
+
+def never_negative_root(number: object) -> Unknown:
+    """A root of a number that must be known not to be negative."""
+    require(possible_signs(number) <= NEVER_NEGATIVE, "a root of a number that may be negative")
     return Unknown(lambda: NEVER_NEGATIVE)
 
 
