@@ -1,21 +1,15 @@
-"""One Parquet file from the row groups of others: the footer is what pyarrow would write."""
+"""One file from the parts of a job."""
+
+import gzip
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from batch.making import poses, scenes, write
-from loiter.batch.tables import joined, parquet_footer
-from loiter.batch.tables.joined import open_joined
-from loiter.batch.tables.parquet_footer import Items, Value, decode, encode, joined_footer
-
-
-def footer_of(path):
-    with path.open("rb") as file:
-        return joined._footer(file)[1]
+from batch.making import scenes
+from loiter.batch.tables import outputs
+from loiter.batch.tables.outputs import csv_header, no_rows, open_joined, open_part
 
 
 def tables():
@@ -25,110 +19,73 @@ def tables():
     extra = {
         "camera": words.dictionary_encode(),
         "text": words,
+        "long": words.cast(pa.large_string()),
         "tags": pa.array([[1, 2], None, []] * (rows // 3)),
-        "place": pa.array([{"x": 1.0, "y": None}] * rows),
+        "place": pa.array([{"x": 1.0, "y": None}] * rows, pa.struct({"x": pa.float64(), "y": pa.string()})),
         "seen": pa.array([None] * rows, pa.timestamp("us", "UTC")),
         "price": pa.array(range(rows)).cast(pa.decimal128(25, 2)),
         "flag": pa.array([True, False, None] * (rows // 3)),
         "small": pa.array(np.arange(rows) % 100, pa.int8()),
+        "status": pa.array(["ok"] * rows).dictionary_encode().cast(pa.dictionary(pa.int8(), pa.string())),
     }
     for name, column in extra.items():
         table = table.append_column(name, column)
     return [table.replace_schema_metadata({"made by": "somebody"}).slice(start, 100) for start in (0, 100, 200)]
 
 
-OPTIONS = {
-    "default": {},
-    "page index": {"write_page_index": True},
-    "old": {"version": "1.0", "compression": "gzip"},
-    "plain": {"use_dictionary": False, "compression": None, "write_statistics": False},
-    "new": {"data_page_version": "2.0", "compression": "zstd", "column_encoding": None, "store_schema": False},
-}
-
-
-@pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
-def test_a_joined_file_is_the_parts_one_after_another(tmp_path, options):
-    parts = tables()
-    paths = [tmp_path / f"{i}.parquet" for i in range(3)]
+def write_parts(folder, kind, parts):
+    paths = [folder / f"{i}{kind}" for i in range(len(parts))]
     for part, path in zip(parts, paths, strict=True):
-        pq.write_table(part, path, row_group_size=40, **options)
-    out = tmp_path / "out.parquet"
-    with open_joined(".parquet", str(out), parts[0].schema) as append:
+        with open_part(kind, str(path), part.schema, ["camera", "text"]) as write:
+            for batch in part.to_batches():
+                write(batch)
+    return paths
+
+
+def join(folder, kind, parts, paths):
+    out = folder / f"out{kind}"
+    with open_joined(kind, str(out), parts[0].schema, ["camera", "text"]) as append:
         for path in paths:
             append(str(path))
-    assert pq.read_table(out).equals(pa.concat_tables(map(pq.read_table, paths)))
+    return out
+
+
+def test_a_joined_parquet_file_has_the_rows_types_and_metadata_of_its_parts(tmp_path, monkeypatch):
+    monkeypatch.setattr(outputs, "ROW_GROUP_ROWS", 40)
+    parts = tables()
+    out = join(tmp_path, ".parquet", parts, write_parts(tmp_path, ".parquet", parts))
+    joined = pq.read_table(out)
+    assert joined.equals(pq.read_table(pa.py_buffer(whole(parts))))
+    assert joined.schema.metadata == {b"made by": b"somebody"}
     metadata = pq.read_metadata(out)
-    assert (metadata.num_rows, metadata.num_row_groups) == (300, 9)
-    assert metadata.metadata == pq.read_metadata(paths[0]).metadata
-    groups = [pq.read_metadata(path).row_group(i) for path in paths for i in range(3)]
-    for i, group in enumerate(groups):
-        for j in range(group.num_columns):
-            before, after = group.column(j).to_dict(), metadata.row_group(i).column(j).to_dict()
-            moved = {name for name in before if before[name] != after[name]}
-            assert moved <= {"file_offset", "data_page_offset", "dictionary_page_offset"}
-    # The bytes of the pages are those of the parts, and nothing lies between them.
-    content = out.read_bytes()
-    pages = b"".join(path.read_bytes()[4 : -8 - len(footer_of(path))] for path in paths)
-    assert content[4:].startswith(pages)
-    assert len(content) == 4 + len(pages) + len(footer_of(out)) + 8
+    # Of each part, 40 + 40 + 20 rows, the rest with the first of the next one.
+    assert max(metadata.row_group(i).num_rows for i in range(metadata.num_row_groups)) < 80
 
 
-def test_one_part_alone_is_not_changed(tmp_path):
-    path = write(poses(100), tmp_path / "in.parquet", 30)
-    with open_joined(".parquet", str(tmp_path / "out.parquet"), poses(1).schema) as append:
-        append(str(path))
-    assert (tmp_path / "out.parquet").read_bytes() == path.read_bytes()
+def whole(parts):
+    sink = pa.BufferOutputStream()
+    pq.write_table(pa.concat_tables(parts), sink, use_dictionary=["camera", "text"])
+    return sink.getvalue()
 
 
-def test_a_copy_without_the_help_of_the_system(tmp_path, monkeypatch):
-    path = write(poses(1000), tmp_path / "in.parquet")
-    monkeypatch.delattr("os.copy_file_range", raising=False)
-    monkeypatch.setattr(joined, "_COPY_BYTES", 1000)
-    with open_joined(".parquet", str(tmp_path / "out.parquet"), poses(1).schema) as append:
-        append(str(path))
-    assert (tmp_path / "out.parquet").read_bytes() == path.read_bytes()
+@pytest.mark.parametrize("kind", [".csv", ".csv.gz"])
+@pytest.mark.parametrize("size", [7, 1 << 23])
+def test_joined_lines_are_those_of_the_parts_after_one_header(tmp_path, monkeypatch, kind, size):
+    monkeypatch.setattr(outputs, "_COPY_BYTES", size)
+    parts = [part.drop_columns(["tags", "place"]) for part in tables()]
+    paths = write_parts(tmp_path, kind, parts)
+    content = join(tmp_path, kind, parts, paths).read_bytes()
+    trailer = len(outputs._TRAILER.pack(b"", *no_rows().tolist()))
+    lines = b"".join(path.read_bytes()[:-trailer] for path in paths)
+    header = csv_header(parts[0].schema)
+    unpack = gzip.decompress if kind == ".csv.gz" else bytes
+    assert unpack(content) == header + unpack(lines)
 
 
-def test_more_row_groups_than_ordinals():
-    group = {1: Value(9, Items(12, [])), 3: Value(6, 1), 7: Value(4, 0)}
-    file = {3: Value(6, 1), 4: Value(9, Items(12, [group]))}
-    whole = decode(joined_footer([encode(file)] * 32_769, [0] * 32_769))
-    assert whole[3].value == 32_769
-    first, *_, last_but_one, last = whole[4].value.values
-    assert (first[7].value, last_but_one[7].value, 7 in last) == (0, 32_767, False)
-
-
-@pytest.mark.parametrize("content", [b"", b"\x15", b"\x18\x05ab", b"\x1b\x00\x00", b"\x00\x00", b"\x19\x2c\x15"])
-def test_bytes_that_are_no_footer_are_refused(content):
-    with pytest.raises(ValueError, match=r"Thrift protocol|unknown way"):
-        joined_footer([content], [0])
-
-
-numbers = st.integers(-(1 << 63), (1 << 63) - 1)
-values = st.deferred(
-    lambda: st.one_of(
-        st.builds(Value, st.just(6), numbers),
-        st.builds(Value, st.just(8), st.binary(max_size=300)),
-        st.builds(Value, st.just(7), st.tuples(st.floats(allow_nan=False))),
-        st.builds(Value, st.sampled_from([1, 2]), st.none()),
-        st.builds(Value, st.just(3), st.integers(0, 255)),
-        st.builds(Value, st.just(12), structures),
-        st.builds(Value, st.just(9), st.builds(Items, st.just(6), st.lists(numbers, max_size=20))),
-    )
-)
-structures = st.dictionaries(st.integers(-3, 40), values, max_size=4)
-
-
-@given(structures)
-def test_what_is_written_is_read_back(fields):
-    assert decode(encode(fields)) == fields
-
-
-@given(st.binary(max_size=60))
-def test_any_bytes_are_read_or_refused(content):
-    try:
-        parquet_footer.decode(content)
-    except ValueError:
-        pass
-    except KeyError as error:
-        raise AssertionError from error
+@pytest.mark.parametrize("kind", [".parquet", ".csv"])
+def test_a_part_without_its_end_is_refused(tmp_path, kind):
+    parts = [part.drop_columns(["tags", "place"]) for part in tables()]
+    [path, *_] = write_parts(tmp_path, kind, parts)
+    path.write_bytes(path.read_bytes()[:20])
+    with pytest.raises((OSError, ValueError)):
+        join(tmp_path, kind, parts, [path])

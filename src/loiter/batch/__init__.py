@@ -50,8 +50,8 @@ def run(
     """Plan the fastest entry of every row of a table; docs/batch.md describes the columns of the input and the output.
 
     `source` is a file (.parquet, .csv, .csv.gz), a folder of files, a pattern such as "states-*.csv", or the URL of one
-    of these (s3://, gs://, az://, memory://). `target` is a file, a folder of Parquet files (its name ends in a slash,
-    or it exists), or the URL of one of these.
+    of these (s3://, gs://, az://, memory://). `target` is a folder of Parquet files (its name ends in a slash, or it
+    exists), which is fastest, a file, or the URL of one of these.
     `orbit`, `turn`, `aircraft` and `wind` replace columns that the table does not have; `aircraft` may be incomplete,
     such as {"airspeed_m_s": 18.0} with a column max_bank_deg.
     `orbit_velocity_m_s`, (east, north), is the velocity of circles that are given by columns. `columns` maps quantities

@@ -11,7 +11,7 @@ EXAMPLES = {
   loiter plan --pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 \
       --airspeed 18 --bank 35 --altitude 900 --save entry.plan""",
     "batch": r"""
-  loiter batch states.parquet entries.parquet --orbit 0 0 80 \
+  loiter batch states.parquet entries/ --orbit 0 0 80 \
       --airspeed 18 --bank 35
   loiter batch states.csv entries.csv --airspeed 18 --turn-radius 50 \
       --wind 8 250 --workers 4

@@ -1,4 +1,8 @@
-"""A batch job from the request to the summary: resumed, run, completed."""
+"""A batch job from the request to the summary: resumed, run, completed.
+
+Dask's `map_partitions` plans data frames (`batch.frames`) but not files: it neither resumes from finished parts nor
+joins them in order.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +27,7 @@ from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_ex
 from loiter.batch.tables import files, ingest, outputs, storage
 from loiter.batch.tables.columns import STATUSES, may_drift
 from loiter.batch.tables.ingest import Ingested
-from loiter.batch.tables.joined import Append, check_joined, open_joined
+from loiter.batch.tables.outputs import Append, open_joined
 from loiter.batch.tables.storage import Folder
 from loiter.errors import InvalidArgument, Unfinished
 from loiter.writing import write_whole
@@ -209,7 +213,7 @@ def _solve_and_write(
     """Solve the remaining parts and complete the output; returns the number of rows of each status that occurs."""
     total = sum(part.rows for part in parts)
     counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
-    with _open_output(request, job, total) as append:
+    with _open_output(request, job) as append:
         # A row of a file is counted when it is solved, and when it is appended.
         times_counted = 1 if append is None else 2
         appended = None
@@ -237,17 +241,17 @@ def _by_status(job: Job, parts: list[files.Part], counts: dict[int, Counts | Non
 
 
 @contextmanager
-def _open_output(request: JobRequest, job: Job, rows: int) -> Iterator[Append | None]:
+def _open_output(request: JobRequest, job: Job) -> Iterator[Append | None]:
     """A context whose value appends a part to the output file; None for a dataset, whose parts are not appended."""
     target = request.target
     if target.is_dataset:
         yield None
         return
-    with target.folder.create(target.name, target.work) as path:
-        with open_joined(target.kind, path, job.schema) as append:
-            yield append
-        if target.kind == ".parquet":
-            check_joined(path, rows)
+    with (
+        target.folder.create(target.name, target.work) as path,
+        open_joined(target.kind, path, job.schema, job.dictionaries) as append,
+    ):
+        yield append
 
 
 @contextmanager

@@ -14,7 +14,6 @@ from loiter.batch.jobs.folder import belongs_to, part_name
 from loiter.batch.tables import files, outputs
 from loiter.batch.tables.columns import Columns
 from loiter.batch.tables.files import BATCH_ROWS, Part
-from loiter.batch.tables.joined import Append
 from loiter.batch.tables.storage import Folder
 
 if TYPE_CHECKING:
@@ -96,7 +95,7 @@ def counts_of(job: Job, part: Part) -> Counts:
     return counts
 
 
-def append_part(job: Job, part: Part, known: Counts | None, append: Append, count_rows: CountRows) -> Counts:
+def append_part(job: Job, part: Part, known: Counts | None, append: outputs.Append, count_rows: CountRows) -> Counts:
     """Append a finished part to the output; returns the number of rows of each status, by its code.
 
     `known` is that number, if it is known. `count_rows` is called with the number of rows. Raises `OSError` if the part

@@ -1,4 +1,8 @@
-"""Conversion of CSV files to a Parquet file of text, which can be divided into parts; the rows keep their order."""
+"""Conversion of CSV files to a Parquet file of text, which can be divided into parts; the rows keep their order.
+
+pyarrow splits the lines, and its handler of invalid rows finds most malformed ones; what is done here beside it keeps a
+row for each malformed line at its place, and the number of the line in the file, neither of which pyarrow does.
+"""
 
 from __future__ import annotations
 

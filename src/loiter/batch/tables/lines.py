@@ -1,4 +1,8 @@
-"""The text of a CSV file without lines that pyarrow cannot skip: those with unclosed quotes, and those too long."""
+"""The text of a CSV file without lines that pyarrow cannot skip: those with unclosed quotes, and those too long.
+
+pyarrow's handler of invalid rows is not called for these: an unclosed quote swallows the following lines or the rest of
+the file, and a line longer than a block ends the whole table with an error.
+"""
 
 from __future__ import annotations
 

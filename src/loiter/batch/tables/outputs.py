@@ -1,4 +1,8 @@
-"""The kinds of output: their columns, and parts in the encoding of each kind; the same rows give the same bytes."""
+"""The kinds of output: their columns, and parts in the encoding of each kind; the same rows give the same bytes.
+
+`pyarrow.dataset.write_dataset` writes Parquet, too, but it names and divides its files as its threads happen to run,
+does not wait for the disk, and cannot leave out the parts that an earlier run has finished.
+"""
 
 from __future__ import annotations
 
@@ -30,6 +34,9 @@ if TYPE_CHECKING:
 # Called with a batch of answers.
 Write = Callable[[pa.RecordBatch], None]
 
+# Called with the place of a part.
+Append = Callable[[str], None]
+
 # Rows of a row group: at a hundred bytes each, what a worker keeps in memory.
 ROW_GROUP_ROWS = 1 << 18
 
@@ -38,6 +45,9 @@ LEVEL = 1
 
 # A column gets a dictionary if its dictionary in the input reduced its size below this share of the plain size.
 DICTIONARY_SHARE = 0.5
+
+# Bytes of CSV files copied at a time.
+_COPY_BYTES = 1 << 23
 
 # The end of a part of a CSV file, which is not copied: a mark, and the number of rows of each status.
 CSV_MAGIC = b"loiter 1"
@@ -142,6 +152,43 @@ def _csv_part(file: BinaryIO, kind: Kind) -> Iterator[Write]:
 
         yield write
     file.write(_TRAILER.pack(CSV_MAGIC, *counts.tolist()))
+
+
+@contextmanager
+def open_joined(kind: Kind, path: str, schema: pa.Schema, dictionaries: Sequence[str]) -> Iterator[Append]:
+    """A context whose value appends a part to the file at `path`: rows of Parquet written again, CSV lines copied."""
+    with ExitStack() as stack:
+        if kind == ".parquet":
+            write_table = stack.enter_context(open_parquet_output(path, schema, dictionaries))
+        else:
+            file = stack.enter_context(open(path, "wb"))  # noqa: PTH123
+            header = csv_header(schema)
+            # A gzip file may consist of several. Without time, so that the same rows give the same bytes.
+            file.write(gzip.compress(header, LEVEL, mtime=0) if kind == ".csv.gz" else header)
+        begin_to_write = stack.enter_context(written_behind(path))
+
+        def append(place: str) -> None:
+            if kind == ".parquet":
+                with open_parquet(place) as part:
+                    for batch in part.iter_batches(ROW_GROUP_ROWS, use_threads=False):
+                        write_table(pa.Table.from_batches([batch]))
+            else:
+                _copy_lines(place, file)
+            begin_to_write()
+
+        yield append
+
+
+def _copy_lines(place: str, file: BinaryIO) -> None:
+    with open_place(place) as part:
+        left = csv_size(part)
+        part.seek(0)
+        while left:
+            content = part.read(min(_COPY_BYTES, left))
+            if not content:
+                raise OSError("a part ends too early")
+            file.write(content)
+            left -= len(content)
 
 
 def status_counts(kind: Kind, place: str) -> Counts:

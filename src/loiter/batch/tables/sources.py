@@ -1,4 +1,7 @@
-"""The files of an input: one file, a folder of files, or those that match a pattern such as states-*.csv."""
+"""The files of an input: one file, a folder of files, or those that match a pattern such as states-*.csv.
+
+`pyarrow.dataset` would find them, too, but orders them as text (part.10 before part.2), and reads unfinished datasets.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,7 @@
 
 A place is a path or a URL, as text. Files are written whole or not at all: on this machine under a temporary name,
 which is renamed after fsync(2); behind a URL by one upload, which the store shows only once it is complete.
+fsspec's transactions are not used: they rename local files without fsync, and show all parts at the end at once.
 """
 
 from __future__ import annotations

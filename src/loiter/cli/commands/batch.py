@@ -54,7 +54,7 @@ def batch(
         str,
         Parameter(
             name="OUT",
-            help="The table to write: .parquet, .csv or .csv.gz, OUT/ for a folder of Parquet files, or a URL.",
+            help="The table to write: OUT/ for a folder of Parquet files, which is fastest, .parquet, .csv or .csv.gz, or a URL.",
         ),
     ],
     /,
