@@ -18,7 +18,6 @@ MAX_DEPTH = 32
 
 # The head of a request: its address, which may hold a scene, and its headers.
 MAX_HEAD_BYTES = 32 * 1024
-HEAD_TOO_LARGE = f"the head of the request is too large: more than {MAX_HEAD_BYTES:,} bytes"
 
 # Seconds for a body to arrive, and for its answer to be computed.
 BODY_TIMEOUT_S = 10.0
@@ -78,7 +77,8 @@ class Limits:
 async def _read(scope: Scope, receive: Receive) -> bytes:
     """The body; raises `HTTPException` where the head, the body or the declared length is too large."""
     if _head_bytes(scope) > MAX_HEAD_BYTES:
-        raise HTTPException(HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE, HEAD_TOO_LARGE)
+        detail = f"the head of the request is too large: more than {MAX_HEAD_BYTES:,} bytes"
+        raise HTTPException(HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE, detail)
     declared_length = int(next((value for name, value in scope["headers"] if name == b"content-length"), b"0"))
     body = bytearray()
     more = True

@@ -13,8 +13,8 @@ from loiter.web.problems import MEDIA_TYPE, ProblemDocument
 SUMMARY = "The fastest way onto a holding circle for a fixed-wing aircraft."
 
 REFUSALS = {
-    HTTPStatus.BAD_REQUEST: "The request is not valid JSON or not valid HTTP.",
-    HTTPStatus.REQUEST_TIMEOUT: "The request arrived too slowly.",
+    HTTPStatus.BAD_REQUEST: "The request is not valid JSON.",
+    HTTPStatus.REQUEST_TIMEOUT: "The body arrived too slowly.",
     HTTPStatus.REQUEST_ENTITY_TOO_LARGE: "The body is too large.",
     HTTPStatus.UNSUPPORTED_MEDIA_TYPE: "The content type of the body is not application/json.",
     HTTPStatus.UNPROCESSABLE_ENTITY: "The request does not fit the schema, or the library refuses it; see the type.",

@@ -14,12 +14,17 @@ import uvicorn
 
 from loiter.errors import InvalidArgument
 from loiter.web.app import create_app
-from loiter.web.connections import Connection
 from loiter.web.headers import is_loopback
 from loiter.web.limits import MAX_HEAD_BYTES
 
 # Connections that may wait to be accepted.
 BACKLOG = 2048
+
+# Open connections from which on requests get a 503 answer of uvicorn.
+MAX_CONNECTIONS = 256
+
+# Seconds that a connection stays open after an answer, without another request.
+KEEP_ALIVE_S = 10
 
 # Seconds that running answers have to finish when the server shuts down.
 SHUTDOWN_TIMEOUT_S = 3
@@ -37,10 +42,12 @@ def serve(host: str, port: int, cors: str | None, announce: Callable[[str], obje
         config = uvicorn.Config(
             app,
             loop="asyncio",
-            http=Connection,
+            http="h11",
             ws="none",
             lifespan="off",
             h11_max_incomplete_event_size=MAX_HEAD_BYTES,
+            limit_concurrency=MAX_CONNECTIONS,
+            timeout_keep_alive=KEEP_ALIVE_S,
             proxy_headers=False,
             server_header=False,
             access_log=False,
