@@ -17,7 +17,7 @@ def main() -> None:
     RESULTS.mkdir(exist_ok=True)
     text = report.table(rows, runs)
     (RESULTS / "table.md").write_text(text)
-    save_figure("plot", RESULTS / "plot.png", report.draw(rows, runs))
+    save_figure(RESULTS / "plot.png", report.draw(rows, runs))
     print(text)
     print(f"written: {RESULTS / 'table.md'}, {RESULTS / 'plot.png'}")
 

@@ -187,4 +187,4 @@ def _draw_speed(axes: Axes, runs: Sequence[Run]) -> None:
 
 if __name__ == "__main__":
     _, document, picture = sys.argv
-    save_figure("plot", Path(picture), draw(*read(Path(document).read_text("utf-8"))))
+    save_figure(Path(picture), draw(*read(Path(document).read_text("utf-8"))))

@@ -1,13 +1,40 @@
-"""Files that appear whole or not at all."""
+"""Files that appear whole or not at all, and the formats of files."""
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from errno import EISDIR
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, Literal, NamedTuple
 
 from loiter.errors import InvalidArgument
+
+
+class Format(NamedTuple):
+    """A format of output files: the endings of their names, and what the front ends say about it.
+
+    Maps and missions need places on Earth, missions an altitude too. The service offers formats that have a
+    `media_type`. `content` makes the content of a file from its ending and its arguments; None for pictures.
+    """
+
+    endings: tuple[str, ...]
+    kind: Literal["map", "table", "mission", "picture"]
+    media_type: str
+    name: str
+    use: str
+    content: Callable[..., bytes] | None = None
+
+    def __str__(self) -> str:
+        return f"{' or '.join(self.endings)} ({self.use})"
+
+
+def file_format(path: Path, formats: Sequence[Format]) -> Format:
+    """The format that the ending of `path` names; raises `InvalidArgument` for another ending."""
+    found = next((known for known in formats if path.suffix.lower() in known.endings), None)
+    if found is None:
+        endings = ", ".join(ending for known in formats for ending in known.endings)
+        raise InvalidArgument("path", f"is {str(path)!r}: the file name must end in {endings}")
+    return found
 
 
 def write_whole(argument: str, path: Path, write: Callable[[BinaryIO], object]) -> None:

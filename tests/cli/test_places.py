@@ -11,6 +11,7 @@ from geographiclib.geodesic import Geodesic
 import loiter
 from loiter import Aircraft, Orbit
 from loiter.cli.app import main
+from loiter.io.files import FILE_FORMATS
 
 UAV = "--airspeed 18 --bank 35"
 HOME_UNKNOWN = """\
@@ -128,7 +129,7 @@ def test_what_cannot_be_placed(capsys, options, sentence):
 # Files
 
 
-@pytest.mark.parametrize("ending", ["geojson", "kml", "gpx", "csv", "plan", "waypoints"])
+@pytest.mark.parametrize("ending", [one.endings[0].removeprefix(".") for one in FILE_FORMATS])
 def test_saving_writes_what_the_library_writes(shown, tmp_path, ending):
     path = tmp_path / f"entry.{ending}"
     shown(f"plan {PLACED} {UAV} --altitude 900 --spacing 100 --save {path}")

@@ -11,7 +11,7 @@ from earth import FRAME, SCENES, UAV, entry
 from loiter import Orbit, Pose, plan
 from loiter.errors import InvalidArgument, OutOfRange
 from loiter.io import FORMATS, Autopilot, check_format, mission, read_mission, save
-from loiter.io.files import MISSIONS
+from loiter.io.files import FILE_FORMATS
 from loiter.writing import check_writable, write_whole
 
 M, _ = SCENES["wind"]
@@ -56,7 +56,7 @@ def test_a_smaller_error_and_a_spacing_make_more_points(tmp_path, ending):
     assert sizes[0] < sizes[1] < sizes[2]
 
 
-@pytest.mark.parametrize("ending", MISSIONS)
+@pytest.mark.parametrize("ending", [ending for one in FILE_FORMATS if one.kind == "mission" for ending in one.endings])
 def test_a_mission_has_waypoints_along_the_path_if_that_or_a_spacing_is_requested(tmp_path, ending):
     counts = []
     for options in ({}, {"chord_error_m": 0.1}, {"along_path": True}, {"spacing_m": 50.0}):
@@ -122,7 +122,7 @@ def refused(tmp_path, name, sentence, kind=InvalidArgument, maneuver=M, **option
 
 @pytest.mark.parametrize("name", ["a", "a.json", "a.kmz", ".kml", "a.kml.gz"])
 def test_other_endings_are_refused(tmp_path, name):
-    sentence = rf"^save is '.*{name}': the file name must end in .geojson, .kml, .gpx, .csv, .plan, .waypoints, .txt$"
+    sentence = rf"^path is '.*{name}': the file name must end in .geojson, .kml, .gpx, .csv, .plan, .waypoints, .txt$"
     refused(tmp_path, name, sentence, frame=FRAME, altitude_m=600.0)
     with pytest.raises(InvalidArgument, match=sentence):
         check_format(Path(name))
@@ -168,7 +168,7 @@ def test_a_circle_that_moves_is_no_mission(tmp_path, ending):
 
 @pytest.mark.parametrize("ending", FORMATS)
 def test_a_folder_that_is_not_there_is_refused(tmp_path, ending):
-    sentence = rf"^save is '.*none/a{ending}': it cannot be written, No such file or directory$"
+    sentence = rf"^path is '.*none/a{ending}': it cannot be written, No such file or directory$"
     refused(tmp_path, f"none/a{ending}", sentence, frame=FRAME, altitude_m=600.0)
 
 

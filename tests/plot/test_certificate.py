@@ -49,6 +49,6 @@ def test_a_start_on_the_circle_draws_empty_panels():
 @pytest.mark.parametrize("ending", FORMATS)
 def test_each_format_is_written_whole(tmp_path, ending):
     path = tmp_path / f"proof{ending}"
-    save_figure("plot", path, draw(certify(plan(*SCENE))))
+    save_figure(path, draw(certify(plan(*SCENE))))
     assert path.stat().st_size > 1000
     assert list(tmp_path.iterdir()) == [path]

@@ -15,6 +15,7 @@ from loiter.geo import LocalFrame
 from loiter.io.document import answer, maneuver_values
 from loiter.io.missions.items import AUTOPILOTS
 from loiter.verify import certify
+from loiter.web.answers.exports import FORMATS
 
 STILL = {
     "pose": {"east_m": -400, "north_m": 120, "heading_deg": 90},
@@ -284,7 +285,7 @@ def test_a_map_has_the_requested_reach(client):
 # Files
 
 
-@pytest.mark.parametrize("format_", ["geojson", "kml", "gpx", "csv", "plan", "waypoints"])
+@pytest.mark.parametrize("format_", [name for name, known in FORMATS.items() if known.kind != "picture"])
 @pytest.mark.parametrize("link", [False, True], ids=["posted", "linked"])
 def test_a_file_is_what_the_library_saves(client, tmp_path, format_, link):
     # PX4 takes no .waypoints.

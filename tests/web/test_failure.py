@@ -9,10 +9,11 @@ import pytest
 from playwright.sync_api import expect
 
 import loiter
+from loiter.web.answers.exports import FORMATS
 from web.browsing import PHONE, SCRIPT, assert_shows_the_plan, grave, press, scene, settle, values
 
 COPIES = ["copy-command", "copy-python", "copy-link"]
-SAVES = ["geojson", "kml", "gpx", "csv", "plan", "waypoints", "png", "svg"]
+SAVES = list(FORMATS)
 BUTTONS = [f"#{name}" for name in [*COPIES, "play"]] + [f"[data-format={name}]" for name in SAVES]
 LOST = ("422", "503", "ERR_FAILED", "ERR_CONNECTION_REFUSED", "ERR_EMPTY_RESPONSE", "ERR_CONNECTION_RESET")
 

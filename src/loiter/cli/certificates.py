@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from loiter.cli.options import PictureOptions
-from loiter.plot import files
 from loiter.verify.certificate import Certificate
 
 
@@ -38,5 +37,5 @@ def save_pictures(pictures: PictureOptions, certificates: Sequence[Certificate])
     from loiter.plot.certificate import draw
 
     first, *_ = certificates
-    files.save_pictures(map(picture_path, pictures.plot), draw(first), pictures.format)
+    pictures.save(draw(first), [*map(picture_path, pictures.plot)])
     return [file for path in pictures.plot for file in (path, picture_path(path))]

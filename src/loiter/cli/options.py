@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 from cyclopts import Group, Parameter
 
@@ -29,6 +29,7 @@ from loiter.cli.numbers import (
     turn_name,
     turn_rate,
 )
+from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, RadiusTooSmall, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
 from loiter.geo.frame import degrees_of
@@ -559,11 +560,17 @@ class PictureOptions:
         """The size and the resolution; raises `InvalidArgument` where they cannot be used."""
         return PictureFormat(self.size, self.dpi)
 
+    def save(self, figure: Any, paths: Sequence[Path] | None = None) -> None:
+        """Write a figure to the files of --plot, or to others beside them."""
+        with argument_names(path="plot"):
+            files.save_pictures(self.plot if paths is None else paths, figure, self.format)
+
     def check(self) -> None:
         """Raise `InvalidArgument` for a format, a size or a resolution that cannot be used, or has no effect."""
         PictureFormat(self.size, self.dpi)
-        for path in self.plot:
-            files.check_format(path)
+        with argument_names(path="plot"):
+            for path in self.plot:
+                files.check_format(path)
         for argument, value in {"size_mm": self.size, "dpi": self.dpi}.items():
             if value is not None and not self.plot:
                 raise InvalidArgument(argument, "has no effect without --plot: there is no picture")

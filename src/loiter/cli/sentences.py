@@ -1,5 +1,8 @@
 """Errors as one sentence for the user, with the names of options in place of arguments."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from cyclopts import (
     Argument,
     CoercionError,
@@ -12,7 +15,105 @@ from cyclopts import (
 from loiter.cli.numbers import given, typed
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TURN_LIMITS
-from loiter.planning.vocabulary import OPTIONS
+
+# The option for each argument of the library. "pose east_m" is the east_m of the argument pose.
+OPTIONS = {
+    "airspeed_m_s": "--airspeed",
+    "indicated_airspeed_m_s": "--indicated-airspeed",
+    "altitude_m": "--altitude",
+    "altitude_reference": "--altitude-reference",
+    "home_altitude_m": "--home-altitude",
+    "temperature_c": "--temperature",
+    "max_bank_deg": "--bank",
+    "min_turn_radius_m": "--turn-radius",
+    "max_turn_rate_deg_s": "--turn-rate",
+    "aircraft airspeed_m_s": "--airspeed",
+    "aircraft max_bank_deg": "--bank",
+    "aircraft min_turn_radius_m": "--turn-radius",
+    "aircraft max_turn_rate_deg_s": "--turn-rate",
+    "tolerance_m": "--tolerance",
+    "lead_s": "--lead",
+    "turn": "--turn",
+    "plot": "--plot",
+    "size_mm": "--size",
+    "size_mm width": "--size WIDTH",
+    "size_mm height": "--size HEIGHT",
+    "dpi": "--dpi",
+    "states": "--states",
+    "cases": "--cases",
+    "radius": "--radius",
+    "reach": "--reach",
+    "cells": "--cells",
+    "save": "--save",
+    "show": "--show",
+    "out": "--out",
+    "source": "IN",
+    "target": "OUT",
+    "rejects": "--rejects",
+    "columns": "--map",
+    "origin": "--orbit-lla",
+    "pose": "--pose",
+    "pose_lla": "--pose-lla",
+    "orbit": "--orbit",
+    "orbit_lla": "--orbit-lla",
+    "orbit_from": "--orbit-from",
+    "spacing_m": "--spacing",
+    "chord_error_m": "--chord-error",
+    "host": "--host",
+    "port": "--port",
+    "cors": "--cors",
+    "parameters": "--params",
+    "frame": "--orbit-lla",
+    "workers": "--workers",
+    "connection": "--connect",
+    "system": "--system",
+    "timeout_s": "--timeout",
+    "period_s": "--every",
+    "yes": "--yes",
+    "accept_fly_away": "--accept-fly-away",
+    "reports": "--reports",
+    "send": "--send",
+    "log": "--log",
+    "replay": "--replay",
+    "true_radius": "--true-radius",
+    "runs": "--runs",
+    "sim": "--sim",
+    "gust": "--gust",
+    "airframe": "--airframe",
+    "seed": "--seed",
+    "scheduler": "--scheduler",
+    "wind": "--wind",
+    "declination_deg": "--declination",
+    "autopilot": "--autopilot",
+    "orbit_velocity_m_s": "--orbit-velocity",
+    "pose east_m": "--pose EAST",
+    "pose north_m": "--pose NORTH",
+    "pose heading_deg": "--pose HEADING",
+    "pose latitude_deg": "--pose-lla LAT",
+    "pose longitude_deg": "--pose-lla LON",
+    "pose true heading_deg": "--pose-lla HEADING",
+    "origin latitude_deg": "--orbit-lla LAT",
+    "origin longitude_deg": "--orbit-lla LON",
+    "origin radius_m": "--orbit-lla RADIUS",
+    "orbit east_m": "--orbit EAST",
+    "orbit north_m": "--orbit NORTH",
+    "orbit radius_m": "--orbit RADIUS",
+    "orbit velocity_east_m_s": "--orbit-velocity EAST",
+    "orbit velocity_north_m_s": "--orbit-velocity NORTH",
+    "wind speed_m_s": "--wind SPEED",
+    "wind from_deg": "--wind FROM",
+}
+
+
+@contextmanager
+def argument_names(**names: str) -> Iterator[None]:
+    """A context whose errors name other arguments: `path="save"` for the path that --save gave."""
+    try:
+        yield
+    except InvalidArgument as error:
+        if error.argument not in names:
+            raise
+        raise InvalidArgument(names[error.argument], error.problem) from error
 
 
 def sentence(error: Exception) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,14 +23,7 @@ from loiter.io.missions.site import Site
 from loiter.io.missions.wpl import MARK, read_wpl, wpl
 from loiter.io.reading import Source
 from loiter.planning.maneuver import Maneuver
-from loiter.writing import write_content
-
-MAPS: dict[str, Callable[[Chart], bytes]] = {".geojson": geojson, ".kml": kml, ".gpx": gpx}
-MISSIONS = (".plan", ".waypoints", ".txt")
-TABLES = (".csv",)
-# The maps that can give altitudes above the ground.
-ABOVE_GROUND = (".kml",)
-FORMATS = (*MAPS, *TABLES, *MISSIONS)
+from loiter.writing import Format, file_format, write_content
 
 
 class SaveArguments(NamedTuple):
@@ -42,19 +36,18 @@ class SaveArguments(NamedTuple):
     spacing_m: float | None
     chord_error_m: float
     autopilot: Autopilot
-    along_path: bool
+    along_path: bool = False
     site: Site | None = None
 
 
 def check_format(path: str | Path) -> None:
     """Raise `InvalidArgument` unless the ending of `path` names a format that `save` writes."""
-    if Path(file_path("path", path)).suffix.lower() not in FORMATS:
-        raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in {', '.join(FORMATS)}")
+    file_format(Path(file_path("path", path)), FILE_FORMATS)
 
 
 def is_mission(path: Path) -> bool:
     """Whether the ending of `path` names a format of missions."""
-    return path.suffix.lower() in MISSIONS
+    return file_format(path, FILE_FORMATS).kind == "mission"
 
 
 def save(
@@ -87,12 +80,13 @@ def save(
     path = Path(file_path("path", path))
     arguments = SaveArguments(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path, site)
     content = file_content(path, arguments)
-    write_content("save", path, content)
+    write_content("path", path, content)
 
 
 def file_content(path: Path, arguments: SaveArguments) -> bytes:
     """The content that `save` writes to `path`; it raises the errors of `save`, but for those of writing."""
-    check_format(path)
+    content = file_format(path, FILE_FORMATS).content
+    assert content is not None  # only pictures have none
     instance("maneuver", arguments.maneuver, Maneuver)
     instance("datum", arguments.datum, AltitudeDatum)
     for name, value, kind in (("frame", arguments.frame, LocalFrame), ("site", arguments.site, Site)):
@@ -103,7 +97,7 @@ def file_content(path: Path, arguments: SaveArguments) -> bytes:
     if arguments.autopilot not in tuple(Autopilot):
         known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
         raise InvalidArgument("autopilot", f"is {arguments.autopilot!r}: it must be {known}")
-    return _content(path.suffix.lower(), arguments)
+    return content(path.suffix.lower(), arguments)
 
 
 def read_mission(path: str | Path) -> Mission:
@@ -121,40 +115,48 @@ def read_mission(path: str | Path) -> Mission:
     raise source.fault("it is neither a QGroundControl plan nor a QGC WPL 110 file")
 
 
-def _content(ending: str, arguments: SaveArguments) -> bytes:
-    maneuver, frame = arguments.maneuver, arguments.frame
-    if ending in TABLES:
-        counts = step_counts(maneuver, arguments.spacing_m, arguments.chord_error_m)
-        return table(vertices(maneuver, counts), frame, _map_altitude_m(ending, arguments))
-    if frame is None:
+def _frame(ending: str, arguments: SaveArguments) -> LocalFrame:
+    if arguments.frame is None:
         raise InvalidArgument("frame", f"is missing: a {ending} file needs places on Earth; .csv does not")
-    if ending in MISSIONS:
-        return _mission_file(ending, frame, arguments)
-    altitude_m = _map_altitude_m(ending, arguments)
-    shown = chart(maneuver, frame, altitude_m, arguments.spacing_m, arguments.chord_error_m)
-    return MAPS[ending](shown._replace(above_ground=_is_above_ground(ending, arguments.datum)))
+    return arguments.frame
 
 
-def _map_altitude_m(ending: str, arguments: SaveArguments) -> float | None:
-    """The altitude in a map or a table: above mean sea level or, in KML, above the ground where it was given so."""
-    altitude_m, datum = arguments.altitude_m, arguments.datum
-    if altitude_m is None or _is_above_ground(ending, datum):
-        return altitude_m
-    return datum.above_sea_m(altitude_m)
+def _table(ending: str, arguments: SaveArguments) -> bytes:
+    counts = step_counts(arguments.maneuver, arguments.spacing_m, arguments.chord_error_m)
+    return table(vertices(arguments.maneuver, counts), arguments.frame, _above_sea_m(arguments))
 
 
-def _is_above_ground(ending: str, datum: AltitudeDatum) -> bool:
-    return ending in ABOVE_GROUND and datum.reference == AltitudeReference.GROUND
+def _map(draw: Callable[[Chart], bytes], ending: str, arguments: SaveArguments, *, has_ground: bool = False) -> bytes:
+    """A map; with `has_ground`, the format can give altitudes above the ground, and does where they were given so."""
+    frame = _frame(ending, arguments)
+    above_ground = has_ground and arguments.datum.reference == AltitudeReference.GROUND
+    altitude_m = arguments.altitude_m if above_ground else _above_sea_m(arguments)
+    shown = chart(arguments.maneuver, frame, altitude_m, arguments.spacing_m, arguments.chord_error_m)
+    return draw(shown._replace(above_ground=above_ground))
 
 
-def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> bytes:
-    datum, altitude_m = arguments.datum, arguments.altitude_m
-    if ending != ".plan" and arguments.autopilot == Autopilot.PX4:
+def _above_sea_m(arguments: SaveArguments) -> float | None:
+    return None if arguments.altitude_m is None else arguments.datum.above_sea_m(arguments.altitude_m)
+
+
+def _plan(ending: str, arguments: SaveArguments) -> bytes:
+    fence = None if arguments.site is None else arguments.site.fence_document
+    airspeed_m_s = arguments.maneuver.aircraft.airspeed_m_s
+    return qgcplan(_mission(ending, arguments), arguments.autopilot, airspeed_m_s, fence)
+
+
+def _waypoints(ending: str, arguments: SaveArguments) -> bytes:
+    if arguments.frame is not None and arguments.autopilot == Autopilot.PX4:
         raise InvalidArgument(
             "autopilot",
             f"is px4, which would fly to the home line of a {ending} file as to its first waypoint: write a .plan file "
             "for PX4",
         )
+    return wpl(_mission(ending, arguments))
+
+
+def _mission(ending: str, arguments: SaveArguments) -> Mission:
+    frame, datum, altitude_m = _frame(ending, arguments), arguments.datum, arguments.altitude_m
     if arguments.autopilot == Autopilot.PX4 and datum.reference == AltitudeReference.GROUND:
         raise InvalidArgument("altitude_reference", "is ground: PX4 flies no missions with altitudes above the ground")
     if altitude_m is None:
@@ -169,10 +171,30 @@ def _mission_file(ending: str, frame: LocalFrame, arguments: SaveArguments) -> b
         along_path=arguments.along_path,
         autopilot=arguments.autopilot,
     )
-    site = arguments.site
-    if site is not None:
-        plan = plan._replace(home=site.home)
-    if ending != ".plan":
-        return wpl(plan)
-    fence = None if site is None else site.fence_document
-    return qgcplan(plan, arguments.autopilot, arguments.maneuver.aircraft.airspeed_m_s, fence)
+    return plan if arguments.site is None else plan._replace(home=arguments.site.home)
+
+
+# All formats that `save` writes. The command line, the service and the page know them from here.
+FILE_FORMATS = (
+    Format((".geojson",), "map", "application/geo+json", "GeoJSON", "for maps", partial(_map, geojson)),
+    Format(
+        (".kml",),
+        "map",
+        "application/vnd.google-earth.kml+xml",
+        "KML",
+        "for Google Earth",
+        partial(_map, kml, has_ground=True),
+    ),
+    Format((".gpx",), "map", "application/gpx+xml", "GPX", "for GPS receivers", partial(_map, gpx)),
+    Format((".csv",), "table", "text/csv; charset=utf-8", "CSV", "samples along the track", _table),
+    Format((".plan",), "mission", "application/json", "Plan", "mission for QGroundControl", _plan),
+    Format(
+        (".waypoints", ".txt"),
+        "mission",
+        "text/plain; charset=utf-8",
+        "WPL",
+        "waypoints for Mission Planner",
+        _waypoints,
+    ),
+)
+FORMATS = tuple(ending for known in FILE_FORMATS for ending in known.endings)

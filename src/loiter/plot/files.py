@@ -6,16 +6,20 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
-from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.planning.maneuver import Maneuver
 from loiter.plot.sizes import DPI, PictureFormat
-from loiter.writing import write_whole
+from loiter.writing import Format, file_format, write_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FORMATS = (".png", ".svg", ".pdf")
+PICTURE_FORMATS = (
+    Format((".png",), "picture", "image/png", "PNG", "picture"),
+    Format((".svg",), "picture", "image/svg+xml", "SVG", "picture"),
+    Format((".pdf",), "picture", "", "PDF", "picture"),
+)
+FORMATS = tuple(ending for known in PICTURE_FORMATS for ending in known.endings)
 
 # Journals refuse matplotlib's default, Type 3 fonts; text in SVG stays text, which can be searched and edited. The salt
 # makes the identifiers in an SVG the same each time.
@@ -27,8 +31,7 @@ METADATA: dict[str, dict[str, Any]] = {"svg": {"Date": None}, "pdf": {"CreationD
 
 def check_format(path: Path) -> None:
     """Raise `InvalidArgument` unless `path` ends in one of `FORMATS`."""
-    if path.suffix.lower() not in FORMATS:
-        raise InvalidArgument("plot", f"is {str(path)!r}: the file name must end in {', '.join(FORMATS)}")
+    file_format(path, PICTURE_FORMATS)
 
 
 def save(
@@ -54,16 +57,16 @@ def save(
 
 
 def save_pictures(paths: Iterable[Path], figure: Figure, chosen: PictureFormat) -> None:
-    """Write a figure, in the chosen size and resolution, to the files of --plot."""
+    """Write a figure, in the chosen size and resolution, to files."""
     chosen.apply(figure)
     for path in paths:
-        save_figure("plot", path, figure, chosen.resolution)
+        save_figure(path, figure, chosen.resolution)
 
 
-def save_figure(argument: str, path: Path, figure: Figure, dpi: float = DPI) -> None:
-    """Write a figure in the format of the ending of `path`; `argument` is the name of the option that gave it."""
+def save_figure(path: Path, figure: Figure, dpi: float = DPI) -> None:
+    """Write a figure in the format of the ending of `path`."""
     ending = path.suffix.removeprefix(".").lower()
-    write_whole(argument, path, lambda file: write_figure(file, figure, ending, dpi))
+    write_whole("path", path, lambda file: write_figure(file, figure, ending, dpi))
 
 
 def write_figure(file: IO[bytes], figure: Figure, ending: str, dpi: float = DPI) -> None:

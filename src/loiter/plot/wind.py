@@ -148,4 +148,4 @@ def _draw_circle(axes: Axes) -> None:
 
 if __name__ == "__main__":
     _, file = sys.argv
-    save_figure("plot", Path(file), draw())
+    save_figure(Path(file), draw())

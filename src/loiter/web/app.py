@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 from urllib.parse import urlsplit
 
 from fastapi import Depends, FastAPI, HTTPException, Query, Request
@@ -27,7 +27,10 @@ from loiter.web.pool import BoundedPool
 
 STATIC = Path(__file__).with_name("static")
 
-Format = Literal["geojson", "kml", "gpx", "csv", "plan", "waypoints", "png", "svg"]
+if TYPE_CHECKING:
+    Format = str
+else:
+    Format = Literal[tuple(exports.FORMATS)]
 
 # More threads would not be faster; each one lets one more slow request run beside the others.
 THREADS, MAX_REQUESTS = 4, 128
@@ -127,18 +130,20 @@ def _add_maps(api: FastAPI, pool: BoundedPool) -> None:
 
 
 def _add_exports(api: FastAPI, pool: BoundedPool, picture_pool: BoundedPool) -> None:
-    media_types = exports.FILE_TYPES | exports.PICTURE_TYPES
-    content: dict[str, dict[str, Any]] = {_without_parameters(media_type): {} for media_type in media_types.values()}
+    content: dict[str, dict[str, Any]] = {
+        _without_parameters(known.media_type): {} for known in exports.FORMATS.values()
+    }
     described: dict[int | str, dict[str, Any]] = {
         200: {"description": "The file, as an attachment.", "content": content}
     }
 
     async def attachment(format_: str, options: models.ExportOptions) -> Response:
         options.placed()
-        suitable_pool = picture_pool if format_ in exports.PICTURE_TYPES else pool
+        wanted = exports.FORMATS[format_]
+        suitable_pool = picture_pool if wanted.kind == "picture" else pool
         file = await suitable_pool.run(exports.export, exports.ExportRequest(format_, options))
         headers = {"content-disposition": f'attachment; filename="entry.{format_}"'}
-        return Response(file, media_type=media_types[format_], headers=headers)
+        return Response(file, media_type=wanted.media_type, headers=headers)
 
     @api.post("/api/export/{format}", response_class=Response, responses=described, dependencies=JSON_BODY)
     async def export(format: Format, options: models.ExportOptions) -> Response:

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from loiter.cli import report
+from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument
 from loiter.plot import files
 from loiter.writing import write_content
@@ -28,7 +29,8 @@ def figures(
     rows.add_column("file", no_wrap=True)
     rows.add_column("shows")
     for name, (_, caption, figure) in pictures.items():
-        files.save_figure("out", out / name, figure)
+        with argument_names(path="out"):
+            files.save_figure(out / name, figure)
         first_sentence, _, _ = caption.partition(". ")
         rows.add_row(name, first_sentence)
     captions = "\n".join(f"![Fig. {n}]({name})\n\nFig. {n}. {text}\n" for name, (n, text, _) in pictures.items())

@@ -21,7 +21,7 @@ from loiter.cli.numbers import whole
 from loiter.cli.options import AircraftOptions, OrbitOptions, PictureOptions, StartOptions, WindOptions, output, placed
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
-from loiter.plot import files
+from loiter.planning.problem import problem_of
 from loiter.plot.sizes import LEAST_FLIGHT_HEIGHT_MM
 from loiter.writing import check_writable, write_content
 
@@ -291,7 +291,7 @@ def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output) -> Non
         from loiter.plot.flown import draw
 
         figure = draw(trial.ideal, flights, conditions=conditions.title)
-        files.save_pictures(wanted.pictures.plot, figure, wanted.pictures.format)
+        wanted.pictures.save(figure)
     _save(wanted.save, _steps(flights))
     first, *_ = flights
     lines = [f"Fastest entry: {trial.ideal}", conditions.line, *shown.time_line(first, flights[first])]

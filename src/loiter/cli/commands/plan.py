@@ -27,10 +27,11 @@ from loiter.cli.options import (
     read_options,
     scene,
 )
+from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
 from loiter.geo import LocalFrame
 from loiter.io.document import answer
-from loiter.io.files import SaveArguments, file_content, is_mission
+from loiter.io.files import FILE_FORMATS, SaveArguments, file_content, is_mission
 from loiter.io.missions.altitudes import AltitudeReference
 from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
 from loiter.io.missions.mission import stored_radius_remark
@@ -38,7 +39,6 @@ from loiter.io.missions.site import Site
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import best_and_others
-from loiter.plot import files
 from loiter.writing import write_content
 
 # The options of the command, in the order of its help.
@@ -79,7 +79,7 @@ Save = Annotated[
     Parameter(
         group=output,
         metavar="FILE",
-        help="Write the maneuver to a file: .geojson, .kml, .gpx or .csv for maps and programs, .plan (QGroundControl) for autopilots, .waypoints or .txt (both QGC WPL 110) for ArduPilot; may be repeated.",
+        help=f"Write the maneuver to a file: {', '.join(map(str, FILE_FORMATS))}; may be repeated.",
     ),
 ]
 AutopilotChoice = Annotated[
@@ -131,7 +131,7 @@ def plan(
         from loiter.plot.picture import draw
 
         figure = draw(shown, slower if all_ else [*ties, *slower], frame=frame)
-        files.save_pictures(pictures.plot, figure, pictures.format)
+        pictures.save(figure)
         written += certificates.save_pictures(pictures, certified)
     if json:
         fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
@@ -173,8 +173,9 @@ def _mission_lines(
 
 def _check_formats(save: Sequence[Path]) -> None:
     """Raise `InvalidArgument` for a file name whose format cannot be written."""
-    for path in save:
-        loiter.io.check_format(path)
+    with argument_names(path="save"):
+        for path in save:
+            loiter.io.check_format(path)
 
 
 def _save(
@@ -195,7 +196,6 @@ def _save(
         spacing_m=waypoints.spacing,
         chord_error_m=waypoints.chord_error_m,
         autopilot=autopilot,
-        along_path=False,
         site=site,
     )
     # `along_path` refuses options that only fit a path, so it is asked for missions alone.

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from loiter.cli.report import json_value
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.io.flight_log import check_columns, read_log
-from loiter.plot import files
 
 if TYPE_CHECKING:
     from loiter.cli.commands.fly import Output
@@ -46,7 +45,7 @@ def replay(log: Path, wanted: Output) -> None:
     if wanted.pictures.plot:
         from loiter.plot.guided import draw
 
-        files.save_pictures(wanted.pictures.plot, draw(columns), wanted.pictures.format)
+        wanted.pictures.save(draw(columns))
     stages, held = list(_stages_flown(columns)), _held(columns)
     document = {
         "steps": len(columns["time_s"]),

@@ -15,7 +15,6 @@ from loiter.cli.options import MapPictureOptions, output
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
 from loiter.planning.vocabulary import BOUNDARIES
-from loiter.plot import files
 from loiter.writing import write_whole
 
 
@@ -55,7 +54,7 @@ def synthesis(
     if pictures.plot:
         from loiter.plot.synthesis import draw
 
-        files.save_pictures(pictures.plot, draw(regions, curves, show), pictures.format)
+        pictures.save(draw(regions, curves, show))
     for path in save:
         write_arrays(path, regions, curves)
     written = [*pictures.plot, *save]

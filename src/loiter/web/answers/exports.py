@@ -4,35 +4,28 @@ from __future__ import annotations
 
 from io import BytesIO
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.io import AltitudeDatum, AltitudeReference, save
+from loiter.io import AltitudeDatum, AltitudeReference
+from loiter.io.files import FILE_FORMATS, SaveArguments, file_content
 from loiter.io.maps.track import step_counts
 from loiter.io.missions.items import AUTOPILOTS
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.solve import all_fastest, best_and_others
+from loiter.plot.files import PICTURE_FORMATS, write_figure
 from loiter.web.models import ExportOptions
 
 # The most points of a track that the service writes to a file, a second's work; `loiter plan --save` has no such limit.
 MAX_POINTS = 20_000
 
-# Media types of the formats.
-FILE_TYPES = {
-    "geojson": "application/geo+json",
-    "kml": "application/vnd.google-earth.kml+xml",
-    "gpx": "application/gpx+xml",
-    "csv": "text/csv; charset=utf-8",
-    "plan": "application/json",
-    "waypoints": "text/plain; charset=utf-8",
-}
-PICTURE_TYPES = {"png": "image/png", "svg": "image/svg+xml"}
+# The formats by their names in addresses.
+FORMATS = {known.endings[0].removeprefix("."): known for known in (*FILE_FORMATS, *PICTURE_FORMATS) if known.media_type}
 
 
 class ExportRequest(NamedTuple):
-    """The format of a file, a key of `FILE_TYPES` or `PICTURE_TYPES`, and the options of the request."""
+    """The format of a file, a key of `FORMATS`, and the options of the request."""
 
     format: str
     options: ExportOptions
@@ -40,7 +33,7 @@ class ExportRequest(NamedTuple):
 
 def export(request: ExportRequest) -> bytes:
     """The content of the file; errors as for `map_or_mission` and `picture`."""
-    return picture(request) if request.format in PICTURE_TYPES else map_or_mission(request)
+    return picture(request) if FORMATS[request.format].kind == "picture" else map_or_mission(request)
 
 
 def map_or_mission(request: ExportRequest) -> bytes:
@@ -49,19 +42,17 @@ def map_or_mission(request: ExportRequest) -> bytes:
     problem, frame = options.placed()
     first, *_ = all_fastest(problem)
     _check_points(first, options)
-    with TemporaryDirectory(prefix="loiter-") as folder:
-        path = Path(folder, f"entry.{request.format}")
-        save(
-            first,
-            path,
-            frame=frame,
-            altitude_m=options.altitude_m,
-            datum=AltitudeDatum(AltitudeReference(options.altitude_reference), options.home_altitude_m),
-            spacing_m=options.spacing_m,
-            chord_error_m=options.chord_error_m,
-            autopilot=AUTOPILOTS[options.autopilot],
-        )
-        return path.read_bytes()
+    datum = AltitudeDatum(AltitudeReference(options.altitude_reference), options.home_altitude_m)
+    arguments = SaveArguments(
+        maneuver=first,
+        frame=frame,
+        altitude_m=options.altitude_m,
+        datum=datum,
+        spacing_m=options.spacing_m,
+        chord_error_m=options.chord_error_m,
+        autopilot=AUTOPILOTS[options.autopilot],
+    )
+    return file_content(Path(f"entry.{request.format}"), arguments)
 
 
 def _check_points(maneuver: Maneuver, options: ExportOptions) -> None:
@@ -78,7 +69,6 @@ def _check_points(maneuver: Maneuver, options: ExportOptions) -> None:
 
 def picture(request: ExportRequest) -> bytes:
     """The picture that `loiter plan --plot` draws; to be called in one thread only (matplotlib)."""
-    from loiter.plot.files import write_figure
     from loiter.plot.picture import draw
 
     problem, frame = request.options.placed()

@@ -5,7 +5,21 @@ from __future__ import annotations
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, TURN_LIMITS, Aircraft, Orbit, Turn
 from loiter.planning.problem import Problem
-from loiter.planning.vocabulary import ACTIONS, OPTIONS
+from loiter.planning.vocabulary import ACTIONS
+
+# The options of `loiter plan` for what a scene has.
+OPTIONS = {
+    "pose": "--pose",
+    "orbit": "--orbit",
+    "turn": "--turn",
+    "airspeed_m_s": "--airspeed",
+    "max_bank_deg": "--bank",
+    "min_turn_radius_m": "--turn-radius",
+    "max_turn_rate_deg_s": "--turn-rate",
+    "wind": "--wind",
+    "orbit_velocity_m_s": "--orbit-velocity",
+    "tolerance_m": "--tolerance",
+}
 
 
 def instruction(maneuver: Maneuver) -> str:
