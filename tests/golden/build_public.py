@@ -1,4 +1,4 @@
-"""Lists what users depend on: public names, signatures, options, JSON keys, columns, statuses, HTTP paths, link keys.
+"""Lists the names that users depend on: functions, parameters, options, JSON keys, columns, statuses, HTTP paths.
 
 `python tests/golden/build_public.py > tests/golden/public.json` writes the list anew where a name is added on purpose.
 A name that goes, or that changes its meaning, breaks somebody's program.
@@ -8,7 +8,6 @@ import asyncio
 import importlib
 import inspect
 import json
-from dataclasses import fields, is_dataclass
 from enum import Enum
 
 from cyclopts import App
@@ -42,37 +41,24 @@ DOCUMENTED = {
 }
 
 
-def described(thing):
-    """The parameters of a function, the members of a class."""
-    if inspect.isclass(thing) and issubclass(thing, Enum):
-        return {name: member.value for name, member in thing.__members__.items()}
-    if inspect.isclass(thing):
-        own = [f.name for f in fields(thing)] if is_dataclass(thing) else list(getattr(thing, "_fields", []))
-        members = [name for name in dir(thing) if not name.startswith("_")]
-        hidden = {"count", "index"} if issubclass(thing, tuple) else set()
-        return {"fields": own, "members": sorted(set(members) - hidden - {"add_note", "args", "with_traceback"})}
-    if callable(thing):
-        return [str(p).partition(":")[0].partition("=")[0] for p in inspect.signature(thing).parameters.values()]
-    return type(thing).__name__
-
-
 def exports():
-    named = {package: importlib.import_module(package).__all__ for package in PACKAGES}
+    """The names that modules export, and those of the public exceptions."""
+    found = {package: sorted(importlib.import_module(package).__all__) for package in PACKAGES} | DOCUMENTED
+    errors = vars(importlib.import_module("loiter.errors"))
+    exceptions = [name for name, value in errors.items() if inspect.isclass(value) and issubclass(value, Exception)]
+    return found | {"loiter.errors": sorted(exceptions)}
+
+
+def parameters():
+    """The parameters of functions, or the members of classes."""
     found = {}
-    for package, names in (named | DOCUMENTED).items():
-        module = importlib.import_module(package)
-        found[package] = {
-            name: described(thing)
-            for name in sorted(names)
-            for thing in [getattr(module, name)]
-            if not inspect.ismodule(thing)
-        }
-    errors = importlib.import_module("loiter.errors")
-    found["loiter.errors"] = {
-        name: [base.__name__ for base in value.__mro__[1:3]]
-        for name, value in sorted(vars(errors).items())
-        if inspect.isclass(value) and issubclass(value, Exception)
-    }
+    for package, names in exports().items():
+        for name in names:
+            thing = getattr(importlib.import_module(package), name)
+            if inspect.isfunction(thing):
+                found[f"{package}.{name}"] = list(inspect.signature(thing).parameters)
+            elif inspect.isclass(thing) and not issubclass(thing, (Enum, Exception)):
+                found[f"{package}.{name}"] = sorted(member for member in dir(thing) if not member.startswith("_"))
     return found
 
 
@@ -82,19 +68,20 @@ def options():
     found = {}
     for name in sorted(command for command in app if not command.startswith("-")):
         command: App = app[name]
-        found[name] = sorted(option for argument in command.assemble_argument_collection() for option in argument.names)
+        found[name] = sorted(
+            option
+            for argument in command.assemble_argument_collection()
+            for option in argument.names
+            if option != "*" and not option.startswith("--empty-")
+        )
     return found
 
 
-def keys(value, path=""):
-    """The paths of the keys of a JSON document, elements of lists as []."""
+def keys(value):
+    """The keys of a JSON document."""
     if isinstance(value, dict):
-        for key, inner in value.items():
-            yield f"{path}.{key}"
-            yield from keys(inner, f"{path}.{key}")
-    elif isinstance(value, (list, tuple)) and value:
-        for inner in value:
-            yield from keys(inner, f"{path}[]")
+        return {*value, *(key for inner in value.values() for key in keys(inner))}
+    return {key for inner in value for key in keys(inner)} if isinstance(value, (list, tuple)) else set()
 
 
 def documents():
@@ -102,20 +89,13 @@ def documents():
     from loiter.verify.certificate import certify
 
     uav = loiter.Aircraft(18.0, max_bank_deg=35.0)
-    still = loiter.Pose(-400.0, 120.0, 90.0), loiter.Orbit(0.0, 0.0, 120.0), uav
-    windy = (*still, loiter.Wind(8.0, 250.0))
+    scene = loiter.Pose(-400.0, 120.0, 90.0), loiter.Orbit(0.0, 0.0, 120.0), uav
+    best, known = loiter.plan_all(*scene), loiter.candidates(*scene)
     frame = loiter.geo.LocalFrame(47.0, 8.0)
-    found = {}
-    for name, scene in (("still air", still), ("wind", windy)):
-        best, known = loiter.plan_all(*scene), loiter.candidates(*scene)
-        certificate = certify(best[0]).to_dict()
-        found[name] = {
-            "plan": sorted(set(keys(answer(best, known[1:], None)))),
-            "plan in degrees": sorted(set(keys(answer(best, known[1:], frame)))),
-            "certificate": sorted(set(keys(certificate))),
-            "conditions": [[r["name"], r["equation"]] for r in certificate["residuals"]],
-        }
-    return found
+    return {
+        "plan": sorted(keys(answer(best, known[1:], frame))),
+        "certificate": sorted(keys(certify(best[0]).to_dict())),
+    }
 
 
 def tables():
@@ -140,20 +120,23 @@ def service():
             return (await client.get("/openapi.json")).json()
 
     schema = asyncio.run(fetched())
-    paths = {path: sorted(operations) for path, operations in schema["paths"].items()}
-    parts = {name: sorted(part.get("properties", {})) for name, part in schema["components"]["schemas"].items()}
-    return {"paths": paths, "parts": parts}
+    paths = sorted(f"{kind.upper()} {path}" for path, kinds in schema["paths"].items() for kind in kinds)
+    fields = {name for part in schema["components"]["schemas"].values() for name in part.get("properties", {})}
+    return {"paths": paths, "fields": sorted(fields)}
 
 
 def public():
-    return {
+    """The names of each kind, in a line for each place where they are."""
+    found = {
         "names": exports(),
+        "parameters and members": parameters(),
         "options": options(),
         "documents": documents(),
         "tables": tables(),
         "service": service(),
     }
+    return {kind: {place: ", ".join(names) for place, names in places.items()} for kind, places in found.items()}
 
 
 if __name__ == "__main__":
-    print(json.dumps(public(), indent=1, sort_keys=True, default=str))
+    print(json.dumps(public(), indent=1, sort_keys=True))

@@ -1,16 +1,12 @@
-"""The optima and everything else in one go: what `plan_all` and `candidates` give one after the other.
-
-And the best of each direction alone.
-"""
+"""The optima and everything else in one go: what `plan_all` and `candidates` give one after the other."""
 
 from dataclasses import replace
 
-import pytest
 from hypothesis import given, settings
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, candidates, plan_all
 from loiter.planning.problem import Problem
-from loiter.planning.solve import best_and_others, best_each_way
+from loiter.planning.solve import best_and_others
 from strategies import scenes, windy_scenes
 
 
@@ -38,35 +34,3 @@ def test_in_wind_those_that_tie_are_all_optimal():
     best, others = best_and_others(Problem(*scene))
     assert {m.turn for m in best} == {Turn.CW, Turn.CCW}
     assert (best, others) == one_by_one(*scene)
-
-
-def durations_by_turn(best, others):
-    known = [*best, *others]
-    return {turn: min(m.duration_s for m in known if m.turn == turn) for turn in {m.turn for m in known}}
-
-
-def assert_the_least_of_each_direction(scene):
-    best, others = best_each_way(Problem(*scene))
-    assert len(best) + len(others) == 2
-    # Candidates of one direction that are one maneuver up to rounding stand for one another.
-    assert durations_by_turn(best, others) == pytest.approx(
-        durations_by_turn(*best_and_others(Problem(*scene))), rel=1e-11, abs=1e-11
-    )
-
-
-@given(scenes())
-@settings(deadline=None)
-def test_in_still_air_each_way_is_the_least_of_its_direction(scene):
-    assert_the_least_of_each_direction(scene)
-
-
-@given(windy_scenes())
-@settings(max_examples=15, deadline=None)
-def test_in_wind_each_way_is_the_least_of_its_direction(scene):
-    assert_the_least_of_each_direction(scene)
-
-
-def test_each_way_both_are_optimal_where_they_tie():
-    scene = Pose(0.0, -600.0, 0.0), Orbit(0.0, 0.0, 150.0), Aircraft(18.0, max_bank_deg=35.0), Wind(6.0, 0.0)
-    best, others = best_each_way(Problem(*scene))
-    assert ({m.turn for m in best}, others) == ({Turn.CW, Turn.CCW}, ())

@@ -13,7 +13,7 @@ import loiter
 from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.io.document import maneuver_values
-from loiter.planning.display import drawing
+from loiter.planning import drawing
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 POSE = Pose(-400.0, 120.0, 90.0)

@@ -136,20 +136,6 @@ def test_the_cost_of_the_other_direction_is_the_difference_of_the_plans(post, sc
     assert document["other_turn_later_s"] == pytest.approx(later, abs=1e-9)
 
 
-@every_scene
-def test_the_fastest_each_way_is_the_plan_without_the_other_candidates(post, scene):
-    document, whole = post("/api/fastest", scene), post("/api/plan", scene)
-    assert {document["turn"], *(other["turn"] for other in document["alternatives"])} == {"cw", "ccw"}
-    assert len(document["alternatives"]) == 1
-    for name in ("duration_s", "other_turn_later_s"):
-        assert document[name] == pytest.approx(whole[name], abs=1e-9)
-    assert (document["command"], document["python"], document["reduced"]) == (
-        whole["command"],
-        whole["python"],
-        whole["reduced"],
-    )
-
-
 @pytest.mark.parametrize(
     ("scene", "sentence"),
     [

@@ -131,7 +131,7 @@ def test_a_head_that_is_too_large_is_refused_however_it_comes(port, size, status
         assert response is None or response[0] == 400
 
 
-@pytest.mark.parametrize("path", ["plan", "fastest", "candidates", "certificate", "export/csv"])
+@pytest.mark.parametrize("path", ["plan", "candidates", "certificate", "export/csv"])
 @pytest.mark.parametrize("kind", ["", "Content-Type:\r\n", "Content-Type: text/plain\r\n"])
 @pytest.mark.parametrize("body", [encode_scene(STILL), b"{", b""])
 def test_a_body_without_the_type_json_is_refused(port, path, kind, body):

@@ -1,4 +1,4 @@
-"""Maneuvers as plain values, for JSON."""
+"""Answers as plain values for JSON: the values of `Maneuver.to_dict`, with places on Earth and alternatives."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ from functools import partial
 
 from loiter.geo import LocalFrame
 from loiter.io.maps.places import DECIMALS
-from loiter.planning.display import values
-from loiter.planning.display.values import pose_values
-from loiter.planning.maneuver import Maneuver
+from loiter.planning import maneuver as planned
+from loiter.planning.maneuver import Maneuver, pose_values
 from loiter.planning.model import Pose
 
 
@@ -22,7 +21,7 @@ def answer(best: Sequence[Maneuver], others: Sequence[Maneuver], frame: LocalFra
 
 def maneuver_values(maneuver: Maneuver, frame: LocalFrame | None = None) -> dict[str, object]:
     """A maneuver as plain values; with a frame its poses have latitude, longitude and true heading too."""
-    return values.maneuver_values(maneuver, partial(_placed_values, frame) if frame is not None else pose_values)
+    return planned.maneuver_values(maneuver, partial(_placed_values, frame) if frame is not None else pose_values)
 
 
 def _placed_values(frame: LocalFrame, pose: Pose) -> dict[str, float]:

@@ -103,19 +103,6 @@ def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneu
     return best, tuple(m for m in others if not any(m.turn == b.turn and m.segments == b.segments for b in best))
 
 
-def best_each_way(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
-    """The best maneuver of each direction, in two tuples as from `best_and_others`: both in the first where they tie.
-
-    Raises the errors of `plan`. In wind it takes half the time of `best_and_others`.
-    """
-    found: list[Solved] = []
-    for turn in (Turn.CW, Turn.CCW):
-        found += solved(problem.with_turn(turn), _optimum_alone, _fastest_alone)
-    known = sorted((_with_orbit(candidate, problem.orbit) for candidate in found), key=lambda candidate: candidate.time)
-    best = _tied(known, problem)
-    return best, tuple(m for m in maneuvers(known) if m not in best)
-
-
 class Solved(NamedTuple):
     """A maneuver, and its time in the kernel's units, which decides ties."""
 

@@ -86,11 +86,6 @@ def _add_plans(api: FastAPI, pool: BoundedPool) -> None:
         """The fastest entry and all alternatives with their cost: the JSON of `loiter plan --json`, with tracks."""
         return await pool.run(plans.plan, scene.placed())
 
-    @api.post("/api/fastest", response_model=models.Plan, response_model_exclude_unset=True, dependencies=JSON_BODY)
-    async def fastest(scene: models.Scene) -> Any:
-        """The fastest entry, with the best in the other direction as its only alternative; in wind in half the time."""
-        return await pool.run(plans.fastest, scene.placed())
-
     @api.post(
         "/api/candidates", response_model=models.Candidates, response_model_exclude_unset=True, dependencies=JSON_BODY
     )

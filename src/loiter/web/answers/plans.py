@@ -8,7 +8,7 @@ from typing import Any
 from loiter.geo.placed import PlacedProblem
 from loiter.io.document import answer, maneuver_values
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.solve import all_fastest, best_and_others, best_each_way, extremals
+from loiter.planning.solve import all_fastest, best_and_others, extremals
 from loiter.verify.certificate import Instant, certify
 from loiter.web.answers.texts import command, instruction, python
 from loiter.web.answers.tracks import track
@@ -19,15 +19,7 @@ STEPS = 100
 
 def plan(placed: PlacedProblem) -> dict[str, Any]:
     """`models.Plan`: the document of `loiter plan --json`, with tracks and texts."""
-    return _plan_document(placed, *best_and_others(placed.problem))
-
-
-def fastest(placed: PlacedProblem) -> dict[str, Any]:
-    """`models.Plan` with the best in the other direction as the only alternative: fast enough for dragging in wind."""
-    return _plan_document(placed, *best_each_way(placed.problem))
-
-
-def _plan_document(placed: PlacedProblem, best: Sequence[Maneuver], others: Sequence[Maneuver]) -> dict[str, Any]:
+    best, others = best_and_others(placed.problem)
     first, *_ = maneuvers = [*best, *others]
     document: dict[str, Any] = answer(best, others, placed.frame)
     for entry, maneuver in zip([document, *document["alternatives"]], maneuvers, strict=True):

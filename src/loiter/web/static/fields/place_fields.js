@@ -15,7 +15,7 @@ import { withOrbit, withPose } from "../scene/scene.js";
 import { byId } from "../shared/dom.js";
 import { REACH_M, originFor, toLocal, toPlace } from "../shared/earth.js";
 import { powerBelow, tidy } from "../shared/units.js";
-import { turnRadiusOf } from "../scene/scene.js";
+import { turnRadiusOf } from "../shared/turning.js";
 import { pairProblem, parsePair } from "./coordinates.js";
 import { errorLine, markInvalid } from "./input_fields.js";
 import { nameOf } from "./field_names.js";

@@ -16,10 +16,11 @@
  * @property {(scene: Scene) => number | undefined} get
  * @property {(scene: Scene, value: number) => Scene} set
  */
-import { LIMITS, limitFor, limitOf, turnRadiusOf, withOrbit, withPose, withWind } from "../scene/scene.js";
+import { LIMITS, limitOf, withOrbit, withPose, withWind } from "../scene/scene.js";
 import { byId } from "../shared/dom.js";
 import { tidy } from "../shared/units.js";
 import { numberField } from "./input_fields.js";
+import { limitFor, turnRadiusOf } from "../shared/turning.js";
 
 const CALM = "Calm air: set a speed first."; // why the direction of the wind is disabled
 

@@ -12,6 +12,18 @@ import { toScreen } from "../shared/geometry.js";
 import { piecesOf } from "../shared/maneuver.js";
 import { decimalsOfStep, fixed, roundStep } from "../shared/units.js";
 
+/**
+ * The view of the map: it reaches half a cell beyond the outer points of the grid, which are middles of cells.
+ *
+ * @param {{synthesis: Synthesis | null, mapSide: number}} state
+ * @returns {View}
+ */
+export function mapViewOf({ synthesis, mapSide }) {
+  const x = synthesis?.x ?? [-1, 1];
+  const reach = (x[x.length - 1] * x.length) / (x.length - 1);
+  return { scale: mapSide / (2 * reach), east: 0, north: 0, width: mapSide, height: mapSide };
+}
+
 const LEAST_SPACING_PX = 60;
 const EDGE_PX = 18; // a number nearer to the edge would be cut
 

@@ -5,16 +5,14 @@
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../shared/types.js").Synthesis} Synthesis
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../shared/geometry.js").Point} Point
- * @typedef {import("../shared/geometry.js").View} View
  */
 import { byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { toScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
 import { ghostOf } from "../state/page_state.js";
-import { drawAxes, drawCurve, drawReducedPath, drawTargets } from "./map_lines.js";
+import { drawAxes, drawCurve, drawReducedPath, drawTargets, mapViewOf } from "./map_lines.js";
 import { drawRegionLabels, paintRegions, regionLabels } from "./regions.js";
 import { stateHandle } from "./state_handle.js";
 
@@ -40,18 +38,6 @@ export function mapView(store, actions) {
   stateHandle(state, root, store, actions);
   drawNotes(store);
   drawWait(store);
-}
-
-/**
- * The view of the map: it reaches half a cell beyond the outer points of the grid, which are middles of cells.
- *
- * @param {{synthesis: Synthesis | null, mapSide: number}} state
- * @returns {View}
- */
-export function mapViewOf({ synthesis, mapSide }) {
-  const x = synthesis?.x ?? [-1, 1];
-  const reach = (x[x.length - 1] * x.length) / (x.length - 1);
-  return { scale: mapSide / (2 * reach), east: 0, north: 0, width: mapSide, height: mapSide };
 }
 
 /**

@@ -8,13 +8,13 @@
  * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("../shared/geometry.js").View} View
  */
-import { turnRadiusOf, withPose } from "../scene/scene.js";
+import { withPose } from "../scene/scene.js";
 import { show, svg } from "../shared/dom.js";
 import { makeHandle, placeHandle } from "../shared/draggable.js";
 import { toScreen, toWorld, unitVector } from "../shared/geometry.js";
 import { fixed, tidy } from "../shared/units.js";
-import { stepOf } from "./map_lines.js";
-import { mapViewOf } from "./map_view.js";
+import { mapViewOf, stepOf } from "./map_lines.js";
+import { turnRadiusOf } from "../shared/turning.js";
 
 const EDGE_PX = 4; // a state beyond the map is drawn this far from its edge
 

@@ -11,11 +11,11 @@
  * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {ReturnType<typeof createCamera>} PlanCamera
  */
-import { turnRadiusOf } from "../scene/scene.js";
 import { contains, fitted, unitVector, zoomed } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
 import { tidy } from "../shared/units.js";
 import { HEADING_HANDLE_PX } from "./handles.js";
+import { turnRadiusOf } from "../shared/turning.js";
 
 // Pixels between the contents and the edges, for buttons, dial, labels and key; fewer on a small screen.
 const MARGINS = { left: 84, right: 64, top: 40, bottom: 64 };

@@ -17,7 +17,8 @@
  * @property {number[] | null} view  middle east and north, width: metres; null unless the user has moved the view
  */
 import { powerBelow, tidy, tidyAbove } from "../shared/units.js";
-import { LIMITS, limitOf, orbitMoves, turnRadiusOf, withWind } from "./scene.js";
+import { LIMITS, limitOf, orbitMoves, withWind } from "./scene.js";
+import { turnRadiusOf } from "../shared/turning.js";
 
 /** @type {Record<Limit, string>} */
 const LIMIT_KEYS = { max_bank_deg: "bank", min_turn_radius_m: "turn-radius", max_turn_rate_deg_s: "turn-rate" };

@@ -7,7 +7,6 @@
  * @typedef {import("../shared/types.js").Aircraft} Aircraft
  * @typedef {import("../shared/types.js").Limit} Limit
  */
-import { DEGREE } from "../shared/geometry.js";
 
 /** @param {Scene} scene @param {Partial<Scene["pose"]>} pose @returns {Scene} */
 export const withPose = (scene, pose) => ({ ...scene, pose: { ...scene.pose, ...pose } });
@@ -28,8 +27,6 @@ export const orbitMoves = ({ orbit }) => orbit.velocity_east_m_s !== 0 || orbit.
  */
 export const drifts = (scene) => scene.wind !== null || orbitMoves(scene);
 
-const STANDARD_GRAVITY_M_S2 = 9.80665;
-
 /** @type {Limit[]} */
 export const LIMITS = ["max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s"];
 
@@ -41,28 +38,4 @@ export const LIMITS = ["max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s
  */
 export function limitOf(aircraft) {
   return LIMITS.find((name) => aircraft[name] !== undefined) ?? "max_bank_deg";
-}
-
-/**
- * The turn radius of an aircraft, metres.
- *
- * @param {Aircraft} aircraft
- */
-export function turnRadiusOf({ airspeed_m_s, max_bank_deg, min_turn_radius_m, max_turn_rate_deg_s }) {
-  if (min_turn_radius_m !== undefined) return min_turn_radius_m;
-  if (max_turn_rate_deg_s !== undefined) return airspeed_m_s / (max_turn_rate_deg_s * DEGREE);
-  return airspeed_m_s ** 2 / (STANDARD_GRAVITY_M_S2 * Math.tan((max_bank_deg ?? 0) * DEGREE));
-}
-
-/**
- * The value of a limit that gives this turn radius: tan(bank) = V^2 / (g r), rate = V / r.
- *
- * @param {Limit} kind
- * @param {number} airspeed_m_s
- * @param {number} turnRadius_m
- */
-export function limitFor(kind, airspeed_m_s, turnRadius_m) {
-  if (kind === "min_turn_radius_m") return turnRadius_m;
-  if (kind === "max_turn_rate_deg_s") return airspeed_m_s / turnRadius_m / DEGREE;
-  return Math.atan(airspeed_m_s ** 2 / (STANDARD_GRAVITY_M_S2 * turnRadius_m)) / DEGREE;
 }

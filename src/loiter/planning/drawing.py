@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from html import escape
 from math import atan2, degrees
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import along
-from loiter.planning.model import Pose, Turn
-
-if TYPE_CHECKING:
-    from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
 
 # Okabe and Ito's palette, as in the pictures of `loiter.plot`.
 COLOURS = {"L": "#009E73", "S": "#0072B2", "R": "#D55E00"}
@@ -43,56 +40,66 @@ class _View:
         return f"{x:.1f},{y:.1f}"
 
 
-def svg(maneuver: Maneuver) -> str:
-    """The track over the ground, coloured by control, with the circle, the start, the switches and the join marked."""
-    tracks = [(segment.letter, _track(maneuver, i)) for i, segment in enumerate(maneuver.segments)]
-    circle = maneuver.orbit_at_join
-    east, north, radius = circle.east_m, circle.north_m, circle.radius_m
-    corners = [(east - radius, north - radius), (east + radius, north + radius)]
-    start = (maneuver.start.east_m, maneuver.start.north_m)
-    view = _View([*corners, start, *(point for _, track in tracks for point in track)])
-    centre_x, centre_y = view(east, north).split(",")
-    title, height = escape(str(maneuver)), f"{view.height:.0f}"
-    size = f'width="{WIDTH:.0f}" height="{height}" viewBox="0 0 {WIDTH:.0f} {height}"'
-    ring = f'cx="{centre_x}" cy="{centre_y}" r="{view.scale * radius:.1f}"'
-    parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" role="img" aria-label="{title}" {size}>',
-        f"<title>{title}</title>",
-        '<rect width="100%" height="100%" fill="white"/>',
-        f'<circle {ring} fill="none" stroke="black" stroke-width="{THIN}"/>',
-        *(_direction(view, maneuver, quarter) for quarter in range(4)),
-        *(_line(view, letter, track) for letter, track in tracks),
-        *(_dot(view, segment.start, "white") for segment in maneuver.segments[1:]),
-        _dot(view, maneuver.join, "black"),
-        _aircraft(view, maneuver.start),
-        "</svg>",
-    ]
-    return "\n".join(parts)
+class Drawing(NamedTuple):
+    """What a drawing shows of a maneuver: its path, and the circle when it is joined."""
+
+    title: str
+    start: Pose
+    segments: tuple[Segment, ...]
+    join: Pose
+    circle: Orbit
+    turn: Turn
+    aircraft: Aircraft
+    wind: Wind
+
+    def svg(self) -> str:
+        """The track over the ground, coloured by control, with the circle, start, switches and join marked."""
+        tracks = [(segment.letter, _track(segment, self.aircraft, self.wind)) for segment in self.segments]
+        circle = self.circle
+        east, north, radius = circle.east_m, circle.north_m, circle.radius_m
+        corners = [(east - radius, north - radius), (east + radius, north + radius)]
+        start = (self.start.east_m, self.start.north_m)
+        view = _View([*corners, start, *(point for _, track in tracks for point in track)])
+        centre_x, centre_y = view(east, north).split(",")
+        title, height = escape(self.title), f"{view.height:.0f}"
+        size = f'width="{WIDTH:.0f}" height="{height}" viewBox="0 0 {WIDTH:.0f} {height}"'
+        ring = f'cx="{centre_x}" cy="{centre_y}" r="{view.scale * radius:.1f}"'
+        parts = [
+            f'<svg xmlns="http://www.w3.org/2000/svg" role="img" aria-label="{title}" {size}>',
+            f"<title>{title}</title>",
+            '<rect width="100%" height="100%" fill="white"/>',
+            f'<circle {ring} fill="none" stroke="black" stroke-width="{THIN}"/>',
+            *(_direction(view, self.circle, self.turn, quarter) for quarter in range(4)),
+            *(_line(view, letter, track) for letter, track in tracks),
+            *(_dot(view, segment.start, "white") for segment in self.segments[1:]),
+            _dot(view, self.join, "black"),
+            _aircraft(view, self.start),
+            "</svg>",
+        ]
+        return "\n".join(parts)
+
+    def html(self) -> str:
+        """The SVG with the maneuver in words below it."""
+        caption = f'<figcaption style="font: {TEXT:.0f}px sans-serif">{escape(self.title)}</figcaption>'
+        return f'<figure style="margin: 0">{self.svg()}{caption}</figure>'
 
 
-def html(maneuver: Maneuver) -> str:
-    """The SVG with the maneuver in words below it."""
-    caption = f'<figcaption style="font: {TEXT:.0f}px sans-serif">{escape(str(maneuver))}</figcaption>'
-    return f'<figure style="margin: 0">{svg(maneuver)}{caption}</figure>'
-
-
-def _direction(view: _View, maneuver: Maneuver, quarter: int) -> str:
+def _direction(view: _View, circle: Orbit, turn: Turn, quarter: int) -> str:
     """An arrow on the circle, in the direction in which it is held, between two of the compass points."""
-    circle, azimuth = maneuver.orbit_at_join, 45.0 + 90.0 * quarter
+    azimuth = 45.0 + 90.0 * quarter
     east, north = heading_vector(azimuth)
     place = view(circle.east_m + circle.radius_m * east, circle.north_m + circle.radius_m * north)
-    turned = azimuth + (90.0 if maneuver.turn == Turn.CW else -90.0)
+    turned = azimuth + (90.0 if turn == Turn.CW else -90.0)
     outline = f"0,{-ARROW} {0.7 * ARROW},{0.6 * ARROW} {-0.7 * ARROW},{0.6 * ARROW}"
     return f'<polygon points="{outline}" transform="translate({place}) rotate({turned:.1f})" fill="black"/>'
 
 
-def _track(maneuver: Maneuver, number: int) -> list[tuple[float, float]]:
+def _track(segment: Segment, aircraft: Aircraft, wind: Wind) -> list[tuple[float, float]]:
     """Points of a segment over the ground."""
     import numpy as np
 
-    segment = maneuver.segments[number]
     points = 2 if segment.letter == "S" else ARC_POINTS
-    east, north, _ = along(segment, np.linspace(0.0, segment.length_m, points), maneuver.aircraft, maneuver.wind)
+    east, north, _ = along(segment, np.linspace(0.0, segment.length_m, points), aircraft, wind)
     return list(zip(east.tolist(), north.tolist(), strict=True))
 
 

@@ -1,1 +1,0 @@
-"""Maneuvers as plain values, and as drawings for notebooks."""
