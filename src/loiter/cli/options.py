@@ -1,13 +1,12 @@
-"""Options that several commands share: the start, the circle, the wind, the aircraft, missions."""
+"""Options that several commands share, declared once: the start, the circle, the wind, the aircraft, missions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
@@ -30,21 +29,16 @@ from loiter.cli.numbers import (
     turn_rate,
 )
 from loiter.cli.sentences import argument_names
-from loiter.errors import InvalidArgument, RadiusTooSmall, positive
+from loiter.errors import InvalidArgument, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
-from loiter.geo.frame import degrees_of
-from loiter.geo.placed import PlacedProblem
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind, circle_radius_m
-from loiter.planning.problem import Problem
+from loiter.planning.model import CALM, Aircraft, Orbit, Turn, TurnName, Wind, circle_radius_m
 from loiter.plot import files
 from loiter.plot.sizes import PictureFormat
 
 if TYPE_CHECKING:
-    from loiter.io.missions.fence import FenceCheck
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
-    from loiter.planning.maneuver import Maneuver
 
 scene = Group("Scene", sort_key=1)
 aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sort_key=2)
@@ -55,21 +49,74 @@ missions = Group("Missions", sort_key=6)
 # Default chord error, metres, the same as that of the library.
 CHORD_ERROR_M = 1.0
 
+# The types of options that several classes and commands have. Those that differ in their group or help add it.
+PoseMetres = Annotated[
+    tuple[float, float, float] | None,
+    Parameter(
+        group=scene,
+        converter=several(metres, metres, direction),
+        metavar="EAST NORTH HEADING",
+        help="Pose of the aircraft: metres, and heading in degrees clockwise from north.",
+    ),
+]
+CIRCLE_METRES = Parameter(
+    group=scene,
+    converter=several(metres, metres, metres),
+    metavar="EAST NORTH RADIUS",
+    help="The circle: centre and radius, metres.",
+)
+CIRCLE_DEGREES = Parameter(group=scene, converter=several(latitude, longitude, metres), metavar="LAT LON RADIUS")
+# As many numbers as are given: the radius may come from somewhere else.
+Circle = Annotated[tuple[float, ...], Parameter(consume_multiple=True)]
+TurnChoice = Annotated[TurnName | None, Parameter(group=scene, converter=turn_name)]
+TURN_HELP = "seen from above: cw is clockwise, ccw counter-clockwise, either the faster one. If absent:"
+VELOCITY = Parameter(
+    group=air,
+    converter=several(metres_per_second, metres_per_second),
+    metavar="EAST NORTH",
+    help="Velocity of the circle over the ground, metres per second; --orbit is its position at the start.",
+)
+Airspeed = Annotated[
+    float | None,
+    Parameter(
+        group=aircraft,
+        converter=one(metres_per_second),
+        metavar="M_PER_S",
+        help="True airspeed, metres per second, or with a unit: 35kn.",
+    ),
+]
+Bank = Annotated[
+    float | None,
+    Parameter(group=aircraft, converter=one(angle), metavar="DEGREES", help="Largest bank, degrees."),
+]
+TurnRadius = Annotated[
+    float | None,
+    Parameter(group=aircraft, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
+]
+TurnRate = Annotated[
+    float | None,
+    Parameter(
+        group=aircraft,
+        converter=one(turn_rate),
+        metavar="DEG_PER_S",
+        help="Largest turn rate, degrees per second.",
+    ),
+]
+Altitude = Annotated[float | None, Parameter(group=aircraft, converter=one(altitude), metavar="METRES")]
+WIND_HELP = "Wind speed, metres per second, and the compass direction that the wind comes from; or as in weather reports, 250/15kn or 25015KT"
+WindChoice = Annotated[
+    tuple[float, float] | None,
+    Parameter(group=air, converter=several(metres_per_second, direction), metavar="SPEED FROM"),
+]
+Metres = Annotated[float | None, Parameter(converter=one(metres), metavar="METRES")]
+
 
 @Parameter(name="*")
 @dataclass(frozen=True)
 class StartOptions:
     """The pose of the aircraft, in metres or in degrees."""
 
-    pose: Annotated[
-        tuple[float, float, float] | None,
-        Parameter(
-            group=scene,
-            converter=several(metres, metres, direction),
-            metavar="EAST NORTH HEADING",
-            help="Pose of the aircraft: metres, and heading in degrees clockwise from north.",
-        ),
-    ] = None
+    pose: PoseMetres = None
     pose_lla: Annotated[
         tuple[float, float, float] | None,
         Parameter(
@@ -86,9 +133,7 @@ class StartOptions:
 class PlacedStartOptions(StartOptions):
     """The pose of the aircraft in degrees, for commands that need places on Earth; --pose is parsed, but hidden."""
 
-    pose: Annotated[
-        tuple[float, float, float] | None, Parameter(show=False, converter=several(metres, metres, direction))
-    ] = None
+    pose: Annotated[PoseMetres, Parameter(show=False)] = None
 
 
 @Parameter(name="*")
@@ -96,25 +141,11 @@ class PlacedStartOptions(StartOptions):
 class OrbitOptions:
     """The circle, in metres or in degrees, and its motion."""
 
-    orbit: Annotated[
-        tuple[float, ...],
-        Parameter(
-            group=scene,
-            consume_multiple=True,
-            converter=several(metres, metres, metres),
-            metavar="EAST NORTH RADIUS",
-            help="The circle: centre and radius, metres.",
-        ),
-    ] = ()
+    orbit: Annotated[Circle, CIRCLE_METRES] = ()
     orbit_lla: Annotated[
-        tuple[float, ...],
-        Parameter(
-            group=scene,
-            consume_multiple=True,
-            converter=several(latitude, longitude, metres),
-            metavar="LAT LON RADIUS",
-            help="The circle: centre in WGS84 degrees, radius in metres; the radius may come from --params.",
-        ),
+        Circle,
+        CIRCLE_DEGREES,
+        Parameter(help="The circle: centre in WGS84 degrees, radius in metres; the radius may come from --params."),
     ] = ()
     orbit_from: Annotated[
         Path | None,
@@ -125,22 +156,12 @@ class OrbitOptions:
         ),
     ] = None
     turn: Annotated[
-        TurnName | None,
+        TurnChoice,
         Parameter(
-            group=scene,
-            converter=turn_name,
-            help="Direction of flight around the circle, seen from above: cw is clockwise, ccw counter-clockwise, either the faster one. If absent: that of --orbit-from or --params, otherwise either.",
+            help=f"Direction of flight around the circle, {TURN_HELP} that of --orbit-from or --params, otherwise either."
         ),
     ] = None
-    orbit_velocity: Annotated[
-        tuple[float, float],
-        Parameter(
-            group=air,
-            converter=several(metres_per_second, metres_per_second),
-            metavar="EAST NORTH",
-            help="Velocity of the circle over the ground, metres per second; --orbit is its position at the start.",
-        ),
-    ] = (0.0, 0.0)
+    orbit_velocity: Annotated[tuple[float, float], VELOCITY] = (0.0, 0.0)
 
     def circle(self, preset: Preset | None) -> tuple[Orbit, LocalFrame | None]:
         """The circle, and the local frame about its centre if it is in degrees; `InvalidArgument` without a circle."""
@@ -200,14 +221,7 @@ class OrbitOptions:
 class PlacedOrbitOptions(OrbitOptions):
     """The circle in degrees; otherwise like `PlacedStartOptions`."""
 
-    orbit: Annotated[
-        tuple[float, ...], Parameter(show=False, consume_multiple=True, converter=several(metres, metres, metres))
-    ] = ()
-
-
-def altitude_parameter(text: str) -> Parameter:
-    """The parameter of --altitude, with this help: what the altitude refers to differs between commands."""
-    return Parameter(group=aircraft, converter=one(altitude), metavar="METRES", help=text)
+    orbit: Annotated[Circle, CIRCLE_METRES, Parameter(show=False)] = ()
 
 
 def written_altitude(altitude_m: float | None) -> float | None:
@@ -226,41 +240,16 @@ def written_altitude(altitude_m: float | None) -> float | None:
 class AircraftOptions:
     """The aircraft, from options or from the parameters of its autopilot, and the density of the air."""
 
-    airspeed: Annotated[
-        float | None,
-        Parameter(
-            group=aircraft,
-            converter=one(metres_per_second),
-            metavar="M_PER_S",
-            help="True airspeed, metres per second, or with a unit: 35kn.",
-        ),
-    ] = None
+    airspeed: Airspeed = None
     indicated_airspeed: Annotated[
-        float | None,
+        Airspeed,
         Parameter(
-            group=aircraft,
-            converter=one(metres_per_second),
-            metavar="M_PER_S",
             help="Instead of --airspeed: indicated airspeed, metres per second; --altitude converts it to true airspeed.",
         ),
     ] = None
-    bank: Annotated[
-        float | None,
-        Parameter(group=aircraft, converter=one(angle), metavar="DEGREES", help="Largest bank, degrees."),
-    ] = None
-    turn_radius: Annotated[
-        float | None,
-        Parameter(group=aircraft, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
-    ] = None
-    turn_rate: Annotated[
-        float | None,
-        Parameter(
-            group=aircraft,
-            converter=one(turn_rate),
-            metavar="DEG_PER_S",
-            help="Largest turn rate, degrees per second.",
-        ),
-    ] = None
+    bank: Bank = None
+    turn_radius: TurnRadius = None
+    turn_rate: TurnRate = None
     params: Annotated[
         Path | None,
         Parameter(
@@ -270,9 +259,9 @@ class AircraftOptions:
         ),
     ] = None
     altitude: Annotated[
-        float | None,
-        altitude_parameter(
-            "Altitude above mean sea level, metres, or with a unit: 3000ft; or a flight level: FL100. It converts an indicated airspeed to true airspeed, which is higher in thin air."
+        Altitude,
+        Parameter(
+            help="Altitude above mean sea level, metres, or with a unit: 3000ft; or a flight level: FL100. It converts an indicated airspeed to true airspeed, which is higher in thin air."
         ),
     ] = None
     temperature: Annotated[
@@ -375,9 +364,9 @@ class PlannedAircraftOptions(AircraftOptions):
     """The aircraft; its altitude is written to files, and may be measured from --altitude-reference."""
 
     altitude: Annotated[
-        float | None,
-        altitude_parameter(
-            "Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is written to missions and maps, and converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."
+        Altitude,
+        Parameter(
+            help="Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is written to missions and maps, and converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."
         ),
     ] = None
 
@@ -388,17 +377,13 @@ class WatchedAircraftOptions(AircraftOptions):
     """The aircraft; with --send it is commanded to fly at the altitude."""
 
     altitude: Annotated[
-        float | None,
-        altitude_parameter(
-            "Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."
+        Altitude,
+        Parameter(
+            help="Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."
         ),
     ] = None
 
 
-# Places in degrees that are read as metres lie no further apart than this.
-FEW_DEGREES = 2.0
-
-WIND_HELP = "Wind speed, metres per second, and the compass direction that the wind comes from; or as in weather reports, 250/15kn or 25015KT"
 DeclinationDegrees = Annotated[
     float | None,
     Parameter(
@@ -424,13 +409,8 @@ class WindOptions:
     """The wind, and the declination of magnetic directions."""
 
     wind: Annotated[
-        tuple[float, float] | None,
-        Parameter(
-            group=air,
-            converter=several(metres_per_second, direction),
-            metavar="SPEED FROM",
-            help=f"{WIND_HELP}; with places in degrees, clockwise from true north at the circle.",
-        ),
+        WindChoice,
+        Parameter(help=f"{WIND_HELP}; with places in degrees, clockwise from true north at the circle."),
     ] = None
     declination: DeclinationDegrees = None
 
@@ -471,20 +451,16 @@ class MissionOptions:
         ),
     ] = False
     spacing: Annotated[
-        float | None,
+        Metres,
         Parameter(
             group=missions,
-            converter=one(metres),
-            metavar="METRES",
             help="Largest distance between points of the track; limited by --chord-error alone if absent. For a mission it implies --path.",
         ),
     ] = None
     chord_error: Annotated[
-        float | None,
+        Metres,
         Parameter(
             group=missions,
-            converter=one(metres),
-            metavar="METRES",
             help="Largest distance by which straight lines between points of the track may cut a turn; 1 if absent.",
         ),
     ] = None
@@ -496,11 +472,9 @@ class MissionOptions:
         ),
     ] = "msl"
     home_altitude: Annotated[
-        float | None,
+        Metres,
         Parameter(
             group=missions,
-            converter=one(metres),
-            metavar="METRES",
             help="Altitude of the home position above mean sea level; needed for altitudes above home or ground, unless --orbit-from has a home.",
         ),
     ] = None
@@ -602,104 +576,6 @@ class MapPictureOptions(PictureOptions):
     def has_pixels(self) -> bool:
         """Whether the picture has pixels in every format."""
         return True
-
-
-class OptionsRead(NamedTuple):
-    """The problem that the options of a command describe, and a remark to print before the result, or ""."""
-
-    placed: PlacedProblem
-    remark: str
-
-
-def read_options(
-    start: StartOptions,
-    orbit: OrbitOptions,
-    aircraft: AircraftOptions,
-    wind: WindOptions,
-    *,
-    tolerance_m: float = 0.0,
-    fit: bool = False,
-    datum: AltitudeDatum = MEAN_SEA_LEVEL,
-) -> OptionsRead:
-    """The problem that the options describe, with `fit` for a circle that can be held (`Orbit.fitted`).
-
-    Raises `InvalidArgument` where they are contradictory or incomplete.
-    """
-    preset = aircraft.preset()
-    aircraft = aircraft.above_sea(preset, datum)
-    pose, circle, frame = placed(start, orbit, wind, preset)
-    uav = aircraft.aircraft(preset)
-    planned = circle.fitted(uav, wind.moving_air) if fit else circle
-    problem = Problem(pose, planned, uav, wind.moving_air, tolerance_m)
-    remarks = [
-        orbit.site_remark(),
-        _places_remark(start, frame),
-        "" if frame else _metres_remark(pose, circle),
-        aircraft.remark(preset),
-        _fit_remark(circle, planned),
-    ]
-    return OptionsRead(PlacedProblem(problem, frame), "\n".join(filter(None, remarks)))
-
-
-def _places_remark(start: StartOptions, frame: LocalFrame | None) -> str:
-    """A line with the hemispheres of both places in degrees, which shows whether they are swapped; otherwise empty."""
-    if start.pose_lla is None or frame is None:
-        return ""
-    lat, lon, _ = start.pose_lla
-    return f"Start {degrees_of(lat, lon)}, circle {degrees_of(frame.latitude_deg, frame.longitude_deg)}."
-
-
-def _metres_remark(pose: Pose, circle: Orbit) -> str:
-    """A line where positions in metres look like latitudes and longitudes; otherwise empty."""
-    numbers = (pose.east_m, pose.north_m, circle.east_m, circle.north_m)
-    looks_like_degrees = all(0.0 < abs(each) <= 180.0 and each % 1.0 for each in numbers)
-    if not looks_like_degrees or circle.distance_m(pose) > FEW_DEGREES:
-        return ""
-    return "These positions are metres: --pose-lla and --orbit-lla take latitudes and longitudes."
-
-
-@contextmanager
-def fit_proposed() -> Iterator[None]:
-    """Add to the refusal of a circle that cannot be held that `--fit` plans for one that can."""
-    try:
-        yield
-    except RadiusTooSmall as error:
-        r = error.fitted_radius_m
-        raise RadiusTooSmall(f"{error}; --fit plans for {r:.4g} m", r) from error
-
-
-def _fit_remark(asked: Orbit, planned: Orbit) -> str:
-    """A line with both radii where the circle was widened; otherwise empty."""
-    if planned == asked:
-        return ""
-    return f"A circle of {asked.radius_m:g} m cannot be held; planned for {planned.radius_m:.4g} m, the least radius."
-
-
-def placed(
-    start: StartOptions, orbit: OrbitOptions, air: WindOptions, preset: Preset | None = None
-) -> tuple[Pose, Orbit, LocalFrame | None]:
-    """The start and the circle, and the local frame if they are in degrees; `air` has the declination."""
-    air.check_declination(start)
-    if (start.pose is None) == (start.pose_lla is None):
-        raise InvalidArgument("pose", "or --pose-lla is needed, and not both")
-    circle, frame = orbit.circle(preset)
-    if (start.pose_lla is None) != (frame is None):
-        raise InvalidArgument("pose_lla", "and --orbit-lla go together: places in degrees, or both in metres")
-    if frame is not None and start.pose_lla is not None:
-        lat, lon, heading_deg = start.pose_lla
-        return frame.pose(lat, lon, air.true_heading("pose true heading_deg", heading_deg)), circle, frame
-    assert start.pose is not None  # one of them is given
-    east_m, north_m, heading_deg = start.pose
-    return Pose(east_m, north_m, air.true_heading("pose heading_deg", heading_deg)), circle, None
-
-
-def fence_check(
-    site: Site | None, maneuver: Maneuver, frame: LocalFrame | None, *, any_inclusion: bool
-) -> FenceCheck | None:
-    """Whether a plan stays inside the fence of an existing mission; None without a fence."""
-    if site is None or frame is None:
-        return None
-    return site.fence.check(maneuver, frame, any_inclusion=any_inclusion)
 
 
 def _with_radius(argument: str, numbers: Sequence[float], radius_m: float | None) -> tuple[float, float, float]:

@@ -16,25 +16,27 @@ from rich.table import Column
 from rich.text import Text
 
 import loiter
-from loiter.cli.coordinates import latitude, longitude
-from loiter.cli.numbers import (
-    angle,
-    check_declination,
-    direction,
-    metres,
-    metres_per_second,
-    one,
-    several,
-    turn_name,
-    turn_rate,
-    whole,
+from loiter.cli.numbers import check_declination, metres, one, whole
+from loiter.cli.options import (
+    CIRCLE_DEGREES,
+    CIRCLE_METRES,
+    TURN_HELP,
+    VELOCITY,
+    WIND_HELP,
+    Airspeed,
+    Bank,
+    DeclinationDegrees,
+    TurnChoice,
+    TurnRadius,
+    TurnRate,
+    WindChoice,
+    moving_air,
 )
-from loiter.cli.options import WIND_HELP, DeclinationDegrees, moving_air
 from loiter.cli.report import print_json
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.kernel.statuses import Status
-from loiter.planning.model import Orbit, Turn, TurnName, circle_radius_m
+from loiter.planning.model import Orbit, Turn, circle_radius_m
 
 if TYPE_CHECKING:
     from loiter.batch import JobProgress, JobSummary
@@ -61,79 +63,37 @@ def batch(
     *,
     orbit: Annotated[
         tuple[float, float, float] | None,
-        Parameter(
-            group=shared,
-            converter=several(metres, metres, metres),
-            metavar="EAST NORTH RADIUS",
-            help="The circle: its centre and its radius, metres.",
-        ),
+        CIRCLE_METRES,
+        Parameter(group=shared, help="The circle: its centre and its radius, metres."),
     ] = None,
     orbit_lla: Annotated[
         tuple[float, float, float] | None,
+        CIRCLE_DEGREES,
         Parameter(
             group=shared,
-            converter=several(latitude, longitude, metres),
-            metavar="LAT LON RADIUS",
             help="Instead, where the table has latitudes and longitudes: its centre in WGS84 degrees, and its radius.",
         ),
     ] = None,
     turn: Annotated[
-        TurnName | None,
-        Parameter(
-            group=shared,
-            converter=turn_name,
-            help="Direction in which the circle is held, seen from above: cw is clockwise, ccw counter-clockwise, either the faster one. If absent: either.",
-        ),
+        TurnChoice,
+        Parameter(group=shared, help=f"Direction in which the circle is held, {TURN_HELP} either."),
     ] = None,
-    airspeed: Annotated[
-        float | None,
-        Parameter(
-            group=shared,
-            converter=one(metres_per_second),
-            metavar="M_PER_S",
-            help="True airspeed, metres per second, or with a unit: 35kn.",
-        ),
-    ] = None,
+    airspeed: Annotated[Airspeed, Parameter(group=shared)] = None,
     bank: Annotated[
-        float | None,
+        Bank,
         Parameter(
             group=shared,
-            converter=one(angle),
-            metavar="DEGREES",
             help="Largest bank, degrees. One of --bank, --turn-radius and --turn-rate is needed, unless it is a column.",
         ),
     ] = None,
-    turn_radius: Annotated[
-        float | None,
-        Parameter(group=shared, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
-    ] = None,
-    turn_rate: Annotated[
-        float | None,
-        Parameter(
-            group=shared,
-            converter=one(turn_rate),
-            metavar="DEG_PER_S",
-            help="Largest turn rate, degrees per second.",
-        ),
-    ] = None,
-    wind: Annotated[
-        tuple[float, float] | None,
-        Parameter(
-            group=shared,
-            converter=several(metres_per_second, direction),
-            metavar="SPEED FROM",
-            help=f"{WIND_HELP}; still air if absent.",
-        ),
-    ] = None,
+    turn_radius: Annotated[TurnRadius, Parameter(group=shared)] = None,
+    turn_rate: Annotated[TurnRate, Parameter(group=shared)] = None,
+    wind: Annotated[WindChoice, Parameter(group=shared, help=f"{WIND_HELP}; still air if absent.")] = None,
     declination: Annotated[DeclinationDegrees, Parameter(group=shared)] = None,
     orbit_velocity: Annotated[
         tuple[float, float] | None,
-        Parameter(
-            group=shared,
-            converter=several(metres_per_second, metres_per_second),
-            metavar="EAST NORTH",
-            help="Velocity of the circle over the ground, metres per second; at rest if absent.",
-        ),
+        VELOCITY,
+        Parameter(group=shared, help="Velocity of the circle over the ground, metres per second; at rest if absent."),
     ] = None,
     map_: Annotated[
         list[str] | None,

@@ -18,7 +18,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 import loiter
 from loiter.cli import report
 from loiter.cli.numbers import whole
-from loiter.cli.options import AircraftOptions, OrbitOptions, PictureOptions, StartOptions, WindOptions, output, placed
+from loiter.cli.options import AircraftOptions, OrbitOptions, PictureOptions, StartOptions, WindOptions, output
+from loiter.cli.scenes import placed
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
 from loiter.planning.problem import problem_of

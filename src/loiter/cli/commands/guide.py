@@ -19,13 +19,23 @@ from cyclopts import Group, Parameter
 import loiter
 from loiter.cli import report, vehicles
 from loiter.cli.commands.mavlink import Connect, JsonLines, System, Timeout, connection
-from loiter.cli.coordinates import latitude, longitude
-from loiter.cli.numbers import altitude, angle, metres, metres_per_second, one, several, turn_name
-from loiter.cli.options import PlacedOrbitOptions, WindOptions, output, scene, written_altitude
+from loiter.cli.options import (
+    CIRCLE_DEGREES,
+    VELOCITY,
+    Airspeed,
+    Altitude,
+    Bank,
+    Circle,
+    PlacedOrbitOptions,
+    TurnChoice,
+    WindOptions,
+    output,
+    written_altitude,
+)
 from loiter.cli.status import abandon_output
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.mavlink.missions.exchange import TIMEOUT_S
-from loiter.planning.model import TurnName, wind_from_velocity
+from loiter.planning.model import wind_from_velocity
 
 if TYPE_CHECKING:
     from loiter.mavlink import GuideReport
@@ -47,26 +57,13 @@ class GuidedOrbitOptions(PlacedOrbitOptions):
     """The circle, which an autopilot must be able to hold: --orbit-velocity is parsed, but hidden."""
 
     orbit_lla: Annotated[
-        tuple[float, ...],
-        Parameter(
-            group=scene,
-            consume_multiple=True,
-            converter=several(latitude, longitude, metres),
-            metavar="LAT LON RADIUS",
-            help="The circle: centre in WGS84 degrees, radius in metres.",
-        ),
+        Circle, CIRCLE_DEGREES, Parameter(help="The circle: centre in WGS84 degrees, radius in metres.")
     ] = ()
     turn: Annotated[
-        TurnName | None,
-        Parameter(
-            group=scene,
-            converter=turn_name,
-            help="Direction of flight around the circle, seen from above; the faster one if absent.",
-        ),
+        TurnChoice,
+        Parameter(help="Direction of flight around the circle, seen from above; the faster one if absent."),
     ] = None
-    orbit_velocity: Annotated[
-        tuple[float, float], Parameter(show=False, converter=several(metres_per_second, metres_per_second))
-    ] = (0.0, 0.0)
+    orbit_velocity: Annotated[tuple[float, float], VELOCITY, Parameter(show=False)] = (0.0, 0.0)
 
 
 @Parameter(name="*")
@@ -74,30 +71,12 @@ class GuidedOrbitOptions(PlacedOrbitOptions):
 class GuidedVehicleOptions:
     """The vehicle, as far as its own parameters are not to be used."""
 
-    airspeed: Annotated[
-        float | None,
-        Parameter(
-            group=vehicle_limits,
-            converter=one(metres_per_second),
-            metavar="M_PER_S",
-            help="True airspeed, metres per second, or with a unit: 35kn.",
-        ),
-    ] = None
-    bank: Annotated[
-        float | None,
-        Parameter(
-            group=vehicle_limits,
-            converter=one(angle),
-            metavar="DEGREES",
-            help="Largest bank, at most that of the autopilot.",
-        ),
-    ] = None
+    airspeed: Annotated[Airspeed, Parameter(group=vehicle_limits)] = None
+    bank: Annotated[Bank, Parameter(group=vehicle_limits, help="Largest bank, at most that of the autopilot.")] = None
     altitude: Annotated[
-        float | None,
+        Altitude,
         Parameter(
             group=vehicle_limits,
-            converter=one(altitude),
-            metavar="METRES",
             help="Altitude at which the circle is flown, always above mean sea level; metres, or with a unit: 3000ft. The present one if absent.",
         ),
     ] = None

@@ -28,11 +28,9 @@ from loiter.cli.options import (
     StartOptions,
     WatchedAircraftOptions,
     WindOptions,
-    fence_check,
-    fit_proposed,
     output,
-    read_options,
 )
+from loiter.cli.scenes import fence_check, fit_proposed, read_options
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.io.document import maneuver_values

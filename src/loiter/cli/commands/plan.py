@@ -20,13 +20,11 @@ from loiter.cli.options import (
     PlannedAircraftOptions,
     StartOptions,
     WindOptions,
-    fence_check,
-    fit_proposed,
     missions,
     output,
-    read_options,
     scene,
 )
+from loiter.cli.scenes import fence_check, fit_proposed, read_options
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
 from loiter.geo import LocalFrame

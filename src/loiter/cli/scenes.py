@@ -1,0 +1,123 @@
+"""The scene that the options of a command describe, with a circle that can be held, and the fence around it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, NamedTuple
+
+from loiter.cli.options import AircraftOptions, OrbitOptions, StartOptions, WindOptions
+from loiter.errors import InvalidArgument, RadiusTooSmall
+from loiter.geo import LocalFrame
+from loiter.geo.frame import degrees_of
+from loiter.geo.placed import PlacedProblem
+from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
+from loiter.planning.model import Orbit, Pose
+from loiter.planning.problem import Problem
+
+if TYPE_CHECKING:
+    from loiter.io.missions.fence import FenceCheck
+    from loiter.io.missions.parameters import Preset
+    from loiter.io.missions.site import Site
+    from loiter.planning.maneuver import Maneuver
+
+# Places in degrees that are read as metres lie no further apart than this.
+FEW_DEGREES = 2.0
+
+
+class OptionsRead(NamedTuple):
+    """The problem that the options of a command describe, and a remark to print before the result, or ""."""
+
+    placed: PlacedProblem
+    remark: str
+
+
+def read_options(
+    start: StartOptions,
+    orbit: OrbitOptions,
+    aircraft: AircraftOptions,
+    wind: WindOptions,
+    *,
+    tolerance_m: float = 0.0,
+    fit: bool = False,
+    datum: AltitudeDatum = MEAN_SEA_LEVEL,
+) -> OptionsRead:
+    """The problem that the options describe, with `fit` for a circle that can be held (`Orbit.fitted`).
+
+    Raises `InvalidArgument` where they are contradictory or incomplete.
+    """
+    preset = aircraft.preset()
+    aircraft = aircraft.above_sea(preset, datum)
+    pose, circle, frame = placed(start, orbit, wind, preset)
+    uav = aircraft.aircraft(preset)
+    planned = circle.fitted(uav, wind.moving_air) if fit else circle
+    problem = Problem(pose, planned, uav, wind.moving_air, tolerance_m)
+    remarks = [
+        orbit.site_remark(),
+        _places_remark(start, frame),
+        "" if frame else _metres_remark(pose, circle),
+        aircraft.remark(preset),
+        _fit_remark(circle, planned),
+    ]
+    return OptionsRead(PlacedProblem(problem, frame), "\n".join(filter(None, remarks)))
+
+
+def _places_remark(start: StartOptions, frame: LocalFrame | None) -> str:
+    """A line with the hemispheres of both places in degrees, which shows whether they are swapped; otherwise empty."""
+    if start.pose_lla is None or frame is None:
+        return ""
+    lat, lon, _ = start.pose_lla
+    return f"Start {degrees_of(lat, lon)}, circle {degrees_of(frame.latitude_deg, frame.longitude_deg)}."
+
+
+def _metres_remark(pose: Pose, circle: Orbit) -> str:
+    """A line where positions in metres look like latitudes and longitudes; otherwise empty."""
+    numbers = (pose.east_m, pose.north_m, circle.east_m, circle.north_m)
+    looks_like_degrees = all(0.0 < abs(each) <= 180.0 and each % 1.0 for each in numbers)
+    if not looks_like_degrees or circle.distance_m(pose) > FEW_DEGREES:
+        return ""
+    return "These positions are metres: --pose-lla and --orbit-lla take latitudes and longitudes."
+
+
+@contextmanager
+def fit_proposed() -> Iterator[None]:
+    """Add to the refusal of a circle that cannot be held that `--fit` plans for one that can."""
+    try:
+        yield
+    except RadiusTooSmall as error:
+        r = error.fitted_radius_m
+        raise RadiusTooSmall(f"{error}; --fit plans for {r:.4g} m", r) from error
+
+
+def _fit_remark(asked: Orbit, planned: Orbit) -> str:
+    """A line with both radii where the circle was widened; otherwise empty."""
+    if planned == asked:
+        return ""
+    return f"A circle of {asked.radius_m:g} m cannot be held; planned for {planned.radius_m:.4g} m, the least radius."
+
+
+def placed(
+    start: StartOptions, orbit: OrbitOptions, air: WindOptions, preset: Preset | None = None
+) -> tuple[Pose, Orbit, LocalFrame | None]:
+    """The start and the circle, and the local frame if they are in degrees; `air` has the declination."""
+    air.check_declination(start)
+    if (start.pose is None) == (start.pose_lla is None):
+        raise InvalidArgument("pose", "or --pose-lla is needed, and not both")
+    circle, frame = orbit.circle(preset)
+    if (start.pose_lla is None) != (frame is None):
+        raise InvalidArgument("pose_lla", "and --orbit-lla go together: places in degrees, or both in metres")
+    if frame is not None and start.pose_lla is not None:
+        lat, lon, heading_deg = start.pose_lla
+        return frame.pose(lat, lon, air.true_heading("pose true heading_deg", heading_deg)), circle, frame
+    assert start.pose is not None  # one of them is given
+    east_m, north_m, heading_deg = start.pose
+    return Pose(east_m, north_m, air.true_heading("pose heading_deg", heading_deg)), circle, None
+
+
+def fence_check(
+    site: Site | None, maneuver: Maneuver, frame: LocalFrame | None, *, any_inclusion: bool
+) -> FenceCheck | None:
+    """Whether a plan stays inside the fence of an existing mission; None without a fence."""
+    if site is None or frame is None:
+        return None
+    return site.fence.check(maneuver, frame, any_inclusion=any_inclusion)
