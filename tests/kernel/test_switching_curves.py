@@ -3,7 +3,7 @@
 from math import cbrt, isnan, nan, pi, sqrt
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from loiter.kernel.motion import flow
@@ -41,9 +41,9 @@ def test_the_switching_curve_ends_on_the_axis_and_peaks_where_the_theory_says():
 def test_the_switching_curve_ends_at_two_less_the_radius(R):
     # There K = R (R + 2) and a = 1; the square of x has a simple zero.
     assert abs(switching_abscissa(2.0 - R, R)) < 1e-7 or isnan(switching_abscissa(2.0 - R, R))
-    if R < 3.0:
-        assert isnan(switching_abscissa(2.0 - R + 1e-6, R))
-        assert not isnan(switching_abscissa(2.0 - R - 1e-6, R))
+    assume(R < 3.0)
+    assert isnan(switching_abscissa(2.0 - R + 1e-6, R))
+    assert not isnan(switching_abscissa(2.0 - R - 1e-6, R))
 
 
 @given(st.floats(1.0, 2.5), st.floats(1e-3, 0.3))
@@ -51,8 +51,7 @@ def test_points_of_the_curve_satisfy_the_switching_relations_19(R, below):
     """From (x, y), R leads to a point (x1, y1) of the last circle with x1/y1 = -x/y, after more than half a turn."""
     y = 2.0 - R - below
     x = switching_abscissa(y, R)
-    if isnan(x) or abs(y) < 1e-3:
-        return
+    assume(not isnan(x) and abs(y) >= 1e-3)
     y1 = 2.0 / (1.0 + (x / y) ** 2) - y
     x1 = -x / y * y1
     assert beyond_last_circle(x1, y1, R) == pytest.approx(0.0, abs=1e-12)
@@ -82,8 +81,8 @@ def test_the_region_rule_picks_the_word_that_wins(x, y):
     # T tells two words apart only beyond the cube root of rounding from where a straight piece vanishes.
     unclear = 10.0 * cbrt(rounding(x, y, 1.0)) * (1.0 + abs(x) + y)
     edges = (beyond_first_circle(x, y, 1.0), beyond_last_circle(x, y, 1.0), x - switching_abscissa(min(y, 1.0), 1.0), y)
-    if min(abs(edge) for edge in edges if not isnan(edge)) > unclear:
-        assert (Word(word), side) == (region(x, y), Side.CW)
+    assume(min(abs(edge) for edge in edges if not isnan(edge)) > unclear)
+    assert (Word(word), side) == (region(x, y), Side.CW)
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from math import atan2, cos, degrees, hypot, nan, pi, radians, sin, sqrt
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import loiter
@@ -293,8 +293,7 @@ def test_tolerance_spares_the_aircraft_a_round_trip():
 @given(scenes(), st.floats(0.01, 5.0))
 def test_samples_follow_the_path(scene, step):
     m = plan(*scene)
-    if m.duration_s / step > 1e5:
-        return
+    assume(m.duration_s / step <= 1e5)
     samples = m.sample(step)
     assert samples.time_s[0] == 0.0
     assert samples.time_s[-1] == m.duration_s
