@@ -19,12 +19,13 @@ from loiter.kernel.statuses import Status
 from loiter.planning.compass import wrapped
 from loiter.planning.model import Turn
 from loiter.planning.sides import SIDES
+from loiter.planning.units import NUMBER
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# A decimal number; "nan" and "inf", which a cast accepts too, would be refused later anyway.
-NUMBER = r"^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$"
+# "nan" and "inf", which a cast accepts too, would be refused later anyway.
+NUMBER_LINE = f"^{NUMBER}$"
 
 _WORD_INDEX = np.zeros(64, dtype=np.int8)
 _WORD_INDEX[list(WORDS)] = range(len(WORDS))
@@ -153,7 +154,7 @@ def _parse_numbers(column: pa.Array) -> pa.Array:
         return column.cast(pa.float64())
     except pa.ArrowInvalid:
         trimmed = pc.utf8_trim_whitespace(column)
-        return pc.if_else(pc.match_substring_regex(trimmed, NUMBER), trimmed, None).cast(pa.float64())
+        return pc.if_else(pc.match_substring_regex(trimmed, NUMBER_LINE), trimmed, None).cast(pa.float64())
 
 
 def _sides(column: pa.Array) -> NDArray[np.int8]:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from loiter.cli.numbers import MINUS
 from loiter.errors import InvalidArgument
+from loiter.planning.units import parse_number
 
 # The options whose numbers may be separated by commas, those of them with a place, and others that may be negative.
 PLACES = ("--pose-lla", "--orbit-lla")
@@ -75,7 +76,7 @@ def _negative(word: str) -> str:
     """The word with a minus sign, if it is a negative number with a unit, which the parser would take for an option."""
     match = NEGATIVE.fullmatch(word)
     try:
-        float(word)
+        parse_number(word)
     except ValueError:
         return word if match is None else MINUS + match[1]
     return word

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from cyclopts import Token
 
 from loiter.cli.numbers import refused, typed
+from loiter.planning.units import parse_number
 
 # Other ways to write the marks of degrees, minutes and seconds, in upper case.
 MARKS = {"DEG": "°", "D": "°", "º": "°", "''": '"', "″": '"', "”": '"', "“": '"', "′": "'", "’": "'"}
@@ -44,7 +45,7 @@ def longitude(token: Token) -> float:
 def _degrees(token: Token, coordinate: Coordinate) -> float:
     """Degrees of a latitude or longitude; a letter of the other coordinate shows that the two are swapped."""
     try:
-        return float(typed(token))
+        return parse_number(typed(token))
     except ValueError:
         first, text, last = _parts(typed(token))
     match, letter = ANGLE.fullmatch(text), first or last

@@ -12,7 +12,7 @@ from cyclopts import CoercionError, Token
 from loiter.errors import InvalidArgument
 from loiter.planning.compass import wrapped
 from loiter.planning.model import TurnName
-from loiter.planning.units import ANGLES, LENGTHS, SPEEDS, TURN_RATES
+from loiter.planning.units import ANGLES, LENGTHS, SPEEDS, TURN_RATES, parse_number
 
 # In millimetres, for pictures.
 LENGTHS_ON_PAPER = {"mm": 1.0, "cm": 10.0, "in": 25.4}
@@ -205,6 +205,6 @@ def _with_unit(token: Token, text: str, units: Mapping[str, float], need: str) -
             digits, factor = text[: -len(unit)], size
             break
     try:
-        return float(digits) * factor
+        return parse_number(digits.strip()) * factor
     except ValueError as error:
         raise refused(token, need) from error

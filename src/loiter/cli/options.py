@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
 scene = Group("Scene", sort_key=1)
 aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sort_key=2)
+vehicle_limits = Group("Aircraft: what is absent comes from the vehicle's parameters", sort_key=2)
 air = Group("Wind, and circles that move", sort_key=3)
 output = Group("Output", sort_key=5)
 missions = Group("Missions", sort_key=6)
@@ -224,6 +225,21 @@ class PlacedOrbitOptions(OrbitOptions):
     orbit: Annotated[Circle, CIRCLE_METRES, Parameter(show=False)] = ()
 
 
+@Parameter(name="*")
+@dataclass(frozen=True)
+class GuidedOrbitOptions(PlacedOrbitOptions):
+    """The circle, which an autopilot must be able to hold: --orbit-velocity is parsed, but hidden."""
+
+    orbit_lla: Annotated[
+        Circle, CIRCLE_DEGREES, Parameter(help="The circle: centre in WGS84 degrees, radius in metres.")
+    ] = ()
+    turn: Annotated[
+        TurnChoice,
+        Parameter(help="Direction of flight around the circle, seen from above; the faster one if absent."),
+    ] = None
+    orbit_velocity: Annotated[tuple[float, float], VELOCITY, Parameter(show=False)] = (0.0, 0.0)
+
+
 def written_altitude(altitude_m: float | None) -> float | None:
     """The altitude for files and vehicles; raises `InvalidArgument` for a flight level, whose height above sea varies."""
     if isinstance(altitude_m, FlightLevel):
@@ -380,6 +396,22 @@ class WatchedAircraftOptions(AircraftOptions):
         Altitude,
         Parameter(
             help="Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."
+        ),
+    ] = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class GuidedVehicleOptions:
+    """The vehicle, as far as its own parameters are not to be used."""
+
+    airspeed: Annotated[Airspeed, Parameter(group=vehicle_limits)] = None
+    bank: Annotated[Bank, Parameter(group=vehicle_limits, help="Largest bank, at most that of the autopilot.")] = None
+    altitude: Annotated[
+        Altitude,
+        Parameter(
+            group=vehicle_limits,
+            help="Altitude at which the circle is flown, always above mean sea level; metres, or with a unit: 3000ft. The present one if absent.",
         ),
     ] = None
 

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from math import inf, isfinite
 from pathlib import Path
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
+from loiter.planning.units import parse_number
 
 # MAVLink's largest mission, 65,535 items, takes some 26 MB as an indented plan.
 MAX_BYTES = 32_000_000
-
-# A decimal number. Digits of other scripts, underscores, nan and inf, which `float` accepts, do not match. Each digit
-# can be matched in one way only, so that a long number is refused in linear time.
-NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 # The length to which values are cut in error messages.
 SHOWN = 40
@@ -47,7 +43,10 @@ class Source(NamedTuple):
 
     def number(self, where: str, text: str) -> float:
         """A finite number read from text; `where` names it in errors, with its line or item."""
-        value = float(text) if NUMBER.fullmatch(text) else inf
+        try:
+            value = parse_number(text)
+        except ValueError:
+            value = inf
         if not isfinite(value):
             raise self.fault(f"{where} is {shown(text)}: it must be a finite number")
         return value

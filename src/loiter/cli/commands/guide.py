@@ -7,27 +7,20 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, suppress
-from dataclasses import dataclass
 from math import isnan
 from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
 from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import Group, Parameter
+from cyclopts import Parameter
 
 import loiter
 from loiter.cli import report, vehicles
 from loiter.cli.commands.mavlink import Connect, JsonLines, System, Timeout, connection
 from loiter.cli.options import (
-    CIRCLE_DEGREES,
-    VELOCITY,
-    Airspeed,
-    Altitude,
-    Bank,
-    Circle,
-    PlacedOrbitOptions,
-    TurnChoice,
+    GuidedOrbitOptions,
+    GuidedVehicleOptions,
     WindOptions,
     output,
     written_altitude,
@@ -46,40 +39,6 @@ LEAST_WIND_M_S, LEAST_OFFSET_M = 0.05, 0.05
 # Signals that end the program: the vehicle is commanded back to the fall-back circle first. Shells let programs that
 # they start in the background ignore SIGINT.
 ENDING_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
-
-
-vehicle_limits = Group("Aircraft: what is absent comes from the vehicle's parameters", sort_key=2)
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class GuidedOrbitOptions(PlacedOrbitOptions):
-    """The circle, which an autopilot must be able to hold: --orbit-velocity is parsed, but hidden."""
-
-    orbit_lla: Annotated[
-        Circle, CIRCLE_DEGREES, Parameter(help="The circle: centre in WGS84 degrees, radius in metres.")
-    ] = ()
-    turn: Annotated[
-        TurnChoice,
-        Parameter(help="Direction of flight around the circle, seen from above; the faster one if absent."),
-    ] = None
-    orbit_velocity: Annotated[tuple[float, float], VELOCITY, Parameter(show=False)] = (0.0, 0.0)
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class GuidedVehicleOptions:
-    """The vehicle, as far as its own parameters are not to be used."""
-
-    airspeed: Annotated[Airspeed, Parameter(group=vehicle_limits)] = None
-    bank: Annotated[Bank, Parameter(group=vehicle_limits, help="Largest bank, at most that of the autopilot.")] = None
-    altitude: Annotated[
-        Altitude,
-        Parameter(
-            group=vehicle_limits,
-            help="Altitude at which the circle is flown, always above mean sea level; metres, or with a unit: 3000ft. The present one if absent.",
-        ),
-    ] = None
 
 
 def guide(
