@@ -58,3 +58,8 @@ def blur(x: float, y: float, R: float) -> float:
     touching = sqrt((R + 1.0) * e / (R - 1.0)) if R > 1.0 else 0.0
     turning = e / max(min(hypot(x, y - 1.0), hypot(x, y + 1.0)), e)
     return 4.0 * (sqrt(e) + touching + turning)
+
+
+def times_of(entry):
+    """The durations of the three pieces of an entry of the kernel."""
+    return entry.t1, entry.t2, entry.t3

@@ -16,6 +16,7 @@ from loiter.errors import InvalidArgument
 from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import duration, first_control, miss, optimum
 from loiter.kernel.words import Side, Word
+from strategies import times_of
 
 RANDOM = np.random.default_rng(7)
 X, Y = RANDOM.uniform(-12.0, 12.0, (2, 3000))
@@ -28,9 +29,9 @@ MANEUVERS = [optimum(x, y, q, SIDES[t], 0.0) for x, y, q, t in zip(X, Y, R, TURN
 def test_arrays_give_what_the_scalar_functions_give():
     solution = loiter.solve(X, Y, R, TURNS)
     assert solution.time == pytest.approx([duration(m) for m in MANEUVERS], abs=1e-13, rel=0.0)
-    assert solution.durations == pytest.approx(np.array([m[2:] for m in MANEUVERS]), abs=1e-13, rel=0.0)
-    assert solution.word.tolist() == [m[1] for m in MANEUVERS]
-    assert solution.side.tolist() == [m[0] for m in MANEUVERS]
+    assert solution.durations == pytest.approx(np.array([times_of(m) for m in MANEUVERS]), abs=1e-13, rel=0.0)
+    assert solution.word.tolist() == [m.word for m in MANEUVERS]
+    assert solution.side.tolist() == [m.side for m in MANEUVERS]
     assert np.all(solution.status == Status.OK)
     assert solution.miss == pytest.approx(
         [miss(x, y, q, m) for x, y, q, m in zip(X, Y, R, MANEUVERS, strict=True)], abs=1e-13

@@ -23,6 +23,7 @@ from loiter.kernel.synthesis import (
     status_of,
 )
 from loiter.kernel.words import Side
+from strategies import times_of
 
 RADII = (1.0, 1.0, 1.0 + 1e-6, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 30.0)
 THREE = np.empty(3)
@@ -64,10 +65,10 @@ def test_the_loops_give_what_the_scalar_functions_give(tolerance):
     time, word, durations, status, held, missed = ufuncs.solve(*arguments, THREE)
     assert np.abs(time - [duration(m) for m in expected]).max() < 1e-13
     assert np.all(status == Status.OK)
-    same = (word == [m[1] for m in expected]) & (held == [m[0] for m in expected])
+    same = (word == [m.word for m in expected]) & (held == [m.side for m in expected])
     assert np.count_nonzero(~same) <= 5
     # On a circle itself two crossings tie, under the same word.
-    assert np.mean(np.abs(durations - np.array([m[2:] for m in expected]))[same].max(axis=1) < 1e-12) > 0.999
+    assert np.mean(np.abs(durations - np.array([times_of(m) for m in expected]))[same].max(axis=1) < 1e-12) > 0.999
     misses = [miss(*row, m) for *row, m in zip(X, Y, R, expected, strict=True)]
     sizes = np.array([rounding(*row) for row in zip(X, Y, R, strict=True)])
     assert np.all(np.abs(missed - misses)[same] <= 2.0 * np.maximum(sizes, tolerances)[same])

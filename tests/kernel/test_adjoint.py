@@ -18,7 +18,7 @@ from loiter.kernel.adjoint import (
 )
 from loiter.kernel.synthesis import Entry, optimum
 from loiter.kernel.words import Side, Word, mirrored
-from strategies import controls, coordinates, one_way, radii, sides
+from strategies import controls, coordinates, one_way, radii, sides, times_of
 
 CONTROLS = {"L": 1.0, "S": 0.0, "R": -1.0}
 STEPS = 400  # of each piece: a step of at most 2 pi/400, so Runge and Kutta's error 2 pi step^4/120 is below 4e-9
@@ -56,7 +56,7 @@ def test_psi_obeys_its_equation_of_motion(x, y, R, side):
     assume(maneuver.word)
     start = StateAndAdjoint(x, y, psi1, psi2)
     now, here = 0.0, (psi1, psi2)
-    for letter, t in zip(Word(maneuver.word).letters, maneuver[2:], strict=False):
+    for letter, t in zip(Word(maneuver.word).letters, times_of(maneuver), strict=False):
         now, here = now + t, integrated(*here, CONTROLS[letter], t)
         assert state_and_adjoint_at(start, maneuver, now)[2:] == pytest.approx(here, abs=3 * INTEGRATED)
 

@@ -30,7 +30,7 @@ def reached(x, y, R):
     """The extremals that reach the target, with the switching points they pass, the end last."""
     for extremal in extremals(x, y, R, rounding(x, y, R) / 3.0):
         if duration(extremal) < inf:
-            letters, times = Word(extremal[0]).letters, durations(extremal)
+            letters, times = Word(extremal.word).letters, durations(extremal)
             points, here = [], (x, y)
             for letter, t in zip(letters, times, strict=False):
                 here = flow(*here, U[letter], t)

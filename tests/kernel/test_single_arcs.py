@@ -26,11 +26,11 @@ from loiter.kernel.words import Side, Word
 def test_a_state_one_arc_before_the_target_has_that_arc_among_its_extremals(R, word, u, arc):
     x, y = flow(0.0, R, u, -arc)
     arc_tolerance = rounding(x, y, R) / 3.0
-    one = {extremal[0]: duration(extremal) for extremal in extremals(x, y, R, arc_tolerance)}
+    one = {extremal.word: duration(extremal) for extremal in extremals(x, y, R, arc_tolerance)}
     assert one[word] == pytest.approx(arc, abs=1e-14)
     assert fastest(x, y, R, arc_tolerance, True)[0] <= one[word] + arc_tolerance
     # A little beside the circle the arc does not reach the target.
-    beside = {extremal[0]: duration(extremal) for extremal in extremals(x, y + 1e-6, R, arc_tolerance)}
+    beside = {extremal.word: duration(extremal) for extremal in extremals(x, y + 1e-6, R, arc_tolerance)}
     assert beside[word] == inf
 
 

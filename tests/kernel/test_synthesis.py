@@ -20,7 +20,7 @@ from loiter.kernel.synthesis import (
     status_of,
 )
 from loiter.kernel.words import Side, Word, mirrored
-from strategies import blur, controls, coordinates, one_way, radii, sides
+from strategies import blur, controls, coordinates, one_way, radii, sides, times_of
 
 SQRT3 = sqrt(3.0)
 
@@ -30,15 +30,15 @@ def least_time(x, y, R, side):
 
 
 def words(x, y, R=1.0, side=Side.EITHER):
-    return {(Word(m[1]).letters, Side(m[0]).name.lower()) for m in optima(x, y, R, side, 0.0)}
+    return {(Word(m.word).letters, Side(m.side).name.lower()) for m in optima(x, y, R, side, 0.0)}
 
 
 @pytest.mark.parametrize("case", EXAMPLES, ids=lambda case: case.name)
 def test_the_papers_examples(case):
     maneuvers = optima(case.x, case.y, 1.0, Side.EITHER, 0.0)
-    assert [Word(m[1]).letters for m in maneuvers] == case.words
+    assert [Word(m.word).letters for m in maneuvers] == case.words
     for maneuver in maneuvers:
-        assert maneuver[2:] == pytest.approx(case.durations, abs=1e-12, rel=0.0)
+        assert times_of(maneuver) == pytest.approx(case.durations, abs=1e-12, rel=0.0)
         assert duration(maneuver) == pytest.approx(case.time, abs=1e-12, rel=0.0)
 
 
@@ -105,7 +105,7 @@ def test_ranking_starts_with_the_optimum_and_is_in_order(x, y, R, side):
     times = [duration(m) for m in maneuvers]
     assert times == sorted(times)
     assert times[0] == pytest.approx(least_time(x, y, R, side), abs=rounding(x, y, R))
-    assert len({(m[0], m[1], m[2:]) for m in maneuvers}) == len(maneuvers)
+    assert len(set(maneuvers)) == len(maneuvers)
     assert all(miss(x, y, R, m) <= rounding(x, y, R) for m in maneuvers)
 
 
@@ -228,6 +228,6 @@ def test_what_cannot_be_solved_has_a_status(x, y, R, tolerance, status):
 def test_the_feedback_law_is_the_first_letter(x, y, R, side, u, t):
     x, y = flow(x, y, u, t)
     best = optimum(x, y, R, side, 0.0)
-    word = Word(best[1]).letters
+    word = Word(best.word).letters
     assume(word)
     assert first_control(R, best) == {"L": 1.0, "S": 0.0, "R": -1.0}[word[0]]

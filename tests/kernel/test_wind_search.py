@@ -14,7 +14,7 @@ from loiter.kernel.synthesis import duration, is_tie_in_wind, optimum, rounding
 from loiter.kernel.wind.paths import WindScene, first_path, join_slope
 from loiter.kernel.wind_search import WindProblem, fastest, optima, ranked
 from loiter.kernel.words import Side, Word
-from strategies import blur, coordinates, one_way, radii, sides
+from strategies import blur, coordinates, one_way, radii, sides, times_of
 
 # A plain solve takes milliseconds, tens of them in a shallow valley on a busy machine.
 settings.register_profile("drift", deadline=None, max_examples=50)
@@ -49,7 +49,7 @@ def least_time(scene, side):
 
 
 def steps(maneuver):
-    return [(CONTROLS[letter], t) for letter, t in zip(Word(maneuver[2]).letters, maneuver[3:6], strict=False)]
+    return [(CONTROLS[letter], t) for letter, t in zip(Word(maneuver.word).letters, times_of(maneuver), strict=False)]
 
 
 def flown(scene, pieces):
@@ -82,7 +82,7 @@ def test_in_the_lightest_winds_the_hold_is_on_the_circle(wind):
 def test_the_end_is_on_the_circle_and_along_it(scene, side):
     status, held_side, *_, angle, miss = maneuver = solved(scene, side)
     x, y, c, s, R, wx, wy = flown(scene, steps(maneuver))
-    size = 2.0 * rounding(*scene[:2], R) + 1e-14 * sum(maneuver[3:6])
+    size = 2.0 * rounding(*scene[:2], R) + 1e-14 * sum(times_of(maneuver))
     assert status == Status.OK
     assert hypot(x, y) == pytest.approx(R, abs=size)
     assert hypot(x - R * cos(angle), y - R * sin(angle)) <= size
@@ -92,7 +92,7 @@ def test_the_end_is_on_the_circle_and_along_it(scene, side):
     assert (x * vx + y * vy) / R == pytest.approx(0.0, abs=size)
     assert (x * vy - y * vx) * held_side < 0.0
     assert side in (Side.EITHER, held_side)
-    assert min(maneuver[3:6]) >= 0.0
+    assert min(times_of(maneuver)) >= 0.0
 
 
 @given(scenes(), sides, st.floats(-3.0, 3.0), st.floats(-3.0, 3.0))
@@ -101,7 +101,7 @@ def test_a_moving_circle_is_a_fixed_one_in_the_wind_that_blows_past_it(scene, si
     maneuver = solved(scene, side)
     x, y, c, s, R, wx, wy = scene
     over_ground = flown((x, y, c, s, R, wx + vx, wy + vy), steps(maneuver))
-    time = sum(maneuver[3:6])
+    time = sum(times_of(maneuver))
     assert hypot(over_ground[0] - vx * time, over_ground[1] - vy * time) == pytest.approx(R, abs=1e-12 * (100.0 + time))
 
 
@@ -126,9 +126,9 @@ def test_a_light_wind_changes_little(x, y, angle, R, side, wind, azimuth):
 def test_mirror_law(scene, side):
     x, y, c, s, R, wx, wy = scene
     one, other = solved(scene, side), solved((x, -y, c, -s, R, wx, -wy), -side)
-    assert sum(one[3:6]) == pytest.approx(sum(other[3:6]), abs=moved(scene, sum(one[3:6])))
-    assume(one[3:6] == pytest.approx(other[3:6], abs=1e-6))
-    assert other[1] == -one[1]
+    assert sum(times_of(one)) == pytest.approx(sum(times_of(other)), abs=moved(scene, sum(times_of(one))))
+    assume(times_of(one) == pytest.approx(times_of(other), abs=1e-6))
+    assert other.side == -one.side
 
 
 @given(scenes(), sides, angles)
@@ -188,12 +188,12 @@ def test_next_to_a_tie_the_sooner_direction_is_found(scene, magnitude):
 @given(scenes(), sides, st.floats(0.0, 1.0))
 def test_along_the_optimum_the_time_left_falls_at_unit_rate(scene, side, share):
     maneuver = solved(scene, side)
-    time = sum(maneuver[3:6])
+    time = sum(times_of(maneuver))
     to_fly, pieces = share * time, []
     for u, t in steps(maneuver):
         pieces.append((u, min(t, to_fly)))
         to_fly -= pieces[-1][1]
-    left = least_time(flown(scene, pieces), maneuver[1])
+    left = least_time(flown(scene, pieces), maneuver.side)
     assert left == pytest.approx((1.0 - share) * time, abs=moved(scene, time))
 
 
@@ -254,8 +254,8 @@ def test_the_adjoint_of_three_pieces_is_transversal(scene, side):
     if u:
         p, lam = -before * complex(cos(u * t / 2), sin(u * t / 2)), -cos(t / 2)
     x, y, c, s, R, wx, wy = flown(scene, pieces)
-    e, w, last, hold = complex(c, s), complex(wx, wy), pieces[2][0], -maneuver[1]
-    k = hold_rate(phase_of(x, y, maneuver[1], wx, wy), maneuver[1], R, wx, wy)
+    e, w, last, hold = complex(c, s), complex(wx, wy), pieces[2][0], -maneuver.side
+    k = hold_rate(phase_of(x, y, maneuver.side, wx, wy), maneuver.side, R, wx, wy)
     along = (p.conjugate() * e).real
     residual = (p.conjugate() * (e + w)).real + last * hold * k * (lam - along)
     assert lam + (p.conjugate() * w).real >= -1e-9
@@ -312,8 +312,8 @@ def test_a_start_on_the_last_arc_gets_that_arc_alone(scene, side, phase, u, time
     e0 = e * complex(*back)
     z = complex(x, y) - complex(wx, wy) * time - (e - e0) / (1j * u)
     found = solved((z.real, z.imag, e0.real, e0.imag, R, wx, wy), side)
-    assume(sum(found[3:6]) > time - 1e-4)
-    assert sum(found[3:6]) == pytest.approx(time, abs=1e-11 + 1e-12 / parting)
+    assume(sum(times_of(found)) > time - 1e-4)
+    assert sum(times_of(found)) == pytest.approx(time, abs=1e-11 + 1e-12 / parting)
 
 
 @pytest.mark.parametrize("wind", [5e-324, 1e-310, 1e-200, 1e-17])
@@ -356,10 +356,10 @@ def test_what_cannot_be_solved_has_a_status(change, status):
 def test_what_is_ranked_begins_with_the_fastest_and_ends_on_the_circle(scene, side):
     x, y, c, s, R, wx, wy = scene
     found = ranked(WindProblem(x, y, c, s, R, side, wx, wy))
-    times = [sum(maneuver[3:6]) for maneuver in found]
+    times = [sum(times_of(maneuver)) for maneuver in found]
     assert times == sorted(times)
     assert times[0] == pytest.approx(least_time(scene, side), abs=moved(scene, times[0]))
-    assert {maneuver[1] for maneuver in found} == ({1, -1} if side == Side.EITHER else {side})
+    assert {maneuver.side for maneuver in found} == ({1, -1} if side == Side.EITHER else {side})
     tied = optima(WindProblem(x, y, c, s, R, side, wx, wy))
     assert tied == found[: len(tied)]
     assert sum(tied[-1][3:6]) <= times[0] + 1e-11 * (R + times[0])
@@ -403,10 +403,10 @@ def test_each_valley_is_ranked_once(scene, side):
     """Two points of joining of one side are two maneuvers; the fastest, which is found twice, is one."""
     *_, wx, wy = scene
     found = ranked(WindProblem(*scene[:5], side, wx, wy))
-    phases = [(m[1], phase_of(cos(m[6]), sin(m[6]), m[1], wx, wy)) for m in found]
-    for one in sorted({m[1] for m in found}):
+    phases = [(m.side, phase_of(cos(m.azimuth), sin(m.azimuth), m.side, wx, wy)) for m in found]
+    for one in sorted({m.side for m in found}):
         joins = [phase for held_side, phase in phases if held_side == one]
         for valley in valleys_seen(scene, one):
             assert min(abs((phase - valley + pi) % (2.0 * pi) - pi) for phase in joins) < 2.0 * pi / VALLEYS_SEEN
     for a, b in combinations(found, 2):
-        assert a[1:3] != b[1:3] or a[3:6] != pytest.approx(b[3:6], abs=1e-9)
+        assert (a.side, a.word) != (b.side, b.word) or times_of(a) != pytest.approx(times_of(b), abs=1e-9)

@@ -30,7 +30,7 @@ NEXT_TO_THE_CENTRE = [
 def test_a_first_arc_of_tiny_radius_is_not_taken_for_none(x, y, R, side):
     best = optimum(x, y, R, side, 0.0)
     assert missed(x, y, R, best) <= rounding(x, y, R)
-    assert Word(best[1]).letters == ("LSL" if side == Side.CCW else "RSR")
+    assert Word(best.word).letters == ("LSL" if side == Side.CCW else "RSR")
     if R == 3.0:
         assert duration(best) == pytest.approx(3.141592679516423, abs=1e-15, rel=0.0)
 

@@ -26,7 +26,7 @@ def random_states(count):
 
 
 def letters(maneuver):
-    return Word(maneuver[1]).letters
+    return Word(maneuver.word).letters
 
 
 # Section 6 (i) and (26): the right-hand bound

@@ -16,6 +16,7 @@ from loiter.kernel.switching_curves import beyond_last_circle, switching_absciss
 from loiter.kernel.synthesis import duration, miss, optima, optimum, ranked, rounding
 from loiter.kernel.words import Side, Word
 from paper.printed import T1, T, curve_23, on_left_circle, on_right_circle, root_21
+from strategies import times_of
 
 SQRT3 = sqrt(3.0)
 CONTROLS = {"L": 1, "S": 0, "R": -1}
@@ -35,13 +36,13 @@ def best(x, y, side=Side.EITHER):
 
 
 def letters(maneuver):
-    return Word(maneuver[1]).letters
+    return Word(maneuver.word).letters
 
 
 def switching_points(x, y, maneuver):
     """The states at which one piece gives way to the next, then the end."""
     points = []
-    for letter, t in zip(letters(maneuver), maneuver[2:], strict=False):
+    for letter, t in zip(letters(maneuver), times_of(maneuver), strict=False):
         x, y = flow(x, y, CONTROLS[letter], t)
         points.append((x, y))
     return points
@@ -101,7 +102,7 @@ def test_a_solution_exists_from_everywhere():
 
 def test_optimal_is_one_end_point_optimal_but_not_the_converse():
     for x, y, maneuver in optimal():
-        assert best(x, y, maneuver[0]) == maneuver
+        assert best(x, y, maneuver.side) == maneuver
     assert duration(best(0.5, -1.5, Side.CW)) > duration(best(0.5, -1.5)) + 1.0
 
 
@@ -109,7 +110,7 @@ def along(x, y, maneuver, count=7):
     """lambda, then instants of a maneuver with its adjoint: control, x, y, psi1, psi2, phi."""
     lam, psi1, psi2 = adjoint(x, y, 1.0, maneuver)
     instants, begun = [], 0.0
-    for letter, t in zip(letters(maneuver), maneuver[2:], strict=False):
+    for letter, t in zip(letters(maneuver), times_of(maneuver), strict=False):
         for share in np.linspace(0.0, 1.0, count).tolist():
             now = state_and_adjoint_at(StateAndAdjoint(x, y, psi1, psi2), maneuver, begun + share * t)
             instants.append((CONTROLS[letter], *now, switching_function(*now)))
@@ -141,7 +142,7 @@ def test_12_and_17_the_derivatives_of_psi_and_phi():
     bound = 4.0 * (REACH * step**2 / 6.0 + LENGTH_TOLERANCE / step)
     for x, y, maneuver in optimal():
         _, psi1, psi2 = adjoint(x, y, 1.0, maneuver)
-        if maneuver[2] < 2.0 * step:
+        if maneuver.t1 < 2.0 * step:
             continue
         u = CONTROLS[letters(maneuver)[0]]
         three = [state_and_adjoint_at(StateAndAdjoint(x, y, psi1, psi2), maneuver, k * step) for k in range(3)]
@@ -164,14 +165,14 @@ def test_a_turn_goes_round_its_centre_in_its_sense():
 
 def test_the_last_control_is_that_of_the_end_point():
     for _, _, maneuver in optimal():
-        assert CONTROLS[letters(maneuver)[-1]] == maneuver[0]
+        assert CONTROLS[letters(maneuver)[-1]] == maneuver.side
 
 
 def test_between_switches_lambda_is_passed_and_more_than_half_a_turn():
     two = [start for start in optimal() if letters(start[2]) in {"LRL", "RLR"}]
     assert len(two) > 5
     for x, y, maneuver in two:
-        first, middle, last = maneuver[2:]
+        first, middle, last = times_of(maneuver)
         lam, psi1, psi2 = adjoint(x, y, 1.0, maneuver)
         for t in (first, first + middle):
             now = state_and_adjoint_at(StateAndAdjoint(x, y, psi1, psi2), maneuver, t)
@@ -271,7 +272,7 @@ def switch_pairs():
     for x, y, maneuver in optimal():
         if letters(maneuver) in {"LRL", "RLR"}:
             (xa, ya), (xb, yb), _ = switching_points(x, y, maneuver)
-            yield xa, maneuver[0] * ya, xb, maneuver[0] * yb
+            yield xa, maneuver.side * ya, xb, maneuver.side * yb
 
 
 def test_19_to_23_two_switches_lie_where_the_paper_says():
@@ -406,7 +407,7 @@ def test_each_case_of_y0_zero(case, x, words, points):
 @pytest.mark.parametrize("x", [row[1] for row in ON_THE_AXIS])
 def test_on_the_axis_every_control_has_its_mirror_image(x):
     swap = str.maketrans("LR", "RL")
-    found = {(letters(m), m[0]): m[2:] for m in optima(x, 0.0, 1.0, Side.EITHER, 0.0)}
+    found = {(letters(m), m.side): times_of(m) for m in optima(x, 0.0, 1.0, Side.EITHER, 0.0)}
     for (word, side), durations in found.items():
         assert found[word.translate(swap), -side] == pytest.approx(durations, abs=LENGTH_TOLERANCE)
 
@@ -415,7 +416,7 @@ def test_on_the_axis_the_end_points_are_those_of_the_paper():
     """u0 first: it ends at (0, u0) left of the centre, at (0, -u0) right of it."""
     for x in (-1.0, 0.0, 1.0):
         for maneuver in optima(x, 0.0, 1.0, Side.EITHER, 0.0):
-            assert maneuver[0] == CONTROLS[letters(maneuver)[0]] * (1 if x < 0.0 else -1)
+            assert maneuver.side == CONTROLS[letters(maneuver)[0]] * (1 if x < 0.0 else -1)
 
 
 def test_left_of_the_centre_the_first_switch_lies_on_the_curve_23():
@@ -514,9 +515,9 @@ def test_example_2_admissible_control_prints_these_numbers():
 def test_example_2_optimal_control_prints_these_numbers():
     x, y = EXAMPLES[1].x, EXAMPLES[1].y
     [maneuver] = optima(x, y, 1.0, Side.EITHER, 0.0)
-    tau1, tau2, end = np.cumsum(maneuver[2:]).tolist()
+    tau1, tau2, end = np.cumsum(times_of(maneuver)).tolist()
     assert (tau1, tau2, end) == pytest.approx((0.5921, 5.0349, 5.3779), abs=PRINTED)
-    assert maneuver[2:] == pytest.approx(EXAMPLES[1].durations, abs=1e-12)
+    assert times_of(maneuver) == pytest.approx(EXAMPLES[1].durations, abs=1e-12)
     first, second, last = switching_points(x, y, maneuver)
     assert (*first, *second) == pytest.approx((0.291365, 0.382789, -0.672517, 0.883539), abs=0.5e-6)
     assert last == pytest.approx((0.0, 1.0), abs=1e-12)
