@@ -117,20 +117,28 @@ def _tracked(name: str, results: Iterable[Any], total: int) -> Iterator[Any]:
 
 
 def _search(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.oracle_check import RESOLUTION, OracleDifference, compare_with_oracle
+    from loiter.verify.checks.oracle_check import RESOLUTION, compare_with_oracle
 
-    results = compare_with_oracle(states, seed)
+    note = "Largest differences, over turn radius plus length"
+    return _against_search("search", compare_with_oracle(states, seed), states, RESOLUTION, note)
+
+
+def _against_search(
+    name: str, results: Iterable[Any], states: int, resolution: float, note: str, **columns: str
+) -> Callable[[], Findings]:
+    """Compare plans with a search that resolves times to `resolution`; `columns` are further fields of its results."""
 
     def compare() -> Findings:
-        found: list[OracleDifference] = list(_tracked("search", results, states))
+        found = list(_tracked(name, results, states))
         rows: list[Row] = []
         for place, here in _by_place([(d.problem.place, d) for d in found]):
-            later, earlier = max(d.later for d in here), max(d.earlier for d in here)
-            beyond = sum(max(d.later, d.earlier) > RESOLUTION for d in here)
-            rows.append(_scenes(place, here, later, earlier, beyond))
-        passed = all(max(d.later, d.earlier) <= RESOLUTION for d in found)
-        note = f"Largest differences, over turn radius plus length; the search resolves {RESOLUTION:.0e}."
-        return Findings(rows, note, passed)
+            beyond = sum(max(d.later, d.earlier) > resolution for d in here)
+            more = {column: float(max(getattr(d, field) for d in here)) for column, field in columns.items()}
+            later: Row = {"plan_later_by": float(max(d.later for d in here))}
+            earlier: Row = {"search_later_by": float(max(d.earlier for d in here))}
+            rows.append({"place": place, "scenes": len(here), **later, **earlier, "beyond": int(beyond), **more})
+        passed = all(max(d.later, d.earlier) <= resolution for d in found)
+        return Findings(rows, f"{note}; the search resolves {resolution:.0e}.", passed)
 
     return compare
 
@@ -195,23 +203,11 @@ def _reachability(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
 
 def _wind(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.wind_scan_check import RESOLUTION, WINDIEST, ScanDifference, compare_with_scan
+    from loiter.verify.checks.wind_scan_check import RESOLUTION, WINDIEST, compare_with_scan
 
+    note = f"Largest differences of T over 1 + T in wind up to {WINDIEST:g} of the airspeed"
     results = compare_with_scan(states, seed)
-
-    def compare() -> Findings:
-        found: list[ScanDifference] = list(_tracked("wind", results, states))
-        rows: list[Row] = []
-        for place, here in _by_place([(d.problem.place, d) for d in found]):
-            later, earlier = max(d.later for d in here), max(d.earlier for d in here)
-            beyond = sum(max(d.later, d.earlier) > RESOLUTION for d in here)
-            missed = max(d.missed for d in here)
-            rows.append({**_scenes(place, here, later, earlier, beyond), "ends_off_by": missed})
-        passed = all(max(d.later, d.earlier) <= RESOLUTION for d in found)
-        note = f"Largest differences of T over 1 + T in wind up to {WINDIEST:g} of the airspeed;"
-        return Findings(rows, f"{note} the search resolves {RESOLUTION:.0e}.", passed)
-
-    return compare
+    return _against_search("wind", results, states, RESOLUTION, note, ends_off_by="missed")
 
 
 _METHODS: dict[str, Callable[[int, int, int], Callable[[], Findings]]] = {
@@ -230,9 +226,3 @@ def _by_place(found: Sequence[tuple[str, Any]]) -> Iterator[tuple[str, list[Any]
         yield place, [result for where, result in found if where == place]
     if len(places) > 1:
         yield "all", [result for _, result in found]
-
-
-def _scenes(place: str, here: Sequence[Any], later: float, earlier: float, beyond: int) -> Row:
-    """A row on the scenes at one place: how much later the plan and the search are, and how many differences count."""
-    times: Row = {"plan_later_by": float(later), "search_later_by": float(earlier)}
-    return {"place": place, "scenes": len(here), **times, "beyond": int(beyond)}
