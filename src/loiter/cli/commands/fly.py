@@ -22,7 +22,6 @@ from loiter.cli.options import AircraftOptions, OrbitOptions, PictureOptions, St
 from loiter.cli.scenes import placed
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
-from loiter.planning.problem import problem_of
 from loiter.plot.sizes import LEAST_FLIGHT_HEIGHT_MM
 from loiter.writing import check_writable, write_content
 

@@ -45,7 +45,7 @@ TARGET_CHANGE_S, OBSERVE_S, RECENT_S = 1.0, 2.0, 1.0
 # The first guess of the age of measurements without that of the link, seconds, before the law has identified it.
 DELAY_S = 0.1
 
-# Seconds between checks of the wind, and steps of a law that is thrown away: they load and compile what it needs.
+# Seconds between checks of the wind, and steps of a law that is thrown away: they load what it needs.
 WIND_S, WARM_STEPS = 0.5, 3
 
 # The law has twice the time of its first plan and this, seconds, until the circle is held steadily.
