@@ -26,7 +26,7 @@ from loiter.guidance.laws.route import Route, controls_of
 from loiter.guidance.protocol import Command, Phase, State, phase_of_control
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll, TurnOnset
-from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
+from loiter.guidance.vehicle.turning import STILL, bank_at_rate, rate_at_bank
 from loiter.kernel.words import Side, Word
 from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind, radius_at_bank
@@ -102,6 +102,10 @@ DELAY_SHARE = 1.0
 # The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until they
 # differ by less than the second.
 WIND_DIFFERS, WIND_KEPT = 0.1, 0.05
+
+# An estimated wind below this share of the airspeed is planned as none: plans in still air can be made anew all the
+# time, and make up for the drift.
+NEGLIGIBLE_WIND = 0.03
 
 # On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn, at this share of the
 # gain at which it would begin to oscillate, up to the second share of the circle's rate of turn, and only while the
@@ -195,7 +199,7 @@ class LoiterEntry:
         self._join_time_s = self._planned_join_time_s = inf
         self._clock, self._last_search_s = Clock(), -inf
         # Whether the wind differs so much from the declared one that the estimated one is planned with.
-        self._wind_differs = False
+        self._wind_differs, self._negligible_wind = False, NEGLIGIBLE_WIND if identify else 0.0
         # The correction of the rate of turn that cancels a steady crosstrack error on the circle, radians per second.
         self._trim = 0.0
         # The last estimate of the present state, the time since then, and how far its bank was from the modelled one.
@@ -321,7 +325,9 @@ class LoiterEntry:
         self._wind_differs = differs > (WIND_KEPT if self._wind_differs else WIND_DIFFERS)
         if self._wind_differs:
             east, north = known.wind_east_m_s, known.wind_north_m_s
-        return east - circle.velocity_east_m_s, north - circle.velocity_north_m_s
+        relative = east - circle.velocity_east_m_s, north - circle.velocity_north_m_s
+        negligible = hypot(*relative) < self._negligible_wind * known.airspeed_m_s
+        return STILL if negligible else relative
 
     def _bank_deg(self, rate: float) -> float:
         """The bank at which the vehicle turns at a rate, radians per second; degrees with the sign of the rate."""
@@ -423,7 +429,7 @@ class LoiterEntry:
             return False
         later_m = abs(self._join_time_s - self._planned_join_time_s) * self._limits.airspeed_m_s
         deviates = max(abs(offset.crosstrack), later_m) > DEVIATION * r
-        return self._search(response.state, route, update=deviates or self._wind == (0.0, 0.0))
+        return self._search(response.state, route, update=deviates or self._wind == STILL)
 
     def _in_other_wind(self, route: Route) -> bool:
         """Whether a plan was made for a wind that differs so much from the present one that it means nothing."""
