@@ -38,7 +38,7 @@ def draw(folder: Path, cells: int = 400) -> list[Path]:
     }
     folder.mkdir(parents=True, exist_ok=True)
     for name, figure in figures.items():
-        save_figure("figure", folder / name, figure)
+        save_figure(folder / name, figure)
     return [folder / name for name in figures]
 
 

@@ -155,5 +155,6 @@ def test_the_command_prints_a_table(monkeypatch, capsys):
 
 
 def test_the_document_has_every_word():
-    table = re.findall(r"^\| (.*?) \| (\d+) \| [\d.]+ \| (\d+) \| (\d+) \|$", PROOF.read_text(), re.MULTILINE)
+    section = PROOF.read_text().partition("## 9. Rounding")[2]
+    table = re.findall(r"^\| (.*?) \| (\d+) \| [\d.]+ \| (\d+) \| (\d+) \|$", section, re.MULTILINE)
     assert [(word, float(limit)) for word, limit, *_ in table] == [(r.word, r.limit) for r in REGIONS.values()]

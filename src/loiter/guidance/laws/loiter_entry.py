@@ -52,9 +52,10 @@ GAIN, PLACE_GAIN = 4.0, 0.25
 # gusts change the course by this angle in a second, radians (root mean square).
 CALM_GAIN, ROUGH_AIR = 0.75, 0.02
 
-# On the circle nothing is in a hurry: there it falls to this share, but rises with weaker gusts already. A vehicle
-# whose turns lag behind its bank would swing about the circle otherwise.
-CALM_HOLD_GAIN, ROUGH_HOLD = 0.35, 0.015
+# On the circle it falls so far that course errors are corrected at this rate, 1/s, or at this multiple of that at which
+# crosstrack errors are, but not below the last share. It rises with weaker gusts already. A vehicle that turns more
+# quickly than its bank says where that changes would swing about the circle otherwise.
+HOLD_RATE, HOLD_MULTIPLE, CALM_HOLD_GAIN, ROUGH_HOLD = 1.3, 4.0, 0.35, 0.015
 
 # In heavy gusts it rises in proportion to them, from this angle on and up to this multiple.
 HEAVY_GUSTS, HEAVY_GAIN = 0.04, 1.5
@@ -515,9 +516,9 @@ class LoiterEntry:
             return -route.control * self._limit_deg
         state, offset, _ = response
         vx, vy = route.velocity(state)
-        gain, speed = self._present_gain(holds=route.is_holding), hypot(vx, vy)
-        response_s = self._lag_s + self._observer.smoothing_s + gain * dt
-        bandwidth, turn_rate = 1.0 / response_s, self._limits.airspeed_m_s / self._orbit.radius_m
+        speed, turn_rate = hypot(vx, vy), self._limits.airspeed_m_s / self._orbit.radius_m
+        gain = self._holding_gain(turn_rate) if route.is_holding else self._joining_gain()
+        bandwidth = 1.0 / (self._lag_s + self._observer.smoothing_s + gain * dt)
         place_gain = HOLD_GAIN * speed / self._orbit.radius_m if route.is_holding else PLACE_GAIN * bandwidth
         course = course_rate(offset, gain * bandwidth, place_gain, speed)
         if route.is_holding:
@@ -526,14 +527,24 @@ class LoiterEntry:
         # At the present airspeed, which differs from the mean one where an autopilot holds it less exactly.
         return bank_at_rate(rate / self._vehicle.estimates.turn_ratio, hypot(state.hx, state.hy))
 
-    def _present_gain(self, *, holds: bool) -> float:
-        """The gain for the present air, lower for a vehicle that turns faster than its bank where that changes."""
+    def _joining_gain(self) -> float:
+        """The gain of course corrections in the present air, before the circle is joined."""
+        roughness = self._observer.roughness
+        return self._gain_at(roughness, max(min(roughness / ROUGH_AIR, 1.0), CALM_GAIN))
+
+    def _holding_gain(self, turn_rate: float) -> float:
+        """The same on the circle, which turns at a rate, radians per second."""
+        roughness = self._observer.roughness_beyond_slip
+        response_s = self._lag_s + self._observer.smoothing_s
+        calm_rate = max(HOLD_RATE, HOLD_MULTIPLE * HOLD_GAIN * turn_rate)
+        calm_share = max(min(calm_rate * response_s / self._gain, CALM_GAIN), CALM_HOLD_GAIN)
+        return self._gain_at(roughness, max(min(roughness / ROUGH_HOLD, 1.0), calm_share))
+
+    def _gain_at(self, roughness: float, share: float) -> float:
+        """A share of the gain, more in heavy gusts, less where quick turns are quicker than the bank says."""
         known = self._vehicle.estimates
         lively = max(known.quick_turn_ratio / known.turn_ratio, 1.0)
-        roughness = self._observer.roughness
-        calm_share, rough = (CALM_HOLD_GAIN, ROUGH_HOLD) if holds else (CALM_GAIN, ROUGH_AIR)
-        share = max(min(roughness / rough, 1.0), min(roughness / HEAVY_GUSTS, HEAVY_GAIN), calm_share)
-        return self._gain * share / lively
+        return self._gain * max(share, min(roughness / HEAVY_GUSTS, HEAVY_GAIN)) / lively
 
     def _trimmed(self, crosstrack_m: float, course_gain: float, turn_rate: float, dt: float) -> float:
         """The correction of the rate of turn on the circle after another step, radians per second."""

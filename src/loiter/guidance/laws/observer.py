@@ -156,13 +156,21 @@ class AirVelocityFilter:
         for (time_s, east, north, slip), mean in ((recent[-1], self._near), (recent[0], self._far)):
             e, n, slipped = east_m_s - east, north_m_s - north, slip_m_s - slip
             mean.time_s += weight * (now_s - time_s - mean.time_s)
-            mean.square += weight * (0.5 * (e * e + n * n - slipped * slipped) - mean.square)
+            mean.square += weight * (0.5 * (e * e + n * n) - mean.square)
+            mean.slip_square += weight * (0.5 * slipped * slipped - mean.slip_square)
         recent.append((now_s, east_m_s, north_m_s, slip_m_s))
         self.gust = self._present_gust()
 
     def _present_gust(self) -> float:
         near, far = self._near, self._far
         return max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
+
+    @property
+    def gust_beyond_slip(self) -> float:
+        """What is left of `gust` without what an error of the slip may account for."""
+        near, far = self._near, self._far
+        left = far.square - far.slip_square - near.square + near.slip_square
+        return max(left, 0.0) / max(far.time_s - near.time_s, 0.1)
 
     @property
     def _averaging_s(self) -> float:
@@ -174,10 +182,10 @@ class AirVelocityFilter:
 
 
 class _Difference:
-    """The mean square difference of measurements, and the mean time between them."""
+    """The mean square difference of measurements, that of the slip's part, and the mean time between them."""
 
     def __init__(self, time_s: float, square: float) -> None:
-        self.time_s, self.square = time_s, square
+        self.time_s, self.square, self.slip_square = time_s, square, 0.0
 
 
 class Observer:
@@ -198,6 +206,11 @@ class Observer:
     def roughness(self) -> float:
         """The root mean square change of course that gusts cause in a second, radians."""
         return sqrt(self._air.gust) / self._last.airspeed_m_s if self._last is not None else 0.0
+
+    @property
+    def roughness_beyond_slip(self) -> float:
+        """The same without what an error of the slip may account for: swings of the bank do not count as gusts."""
+        return sqrt(self._air.gust_beyond_slip) / self._last.airspeed_m_s if self._last is not None else 0.0
 
     def reset(self) -> None:
         """Start again from the next measurement."""
