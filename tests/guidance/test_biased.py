@@ -39,11 +39,14 @@ def test_a_slow_roll_biases_and_an_unknown_wind_do_not_keep_an_aircraft_off_its_
 
 
 def test_biased_aircraft_of_a_seed_that_nothing_was_tuned_with_settle():
-    """The first 40 of seed 101 but those with plans of more than half a minute, which are the easy ones."""
-    ratios = [ratio(trial) for trial in biased_trials(40, 101) if trial.ideal.duration_s < 30.0]
+    """The first 70 of seed 211 but those with plans of more than a minute, which are the easy ones.
+
+    Of fewer flights the quantiles are those of single ones: one of seed 101 took 1.41 or 1.63 plans by chance.
+    """
+    ratios = [ratio(trial) for trial in biased_trials(70, 211) if trial.ideal.duration_s < 60.0]
     assert max(ratios) < inf
-    assert np.median(ratios) < 1.25
-    assert sorted(ratios)[round(0.8 * len(ratios))] < 1.6
+    assert np.median(ratios) < 1.15
+    assert sorted(ratios)[round(0.8 * len(ratios))] < 1.4
 
 
 def test_biased_trials_do_not_depend_on_their_number():
