@@ -567,12 +567,6 @@ def _differs(roll: Roll, other: Roll) -> bool:
     return time_differs or abs(roll.rate_deg_s - other.rate_deg_s) > ROLL_CHANGED * other.rate_deg_s
 
 
-def _is_left_behind(route: Route, offset: PathOffset, radius_m: float) -> bool:
-    """Whether the aircraft is outside a turn before the last piece: it cannot bank more to reach that path again."""
-    is_turn = bool(route.control) and route.next_control is not None
-    return is_turn and -(route.control or 0) * offset.crosstrack > DEVIATION * radius_m
-
-
 def _reverses(entry: PlannedEntry) -> bool:
     """Whether the last turn of an entry is opposite to that of the circle."""
     controls = controls_of(entry.word)
