@@ -13,8 +13,8 @@ from math import cos, inf, pi, radians, sin
 
 import numpy as np
 
+from guidance.biased_trials import biased_trials
 from loiter import Pose, plan
-from loiter.guidance.trials.biased import biased_trials
 from loiter.guidance.trials.flight import fly
 from loiter.guidance.trials.varied import VARIED_LAWS, VariedTrial, varied_point_mass
 from loiter.guidance.vehicle.rolling import Roll

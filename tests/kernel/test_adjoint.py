@@ -2,17 +2,14 @@
 
 from math import acos, cos, hypot, isnan, pi, sin, sqrt
 
-import numba
 import pytest
 from hypothesis import assume, given, settings
 
 from golden.paper import EXAMPLES
-from loiter.compiled.rebinding import rebound
+from kernel.adjoint_along import StateAndAdjoint, state_and_adjoint_at
 from loiter.kernel.adjoint import (
-    StateAndAdjoint,
     adjoint,
     at_switch,
-    state_and_adjoint_at,
     switching_function,
     turn_adjoint,
 )
@@ -146,14 +143,3 @@ def test_the_empty_word_has_no_adjoint():
 @given(controls, coordinates)
 def test_psi_turned_there_and_back(u, t):
     assert turn_adjoint(*turn_adjoint(0.6, 0.8, u, t), u, -t) == pytest.approx((0.6, 0.8), abs=1e-15)
-
-
-def test_numba_compiles_the_same_source():
-    compiled, walked = rebound(adjoint, finish=numba.njit), rebound(state_and_adjoint_at, finish=numba.njit)
-    for x, y, R, side in ((4.0, 4.0, 1.0, 1), (-0.53, 0.31, 1.0, 1), (0.3, 0.4, 5.0, -1), (-sqrt(3.0), 0.0, 1.0, 1)):
-        maneuver, plain = starts(x, y, R, side)
-        maneuver = maneuver._replace(side=int(maneuver.side), word=int(maneuver.word))
-        by_numba = compiled(x, y, R, maneuver)
-        assert by_numba == pytest.approx(plain, abs=1e-15)
-        end = state_and_adjoint_at(StateAndAdjoint(x, y, *plain[1:]), maneuver, 1.0)
-        assert walked(StateAndAdjoint(x, y, *by_numba[1:]), maneuver, 1.0) == pytest.approx(end, abs=1e-14)

@@ -104,24 +104,3 @@ def adjoint(x: float, y: float, R: float, maneuver: Entry) -> Adjoint:
         psi1, psi2 = turn_adjoint(1.0, 0.0, first, -maneuver.t1)
         return Adjoint(1.0, psi1, psi2)
     return of_arcs(R, maneuver)
-
-
-class StateAndAdjoint(NamedTuple):
-    """A reduced state and its adjoint psi."""
-
-    x: float
-    y: float
-    psi1: float
-    psi2: float
-
-
-def state_and_adjoint_at(start: StateAndAdjoint, maneuver: Entry, t: float) -> StateAndAdjoint:
-    """State and adjoint after a time t of a maneuver, or at its end where that is earlier."""
-    x, y, psi1, psi2 = start
-    for u, duration in zip(controls(maneuver.word), (maneuver.t1, maneuver.t2, maneuver.t3)):
-        if u != ABSENT:
-            step = min(duration, t)
-            x, y = flow(x, y, u, step)
-            psi1, psi2 = turn_adjoint(psi1, psi2, u, step)
-            t -= step
-    return StateAndAdjoint(x, y, psi1, psi2)
