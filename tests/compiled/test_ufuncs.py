@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from loiter.compiled import branchless, ufuncs
-from loiter.compiled.rebinding import rebinding
 from loiter.kernel import motion
+from loiter.kernel.rebinding import rebinding
 from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import (
     duration,

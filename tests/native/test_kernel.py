@@ -9,8 +9,8 @@ import pytest
 from compiled.windy import BAD, drawn
 from kernel.slow_scenes import CORNERS, SLOW, VALLEYS
 from kernel.test_wind_tolerance import beside_last_arc
-from loiter.compiled.rebinding import rebinding
 from loiter.kernel import synthesis, wind_search
+from loiter.kernel.rebinding import rebinding
 from loiter.kernel.statuses import Status
 from native import states
 from native.library import COUNTED, build, counting, needs_compiler

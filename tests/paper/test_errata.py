@@ -7,8 +7,8 @@ import pytest
 
 import loiter
 from golden.paper import EXAMPLES
-from loiter.compiled.rebinding import rebound
 from loiter.kernel.motion import flow
+from loiter.kernel.rebinding import rebound
 from loiter.kernel.switching_curves import beyond_first_circle, switching_abscissa
 from loiter.kernel.synthesis import optima, optimum, rounding
 from loiter.kernel.words import Side, Word

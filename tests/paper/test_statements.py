@@ -10,9 +10,9 @@ import pytest
 import loiter
 from golden.paper import ADMISSIBLE, EXAMPLES
 from kernel.adjoint_along import StateAndAdjoint, state_and_adjoint_at
-from loiter.compiled.rebinding import rebound
 from loiter.kernel.adjoint import adjoint, switching_function, turn_adjoint
 from loiter.kernel.motion import flow, reduce
+from loiter.kernel.rebinding import rebound
 from loiter.kernel.switching_curves import beyond_last_circle, switching_abscissa
 from loiter.kernel.synthesis import duration, miss, optima, optimum, ranked, rounding
 from loiter.kernel.words import Side, Word

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import loiter
-from loiter.compiled.rebinding import rebound
+from loiter.kernel.rebinding import rebound
 from loiter.kernel.switching_curves import (
     beyond_first_circle,
     beyond_last_circle,

@@ -14,8 +14,8 @@ from typing import Any
 
 import mpmath
 
-from loiter.compiled.rebinding import Function, rebinding
 from loiter.kernel import extremals as kernel
+from loiter.kernel.rebinding import Function, rebinding
 from loiter.kernel.synthesis import Entry, duration
 from loiter.verify.proof import balls, rounding
 from loiter.verify.proof.balls import Interval

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from loiter.arrays.reduction import heading_vectors
-from loiter.compiled.rebinding import Function, rebound
 from loiter.kernel import motion
+from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import REACH
 from loiter.kernel.words import Word

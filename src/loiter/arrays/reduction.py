@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from loiter.arrays.arguments import Arrays, NumbersLike, OtherArrays, is_lazy, number_arrays, refuse_lazy_out
 from loiter.compiled import ufunc
-from loiter.compiled.rebinding import Function, rebound
 from loiter.errors import in_unit, instance
 from loiter.kernel import motion
+from loiter.kernel.rebinding import Function, rebound
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import Aircraft, Orbit
 

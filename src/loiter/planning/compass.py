@@ -1,6 +1,6 @@
 """Compass headings (degrees clockwise from north) and their conversion to mathematical angles, all in this file.
 
-The functions have no branches, so that they accept arrays; those that call `math` need `compiled.rebinding.rebound`.
+The functions have no branches, so that they accept arrays; those that call `math` need `kernel.rebinding.rebound`.
 """
 
 from math import cos, degrees, floor, fmod, radians, sin

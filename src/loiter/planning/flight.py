@@ -10,8 +10,8 @@ from functools import cache
 from math import atan2, degrees, hypot
 from typing import TYPE_CHECKING, Any
 
-from loiter.compiled.rebinding import Function, rebound
 from loiter.kernel import motion
+from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.synthesis import ROUNDING
 from loiter.planning.compass import heading_after, heading_vector, wrapped
 from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment, Wind, moved

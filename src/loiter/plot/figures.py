@@ -16,9 +16,9 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from loiter.arrays import control
-from loiter.compiled.rebinding import Function, rebound
 from loiter.kernel.adjoint import adjoint, turn_adjoint
 from loiter.kernel.motion import flow
+from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.switching_curves import last_arc_abscissa, switching_abscissa
 from loiter.kernel.synthesis import Entry, duration, optima, ranked
 from loiter.kernel.words import Side, Word, controls

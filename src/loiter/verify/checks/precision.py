@@ -10,9 +10,9 @@ from math import cos, pi, sin
 from random import Random
 from typing import Any
 
-from loiter.compiled.rebinding import Function, rebound
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.kernel.exact import beyond
+from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.switching_curves import switching_abscissa
 from loiter.kernel.synthesis import duration, optimum, rounding
 from loiter.kernel.words import Side

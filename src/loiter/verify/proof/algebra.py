@@ -1,7 +1,7 @@
 """Exact algebra: the kernel's formulas evaluated on polynomials and square roots instead of numbers.
 
 An `Expression` is a quotient of polynomials over the rationals, in variables and in square roots of earlier
-expressions. The kernel's own functions accept expressions in place of doubles (`loiter.compiled.rebinding`), so a
+expressions. The kernel's own functions accept expressions in place of doubles (`loiter.kernel.rebinding`), so a
 formula of the kernel becomes an identity that holds or does not hold, exactly.
 
 What is proved holds on a region: all values of the variables at which the facts of the field hold (`Field.assume`).

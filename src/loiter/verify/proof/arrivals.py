@@ -11,8 +11,8 @@ from itertools import product
 from math import inf, pi
 from typing import Any, NamedTuple
 
-from loiter.compiled.rebinding import rebinding
 from loiter.kernel import extremals as kernel
+from loiter.kernel.rebinding import rebinding
 from loiter.kernel.words import Word
 from loiter.verify.proof.algebra import Expression, Field
 from loiter.verify.proof.balls import Certainty

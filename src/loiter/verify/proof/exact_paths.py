@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from loiter.compiled.rebinding import Function, rebinding
 from loiter.kernel import extremals as kernel
+from loiter.kernel.rebinding import Function, rebinding
 from loiter.kernel.words import controls
 from loiter.verify.proof.algebra import Expression, Field
 from loiter.verify.proof.sign_proofs import POSITIVE, NotProved

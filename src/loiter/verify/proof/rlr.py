@@ -9,8 +9,8 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from loiter.compiled.rebinding import rebinding
 from loiter.kernel import extremals as kernel
+from loiter.kernel.rebinding import rebinding
 from loiter.verify.proof import balls
 from loiter.verify.proof.algebra import Expression, Field, flint
 from loiter.verify.proof.balls import Certainty, Interval

@@ -2,7 +2,7 @@
 
 A `Rounded` is a quantity of the kernel for all states of a box: the ball contains its exact values, `error` bounds how
 far the double that the kernel computes is from the exact value for the same state. The kernel's own functions accept
-such numbers in place of doubles (`loiter.compiled.rebinding`), so the bounds are those of the kernel's own operations.
+such numbers in place of doubles (`loiter.kernel.rebinding`), so the bounds are those of the kernel's own operations.
 
 Assumed: IEEE 754 doubles, rounded to nearest, without overflow; atan2 with an error of at most `ARCTANGENT` units in
 the last place (glibc documents 1 on x86-64, its manual, "Known Maximum Errors in Math Functions").

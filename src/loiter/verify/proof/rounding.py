@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise, product
 from typing import Any, NamedTuple
 
-from loiter.compiled.rebinding import Function, rebinding
 from loiter.kernel import angles, synthesis
 from loiter.kernel import extremals as kernel
+from loiter.kernel.rebinding import Function, rebinding
 from loiter.kernel.words import Word
 from loiter.verify.proof import balls
 from loiter.verify.proof.algebra import flint

@@ -12,9 +12,9 @@ from fractions import Fraction
 from itertools import product
 from typing import Any, NamedTuple
 
-from loiter.compiled.rebinding import rebinding
 from loiter.kernel import extremals as kernel
 from loiter.kernel import motion, synthesis, words
+from loiter.kernel.rebinding import rebinding
 from loiter.kernel.statuses import Status
 from loiter.kernel.words import ABSENT, Side, Word
 from loiter.verify.proof.algebra import Field, flint

@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 from typing import Any
 
-from loiter.compiled.rebinding import Function, rebinding
 from loiter.kernel import angles, exact
 from loiter.kernel import extremals as kernel
+from loiter.kernel.rebinding import Function, rebinding
 from loiter.verify.proof.algebra import Expression, Field
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.identities import require, variables, zero

@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterable, Iterator
 from math import inf
 from typing import Any, NamedTuple
 
-from loiter.compiled.rebinding import rebinding
 from loiter.kernel import extremals as kernel
+from loiter.kernel.rebinding import rebinding
 from loiter.kernel.words import Word
 from loiter.verify.proof.algebra import flint
 from loiter.verify.proof.answers.turns import StandIn

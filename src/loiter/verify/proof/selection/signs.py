@@ -1,7 +1,7 @@
 """Runs of the kernel for every combination of signs: comparisons are decided by a table of signs, not by numbers.
 
 A `Quantity` is a polynomial over the rationals. The kernel's own functions accept quantities in place of doubles
-(`loiter.compiled.rebinding`). Where they compare one with another, the sign of the difference, -1, 0 or 1, is chosen,
+(`loiter.kernel.rebinding`). Where they compare one with another, the sign of the difference, -1, 0 or 1, is chosen,
 and `every_case` repeats the run until each choice has been made. A choice is left out only where a `Relation` excludes
 it. So all states are covered, those on boundaries included, and none is sampled.
 """

@@ -17,8 +17,8 @@ def rebound(
 ) -> Function:
     """A copy of a kernel function, and of the kernel functions it calls, with `names` in place of its globals.
 
-    `rebound(fly, {"sin": numpy.sin, "cos": numpy.cos})` takes arrays. `finish` is applied to each copy, so
-    `rebound(optimum, finish=numba.njit)` compiles. So each formula is written only once.
+    `rebound(fly, {"sin": numpy.sin, "cos": numpy.cos})` takes arrays, so each formula is written only once. `finish` is
+    applied to each copy.
     """
     return rebinding(names, finish)(function)
 
