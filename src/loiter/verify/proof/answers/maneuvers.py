@@ -7,10 +7,11 @@ a function may decide. Functions that have been checked are replaced by stand-in
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn, Self
 
 from loiter.kernel import extremals as kernel
 from loiter.kernel import motion, synthesis, words
@@ -22,7 +23,7 @@ from loiter.verify.proof.answers.turns import StandIn, is_same
 from loiter.verify.proof.balls import Certainty
 from loiter.verify.proof.identities import require, variables, zero
 from loiter.verify.proof.selection.signs import Quantity, Signs, Table, every_case
-from loiter.verify.proof.sign_proofs import NEGATIVE, NEVER_NEGATIVE, POSITIVE, ZERO
+from loiter.verify.proof.sign_proofs import NEGATIVE, NEVER_NEGATIVE, POSITIVE, ZERO, NotProved
 
 LETTERS = {"L": 1, "S": 0, "R": -1}
 NAMES = ("", "R", "L", "SR", "SL", "RL", "LR", "RSR", "RSL", "LSR", "LSL", "RLR", "LRL")
@@ -299,10 +300,48 @@ def tolerances() -> int:
 # Which states are solved, and the feedback law
 
 
-def beside(*boundaries: float) -> list[float]:
+class Argument(float):
+    """A number that may be compared with the boundaries next to which it is tried, and be used for nothing else."""
+
+    boundaries: tuple[float, ...]
+
+    def __new__(cls, number: float, boundaries: tuple[float, ...]) -> Self:
+        """A number, and the boundaries with which it may be compared."""
+        argument = super().__new__(cls, number)
+        argument.boundaries = boundaries
+        return argument
+
+    def _compared(self, other: float, compare: Callable[[float, float], bool]) -> bool:
+        require(other in self.boundaries, f"a comparison with {other}")
+        return compare(float(self), other)
+
+    def _used(self, *_: object) -> NoReturn:
+        raise NotProved("a number is not only compared")
+
+    def __lt__(self, other: float) -> bool:
+        return self._compared(other, operator.lt)
+
+    def __le__(self, other: float) -> bool:
+        return self._compared(other, operator.le)
+
+    def __gt__(self, other: float) -> bool:
+        return self._compared(other, operator.gt)
+
+    def __ge__(self, other: float) -> bool:
+        return self._compared(other, operator.ge)
+
+    def __abs__(self) -> Argument:
+        return Argument(abs(float(self)), self.boundaries)
+
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = _used
+    __neg__ = __mod__ = __rmod__ = __pow__ = __rpow__ = __bool__ = __eq__ = __ne__ = _used  # type: ignore[assignment]
+    __hash__ = float.__hash__
+
+
+def beside(*boundaries: float) -> list[Argument]:
     """Numbers on, next to, and far from boundaries: all that comparisons with them can tell apart."""
     near = [b for a in boundaries for b in (math.nextafter(a, -math.inf), a, math.nextafter(a, math.inf))]
-    return [-math.inf, *sorted(near), math.inf, math.nan]
+    return [Argument(number, boundaries) for number in (-math.inf, *sorted(near), math.inf, math.nan)]
 
 
 def laws() -> Certainty:
@@ -315,10 +354,10 @@ def solved_states() -> int:
     reach, least, cases = 2.0**52, 1.0 - synthesis.ROUNDING, 0
     lengths, radii, spreads = beside(-reach, 0.0, reach), beside(0.0, least, 1.0, reach), beside(0.0, reach)
     for R in radii:
-        rounded = synthesis.rounded_radius(R)
-        require(is_number(rounded, 1.0 if least <= R < 1.0 else R), "`rounded_radius` is another radius")
+        rounded, given = float(synthesis.rounded_radius(R)), float(R)
+        require(is_number(rounded, 1.0 if least <= given < 1.0 else given), "`rounded_radius` is another radius")
     for x, y, R, tolerance in product(lengths, lengths, radii, spreads):
-        expected = expected_status(x, y, R, tolerance, least, reach)
+        expected = expected_status(*map(float, (x, y, R, tolerance)), least, reach)
         require(synthesis.status_of(x, y, R, tolerance) == expected, f"the status of {(x, y, R, tolerance)}")
         solvable = synthesis.is_solvable(x, y, R, tolerance)
         require(solvable == (expected == Status.OK), f"`is_solvable` at {(x, y, R, tolerance)}")

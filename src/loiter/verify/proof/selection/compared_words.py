@@ -160,7 +160,7 @@ def check_selection(q: Named, found: set[Described], exactly: bool, signs: Signs
     require(ARC_L not in found or q.outer == 0.0, f"L ends beside the target: signs {signs.chosen}")
     require(ARC_R not in found or (q.inner == 0.0 and q.R > 1.0), f"R ends beside the target: signs {signs.chosen}")
     if not exactly:
-        # Within a tolerance a single arc is faster than the words of which it is the limit.
+        # Within a tolerance a single arc may also be faster than the words of which it is the limit.
         require((q.outer == 0.0) == (ARC_L in found), f"L does not compete: signs {signs.chosen}")
         require((q.inner == 0.0 and q.R > 1.0) == (ARC_R in found), f"R does not compete: signs {signs.chosen}")
     if exactly and q.R == 1.0 and q.y >= 0.0:
@@ -286,7 +286,7 @@ def with_same_paths(words: Iterable[Described], q: Named) -> set[Described]:
     return found
 
 
-def recording_fastest(q: Named, exactly: bool) -> Callable[[], tuple[Compared, Any]]:
+def recording_fastest(q: Named, exactly: bool) -> Callable[[], tuple[Any, Any]]:
     """The kernel's `fastest` on quantities, with the extremals that it has compared in place of times."""
     copied = rebinding(NUMBERS)
     start = copied(kernel.start_at)(q.x, q.y, q.R, 0.0)
@@ -309,36 +309,57 @@ def recording_fastest(q: Named, exactly: bool) -> Callable[[], tuple[Compared, A
     names: dict[str, object] = {
         "start_at": StandIn("start_at", (q.x, q.y, q.R, arc_tolerance), start),
         **{word.__name__: given_start(word) for word in words},
-        "duration": lambda extremal: Compared((extremal,)),
+        "duration": lambda extremal: LeastTime((extremal,)),
         "faster_of": faster_of,
     }
+    if not exactly:
+        names["reaches"] = may_reach
     fastest = rebinding(NUMBERS | names)(kernel.fastest)
     return lambda: fastest(q.x, q.y, q.R, arc_tolerance, exactly)
 
 
-def compared_words(fastest: Callable[[], tuple[Compared, Any]]) -> set[Described]:
+def compared_words(fastest: Callable[[], tuple[Any, Any]]) -> set[Described]:
     """The words that the kernel's `fastest` compares, as far as they reach the target."""
     least, best = fastest()
-    require(least.same_as(best), "the least time is not that of the words that were compared")
+    check_same(least, best)
     return {described(extremal) for extremal in least.extremals if extremal.straight is not inf}
 
 
-class Compared(NamedTuple):
-    """The extremals of which the least time, or the fastest, has been taken."""
+def may_reach(extremal: kernel.Extremal) -> bool:
+    """`reaches` within a tolerance, where a single arc beside its circle reaches the target too.
+
+    There it may be slower than the words of which it is the limit, and must not replace them.
+    """
+    return extremal.word in (Word.L, Word.R) or kernel.reaches(extremal)
+
+
+class LeastTime(NamedTuple):
+    """What stands for the least time of some extremals."""
 
     extremals: tuple[kernel.Extremal, ...]
 
-    def same_as(self, best: Compared | kernel.Extremal) -> bool:
-        """Whether the fastest and the least time are of the same extremals."""
-        others = best.extremals if isinstance(best, Compared) else (best,)
-        return [*map(id, self.extremals)] == [*map(id, others)]
+
+class Fastest(NamedTuple):
+    """What stands for the fastest of some extremals."""
+
+    extremals: tuple[kernel.Extremal, ...]
 
 
-def faster_of(least: Compared, best: Compared | kernel.Extremal, other: kernel.Extremal) -> tuple[Compared, Compared]:
+def check_same(least: object, best: object) -> None:
+    """Raise `NotProved` unless one is the least time and the other the fastest of the same extremals."""
+    require(isinstance(least, LeastTime), "what is called the least time is none")
+    require(isinstance(best, (Fastest, kernel.Extremal)), "what is called the fastest extremal is none")
+    of_least, of_best = getattr(least, "extremals", ()), getattr(best, "extremals", (best,))
+    same = [*map(id, of_least)] == [*map(id, of_best)]
+    require(same, "the least time is not that of the words that were compared")
+
+
+def faster_of(least: LeastTime, best: Fastest | kernel.Extremal, other: object) -> tuple[LeastTime, Fastest]:
     """What stands for the kernel's `faster_of`: it adds an extremal to those that have been compared."""
-    require(least.same_as(best), "the least time so far is not that of the words that were compared")
-    compared = Compared((*least.extremals, other))
-    return compared, compared
+    check_same(least, best)
+    require(isinstance(other, kernel.Extremal), "what is compared is no extremal")
+    compared = *least.extremals, other
+    return LeastTime(compared), Fastest(compared)
 
 
 def larger(*numbers: object) -> Unknown:
