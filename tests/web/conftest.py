@@ -23,7 +23,7 @@ def client(port):
         yield client
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def address():
     with browsing.served() as address:
         yield address
