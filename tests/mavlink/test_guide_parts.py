@@ -23,10 +23,11 @@ from loiter.mavlink.autopilots.acceleration_sign import CAUTIOUS_DEG, Accelerati
 from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD, ModeWatch, is_unfit, mode_name
 from loiter.mavlink.autopilots.settings import autopilot_settings, missing
 from loiter.mavlink.autopilots.steering import AccelerationSteering
-from loiter.mavlink.connection.fast_streams import FastStreams, fastest_hz
+from loiter.mavlink.connection.command import PendingCommand
 from loiter.mavlink.connection.link import Vehicle
-from loiter.mavlink.connection.pending_command import PendingCommand
 from loiter.mavlink.connection.round_trip import RoundTrip
+from loiter.mavlink.connection.streams import TRIES, Streams, guide_streams, rates_to_try_hz, watch_streams
+from loiter.mavlink.connection.telemetry import Telemetry
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
 from loiter.mavlink.guiding.report import GuideReport, Stage
@@ -104,16 +105,26 @@ def test_straight_flight_shows_no_sign():
 
 
 def steering(sign=1):
-    s = AccelerationSteering(VEHICLE, 600.0, AccelerationSign(sign, Roll()))
+    """The steering of a vehicle at 590 m, and its telemetry."""
+    telemetry = Telemetry()
+    s = AccelerationSteering(VEHICLE, telemetry, 600.0, AccelerationSign(sign, Roll()))
     s.sign.confirmed = True
-    s.update(mavlink.MAVLink_global_position_int_message(1000, 0, 0, 590_000, 0, 0, 0, 0, 0), 10.0)
-    return s
+    telemetry.update(position(1000, altitude_m=590.0), 10.0)
+    return s, telemetry
+
+
+def local_position(place, velocity):
+    return mavlink.MAVLink_local_position_ned_message(1000, *place, *velocity, 0.0)
 
 
 def test_a_setpoint_says_the_own_path_and_the_acceleration_of_the_bank():
-    link, s = Sent(), steering()
-    s.update(mavlink.MAVLink_local_position_ned_message(1000, 100.0, 50.0, -90.0, 0.0, 18.0, 0.0), 10.0)
+    link, (s, telemetry) = Sent(), steering()
+    assert not s.is_ready(10.0)
+    assert s.send(link, 30.0, 0.0, 10.0) == 30.0
+    assert link.messages == []
+    telemetry.update(local_position((100.0, 50.0, -90.0), (0.0, 18.0)), 10.0)
     assert s.is_ready(10.0)
+    assert not s.is_ready(11.1)
     assert s.send(link, 30.0, 0.0, 10.0) == 30.0
     (m,) = link.messages
     assert (m.x, m.y, m.vx, m.vy) == (100.0, 50.0, 0.0, 18.0)
@@ -125,36 +136,37 @@ def test_a_setpoint_says_the_own_path_and_the_acceleration_of_the_bank():
 
 def test_an_inverted_px4_gets_the_opposite_acceleration():
     for sign, north in ((1, -1.0), (-1, 1.0)):
-        link, s = Sent(), steering(sign)
-        s.update(mavlink.MAVLink_local_position_ned_message(1000, 0.0, 0.0, -90.0, 0.0, 18.0, 0.0), 10.0)
+        link, (s, telemetry) = Sent(), steering(sign)
+        telemetry.update(local_position((0.0, 0.0, -90.0), (0.0, 18.0)), 10.0)
         s.send(link, 45.0, 0.0, 10.0)
         assert link.messages[0].afx == pytest.approx(north * 9.80665)
 
 
 def test_a_setpoint_is_extrapolated_along_the_turn_and_keeps_its_altitude():
-    link, s = Sent(), steering()
+    link, (s, telemetry) = Sent(), steering()
     s.prepare(0.1, None)
-    s.update(mavlink.MAVLink_attitude_message(1000, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5), 10.0)
-    s.update(mavlink.MAVLink_local_position_ned_message(1000, 0.0, 0.0, -90.0, 20.0, 0.0, 0.0), 10.0)
+    telemetry.update(mavlink.MAVLink_attitude_message(1000, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5), 10.0)
+    telemetry.update(local_position((0.0, 0.0, -90.0), (20.0, 0.0)), 10.0)
     s.send(link, 0.0, 0.0, 10.1)
-    s.update(mavlink.MAVLink_local_position_ned_message(1000, 0.0, 0.0, -90.5, 20.0, 0.0, 0.0), 10.1)
+    telemetry.update(local_position((0.0, 0.0, -90.5), (20.0, 0.0)), 10.1)
     s.send(link, 0.0, 0.0, 10.1)
     first, second = link.messages
     # 0.2 s at 0.5 rad/s to the right.
     assert (first.vx, first.vy) == pytest.approx((20.0 * math.cos(0.1), 20.0 * math.sin(0.1)))
-    assert (first.x, first.y) == pytest.approx((4.0 * math.cos(0.05), 4.0 * math.sin(0.05)))
+    chord_m = 2.0 * 20.0 / 0.5 * math.sin(0.05)
+    assert (first.x, first.y) == pytest.approx((chord_m * math.cos(0.05), chord_m * math.sin(0.05)))
     assert first.z == second.z == -100.0
     # A shift of the origin moves the setpoint with it.
-    s.update(mavlink.MAVLink_local_position_ned_message(1000, 0.0, 0.0, -70.0, 20.0, 0.0, 0.0), 10.2)
+    telemetry.update(local_position((0.0, 0.0, -70.0), (20.0, 0.0)), 10.2)
     s.send_level(link, 10.2)
     assert link.messages[2].z == -80.0
 
 
 def test_in_a_crosswind_the_acceleration_is_that_along_the_path():
-    link, s = Sent(), steering()
+    link, (s, telemetry) = Sent(), steering()
     s.prepare(0.0, Wind(6.0, from_deg=90.0))
     # It flies north over the ground at 8 m/s: through the air 8 north and 6 east, 10 m/s.
-    s.update(mavlink.MAVLink_local_position_ned_message(1000, 0.0, 0.0, -90.0, 8.0, 0.0, 0.0), 10.0)
+    telemetry.update(local_position((0.0, 0.0, -90.0), (8.0, 0.0)), 10.0)
     s.send(link, 45.0, 0.0, 10.0)
     assert link.messages[0].afy == pytest.approx(9.80665 * 0.8)
 
@@ -162,14 +174,18 @@ def test_in_a_crosswind_the_acceleration_is_that_along_the_path():
 # Streams, commands, the round trip.
 
 
+def guiding(autopilot=Autopilot.ARDUPILOT):
+    return Streams(guide_streams(autopilot), 0.0, rates_to_try_hz("udpin:0.0.0.0:14550", 57600))
+
+
 def test_a_slower_rate_is_tried_where_one_is_denied_and_the_other_streams_follow_at_that_rate():
-    link, streams = Sent(), FastStreams(Autopilot.ARDUPILOT)
+    link, streams = Sent(), guiding()
     for now, result in ((0.0, 2), (0.1, 2), (0.2, 0)):
-        streams.request(link, now, 0.0)
-        streams.update(ack(511, result))
+        streams.request(link, Telemetry(), now)
+        streams.update(ack(511, result), now)
     assert [(m.param1, m.param2) for m in link.messages] == [(30, 20000), (30, 25000), (30, 40000)]
     assert (streams.settled, streams.rate_hz) == (True, 25.0)
-    streams.request(link, 0.3, 0.0)
+    streams.request(link, Telemetry(), 0.3)
     rates = {int(m.param1): m.param2 for m in link.messages[3:]}
     assert (rates[30], rates[33], rates[74]) == (40000, 40000, 40000)
     assert rates[0] == 200000
@@ -178,52 +194,95 @@ def test_a_slower_rate_is_tried_where_one_is_denied_and_the_other_streams_follow
 
 
 def test_streams_that_do_not_come_are_requested_again_a_few_times():
-    link, streams = Sent(), FastStreams(Autopilot.PX4)
-    streams.request(link, 0.0, 0.0)
-    streams.update(ack(511, 0))
+    link, streams, telemetry = Sent(), guiding(Autopilot.PX4), Telemetry()
+    streams.request(link, telemetry, 0.0)
+    streams.update(ack(511, 0), 0.0)
     counts = []
-    for now in range(1, 20):
-        streams.request(link, float(now), 10.0)
+    for i in range(1, 1000):
+        now = 0.02 * i
+        telemetry.update(attitude(20 * i), now)
+        streams.request(link, telemetry, now)
         counts.append(len(link.messages))
-    assert len(set(counts)) == 4
+    assert len(set(counts)) == TRIES
     assert {32, 231, 230} <= {int(m.param1) for m in link.messages}
+    # What comes as requested is not requested again; and no vehicle that grants a rate gets the older request.
+    assert [int(m.param1) for m in link.messages].count(30) == 2
+    assert {m.get_type() for m in link.messages} == {"COMMAND_LONG"}
 
 
 def test_a_vehicle_that_does_not_answer_gets_the_requests_anyway():
-    link, streams = Sent(), FastStreams(Autopilot.PX4)
+    link, streams = Sent(), guiding(Autopilot.PX4)
     for now in (0.0, 0.5, 1.0, 1.5):
         assert not streams.settled
-        streams.request(link, now, 0.0)
+        streams.request(link, Telemetry(), now)
     assert streams.settled
     assert len(link.messages) > 6
 
 
+@pytest.mark.parametrize("autopilot", list(Autopilot))
+def test_a_vehicle_that_knows_only_the_older_request_gets_each_group_once_at_its_fastest(autopilot):
+    """Formerly the heartbeats were requested as the group of all streams, which slowed the others down to 5 Hz."""
+    link, streams = Sent(), guiding(autopilot)
+    streams.request(link, Telemetry(), 0.0)
+    streams.update(ack(511, 3), 0.0)
+    streams.request(link, Telemetry(), 0.1)
+    older = [(m.req_stream_id, m.req_message_rate) for m in link.messages[1:]]
+    assert sorted(older) == [(2, 2), (3, 5), (6, 10), (10, 10), (11, 10), (12, 5)]
+
+
+def test_a_watch_requests_what_is_too_slow_and_nothing_before_that_is_known():
+    link, telemetry, streams = Sent(), Telemetry(), Streams(watch_streams(1.0), 0.0)
+    requested = {}
+    for i in range(300):
+        now = 0.02 * i
+        for every, message in ((5, attitude(20 * i)), (40, position(20 * i)), (40, speeds())):
+            if i % every == 0:
+                telemetry.update(message, now)
+        streams.request(link, telemetry, now)
+        requested |= {int(m.param1): now for m in link.messages if int(m.param1) not in requested}
+    # Positions come every 0.8 s instead of 0.5; the landed state never.
+    assert set(requested) == {33, 245}
+    assert requested[33] > 0.8
+    assert requested[245] > 1.6
+
+
 @pytest.mark.parametrize(
     ("connection", "hz"),
-    [("udpin:0.0.0.0:14550", 50.0), ("/dev/ttyUSB0,57600", 26.88), ("COM3", 26.88), ("/dev/ttyACM0,921600", 430.08)],
+    [("udpin:0.0.0.0:14550", 50.0), ("/dev/ttyUSB0,57600", 25.0), ("COM3", 25.0), ("/dev/ttyACM0,1200", 5.0)],
 )
 def test_a_serial_line_limits_the_rate(connection, hz):
-    assert fastest_hz(connection, 57600) == pytest.approx(hz)
+    rates = rates_to_try_hz(connection, 57600)
+    assert rates[0] == hz
+    assert rates[-1] == 5.0
 
 
 def test_a_command_is_repeated_until_it_is_answered():
     link = Sent()
-    command = PendingCommand(mavlink.MAVLink_command_long_message(1, 1, 176, 0, 1, 6, 0, 0, 0, 0, 0))
+    command = PendingCommand(
+        mavlink.MAVLink_command_long_message(1, 1, 176, 0, 1, 6, 0, 0, 0, 0, 0), "change the mode", 0.5
+    )
     for now in (0.0, 0.2, 0.5, 0.6):
         command.send(link, now)
     assert len(link.messages) == 2
     command.update(ack(511, 0))
     command.update(ack(176, 5))
     assert (command.accepted, command.final, command.refusal) == (False, False, "")
+    # In progress it is not repeated; refused for now it is.
+    command.send(link, 7.0)
+    assert len(link.messages) == 2
     command.update(ack(176, 1))
     assert (command.accepted, command.final) == (False, False)
-    assert "not now" in command.refusal
+    assert command.failure(VEHICLE, 4.0) == (
+        "system 1 (PX4) refused to change the mode: not now (MAV_RESULT_TEMPORARILY_REJECTED)"
+    )
+    command.send(link, 7.1)
+    assert len(link.messages) == 3
     command.update(ack(176, 0))
     assert (command.accepted, command.final, command.refusal) == (True, True, "")
     command.update(ack(176, 4))
     assert command.accepted
     command.send(link, 9.0)
-    assert len(link.messages) == 2
+    assert len(link.messages) == 3
 
 
 def test_the_round_trip_is_the_fastest_of_the_last_answers():
@@ -325,17 +384,33 @@ def attitude(ms, roll=0.0, yaw=0.0, rates=(0.0, 0.0, 0.0)):
     return mavlink.MAVLink_attitude_message(ms, roll, 0.0, yaw, *rates)
 
 
-def position(ms, east=0.0, north=0.0, velocity=(18.0, 0.0)):
+def position(ms, east=0.0, north=0.0, velocity=(18.0, 0.0), altitude_m=600.0):
     lat, lon = FRAME.to_geodetic(east, north)
-    place = round(float(lat) * 1e7), round(float(lon) * 1e7), 600_000, 0
+    place = round(float(lat) * 1e7), round(float(lon) * 1e7), round(1e3 * altitude_m), 0
     return mavlink.MAVLink_global_position_int_message(
         ms, *place, round(100.0 * velocity[0]), round(100.0 * velocity[1]), 0, 0
     )
 
 
+def speeds(airspeed=18.0):
+    return mavlink.MAVLink_vfr_hud_message(airspeed, 18.0, 0, 50, 600.0, 0.0)
+
+
+class Measured(Measurements):
+    """Measurements of a vehicle with a declared airspeed of 18 m/s, with the telemetry that they are made of."""
+
+    def __init__(self):
+        self.telemetry = Telemetry()
+        super().__init__(self.telemetry, FRAME)
+        self.declared_m_s = 18.0
+
+    def update(self, message, now):
+        self.telemetry.update(message, now)
+        super().update(message, now)
+
+
 def test_the_older_of_attitude_and_position_is_extrapolated():
-    m = Measurements(FRAME)
-    m.declared_m_s = 18.0
+    m = Measured()
     m.update(position(1000, 100.0, 0.0), 5.0)
     assert m.state(None, 5.0) is None
     m.update(attitude(1200, 0.1, 0.0, (0.5, 0.0, 0.3)), 5.2)
@@ -344,16 +419,29 @@ def test_the_older_of_attitude_and_position_is_extrapolated():
     assert (state.time_s, state.north_m) == (pytest.approx(1.2), pytest.approx(3.6, abs=0.02))
     assert state.east_m == pytest.approx(100.0 + 3.6 * 0.03, abs=0.02)
     assert degrees(0.1) == pytest.approx(state.bank_deg)
-    assert math.atan2(state.velocity_east_m_s, state.velocity_north_m_s) == pytest.approx(0.2 * m.yaw_rate, abs=1e-3)
+    assert math.atan2(state.velocity_east_m_s, state.velocity_north_m_s) == pytest.approx(
+        0.2 * m.telemetry.yaw_rate, abs=1e-3
+    )
     m.update(position(1300, 100.0, 5.4), 5.3)
     later = m.state(None, 5.3)
     assert (later.time_s, later.north_m) == (pytest.approx(1.3), pytest.approx(5.4, abs=0.02))
     assert later.bank_deg == pytest.approx(degrees(0.1 + 0.05), abs=1e-6)
-    assert later.heading_deg == pytest.approx(degrees(0.1 * m.yaw_rate), abs=0.01)
+    assert later.heading_deg == pytest.approx(degrees(0.1 * m.telemetry.yaw_rate), abs=0.01)
+
+
+def test_a_position_and_an_attitude_that_say_nothing_are_ignored():
+    m = Measured()
+    m.update(position(1000, 100.0), 5.0)
+    m.update(attitude(1000), 5.0)
+    m.update(mavlink.MAVLink_global_position_int_message(1020, 0, 0, 600_000, 0, 0, 0, 0, 0), 5.02)
+    m.update(attitude(1020, math.nan), 5.02)
+    assert m.arrived == 5.0
+    assert m.state(None, 5.02).east_m == pytest.approx(100.0, abs=0.01)
+    assert m.telemetry.last_message_time == 5.02
 
 
 def test_attitude_and_position_that_are_half_a_second_apart_give_no_state():
-    m = Measurements(FRAME)
+    m = Measured()
     m.update(position(1000), 5.0)
     m.update(attitude(1600), 5.6)
     assert m.state(None, 5.6) is None
@@ -361,8 +449,7 @@ def test_attitude_and_position_that_are_half_a_second_apart_give_no_state():
 
 @pytest.mark.parametrize(("late_s", "extrapolated_s"), [(0.0, 0.0), (0.3, 0.27), (2.0, 0.5)])
 def test_late_measurements_are_extrapolated_to_the_time_of_on_time_ones(late_s, extrapolated_s):
-    m = Measurements(FRAME)
-    m.declared_m_s = 18.0
+    m = Measured()
     for i in range(20):
         m.update(attitude(1000 + 50 * i), 5.0 + 0.05 * i)
         m.update(position(1000 + 50 * i, 0.0, 0.9 * i), 5.0 + 0.05 * i)
@@ -377,35 +464,36 @@ def test_late_measurements_are_extrapolated_to_the_time_of_on_time_ones(late_s, 
 
 
 def test_indicated_airspeed_becomes_true_and_a_missing_one_is_replaced():
-    m = Measurements(FRAME)
-    m.declared_m_s = 18.0
+    m = Measured()
     m.update(position(1000), 5.0)
-    m.update(mavlink.MAVLink_vfr_hud_message(20.0, 18.0, 0, 50, 600.0, 0.0), 5.0)
+    m.update(speeds(20.0), 5.0)
     assert m.airspeed(None, 5.0) == (pytest.approx(20.0 / 0.9437**0.5, rel=1e-3), AirspeedSource.MEASURED)
     # It is lost; the wind from the north slows the 18 m/s over the ground.
     assert m.airspeed(Wind(3.0, 0.0), 9.0) == (pytest.approx(21.0), AirspeedSource.GROUND_AND_WIND)
     assert m.airspeed(None, 9.0) == (18.0, AirspeedSource.DECLARED)
-    m.update(mavlink.MAVLink_vfr_hud_message(2.0, 18.0, 0, 50, 600.0, 0.0), 9.0)
+    m.update(speeds(2.0), 9.0)
     assert m.airspeed(None, 9.0) == (18.0, AirspeedSource.DECLARED)
 
 
 def test_jumps_restarts_and_rates_are_noticed():
-    m = Measurements(FRAME)
+    m = Measured()
     for i in range(41):
-        m.update(attitude(1000 + 50 * i), 0.05 * i)
-        m.update(position(1000 + 50 * i, 0.0, 0.9 * i), 0.05 * i)
+        m.update(attitude(9000 + 50 * i), 0.05 * i)
+        m.update(position(9000 + 50 * i, 0.0, 0.9 * i), 0.05 * i)
     assert m.rate_hz(2.0) == pytest.approx(20.0, rel=0.05)
-    assert (m.jump_m, m.restarted, m.complete) == (0.0, False, True)
+    assert (m.jump_m, m.telemetry.restarts, m.complete) == (0.0, 0, True)
     m.take()
     assert not m.complete
-    m.update(position(3050, 25.0, 36.9), 2.05)
+    m.update(position(11050, 25.0, 36.9), 2.05)
     assert m.jump_m == 0.0
-    m.update(position(3100, 225.0, 37.8), 2.1)
+    m.update(position(11100, 225.0, 37.8), 2.1)
     assert m.jump_m == pytest.approx(200.0, abs=0.1)
-    m.update(attitude(2500), 2.1)
-    assert not m.restarted
-    m.update(attitude(100), 2.1)
-    assert m.restarted
+    # A single message comes 4 s late; then the clock begins anew.
+    m.update(attitude(7000), 2.1)
+    assert m.telemetry.restarts == 0
+    m.update(attitude(100), 2.2)
+    assert m.telemetry.restarts == 1
+    assert m.state(None, 2.2) is None
     assert m.rate_hz(9.0) == 0.0
 
 

@@ -15,7 +15,7 @@ import pytest
 from loiter.errors import InvalidArgument, LinkFailed, MissingPackage
 from loiter.mavlink import download, upload
 from loiter.mavlink.connection import link
-from mavlink.vehicle import OLD, Faithful, Vehicle, flying, free_port, kept, lossy, mavlink, mission
+from mavlink.vehicle import OLD, Faithful, Port, Vehicle, flying, free_port, kept, lossy, mavlink, mission
 
 NEW = mission("ccw")
 WRONG = r": it must be udpin:HOST:PORT, udpout:HOST:PORT, tcp:HOST:PORT or a serial device such as /dev/ttyUSB0,57600"
@@ -282,6 +282,17 @@ def test_other_vehicles_and_stations_are_not_listened_to():
     with flying(Crowded()) as vehicle:
         upload(NEW, vehicle.connection)
     assert vehicle.mission == kept(NEW)
+
+
+def test_answers_to_another_station_are_not_heard():
+    """Formerly an answer to a ground station counted as one to `guide`, which had sent the same command."""
+    seen, vehicle = [], Vehicle()
+    port = Port(vehicle)
+    line = link.Link(port, link.Vehicle(1, 1, 12), on_message=lambda message, now: seen.append(message))
+    for station in (255, 250):
+        vehicle.send(mavlink.MAVLink_command_ack_message(192, 0, 0, 0, station, 190))
+    line.process_pending(float("inf"))
+    assert [message.target_system for message in seen] == [250]
 
 
 def test_without_pymavlink_a_sentence_says_what_to_install(monkeypatch):

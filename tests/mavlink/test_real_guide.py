@@ -13,7 +13,7 @@ from loiter.geo import LocalFrame
 from loiter.mavlink import Stage, guide
 from loiter.mavlink.connection.command import long_command, send_command
 from loiter.mavlink.connection.link import open_link
-from loiter.mavlink.watching.telemetry import Telemetry
+from loiter.mavlink.connection.telemetry import NO_FIX, Telemetry
 from mavlink.test_real import LINKS, real, started
 from mavlink.vehicle import mavlink
 
@@ -48,12 +48,11 @@ class Pilot:
         return True
 
     def height(self):
-        last = self.telemetry._last.get("GLOBAL_POSITION_INT")
-        return last.message.relative_alt / 1e3 if last else -1.0
+        return self.telemetry.height_m
 
     def fly(self):
         self.tries(SET_INTERVAL, 33, 2e5)
-        self.until(lambda: self.telemetry.fix() is not None, READY_S, "no position")
+        self.until(lambda: self.telemetry.fix() != NO_FIX, READY_S, "no position")
         if self.name == "ARDUPLANE":
             self.link.send(mavlink.MAVLink_param_set_message(1, 1, b"TKOFF_ALT", HEIGHT_M, 9))
             self.until(lambda: self.tries(SET_MODE, 1, 13), READY_S, "no mode TAKEOFF")

@@ -20,7 +20,8 @@ from loiter.errors import InvalidArgument, LinkFailed
 from loiter.geo import LocalFrame
 from loiter.io.missions.signs import circle
 from loiter.mavlink import WindSource, watch
-from loiter.mavlink.watching.telemetry import Telemetry
+from loiter.mavlink.connection.streams import TRIES
+from loiter.mavlink.connection.telemetry import Telemetry
 from loiter.planning.flight import over_ground
 from mavlink.test_link import Stream, received
 from mavlink.vehicle import ACCEPTED, Plane, Vehicle, flying, free_port, mavlink
@@ -401,9 +402,7 @@ def test_between_two_positions_the_time_to_join_passes():
 
 
 @pytest.mark.parametrize("knows", [True, False])
-def test_what_comes_too_rarely_is_requested(knows, monkeypatch):
-    module = import_module("loiter.mavlink.connection.streams")
-    monkeypatch.setattr(module, "REPEAT_S", 0.5)
+def test_what_comes_too_rarely_is_requested(knows):
     vehicle = Seldom()
     vehicle.knows = knows
     reports = watched(vehicle, 10, period_s=0.6, timeout_s=4.0)
@@ -413,7 +412,7 @@ def test_what_comes_too_rarely_is_requested(knows, monkeypatch):
         assert vehicle.intervals[33] == vehicle.intervals[30] == pytest.approx(0.3)
         # Whether it flies is asked for as well; what it does not have it is not asked for without end.
         assert vehicle.intervals[245] == 1.0
-        assert vehicle.heard["COMMAND_LONG"] <= 4 * module.TRIES
+        assert vehicle.heard["COMMAND_LONG"] <= 4 * TRIES
     else:
         assert (vehicle.streams[6], vehicle.streams[10]) == (3, 3)
 

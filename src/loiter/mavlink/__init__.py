@@ -1,9 +1,9 @@
 """Vehicles over MAVLink: upload, download, watch and guide."""
 
+from loiter.mavlink.connection.telemetry import WindSource
 from loiter.mavlink.guiding.guide import guide
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.missions.exchange import MissionSummary, download, upload
-from loiter.mavlink.watching.telemetry import WindSource
 from loiter.mavlink.watching.watch import Report, watch
 
 __all__ = [

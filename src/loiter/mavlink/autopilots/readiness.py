@@ -6,7 +6,7 @@ from typing import Any
 
 from loiter.io.missions.items import Autopilot
 from loiter.mavlink.autopilots.modes import CRITICAL, is_unfit, mode_name
-from loiter.mavlink.watching.telemetry import UNDEFINED
+from loiter.mavlink.connection.telemetry import UNDEFINED
 
 # MAV_TYPE_FIXED_WING, and the types that take off and land vertically, which report in which of their two ways they
 # fly: MAV_VTOL_STATE_FW is the fixed wing.

@@ -11,12 +11,14 @@ the time of arrival.
 from __future__ import annotations
 
 from math import cos, hypot, inf, isfinite, nan, radians, sin, sqrt, tan
-from typing import Any, Protocol
+from typing import Protocol
 
 from loiter.guidance.vehicle.limits import clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign
+from loiter.mavlink.connection.dead_reckoning import GroundMotion, extrapolated
 from loiter.mavlink.connection.link import Link, Vehicle, dialect
-from loiter.planning.model import STANDARD_GRAVITY_M_S2, Wind
+from loiter.mavlink.connection.telemetry import Telemetry
+from loiter.planning.model import CALM, STANDARD_GRAVITY_M_S2, Wind
 
 # ATTITUDE_TARGET_TYPEMASK: everything but the roll is ignored.
 ROLL_ONLY = 0xFE
@@ -27,8 +29,8 @@ NO_YAW, LOCAL_NED = 0xC00, 1
 # The altitude setpoint follows a shift of PX4's local origin that is larger than this, metres.
 ORIGIN_SHIFT_M = 2.0
 
-# Seconds for which a local position can be extrapolated.
-LOCAL_POSITION_S = 1.0
+# The message with the local position, and the seconds for which that can be extrapolated.
+LOCAL_POSITION, LOCAL_POSITION_S = "LOCAL_POSITION_NED", 1.0
 
 
 class Steering(Protocol):
@@ -41,9 +43,6 @@ class Steering(Protocol):
     @property
     def reversals(self) -> int:
         """How often the vehicle was found to bank opposite to what was commanded until then."""
-
-    def update(self, message: Any, now: float) -> None:
-        """Process a message of the vehicle."""
 
     def is_ready(self, now: float) -> bool:
         """Whether setpoints can be made."""
@@ -65,9 +64,6 @@ class RollSteering:
 
     def __init__(self, vehicle: Vehicle) -> None:
         self._vehicle = vehicle
-
-    def update(self, message: Any, now: float) -> None:
-        """Process a message; none matters."""
 
     def is_ready(self, now: float) -> bool:
         """Whether setpoints can be made: always."""
@@ -102,14 +98,10 @@ class RollSteering:
 class AccelerationSteering:
     """Setpoints for PX4: position, velocity and lateral acceleration, at an altitude above mean sea level."""
 
-    def __init__(self, vehicle: Vehicle, altitude_m: float, sign: AccelerationSign) -> None:
-        self._vehicle, self._altitude_m, self.sign = vehicle, altitude_m, sign
-        self._position: Any = None
-        self._arrived = -1e9
-        self._above_sea_m = nan
+    def __init__(self, vehicle: Vehicle, telemetry: Telemetry, altitude_m: float, sign: AccelerationSign) -> None:
+        self._vehicle, self._telemetry, self._altitude_m, self.sign = vehicle, telemetry, altitude_m, sign
         self._down_m = nan
-        self._yaw_rate = self._delay_s = 0.0
-        self._wind: Wind | None = None
+        self._delay_s, self._wind = 0.0, CALM
 
     @property
     def limit_deg(self) -> float:
@@ -121,49 +113,37 @@ class AccelerationSteering:
         """How often the sign of accelerations was found to be the other."""
         return self.sign.flips
 
-    def update(self, message: Any, now: float) -> None:
-        """Take position, rate of turn and altitude from a message."""
-        kind = message.get_type()
-        if kind == "LOCAL_POSITION_NED":
-            self._position, self._arrived = message, now
-            self._follow_origin()
-        elif kind == "GLOBAL_POSITION_INT":
-            self._above_sea_m = message.alt / 1e3
-        elif kind == "ATTITUDE":
-            self._yaw_rate = (message.pitchspeed * sin(message.roll) + message.yawspeed * cos(message.roll)) / (
-                cos(message.pitch) or 1.0
-            )
-
     def is_ready(self, now: float) -> bool:
         """Whether setpoints can be made: a recent local position is needed."""
-        return now - self._arrived <= LOCAL_POSITION_S and isfinite(self._down_m)
+        recent = self._telemetry.recent(LOCAL_POSITION, now, LOCAL_POSITION_S) is not None
+        return recent and isfinite(self._altitude_setpoint_m())
 
     def prepare(self, delay_s: float, wind: Wind | None) -> None:
         """Take the delay over which positions are extrapolated, and the wind, by which PX4 corrects curvatures."""
-        self._delay_s, self._wind = delay_s, wind
+        self._delay_s, self._wind = delay_s, CALM if wind is None else wind
 
     def send(self, link: Link, bank_deg: float, measured_deg: float, now: float) -> float:
-        """Send the setpoint for a bank, which is limited until the sign of accelerations is confirmed."""
+        """Send the setpoint for a bank, which is limited until the sign of accelerations is confirmed.
+
+        Without a local position, as after a restart of the vehicle, nothing is sent.
+        """
         bank_deg = clip(bank_deg, self.limit_deg)
+        if self._telemetry.last(LOCAL_POSITION) is None:
+            return bank_deg
         self.sign.update(measured_deg, bank_deg, now)
         acceleration = STANDARD_GRAVITY_M_S2 * tan(radians(bank_deg)) * self._path_share()
-        self._send(link, self.sign.sign * acceleration, now)
+        self._send(link, self.sign.sign * acceleration, self._telemetry.yaw_rate, now)
         return bank_deg
 
     def send_level(self, link: Link, now: float) -> None:
         """Send straight flight along the last known course."""
-        self._yaw_rate = 0.0
-        self._send(link, 0.0, now)
+        self._send(link, 0.0, 0.0, now)
 
-    def _send(self, link: Link, acceleration: float, now: float) -> None:
-        """Send a setpoint with an acceleration to the right, metres per second squared."""
-        p = self._position
-        old_s = min(now - self._arrived, LOCAL_POSITION_S) + self._delay_s
-        turned = self._yaw_rate * old_s
-        # The mean velocity until the setpoint arrives, then the velocity at that time.
-        north, east = _turned(p.vx, p.vy, 0.5 * turned)
-        x, y = p.x + north * old_s, p.y + east * old_s
-        north, east = _turned(p.vx, p.vy, turned)
+    def _send(self, link: Link, acceleration: float, yaw_rate: float, now: float) -> None:
+        """Send a setpoint with an acceleration to the right, metres per second squared, for the time of its arrival."""
+        p = self._telemetry.last(LOCAL_POSITION)
+        old_s = min(now - self._telemetry.arrived(LOCAL_POSITION), LOCAL_POSITION_S) + self._delay_s
+        y, x, east, north = extrapolated(GroundMotion(p.y, p.x, p.vy, p.vx), yaw_rate, old_s)
         speed = hypot(north, east) or 1.0
         right = -east / speed * acceleration, north / speed * acceleration
         link.send(
@@ -175,7 +155,7 @@ class AccelerationSteering:
                 NO_YAW,
                 x,
                 y,
-                self._down_m,
+                self._altitude_setpoint_m(),
                 north,
                 east,
                 0.0,
@@ -186,29 +166,22 @@ class AccelerationSteering:
             )
         )
 
-    def _follow_origin(self) -> None:
-        """Set the altitude in local coordinates, and again where PX4 has shifted their origin."""
-        down_m = self._position.z + self._above_sea_m - self._altitude_m
+    def _altitude_setpoint_m(self) -> float:
+        """The altitude in local coordinates, positive down; it changes where PX4 has shifted their origin."""
+        down_m = self._telemetry.last(LOCAL_POSITION).z + self._telemetry.fix().altitude_m - self._altitude_m
         if isfinite(down_m) and not abs(down_m - self._down_m) <= ORIGIN_SHIFT_M:
             self._down_m = down_m
+        return self._down_m
 
     def _path_share(self) -> float:
         """The factor of the acceleration along the path: in a crosswind PX4 banks more for a curvature over the ground.
 
         It is the cosine of the drift angle.
         """
-        p = self._position
-        if self._wind is None or p is None:
-            return 1.0
+        p = self._telemetry.last(LOCAL_POSITION)
         wind_east, wind_north = self._wind.velocity_m_s
         speed, airspeed = hypot(p.vx, p.vy), hypot(p.vx - wind_north, p.vy - wind_east)
         if speed == 0.0 or airspeed == 0.0:
             return 1.0
         across = (wind_east * p.vx - wind_north * p.vy) / speed / airspeed
         return sqrt(max(1.0 - across * across, 0.0))
-
-
-def _turned(north: float, east: float, angle: float) -> tuple[float, float]:
-    """A velocity turned to the right by an angle, radians."""
-    c, s = cos(angle), sin(angle)
-    return c * north - s * east, s * north + c * east

@@ -1,17 +1,23 @@
-"""Commands to a vehicle, repeated until they are acknowledged, and the command to hold a circle."""
+"""Commands to a vehicle, repeated until they are acknowledged, and the command to hold a circle.
+
+The protocol: https://mavlink.io/en/services/command.html
+"""
 
 from __future__ import annotations
 
-from math import nan
+from math import inf, nan
 from time import monotonic
 from typing import Any
 
 from loiter.errors import LinkFailed
 from loiter.io.missions.items import Autopilot, Frame, MavCommand
 from loiter.io.missions.signs import with_circle
-from loiter.mavlink.connection.enumerations import ACCEPTED, IN_PROGRESS, command_result
+from loiter.mavlink.connection.enumerations import ACCEPTED, IN_PROGRESS, NOT_NOW, command_result
 from loiter.mavlink.connection.link import Link, Vehicle, dialect
 from loiter.planning.model import Turn
+
+# MAV_CMD.
+DO_SET_MODE, SET_MESSAGE_INTERVAL, REQUEST_MESSAGE = 176, 511, 512
 
 # Seconds until a command is sent again.
 REPEAT_S = 1.5
@@ -48,17 +54,58 @@ def hold_command(vehicle: Vehicle, place: tuple[float, float, float], radius_m: 
     )
 
 
-def send_command(link: Link, message: Any, action: str, timeout_s: float) -> None:
-    """Send a command until it is acknowledged; `action` says in words what it commands.
+class PendingCommand:
+    """A command message that is sent every `repeat_s` seconds until it is acknowledged; `action` names it in words.
 
-    Raises `LinkFailed` if the vehicle refuses or does not answer in `timeout_s` seconds.
+    `accepted` is whether it was accepted, `refusal` the reason if it was refused; `final` is whether that will not
+    change, and the command need not be sent again. `next_send` is the time at which it is due.
     """
-    deadline = monotonic() + timeout_s
-    while (now := monotonic()) < deadline:
-        link.send(message)
-        if _is_accepted(link, message.command, action, min(deadline, now + REPEAT_S), deadline):
+
+    def __init__(self, message: Any, action: str, repeat_s: float) -> None:
+        self.accepted, self.refusal, self.final = False, "", False
+        self.next_send = -inf
+        self._message, self._action, self._repeat_s = message, action, repeat_s
+
+    def send(self, link: Link, now: float) -> None:
+        """Send the command if that is due."""
+        if not self.final and now >= self.next_send:
+            self.next_send = now + self._repeat_s
+            link.send(self._message)
+
+    def update(self, message: Any) -> None:
+        """Process a message, which may be the answer; a command in progress is not sent again."""
+        if message.get_type() != "COMMAND_ACK" or message.command != self._message.command or self.accepted:
             return
-    raise LinkFailed(f"{link.vehicle.named} did not answer the command to {action} in {timeout_s:g} s")
+        if message.result == IN_PROGRESS:
+            self.next_send = inf
+            return
+        if self.next_send == inf:
+            self.next_send = -inf
+        self.accepted = message.result == ACCEPTED
+        self.refusal = "" if self.accepted else command_result(message.result)
+        self.final = message.result != NOT_NOW
+
+    def failure(self, vehicle: Vehicle, waited_s: float) -> str:
+        """That the vehicle has refused the command, or has not answered it for so many seconds."""
+        if self.refusal:
+            return f"{vehicle.named} refused to {self._action}: {self.refusal}"
+        return f"{vehicle.named} did not answer the command to {self._action} in {waited_s:g} s"
+
+
+def send_command(link: Link, message: Any, action: str, timeout_s: float) -> None:
+    """Send a command until it is acknowledged, and wait for that; `action` says in words what it commands.
+
+    Raises `LinkFailed` if the vehicle refuses, even for now, or does not answer in `timeout_s` seconds.
+    """
+    command, deadline = PendingCommand(message, action, REPEAT_S), monotonic() + timeout_s
+    while not command.accepted:
+        now = monotonic()
+        if command.refusal or now >= deadline:
+            raise LinkFailed(command.failure(link.vehicle, timeout_s))
+        command.send(link, now)
+        answer = link.receive({"COMMAND_ACK"}, min(deadline, command.next_send))
+        if answer is not None:
+            command.update(answer)
 
 
 def long_command(link: Link, command: int, *params: float) -> Any:
@@ -67,17 +114,12 @@ def long_command(link: Link, command: int, *params: float) -> Any:
     return dialect().MAVLink_command_long_message(link.vehicle.system, link.vehicle.component, command, 0, *seven)
 
 
-def _is_accepted(link: Link, command: int, action: str, until: float, deadline: float) -> bool:
-    """Whether the vehicle accepts the command; False if it does not answer by the time `until`.
+def message_request(link: Link, kind: str) -> Any:
+    """The command to send a message of a kind once."""
+    return long_command(link, REQUEST_MESSAGE, message_number(kind))
 
-    Once it reports that the command is in progress, its answer may take until the deadline.
-    """
-    while (message := link.receive({"COMMAND_ACK"}, until)) is not None:
-        if message.command == command and message.result == IN_PROGRESS:
-            until = deadline
-        elif message.command == command and message.result != ACCEPTED:
-            reason = command_result(message.result)
-            raise LinkFailed(f"{link.vehicle.named} refused to {action}: {reason}")
-        elif message.command == command:
-            return True
-    return False
+
+def message_number(kind: str) -> int:
+    """The number of a kind of message."""
+    number: int = getattr(dialect(), f"MAVLINK_MSG_ID_{kind}")
+    return number

@@ -26,12 +26,12 @@ _MISSION_RESULTS = {
     CANCELLED: "it cancelled the transfer (MAV_MISSION_OPERATION_CANCELLED)",
 }
 
-# MAV_RESULT: the result of a command, or that it is in progress.
-IN_PROGRESS = 5
+# MAV_RESULT: the result of a command, or that it is in progress. A vehicle may accept later what it does not now.
+NOT_NOW, UNSUPPORTED, IN_PROGRESS = 1, 3, 5
 _COMMAND_RESULTS = {
-    1: "not now (MAV_RESULT_TEMPORARILY_REJECTED)",
+    NOT_NOW: "not now (MAV_RESULT_TEMPORARILY_REJECTED)",
     2: "the command has a value that it does not accept (MAV_RESULT_DENIED)",
-    3: "it does not know the command (MAV_RESULT_UNSUPPORTED)",
+    UNSUPPORTED: "it does not know the command (MAV_RESULT_UNSUPPORTED)",
     4: "it tried and failed (MAV_RESULT_FAILED)",
     6: "the command was cancelled (MAV_RESULT_CANCELLED)",
     7: "it accepts the command as COMMAND_LONG only (MAV_RESULT_COMMAND_LONG_ONLY)",

@@ -74,8 +74,8 @@ class Vehicle(NamedTuple):
 class Link:
     """A port with a vehicle at its other end; only its messages to us or to all are received.
 
-    With `heartbeats` a heartbeat is sent every second. `on_message` is called with every message of the vehicle and the
-    time. `others` are the other vehicles whose heartbeats were received, `ground_stations` the ids of ground stations;
+    With `heartbeats` a heartbeat is sent every second. `on_message` is called with every message received and the time.
+    `others` are the other vehicles whose heartbeats were received, `ground_stations` the ids of ground stations;
     `rivals` says whether another program guides a vehicle. `status` is the MAV_STATE in our heartbeats.
     """
 
@@ -127,17 +127,21 @@ class Link:
                 self.send(heartbeat(self.status))
                 self._next_heartbeat = now + HEARTBEAT_S
             message = _receive(self._port, min(deadline - now, HEARTBEAT_S))
-            if message is not None and self._from_vehicle(message):
-                self.on_message(message, monotonic())
-                if message.get_type() in types and self._to_us(message):
-                    return message
+            if message is not None and self._process(message) and message.get_type() in types:
+                return message
         return None
 
     def process_pending(self, deadline: float) -> None:
         """Process the messages that have arrived, until a time at the latest; raises `LinkLost` like `receive`."""
         while monotonic() < deadline and (message := _receive(self._port, 0.0)) is not None:
-            if self._from_vehicle(message):
-                self.on_message(message, monotonic())
+            self._process(message)
+
+    def _process(self, message: Any) -> bool:
+        """Process a message that has arrived; returns whether it is one of the vehicle, to us or to all."""
+        ours = self._from_vehicle(message) and self._to_us(message)
+        if ours:
+            self.on_message(message, monotonic())
+        return ours
 
     def _from_vehicle(self, message: Any) -> bool:
         if _is_heartbeat(message) and message.get_srcSystem() != self.vehicle.system:

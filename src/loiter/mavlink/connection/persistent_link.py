@@ -7,7 +7,7 @@ from time import monotonic, sleep
 from loiter.errors import LinkFailed
 from loiter.mavlink.connection.link import Link
 from loiter.mavlink.connection.streams import Streams
-from loiter.mavlink.watching.telemetry import Telemetry
+from loiter.mavlink.connection.telemetry import Telemetry
 
 # Seconds that one attempt to reopen the connection may take.
 OPENING_S = 1.0

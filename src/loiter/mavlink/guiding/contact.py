@@ -14,18 +14,16 @@ from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD
 from loiter.mavlink.autopilots.settings import NAMES
 from loiter.mavlink.autopilots.steering import Steering
 from loiter.mavlink.autopilots.sticks import Sticks
-from loiter.mavlink.connection.command import long_command
-from loiter.mavlink.connection.fast_streams import FastStreams, fastest_hz
+from loiter.mavlink.connection.command import PendingCommand, message_request
 from loiter.mavlink.connection.link import BAUD, Link
 from loiter.mavlink.connection.parameters import Parameters
-from loiter.mavlink.connection.pending_command import PendingCommand
 from loiter.mavlink.connection.round_trip import RoundTrip
 from loiter.mavlink.connection.status_text import StatusTexts
+from loiter.mavlink.connection.streams import Streams, guide_streams, rates_to_try_hz
+from loiter.mavlink.connection.telemetry import Telemetry, WindSource
 from loiter.mavlink.guiding.measurements import LEAST_SHARE, AirspeedSource, Measurements
 from loiter.mavlink.guiding.monitor import Monitor
 from loiter.mavlink.guiding.own_target import OwnTarget
-from loiter.mavlink.missions.start import REQUEST_MESSAGE
-from loiter.mavlink.watching.telemetry import EXTENDED_SYS_STATE, Telemetry, WindSource
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import Wind, wind_from_velocity
 
@@ -39,15 +37,11 @@ REQUEST_S = 0.5
 # more than this share of the airspeed.
 AIR_S, WIND_DIFFERS = 1.0, 0.2
 
-# Numbers of messages that are requested once.
-HEARTBEAT, AUTOPILOT_VERSION = 0, 148
-
 
 class Contact:
     """A link to a vehicle with ArduPilot or PX4, and what its messages say.
 
-    `steering` and `pending`, once they are set, get every message too. `extended` is the last EXTENDED_SYS_STATE,
-    `version` the flight_sw_version of AUTOPILOT_VERSION, 0 before it is known.
+    `pending`, once it is set, gets every message too.
     """
 
     def __init__(self, link: Link, connection: str, frame: LocalFrame) -> None:
@@ -57,17 +51,15 @@ class Contact:
         self.link = link
         self.autopilot = Autopilot(vehicle.autopilot)
         self.began = monotonic()
-        self.measurements = Measurements(frame)
-        self.monitor = Monitor(vehicle, self.measurements, self.began)
-        self.telemetry, self.texts = Telemetry(), StatusTexts()
+        self.telemetry, self.texts = Telemetry(self.began), StatusTexts()
+        self.measurements = Measurements(self.telemetry, frame)
+        self.monitor = Monitor(vehicle, self.telemetry, self.measurements)
         self.own_target, self.sticks = OwnTarget(frame), Sticks()
-        self.streams = FastStreams(self.autopilot, fastest_hz(connection, BAUD))
+        self.streams = Streams(guide_streams(self.autopilot), self.began, rates_to_try_hz(connection, BAUD))
         self.parameters = Parameters(NAMES[self.autopilot], vehicle.autopilot)
         self.round_trip = RoundTrip()
         self.steering: Steering | None = None
         self.pending: PendingCommand | None = None
-        self.extended: Any = None
-        self.version = 0
         self._next_request = -inf
         # The mean velocity of the air, east and north, from ground speed, heading and airspeed, the mean airspeed, and
         # the time of the last state in them.
@@ -93,7 +85,13 @@ class Contact:
     @property
     def home_altitude_m(self) -> float:
         """The altitude of home above mean sea level, metres; nan if it is not known."""
-        return self.measurements.altitude_m - self.measurements.height_m
+        return self.telemetry.fix().altitude_m - self.telemetry.height_m
+
+    @property
+    def version(self) -> int:
+        """The flight_sw_version of AUTOPILOT_VERSION, 0 before it is known."""
+        message = self.telemetry.last("AUTOPILOT_VERSION")
+        return 0 if message is None else int(message.flight_sw_version)
 
     def listen(self) -> float:
         """Receive messages until a new state is complete, or for `STEP_S`; returns the time."""
@@ -129,22 +127,19 @@ class Contact:
 
     def request_all(self, now: float) -> None:
         """Send the requests that are due before the flight begins."""
-        self.streams.request(self.link, now, self.measurements.rate_hz(now))
+        self.streams.request(self.link, self.telemetry, now)
         self.parameters.request(self.link, now)
         self.round_trip.request(self.link, now)
         if now < self._next_request:
             return
         self._next_request = now + REQUEST_S
-        wanted = [(HEARTBEAT, self.monitor.heartbeat), (EXTENDED_SYS_STATE, self.extended)]
-        if self.flies_px4:
-            wanted.append((AUTOPILOT_VERSION, self.version or None))
-        for number, received in wanted:
-            if received is None:
-                self._request_message(number)
+        for kind in ("HEARTBEAT", "EXTENDED_SYS_STATE", *(["AUTOPILOT_VERSION"] if self.flies_px4 else [])):
+            if self.telemetry.last(kind) is None:
+                self.link.send(message_request(self.link, kind))
 
     def request_in_flight(self, now: float) -> None:
         """Send the requests that are due in flight: for streams that have become slow, and for the round trip time."""
-        self.streams.request(self.link, now, self.measurements.rate_hz(now))
+        self.streams.request(self.link, self.telemetry, now)
         self.round_trip.request(self.link, now)
         self.monitor.unanswered_s = self.round_trip.unanswered_s()
 
@@ -152,7 +147,7 @@ class Contact:
         """Request a heartbeat if that is due: it shows a change of mode sooner than the next regular one."""
         if now >= self._next_request:
             self._next_request = now + REQUEST_S
-            self._request_message(HEARTBEAT)
+            self.link.send(message_request(self.link, "HEARTBEAT"))
 
     def reported_wind(self) -> Wind | None:
         """The wind that the vehicle reports, or None."""
@@ -176,27 +171,18 @@ class Contact:
         """The last measured state, or None."""
         return self.measurements.state(self.reported_wind(), monotonic())
 
-    def _request_message(self, number: int) -> None:
-        self.link.send(long_command(self.link, REQUEST_MESSAGE, number))
-
     def _on_message(self, message: Any, now: float) -> None:
         """Pass a message of the vehicle to all that need it."""
-        self.measurements.update(message, now)
-        self.monitor.update(message, now)
         self.telemetry.update(message, now)
-        self.streams.update(message)
+        self.measurements.update(message, now)
+        self.streams.update(message, now)
         self.parameters.update(message)
         self.texts.update(message)
         self.round_trip.update(message, now)
         self.own_target.update(message, now)
         self.sticks.update(message, self.parameters.known)
         self.monitor.stick_moved = self.sticks.moved
-        if self.steering is not None:
-            self.steering.update(message, now)
         if self.pending is not None:
             self.pending.update(message)
-        kind = message.get_type()
-        if kind == "EXTENDED_SYS_STATE":
-            self.extended = message
-        elif kind == "AUTOPILOT_VERSION":
-            self.version = message.flight_sw_version
+        if message.get_type() == "HEARTBEAT":
+            self.monitor.modes.update(message)

@@ -6,7 +6,6 @@ from collections.abc import Callable, Generator
 from contextlib import suppress
 from math import inf, isfinite
 from time import monotonic
-from typing import Any
 
 from loiter.errors import LinkFailed, LoiterError
 from loiter.guidance.identification.vehicle import VehicleEstimates, bounded_turn_ratio
@@ -16,9 +15,8 @@ from loiter.guidance.vehicle.limits import clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign, sign_of_version
 from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD, PX4_OFFBOARD
 from loiter.mavlink.autopilots.steering import AccelerationSteering, RollSteering, Steering
-from loiter.mavlink.connection.command import hold_command, long_command
+from loiter.mavlink.connection.command import DO_SET_MODE, PendingCommand, hold_command, long_command
 from loiter.mavlink.connection.link import ACTIVE
-from loiter.mavlink.connection.pending_command import PendingCommand
 from loiter.mavlink.guiding.contact import STEP_S, Contact
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.monitor import StopReason
@@ -26,14 +24,15 @@ from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, check_
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import SteadyHoldDetector
 from loiter.mavlink.guiding.summary import loss_consequence, summary
-from loiter.mavlink.missions.start import CUSTOM_MODE, DO_SET_MODE
+from loiter.mavlink.missions.start import CUSTOM_MODE
 from loiter.planning.model import Turn
 
 # Seconds for a command to be confirmed: the fall-back circle, PX4's offboard mode, the hand-over.
 CONFIRM_S = 4.0
 
-# Seconds until PX4's change of mode is commanded again: it is refused until PX4 has noticed the setpoints.
-MODE_REPEAT_S = 0.25
+# Seconds until the circle is commanded again, and PX4's change of mode, which is refused until PX4 has noticed the
+# setpoints.
+REPEAT_S, MODE_REPEAT_S = 0.5, 0.25
 
 # Seconds to wait for a heartbeat before PX4's mode is changed, and before the first command.
 NEXT_HEARTBEAT_S, FIRST_HEARTBEAT_S = 0.3, 2.0
@@ -124,7 +123,7 @@ class Flight:
         self._stage = Stage.READY
         yield self._take_report(monotonic())
         confirmed_at = inf
-        while contact.monitor.heartbeat_arrived <= confirmed_at:
+        while contact.telemetry.arrived("HEARTBEAT") <= confirmed_at:
             now = contact.listen()
             self._check(now)
             if self._modes.name != mode:
@@ -157,7 +156,7 @@ class Flight:
         if not self._contact.flies_px4:
             return RollSteering(vehicle)
         sign = AccelerationSign(sign_of_version(self._contact.version), p.settings.roll)
-        return AccelerationSteering(vehicle, p.altitude_m, sign)
+        return AccelerationSteering(vehicle, self._contact.telemetry, p.altitude_m, sign)
 
     def _show(self) -> Generator[GuideReport, None, None]:
         """Show what would be commanded, until the generator is closed; nothing is commanded."""
@@ -175,12 +174,12 @@ class Flight:
 
     def _fall_back(self) -> Generator[GuideReport, None, None]:
         """Command the fall-back circle, and wait until the vehicle has accepted it."""
-        pending = self._contact.pending = PendingCommand(self._hold_command())
+        pending = self._contact.pending = self._hold_command()
         self._commanded, self._contact.link.status = True, ACTIVE
         self._monitor.circle_altitude_m = self._setup.altitude_m
         self._modes.expect(self._hold_mode)
         # PX4 accepts the offboard mode only while setpoints arrive: they begin here.
-        yield from self._await(pending, "hold the circle")
+        yield from self._await(pending)
         self._accepted, self._accepted_at = True, monotonic()
         self._modes.accepted(self._accepted_at)
 
@@ -195,22 +194,19 @@ class Flight:
             self._contact.request_heartbeat(monotonic())
             self._check(self._contact.listen())
         change = long_command(self._contact.link, DO_SET_MODE, CUSTOM_MODE, PX4_OFFBOARD)
-        pending = self._contact.pending = PendingCommand(change, MODE_REPEAT_S)
+        pending = self._contact.pending = PendingCommand(change, "change to the offboard mode", MODE_REPEAT_S)
         self._modes.expect(OFFBOARD)
-        yield from self._await(pending, "change to the offboard mode")
+        yield from self._await(pending)
 
-    def _await(self, pending: PendingCommand, action: str) -> Generator[GuideReport, None, None]:
+    def _await(self, pending: PendingCommand) -> Generator[GuideReport, None, None]:
         """Send a command until it is accepted; raises `LinkFailed` if it is refused, or not answered in time.
 
         PX4 gets setpoints for straight flight meanwhile.
         """
         deadline = monotonic() + CONFIRM_S
         while not pending.accepted:
-            if pending.final or (pending.refusal and monotonic() > deadline):
-                fence = OUTSIDE_FENCE if self._setup.settings.fence == "on" and not self._accepted else ""
-                raise LinkFailed(f"{self._contact.name} refused to {action}: {pending.refusal}{fence}{self._texts}")
-            if monotonic() > deadline:
-                raise LinkFailed(f"{self._contact.name} did not answer the command to {action} in {CONFIRM_S:g} s")
+            if pending.final or monotonic() > deadline:
+                raise LinkFailed(pending.failure(self._contact.link.vehicle, CONFIRM_S) + self._why_refused(pending))
             pending.send(self._contact.link, monotonic())
             if self._contact.flies_px4:
                 self._send_level()
@@ -219,6 +215,13 @@ class Flight:
             if now >= self._next_report:
                 self._state = self._measure()
                 yield self._take_report(now)
+
+    def _why_refused(self, pending: PendingCommand) -> str:
+        """What a refused command may mean: the fence, and the texts of the vehicle."""
+        if not pending.refusal:
+            return ""
+        fence = OUTSIDE_FENCE if self._setup.settings.fence == "on" and not self._accepted else ""
+        return fence + self._texts
 
     def _steer(self) -> Generator[GuideReport, None, None]:
         """Fly the law until the circle is held steadily, or without end with `keep`."""
@@ -260,11 +263,11 @@ class Flight:
         if not self._steered or self._contact.flies_px4:
             return False
         lost_at = monotonic()
-        deadline, monitor, target = lost_at + timeout_s, self._monitor, self._contact.own_target
-        while monitor.heartbeat_arrived < lost_at and monotonic() < deadline:
+        deadline, telemetry, target = lost_at + timeout_s, self._contact.telemetry, self._contact.own_target
+        while telemetry.arrived("HEARTBEAT") < lost_at and monotonic() < deadline:
             self._contact.listen()
         elsewhere = target.arrived > lost_at and target.difference(self.orbit, self._setup.altitude_m)
-        return monitor.heartbeat_arrived >= lost_at and self._modes.mode == GUIDED and not elsewhere
+        return telemetry.arrived("HEARTBEAT") >= lost_at and self._modes.mode == GUIDED and not elsewhere
 
     def request_again(self) -> GuideRequest:
         """The request with which guiding begins anew: the same altitude and direction, without a question."""
@@ -318,7 +321,7 @@ class Flight:
         With `measured` the law flies on until then; otherwise the wings are levelled.
         """
         contact = self._contact
-        pending = contact.pending = PendingCommand(self._hold_command())
+        pending = contact.pending = self._hold_command()
         self._modes.expect(self._hold_mode)
         deadline, levelled = monotonic() + CONFIRM_S, False
         while not (pending.accepted and self._modes.confirmed):
@@ -388,13 +391,13 @@ class Flight:
 
     def _record_step(self, state: State, command: Command, now: float) -> None:
         """Make and record the report of a step."""
-        m, position = self._contact.measurements, self._steady.update(state)
+        m, position, telemetry = self._contact.measurements, self._steady.update(state), self._contact.telemetry
         self._report = GuideReport(
             time_s=now - self._began,
             stage=self._stage,
             state=state,
-            altitude_m=m.altitude_m,
-            height_m=m.height_m,
+            altitude_m=telemetry.fix().altitude_m,
+            height_m=telemetry.height_m,
             airspeed_source=m.airspeed(self._contact.reported_wind(), now)[1],
             phase=command.phase,
             time_to_join_s=command.time_to_join_s,
@@ -446,14 +449,13 @@ class Flight:
         """The present report with the notices; the next one is due a period later."""
         self._next_report = max(self._next_report + self._period_s, now)
         notices, self._notices = tuple(self._notices), []
-        time_s = now - self._began
-        m = self._contact.measurements
+        telemetry = self._contact.telemetry
         return self._report._replace(
-            time_s=time_s,
+            time_s=now - self._began,
             stage=self._stage,
             state=self._state,
-            altitude_m=m.altitude_m,
-            height_m=m.height_m,
+            altitude_m=telemetry.fix().altitude_m,
+            height_m=telemetry.height_m,
             notices=notices,
         )
 
@@ -481,11 +483,12 @@ class Flight:
         estimates, ratio = self._law.estimates, self._steady.turn_ratio
         return estimates if ratio is None else estimates._replace(turn_ratio=bounded_turn_ratio(ratio))
 
-    def _hold_command(self) -> Any:
+    def _hold_command(self) -> PendingCommand:
         """The command to hold the circle, with the radius with which the vehicle flies that of the orbit."""
         altitude_m = self._setup.altitude_m
         estimates = self._measured_estimates() if self._steered else None
         radius_m = sent_radius_m(self.orbit, altitude_m, self._contact.parameters.known, estimates)
         latitude_deg, longitude_deg = self._request.frame.to_geodetic(self.orbit.east_m, self.orbit.north_m)
         place = float(latitude_deg), float(longitude_deg), altitude_m
-        return hold_command(self._contact.link.vehicle, place, radius_m, self.orbit.turn)
+        message = hold_command(self._contact.link.vehicle, place, radius_m, self.orbit.turn)
+        return PendingCommand(message, "hold the circle", REPEAT_S)

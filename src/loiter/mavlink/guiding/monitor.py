@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from math import inf, nan
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from loiter.mavlink.autopilots.modes import CRITICAL, TERMINATION, ModeWatch
+from loiter.mavlink.autopilots.readiness import ARMED
 from loiter.mavlink.connection.link import Vehicle
+from loiter.mavlink.connection.telemetry import ON_GROUND, STATE_KINDS, Telemetry
 from loiter.mavlink.guiding.measurements import Measurements
 
 # Seconds without any message after which the link is lost, without a new state after which the data are stale, and
@@ -78,37 +80,17 @@ class Monitor:
     `unanswered_s` is how long the vehicle has not answered, seconds; `stick_moved` whether the pilot moves a stick.
     """
 
-    def __init__(self, vehicle: Vehicle, measurements: Measurements, began: float) -> None:
-        self._vehicle, self._measurements = vehicle, measurements
+    def __init__(self, vehicle: Vehicle, telemetry: Telemetry, measurements: Measurements) -> None:
+        self._vehicle, self._telemetry, self._measurements = vehicle, telemetry, measurements
         self.modes = ModeWatch(vehicle.autopilot)
-        self.heartbeat: Any = None
-        self.heartbeat_arrived = -inf
-        self.last_message = began
         self.wind_problem = ""
         self.stick_moved = False
         self.unanswered_s = 0.0
         self.command_deg = self.bank_deg = 0.0
         self.circle_altitude_m, self._nearest_m = nan, inf
-        self._estimator_ok = True
-        self._fence_breached = self._grounded = False
         self._bad, self._slow, self._windy, self._off, self._departed, self._stick, self._late = (
             ConditionTimer() for _ in range(7)
         )
-
-    def update(self, message: Any, now: float) -> None:
-        """Process a message of the vehicle."""
-        self.last_message = now
-        kind = message.get_type()
-        if kind == "HEARTBEAT":
-            self.heartbeat, self.heartbeat_arrived = message, now
-            self.modes.update(message)
-        elif kind in ("EKF_STATUS_REPORT", "ESTIMATOR_STATUS"):
-            flags = message.flags
-            self._estimator_ok = flags & NEEDED_FLAGS == NEEDED_FLAGS and not flags & CONSTANT_POSITION
-        elif kind == "FENCE_STATUS":
-            self._fence_breached = bool(message.breach_status)
-        elif kind == "EXTENDED_SYS_STATE":
-            self._grounded = message.landed_state == 1
 
     def check(self, now: float) -> StopReason | None:
         """The reason to stop, or None. Those that forbid any further command come first."""
@@ -116,7 +98,7 @@ class Monitor:
 
     def silent(self, now: float) -> str:
         """That the link is lost, in words; empty if it is not."""
-        lost = now - self.last_message > SILENT_S
+        lost = now - self._telemetry.last_message_time > SILENT_S
         return f"nothing was heard from {self._vehicle.named} for {SILENT_S:g} s" if lost else ""
 
     def _taken_over(self, now: float) -> StopReason | None:
@@ -124,20 +106,22 @@ class Monitor:
             return StopReason(silent, ours=False, measured=False, lost=True)
         if unexpected_mode := self.modes.unexpected_mode(now):
             return StopReason(unexpected_mode, ours=False)
-        if self.heartbeat is not None and self.heartbeat.system_status >= TERMINATION:
+        heartbeat, state = self._telemetry.last("HEARTBEAT"), self._telemetry.last("EXTENDED_SYS_STATE")
+        if heartbeat is not None and heartbeat.system_status >= TERMINATION:
             return StopReason("the autopilot has terminated the flight", ours=False)
-        if self.heartbeat is not None and not self.heartbeat.base_mode & 128:
+        if heartbeat is not None and not heartbeat.base_mode & ARMED:
             return StopReason("the vehicle is disarmed", ours=False)
         if self._stick.update(self.stick_moved, now) > STICK_S:
             return StopReason("the pilot moves a stick", ours=False)
-        if self._grounded:
+        if state is not None and state.landed_state == ON_GROUND:
             return StopReason("the vehicle reports that it is on the ground", ours=False)
         return None
 
     def _unsafe(self, now: float) -> StopReason | None:
-        if self._fence_breached:
+        fence, heartbeat = self._telemetry.last("FENCE_STATUS"), self._telemetry.last("HEARTBEAT")
+        if fence is not None and fence.breach_status:
             return StopReason("the vehicle is outside its fence")
-        if self.heartbeat is not None and self.heartbeat.system_status >= CRITICAL:
+        if heartbeat is not None and heartbeat.system_status >= CRITICAL:
             return StopReason("the autopilot reports a failsafe")
         if problem := self._altitude(now):
             return problem
@@ -149,30 +133,42 @@ class Monitor:
 
     def _altitude(self, now: float) -> StopReason | None:
         """That the vehicle is too low, or that its altitude departs from that of the circle."""
-        m, circle_m = self._measurements, self.circle_altitude_m
-        off_m = abs(m.altitude_m - circle_m)
+        altitude_m, height_m, circle_m = (
+            self._telemetry.fix().altitude_m,
+            self._telemetry.height_m,
+            self.circle_altitude_m,
+        )
+        off_m = abs(altitude_m - circle_m)
         self._nearest_m = min(self._nearest_m, off_m)
         if self._departed.update(off_m > self._nearest_m + DEPARTED_M, now) > DEPARTED_S:
-            side = "above" if m.altitude_m > circle_m else "below"
-            return StopReason(f"the vehicle is at {m.altitude_m:.0f} m, {off_m:.0f} m {side} the circle")
-        if circle_m == circle_m and m.height_m < LOWEST_HEIGHT_M:
-            return StopReason(f"the vehicle is only {m.height_m:.0f} m above home", measured=False)
+            side = "above" if altitude_m > circle_m else "below"
+            return StopReason(f"the vehicle is at {altitude_m:.0f} m, {off_m:.0f} m {side} the circle")
+        if circle_m == circle_m and height_m < LOWEST_HEIGHT_M:
+            return StopReason(f"the vehicle is only {height_m:.0f} m above home", measured=False)
         return None
 
+    @property
+    def _is_estimator_ok(self) -> bool:
+        """Whether the estimator has attitude, velocity and position, or has reported nothing."""
+        reports = (self._telemetry.last(kind) for kind in ("EKF_STATUS_REPORT", "ESTIMATOR_STATUS"))
+        return all(
+            report is None or (report.flags & NEEDED_FLAGS == NEEDED_FLAGS and not report.flags & CONSTANT_POSITION)
+            for report in reports
+        )
+
     def _unmeasured(self, now: float) -> StopReason | None:
-        m = self._measurements
-        if m.restarted:
+        m, telemetry = self._measurements, self._telemetry
+        if telemetry.restarts:
             return StopReason("the clock of the autopilot went back: it has restarted", measured=False)
         if m.jump_m > 0.0:
             return StopReason(f"the position jumped by {m.jump_m:.0f} m", measured=False)
-        if self._bad.update(not self._estimator_ok, now) > BAD_ESTIMATE_S:
+        if self._bad.update(not self._is_estimator_ok, now) > BAD_ESTIMATE_S:
             return StopReason("the estimator of the autopilot has lost its position", measured=False)
         # Where nothing at all arrives the pilot may have taken over: nothing is commanded until that is clear.
-        alive = now - self.last_message <= ALIVE_S
-        if alive and now - m.attitude_arrived > STALE_S:
-            return StopReason(f"no attitude arrived for {STALE_S:g} s", measured=False)
-        if alive and now - m.position_arrived > STALE_S:
-            return StopReason(f"no position arrived for {STALE_S:g} s", measured=False)
+        alive = now - telemetry.last_message_time <= ALIVE_S
+        for kind, measured in zip(STATE_KINDS, ("attitude", "position"), strict=True):
+            if alive and telemetry.recent(kind, now, STALE_S) is None:
+                return StopReason(f"no {measured} arrived for {STALE_S:g} s", measured=False)
         if self._late.update(m.late_s > LATE_S, now) > LATE_FOR_S:
             return StopReason(f"the measurements arrive {m.late_s:.1f} s late", measured=False)
         if self.unanswered_s > UNHEARD_S:

@@ -14,6 +14,7 @@ from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.protocol import State
 from loiter.mavlink.autopilots.readiness import refusal
 from loiter.mavlink.autopilots.settings import AutopilotSettings, autopilot_settings, is_complete, missing
+from loiter.mavlink.autopilots.steering import LOCAL_POSITION, LOCAL_POSITION_S
 from loiter.mavlink.connection.link import not_found
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.measurements import AirspeedSource
@@ -74,7 +75,7 @@ def prepare(contact: Contact, request: GuideRequest, timeout_s: float, *, only_v
     if only_vehicle and contact.link.others:
         vehicles = {contact.link.vehicle, *contact.link.others}
         raise LinkFailed(not_found("the connection", None, vehicles, 0.0))
-    if problem := refusal(contact.monitor.heartbeat, contact.extended):
+    if problem := refusal(contact.telemetry.last("HEARTBEAT"), contact.telemetry.last("EXTENDED_SYS_STATE")):
         raise LinkFailed(f"{contact.name} cannot be guided: {problem}")
     if contact.link.rivals:
         raise LinkFailed(f"{contact.name} cannot be guided: another program guides it already")
@@ -150,10 +151,10 @@ def _await_data(contact: Contact, timeout_s: float) -> None:
 
 def _missing_data(contact: Contact, now: float) -> str:
     """What has not arrived yet, in words; empty if nothing is missing."""
-    m = contact.measurements
-    if contact.monitor.heartbeat is None:
+    m, telemetry = contact.measurements, contact.telemetry
+    if telemetry.last("HEARTBEAT") is None:
         return "sends no heartbeat"
-    if contact.extended is None:
+    if telemetry.last("EXTENDED_SYS_STATE") is None:
         return "does not report whether it is in the air (EXTENDED_SYS_STATE)"
     if unknown := missing(contact.autopilot, contact.parameters.known):
         return f"does not report its parameter {unknown[0]}"
@@ -163,8 +164,8 @@ def _missing_data(contact: Contact, now: float) -> str:
         return "sends no position and attitude"
     if m.rate_hz(now) < LEAST_HZ:
         return f"sends {m.rate_hz(now):.1f} measurements a second, and {LEAST_HZ:.0f} are needed"
-    if contact.flies_px4 and not contact.telemetry.gap_s("LOCAL_POSITION_NED", now) < 1.0:
-        return "sends no local position (LOCAL_POSITION_NED)"
+    if contact.flies_px4 and telemetry.recent(LOCAL_POSITION, now, LOCAL_POSITION_S) is None:
+        return f"sends no local position ({LOCAL_POSITION})"
     if contact.flies_px4 and not contact.version and now < contact.began + VERSION_S:
         return "does not report its version"
     return "" if contact.streams.settled else "does not answer requests for streams"
@@ -181,13 +182,13 @@ def _circle_altitude_m(contact: Contact, request: GuideRequest) -> float:
 
     Raises `LinkFailed` for a vehicle that is too low, and `InvalidArgument` for a circle that is.
     """
-    m = contact.measurements
-    if m.height_m < LEAST_HEIGHT_M:
-        height = f"it is {m.height_m:.0f} m above home"
+    height_m, present_m = contact.telemetry.height_m, contact.telemetry.fix().altitude_m
+    if height_m < LEAST_HEIGHT_M:
+        height = f"it is {height_m:.0f} m above home"
         raise LinkFailed(f"{contact.name} cannot be guided: {height}, and must be at least {LEAST_HEIGHT_M:g} m above")
-    home_m, altitude_m = m.altitude_m - m.height_m, request.altitude_m
+    home_m, altitude_m = contact.home_altitude_m, request.altitude_m
     if altitude_m is None:
-        return m.altitude_m
+        return present_m
     if altitude_m >= home_m + LEAST_HEIGHT_M:
         return altitude_m
     side, off_m = ("above" if altitude_m >= home_m else "below"), abs(altitude_m - home_m)
@@ -213,7 +214,7 @@ def _airspeed(contact: Contact, request: GuideRequest, settings: AutopilotSettin
     """The true airspeed to plan with, metres per second, and notices about it."""
     declared = request.airspeed_m_s
     if declared is None:
-        declared = settings.airspeed_m_s * eas2tas_squared(contact.measurements.altitude_m) ** 0.5
+        declared = settings.airspeed_m_s * eas2tas_squared(contact.telemetry.fix().altitude_m) ** 0.5
     contact.measurements.declared_m_s = declared
     measured, source = contact.measurements.airspeed(contact.reported_wind(), monotonic())
     if source != AirspeedSource.MEASURED:

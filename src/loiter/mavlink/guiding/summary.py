@@ -12,7 +12,7 @@ ARDUPLANE_LOSS = "ArduPlane keeps its bank for up to 3 s and then flies the fall
 def summary(contact: Contact, setup: FlightSetup, *, turn_given: bool) -> tuple[str, ...]:
     """Sentences: what is taken over, which circle is flown, what follows a lost link, the fence, other stations."""
     return (
-        f"{_from_mode(contact)}; it is at {heights(contact.measurements.altitude_m, contact.home_altitude_m)}.",
+        f"{_from_mode(contact)}; it is at {heights(contact.telemetry.fix().altitude_m, contact.home_altitude_m)}.",
         f"{_circle(contact, setup, turn_given=turn_given)}.",
         f"If this program or the link dies, {loss_consequence(contact, setup)}.",
         f"Fence: {setup.settings.fence}.",

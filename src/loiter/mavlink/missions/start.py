@@ -12,15 +12,12 @@ from typing import Any, NamedTuple
 
 from loiter.errors import LinkFailed
 from loiter.io.missions.items import Autopilot
-from loiter.mavlink.connection.command import long_command, send_command
+from loiter.mavlink.connection.command import DO_SET_MODE, long_command, message_request, send_command
 from loiter.mavlink.connection.enumerations import ACCEPTED, command_result
 from loiter.mavlink.connection.link import Link, dialect
 from loiter.mavlink.connection.status_text import StatusTexts
+from loiter.mavlink.connection.telemetry import AIRBORNE, UNDEFINED
 from loiter.mavlink.missions.stored_items import keeps_home
-from loiter.mavlink.watching.telemetry import AIRBORNE, EXTENDED_SYS_STATE, UNDEFINED
-
-# MAV_CMD.
-DO_SET_MODE, REQUEST_MESSAGE = 176, 512
 
 # MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.
 CUSTOM_MODE = 1
@@ -79,8 +76,8 @@ def _mission_mode(link: Link) -> Mode | None:
 
 def _check_in_the_air(link: Link) -> None:
     """Raise `LinkFailed` unless the vehicle reports that it is in the air."""
-    request = long_command(link, REQUEST_MESSAGE, EXTENDED_SYS_STATE)
-    state = _await_message(link, "EXTENDED_SYS_STATE", lambda state: state.landed_state != UNDEFINED, request)
+    kind = "EXTENDED_SYS_STATE"
+    state = _await_message(link, kind, lambda state: state.landed_state != UNDEFINED, message_request(link, kind))
     if state is None:
         raise LinkFailed(
             f"{link.vehicle.named} does not report whether it is in the air: the mission is not started{_HAS_IT}"

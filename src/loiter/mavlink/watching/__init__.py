@@ -1,1 +1,1 @@
-"""Watching a vehicle in flight: telemetry, dead reckoning, and advice from the plan."""
+"""Watching a vehicle in flight, and advice from the plan."""

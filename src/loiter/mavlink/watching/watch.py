@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from dataclasses import dataclass, replace
-from math import inf, isnan, nan
+from math import isnan, nan
 from time import monotonic
 from typing import Any, NamedTuple
 
 from loiter.errors import InvalidArgument, LoiterError, instance, not_negative, number, positive
 from loiter.geo import LocalFrame
 from loiter.mavlink.connection.command import hold_circle
+from loiter.mavlink.connection.dead_reckoning import extrapolated_pose
 from loiter.mavlink.connection.link import Link, check_connection, dialect, open_link
 from loiter.mavlink.connection.persistent_link import PersistentLink
-from loiter.mavlink.connection.streams import Streams
+from loiter.mavlink.connection.streams import Streams, watch_streams
+from loiter.mavlink.connection.telemetry import Motion, Telemetry, WindSource
 from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
 from loiter.mavlink.missions.flown_radius import (
     LoiterScaling,
@@ -24,8 +26,6 @@ from loiter.mavlink.missions.flown_radius import (
     sent_remark,
 )
 from loiter.mavlink.watching.advice import Action, HoldDetector, actions, circle_offset
-from loiter.mavlink.watching.dead_reckoning import extrapolated_pose
-from loiter.mavlink.watching.telemetry import Fix, Motion, Telemetry, WindSource
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.solve import plan
@@ -178,13 +178,13 @@ def _watch(
     timeout_s: float,
     hold_options: _HoldOptions,
 ) -> Generator[Report, None, None]:
-    telemetry = Telemetry()
     heartbeats = connection.startswith("udpout")
     with open_link(connection, system, component, timeout_s, heartbeats=heartbeats) as link:
         commander = _HoldCommander(link, planner, hold_options, timeout_s)
-        link.on_message = _to_all(telemetry.update, commander.update)
-        started = telemetry.last_message_time = monotonic()
-        persistent = PersistentLink(connection, link, telemetry, Streams(period_s, started))
+        started = monotonic()
+        telemetry, streams = Telemetry(started), Streams(watch_streams(period_s), started)
+        link.on_message = _to_all(telemetry.update, streams.update, commander.update)
+        persistent = PersistentLink(connection, link, telemetry, streams)
         due = started + period_s
         while True:
             persistent.listen(due, timeout_s)
@@ -273,7 +273,7 @@ class _Planner:
     def report(self, telemetry: Telemetry, now: float, time_s: float, problem: str) -> Report:
         """The last telemetry, with a plan if one can be made; `problem` is that of the connection."""
         motion = telemetry.motion(now)
-        known = telemetry.fix() or Fix(-inf, nan, nan, nan)
+        known = telemetry.fix()
         wind, source = (self.wind, WindSource.GIVEN) if self.wind else telemetry.wind(now)
         report = Report(
             time_s=time_s,
