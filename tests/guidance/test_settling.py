@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from loiter import Orbit, Turn
 from loiter.errors import InvalidArgument
 from loiter.guidance.protocol import State
-from loiter.guidance.trials.settling import COUNTED_DEG, Band, SettlingMonitor
+from loiter.guidance.trials.settling import COUNTED_DEG, SettlingMonitor
+from loiter.guidance.vehicle.circle import Band
 
 STEP = 0.01
 
@@ -77,7 +78,7 @@ def test_an_aircraft_that_leaves_the_band_starts_again():
 
 def test_leaving_the_circle_after_a_full_turn_does_not_change_the_joining():
     first = turns(0.3)
-    about = turns(1.0, first[-1].time_s + STEP, distance=107.0)
+    about = turns(1.01, first[-1].time_s + STEP, distance=107.0)
     out = turns(0.2, about[-1].time_s + STEP, distance=125.0)
     again = turns(1.1, out[-1].time_s + STEP)
     monitor = settled_after(first + about + out + again)

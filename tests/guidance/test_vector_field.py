@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 
 from guidance.circling import state_of
 from loiter import Aircraft, Orbit
-from loiter.guidance.laws.following import PolarState
 from loiter.guidance.laws.vector_field import (
     FieldGains,
     VectorField,
@@ -17,6 +16,7 @@ from loiter.guidance.laws.vector_field import (
     field_rate,
     largest_k,
 )
+from loiter.guidance.vehicle.circle import CircleOffset
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 
@@ -47,10 +47,10 @@ def test_it_demands_what_the_publications_say(inward_deg, rate, turn):
 
 
 def test_on_the_circle_the_rate_is_that_of_the_circle():
-    on = PolarState(100.0, 0.0, 1.0, 0.0, 20.0)
-    assert commanded_course_rate(on, 1, 100.0, GAINS) == pytest.approx(0.2)
+    on = CircleOffset(100.0, 100.0, 0.0, 1.0, 0.0, 20.0)
+    assert commanded_course_rate(on, 1, GAINS) == pytest.approx(0.2)
     # The other way round: half a turn to go, beyond the boundary layer.
-    assert abs(commanded_course_rate(on, -1, 100.0, GAINS) - 0.2) == pytest.approx(0.5)
+    assert abs(commanded_course_rate(on, -1, GAINS) - 0.2) == pytest.approx(0.5)
 
 
 @given(st.floats(0.05, 6.0), st.floats(0.2, 12.0))

@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
-from loiter.mavlink.watching.advice import Action, CircleOffset, HoldDetector, actions, circle_offset
+from loiter.guidance.vehicle.circle import CircleOffset
+from loiter.mavlink.watching.advice import Action, HoldDetector, actions, plan_offset
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 ORBIT = Orbit(30.0, -20.0, 80.0, Turn.CW)
@@ -64,10 +65,11 @@ def at(outside_m, azimuth_deg, off_deg=0.0, turn=Turn.CW, orbit=ORBIT, wind=None
     turn=st.sampled_from([Turn.CW, Turn.CCW]),
 )
 def test_beside_is_how_far_outside_and_how_far_off_the_tangent(outside, azimuth, off, turn):
-    seen = circle_offset(at(outside, azimuth, off, turn))
+    seen, side = plan_offset(at(outside, azimuth, off, turn)), 1 if turn == Turn.CW else -1
     assert seen.outside_m == pytest.approx(outside, abs=1e-9)
-    assert seen.angle_deg(turn) == pytest.approx(abs(off), abs=1e-6)
-    assert seen.angle_deg(turn.other) == pytest.approx(180.0 - abs(off), abs=1e-6)
+    # Outside a clockwise tangent is to its left.
+    assert seen.course_error_deg(side) == pytest.approx(-side * off, abs=1e-6)
+    assert abs(seen.course_error_deg(-side)) == pytest.approx(180.0 - abs(off), abs=1e-6)
 
 
 def test_beside_is_over_the_ground_and_as_a_circle_that_moves_sees_it():
@@ -75,8 +77,15 @@ def test_beside_is_over_the_ground_and_as_a_circle_that_moves_sees_it():
     wide, wind = replace(ORBIT, radius_m=120.0), Wind(6.0, from_deg=270.0)
     crab = Pose(wide.east_m - 130.0, wide.north_m, -19.471220634490695)
     assert 18.0 * sin(radians(crab.heading_deg)) == pytest.approx(-6.0)
-    assert circle_offset(plan(crab, wide, UAV, wind)) == pytest.approx((10.0, 0.0), abs=1e-9)
-    assert circle_offset(plan(crab, replace(wide, velocity_east_m_s=-6.0), UAV)) == pytest.approx((10.0, 0.0), abs=1e-9)
+    for orbit, air in ((wide, wind), (replace(wide, velocity_east_m_s=-6.0), None)):
+        seen = plan_offset(plan(crab, orbit, UAV, air))
+        assert (seen.outside_m, seen.course_error_deg(1)) == pytest.approx((10.0, 0.0), abs=1e-9)
+
+
+def off(outside_m, angle_deg, radius_m=80.0):
+    """North of a circle, at an angle to its clockwise tangent."""
+    outward, clockwise = 18.0 * sin(radians(angle_deg)), 18.0 * cos(radians(angle_deg))
+    return CircleOffset(radius_m, radius_m + outside_m, 0.0, 1.0, outward, clockwise)
 
 
 def held(seen, turns=(Turn.CW,), radius_m=80.0, step_s=0.5):
@@ -87,37 +96,37 @@ def held(seen, turns=(Turn.CW,), radius_m=80.0, step_s=0.5):
 
 def test_who_keeps_along_twelve_metres_outside_holds_the_circle():
     """Formerly every report said "joins clockwise in 3.5 s"."""
-    assert held([CircleOffset(12.0, 4.0)] * 10) == [None] * 6 + [Turn.CW] * 4
+    assert held([off(12.0, 4.0)] * 10) == [None] * 6 + [Turn.CW] * 4
 
 
 def test_on_the_circle_it_counts_at_once():
-    assert held([CircleOffset(3.0, 9.0)]) == [Turn.CW]
-    assert held([CircleOffset(-4.9, 9.0)]) == [Turn.CW]
-    assert held([CircleOffset(3.0, 20.0)]) == [None]
+    assert held([off(3.0, 9.0)]) == [Turn.CW]
+    assert held([off(-4.9, 9.0)]) == [Turn.CW]
+    assert held([off(3.0, 20.0)]) == [None]
 
 
 def test_who_flies_through_the_band_does_not_hold_the_circle():
-    steep = [CircleOffset(16.0 - 2.0 * i, 35.0 - 2.0 * i) for i in range(8)]
+    steep = [off(16.0 - 2.0 * i, 35.0 - 2.0 * i) for i in range(8)]
     assert held(steep) == [None] * 8
 
 
 def test_the_hold_is_left_later_than_it_is_entered():
-    seen = [CircleOffset(12.0, 4.0)] * 7 + [
-        CircleOffset(25.0, 20.0),
-        CircleOffset(12.0, 29.0),
-        CircleOffset(31.0, 0.0),
-        CircleOffset(12.0, 0.0),
+    seen = [off(12.0, 4.0)] * 7 + [
+        off(25.0, 20.0),
+        off(12.0, 29.0),
+        off(31.0, 0.0),
+        off(12.0, 0.0),
     ]
     assert held(seen) == [None] * 6 + [Turn.CW] * 3 + [None] * 2
 
 
 def test_the_other_way_round_counts_where_it_may_be_held():
-    seen = [CircleOffset(2.0, 176.0)] * 8
+    seen = [off(2.0, 176.0)] * 8
     assert held(seen) == [None] * 8
     assert held(seen, (Turn.CW, Turn.CCW)) == [None] * 6 + [Turn.CCW] * 2
 
 
 def test_beside_a_large_circle_the_band_is_a_share_of_it():
-    assert held([CircleOffset(140.0, 4.0)] * 8, radius_m=1000.0)[-1] == Turn.CW
-    assert held([CircleOffset(160.0, 4.0)] * 8, radius_m=1000.0)[-1] is None
-    assert held([CircleOffset(14.0, 4.0)] * 8, radius_m=30.0)[-1] == Turn.CW
+    assert held([off(140.0, 4.0, 1000.0)] * 8, radius_m=1000.0)[-1] == Turn.CW
+    assert held([off(160.0, 4.0, 1000.0)] * 8, radius_m=1000.0)[-1] is None
+    assert held([off(14.0, 4.0, 30.0)] * 8, radius_m=30.0)[-1] == Turn.CW

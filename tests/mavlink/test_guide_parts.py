@@ -31,7 +31,7 @@ from loiter.mavlink.connection.telemetry import Telemetry
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
 from loiter.mavlink.guiding.report import GuideReport, Stage
-from loiter.mavlink.guiding.settling import MeanPosition, SteadyHoldDetector, circle_position
+from loiter.mavlink.guiding.settling import MeanPosition, SteadyHoldDetector
 from loiter.mavlink.guiding.step_log import log_row, step_log
 from mavlink.vehicle import mavlink
 
@@ -505,13 +505,6 @@ def on_circle(azimuth_deg, radius_m=80.0, course_error_deg=0.0, time_s=0.0, turn
     course = a + turn * math.pi / 2.0 + radians(course_error_deg)
     velocity = 18.0 * math.sin(course), 18.0 * math.cos(course)
     return State(time_s, radius_m * math.sin(a), radius_m * math.cos(a), degrees(course), 20.0, *velocity, 18.0)
-
-
-def test_the_position_on_a_circle():
-    found = circle_position(on_circle(30.0, 84.0, 3.0), CIRCLE)
-    assert found == pytest.approx((4.0, 3.0, 30.0))
-    other = circle_position(on_circle(30.0, 76.0, -2.0, turn=-1.0), Orbit(0.0, 0.0, 80.0, "ccw"))
-    assert other == pytest.approx((-4.0, -2.0, 30.0))
 
 
 def test_a_steady_hold_takes_time_and_a_quarter_of_the_circle():

@@ -1,4 +1,4 @@
-"""The common part of the circle-following laws: the state in polar coordinates, and the command for a demand.
+"""The common part of the circle-following laws: the command for a demand, and the phase that they report.
 
 These laws represent what autopilots fly today. Each is written from its publication: `l1`, `vector_field`, `tangent`.
 """
@@ -6,47 +6,25 @@ These laws represent what autopilots fly today. Each is written from its publica
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from math import degrees, hypot, nan, radians, sin, tan
+from math import degrees, nan, radians, tan
 from typing import NamedTuple
 
 from loiter.errors import positive
 from loiter.guidance.laws.observer import is_plausible
 from loiter.guidance.protocol import Command, Phase, State
+from loiter.guidance.vehicle.circle import Band, CircleOffset
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
-from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, STANDARD_GRAVITY_M_S2, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.sides import SIDES
 from loiter.planning.solve import plan
 
-# Within this distance of the centre, metres, the heading is taken as the direction outward, as in ArduPilot's L1.
-AT_CENTRE_M = 0.1
-
-# These laws report `HOLD` if the distance from the circle is within the first share of the radius, and the radial
-# velocity within the second share of the speed (5 degrees).
-HOLD_RADIAL_SHARE, HOLD_COURSE_SINE = 0.05, sin(radians(5.0))
+# In this band these laws report `HOLD`.
+BAND = Band()
 
 # A demand for less bank than this, degrees, is reported as straight flight. It does not affect the command.
 LEVEL_DEG = 1.0
-
-
-class PolarState(NamedTuple):
-    """An aircraft relative to a circle: distance from the centre, unit vector outward, radial and tangential velocity.
-
-    Metres and metres per second; velocities are relative to the circle.
-    """
-
-    distance_m: float
-    out_east: float
-    out_north: float
-    outward_m_s: float
-    clockwise_m_s: float
-
-    @property
-    def speed_m_s(self) -> float:
-        """Speed relative to the circle."""
-        return hypot(self.outward_m_s, self.clockwise_m_s)
 
 
 class Demand(NamedTuple):
@@ -59,23 +37,9 @@ class Demand(NamedTuple):
     next_in_s: float = nan
 
 
-def polar_state(east_m: float, north_m: float, velocity: tuple[float, float], heading_deg: float) -> PolarState:
-    """The polar state of an aircraft from its position and velocity (east, north) relative to the centre."""
-    velocity_east, velocity_north = velocity
-    distance = hypot(east_m, north_m)
-    if distance > AT_CENTRE_M:
-        out_east, out_north = east_m / distance, north_m / distance
-    else:
-        out_east, out_north = heading_vector(heading_deg)
-    outward = velocity_east * out_east + velocity_north * out_north
-    # The clockwise direction is the outward one, turned to the right by 90 degrees.
-    return PolarState(distance, out_east, out_north, outward, velocity_east * out_north - velocity_north * out_east)
-
-
-def demand_phase(right_m_s2: float, polar: PolarState, side: int, radius_m: float) -> Phase:
-    """The phase to report: holding, or the direction in which a demand turns."""
-    near = abs(polar.distance_m - radius_m) <= HOLD_RADIAL_SHARE * radius_m
-    if near and side * polar.clockwise_m_s > 0.0 and abs(polar.outward_m_s) <= HOLD_COURSE_SINE * polar.speed_m_s:
+def demand_phase(right_m_s2: float, offset: CircleOffset, side: int) -> Phase:
+    """The phase to report: holding, in the band of the circle, or the direction in which a demand turns."""
+    if BAND.has(offset, side):
         return Phase.HOLD
     if abs(right_m_s2) <= STANDARD_GRAVITY_M_S2 * tan(radians(LEVEL_DEG)):
         return Phase.STRAIGHT
@@ -127,15 +91,6 @@ class Follower(ABC):
     def _side(self) -> int:
         """+1 clockwise, -1 counter-clockwise."""
         return SIDES[self.turn] + 0
-
-    def _polar_state(self, state: State) -> PolarState:
-        """The state relative to the orbit."""
-        orbit = self.orbit.after(state.time_s)
-        velocity = (
-            state.velocity_east_m_s - orbit.velocity_east_m_s,
-            state.velocity_north_m_s - orbit.velocity_north_m_s,
-        )
-        return polar_state(state.east_m - orbit.east_m, state.north_m - orbit.north_m, velocity, state.heading_deg)
 
     def _command(self, demand: Demand) -> Command:
         """The present bank as a command: a coordinated turn at the airspeed of the aircraft."""

@@ -12,8 +12,9 @@ from __future__ import annotations
 from math import atan2, cos, pi, radians, sin
 
 from loiter.errors import positive
-from loiter.guidance.laws.following import Demand, Follower, PolarState, demand_phase
+from loiter.guidance.laws.following import Demand, Follower, demand_phase
 from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.circle import CircleOffset, circle_offset
 from loiter.guidance.vehicle.limits import clip
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import Aircraft, Orbit, Wind
@@ -46,30 +47,30 @@ def advised_period_s(roll_time_s: float) -> float:
     return max(SHORTEST_PERIOD_S, 2.0 * pi * roll_time_s / FREQUENCY_TIMES_LAG)
 
 
-def centre_angle(polar: PolarState) -> float:
+def centre_angle(offset: CircleOffset) -> float:
     """The angle nu from the velocity to the centre, radians, positive where the centre is on the right."""
-    return atan2(polar.clockwise_m_s, -polar.outward_m_s)
+    return atan2(offset.clockwise_m_s, -offset.outward_m_s)
 
 
-def capture_demand(polar: PolarState, nu: float, period_s: float, damping: float) -> float:
+def capture_demand(offset: CircleOffset, nu: float, period_s: float, damping: float) -> float:
     """Acceleration to the right, towards the centre: K V^2 sin(nu)/L1, K = 4 damping^2, L1 = damping T V/pi."""
-    speed = max(polar.speed_m_s, LEAST_SPEED_M_S)
+    speed = max(offset.speed_m_s, LEAST_SPEED_M_S)
     return 4.0 * damping * damping * speed * speed / (damping * period_s * speed / pi) * sin(clip(nu, 0.5 * pi))
 
 
-def circle_demand(polar: PolarState, side: int, radius_m: float, period_s: float, damping: float) -> float:
+def circle_demand(offset: CircleOffset, side: int, period_s: float, damping: float) -> float:
     """Acceleration to the right that follows a circle clockwise (side +1) or counter-clockwise (-1).
 
     The centripetal acceleration, plus a proportional-derivative correction of the distance from the circle with the
     gains w^2 and 2 damping w, w = 2 pi/T.
     """
     omega = 2.0 * pi / period_s
-    forward = side * polar.clockwise_m_s
-    correction = omega * omega * (polar.distance_m - radius_m) + 2.0 * damping * omega * polar.outward_m_s
-    if polar.outward_m_s > 0.0 and forward < 0.0:
+    forward = side * offset.clockwise_m_s
+    correction = omega * omega * offset.outside_m + 2.0 * damping * omega * offset.outward_m_s
+    if offset.outward_m_s > 0.0 and forward < 0.0:
         # The aircraft flies outward in the wrong direction: the correction must not turn it further out.
         correction = max(correction, 0.0)
-    return side * (correction + forward * forward / max(0.5 * radius_m, polar.distance_m))
+    return side * (correction + forward * forward / max(0.5 * offset.radius_m, offset.distance_m))
 
 
 class L1(Follower):
@@ -93,15 +94,15 @@ class L1(Follower):
         self._nu = 0.0
 
     def _demand(self, state: State) -> Demand:
-        polar, side, R = self._polar_state(state), self._side, self.orbit.radius_m
-        self._nu = self._steady_angle(centre_angle(polar), polar, state)
-        capture = capture_demand(polar, self._nu, self.period_s, self.damping)
-        circle = circle_demand(polar, side, R, self.period_s, self.damping)
-        right = capture if polar.distance_m > R and side * capture < side * circle else circle
-        return Demand(right, demand_phase(right, polar, side, R))
+        offset, side = circle_offset(state, self.orbit), self._side
+        self._nu = self._steady_angle(centre_angle(offset), offset, state)
+        capture = capture_demand(offset, self._nu, self.period_s, self.damping)
+        circle = circle_demand(offset, side, self.period_s, self.damping)
+        right = capture if offset.outside_m > 0.0 and side * capture < side * circle else circle
+        return Demand(right, demand_phase(right, offset, side))
 
-    def _steady_angle(self, nu: float, polar: PolarState, state: State) -> float:
+    def _steady_angle(self, nu: float, offset: CircleOffset, state: State) -> float:
         """nu, or its last value if its sign has changed while the aircraft flies away from the centre."""
         east, north = heading_vector(state.heading_deg)
-        away = east * polar.out_east + north * polar.out_north > AWAY_HEADING_COS
+        away = east * offset.out_east + north * offset.out_north > AWAY_HEADING_COS
         return self._nu if away and min(abs(nu), abs(self._nu)) > AWAY_ANGLE and nu * self._nu < 0.0 else nu

@@ -16,10 +16,11 @@ from math import atan2, inf, pi, remainder
 from typing import NamedTuple
 
 from loiter.errors import not_negative
-from loiter.guidance.laws.following import Demand, PolarState, polar_state
+from loiter.guidance.laws.following import Demand
 from loiter.guidance.laws.l1 import DAMPING, L1, SHORTEST_PERIOD_S, circle_demand
 from loiter.guidance.laws.route import controls_of
 from loiter.guidance.protocol import State, phase_of_control
+from loiter.guidance.vehicle.circle import CircleOffset, circle_offset, offset_at
 from loiter.kernel import wind_search
 from loiter.kernel.hold import phase_of, tightest_radius
 from loiter.kernel.motion import fly
@@ -128,11 +129,11 @@ class Tangent(L1):
 
     def _path(self, state: State, turn: Turn) -> Path:
         """Dubins' path to the nearest point of the circle, in planned turn radii."""
-        r, polar, side = self._radius_m, self._polar_state(state), SIDES[turn] + 0
-        place = polar.distance_m / r * polar.out_east, polar.distance_m / r * polar.out_north
+        r, offset, side = self._radius_m, circle_offset(state, self.orbit), SIDES[turn] + 0
+        place = offset.distance_m / r * offset.out_east, offset.distance_m / r * offset.out_north
         heading, R = heading_vector(state.heading_deg), self.orbit.radius_m / r
         scene = wind_search.scene_of(WindProblem(*place, *heading, R, side, *self._relative_wind))
-        phase = phase_of(polar.out_east, polar.out_north, side, *self._relative_wind)
+        phase = phase_of(offset.out_east, offset.out_north, side, *self._relative_wind)
         return first_path(phase, side, scene, inf)
 
     def _progress(self, piece: DubinsPiece, start: State, state: State) -> PieceProgress:
@@ -144,10 +145,10 @@ class Tangent(L1):
         velocity_east, velocity_north = state.velocity_east_m_s - wind_east, state.velocity_north_m_s - wind_north
         if piece.u == 0:
             return self._line_progress(piece, east, north, velocity_north * piece.c - velocity_east * piece.s)
-        centre_east, centre_north = -piece.u * self._radius_m * piece.s, piece.u * self._radius_m * piece.c
-        velocity = velocity_east, velocity_north
-        polar = polar_state(east - centre_east, north - centre_north, velocity, state.heading_deg)
-        return self._arc_progress(piece, polar)
+        r = self._radius_m
+        place = east + piece.u * r * piece.s, north - piece.u * r * piece.c
+        offset = offset_at(place, (velocity_east, velocity_north), state.heading_deg, r)
+        return self._arc_progress(piece, offset)
 
     def _line_progress(self, piece: DubinsPiece, east: float, north: float, leftward: float) -> PieceProgress:
         """The progress along a straight line at the velocity `leftward` across it: L1's law with zero curvature."""
@@ -156,20 +157,19 @@ class Tangent(L1):
         right_m_s2 = omega * omega * left + 2.0 * self.damping * omega * leftward
         return PieceProgress(east * piece.c + north * piece.s, left, right_m_s2)
 
-    def _arc_progress(self, piece: DubinsPiece, polar: PolarState) -> PieceProgress:
+    def _arc_progress(self, piece: DubinsPiece, offset: CircleOffset) -> PieceProgress:
         """The progress along an arc.
 
         The angle flown is known up to whole turns: the value nearest to half the arc is taken.
         """
-        r, c, s = self._radius_m, piece.c, piece.s
-        half = 0.5 * piece.length_m / r
+        half = 0.5 * piece.length_m / offset.radius_m
         # At the start the outward direction points to the outside of the turn: (s, -c) in a left turn.
-        out_east, out_north = piece.u * s, -piece.u * c
-        cross = out_east * polar.out_north - out_north * polar.out_east
-        turned = piece.u * atan2(cross, out_east * polar.out_east + out_north * polar.out_north)
+        out_east, out_north = piece.u * piece.s, -piece.u * piece.c
+        cross = out_east * offset.out_north - out_north * offset.out_east
+        turned = piece.u * atan2(cross, out_east * offset.out_east + out_north * offset.out_north)
         angle = half + remainder(turned - half, 2.0 * pi)
-        right_m_s2 = circle_demand(polar, -piece.u, r, self.period_s, self.damping)
-        return PieceProgress(angle * r, polar.distance_m - r, right_m_s2)
+        right_m_s2 = circle_demand(offset, -piece.u, self.period_s, self.damping)
+        return PieceProgress(angle * offset.radius_m, offset.outside_m, right_m_s2)
 
     def _follow(self, progress: PieceProgress) -> Demand:
         """The demand along the current piece, and the phase that follows it."""

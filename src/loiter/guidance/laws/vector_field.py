@@ -18,8 +18,9 @@ from math import atan, atan2, cos, pi, radians, remainder, sqrt
 from typing import NamedTuple
 
 from loiter.errors import positive
-from loiter.guidance.laws.following import AT_CENTRE_M, Demand, Follower, PolarState, demand_phase
+from loiter.guidance.laws.following import Demand, Follower, demand_phase
 from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.circle import AT_CENTRE_M, CircleOffset, circle_offset
 from loiter.guidance.vehicle.limits import clip
 from loiter.planning.model import Aircraft, Orbit, Wind
 
@@ -79,14 +80,14 @@ def advised_gains(orbit: Orbit, aircraft: Aircraft, roll_time_s: float = ROLL_TI
     return FieldGains(largest_k(orbit.radius_m / aircraft.turn_radius_m), kappa, kappa * 3.0 * roll_time_s)
 
 
-def commanded_course_rate(polar: PolarState, side: int, radius_m: float, gains: FieldGains) -> float:
+def commanded_course_rate(offset: CircleOffset, side: int, gains: FieldGains) -> float:
     """The commanded course rate, radians per second, positive to the right."""
-    slope = gains.k * (polar.distance_m - radius_m) / radius_m
-    forward = side * polar.clockwise_m_s
-    desired = forward / max(polar.distance_m, AT_CENTRE_M) + gains.k * polar.outward_m_s / radius_m / (
+    slope = gains.k * offset.outside_m / offset.radius_m
+    forward = side * offset.clockwise_m_s
+    desired = forward / max(offset.distance_m, AT_CENTRE_M) + gains.k * offset.outward_m_s / offset.radius_m / (
         1.0 + slope * slope
     )
-    error = remainder(atan2(forward, polar.outward_m_s) - 0.5 * pi - atan(slope), 2.0 * pi)
+    error = remainder(atan2(forward, offset.outward_m_s) - 0.5 * pi - atan(slope), 2.0 * pi)
     return side * (desired - gains.kappa * clip(error / gains.epsilon, 1.0))
 
 
@@ -106,10 +107,10 @@ class VectorField(Follower):
             positive(name, gain, "units")
 
     def _demand(self, state: State) -> Demand:
-        polar = self._polar_state(state)
-        rate = commanded_course_rate(polar, self._side, self.orbit.radius_m, self.gains)
+        offset = circle_offset(state, self.orbit)
+        rate = commanded_course_rate(offset, self._side, self.gains)
         course = atan2(state.velocity_east_m_s, state.velocity_north_m_s)
         crab = max(cos(course - radians(state.heading_deg)), LEAST_CRAB_COS)
         # V chi' = g tan(bank) cos(crab) with the ground speed V: the coordinated turn in wind (Beard and McLain).
-        right = polar.speed_m_s * rate / crab
-        return Demand(right, demand_phase(right, polar, self._side, self.orbit.radius_m))
+        right = offset.speed_m_s * rate / crab
+        return Demand(right, demand_phase(right, offset, self._side))

@@ -21,7 +21,7 @@ from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials.flight import LIMIT_S, STEP_S, Flight, fly
-from loiter.guidance.trials.settling import Band
+from loiter.guidance.vehicle.circle import Band
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.kernel.hold import tightest_radius
 from loiter.planning.feasibility import relative_wind

@@ -11,7 +11,8 @@ import numpy as np
 
 from loiter.errors import positive
 from loiter.guidance.protocol import Command, Law, Phase, Simulator, State
-from loiter.guidance.trials.settling import Band, SettlingMonitor
+from loiter.guidance.trials.settling import SettlingMonitor
+from loiter.guidance.vehicle.circle import Band, circle_offset
 from loiter.planning.model import Orbit
 
 if TYPE_CHECKING:
@@ -133,8 +134,7 @@ def fly(
         states.append(state)
         commands.append(command)
         monitor.update(state)
-    phases = tuple(command.phase for command in commands)
-    return _measured_flight(monitor, orbit, band, _track(states, commands), phases)
+    return _measured_flight(monitor, orbit, band, states, commands)
 
 
 def _step_to_event(command: Command, step_s: float) -> float:
@@ -153,9 +153,10 @@ def _track(states: Sequence[State], commands: Sequence[Command]) -> FlightTrack:
 
 
 def _measured_flight(
-    monitor: SettlingMonitor, orbit: Orbit, band: Band, track: FlightTrack, phases: tuple[Phase, ...]
+    monitor: SettlingMonitor, orbit: Orbit, band: Band, states: Sequence[State], commands: Sequence[Command]
 ) -> Flight:
     """A flight with its measures."""
+    track = _track(states, commands)
     steps_s = np.diff(track.time_s)
     settled_s, joined_s = (monitor.entered_s, monitor.joined_s) if monitor.settled else (nan, nan)
     # An event that did not happen is placed at the end of the flight.
@@ -165,20 +166,11 @@ def _measured_flight(
         orbit,
         band,
         track,
-        phases,
+        tuple(command.phase for command in commands),
         settled_s - track.start_s,
         joined_s - track.start_s,
         monitor.turned_deg,
-        float(_radial_error_m(orbit, track)[joined:].max()),
+        max(abs(circle_offset(state, orbit).outside_m) for state in states[joined:]),
         float(np.sqrt(np.sum(np.diff(track.bank_deg) ** 2 / steps_s) / steps_s.sum())),
         float(flown_m[:settled].sum()),
     )
-
-
-def _radial_error_m(orbit: Orbit, track: FlightTrack) -> NDArray[float64]:
-    """The distance from the circle at each instant; the circle may move."""
-    circles = [orbit.after(time_s) for time_s in track.time_s.tolist()]
-    east_m = track.east_m - np.array([circle.east_m for circle in circles])
-    north_m = track.north_m - np.array([circle.north_m for circle in circles])
-    off_m: NDArray[float64] = np.abs(np.hypot(east_m, north_m) - orbit.radius_m)
-    return off_m

@@ -18,7 +18,7 @@ from loiter.guidance.trials.campaign import (
     kinematic,
     point_mass,
 )
-from loiter.guidance.trials.settling import Band
+from loiter.guidance.vehicle.circle import Band
 
 # Gusts of at least this share of the airspeed count as heavy, and the settling band is wider: in such gusts no law
 # stays within the standard band.

@@ -2,31 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import atan2, cos, hypot, nan, pi, radians, remainder
-from typing import NamedTuple
+from math import nan, remainder
 
-from loiter.errors import positive
 from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.circle import Band, CircleOffset, circle_offset
 from loiter.planning.model import Orbit, Turn
 
 # The directions of holding that count: +1 clockwise, -1 counter-clockwise.
 DIRECTIONS = {Turn.CW: (1,), Turn.CCW: (-1,), Turn.EITHER: (1, -1)}
-
-
-@dataclass(frozen=True)
-class Band:
-    """The band that counts as on the circle: within the share `radial` of its radius and `course_deg` of its tangent.
-
-    Raises `InvalidArgument` for values that are not positive.
-    """
-
-    radial: float = 0.05
-    course_deg: float = 5.0
-
-    def __post_init__(self) -> None:
-        positive("radial", self.radial, "radii")
-        positive("course_deg", self.course_deg, "degrees")
 
 
 # An aircraft that has joined may leave the band in gusts, but stays for a full turn in a band this many times as wide.
@@ -34,13 +17,6 @@ WIDE_BAND = 2.0
 
 # Turns are counted in steps of at least this angle, degrees: a smaller one is a disturbance by gusts.
 COUNTED_DEG = 10.0
-
-
-class BandLimits(NamedTuple):
-    """A band as limits: the largest radial error as a share of the radius, the least cosine of the course error."""
-
-    radial: float
-    course_cos: float
 
 
 class SettlingMonitor:
@@ -58,9 +34,8 @@ class SettlingMonitor:
     """
 
     def __init__(self, orbit: Orbit, band: Band) -> None:
-        self._orbit, self._directions = orbit, DIRECTIONS[orbit.turn]
-        self._band, self._wide_band = _limits(band, 1.0), _limits(band, WIDE_BAND)
-        self._bearing = self._angle_in_band = self._angle_since_joining = self.turned_deg = 0.0
+        self._orbit, self._band, self._directions = orbit, band, DIRECTIONS[orbit.turn]
+        self._azimuth_deg = self._in_band_deg = self._since_joining_deg = self.turned_deg = 0.0
         # The heading up to which turns are counted.
         self._counted_deg: float | None = None
         self._direction = 0
@@ -69,36 +44,30 @@ class SettlingMonitor:
     @property
     def settled(self) -> bool:
         """Whether a full turn has been flown in the band."""
-        return self._direction * self._angle_in_band >= 2.0 * pi
+        return self._direction * self._in_band_deg >= 360.0
 
     def update(self, state: State) -> None:
         """Process the next state."""
-        o, t = self._orbit.after(state.time_s), state.time_s
-        x, y = state.east_m - o.east_m, state.north_m - o.north_m
-        vx, vy = state.velocity_east_m_s - o.velocity_east_m_s, state.velocity_north_m_s - o.velocity_north_m_s
-        # The radial error as a share of the radius, and the cosine of the course relative to the clockwise tangent.
-        d = hypot(x, y)
-        radial, course_cos = abs(d / o.radius_m - 1.0), (vx * y - vy * x) / (d * hypot(vx, vy) or 1.0)
-        direction, bearing = self._direction_in(self._band, radial, course_cos), atan2(x, y)
-        angle = remainder(bearing - self._bearing, 2.0 * pi)
-        if abs(self._angle_since_joining) < 2.0 * pi:
-            near = self._direction_in(self._wide_band, radial, course_cos) != 0
-            self._update_joining(state, direction, angle, near=near)
+        offset, azimuth_deg = circle_offset(state, self._orbit), self._azimuth_deg
+        self._azimuth_deg = offset.azimuth_deg
+        direction, flown_deg = self._direction_in(offset, 1.0), remainder(self._azimuth_deg - azimuth_deg, 360.0)
+        if abs(self._since_joining_deg) < 360.0:
+            near = self._direction_in(offset, WIDE_BAND) != 0
+            self._update_joining(state, direction, flown_deg, near=near)
         if direction != self._direction or direction == 0:
-            self._direction, self._angle_in_band, self.entered_s = direction, 0.0, t if direction else nan
+            self._direction, self._in_band_deg, self.entered_s = direction, 0.0, state.time_s if direction else nan
         else:
-            self._angle_in_band += angle
-        self._bearing = bearing
+            self._in_band_deg += flown_deg
 
-    def _update_joining(self, state: State, direction: int, angle: float, *, near: bool) -> None:
+    def _update_joining(self, state: State, direction: int, flown_deg: float, *, near: bool) -> None:
         """Begin, continue or end the stay in the wide band; `near` is whether the aircraft is in it."""
         if near or self._counted_deg is None:
             self._counted_deg = state.heading_deg
         if not near:
             self._count_turn(self._counted_deg, state.heading_deg)
-            self._angle_since_joining, self.joined_s = 0.0, nan
+            self._since_joining_deg, self.joined_s = 0.0, nan
         elif self.joined_s == self.joined_s:
-            self._angle_since_joining += angle
+            self._since_joining_deg += flown_deg
         elif direction != 0:
             self.joined_s = state.time_s
 
@@ -109,13 +78,6 @@ class SettlingMonitor:
             self._counted_deg = to_deg
             self.turned_deg += turned_deg
 
-    def _direction_in(self, limits: BandLimits, radial: float, course_cos: float) -> int:
-        """The direction of holding in which the aircraft is in a band; 0 outside."""
-        if radial > limits.radial:
-            return 0
-        return next((direction for direction in self._directions if direction * course_cos >= limits.course_cos), 0)
-
-
-def _limits(band: Band, factor: float) -> BandLimits:
-    """The limits of a band, widened by a factor."""
-    return BandLimits(band.radial * factor, cos(radians(band.course_deg * factor)))
+    def _direction_in(self, offset: CircleOffset, factor: float) -> int:
+        """The direction of holding in which the aircraft is in the band, widened by a factor; 0 outside."""
+        return next((direction for direction in self._directions if self._band.has(offset, direction, factor)), 0)

@@ -391,7 +391,7 @@ class Flight:
 
     def _record_step(self, state: State, command: Command, now: float) -> None:
         """Make and record the report of a step."""
-        m, position, telemetry = self._contact.measurements, self._steady.update(state), self._contact.telemetry
+        m, offset, telemetry = self._contact.measurements, self._steady.update(state), self._contact.telemetry
         self._report = GuideReport(
             time_s=now - self._began,
             stage=self._stage,
@@ -404,7 +404,7 @@ class Flight:
             turn=self.orbit.turn,
             command_deg=command.bank_deg,
             crosstrack_m=self._law.crosstrack_m,
-            outside_m=position.outside_m,
+            outside_m=offset.outside_m,
             rate_hz=m.rate_hz(now),
             age_s=now - m.arrived,
             estimates=self._law.estimates,

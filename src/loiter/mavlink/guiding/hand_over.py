@@ -14,11 +14,13 @@ from math import atan, degrees, hypot, pi, radians, tan
 from loiter.errors import LoiterError
 from loiter.guidance.identification.vehicle import VehicleEstimates
 from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.circle import circle_offset
 from loiter.guidance.vehicle.limits import clip
-from loiter.mavlink.guiding.settling import MeanPosition, circle_position
+from loiter.mavlink.guiding.settling import MeanPosition
 from loiter.mavlink.missions.flown_radius import loiter_scaling
 from loiter.planning.hold import hold
-from loiter.planning.model import Aircraft, Orbit, Turn, wind_from_velocity
+from loiter.planning.model import Aircraft, Orbit, wind_from_velocity
+from loiter.planning.sides import SIDES
 
 # ArduPlane's parameter for the period of its guidance, seconds.
 PERIOD = "NAVL1_PERIOD"
@@ -59,8 +61,7 @@ def last_bank_deg(
 
     It corrects the mean offset and course as far as a constant bank can.
     """
-    azimuth_deg = circle_position(state, orbit).azimuth_deg
-    side = 1.0 if orbit.turn == Turn.CW else -1.0
+    azimuth_deg, side = circle_offset(state, orbit).azimuth_deg, SIDES[orbit.turn] + 0
     speed = hypot(state.velocity_east_m_s, state.velocity_north_m_s)
     turn_rate = speed / orbit.radius_m
     ahead_deg = azimuth_deg + side * degrees(0.5 * KEPT_S * turn_rate)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees, exp, hypot, nan, remainder
+from math import degrees, exp, nan, remainder
 from typing import NamedTuple
 
 from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.circle import Band, CircleOffset, circle_offset
 from loiter.guidance.vehicle.turning import rate_at_bank
-from loiter.planning.model import Orbit, Turn
+from loiter.planning.model import Orbit
+from loiter.planning.sides import SIDES
 
-# The band: a share of the radius, and degrees between the track and the tangent; how long and how far the vehicle must
-# stay in it, seconds and degrees around the circle.
-RADIAL, COURSE_DEG, STAY_S, STAY_DEG = 0.05, 5.0, 8.0, 90.0
+# The band, and how long and how far the vehicle must stay in it, seconds and degrees around the circle.
+BAND, STAY_S, STAY_DEG = Band(), 8.0, 90.0
 
 # Near the circle for this much of it, degrees, without having settled: gusts are strong, and the band doubles.
 GUSTY_DEG, NEAR = 360.0, 4.0
@@ -25,23 +26,6 @@ LONGEST_WAIT_DEG, MEAN_S, QUIET, QUIET_S, QUIET_BANK_DEG = 180.0, 1.0, 0.3, 2.0,
 # begun to turn, while its sideslip settles, and a swing of the bank disturbs a shorter average. The coordinated turn
 # must be at least this, degrees.
 RATIO_S, LEAST_TURN_DEG = 6.0, 10.0
-
-
-class CirclePosition(NamedTuple):
-    """Metres outside the circle, degrees between track and tangent in its direction, and the azimuth, degrees."""
-
-    outside_m: float
-    course_error_deg: float
-    azimuth_deg: float
-
-
-def circle_position(state: State, orbit: Orbit) -> CirclePosition:
-    """The position of an aircraft relative to a circle at rest, whose direction is given."""
-    x, y = state.east_m - orbit.east_m, state.north_m - orbit.north_m
-    azimuth_deg = degrees(atan2(x, y))
-    track_deg = degrees(atan2(state.velocity_east_m_s, state.velocity_north_m_s))
-    tangent_deg = azimuth_deg + (90.0 if orbit.turn == Turn.CW else -90.0)
-    return CirclePosition(hypot(x, y) - orbit.radius_m, remainder(track_deg - tangent_deg, 360.0), azimuth_deg)
 
 
 class MeanPosition(NamedTuple):
@@ -58,7 +42,7 @@ class SteadyHoldDetector:
     """
 
     def __init__(self, orbit: Orbit) -> None:
-        self._orbit = orbit
+        self._orbit, self._side = orbit, SIDES[orbit.turn] + 0
         self._last: State | None = None
         self._azimuth_deg = nan
         self._near_deg = 0.0
@@ -83,15 +67,15 @@ class SteadyHoldDetector:
             return None
         return self._heading_deg / self._coordinated_deg
 
-    def update(self, state: State) -> CirclePosition:
-        """Process a state; returns its position relative to the circle."""
-        position = circle_position(state, self._orbit)
-        turned_deg = abs(remainder(position.azimuth_deg - self._azimuth_deg, 360.0))
+    def update(self, state: State) -> CircleOffset:
+        """Process a state; returns its offset from the circle."""
+        offset = circle_offset(state, self._orbit)
+        turned_deg = abs(remainder(offset.azimuth_deg - self._azimuth_deg, 360.0))
         turned_deg = turned_deg if turned_deg == turned_deg else 0.0
-        self._azimuth_deg = position.azimuth_deg
-        self._near_deg = self._near_deg + turned_deg if self._is_within(position, NEAR) else 0.0
-        self._average(state, position)
-        if not self._is_within(position, 2.0 if self._near_deg > GUSTY_DEG else 1.0):
+        self._azimuth_deg = offset.azimuth_deg
+        self._near_deg = self._near_deg + turned_deg if BAND.has(offset, self._side, NEAR) else 0.0
+        self._average(state, MeanPosition(offset.outside_m, offset.course_error_deg(self._side)))
+        if not BAND.has(offset, self._side, 2.0 if self._near_deg > GUSTY_DEG else 1.0):
             self._leave()
         elif self._since_s != self._since_s:
             self._since_s = state.time_s
@@ -99,15 +83,18 @@ class SteadyHoldDetector:
             self._flown_deg += turned_deg
             if state.time_s - self._since_s >= STAY_S and self._flown_deg >= STAY_DEG:
                 self._waited_deg += turned_deg
-                quiet = self._is_within(self.mean, QUIET) and state.time_s - self._quiet_since_s >= QUIET_S
+                quiet = (
+                    BAND.is_within(*self.mean, self._orbit.radius_m, QUIET)
+                    and state.time_s - self._quiet_since_s >= QUIET_S
+                )
                 self.settled = quiet or self._waited_deg >= LONGEST_WAIT_DEG
-        return position
+        return offset
 
-    def _average(self, state: State, position: CirclePosition) -> None:
+    def _average(self, state: State, position: MeanPosition) -> None:
         """Update the mean position, and the angles turned."""
         last, self._last = self._last, state
         if last is None:
-            self.mean = MeanPosition(position.outside_m, position.course_error_deg)
+            self.mean = position
             self._bank_deg, self._quiet_since_s = state.bank_deg, state.time_s
             return
         dt = max(state.time_s - last.time_s, 0.0)
@@ -127,7 +114,3 @@ class SteadyHoldDetector:
             kept * self._heading_deg + turned_deg,
             kept * self._coordinated_deg + coordinated_deg,
         )
-
-    def _is_within(self, position: CirclePosition | MeanPosition, factor: float) -> bool:
-        near = abs(position.outside_m) <= factor * RADIAL * self._orbit.radius_m
-        return near and abs(position.course_error_deg) <= factor * COURSE_DEG

@@ -7,13 +7,14 @@ circles with an error of a few metres, plans from near the circle would always l
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import atan2, degrees
 from typing import NamedTuple
 
-from loiter.guidance.laws.following import polar_state
+from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.circle import Band, CircleOffset, circle_offset
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
+from loiter.planning.sides import SIDES
 
 # Segments shorter than SHORT_S seconds are not advised: banking takes about as long. The current action is advised
 # until less than LEFT_S is left of it, so that noise does not make the advice alternate.
@@ -30,20 +31,6 @@ class Action(NamedTuple):
 
     letter: str
     in_s: float
-
-
-class CircleOffset(NamedTuple):
-    """An aircraft relative to a circle: metres outside it, and degrees between its track and the clockwise tangent.
-
-    Both are over the ground, or relative to a circle that moves.
-    """
-
-    outside_m: float
-    clockwise_angle_deg: float
-
-    def angle_deg(self, turn: Turn) -> float:
-        """The angle between the track and the tangent in a direction, degrees."""
-        return self.clockwise_angle_deg if turn == Turn.CW else 180.0 - self.clockwise_angle_deg
 
 
 def actions(plan: Maneuver, current: str) -> tuple[Action, ...]:
@@ -63,25 +50,19 @@ def actions(plan: Maneuver, current: str) -> tuple[Action, ...]:
     return (*long_enough, Action(hold, plan.duration_s if long_enough else 0.0))
 
 
-def circle_offset(plan: Maneuver) -> CircleOffset:
+def plan_offset(plan: Maneuver) -> CircleOffset:
     """The offset from the circle of an aircraft at the start of a plan."""
-    here, orbit = plan.start, plan.orbit
+    here, V = plan.start, plan.aircraft.airspeed_m_s
     (east, north), (wind_east, wind_north) = heading_vector(here.heading_deg), plan.wind.velocity_m_s
-    speed = plan.aircraft.airspeed_m_s
-    velocity = (
-        speed * east + wind_east - orbit.velocity_east_m_s,
-        speed * north + wind_north - orbit.velocity_north_m_s,
-    )
-    polar = polar_state(here.east_m - orbit.east_m, here.north_m - orbit.north_m, velocity, here.heading_deg)
-    angle_deg = abs(degrees(atan2(polar.outward_m_s, polar.clockwise_m_s)))
-    return CircleOffset(polar.distance_m - orbit.radius_m, angle_deg)
+    velocity = V * east + wind_east, V * north + wind_north
+    return circle_offset(State(0.0, here.east_m, here.north_m, here.heading_deg, 0.0, *velocity, V), plan.orbit)
 
 
 class HoldDetector:
     """Detects, from successive offsets, whether an aircraft holds the circle, and in which direction."""
 
     def __init__(self, radius_m: float, tolerance_m: float) -> None:
-        self._band_m = max(BAND_SHARE * radius_m, BAND_M)
+        self._band = Band(max(BAND_SHARE, BAND_M / radius_m), ALONG_DEG)
         self._tolerance_m = tolerance_m
         self._along_since: dict[Turn, float] = {}
         self._turn: Turn | None = None
@@ -91,11 +72,11 @@ class HoldDetector:
 
         For the first of `turns`, flying along the circle within the tolerance counts as holding it at once.
         """
-        if self._turn is not None and self._is_along(offset, self._turn, LEAVING):
+        if self._turn is not None and self._band.has(offset, SIDES[self._turn] + 0, LEAVING):
             return self._turn
         self._turn = None
         for i, turn in enumerate(turns):
-            if not self._is_along(offset, turn, 1.0):
+            if not self._band.has(offset, SIDES[turn] + 0):
                 self._along_since.pop(turn, None)
                 continue
             since_s = time_s - self._along_since.setdefault(turn, time_s)
@@ -103,6 +84,3 @@ class HoldDetector:
                 self._turn = turn
                 break
         return self._turn
-
-    def _is_along(self, offset: CircleOffset, turn: Turn, factor: float) -> bool:
-        return abs(offset.outside_m) <= factor * self._band_m and offset.angle_deg(turn) <= factor * ALONG_DEG

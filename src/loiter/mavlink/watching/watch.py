@@ -25,7 +25,7 @@ from loiter.mavlink.missions.flown_radius import (
     scaling_parameters,
     sent_remark,
 )
-from loiter.mavlink.watching.advice import Action, HoldDetector, actions, circle_offset
+from loiter.mavlink.watching.advice import Action, HoldDetector, actions, plan_offset
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.solve import plan
@@ -300,7 +300,7 @@ class _Planner:
             wind = self._wind_in_frame(report)
             pose = extrapolated_pose(here, motion, self.aircraft.airspeed_m_s, wind, report.age_s)
             best = self._plan(pose, report.time_s, wind)
-            offset = circle_offset(best)
+            offset = plan_offset(best)
             hold_turn = self._hold_detector.turn(offset, self._hold_turns(best.turn), report.time_s)
             if hold_turn is not None and hold_turn != best.turn:
                 self.orbit = replace(self.orbit, turn=hold_turn)
