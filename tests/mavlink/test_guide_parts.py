@@ -2,6 +2,8 @@
 
 import csv
 import math
+import subprocess
+import sys
 from math import degrees, isnan, radians, tan
 from types import SimpleNamespace
 
@@ -11,7 +13,7 @@ from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Wind, hold
 from loiter.batch.tables.flight_logs import read_parquet, to_parquet
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
 from loiter.geo import LocalFrame
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.limits import clip
@@ -30,6 +32,7 @@ from loiter.mavlink.connection.streams import TRIES, Streams, guide_streams, rat
 from loiter.mavlink.connection.telemetry import Telemetry
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
+from loiter.mavlink.guiding.preparation import is_held
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import MeanPosition, SteadyHoldDetector
 from loiter.mavlink.guiding.step_log import log_row, step_log
@@ -643,6 +646,33 @@ def heading(state):
 def test_the_last_bank_corrects_no_more_than_a_share():
     far = last_bank_deg(CIRCLE, on_circle(0.0), MeanPosition(40.0, -20.0), estimates(), 60.0)
     assert tan(radians(far)) == pytest.approx(1.3 * 18.0**2 / 80.0 / 9.80665)
+
+
+def test_an_estimated_wind_that_just_passes_what_can_be_held_counts_as_unknown():
+    uav = Aircraft(18.0, max_bank_deg=35.0)
+    assert is_held(CIRCLE, uav, (4.0, 0.0))
+    assert not is_held(CIRCLE, uav, (6.0, 0.0))
+    with pytest.raises(RadiusTooSmall, match=r"^orbit radius 80 m cannot be held in a wind of 9 m/s"):
+        is_held(CIRCLE, uav, (9.0, 0.0))
+    with pytest.raises(WindTooStrong, match="a wind of 20 m/s"):
+        is_held(CIRCLE, uav, (20.0, 0.0))
+
+
+def test_the_first_steps_of_a_law_load_nothing():
+    """A flight begins with a law that has made no step: the imports of `guide` load all that it needs."""
+    code = """
+import sys
+from loiter import Aircraft, Orbit, Wind
+from loiter.geo import LocalFrame
+from loiter.mavlink.guiding.flight import LoiterEntry, State
+state = State(0.0, *map(float, LocalFrame(47.0, 8.0).to_local(47.001, 8.003)), 60.0, 0.0, 16.0, 9.0, 18.0)
+before = set(sys.modules)
+for wind in (None, Wind(4.0, 200.0)):
+    LoiterEntry(Orbit(0.0, 0.0, 80.0, "cw"), Aircraft(18.0, max_bank_deg=45.0), wind).step(state, 0.05)
+print(sorted(set(sys.modules) - before))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
 
 
 # Logs.

@@ -68,6 +68,11 @@ def check_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind, wind: Wind |
         raise RadiusTooSmall(sentence, _least_radius_m(aircraft, air))
 
 
+def is_holdable(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> bool:
+    """Whether the aircraft can hold the circle at every azimuth; `air` is that of `check_held`."""
+    return _status(orbit, aircraft, air) not in (Status.WIND_TOO_STRONG, Status.NOT_HELD, Status.RADIUS_TOO_SMALL)
+
+
 def fitted_radius_m(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> float:
     """The radius of the circle, metres, or the least one that the aircraft can hold in the wind if that is larger.
 

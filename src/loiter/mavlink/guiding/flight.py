@@ -20,7 +20,7 @@ from loiter.mavlink.connection.link import ACTIVE
 from loiter.mavlink.guiding.contact import STEP_S, Contact
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.monitor import StopReason
-from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, check_nearly_held, choose, prepare
+from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, choose, is_held, prepare
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import SteadyHoldDetector
 from loiter.mavlink.guiding.summary import loss_consequence, summary
@@ -44,8 +44,8 @@ TARGET_CHANGE_S, OBSERVE_S, RECENT_S = 1.0, 2.0, 1.0
 # The first guess of the age of measurements without that of the link, seconds, before the law has identified it.
 DELAY_S = 0.1
 
-# Seconds between checks of the wind, and steps of a law that is thrown away: they load what it needs.
-WIND_S, WARM_STEPS = 0.5, 3
+# Seconds between checks of the wind.
+WIND_S = 0.5
 
 # The law has twice the time of its first plan and this, seconds, until the circle is held steadily.
 HAND_OVER_S = 180.0
@@ -110,9 +110,6 @@ class Flight:
         self._setup, self.orbit, self._state = setup, setup.orbit, setup.state
         self._notices += setup.notices
         self._steady = SteadyHoldDetector(self.orbit)
-        warm = self._new_law()
-        for _ in range(WARM_STEPS):
-            warm.step(setup.state, STEP_S)
         self._law = self._new_law()
         self._contact.steering = self._new_steering()
 
@@ -418,7 +415,7 @@ class Flight:
         self._next_wind, estimates = now + WIND_S, self._law.estimates
         self._monitor.wind_problem = ""
         try:
-            check_nearly_held(self.orbit, self._setup.aircraft, (estimates.wind_east_m_s, estimates.wind_north_m_s))
+            is_held(self.orbit, self._setup.aircraft, (estimates.wind_east_m_s, estimates.wind_north_m_s))
         except LoiterError as error:
             self._monitor.wind_problem = str(error)
 

@@ -47,10 +47,10 @@ def sent_radius_m(
     scaling, radius_m = loiter_scaling(parameters), orbit.radius_m
     if scaling is None:
         return radius_m
-    slips = estimates is not None and abs(estimates.turn_ratio - 1.0) > COORDINATED
-    if estimates is not None and slips and parameters.get(PERIOD, 0.0) > 0.0:
-        error_m = _steady_error_m(radius_m, estimates.airspeed_m_s, estimates.turn_ratio, parameters[PERIOD])
-        radius_m -= min(max(error_m, -LARGEST_SHARE * radius_m), LARGEST_SHARE * radius_m)
+    period_s = parameters.get(PERIOD, 0.0)
+    if estimates is not None and abs(estimates.turn_ratio - 1.0) > COORDINATED and period_s > 0.0:
+        error_m = _steady_error_m(radius_m, estimates.airspeed_m_s, estimates.turn_ratio, period_s)
+        radius_m -= clip(error_m, LARGEST_SHARE * radius_m)
     return scaling.sent_whole_m(radius_m, altitude_m)
 
 

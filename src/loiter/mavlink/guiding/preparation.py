@@ -8,7 +8,7 @@ from math import isfinite
 from time import monotonic
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument, LinkFailed, LoiterError
+from loiter.errors import InvalidArgument, LinkFailed
 from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.protocol import State
@@ -20,7 +20,7 @@ from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.measurements import AirspeedSource
 from loiter.mavlink.guiding.monitor import LEAST_HEIGHT_M, LEAST_HZ
 from loiter.planning.compass import wrapped
-from loiter.planning.feasibility import RelativeWind, check_held, relative_velocity, relative_wind
+from loiter.planning.feasibility import RelativeWind, check_held, is_holdable, relative_velocity
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.solve import plan
 
@@ -94,39 +94,32 @@ def choose(contact: Contact, request: GuideRequest, settings: AutopilotSettings)
     altitude_m = _circle_altitude_m(contact, request)
     state, orbit = contact.state(), request.orbit
     assert state is not None  # it was waited for
-    wind = request.wind or _nearly_holdable(orbit, aircraft, contact.likely_wind(airspeed))
+    wind = request.wind or _holdable_wind(orbit, aircraft, contact.likely_wind(airspeed))
     if orbit.turn == Turn.EITHER:
         start = Pose(state.east_m, state.north_m, wrapped(state.heading_deg))
         orbit = replace(orbit, turn=plan(start, orbit, aircraft, wind).turn)
     return FlightSetup(orbit, aircraft, settings, altitude_m, state, wind, notices)
 
 
-def _nearly_holdable(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> Wind | None:
+def _holdable_wind(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> Wind | None:
     """An estimated wind if the circle can be held in it, and None if it just cannot: the law then finds it out itself.
 
-    Raises `LoiterError` as `check_nearly_held` does.
+    Raises `LoiterError` as `is_held` does.
     """
-    if wind is None:
-        return None
-    check_nearly_held(orbit, aircraft, wind.velocity_m_s)
-    try:
-        check_held(orbit, aircraft, relative_wind(orbit, aircraft, wind))
-    except LoiterError:
-        return None
-    return wind
+    return wind if wind is not None and is_held(orbit, aircraft, wind.velocity_m_s) else None
 
 
-def check_nearly_held(orbit: Orbit, aircraft: Aircraft, wind: tuple[float, float]) -> None:
-    """Raise `LoiterError` if neither the circle nor one that is wider by `WIND_SLACK` can be held.
+def is_held(orbit: Orbit, aircraft: Aircraft, wind: tuple[float, float]) -> bool:
+    """Whether the circle can be held in a wind, an estimated velocity, east and north, metres per second.
 
-    `wind` is an estimated velocity, east and north, metres per second.
+    Raises `LoiterError` if one that is wider by `WIND_SLACK` cannot be held either.
     """
     air = RelativeWind(*relative_velocity(wind, (0.0, 0.0), aircraft.airspeed_m_s))
-    try:
-        check_held(replace(orbit, radius_m=WIND_SLACK * orbit.radius_m), aircraft, air)
-    except LoiterError:
+    held = is_holdable(orbit, aircraft, air)
+    if not held and not is_holdable(replace(orbit, radius_m=WIND_SLACK * orbit.radius_m), aircraft, air):
         # The sentence is about the circle itself.
         check_held(orbit, aircraft, air)
+    return held
 
 
 def _fly_away_problem(settings: AutopilotSettings) -> str:
