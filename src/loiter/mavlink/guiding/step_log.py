@@ -12,12 +12,16 @@ from pathlib import Path
 
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.guidance.identification.vehicle import VehicleEstimates
+from loiter.guidance.protocol import State
 from loiter.io.flight_log import TEXTS, LogRow, LogWriter
 from loiter.mavlink.guiding.report import GuideReport
 from loiter.planning.model import Orbit
 from loiter.writing import check_writable
 
 Record = Callable[[GuideReport], None]
+
+# What is written before a state is measured.
+NO_STATE = State(*[nan] * len(State._fields))
 
 
 def check_log(path: Path | None) -> None:
@@ -56,39 +60,27 @@ def step_log(path: Path | None, orbit: Callable[[], Orbit]) -> Iterator[Record]:
 
 def log_row(report: GuideReport, orbit: Orbit) -> LogRow:
     """The row of a report."""
-    s, e = report.state, report.estimates
-    motion: tuple[float, ...] = (nan,) * 7
-    if s is not None:
-        motion = (
-            s.heading_deg,
-            s.bank_deg,
-            s.velocity_east_m_s,
-            s.velocity_north_m_s,
-            s.airspeed_m_s,
-            s.east_m,
-            s.north_m,
-        )
-    heading_deg, bank_deg, velocity_east, velocity_north, airspeed, east_m, north_m = motion
+    s = report.state or NO_STATE
     return LogRow(
         time_s=report.time_s,
-        clock_s=nan if s is None else s.time_s,
+        clock_s=s.time_s,
         stage=report.stage.value,
         phase=report.phase.value,
-        east_m=east_m,
-        north_m=north_m,
+        east_m=s.east_m,
+        north_m=s.north_m,
         altitude_m=report.altitude_m,
-        heading_deg=heading_deg,
-        bank_deg=bank_deg,
-        velocity_east_m_s=velocity_east,
-        velocity_north_m_s=velocity_north,
-        airspeed_m_s=airspeed,
+        heading_deg=s.heading_deg,
+        bank_deg=s.bank_deg,
+        velocity_east_m_s=s.velocity_east_m_s,
+        velocity_north_m_s=s.velocity_north_m_s,
+        airspeed_m_s=s.airspeed_m_s,
         command_deg=report.command_deg,
         time_to_join_s=report.time_to_join_s,
         crosstrack_m=report.crosstrack_m,
         outside_m=report.outside_m,
         rate_hz=report.rate_hz,
         age_s=report.age_s,
-        **_estimates(e),
+        **_estimates(report.estimates),
         orbit_east_m=orbit.east_m,
         orbit_north_m=orbit.north_m,
         orbit_radius_m=orbit.radius_m,
