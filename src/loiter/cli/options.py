@@ -6,10 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 from cyclopts import Group, Parameter
+from rich.console import RenderableType
 
+from loiter.cli import report
 from loiter.cli.coordinates import latitude, longitude
 from loiter.cli.numbers import (
     FlightLevel,
@@ -608,6 +610,22 @@ class MapPictureOptions(PictureOptions):
     def has_pixels(self) -> bool:
         """Whether the picture has pixels in every format."""
         return True
+
+
+class Output(NamedTuple):
+    """What to print and to write."""
+
+    json: bool
+    pictures: PictureOptions
+    save: tuple[Path, ...]
+
+    def show(self, document: dict[str, object], *lines: RenderableType) -> None:
+        """Print the document or the lines, with the files that were written."""
+        written = [*self.pictures.plot, *self.save]
+        if self.json:
+            report.print_json(document | report.files_member(written))
+        else:
+            report.write(*lines, *report.files_line(written))
 
 
 def _with_radius(argument: str, numbers: Sequence[float], radius_m: float | None) -> tuple[float, float, float]:

@@ -9,16 +9,24 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Group, Parameter
-from rich.console import Console, RenderableType
+from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 import loiter
-from loiter.cli import report
+from loiter.cli.commands.replay import replay as show_log
 from loiter.cli.numbers import whole
-from loiter.cli.options import AircraftOptions, OrbitOptions, PictureOptions, StartOptions, WindOptions, output
+from loiter.cli.options import (
+    AircraftOptions,
+    OrbitOptions,
+    Output,
+    PictureOptions,
+    StartOptions,
+    WindOptions,
+    output,
+)
 from loiter.cli.scenes import placed
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
@@ -56,22 +64,6 @@ Save = Annotated[
         help="Write a .csv: each step of one flight, or a row for each of many; may be repeated.",
     ),
 ]
-
-
-class Output(NamedTuple):
-    """What to print and to write."""
-
-    json: bool
-    pictures: PictureOptions
-    save: tuple[Path, ...]
-
-    def show(self, document: dict[str, object], *lines: RenderableType) -> None:
-        """Print the document or the lines, with the files that were written."""
-        written = [*self.pictures.plot, *self.save]
-        if self.json:
-            report.print_json(document | report.files_member(written))
-        else:
-            report.write(*lines, *report.files_line(written))
 
 
 @Parameter(name="*")
@@ -243,14 +235,12 @@ def fly(
 
 def _replay(log: Path, others: tuple[object, ...], wanted: Output) -> None:
     """Replay a log; `others` are the options that have no effect with it."""
-    from loiter.cli.commands.replay import replay
-
     if wanted.save or any(option != type(option)() for option in others):
         raise InvalidArgument(
             "replay", "shows a flight that was flown: it takes no options but --plot, --size, --dpi and --json"
         )
     _check_files(wanted, None)
-    replay(log, wanted)
+    show_log(log, wanted)
 
 
 def _check_files(wanted: Output, runs: int | None) -> None:

@@ -8,14 +8,12 @@ from math import isnan, nan
 from operator import itemgetter
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
+from loiter.cli.options import Output
 from loiter.cli.report import json_value
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.io.flight_log import check_columns, read_log
-
-if TYPE_CHECKING:
-    from loiter.cli.commands.fly import Output
 
 
 class StageFlown(NamedTuple):
