@@ -334,7 +334,7 @@ class Argument(float):
         return Argument(abs(float(self)), self.boundaries)
 
     __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = _used
-    __neg__ = __mod__ = __rmod__ = __pow__ = __rpow__ = __bool__ = __eq__ = __ne__ = _used  # type: ignore[assignment]
+    __neg__ = __mod__ = __rmod__ = __pow__ = __rpow__ = __bool__ = __eq__ = __ne__ = _used
     __hash__ = float.__hash__
 
 
@@ -357,7 +357,7 @@ def solved_states() -> int:
         rounded, given = float(synthesis.rounded_radius(R)), float(R)
         require(is_number(rounded, 1.0 if least <= given < 1.0 else given), "`rounded_radius` is another radius")
     for x, y, R, tolerance in product(lengths, lengths, radii, spreads):
-        expected = expected_status(*map(float, (x, y, R, tolerance)), least, reach)
+        expected = expected_status(float(x), float(y), float(R), float(tolerance), least, reach)
         require(synthesis.status_of(x, y, R, tolerance) == expected, f"the status of {(x, y, R, tolerance)}")
         solvable = synthesis.is_solvable(x, y, R, tolerance)
         require(solvable == (expected == Status.OK), f"`is_solvable` at {(x, y, R, tolerance)}")

@@ -354,7 +354,7 @@ def check_same(least: object, best: object) -> None:
     require(same, "the least time is not that of the words that were compared")
 
 
-def faster_of(least: LeastTime, best: Fastest | kernel.Extremal, other: object) -> tuple[LeastTime, Fastest]:
+def faster_of(least: LeastTime, best: Fastest | kernel.Extremal, other: kernel.Extremal) -> tuple[LeastTime, Fastest]:
     """What stands for the kernel's `faster_of`: it adds an extremal to those that have been compared."""
     check_same(least, best)
     require(isinstance(other, kernel.Extremal), "what is compared is no extremal")
