@@ -37,6 +37,9 @@ SLOW = {
     "web": "api drawing failure fields history layout limits load missions page places schema serve tiles touch",
 }
 
+# Files of tests that first build the package, or the site: by one worker, not by each.
+BUILDING = "documents/test_package.py", "documents/test_site.py"
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the option of `make check`."""
@@ -72,13 +75,16 @@ def run_console(example: Example) -> str | None:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Distribute tests to workers one by one, but a document's examples, which depend on each other, together."""
+    """Distribute tests to workers one by one.
+
+    A document's examples, which depend on each other, and tests of something that is long in building stay together.
+    """
     from xdist.scheduler import LoadScopeScheduling
 
     class ByDocument(LoadScopeScheduling):
         def _split_scope(self, nodeid: str) -> str:
             path, _, _ = nodeid.partition("::")
-            return path if path.endswith(".md") else nodeid
+            return path if path.endswith((".md", *BUILDING)) else nodeid
 
     return ByDocument(config, log)
 

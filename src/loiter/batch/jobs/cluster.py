@@ -37,7 +37,7 @@ def open_client(address: str) -> Iterator[Any]:
         raise InvalidArgument("scheduler", f"is {address!r}: it must be an address such as tcp://host:8786")
     from distributed import Client
 
-    with _without_logs("distributed", "distributed.client", "tornado", "asyncio"):
+    with _without_logs("distributed", "distributed.client", "tornado", "tornado.application", "asyncio"):
         try:
             client: Any = Client(address, timeout=CONNECT_S, set_as_default=False)
         except (OSError, ValueError) as error:
