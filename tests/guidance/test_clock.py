@@ -4,19 +4,23 @@ from math import inf
 
 import pytest
 
-from loiter.guidance.laws.clock import LARGEST_GAP_S, Clock
+from loiter.guidance.laws.clock import FIRST_CLOCK, LARGEST_GAP_S, advanced, checked
 
 DT = 0.02
 
 
-def accepted(stamps, clock=None):
-    """Whether each of the stamps, `DT` apart, is accepted."""
-    clock = Clock() if clock is None else clock
+def stepped(stamps, clock=FIRST_CLOCK):
+    """Whether each of the stamps, `DT` apart, is accepted, and the clock after them."""
     answers = []
     for time_s in stamps:
-        answers.append(clock.accept(time_s))
-        clock.advance(DT)
-    return answers
+        clock, is_new = checked(clock, time_s)
+        answers.append(is_new)
+        clock = advanced(clock, DT)
+    return answers, clock
+
+
+def accepted(stamps):
+    return stepped(stamps)[0]
 
 
 def steady(begin_s, count):
@@ -61,22 +65,20 @@ def test_a_repeated_stamp_is_not_new():
 def test_after_a_pause_stamps_are_accepted():
     """A law that was not called for a while, or had no data for any time, continues at once."""
     assert accepted([0.0, 0.02, 0.02 + LARGEST_GAP_S]) == [True, True, True]
-    clock = Clock()
-    assert clock.accept(5.0)
-    clock.advance(3.0 * LARGEST_GAP_S)
-    assert clock.accept(5.0 + 3.0 * LARGEST_GAP_S)
+    clock, is_new = checked(FIRST_CLOCK, 5.0)
+    assert is_new
+    clock, is_new = checked(advanced(clock, 3.0 * LARGEST_GAP_S), 5.0 + 3.0 * LARGEST_GAP_S)
+    assert is_new
     assert (clock.gap_s, clock.jump_s) == (3.0 * LARGEST_GAP_S, 0.0)
 
 
 def test_the_jump_is_the_change_beyond_the_time_of_the_steps():
-    clock = Clock()
-    assert clock.gap_s == inf
-    accepted(steady(100.0, 11), clock)
-    assert clock.jump_s == 0.0
+    assert FIRST_CLOCK.gap_s == inf
+    _, before = stepped(steady(100.0, 11))
+    assert before.jump_s == 0.0
     new = steady(3.0, 52)
-    first = accepted(new, clock).index(True)
-    clock = Clock()
-    accepted([*steady(100.0, 11), *new[: first + 1]], clock)
+    first = stepped(new, before)[0].index(True)
+    _, clock = stepped(new[: first + 1], before)
     # By the previous clock, the new one began at 100.22.
     assert clock.jump_s == pytest.approx(3.0 - 100.22)
     assert clock.gap_s == pytest.approx((first + 1) * DT)

@@ -9,8 +9,25 @@ from hypothesis import strategies as st
 
 from guidance.flights import UAV
 from loiter import Pose, Wind
-from loiter.guidance.identification.bank_history import BankHistory
-from loiter.guidance.laws.observer import AirVelocityFilter, Observer, is_usable
+from loiter.guidance.identification.bank_history import (
+    ENTRIES,
+    constant_history,
+    delayed_deg,
+    mean_deg,
+    recorded,
+)
+from loiter.guidance.laws.observer import (
+    FIRST_AIR,
+    SAMPLES,
+    averaged_air,
+    estimate_after,
+    estimate_at_present,
+    first_observer,
+    gust,
+    is_usable,
+    observed,
+    restarted_air,
+)
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.simulators.gusts import Gusts
 from loiter.guidance.simulators.kinematic import Kinematic
@@ -30,10 +47,11 @@ def turning(rate_deg_s, bank_deg=0.0):
 @given(st.floats(0.0, 1.0), st.lists(st.floats(-20.0, 20.0), min_size=3, max_size=30), st.floats(0.0, 9.0))
 def test_exact_measurements_are_not_changed(smoothing, rates, wind):
     """Dead reckoning is the exact flow of the kinematic vehicle, so that there is nothing to correct."""
-    vehicle, observer = Kinematic(Pose(-40.0, 10.0, 200.0), UAV, Wind(wind, 30.0)), Observer(smoothing)
+    vehicle, observer = Kinematic(Pose(-40.0, 10.0, 200.0), UAV, Wind(wind, 30.0)), first_observer(smoothing)
     for rate in rates:
         state = vehicle.measured_state()
-        estimate = observer.update(state, state.bank_deg)
+        observer = observed(observer, state, state.bank_deg, smoothing)
+        estimate = observer.estimate
         x, y, c, s = estimate.pose
         assert hypot(x - state.east_m, y - state.north_m) < 1e-9
         assert c * c + s * s == pytest.approx(1.0, abs=1e-14)
@@ -41,17 +59,20 @@ def test_exact_measurements_are_not_changed(smoothing, rates, wind):
         assert 18.0 * s + estimate.air_north_m_s == pytest.approx(state.velocity_north_m_s, abs=1e-9)
         vehicle.advance(turning(rate), 0.1)
         later = vehicle.true_state()
-        ahead = estimate._replace(turn_rate=-radians(np.clip(rate, -21.87, 21.87))).after(0.1)
+        turning_estimate = estimate._replace(turn_rate=-radians(np.clip(rate, -21.87, 21.87)))
+        ahead = estimate_after(turning_estimate, 0.1)
         assert hypot(ahead.pose.x - later.east_m, ahead.pose.y - later.north_m) < 0.05
     assert ahead.time_s == pytest.approx(later.time_s)
 
 
 def test_noise_is_averaged_without_lag_in_a_turn():
     noise = Noise(delay_s=0.0)
-    mass, observer = PointMass(Pose(0.0, 0.0, 0.0), UAV, seed=2, gust=0.0, noise=noise), Observer(0.5)
+    mass, observer = PointMass(Pose(0.0, 0.0, 0.0), UAV, seed=2, gust=0.0, noise=noise), first_observer(0.5)
     off, across = [], []
     for _ in range(3000):
-        true, estimate = mass.true_state(), observer.update(mass.measured_state(), mass.true_state().bank_deg)
+        true = mass.true_state()
+        observer = observed(observer, mass.measured_state(), true.bank_deg, 0.5)
+        estimate = observer.estimate
         off.append((estimate.pose.x - true.east_m, estimate.pose.y - true.north_m))
         across.append(cos(radians(true.heading_deg)) * off[-1][0])
         mass.advance(turning(0.0, 30.0), 0.02)
@@ -68,10 +89,10 @@ def test_noise_is_averaged_without_lag_in_a_turn():
 )
 def test_averages_take_longer_in_calm_air_and_where_measurements_are_rare(gust, step_s, expected_s):
     noise = Noise(delay_s=0.0)
-    mass, observer = PointMass(Pose(0.0, 0.0, 0.0), UAV, seed=3, gust=gust, noise=noise), Observer(0.5)
+    mass, observer = PointMass(Pose(0.0, 0.0, 0.0), UAV, seed=3, gust=gust, noise=noise), first_observer(0.5)
     times = []
     for _ in range(round(120.0 / step_s)):
-        observer.update(mass.measured_state(), mass.true_state().bank_deg)
+        observer = observed(observer, mass.measured_state(), mass.true_state().bank_deg, 0.5)
         times.append(observer.smoothing_s)
         mass.advance(turning(0.0, 20.0), step_s)
     assert np.median(times[len(times) // 2 :]) == pytest.approx(expected_s, rel=0.15)
@@ -80,12 +101,14 @@ def test_averages_take_longer_in_calm_air_and_where_measurements_are_rare(gust, 
 def averaged_gusts(gust_m_s, seed):
     """The filter after a minute of measured gusts, and its averages."""
     random = np.random.default_rng(seed)
-    gusts, air = Gusts(gust_m_s, 14.6, random), AirVelocityFilter(0.5)
-    air.reset(*gusts.velocity_m_s)
+    gusts = Gusts(gust_m_s, 14.6, random)
+    air = restarted_air(FIRST_AIR, *gusts.velocity_m_s)
     averages = []
     for noise in random.normal(0.0, 0.3, (3000, 2)):
         gusts.advance(0.02)
-        averages.append(air.update(*(np.array(gusts.velocity_m_s) + noise), 0.02))
+        east, north = (np.array(gusts.velocity_m_s) + noise).tolist()
+        air = averaged_air(air, east, north, 0.02, 0.5)
+        averages.append((air.east_m_s, air.north_m_s))
     return air, np.array(averages)
 
 
@@ -95,9 +118,9 @@ def test_air_is_averaged_over_the_time_that_suits_noise_and_gusts(gust_m_s):
     times = []
     for seed in range(12):
         air, averages = averaged_gusts(gust_m_s, seed)
-        after = air.update(averages[-1][0] + 1.0, averages[-1][1], 1e-3)
-        times.append(-1e-3 / np.log(1.0 - (after[0] - averages[-1][0])))
-        assert after[1] == pytest.approx(averages[-1][1])
+        after = averaged_air(air, averages[-1][0] + 1.0, averages[-1][1], 1e-3, 0.5)
+        times.append(-1e-3 / np.log(1.0 - (after.east_m_s - averages[-1][0])))
+        assert after.north_m_s == pytest.approx(averages[-1][1])
     # In a second Dryden gusts of 263 m change by 2 sigma^2/T along and 3 sigma^2/T across (mean square), T = 14.6 s.
     # The Kalman filter of a random walk averages over sqrt(noise^2 dt/change).
     change = 2.5 * gust_m_s**2 / 14.6
@@ -108,15 +131,15 @@ def test_in_calm_air_noise_is_averaged_over_the_longest_time():
     air, averages = averaged_gusts(0.0, seed=7)
     # White noise of 0.3 m/s over 1/2 s, in steps of 0.02 s: 0.3 sqrt(0.02/(2 0.5)) = 0.042.
     assert averages[1500:].std(axis=0) == pytest.approx([0.042, 0.042], rel=0.25)
-    assert air.gust < 0.01
+    assert gust(air.near, air.far, slip=0.0) < 0.01
 
 
 @given(st.lists(st.tuples(st.floats(-30.0, 30.0), st.floats(-30.0, 30.0), st.floats(0.0, 5.0)), min_size=1))
 def test_an_average_lies_between_its_samples(averages):
-    air = AirVelocityFilter(0.5)
-    air.reset(*averages[0][:2])
+    air = restarted_air(FIRST_AIR, *averages[0][:2])
     for i, measured in enumerate(averages):
-        for axis, value in enumerate(air.update(*measured)):
+        air = averaged_air(air, *measured, 0.5)
+        for axis, value in enumerate((air.east_m_s, air.north_m_s)):
             so_far = [other[axis] for other in averages[: i + 1]]
             assert min(so_far) - 1e-9 <= value <= max(so_far) + 1e-9
 
@@ -127,44 +150,59 @@ steps = st.lists(st.tuples(st.floats(0.0025, 0.3), st.floats(-35.0, 35.0)), min_
 @given(steps, st.floats(0.0, 0.5))
 def test_the_bank_history_covers_the_delay(taken, delay):
     """Compared with the complete history, level before it: the mean over the delay, and the bank at its start."""
-    history = BankHistory()
+    history = constant_history(0.0)
     for dt, bank in taken:
-        history.record(bank, dt)
+        history = recorded(history, bank, dt)
     ends = np.cumsum([10.0, *(dt for dt, _ in taken)])
     banks, begin = np.array([0.0, *(bank for _, bank in taken)]), ends[-1] - delay
     overlap = np.clip(ends - np.maximum(np.concatenate([[0.0], ends[:-1]]), begin), 0.0, None)
     assert history.current_deg == taken[-1][1]
     if delay > 1e-3:
-        assert history.mean_deg(delay) == pytest.approx(overlap @ banks / delay, abs=1e-8)
+        assert mean_deg(history, delay) == pytest.approx(overlap @ banks / delay, abs=1e-8)
     near = {banks[np.searchsorted(ends, begin + nudge)] for nudge in (-1e-9, 1e-9) if begin + nudge <= ends[-1]}
-    assert history.delayed_deg(delay) in near
+    assert delayed_deg(history, delay) in near
 
 
 def test_a_step_longer_than_the_delay_replaces_the_history():
-    history = BankHistory()
+    history = constant_history(0.0)
     for dt in (0.02, 1e308, 0.02, 0.02):
-        history.record(20.0, dt)
-    assert (history.delayed_deg(0.1), history.current_deg) == (20.0, 20.0)
-    assert history.mean_deg(0.1) == pytest.approx(20.0)
+        history = recorded(history, 20.0, dt)
+    assert (delayed_deg(history, 0.1), history.current_deg) == (20.0, 20.0)
+    assert mean_deg(history, 0.1) == pytest.approx(20.0)
 
 
-def test_the_bank_history_forgets_what_is_older_than_the_longest_delay():
-    history = BankHistory()
+@pytest.mark.parametrize(("rate_hz", "within"), [(100, 1.0), (400, 6.0)])
+def test_the_bank_history_forgets_what_is_older_than_the_longest_delay(rate_hz, within):
+    """A bank that rises by a degree a step; at 400 Hz a dozen steps share an entry, which has their mean."""
+    history = constant_history(0.0)
     for i in range(10_000):
-        history.record(float(i), 0.0025)
-    assert history.delayed_deg(2.0) == pytest.approx(9999.0 - 800.0, abs=1.0)
-    assert history.mean_deg(2.0) == pytest.approx(9999.0 - 399.5, abs=1.0)
-    assert len(history._ends) <= 2048
+        history = recorded(history, float(i), 1.0 / rate_hz)
+    assert delayed_deg(history, 2.0) == pytest.approx(9999.0 - 2.0 * rate_hz, abs=within)
+    assert mean_deg(history, 2.0) == pytest.approx(9999.0 - rate_hz + 0.5, abs=1.0)
+    assert len(history.entries) == ENTRIES
+
+
+@pytest.mark.parametrize("dt", [0.0025, 0.02, 0.3])
+def test_gusts_are_measured_over_a_second_at_any_rate(dt):
+    """The differences are those of neighbours and over a second, though the ring has no place for all at 400 Hz."""
+    air = FIRST_AIR
+    for i in range(round(60.0 / dt)):
+        air = averaged_air(air, 2.0 * i * dt, 0.0, dt, 0.5)
+        assert len(air.recent) == SAMPLES
+    assert air.near.time_s == pytest.approx(dt, abs=3e-4)
+    assert 1.0 - 1e-9 <= air.far.time_s <= 1.0 + max(dt, 0.02)
+    assert air.far.square == pytest.approx(2.0 * air.far.time_s**2, rel=1e-2)
 
 
 def test_delayed_measurements_are_flown_on_to_the_present():
     """In a reversal of the bank in wind, with a delay of 0.1 s and no noise."""
     late = Noise(0.0, 0.0, 0.0, 0.0, 0.0, 0.1)
     mass = PointMass(Pose(0.0, 0.0, 0.0), UAV, Wind(5.0, 90.0), seed=2, gust=0.0, noise=late)
-    observer, history, roll, bank = Observer(0.5), BankHistory(), Roll(), 0.0
+    observer, history, roll, bank = first_observer(0.5), constant_history(0.0), Roll(), 0.0
     for i in range(200):
         true = mass.true_state()
-        estimate = observer.update(mass.measured_state(), history.delayed_deg(0.1)).at_present(history, 0.1)
+        observer = observed(observer, mass.measured_state(), delayed_deg(history, 0.1), 0.5)
+        estimate = estimate_at_present(observer.estimate, history, 0.1)
         assert estimate.time_s == pytest.approx(true.time_s)
         x, y, c, s = estimate.pose
         assert hypot(x - true.east_m, y - true.north_m) < 0.05
@@ -172,7 +210,7 @@ def test_delayed_measurements_are_flown_on_to_the_present():
         assert estimate.bank_deg == pytest.approx(true.bank_deg, abs=1.0)
         command = 35.0 if i % 100 < 50 else -35.0
         bank = roll.bank_after(bank, command, 0.02)
-        history.record(bank, 0.02)
+        history = recorded(history, bank, 0.02)
         mass.advance(turning(0.0, command), 0.02)
 
 

@@ -3,42 +3,68 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from math import inf
+from typing import NamedTuple
 
-# The history covers at least this time, seconds, and has no more than twice this many entries.
-COVERED_S, ENTRIES = 2.0, 1024
+# The history covers at least this time, seconds, in this many entries.
+COVERED_S, ENTRIES = 2.0, 128
 
 
-class BankHistory:
-    """The modelled bank over the last seconds, beginning with wings level; `current_deg` is the present one."""
+class BankEntry(NamedTuple):
+    """The end of a step, the bank during it, and the integral of the bank up to its end: seconds and degrees."""
 
-    def __init__(self) -> None:
-        self.current_deg = 0.0
-        self.begin(0.0)
+    end_s: float
+    bank_deg: float
+    integral: float
 
-    def begin(self, bank_deg: float) -> None:
-        """Start again, as if the bank had always been this."""
-        self.current_deg = self._first_deg = bank_deg
-        # The end of each step, its bank, and the integral of the bank up to its end.
-        self._ends, self._banks, self._sums = [0.0], [bank_deg], [0.0]
 
-    def record(self, bank_deg: float, dt: float) -> None:
-        """Append a step of `dt` seconds with the bank at its end."""
-        dt = min(dt, COVERED_S)
-        self.current_deg = bank_deg
-        self._ends.append(self._ends[-1] + dt)
-        self._banks.append(bank_deg)
-        self._sums.append(self._sums[-1] + dt * bank_deg)
-        if len(self._ends) > 2 * ENTRIES:
-            del self._ends[:ENTRIES], self._banks[:ENTRIES], self._sums[:ENTRIES]
+class BankHistory(NamedTuple):
+    """The present bank, and the last steps in a ring of fixed length, oldest first; unused entries end at -inf."""
 
-    def delayed_deg(self, delay_s: float) -> float:
-        """The bank `delay_s` seconds ago."""
-        return self._banks[min(bisect_left(self._ends, self._ends[-1] - delay_s), len(self._ends) - 1)]
+    current_deg: float
+    entries: tuple[BankEntry, ...]
 
-    def mean_deg(self, delay_s: float) -> float:
-        """The mean bank over the last `delay_s` seconds."""
-        if delay_s <= 0.0:
-            return self.current_deg
-        then_s = self._ends[-1] - delay_s
-        i = bisect_left(self._ends, then_s)
-        return (self._sums[-1] - self._sums[i] + (self._ends[i] - then_s) * self._banks[i]) / delay_s
+
+def constant_history(bank_deg: float) -> BankHistory:
+    """The history of a bank that has always been this."""
+    unused = BankEntry(-inf, bank_deg, 0.0)
+    return BankHistory(bank_deg, (*(unused,) * (ENTRIES - 1), BankEntry(0.0, bank_deg, 0.0)))
+
+
+def recorded(history: BankHistory, bank_deg: float, dt: float, covered_s: float = COVERED_S) -> BankHistory:
+    """The history with another step of `dt` seconds and the bank at its end; it covers at least `covered_s`.
+
+    Once the ring is full, steps that are so short that it would not cover that time are joined: two entries that follow
+    each other then last longer than twice that time divided by their number. An entry of joined steps has their mean
+    bank.
+    """
+    entries, dt = history.entries, min(dt, covered_s)
+    before, last = entries[-2], entries[-1]
+    end_s, integral = last.end_s + dt, last.integral + dt * bank_deg
+    if end_s - before.end_s > 2.0 * covered_s / ENTRIES or entries[0].end_s == -inf:
+        return BankHistory(bank_deg, (*entries[1:], BankEntry(end_s, bank_deg, integral)))
+    mean_deg = (integral - before.integral) / (end_s - before.end_s)
+    return BankHistory(bank_deg, (*entries[:-1], BankEntry(end_s, mean_deg, integral)))
+
+
+def index_at(history: BankHistory, time_s: float) -> int:
+    """The index of the first entry that ends at a time or later."""
+    return min(bisect_left(history.entries, (time_s,)), ENTRIES - 1)
+
+
+def delayed_deg(history: BankHistory, delay_s: float) -> float:
+    """The bank `delay_s` seconds ago."""
+    if delay_s <= 0.0:
+        return history.current_deg
+    entries = history.entries
+    return entries[index_at(history, entries[-1].end_s - delay_s)].bank_deg
+
+
+def mean_deg(history: BankHistory, delay_s: float) -> float:
+    """The mean bank over the last `delay_s` seconds."""
+    if delay_s <= 0.0:
+        return history.current_deg
+    entries = history.entries
+    last, then_s = entries[-1], entries[-1].end_s - delay_s
+    first = entries[index_at(history, then_s)]
+    return (last.integral - first.integral + (first.end_s - then_s) * first.bank_deg) / delay_s

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import atan2, cos, degrees, exp, hypot, inf, nan, radians, remainder, sqrt
 from typing import NamedTuple, Protocol
 
-from loiter.guidance.identification.bank_history import BankHistory
+from loiter.guidance.identification.bank_history import BankHistory, constant_history, recorded
 from loiter.guidance.identification.roll_response import RollIdentifier
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.limits import clip
@@ -108,7 +108,7 @@ class DeclaredVehicle:
     """A vehicle that is as declared."""
 
     def __init__(self, declared: VehicleEstimates) -> None:
-        self.estimates, self.history = declared, BankHistory()
+        self.estimates, self.history = declared, constant_history(0.0)
 
     def measure(self, state: State) -> bool:
         """Take a new measurement: it changes nothing."""
@@ -116,15 +116,15 @@ class DeclaredVehicle:
 
     def record(self, command_deg: float, dt: float) -> None:
         """Record a command that is given for `dt` seconds."""
-        roll, history = self.estimates.roll, self.history
-        history.record(roll.bank_after(history.current_deg, command_deg, dt), dt)
+        bank_deg = self.estimates.roll.bank_after(self.history.current_deg, command_deg, dt)
+        self.history = recorded(self.history, bank_deg, dt)
 
 
 class IdentifiedVehicle:
     """A vehicle that is identified in flight, beginning with what is declared; `wind_declared`: whether the wind is."""
 
     def __init__(self, declared: VehicleEstimates, tightest_deg: float, *, wind_declared: bool) -> None:
-        self.estimates, self.history = declared, BankHistory()
+        self.estimates, self.history = declared, constant_history(0.0)
         self._roll = RollIdentifier(declared.roll, declared.delay_s)
         self._turning, self._lead = SlowTurns(declared.turn_ratio), CourseLead(declared.course_lead_s)
         self._quick_turning = TurnRatio(declared.turn_ratio, QUICK_TURNS)
@@ -154,7 +154,7 @@ class IdentifiedVehicle:
         """The estimates including a state without biases, `dt` seconds after the last."""
         if first:
             self._roll.begin(state.bank_deg)
-            self.history.begin(state.bank_deg)
+            self.history = constant_history(state.bank_deg)
         self._roll.measure(state.bank_deg)
         turning, V, air = self._turning, state.airspeed_m_s, self._air
         rate = rate_at_bank(state.bank_deg, V)
@@ -186,7 +186,7 @@ class IdentifiedVehicle:
     def record(self, command_deg: float, dt: float) -> None:
         """Record a command that is given for `dt` seconds."""
         self._roll.record(command_deg, dt)
-        self.history.record(self._roll.bank_deg, dt)
+        self.history = recorded(self.history, self._roll.bank_deg, dt)
 
 
 class WindAndHeading:

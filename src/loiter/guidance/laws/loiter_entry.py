@@ -6,13 +6,14 @@ from math import degrees, hypot, inf, nan
 from typing import NamedTuple
 
 from loiter.errors import instance, not_negative, positive
+from loiter.guidance.identification.bank_history import delayed_deg
 from loiter.guidance.identification.vehicle import (
     DeclaredVehicle,
     IdentifiedVehicle,
     Vehicle,
     VehicleEstimates,
 )
-from loiter.guidance.laws.clock import Clock
+from loiter.guidance.laws.clock import FIRST_CLOCK, advanced, checked
 from loiter.guidance.laws.entry_planner import (
     PlannedEntry,
     RelativeState,
@@ -20,7 +21,18 @@ from loiter.guidance.laws.entry_planner import (
     fastest_entry,
     widest_turn_m,
 )
-from loiter.guidance.laws.observer import Estimate, Observer, Turning, is_usable
+from loiter.guidance.laws.observer import (
+    Estimate,
+    Turning,
+    estimate_after,
+    estimate_at_present,
+    estimate_with_bank,
+    first_observer,
+    is_usable,
+    observed,
+    restarted,
+    roughness,
+)
 from loiter.guidance.laws.path_tracking import PathOffset, air_rate, course_rate
 from loiter.guidance.laws.route import Route, controls_of
 from loiter.guidance.protocol import Command, Phase, State, phase_of_control
@@ -194,11 +206,11 @@ class LoiterEntry:
         if identify:
             self._vehicle = IdentifiedVehicle(declared, self._limit_deg, wind_declared=wind is not None)
         self._side = SIDES[orbit.turn]
-        self._observer = Observer(smoothing_s)
+        self._observer, self._shortest_s = first_observer(smoothing_s), smoothing_s
         self._route: Route | None = None
         # The predicted time of joining, seconds, and its value at the beginning of the present plan.
         self._join_time_s = self._planned_join_time_s = inf
-        self._clock, self._last_search_s = Clock(), -inf
+        self._clock, self._last_search_s = FIRST_CLOCK, -inf
         # Whether the wind differs so much from the declared one that the estimated one is planned with.
         self._wind_differs, self._negligible_wind = False, NEGLIGIBLE_WIND if identify else 0.0
         # The correction of the rate of turn that cancels a steady crosstrack error on the circle, radians per second.
@@ -262,12 +274,13 @@ class LoiterEntry:
             if self._present is None or self._clock.since_s > EXTRAPOLATED_S:
                 return None
             bank_deg = history.current_deg + self._bias_deg
-            self._present = self._present.with_bank(bank_deg).after(self._elapsed_s)
-        elif self._clock.accept(state.time_s):
-            self._present = self._estimate(state)
-            self._bias_deg = self._present.bank_deg - history.current_deg
+            self._present = estimate_after(estimate_with_bank(self._present, bank_deg), self._elapsed_s)
         else:
-            return None
+            self._clock, is_new = checked(self._clock, state.time_s)
+            if not is_new:
+                return None
+            self._present = self._estimate(state)
+            self._bias_deg = self._present.bank_deg - self._vehicle.history.current_deg
         self._elapsed_s = 0.0
         return self._present
 
@@ -276,13 +289,14 @@ class LoiterEntry:
         if self._clock.jump_s != 0.0:
             self._shift_clock(self._clock.jump_s)
         if self._clock.jump_s != 0.0 or self._clock.gap_s > EXTRAPOLATED_S:
-            self._observer.reset()
+            self._observer = restarted(self._observer)
         if self._vehicle.measure(state):
             self._update_limits()
         known, history = self._vehicle.estimates, self._vehicle.history
         turning = Turning(known.turn_ratio, known.course_lead_s)
-        measured = self._observer.update(known.unbiased(state), history.delayed_deg(known.delay_s), turning)
-        return measured.at_present(history, known.delay_s)
+        bank_deg = delayed_deg(history, known.delay_s)
+        self._observer = observed(self._observer, known.unbiased(state), bank_deg, self._shortest_s, turning)
+        return estimate_at_present(self._observer.estimate, history, known.delay_s)
 
     def _update_limits(self) -> None:
         """Set what follows from the estimates of the vehicle: the wind, turn radii, banks and the response time."""
@@ -379,7 +393,7 @@ class LoiterEntry:
         """
         while True:
             lead_s = self._lead_s(estimate.bank_deg, self._piece_bank_deg(route, route.control))
-            state = self._relative_state(estimate.after(lead_s))
+            state = self._relative_state(estimate_after(estimate, lead_s))
             remaining_s = route.update_remaining(state)
             if route.is_holding:
                 return ResponsePoint(state, route.offset(state), 0.0)
@@ -443,12 +457,12 @@ class LoiterEntry:
         if self._begin_on_circle(estimate):
             return
         lead_s = self._lead_s(estimate.bank_deg, 0.0)
-        entry = self._fastest_entry(self._relative_state(estimate.after(lead_s)))
+        entry = self._fastest_entry(self._relative_state(estimate_after(estimate, lead_s)))
         if entry is None:
             return
         first = next(iter(controls_of(entry.word)), None)
         bank_deg = -first * self._limit_deg if first is not None else entry.side * self._hold_deg
-        self._search(self._relative_state(estimate.after(self._lead_s(estimate.bank_deg, bank_deg))))
+        self._search(self._relative_state(estimate_after(estimate, self._lead_s(estimate.bank_deg, bank_deg))))
 
     def _begin_on_circle(self, estimate: Estimate) -> bool:
         """Hold the circle at once if the flight begins on it; return whether it does."""
@@ -529,22 +543,22 @@ class LoiterEntry:
 
     def _joining_gain(self) -> float:
         """The gain of course corrections in the present air, before the circle is joined."""
-        roughness = self._observer.roughness
-        return self._gain_at(roughness, max(min(roughness / ROUGH_AIR, 1.0), CALM_GAIN))
+        rough = roughness(self._observer)
+        return self._gain_at(rough, max(min(rough / ROUGH_AIR, 1.0), CALM_GAIN))
 
     def _holding_gain(self, turn_rate: float) -> float:
         """The same on the circle, which turns at a rate, radians per second."""
-        roughness = self._observer.roughness_beyond_slip
+        rough = roughness(self._observer, slip=1.0)
         response_s = self._lag_s + self._observer.smoothing_s
         calm_rate = max(HOLD_RATE, HOLD_MULTIPLE * HOLD_GAIN * turn_rate)
         calm_share = max(min(calm_rate * response_s / self._gain, CALM_GAIN), CALM_HOLD_GAIN)
-        return self._gain_at(roughness, max(min(roughness / ROUGH_HOLD, 1.0), calm_share))
+        return self._gain_at(rough, max(min(rough / ROUGH_HOLD, 1.0), calm_share))
 
-    def _gain_at(self, roughness: float, share: float) -> float:
+    def _gain_at(self, rough: float, share: float) -> float:
         """A share of the gain, more in heavy gusts, less where quick turns are quicker than the bank says."""
         known = self._vehicle.estimates
         lively = max(known.quick_turn_ratio / known.turn_ratio, 1.0)
-        return self._gain * max(share, min(roughness / HEAVY_GUSTS, HEAVY_GAIN)) / lively
+        return self._gain * max(share, min(rough / HEAVY_GUSTS, HEAVY_GAIN)) / lively
 
     def _trimmed(self, crosstrack_m: float, course_gain: float, turn_rate: float, dt: float) -> float:
         """The correction of the rate of turn on the circle after another step, radians per second."""
@@ -556,7 +570,7 @@ class LoiterEntry:
 
     def _record(self, bank_deg: float, dt: float) -> None:
         """Record a command, and advance the clock."""
-        self._clock.advance(dt)
+        self._clock = advanced(self._clock, dt)
         self._elapsed_s += dt
         self._vehicle.record(bank_deg, dt)
 
