@@ -121,29 +121,22 @@ def record(folder, flights):
         (folder / f"{i:04d}").write_bytes(pickle.dumps(flight))
 
 
-def flown(law, states, dt, limit_step, kept=lambda command, law: None):
-    """What is kept of each command that a law gives for these measurements."""
-    found = []
-    for step, state in enumerate(states):
-        if step == limit_step:
-            law.command_limit_deg = LIMIT_DEG
-        found.append(kept(law.step(state, dt), law))
-    return found
-
-
 def replayed(path):
     """The largest difference of each number, the largest of the estimates, the seconds taken, and the steps."""
     arguments, dt, limit_step, rows, then = pickle.loads(path.read_bytes())
-    states = [State(*row) for row in rows[:, :8].tolist()]
-    begin = process_time()
-    flown(law_for(*arguments), states, dt, limit_step)
-    taken, law = process_time() - begin, law_for(*arguments)
-    found = flown(law, states, dt, limit_step, numbers)
+    law, taken, found = law_for(*arguments), 0.0, []
+    for step, state in enumerate(State(*row) for row in rows[:, :8].tolist()):
+        if step == limit_step:
+            law.command_limit_deg = LIMIT_DEG
+        begin = process_time()
+        command = law.step(state, dt)
+        taken += process_time() - begin
+        found.append(numbers(command, law))
     was, now = rows[:, 8:], np.array(found)
     with np.errstate(invalid="ignore"):
         off = np.where((was == now) | (np.isnan(was) & np.isnan(now)), 0.0, np.abs(was - now))
     off[np.isnan(off)] = inf
-    return off.max(axis=0), float(np.max(np.abs(np.subtract(then, believed(law))))), taken, len(rows)
+    return off.max(axis=0), float(np.max(np.abs(np.nan_to_num(then) - np.nan_to_num(believed(law))))), taken, len(rows)
 
 
 def replay(folder, first=0, last=None):

@@ -7,13 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter.guidance.laws.path_tracking import (
-    Arc,
-    StraightLine,
     air_rate,
+    arc_offset,
     course_rate,
     flight_velocity,
-    holding_circle,
-    path_offset,
+    line_offset,
 )
 from loiter.kernel.hold import hold_pose, hold_rate, tightest_radius
 from loiter.kernel.motion import fly
@@ -21,27 +19,27 @@ from strategies import one_way
 
 
 def test_the_offset_from_a_line():
-    east = StraightLine(0.0, 0.0, 1.0, 0.0)
-    assert path_offset(east, 5.0, 2.0, 1.0, 0.0) == (2.0, 0.0, 0.0)
-    assert path_offset(east, 5.0, -2.0, 0.0, 1.0) == pytest.approx((-2.0, pi / 2, 0.0))
+    east = 1.0, 0.0
+    assert line_offset(5.0, 2.0, *east, 1.0, 0.0) == (2.0, 0.0, 0.0)
+    assert line_offset(5.0, -2.0, *east, 0.0, 1.0) == pytest.approx((-2.0, pi / 2, 0.0))
 
 
 def test_the_offset_from_an_arc():
-    left = Arc(0.0, 0.0, 2.0, 1)
+    left = 1, 2.0
     # On the arc and along it; inside, which is to the left of a left turn; heading inwards, which is to the left.
-    assert path_offset(left, 2.0, 0.0, 0.0, 1.0) == pytest.approx((0.0, 0.0, 0.5))
-    assert path_offset(left, 1.5, 0.0, 0.0, 1.0) == pytest.approx((0.5, 0.0, 1.0 / 1.5))
-    assert path_offset(left, 2.0, 0.0, -1.0, 0.0) == pytest.approx((0.0, pi / 2, 0.0))
-    right = Arc(0.0, 0.0, 2.0, -1)
-    assert path_offset(right, 2.0, 0.0, 0.0, -1.0) == pytest.approx((0.0, 0.0, -0.5))
-    assert path_offset(right, 1.5, 0.0, 0.0, -1.0) == pytest.approx((-0.5, 0.0, -1.0 / 1.5))
-    assert path_offset(right, 2.0, 0.0, -1.0, 0.0) == pytest.approx((0.0, -pi / 2, 0.0))
+    assert arc_offset(*left, 2.0, 0.0, 0.0, 1.0) == pytest.approx((0.0, 0.0, 0.5))
+    assert arc_offset(*left, 1.5, 0.0, 0.0, 1.0) == pytest.approx((0.5, 0.0, 1.0 / 1.5))
+    assert arc_offset(*left, 2.0, 0.0, -1.0, 0.0) == pytest.approx((0.0, pi / 2, 0.0))
+    right = -1, 2.0
+    assert arc_offset(*right, 2.0, 0.0, 0.0, -1.0) == pytest.approx((0.0, 0.0, -0.5))
+    assert arc_offset(*right, 1.5, 0.0, 0.0, -1.0) == pytest.approx((-0.5, 0.0, -1.0 / 1.5))
+    assert arc_offset(*right, 2.0, 0.0, -1.0, 0.0) == pytest.approx((0.0, -pi / 2, 0.0))
 
 
 @given(st.floats(-5.0, 5.0), st.floats(-5.0, 5.0), st.floats(-pi, pi), st.floats(1.0, 4.0))
 def test_a_mirror_turns_left_into_right(x, y, course, R):
-    there = path_offset(holding_circle(1, R), x, y, cos(course), sin(course))
-    mirrored = path_offset(holding_circle(-1, R), x, -y, cos(course), -sin(course))
+    there = arc_offset(-1, R, x, y, cos(course), sin(course))
+    mirrored = arc_offset(1, R, x, -y, cos(course), -sin(course))
     assert (
         mirrored == pytest.approx(tuple(-value for value in there), abs=1e-12)
         or abs(abs(there.course_error) - pi) < 1e-9
@@ -55,7 +53,7 @@ def test_on_the_circle_in_wind_the_rate_is_that_of_the_hold(phase, side, wind, b
     R = wider * tightest_radius(wx, wy)
     x, y, c, s, g = hold_pose(phase, side, R, wx, wy)
     vx, vy = c + wx, s + wy
-    offset = path_offset(holding_circle(side, R), x, y, vx, vy)
+    offset = arc_offset(-side, R, x, y, vx, vy)
     assert offset.crosstrack == pytest.approx(0.0, abs=1e-9)
     assert offset.course_error == pytest.approx(0.0, abs=1e-9)
     rate = air_rate(course_rate(offset, 4.0, 0.5, g), vx, vy, c, s)
@@ -67,16 +65,16 @@ def test_it_converges_on_the_circle(R, side, off, astray):
     """From a crosstrack error and a course error, with limited turn rate."""
     c, s = cos(side * astray), -side * sin(side * astray) * side
     x, y = 0.0, side * (R + off)
-    path, dt = holding_circle(side, R), 0.02
+    dt = 0.02
     for _ in range(1500):
-        rate = min(max(course_rate(path_offset(path, x, y, c, s), 4.0, 0.5, 1.0), -1.0), 1.0)
+        rate = min(max(course_rate(arc_offset(-side, R, x, y, c, s), 4.0, 0.5, 1.0), -1.0), 1.0)
         if rate != 0.0:
             # The kernel's arc of radius 1, scaled to 1/|rate|.
             dx, dy, c, s = fly(0.0, 0.0, c, s, 1 if rate > 0.0 else -1, abs(rate) * dt)
             x, y = x + dx / abs(rate), y + dy / abs(rate)
         else:
             x, y = x + c * dt, y + s * dt
-    offset = path_offset(path, x, y, c, s)
+    offset = arc_offset(-side, R, x, y, c, s)
     assert offset.crosstrack == pytest.approx(0.0, abs=1e-3)
     assert offset.course_error == pytest.approx(0.0, abs=1e-3)
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from math import atan2, cos, degrees, exp, hypot, inf, nan, radians, remainder, sqrt
 from typing import NamedTuple, Protocol
 
-from loiter.guidance.identification.bank_history import BankHistory, constant_history, recorded
 from loiter.guidance.identification.roll_response import RollIdentifier
+from loiter.guidance.laws.clock import FIRST_CLOCK, advanced, checked
+from loiter.guidance.laws.observer import is_usable
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle.rolling import Roll, bank_after
 from loiter.guidance.vehicle.turning import rate_at_bank
 from loiter.planning.compass import heading_vector
 
@@ -83,48 +84,63 @@ class VehicleEstimates(NamedTuple):
     heading_bias_deg: float
     bank_bias_deg: float
 
-    def unbiased(self, state: State) -> State:
-        """A measured state without the biases of heading and bank."""
-        if self.heading_bias_deg == self.bank_bias_deg == 0.0:
-            return state
-        heading_deg, bank_deg = state.heading_deg - self.heading_bias_deg, state.bank_deg - self.bank_bias_deg
-        return state._replace(heading_deg=heading_deg, bank_deg=bank_deg)
+
+class VehicleModel(NamedTuple):
+    """What a step of the law gets to know: the estimates, and the bank that is modelled for the present, degrees.
+
+    `revision` is another number whenever the estimates are others.
+    """
+
+    revision: int
+    bank_deg: float
+    estimates: VehicleEstimates
+
+
+def unbiased(known: VehicleEstimates, state: State) -> State:
+    """A measured state without the biases of heading and bank."""
+    heading_bias_deg, bank_bias_deg = known.heading_bias_deg, known.bank_bias_deg
+    if heading_bias_deg == 0.0 and bank_bias_deg == 0.0:
+        return state
+    time_s, x, y, heading_deg, bank_deg, east, north, V = state
+    return State(time_s, x, y, heading_deg - heading_bias_deg, bank_deg - bank_bias_deg, east, north, V)
 
 
 class Vehicle(Protocol):
     """The vehicle as a law knows it."""
 
-    estimates: VehicleEstimates
-    history: BankHistory
+    @property
+    def model(self) -> VehicleModel:
+        """What is known at present."""
 
-    def measure(self, state: State) -> bool:
-        """Take a new measurement; return whether the estimates have changed."""
+    def fly(self, command_deg: float, dt: float) -> None:
+        """Take the command that was given for the last `dt` seconds."""
 
-    def record(self, command_deg: float, dt: float) -> None:
-        """Record a command that is given for `dt` seconds."""
+    def measure(self, state: State) -> None:
+        """Take a measurement, which may be unusable, or repeat the last one."""
 
 
 class DeclaredVehicle:
-    """A vehicle that is as declared."""
+    """A vehicle that is as declared, with wings level at first."""
 
     def __init__(self, declared: VehicleEstimates) -> None:
-        self.estimates, self.history = declared, constant_history(0.0)
+        self.model = VehicleModel(0, 0.0, declared)
 
-    def measure(self, state: State) -> bool:
-        """Take a new measurement: it changes nothing."""
-        return False
+    def fly(self, command_deg: float, dt: float) -> None:
+        """Take the command that was given for the last `dt` seconds."""
+        revision, bank_deg, known = self.model
+        bank_deg = bank_after(known.roll.time_s, known.roll.rate_deg_s, bank_deg, command_deg, dt)
+        self.model = VehicleModel(revision, bank_deg, known)
 
-    def record(self, command_deg: float, dt: float) -> None:
-        """Record a command that is given for `dt` seconds."""
-        bank_deg = self.estimates.roll.bank_after(self.history.current_deg, command_deg, dt)
-        self.history = recorded(self.history, bank_deg, dt)
+    def measure(self, state: State) -> None:
+        """Take a measurement: it changes nothing."""
 
 
 class IdentifiedVehicle:
     """A vehicle that is identified in flight, beginning with what is declared; `wind_declared`: whether the wind is."""
 
     def __init__(self, declared: VehicleEstimates, tightest_deg: float, *, wind_declared: bool) -> None:
-        self.estimates, self.history = declared, constant_history(0.0)
+        self._estimates, self._revision = declared, 0
+        self._clock = FIRST_CLOCK
         self._roll = RollIdentifier(declared.roll, declared.delay_s)
         self._turning, self._lead = SlowTurns(declared.turn_ratio), CourseLead(declared.course_lead_s)
         self._quick_turning = TurnRatio(declared.turn_ratio, QUICK_TURNS)
@@ -135,11 +151,25 @@ class IdentifiedVehicle:
         self._tight_deg, self._overshoot = TIGHT_SHARE * tightest_deg, Overshoot(tightest_deg)
         self._last_s = -inf
 
-    def measure(self, state: State) -> bool:
-        """Take a new measurement; return whether the estimates have changed."""
+    @property
+    def model(self) -> VehicleModel:
+        """What is known at present."""
+        return VehicleModel(self._revision, self._roll.bank_deg, self._estimates)
+
+    def fly(self, command_deg: float, dt: float) -> None:
+        """Take the command that was given for the last `dt` seconds."""
+        if dt > 0.0:
+            self._clock = advanced(self._clock, dt)
+            self._roll.record(command_deg, dt)
+
+    def measure(self, state: State) -> None:
+        """Take a measurement, which may be unusable, or repeat the last one."""
+        if not is_usable(state) or state.time_s == self._clock.time_s:
+            return
+        self._clock, is_new = checked(self._clock, state.time_s)
         dt = state.time_s - self._last_s
-        if 0.0 < dt < SHORTEST_GAP_S:
-            return False
+        if not is_new or 0.0 < dt < SHORTEST_GAP_S:
+            return
         first, self._last_s = self._last_s == -inf, state.time_s
         if not 0.0 < dt <= LARGEST_GAP_S:
             dt = 0.0
@@ -147,14 +177,13 @@ class IdentifiedVehicle:
             self._quick_turning.restart()
             self._lead.restart()
         self._turning.measure(state.heading_deg, state.bank_deg, state.airspeed_m_s, dt)
-        self.estimates = self._estimates_from(self.estimates.unbiased(state), dt, first=first)
-        return True
+        self._estimates = self._estimates_from(unbiased(self._estimates, state), dt, first=first)
+        self._revision += 1
 
     def _estimates_from(self, state: State, dt: float, *, first: bool) -> VehicleEstimates:
         """The estimates including a state without biases, `dt` seconds after the last."""
         if first:
             self._roll.begin(state.bank_deg)
-            self.history = constant_history(state.bank_deg)
         self._roll.measure(state.bank_deg)
         turning, V, air = self._turning, state.airspeed_m_s, self._air
         rate = rate_at_bank(state.bank_deg, V)
@@ -167,7 +196,7 @@ class IdentifiedVehicle:
         if abs(state.bank_deg) > self._tight_deg:
             self._turn_airspeed.add(V, dt)
         # The direction of flight is to the right of the heading by this angle.
-        air.add(state, self._lead.lead_s * turning.ratio * rate, self.estimates.heading_bias_deg, dt)
+        air.add(state, self._lead.lead_s * turning.ratio * rate, self._estimates.heading_bias_deg, dt)
         return VehicleEstimates(
             *self._roll.estimate,
             turning.ratio,
@@ -182,11 +211,6 @@ class IdentifiedVehicle:
             air.heading_bias_deg,
             turning.bank_bias_deg,
         )
-
-    def record(self, command_deg: float, dt: float) -> None:
-        """Record a command that is given for `dt` seconds."""
-        self._roll.record(command_deg, dt)
-        self.history = recorded(self.history, self._roll.bank_deg, dt)
 
 
 class WindAndHeading:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from math import hypot
 from typing import NamedTuple
 
 from loiter.compiled import still_air_solver, wind_solver
 from loiter.guidance.laws.path_tracking import flight_velocity
 from loiter.kernel import motion, wind_search
+from loiter.kernel.angles import length
 from loiter.kernel.hold import tightest_radius
 from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import Entry, rounded_radius
 from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.words import Word
 
 # An aircraft that hardly exceeds the wind can hold no circle; wind beyond this share of the airspeed is planned as if
 # it were weaker.
@@ -44,67 +45,74 @@ class TurnLimits(NamedTuple):
 class PlannedEntry(NamedTuple):
     """An entry to fly: side, word and durations, the turn radius and the speed, and the velocity of the air.
 
-    The air moves past the circle with `wind`, metres per second; `speed_m_s` is the speed relative to that air.
+    The air moves past the circle with the wind, metres per second; `speed_m_s` is the speed relative to that air. The
+    side is 0 where there is no entry.
     """
 
     side: int
     word: int
-    times_s: tuple[float, float, float]
+    t1_s: float
+    t2_s: float
+    t3_s: float
     turn_radius_m: float
     speed_m_s: float
-    wind: tuple[float, float]
-
-    @property
-    def duration_s(self) -> float:
-        """The time until the circle is joined."""
-        return sum(self.times_s)
+    wind_east_m_s: float
+    wind_north_m_s: float
 
 
-def widest_turn_m(airspeed_m_s: float, radius_m: float, wind: tuple[float, float]) -> float:
+NO_ENTRY = PlannedEntry(0, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0)
+
+
+def duration_s(entry: PlannedEntry) -> float:
+    """The time until the circle is joined."""
+    return entry.t1_s + entry.t2_s + entry.t3_s
+
+
+def widest_turn_m(airspeed_m_s: float, radius_m: float, east_m_s: float, north_m_s: float) -> float:
     """The widest turn radius with which a circle can be held in a wind that moves past it."""
-    if wind == (0.0, 0.0):
+    if east_m_s == 0.0 and north_m_s == 0.0:
         return radius_m
-    (east, north), strength = wind, hypot(*wind) / airspeed_m_s
+    strength = length(east_m_s, north_m_s) / airspeed_m_s
     scale = min(1.0, STRONGEST_WIND / strength) / airspeed_m_s
-    return radius_m / tightest_radius(scale * east, scale * north)
+    return radius_m / tightest_radius(scale * east_m_s, scale * north_m_s)
 
 
 def fastest_entry(
-    state: RelativeState, limits: TurnLimits, radius_m: float, side: int, wind: tuple[float, float]
-) -> PlannedEntry | None:
-    """The fastest entry from a state onto a circle, if there is one, in air that moves past it with `wind`.
+    state: RelativeState, limits: TurnLimits, radius_m: float, side: int, east_m_s: float, north_m_s: float
+) -> PlannedEntry:
+    """The fastest entry from a state onto a circle, in air that moves past it; `NO_ENTRY` where there is none.
 
     It starts along the velocity relative to that air. In still air turns are wider in the present gust: at a given
     turn rate the radius grows with the speed. They are at most as wide as the circle.
     """
     V, r = limits.airspeed_m_s, limits.planned_m
-    if wind == (0.0, 0.0):
-        vx, vy = flight_velocity(state.vx, state.vy, state.hx, state.hy)
-        scale = min(hypot(vx, vy) / V, radius_m / r)
+    vx, vy = flight_velocity(state.vx - east_m_s, state.vy - north_m_s, state.hx, state.hy)
+    speed = length(vx, vy)
+    c, s = vx / speed, vy / speed
+    if east_m_s == 0.0 and north_m_s == 0.0:
+        scale = min(speed / V, radius_m / r)
         # A start beside the last arc counts as on it if half of the reserve can correct its distance.
         tolerance = max(0.5 * (r / limits.tightest_m - 1.0), 0.0)
-        entry = _still_air_entry(state, unit(vx, vy), scale * r, radius_m, side, tolerance)
+        entry = _still_air_entry(state, c, s, scale * r, radius_m, side, tolerance)
     else:
-        wx, wy = wind
-        scale, course = 1.0, unit(*flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy))
-        problem = WindProblem(state.x / r, state.y / r, *course, rounded_radius(radius_m / r), side, wx / V, wy / V)
-        found = wind_solver.fastest(problem)
-        entry = wind_search.entry_of(found) if found.status == Status.OK else None
-    if entry is None:
-        return None
+        scale, R = 1.0, rounded_radius(radius_m / r)
+        entry = _entry_in_wind(WindProblem(state.x / r, state.y / r, c, s, R, side, east_m_s / V, north_m_s / V))
     unit_s = r / V
-    times_s = entry.t1 * unit_s, entry.t2 * unit_s, entry.t3 * unit_s
-    return PlannedEntry(entry.side, entry.word, times_s, scale * r, scale * V, wind)
+    t1_s, t2_s, t3_s = entry.t1 * unit_s, entry.t2 * unit_s, entry.t3 * unit_s
+    return PlannedEntry(entry.side, entry.word, t1_s, t2_s, t3_s, scale * r, scale * V, east_m_s, north_m_s)
+
+
+# The answer of the kernel where there is no entry.
+NONE = Entry(0, Word.EMPTY + 0, 0.0, 0.0, 0.0)
 
 
 def _still_air_entry(
-    state: RelativeState, course: tuple[float, float], r: float, radius_m: float, side: int, tolerance: float
-) -> Entry | None:
-    x, y = motion.reduce(state.x / r, state.y / r, *course)
-    return still_air_solver.optimum(x, y, radius_m / r, side, tolerance)
+    state: RelativeState, c: float, s: float, r: float, radius_m: float, side: int, tolerance: float
+) -> Entry:
+    x, y = motion.reduce(state.x / r, state.y / r, c, s)
+    return still_air_solver.optimum(x, y, radius_m / r, side, tolerance) or NONE
 
 
-def unit(x: float, y: float) -> tuple[float, float]:
-    """The unit vector along (x, y)."""
-    size = (x * x + y * y) ** 0.5
-    return x / size, y / size
+def _entry_in_wind(problem: WindProblem) -> Entry:
+    found = wind_solver.fastest(problem)
+    return wind_search.entry_of(found) if found.status == Status.OK else NONE

@@ -5,10 +5,11 @@ Any units that fit each other: metres and seconds, or those of the kernel. Angle
 
 from __future__ import annotations
 
-from math import atan2, hypot
+from math import atan2
 from typing import NamedTuple
 
 from loiter.guidance.vehicle.limits import clip
+from loiter.kernel.angles import length
 
 # The steepest intercept angle onto a path, radians: a vehicle far off turns towards the path, not all the way round.
 STEEPEST_INTERCEPT = 0.6
@@ -16,24 +17,6 @@ STEEPEST_INTERCEPT = 0.6
 # The least speed along the heading, as a share of the airspeed, from which a course is taken: below it the measured
 # velocity is not that of an aircraft in flight.
 LEAST_SPEED = 0.05
-
-
-class Arc(NamedTuple):
-    """A circle about (x, y), flown to the left (u = +1) or to the right (-1)."""
-
-    x: float
-    y: float
-    radius: float
-    u: int
-
-
-class StraightLine(NamedTuple):
-    """The line through (x, y) along the unit vector (c, s)."""
-
-    x: float
-    y: float
-    c: float
-    s: float
 
 
 class PathOffset(NamedTuple):
@@ -48,18 +31,25 @@ class PathOffset(NamedTuple):
     path_rate: float
 
 
-def path_offset(path: Arc | StraightLine, x: float, y: float, vx: float, vy: float) -> PathOffset:
-    """The offset from a path of a vehicle at (x, y) with the velocity (vx, vy)."""
-    if isinstance(path, StraightLine):
-        crosstrack = path.c * (y - path.y) - path.s * (x - path.x)
-        return PathOffset(crosstrack, atan2(path.c * vy - path.s * vx, path.c * vx + path.s * vy), 0.0)
-    rx, ry, u = x - path.x, y - path.y, path.u
-    d = hypot(rx, ry)
+def line_offset(x: float, y: float, c: float, s: float, vx: float, vy: float) -> PathOffset:
+    """The offset from a line along the unit vector (c, s) of a vehicle with the velocity (vx, vy).
+
+    The vehicle is at (x, y) relative to a point of the line.
+    """
+    return PathOffset(c * y - s * x, atan2(c * vy - s * vx, c * vx + s * vy), 0.0)
+
+
+def arc_offset(u: int, radius: float, x: float, y: float, vx: float, vy: float) -> PathOffset:
+    """The offset from a circle, flown to the left (u = +1) or right (-1), of a vehicle with the velocity (vx, vy).
+
+    The vehicle is at (x, y) relative to the centre. A holding circle of side +1, clockwise, is flown to the right.
+    """
+    d = length(x, y)
     # At the centre the direction along the circle is undefined: half a radius is the least distance used.
-    reach = max(d, 0.5 * path.radius)
-    along, inward = u * (rx * vy - ry * vx) / reach, -(rx * vx + ry * vy) / reach
+    reach = max(d, 0.5 * radius)
+    along, inward = u * (x * vy - y * vx) / reach, -(x * vx + y * vy) / reach
     # The left side of a left turn is the inside.
-    return PathOffset(u * (path.radius - d), atan2(u * inward, along), u * along / reach)
+    return PathOffset(u * (radius - d), atan2(u * inward, along), u * along / reach)
 
 
 def course_rate(offset: PathOffset, course_gain: float, place_gain: float, speed: float) -> float:
@@ -86,8 +76,3 @@ def air_rate(rate: float, vx: float, vy: float, hx: float, hy: float) -> float:
     docs/wind.md, `hold.hold_rate`.
     """
     return rate * (vx * vx + vy * vy) / (hx * vx + hy * vy)
-
-
-def holding_circle(side: int, R: float) -> Arc:
-    """The holding circle about the origin: clockwise (side +1) is flown to the right."""
-    return Arc(0.0, 0.0, R, -side)

@@ -2,149 +2,160 @@
 
 from __future__ import annotations
 
+from math import ceil
 from typing import NamedTuple
 
-from loiter.guidance.laws.entry_planner import PlannedEntry, RelativeState, unit
-from loiter.guidance.laws.path_tracking import (
-    Arc,
-    PathOffset,
-    StraightLine,
-    flight_velocity,
-    holding_circle,
-    path_offset,
-)
-from loiter.kernel.angles import TWO_PI, angle, arc_rotation
+from loiter.guidance.laws.entry_planner import PlannedEntry, RelativeState
+from loiter.guidance.laws.path_tracking import PathOffset, arc_offset, flight_velocity, line_offset
+from loiter.kernel.angles import TWO_PI, angle, arc_rotation, length
 from loiter.kernel.motion import fly
-from loiter.kernel.words import ABSENT, Side, controls
-from loiter.planning.sides import TURNS
-
-Controls = tuple[int, ...]
+from loiter.kernel.words import ABSENT, controls
 
 
 class RoutePiece(NamedTuple):
-    """One arc or straight line of a route: its control u, its path, its end (x, y), metres, and its duration."""
+    """One arc or straight line of a route: its control u, `ABSENT` for none, its path, end and duration.
+
+    An arc has the centre (x, y); a line passes through (x, y) along the unit vector (c, s). Metres and seconds.
+    """
 
     u: int
-    path: Arc | StraightLine
     x: float
     y: float
+    c: float
+    s: float
+    end_x: float
+    end_y: float
     time_s: float
 
 
-class Route:
-    """The rest of a plan that begins at `state`, onto a circle of `radius_m` metres.
+NO_PIECE = RoutePiece(ABSENT, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 
-    `side` and `turn` are the direction in which the circle is held, `remaining_s` the time left of the current piece.
+
+class Route(NamedTuple):
+    """The rest of a plan: at most three pieces, the current one first, then the circle, held on `side`.
+
+    `side` is 0 where there is no plan. `last_u` is the control of the last piece of the whole plan, and `start_s` the
+    time at which that began. The pieces are at rest in the steady wind of the plan.
     """
 
-    def __init__(self, state: RelativeState, entry: PlannedEntry, radius_m: float) -> None:
-        self.side, self.turn, self.entry = entry.side, TURNS[Side(entry.side)], entry
-        self._start_s = state.time_s
-        self._circle = holding_circle(self.side, radius_m)
-        self._later = route_pieces(self._in_air(state), entry)
-        self._current: RoutePiece | None = None
-        self.remaining_s = 0.0
-        self.drop_piece()
-
-    @property
-    def is_holding(self) -> bool:
-        """Whether only the circle is left."""
-        return self._current is None
-
-    @property
-    def controls(self) -> Controls:
-        """The controls of the remaining pieces, the current one first."""
-        return () if self._current is None else (self._current.u, *(piece.u for piece in self._later))
-
-    @property
-    def control(self) -> int | None:
-        """The control of the current piece; none on the circle."""
-        return None if self._current is None else self._current.u
-
-    @property
-    def next_control(self) -> int | None:
-        """The control of the next piece; none where the circle is next."""
-        return self._later[0].u if self._later else None
-
-    @property
-    def last_control(self) -> int | None:
-        """The control of the last piece before the circle; none on the circle."""
-        return self._later[-1].u if self._later else self.control
-
-    @property
-    def straight_between_s(self) -> float | None:
-        """The duration of the straight line between the current turn and an opposite one, if that is next, seconds."""
-        later = self._later
-        if self._current is None or len(later) < 2 or later[0].u != 0 or later[1].u == self._current.u:
-            return None
-        return later[0].time_s
-
-    @property
-    def time_to_join_s(self) -> float:
-        """The time until the aircraft joins the circle."""
-        return self.remaining_s + self._later_s
-
-    def update_remaining(self, state: RelativeState) -> float:
-        """Set `remaining_s` to the time left of the current piece at a state, and return it."""
-        if self._current is not None:
-            x, y, _, _ = self._in_air(state)
-            self.remaining_s = _remaining_s(self._current, x, y, self.entry, self.remaining_s)
-        return self.remaining_s
-
-    def drop_piece(self) -> None:
-        """Make the next piece the current one."""
-        self._current = self._later.pop(0) if self._later else None
-        self._later_s = sum(piece.time_s for piece in self._later)
-        self.remaining_s = 0.0 if self._current is None else self._current.time_s
-
-    def shift_clock(self, jump_s: float) -> None:
-        """Convert the start of the route to a clock that has jumped."""
-        self._start_s += jump_s
-
-    def offset(self, state: RelativeState) -> PathOffset:
-        """The offset of a state from the current piece, or from the circle."""
-        if self._current is not None:
-            return path_offset(self._current.path, *self._in_air(state))
-        return path_offset(self._circle, state.x, state.y, *self.velocity(state))
-
-    def velocity(self, state: RelativeState) -> tuple[float, float]:
-        """The velocity along the path: relative to the plan's steady wind; on the circle, relative to the circle."""
-        wx, wy = (0.0, 0.0) if self._current is None else self.entry.wind
-        return flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy)
-
-    def _in_air(self, state: RelativeState) -> tuple[float, float, float, float]:
-        """Position and velocity relative to the steady wind of the plan, as if the air were still."""
-        (wx, wy), elapsed_s = self.entry.wind, state.time_s - self._start_s
-        vx, vy = flight_velocity(state.vx - wx, state.vy - wy, state.hx, state.hy)
-        return state.x - wx * elapsed_s, state.y - wy * elapsed_s, vx, vy
+    side: int
+    current: RoutePiece
+    second: RoutePiece
+    third: RoutePiece
+    last_u: int
+    start_s: float
+    turn_radius_m: float
+    speed_m_s: float
+    wind_east_m_s: float
+    wind_north_m_s: float
 
 
-def route_pieces(motion: tuple[float, float, float, float], entry: PlannedEntry) -> list[RoutePiece]:
-    """The pieces of an entry flown from a position along a velocity (x, y, vx, vy)."""
-    x, y, vx, vy = motion
-    (c, s), r = unit(vx, vy), entry.turn_radius_m
-    chain = []
-    for u, time_s in zip(controls_of(entry.word), entry.times_s, strict=False):
-        path = Arc(x - u * r * s, y + u * r * c, r, u) if u else StraightLine(x, y, c, s)
-        dx, dy, c, s = fly(0.0, 0.0, c, s, u, time_s * entry.speed_m_s / r)
-        x, y = x + r * dx, y + r * dy
-        chain.append(RoutePiece(u, path, x, y, time_s))
-    return chain
+NO_ROUTE = Route(0, NO_PIECE, NO_PIECE, NO_PIECE, ABSENT, 0.0, 1.0, 1.0, 0.0, 0.0)
 
 
-def controls_of(word: int) -> Controls:
-    """The controls of a word (`kernel.words`) in the order flown, without the absent ones."""
-    return tuple(u for u in controls(word) if u != ABSENT)
+class Motion(NamedTuple):
+    """Position and velocity, relative to the steady wind of a plan, as if the air were still."""
+
+    x: float
+    y: float
+    vx: float
+    vy: float
 
 
-def _remaining_s(piece: RoutePiece, x: float, y: float, entry: PlannedEntry, previous_s: float) -> float:
-    """The time left of a piece at (x, y).
+def route_of(state: RelativeState, entry: PlannedEntry) -> Route:
+    """The route of an entry that begins at a state."""
+    side, word, t1_s, t2_s, t3_s, r, speed, east, north = entry
+    vx, vy = flight_velocity(state.vx - east, state.vy - north, state.hx, state.hy)
+    size = length(vx, vy)
+    u1, u2, u3 = controls(word)
+    first, c, s = _piece(u1, state.x, state.y, vx / size, vy / size, t1_s, r, speed)
+    second, c, s = _piece(u2, first.end_x, first.end_y, c, s, t2_s, r, speed)
+    third, _, _ = _piece(u3, second.end_x, second.end_y, c, s, t3_s, r, speed)
+    last_u = u3 if u3 != ABSENT else u2 if u2 != ABSENT else u1
+    return Route(side, first, second, third, last_u, state.time_s, r, speed, east, north)
+
+
+def _piece(
+    u: int, x: float, y: float, c: float, s: float, time_s: float, r: float, speed: float
+) -> tuple[RoutePiece, float, float]:
+    """A piece of the control `u` that begins at (x, y) along (c, s), and the direction (c, s) at its end."""
+    if u == ABSENT:
+        return NO_PIECE, c, s
+    dx, dy, end_c, end_s = fly(0.0, 0.0, c, s, u, time_s * speed / r)
+    centre_x, centre_y = x - u * r * s, y + u * r * c
+    return RoutePiece(u, centre_x, centre_y, c, s, x + r * dx, y + r * dy, time_s), end_c, end_s
+
+
+def is_holding(route: Route) -> bool:
+    """Whether only the circle is left."""
+    return route.current.u == ABSENT
+
+
+def without_current(route: Route) -> Route:
+    """The route without its current piece."""
+    side, _, second, third, last_u, start_s, r, speed, east, north = route
+    return Route(side, second, third, NO_PIECE, last_u, start_s, r, speed, east, north)
+
+
+def by_clock(route: Route, jump_s: float) -> Route:
+    """The route by a clock that has jumped."""
+    side, first, second, third, last_u, start_s, r, speed, east, north = route
+    return Route(side, first, second, third, last_u, start_s + jump_s, r, speed, east, north)
+
+
+def last_control(route: Route) -> int:
+    """The control of the last piece before the circle; `ABSENT` on the circle."""
+    return route.current.u if route.second.u == ABSENT else route.last_u
+
+
+def reverses(route: Route) -> bool:
+    """Whether the last turn of the plan is opposite to that of the circle."""
+    return route.last_u == route.side
+
+
+def later_s(route: Route) -> float:
+    """The time from the end of the current piece to the circle."""
+    return route.second.time_s + route.third.time_s
+
+
+def in_air(route: Route, state: RelativeState) -> Motion:
+    """The motion of a vehicle relative to the steady wind of the plan."""
+    time_s, x, y, vx, vy, hx, hy = state
+    east, north, elapsed_s = route.wind_east_m_s, route.wind_north_m_s, time_s - route.start_s
+    vx, vy = flight_velocity(vx - east, vy - north, hx, hy)
+    return Motion(x - east * elapsed_s, y - north * elapsed_s, vx, vy)
+
+
+def path_velocity(route: Route, state: RelativeState) -> tuple[float, float]:
+    """The velocity along the path: relative to the plan's steady wind; on the circle, relative to the circle."""
+    if is_holding(route):
+        return flight_velocity(state.vx, state.vy, state.hx, state.hy)
+    east, north = route.wind_east_m_s, route.wind_north_m_s
+    return flight_velocity(state.vx - east, state.vy - north, state.hx, state.hy)
+
+
+def offset_of(route: Route, state: RelativeState, radius_m: float) -> PathOffset:
+    """The offset of a state from the current piece, or from the circle of `radius_m`."""
+    if is_holding(route):
+        vx, vy = flight_velocity(state.vx, state.vy, state.hx, state.hy)
+        return arc_offset(-route.side, radius_m, state.x, state.y, vx, vy)
+    piece = route.current
+    x, y, vx, vy = in_air(route, state)
+    if piece.u == 0:
+        return line_offset(x - piece.x, y - piece.y, piece.c, piece.s, vx, vy)
+    return arc_offset(piece.u, route.turn_radius_m, x - piece.x, y - piece.y, vx, vy)
+
+
+def remaining_s(route: Route, state: RelativeState, previous_s: float) -> float:
+    """The time left of the current piece at a state; 0 on the circle.
 
     On an arc this is known up to whole turns: the value nearest to `previous_s` is taken.
     """
-    path = piece.path
-    if isinstance(path, StraightLine):
-        return ((piece.x - x) * path.c + (piece.y - y) * path.s) / entry.speed_m_s
-    left = angle(arc_rotation(piece.u, x - path.x, y - path.y, piece.x - path.x, piece.y - path.y))
-    rate = entry.speed_m_s / entry.turn_radius_m
-    return (left + TWO_PI * round((previous_s * rate - left) / TWO_PI)) / rate
+    if is_holding(route):
+        return 0.0
+    piece, (x, y, _, _) = route.current, in_air(route, state)
+    if piece.u == 0:
+        return ((piece.end_x - x) * piece.c + (piece.end_y - y) * piece.s) / route.speed_m_s
+    left = angle(arc_rotation(piece.u, x - piece.x, y - piece.y, piece.end_x - piece.x, piece.end_y - piece.y))
+    rate = route.speed_m_s / route.turn_radius_m
+    return (left + TWO_PI * ceil((previous_s * rate - left) / TWO_PI - 0.5)) / rate

@@ -18,7 +18,6 @@ from typing import NamedTuple
 from loiter.errors import not_negative
 from loiter.guidance.laws.following import Demand
 from loiter.guidance.laws.l1 import DAMPING, L1, SHORTEST_PERIOD_S, circle_demand
-from loiter.guidance.laws.route import controls_of
 from loiter.guidance.protocol import State, phase_of_control
 from loiter.guidance.vehicle.circle import CircleOffset, circle_offset, offset_at
 from loiter.kernel import wind_search
@@ -27,6 +26,7 @@ from loiter.kernel.motion import fly
 from loiter.kernel.moving_target import Path
 from loiter.kernel.wind.paths import first_path
 from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.words import ABSENT, controls
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import relative_wind
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
@@ -121,7 +121,9 @@ class Tangent(L1):
         path = self._path(state, self.turn)
         x, y, (c, s) = 0.0, 0.0, heading_vector(state.heading_deg)
         self._pieces = []
-        for u, t in zip(controls_of(path.word), (path.t1, path.t2, path.t3), strict=False):
+        for u, t in zip(controls(path.word), (path.t1, path.t2, path.t3), strict=True):
+            if u == ABSENT:
+                break
             if t * r > SHORT_M:
                 self._pieces.append(DubinsPiece(u, t * r, x * r, y * r, c, s))
             x, y, c, s = fly(x, y, c, s, u, t)

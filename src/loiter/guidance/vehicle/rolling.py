@@ -57,79 +57,93 @@ class Roll:
         """Whether the bank follows a command instantly."""
         return self.time_s == 0.0 and self.rate_deg_s == inf
 
-    @property
-    def command_gain(self) -> float:
-        """How many times the change of bank that is wanted is commanded."""
-        return min(max(self.time_s / QUICKEST_S, 1.0), COMMAND_GAIN)
-
-    def _free_deg(self, room_deg: float) -> float:
-        """The missing bank, degrees, below which a demand is within a bank limit `room_deg` beyond the target."""
-        return room_deg / (self.command_gain - 1.0) if self.command_gain > 1.0 else inf
-
     def demand_deg(self, bank_deg: float, target_deg: float, limit_deg: float) -> float:
-        """The command that brings the bank to a target `command_gain` times as fast as commanding the target would.
-
-        It lies beyond the target, but never beyond the bank limit.
-        """
-        if self.time_s == 0.0:
-            return target_deg
-        return clip(bank_deg + self.command_gain * (target_deg - bank_deg), limit_deg)
+        """`demand_deg` for this response."""
+        return demand_deg(self.time_s, bank_deg, target_deg, limit_deg)
 
     def onset(self, bank_deg: float, target_deg: float, limit_deg: float) -> TurnOnset:
-        """When a change of bank under `demand_deg` changes the turn rate, which is proportional to tan(bank)."""
-        missing_deg, last_s = abs(target_deg - bank_deg), self.time_s / self.command_gain
-        room_deg = max(limit_deg - (target_deg if target_deg >= bank_deg else -target_deg), 0.0)
-        small = missing_deg <= min(self._free_deg(room_deg), self.rate_deg_s * last_s, SMALL_CHANGE_DEG)
-        if self.is_instant or missing_deg == 0.0 or small:
-            return TurnOnset(last_s, last_s * last_s)
-        sign = 1.0 if target_deg > bank_deg else -1.0
-        whole = mean = square = 0.0
-        for left_deg, time_s, share_deg in self._passages(missing_deg, room_deg):
-            tangent = tan(radians(target_deg - sign * left_deg))
-            share = share_deg * (1.0 + tangent * tangent)
-            whole += share
-            mean += share * time_s
-            square += share * time_s * time_s
-        mean /= whole
-        return TurnOnset(mean, max(square / whole - mean * mean, 0.0))
-
-    def _passages(self, m: float, g: float) -> list[tuple[float, float, float]]:
-        """Missing banks that are passed, when, and their shares of the whole change; degrees, seconds, degrees.
-
-        Let m be the missing bank, p the limit of the roll rate, and g how far the bank limit lies beyond the target.
-        The bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `command_gain` m/tau. As
-        m shrinks these apply in that order. The time at which m is left follows from each in closed form. The missing
-        banks and their shares are those of Gauss's rules over each range.
-        """
-        tau, p, last_s = self.time_s, self.rate_deg_s, self.time_s / self.command_gain
-        # The missing bank at which the rate leaves its limit, and at which the command leaves the bank limit.
-        slow = min(max(p * tau - g, p * last_s), m)
-        free = min(self._free_deg(g), slow)
-        passages, time_s = [], (m - slow) / p
-        if slow < m:
-            passages = [(slow + x * (m - slow), (1.0 - x) * time_s, w * (m - slow)) for x, w in LEGENDRE]
-        if free < slow:
-            # In the square of a variable the logarithm is smooth where it begins.
-            lefts = [(free + x * x * (slow - free), 2.0 * x * w * (slow - free)) for x, w in LEGENDRE]
-            passages += [(left, time_s + tau * log((slow + g) / (left + g)), share) for left, share in lefts]
-        if free > 0.0:
-            time_s += tau * log((slow + g) / (free + g))
-            passages += [(free * left, time_s + x * last_s, w * free) for x, left, w in LAGUERRE]
-        return passages
+        """`turn_onset` for this response."""
+        return turn_onset(self.time_s, self.rate_deg_s, bank_deg, target_deg, limit_deg)
 
     def bank_after(self, bank_deg: float, command_deg: float, time_s: float) -> float:
-        """The exact bank after `time_s` seconds under a constant command."""
-        if self.is_instant:
-            return command_deg
-        missing = command_deg - bank_deg
-        sign = 1.0 if missing >= 0.0 else -1.0
-        beyond = max(abs(missing) - self.rate_deg_s * self.time_s, 0.0)
-        limited_s = beyond / self.rate_deg_s
-        if limited_s > time_s:
-            return bank_deg + sign * self.rate_deg_s * time_s
-        missing -= sign * beyond
-        lag = exp(-(time_s - limited_s) / self.time_s) if self.time_s > 0.0 else float(time_s <= limited_s)
-        return command_deg - missing * lag
+        """`bank_after` for this response."""
+        return bank_after(self.time_s, self.rate_deg_s, bank_deg, command_deg, time_s)
 
 
 INSTANT_ROLL = Roll(0.0, inf)
+
+
+def command_gain(roll_time_s: float) -> float:
+    """How many times the change of bank that is wanted is commanded."""
+    return min(max(roll_time_s / QUICKEST_S, 1.0), COMMAND_GAIN)
+
+
+def demand_deg(roll_time_s: float, bank_deg: float, target_deg: float, limit_deg: float) -> float:
+    """The command that brings the bank to a target `command_gain` times as fast as commanding the target would.
+
+    It lies beyond the target, but never beyond the bank limit.
+    """
+    if roll_time_s == 0.0:
+        return target_deg
+    return clip(bank_deg + command_gain(roll_time_s) * (target_deg - bank_deg), limit_deg)
+
+
+def bank_after(roll_time_s: float, rate_deg_s: float, bank_deg: float, command_deg: float, time_s: float) -> float:
+    """The exact bank after `time_s` seconds under a constant command."""
+    if roll_time_s == 0.0 and rate_deg_s == inf:
+        return command_deg
+    missing = command_deg - bank_deg
+    sign = 1.0 if missing >= 0.0 else -1.0
+    beyond = max(abs(missing) - rate_deg_s * roll_time_s, 0.0)
+    limited_s = beyond / rate_deg_s
+    if limited_s > time_s:
+        return bank_deg + sign * rate_deg_s * time_s
+    missing -= sign * beyond
+    if roll_time_s > 0.0:
+        return command_deg - missing * exp(-(time_s - limited_s) / roll_time_s)
+    return command_deg - missing if time_s <= limited_s else command_deg
+
+
+def turn_onset(
+    roll_time_s: float, rate_deg_s: float, bank_deg: float, target_deg: float, limit_deg: float
+) -> TurnOnset:
+    """When a change of bank under `demand_deg` changes the turn rate, which is proportional to tan(bank).
+
+    Let m be the missing bank, p the limit of the roll rate, and g how far the bank limit lies beyond the target. The
+    bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `command_gain` m/tau. As m
+    shrinks these apply in that order. The time at which m is left follows from each in closed form. The mean time at
+    which the parts of the change take effect, and its variance, are integrals over these three ranges, by Gauss's
+    rules.
+    """
+    tau, p, gain, m = roll_time_s, rate_deg_s, command_gain(roll_time_s), abs(target_deg - bank_deg)
+    last_s = tau / gain
+    g = max(limit_deg - (target_deg if target_deg >= bank_deg else -target_deg), 0.0)
+    # The missing bank below which a demand is within the bank limit, and that at which the rate leaves its limit.
+    unlimited = g / (gain - 1.0) if gain > 1.0 else inf
+    is_instant = tau == 0.0 and p == inf
+    if is_instant or m == 0.0 or m <= min(unlimited, p * last_s, SMALL_CHANGE_DEG):
+        return TurnOnset(last_s, last_s * last_s)
+    slow = min(max(p * tau - g, p * last_s), m)
+    free = min(unlimited, slow)
+    backward, time_s = -1.0 if target_deg > bank_deg else 1.0, (m - slow) / p
+    whole = mean = square = 0.0
+    if slow < m:
+        for x, w in LEGENDRE:
+            tangent = tan(radians(target_deg + backward * (slow + x * (m - slow))))
+            share, at_s = w * (m - slow) * (1.0 + tangent * tangent), (1.0 - x) * time_s
+            whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
+    if free < slow:
+        # In the square of a variable the logarithm is smooth where it begins.
+        for x, w in LEGENDRE:
+            left = free + x * x * (slow - free)
+            tangent, at_s = tan(radians(target_deg + backward * left)), time_s + tau * log((slow + g) / (left + g))
+            share = 2.0 * x * w * (slow - free) * (1.0 + tangent * tangent)
+            whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
+    if free > 0.0:
+        time_s += tau * log((slow + g) / (free + g))
+        for x, left, w in LAGUERRE:
+            tangent, at_s = tan(radians(target_deg + backward * free * left)), time_s + x * last_s
+            share = w * free * (1.0 + tangent * tangent)
+            whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
+    mean /= whole
+    return TurnOnset(mean, max(square / whole - mean * mean, 0.0))
