@@ -15,6 +15,7 @@ from time import process_time
 
 import numpy as np
 
+from guidance.biased_trials import biased_trials
 from loiter import Aircraft, Wind
 from loiter.errors import LoiterError
 from loiter.guidance.laws.loiter_entry import LoiterEntry
@@ -22,7 +23,6 @@ from loiter.guidance.protocol import Phase, State
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.trials.biased import biased_trials
 from loiter.guidance.trials.campaign import trials
 from loiter.guidance.trials.varied import varied_point_mass, varied_trials
 from loiter.guidance.vehicle.rolling import Roll

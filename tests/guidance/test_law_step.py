@@ -1,0 +1,78 @@
+"""The law as a pure step: its memory is numbers, of a fixed size, and a step changes nothing that it is given."""
+
+from copy import deepcopy
+from dataclasses import replace
+from itertools import pairwise
+from math import nan
+
+import pytest
+
+from loiter import Aircraft, Orbit, Pose, Wind
+from loiter.guidance.laws import law_step
+from loiter.guidance.laws.law_step import PhaseCode
+from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.simulators.point_mass import PointMass
+from loiter.guidance.simulators.sensors import Noise
+
+UAV, ORBIT = Aircraft(18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, 120.0)
+START = Pose(-400.0, 120.0, 200.0)
+
+
+def numbers_in(value):
+    """All numbers of nested tuples; nothing else may be in them."""
+    if isinstance(value, tuple):
+        return [number for one in value for number in numbers_in(one)]
+    assert type(value) in (int, float, bool), value
+    return [value]
+
+
+def flown(law, mass, steps, dt=0.02, lost=()):
+    """The arguments of each step of a law."""
+    seen = []
+    for i in range(steps):
+        state = mass.measured_state()._replace(**({"east_m": nan} if i in lost else {}))
+        command = law.step(state, dt)
+        seen.append((law._settings, law._memory, law._vehicle.model, state, dt))
+        mass.advance(command, dt)
+    return seen
+
+
+@pytest.mark.parametrize("identify", [False, True])
+def test_the_memory_is_numbers_of_a_fixed_size(identify):
+    law = LoiterEntry(ORBIT, UAV, identify=identify)
+    sizes = {len(numbers_in(law._memory))}
+    for settings, memory, *_ in flown(law, PointMass(START, UAV, Wind(3.0, 70.0), seed=3), 2500, lost=range(900, 1000)):
+        assert len(numbers_in(settings)) < 20
+        sizes.add(len(numbers_in(memory)))
+    (size,) = sizes
+    # In double precision 6 kB, of which the rings are 5.
+    assert size < 770
+
+
+def test_a_step_changes_nothing_and_depends_on_nothing_else():
+    law = LoiterEntry(replace(ORBIT, velocity_east_m_s=2.0), UAV)
+    seen = flown(law, PointMass(START, UAV, seed=3, noise=Noise(delay_s=0.2)), 400, lost=(100, 101, 250))
+    for before, (settings, memory, vehicle, state, dt) in pairwise(seen):
+        copy = deepcopy(before[1])
+        after, command = law_step.step(settings, before[1], vehicle, state, dt)
+        assert repr(after) == repr(memory)
+        assert repr(before[1]) == repr(copy)
+        assert repr(law_step.step(settings, copy, vehicle, state, dt)) == repr((after, command))
+
+
+def test_phases_are_the_controls_and_two_more():
+    assert [law_step.phase_code(u) for u in (-1, 0, 1)] == [PhaseCode.RIGHT, PhaseCode.STRAIGHT, PhaseCode.LEFT]
+    assert law_step.phase_code(law_step.ABSENT) == PhaseCode.HOLD
+
+
+def test_the_commands_are_limited_further_at_any_time():
+    law, mass = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=3, gust=0.0)
+    banks = []
+    for i in range(800):
+        if i == 50:
+            law.command_limit_deg = 10.0
+        command = law.step(mass.measured_state(), 0.02)
+        banks.append(abs(command.bank_deg))
+        mass.advance(command, 0.02)
+    assert max(banks[:50]) > 20.0
+    assert max(banks[50:]) == law.command_limit_deg == 10.0
