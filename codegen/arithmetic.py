@@ -30,7 +30,10 @@ class Arithmetic(NamedTuple):
     faster: dict[str, str]
 
 
-FUNCTIONS = ("sqrt", "atan2", "sin", "cos", "acos", "fabs", "fmod", "ceil", "floor", "copysign", "fma")
+FUNCTIONS = (
+    *("sqrt", "atan2", "sin", "cos", "tan", "acos", "atan", "exp", "log"),
+    *("fabs", "fmod", "ceil", "floor", "copysign", "fma"),
+)
 
 INLINE = "static inline"
 ALWAYS = "static inline LOITER_ALWAYS_INLINE"

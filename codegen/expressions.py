@@ -331,6 +331,11 @@ class Expressions:
         texts = ", ".join(argument.text for argument in arguments)
         if name == "isfinite":
             return Expression(f"isfinite({texts})", TRUTH)
+        if name in ("degrees", "radians"):
+            # As Python's: a product with this constant.
+            (angle,) = arguments
+            size = self.literal(180.0 / math.pi if name == "degrees" else math.pi / 180.0)
+            return Expression(f"{angle.within(PRODUCT)} * {size}", REAL, PRODUCT)
         if name not in self.names.arithmetic.functions:
             raise self.refused(node, f"the function {name!r} of math")
         call = f"{self.names.arithmetic.functions[name]}({texts})"

@@ -94,7 +94,8 @@ def numbers(command, law):
 
 
 def believed(law):
-    return [float(one) for each in law.estimates for one in (vars(each).values() if isinstance(each, Roll) else [each])]
+    roll, *others = law.estimates
+    return [roll.time_s, roll.rate_deg_s, *others]
 
 
 def record(folder, flights):

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle.rolling import Roll, RollValues, bank_after
 
 # The models: each of these multiples of the declared time constant and rate limit. They make steps of `STEP_S` seconds,
 # and the delays are whole steps; the longest, the first, is 1.3 s.
@@ -52,7 +52,7 @@ KEPT, ROWS = len(DELAYS_S) + 1, 4 * len(DELAYS_S)
 class RollEstimate(NamedTuple):
     """The identified roll response, and the delay, seconds."""
 
-    roll: Roll
+    roll: RollValues
     delay_s: float
 
 
@@ -70,7 +70,7 @@ class RollIdentifier:
     `bank_deg` is the bank that the models predict for the present.
     """
 
-    def __init__(self, declared: Roll, delay_s: float) -> None:
+    def __init__(self, declared: Roll | RollValues, delay_s: float) -> None:
         time_s, rate_deg_s = max(declared.time_s, LEAST_TIME_S), min(declared.rate_deg_s, LARGEST_RATE_DEG_S)
         times, rates = (each.ravel() for each in np.meshgrid(TIMES * time_s, RATES * rate_deg_s, indexing="ij"))
         self._log_time = _Unknown(np.log(times), log(time_s), SPREAD)
@@ -92,7 +92,7 @@ class RollIdentifier:
         self._pending: _Measured | None = None
         self._since_s = CORRELATION_S
         self._model_weights = np.empty(0)
-        self.estimate = RollEstimate(declared, delay_s)
+        self.estimate = RollEstimate(RollValues(declared.time_s, declared.rate_deg_s), delay_s)
         self._weigh()
 
     def begin(self, bank_deg: float) -> None:
@@ -108,7 +108,7 @@ class RollIdentifier:
             self._waiting_s += dt
             self._commanded += dt * command_deg
             # Between the steps of the models the present bank is that of the estimated response.
-            self.bank_deg = self.estimate.roll.bank_after(self.bank_deg, command_deg, dt)
+            self.bank_deg = bank_after(*self.estimate.roll, self.bank_deg, command_deg, dt)
             return
         self._make_step((self._commanded + missing_s * command_deg) / STEP_S)
         left_s = dt - missing_s
@@ -116,9 +116,8 @@ class RollIdentifier:
             self._make_step(command_deg)
             left_s -= STEP_S
         self._waiting_s, self._commanded = left_s, left_s * command_deg
-        self.bank_deg = self.estimate.roll.bank_after(
-            float(self._model_weights @ self._banks[self._next - 1]), command_deg, left_s
-        )
+        bank_deg = float(self._model_weights @ self._banks[self._next - 1])
+        self.bank_deg = bank_after(*self.estimate.roll, bank_deg, command_deg, left_s)
 
     def _make_step(self, command_deg: float) -> None:
         """Fly every model for `STEP_S` under the mean command."""
@@ -178,7 +177,7 @@ class RollIdentifier:
         self._model_weights = (self._each_delay @ weights) / total
         log_time, log_rate = self._log_time.mean(self._model_weights), self._log_rate.mean(self._model_weights)
         delay_s = max(self._delay.mean(of_delays / total), 0.0)
-        self.estimate = RollEstimate(Roll(exp(log_time), exp(log_rate)), delay_s)
+        self.estimate = RollEstimate(RollValues(exp(log_time), exp(log_rate)), delay_s)
 
 
 class _Unknown:

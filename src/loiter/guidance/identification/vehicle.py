@@ -10,7 +10,7 @@ from loiter.guidance.laws.clock import FIRST_CLOCK, advanced, checked
 from loiter.guidance.laws.observer import is_usable
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import Roll, bank_after
+from loiter.guidance.vehicle.rolling import RollValues, bank_after
 from loiter.guidance.vehicle.turning import rate_at_bank
 from loiter.planning.compass import heading_vector
 
@@ -70,7 +70,7 @@ class VehicleEstimates(NamedTuple):
     exceed the true ones by, degrees.
     """
 
-    roll: Roll
+    roll: RollValues
     delay_s: float
     turn_ratio: float
     quick_turn_ratio: float

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from loiter.compiled import still_air_solver, wind_solver
+from loiter.compiled.still_air_solver import optimum
+from loiter.compiled.wind_solver import fastest as fastest_in_wind
 from loiter.guidance.laws.path_tracking import flight_velocity
-from loiter.kernel import motion, wind_search
 from loiter.kernel.angles import length
 from loiter.kernel.hold import tightest_radius
+from loiter.kernel.motion import reduce
 from loiter.kernel.statuses import Status
 from loiter.kernel.synthesis import Entry, rounded_radius
-from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.wind_search import WindProblem, entry_of
 from loiter.kernel.words import Word
 
 # An aircraft that hardly exceeds the wind can hold no circle; wind beyond this share of the airspeed is planned as if
@@ -96,7 +97,8 @@ def fastest_entry(
         entry = _still_air_entry(state, c, s, scale * r, radius_m, side, tolerance)
     else:
         scale, R = 1.0, rounded_radius(radius_m / r)
-        entry = _entry_in_wind(WindProblem(state.x / r, state.y / r, c, s, R, side, east_m_s / V, north_m_s / V))
+        problem = WindProblem(state.x / r, state.y / r, c, s, R, side, east_m_s / V, north_m_s / V, 0.0)
+        entry = _entry_in_wind(problem)
     unit_s = r / V
     t1_s, t2_s, t3_s = entry.t1 * unit_s, entry.t2 * unit_s, entry.t3 * unit_s
     return PlannedEntry(entry.side, entry.word, t1_s, t2_s, t3_s, scale * r, scale * V, east_m_s, north_m_s)
@@ -109,10 +111,16 @@ NONE = Entry(0, Word.EMPTY + 0, 0.0, 0.0, 0.0)
 def _still_air_entry(
     state: RelativeState, c: float, s: float, r: float, radius_m: float, side: int, tolerance: float
 ) -> Entry:
-    x, y = motion.reduce(state.x / r, state.y / r, c, s)
-    return still_air_solver.optimum(x, y, radius_m / r, side, tolerance) or NONE
+    x, y = reduce(state.x / r, state.y / r, c, s)
+    return entry_in_still_air(x, y, radius_m / r, side, tolerance)
+
+
+def entry_in_still_air(x: float, y: float, R: float, side: int, tolerance: float) -> Entry:
+    """The kernel's answer in still air, by machine code where there is some."""
+    found = optimum(x, y, R, side, tolerance)
+    return NONE if found is None else found
 
 
 def _entry_in_wind(problem: WindProblem) -> Entry:
-    found = wind_solver.fastest(problem)
-    return wind_search.entry_of(found) if found.status == Status.OK else NONE
+    found = fastest_in_wind(problem)
+    return entry_of(found) if found.status == Status.OK else NONE

@@ -610,7 +610,7 @@ def plan_on_circle(settings: Settings, limits: Limits, plan: Plan, state: Relati
     """The plan that holds the circle at once, if the flight begins on it; otherwise the plan as it is."""
     r, V, R = limits.turns.planned_m, limits.turns.airspeed_m_s, settings.radius_m
     for side in (Side.CW + 0, Side.CCW + 0):
-        if settings.side in (side, Side.EITHER):
+        if settings.side == side or settings.side == Side.EITHER:
             entry = PlannedEntry(side, Word.EMPTY + 0, 0.0, 0.0, 0.0, r, V, limits.wind_east_m_s, limits.wind_north_m_s)
             route = route_of(state, entry)
             offset = offset_of(route, state, R)
@@ -620,7 +620,7 @@ def plan_on_circle(settings: Settings, limits: Limits, plan: Plan, state: Relati
 
 
 def searched(
-    settings: Settings, sensing: Sensing, plan: Plan, state: RelativeState, *, is_any: bool, update: bool
+    settings: Settings, sensing: Sensing, plan: Plan, state: RelativeState, is_any: bool, update: bool
 ) -> tuple[Plan, bool]:
     """The fastest entry from a state if it is better than the plan, and whether it is; with `is_any` it always is.
 

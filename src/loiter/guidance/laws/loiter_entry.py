@@ -13,7 +13,7 @@ from loiter.guidance.identification.vehicle import (
 from loiter.guidance.laws import law_step
 from loiter.guidance.laws.law_step import DELAY_S, GAIN, NEGLIGIBLE_WIND, RESERVE, SMOOTHING_S, PhaseCode, Settings
 from loiter.guidance.protocol import Command, Phase, State
-from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
+from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll, RollValues
 from loiter.kernel.words import Side
 from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind
@@ -85,7 +85,7 @@ class LoiterEntry:
             covered_s=max(COVERED_S, delay_s),
         )
         declared = VehicleEstimates(
-            roll=roll,
+            roll=RollValues(roll.time_s, roll.rate_deg_s),
             delay_s=delay_s,
             turn_ratio=1.0,
             quick_turn_ratio=1.0,

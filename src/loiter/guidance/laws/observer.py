@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from math import cos, degrees, exp, hypot, inf, sin, sqrt
+from math import cos, degrees, exp, inf, sin, sqrt
 from typing import NamedTuple
 
 from loiter.guidance.identification.bank_history import BankHistory, delayed_deg, mean_deg
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.turning import PlanarPose, constant_turn, rate_at_bank
+from loiter.kernel.angles import length
 from loiter.planning.compass import heading_vector
 
 # How fast the velocity of the air changes is measured from its differences over this time, seconds, averaged over the
@@ -305,7 +306,7 @@ def _blended(pose: PlanarPose, measured: PlanarPose, share: float) -> PlanarPose
     """A pose corrected by a share of its difference from the measured one."""
     x, y, c, s = pose
     c, s = c + share * (measured.c - c), s + share * (measured.s - s)
-    size = hypot(c, s)
+    size = length(c, s)
     return PlanarPose(x + share * (measured.x - x), y + share * (measured.y - y), c / size, s / size)
 
 

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, inf, log, radians, tan
+from math import exp, inf, log, radians, sqrt, tan
 from typing import NamedTuple
-
-import numpy as np
 
 from loiter.errors import InvalidArgument, as_float, not_negative
 from loiter.guidance.vehicle.limits import clip
@@ -18,11 +16,12 @@ COMMAND_GAIN, QUICKEST_S = 2.5, 0.15
 # A smaller change of bank, degrees, takes effect like an infinitely small one where only the last range is passed.
 SMALL_CHANGE_DEG = 5.0
 
-# Gauss-Legendre points and weights on [0, 1], and Gauss-Laguerre points x with exp(-x) and weights.
-LEGENDRE = tuple(
-    (0.5 + 0.5 * float(x), 0.5 * float(w)) for x, w in zip(*np.polynomial.legendre.leggauss(3), strict=True)
-)
-LAGUERRE = tuple((float(x), exp(-x), float(w)) for x, w in zip(*np.polynomial.laguerre.laggauss(3), strict=True))
+# Gauss-Legendre points and weights on [0, 1], and Gauss-Laguerre points x, exp(-x) and weights.
+LEGENDRE_POINTS = (0.5 - 0.5 * sqrt(0.6), 0.5, 0.5 + 0.5 * sqrt(0.6))
+LEGENDRE_WEIGHTS = (5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0)
+LAGUERRE_POINTS = (0.41577455678347908, 2.2942803602790418, 6.2899450829374794)
+LAGUERRE_SHARES = (exp(-LAGUERRE_POINTS[0]), exp(-LAGUERRE_POINTS[1]), exp(-LAGUERRE_POINTS[2]))
+LAGUERRE_WEIGHTS = (0.71109300992917301, 0.27851773356924085, 0.010389256501586136)
 
 
 class TurnOnset(NamedTuple):
@@ -34,6 +33,13 @@ class TurnOnset(NamedTuple):
 
     lead_s: float
     variance_s2: float
+
+
+class RollValues(NamedTuple):
+    """A roll response as two numbers: `Roll` without checks."""
+
+    time_s: float
+    rate_deg_s: float
 
 
 @dataclass(frozen=True)
@@ -126,24 +132,24 @@ def turn_onset(
     slow = min(max(p * tau - g, p * last_s), m)
     free = min(unlimited, slow)
     backward, time_s = -1.0 if target_deg > bank_deg else 1.0, (m - slow) / p
-    whole = mean = square = 0.0
+    whole, mean, square = 0.0, 0.0, 0.0
     if slow < m:
-        for x, w in LEGENDRE:
+        for x, w in zip(LEGENDRE_POINTS, LEGENDRE_WEIGHTS, strict=True):
             tangent = tan(radians(target_deg + backward * (slow + x * (m - slow))))
             share, at_s = w * (m - slow) * (1.0 + tangent * tangent), (1.0 - x) * time_s
             whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
     if free < slow:
         # In the square of a variable the logarithm is smooth where it begins.
-        for x, w in LEGENDRE:
+        for x, w in zip(LEGENDRE_POINTS, LEGENDRE_WEIGHTS, strict=True):
             left = free + x * x * (slow - free)
             tangent, at_s = tan(radians(target_deg + backward * left)), time_s + tau * log((slow + g) / (left + g))
             share = 2.0 * x * w * (slow - free) * (1.0 + tangent * tangent)
             whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
     if free > 0.0:
         time_s += tau * log((slow + g) / (free + g))
-        for x, left, w in LAGUERRE:
-            tangent, at_s = tan(radians(target_deg + backward * free * left)), time_s + x * last_s
+        for x, kept, w in zip(LAGUERRE_POINTS, LAGUERRE_SHARES, LAGUERRE_WEIGHTS, strict=True):
+            tangent, at_s = tan(radians(target_deg + backward * free * kept)), time_s + x * last_s
             share = w * free * (1.0 + tangent * tangent)
             whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
-    mean /= whole
-    return TurnOnset(mean, max(square / whole - mean * mean, 0.0))
+    lead_s = mean / whole
+    return TurnOnset(lead_s, max(square / whole - lead_s * lead_s, 0.0))
