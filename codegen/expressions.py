@@ -21,6 +21,7 @@ from codegen.kinds import (
     NotTranslated,
     kind_of_type,
     kind_of_value,
+    ring_of,
     safe,
     tuple_of,
 )
@@ -189,12 +190,48 @@ class Expressions:
         return Expression(f"{found.within(PRIMARY)}.{safe(node.attr)}", kinds[safe(node.attr)])
 
     def _Subscript(self, node: ast.Subscript) -> Expression:
-        array, index = self.translate(node.value), self.translate(node.slice)
+        array = self.translate(node.value)
+        if array.kind.length:
+            return self._ring_element(array, node)
+        index = self.translate(node.slice)
         if array.kind != REALS or index.kind != INTEGER:
             raise self.refused(node, f"{ast.unparse(node)!r}")
         return Expression(f"{array.text}[{index.text}]", REAL)
 
+    def _ring_element(self, ring: Expression, node: ast.Subscript) -> Expression:
+        """An element of a ring; negative constants count from its end."""
+        ((_, element),) = ring.kind.fields
+        match node.slice:
+            case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int(back))):
+                index = Expression(str(ring.kind.length - back), INTEGER)
+            case _:
+                index = self.translate(node.slice)
+        if index.kind != INTEGER:
+            raise self.refused(node, f"{ast.unparse(node)!r}")
+        return Expression(f"{ring.within(PRIMARY)}.at[{index.text}]", element)
+
+    def _changed_ring(self, node: ast.Tuple) -> Expression:
+        """A ring with another last element, `(*ring[:-1], x)`, or without its first one too: `(*ring[1:], x)`."""
+        match node.elts:
+            case [ast.Starred(value=ast.Subscript(value=source, slice=ast.Slice() as part)), last]:
+                ring, change = self.translate(source), {"1:": "appended", ":-1": "with_last"}.get(ast.unparse(part))
+                if ring.kind.length and change:
+                    return Expression(f"{ring.kind.name}_{change}({ring.text}, {self.translate(last).text})", ring.kind)
+        raise self.refused(node, f"{ast.unparse(node)!r}")
+
+    def _filled_ring(self, node: ast.BinOp) -> Expression:
+        """A ring of equal elements: `(x,) * LENGTH`."""
+        match node:
+            case ast.BinOp(left=ast.Tuple(elts=[one]), right=ast.Name(id=name)):
+                element, length = self.translate(one), self.names.globals.get(name)
+                if isinstance(length, int):
+                    kind = ring_of(element.kind, length)
+                    return Expression(f"{kind.name}_filled({element.text})", kind)
+        raise self.refused(node, f"{ast.unparse(node)!r}")
+
     def _Tuple(self, node: ast.Tuple) -> Expression:
+        if any(isinstance(one, ast.Starred) for one in node.elts):
+            return self._changed_ring(node)
         values = [self.translate(one) for one in node.elts]
         return self.structure(tuple_of(tuple(value.kind for value in values)), values)
 
@@ -210,6 +247,8 @@ class Expressions:
         raise self.refused(node, f"{ast.unparse(node)!r}")
 
     def _BinOp(self, node: ast.BinOp) -> Expression:
+        if isinstance(node.op, ast.Mult) and isinstance(node.left, ast.Tuple):
+            return self._filled_ring(node)
         a, b, operator = self.translate(node.left), self.translate(node.right), type(node.op)
         if not {a.kind, b.kind} <= {REAL, INTEGER}:
             raise self.refused(node, f"{ast.unparse(node)!r}")

@@ -2,6 +2,7 @@
 
 from codegen.arithmetic import DOUBLE, VECTOR
 from codegen.unit import ROOT, Unit
+from loiter.guidance.laws import law_step
 from loiter.kernel import extremals, motion, synthesis, wind_search
 
 FOLDER = ROOT / "src" / "loiter" / "native"
@@ -37,6 +38,17 @@ LOOPED = (
     synthesis.first_control,
     synthesis.miss,
 )
+
+
+# In the law the kernel's functions stand in for machine code that Python calls.
+LAW_ARITHMETIC = DOUBLE._replace(
+    replaced={"entry_in_still_air": synthesis.optimum, "fastest_in_wind": wind_search.fastest}
+)
+
+
+def law() -> str:
+    """The guidance law as C; it belongs to no package."""
+    return Unit("law.h", LAW_ARITHMETIC, (law_step.first_memory, law_step.step)).text()
 
 
 def files() -> dict[str, str]:

@@ -1,10 +1,10 @@
-"""Kinds of values in C: real numbers, integers, truth values, structures, and arrays of numbers."""
+"""Kinds of values in C: real numbers, integers, truth values, structures, rings of structures, arrays of numbers."""
 
 from __future__ import annotations
 
 from enum import IntEnum
 from types import FunctionType, GenericAlias
-from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, NamedTuple, get_args, get_origin, get_type_hints
 
 
 class NotTranslated(Exception):
@@ -12,11 +12,12 @@ class NotTranslated(Exception):
 
 
 class Kind(NamedTuple):
-    """A kind of value: its name in C, and the fields where it is a structure."""
+    """A kind of value: its name in C, and the fields where it is a structure; `length` is that of a ring, else 0."""
 
     name: str
     fields: tuple[tuple[str, Kind], ...] = ()
     is_tuple: bool = False
+    length: int = 0
 
 
 REAL, INTEGER, TRUTH, NOTHING, REALS = Kind("real"), Kind("integer"), Kind("bool"), Kind("void"), Kind("real *")
@@ -34,10 +35,18 @@ def tuple_of(kinds: tuple[Kind, ...]) -> Kind:
     return Kind(name, tuple((f"a{i}", kind) for i, kind in enumerate(kinds)), is_tuple=True)
 
 
+def ring_of(element: Kind, length: int) -> Kind:
+    """The structure of a ring, a tuple of many structures: an array of fixed length, which is passed by value."""
+    return Kind(f"{element.name}_ring", (("at", element),), length=length)
+
+
 def kind_of_type(hint: Any, place: str) -> Kind:
     """The kind for a type of Python."""
     if hint is type(None):
         return NOTHING
+    if get_origin(hint) is Annotated:
+        ring, length = get_args(hint)
+        return ring_of(kind_of_type(get_args(ring)[0], place), length)
     if get_origin(hint) is tuple and Ellipsis not in get_args(hint):
         return tuple_of(tuple(kind_of_type(one, place) for one in get_args(hint)))
     if isinstance(hint, GenericAlias) and hint == list[float]:
@@ -50,7 +59,7 @@ def kind_of_type(hint: Any, place: str) -> Kind:
         if issubclass(hint, float):
             return REAL
         if issubclass(hint, tuple) and hasattr(hint, "_fields"):
-            hints = get_type_hints(hint)
+            hints = get_type_hints(hint, include_extras=True)
             return Kind(hint.__name__, tuple((safe(name), kind_of_type(hints[name], place)) for name in hint._fields))
     raise NotTranslated(f"{place}: the type {hint} is not part of the kernel's subset of Python")
 
@@ -64,7 +73,7 @@ def kind_of_value(value: Any, place: str) -> Kind:
 
 def signature(function: FunctionType, place: str) -> tuple[dict[str, Kind], Kind]:
     """The kinds of the parameters of a function, and that of its result."""
-    hints = get_type_hints(function)
+    hints = get_type_hints(function, include_extras=True)
     result = kind_of_type(hints.pop("return", None), place)
     names = function.__code__.co_varnames[: function.__code__.co_argcount]
     if missing := [name for name in names if name not in hints]:

@@ -25,6 +25,30 @@ from loiter.version import __version__
 ROOT = Path(__file__).parents[1]
 HELPERS = Path(__file__).with_name("helpers.h").read_text("utf-8")
 
+# A ring: filled with one element; with another last element; and without its first one besides.
+RING = """typedef struct {{ {element} at[{length}]; }} {ring};
+
+static inline {ring} {ring}_filled({element} one) {{
+    {ring} ring;
+    for (int i = 0; i < {length}; i++) {{
+        ring.at[i] = one;
+    }}
+    return ring;
+}}
+
+static inline {ring} {ring}_with_last({ring} ring, {element} last) {{
+    ring.at[{last}] = last;
+    return ring;
+}}
+
+static inline {ring} {ring}_appended({ring} ring, {element} last) {{
+    for (int i = 0; i < {last}; i++) {{
+        ring.at[i] = ring.at[i + 1];
+    }}
+    ring.at[{last}] = last;
+    return ring;
+}}"""
+
 # Names of the C library, and of POSIX, that functions of the kernel have too.
 TAKEN = {"atan2", "sin", "cos", "hypot", "select", "l", "r"}
 
@@ -216,10 +240,11 @@ class Unit:
         yield f"typedef {self.arithmetic.integer} integer;\ntypedef {unsigned} unsigned_integer;\n"
 
     def _enums(self, used: str) -> Iterator[str]:
+        from loiter.guidance.laws.law_step import PhaseCode
         from loiter.kernel.statuses import Status
         from loiter.kernel.words import Side, Word
 
-        for kind in (Side, Status, Word):
+        for kind in (Side, Status, Word, PhaseCode):
             if f"{kind.__name__.upper()}_" in used:
                 members = ", ".join(f"{kind.__name__.upper()}_{member.name} = {int(member)}" for member in kind)
                 yield from comment(kind.__doc__ or kind.__name__)
@@ -227,6 +252,10 @@ class Unit:
                 yield ""
 
     def _structure_lines(self, kind: Kind) -> Iterator[str]:
+        if kind.length:
+            ((_, element),) = kind.fields
+            yield RING.format(ring=kind.name, element=element.name, length=kind.length, last=kind.length - 1)
+            return
         if not kind.is_tuple:
             yield from comment(self._class_of(kind).__doc__ or kind.name)
         by_kind: list[tuple[str, list[str]]] = []
@@ -275,6 +304,7 @@ def digest(files: list[Path]) -> str:
 
 
 DESCRIPTIONS = {
+    "law.h": "A guidance law that flies the fastest entry onto a holding circle, as a step without side effects.",
     "kernel.h": (
         "The fastest way onto a holding circle, in still air and in wind, in double precision, with the functions of "
         "the C library: the same answers as in Python, to the last bit."

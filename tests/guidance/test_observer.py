@@ -17,11 +17,11 @@ from loiter.guidance.identification.bank_history import (
     recorded,
 )
 from loiter.guidance.laws.observer import (
-    FIRST_AIR,
     SAMPLES,
     averaged_air,
     estimate_after,
     estimate_at_present,
+    first_air,
     first_observer,
     gust,
     is_usable,
@@ -102,7 +102,7 @@ def averaged_gusts(gust_m_s, seed):
     """The filter after a minute of measured gusts, and its averages."""
     random = np.random.default_rng(seed)
     gusts = Gusts(gust_m_s, 14.6, random)
-    air = restarted_air(FIRST_AIR, *gusts.velocity_m_s)
+    air = restarted_air(first_air(), *gusts.velocity_m_s)
     averages = []
     for noise in random.normal(0.0, 0.3, (3000, 2)):
         gusts.advance(0.02)
@@ -136,7 +136,7 @@ def test_in_calm_air_noise_is_averaged_over_the_longest_time():
 
 @given(st.lists(st.tuples(st.floats(-30.0, 30.0), st.floats(-30.0, 30.0), st.floats(0.0, 5.0)), min_size=1))
 def test_an_average_lies_between_its_samples(averages):
-    air = restarted_air(FIRST_AIR, *averages[0][:2])
+    air = restarted_air(first_air(), *averages[0][:2])
     for i, measured in enumerate(averages):
         air = averaged_air(air, *measured, 0.5)
         for axis, value in enumerate((air.east_m_s, air.north_m_s)):
@@ -185,7 +185,7 @@ def test_the_bank_history_forgets_what_is_older_than_the_longest_delay(rate_hz, 
 @pytest.mark.parametrize("dt", [0.0025, 0.02, 0.3])
 def test_gusts_are_measured_over_a_second_at_any_rate(dt):
     """The differences are those of neighbours and over a second, though the ring has no place for all at 400 Hz."""
-    air = FIRST_AIR
+    air = first_air()
     for i in range(round(60.0 / dt)):
         air = averaged_air(air, 2.0 * i * dt, 0.0, dt, 0.5)
         assert len(air.recent) == SAMPLES

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from math import inf
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 # The history covers at least this time, seconds, in this many entries.
 COVERED_S, ENTRIES = 2.0, 128
@@ -22,13 +21,13 @@ class BankHistory(NamedTuple):
     """The present bank, and the last steps in a ring of fixed length, oldest first; unused entries end at -inf."""
 
     current_deg: float
-    entries: tuple[BankEntry, ...]
+    entries: Annotated[tuple[BankEntry, ...], ENTRIES]
 
 
 def constant_history(bank_deg: float) -> BankHistory:
     """The history of a bank that has always been this."""
-    unused = BankEntry(-inf, bank_deg, 0.0)
-    return BankHistory(bank_deg, (*(unused,) * (ENTRIES - 1), BankEntry(0.0, bank_deg, 0.0)))
+    unused = (BankEntry(-inf, bank_deg, 0.0),) * ENTRIES
+    return BankHistory(bank_deg, (*unused[:-1], BankEntry(0.0, bank_deg, 0.0)))
 
 
 def recorded(history: BankHistory, bank_deg: float, dt: float, covered_s: float = COVERED_S) -> BankHistory:
@@ -49,7 +48,14 @@ def recorded(history: BankHistory, bank_deg: float, dt: float, covered_s: float 
 
 def index_at(history: BankHistory, time_s: float) -> int:
     """The index of the first entry that ends at a time or later."""
-    return min(bisect_left(history.entries, (time_s,)), ENTRIES - 1)
+    entries, low, high = history.entries, 0, ENTRIES - 1
+    while low < high:
+        middle = (low + high) >> 1
+        if entries[middle].end_s < time_s:
+            low = middle + 1
+        else:
+            high = middle
+    return low
 
 
 def delayed_deg(history: BankHistory, delay_s: float) -> float:

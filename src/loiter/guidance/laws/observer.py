@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import cos, degrees, exp, inf, sin, sqrt
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from loiter.guidance.identification.bank_history import BankHistory, delayed_deg, mean_deg
 from loiter.guidance.protocol import State
@@ -118,6 +118,12 @@ def is_usable(state: State) -> bool:
     return is_plausible(state) and state.airspeed_m_s > LEAST_AIRSPEED_M_S
 
 
+# The ring of the last measurements. Where it would not cover the lag, those that follow each other sooner than this,
+# seconds, are left out.
+SAMPLES = 64
+SAMPLE_GAP_S = GUST_LAG_S / (SAMPLES - 2)
+
+
 class AirSample(NamedTuple):
     """A measured velocity of the air, and what an error of the slip may account for; seconds and metres per second."""
 
@@ -151,25 +157,16 @@ class AirAverage(NamedTuple):
     known_s: float
     near: Difference
     far: Difference
-    recent: tuple[AirSample, ...]
+    recent: Annotated[tuple[AirSample, ...], SAMPLES]
     lag_index: int
 
 
-# The ring of the last measurements. Where it would not cover the lag, those that follow each other sooner than this,
-# seconds, are left out.
-SAMPLES = 64
-SAMPLE_GAP_S = GUST_LAG_S / (SAMPLES - 2)
-
-# Before the first measurement.
-FIRST_AIR = AirAverage(
-    0.0,
-    0.0,
-    ASSUMED_S,
-    Difference(0.02, 2.0 * FIRST_NOISE, 0.0),
-    Difference(GUST_LAG_S, 2.0 * FIRST_NOISE + FIRST_GUST * GUST_LAG_S, 0.0),
-    (AirSample(0.0, 0.0, 0.0, 0.0),) * SAMPLES,
-    SAMPLES - 2,
-)
+def first_air() -> AirAverage:
+    """The average before the first measurement."""
+    near = Difference(0.02, 2.0 * FIRST_NOISE, 0.0)
+    far = Difference(GUST_LAG_S, 2.0 * FIRST_NOISE + FIRST_GUST * GUST_LAG_S, 0.0)
+    recent = (AirSample(0.0, 0.0, 0.0, 0.0),) * SAMPLES
+    return AirAverage(0.0, 0.0, ASSUMED_S, near, far, recent, SAMPLES - 2)
 
 
 def restarted_air(air: AirAverage, east_m_s: float, north_m_s: float) -> AirAverage:
@@ -249,7 +246,7 @@ class Observer(NamedTuple):
 
 def first_observer(smoothing_s: float) -> Observer:
     """The observer before the first measurement."""
-    return Observer(smoothing_s, 0.0, FIRST_AIR, NO_ESTIMATE)
+    return Observer(smoothing_s, 0.0, first_air(), NO_ESTIMATE)
 
 
 def restarted(observer: Observer) -> Observer:
