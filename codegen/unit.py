@@ -240,11 +240,10 @@ class Unit:
         yield f"typedef {self.arithmetic.integer} integer;\ntypedef {unsigned} unsigned_integer;\n"
 
     def _enums(self, used: str) -> Iterator[str]:
-        from loiter.guidance.laws.law_step import PhaseCode
         from loiter.kernel.statuses import Status
         from loiter.kernel.words import Side, Word
 
-        for kind in (Side, Status, Word, PhaseCode):
+        for kind in (Side, Status, Word):
             if f"{kind.__name__.upper()}_" in used:
                 members = ", ".join(f"{kind.__name__.upper()}_{member.name} = {int(member)}" for member in kind)
                 yield from comment(kind.__doc__ or kind.__name__)

@@ -14,8 +14,8 @@ from codegen.unit import Unit
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.guidance.identification import bank_history
 from loiter.guidance.laws import clock, entry_planner, law_step, observer, path_tracking, route
-from loiter.guidance.laws.law_step import PhaseCode
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.laws.loiter_entry import NAMED_PHASES, LoiterEntry
+from loiter.guidance.protocol import Phase
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.vehicle import rolling, turning
@@ -67,8 +67,9 @@ def test_a_step_changes_nothing_and_depends_on_nothing_else():
 
 
 def test_phases_are_the_controls_and_two_more():
-    assert [law_step.phase_code(u) for u in (-1, 0, 1)] == [PhaseCode.RIGHT, PhaseCode.STRAIGHT, PhaseCode.LEFT]
-    assert law_step.phase_code(law_step.ABSENT) == PhaseCode.HOLD
+    codes = [law_step.phase_code(u) for u in (-1, 0, 1, law_step.ABSENT)]
+    assert [NAMED_PHASES[code] for code in codes] == [Phase.RIGHT, Phase.STRAIGHT, Phase.LEFT, Phase.HOLD]
+    assert NAMED_PHASES.keys() == {*codes, law_step.NO_DATA}
 
 
 def test_the_commands_are_limited_further_at_any_time():

@@ -106,11 +106,9 @@ def unbiased(known: VehicleEstimates, state: State) -> State:
 
 
 class Vehicle(Protocol):
-    """The vehicle as a law knows it."""
+    """The vehicle as a law knows it: `model` is what is known at present."""
 
-    @property
-    def model(self) -> VehicleModel:
-        """What is known at present."""
+    model: VehicleModel
 
     def fly(self, command_deg: float, dt: float) -> None:
         """Take the command that was given for the last `dt` seconds."""
@@ -139,8 +137,9 @@ class IdentifiedVehicle:
     """A vehicle that is identified in flight, beginning with what is declared; `wind_declared`: whether the wind is."""
 
     def __init__(self, declared: VehicleEstimates, tightest_deg: float, *, wind_declared: bool) -> None:
-        self._estimates, self._revision = declared, 0
-        self._clock = FIRST_CLOCK
+        self.model = VehicleModel(0, 0.0, declared)
+        # The clock at the last stamp that it was given, and the time since then.
+        self._clock, self._waited_s = FIRST_CLOCK, 0.0
         self._roll = RollIdentifier(declared.roll, declared.delay_s)
         self._turning, self._lead = SlowTurns(declared.turn_ratio), CourseLead(declared.course_lead_s)
         self._quick_turning = TurnRatio(declared.turn_ratio, QUICK_TURNS)
@@ -151,22 +150,19 @@ class IdentifiedVehicle:
         self._tight_deg, self._overshoot = TIGHT_SHARE * tightest_deg, Overshoot(tightest_deg)
         self._last_s = -inf
 
-    @property
-    def model(self) -> VehicleModel:
-        """What is known at present."""
-        return VehicleModel(self._revision, self._roll.bank_deg, self._estimates)
-
     def fly(self, command_deg: float, dt: float) -> None:
         """Take the command that was given for the last `dt` seconds."""
         if dt > 0.0:
-            self._clock = advanced(self._clock, dt)
+            self._waited_s += dt
             self._roll.record(command_deg, dt)
+            self.model = VehicleModel(self.model.revision, self._roll.bank_deg, self.model.estimates)
 
     def measure(self, state: State) -> None:
         """Take a measurement, which may be unusable, or repeat the last one."""
         if not is_usable(state) or state.time_s == self._clock.time_s:
             return
-        self._clock, is_new = checked(self._clock, state.time_s)
+        self._clock, is_new = checked(advanced(self._clock, self._waited_s), state.time_s)
+        self._waited_s = 0.0
         dt = state.time_s - self._last_s
         if not is_new or 0.0 < dt < SHORTEST_GAP_S:
             return
@@ -177,8 +173,8 @@ class IdentifiedVehicle:
             self._quick_turning.restart()
             self._lead.restart()
         self._turning.measure(state.heading_deg, state.bank_deg, state.airspeed_m_s, dt)
-        self._estimates = self._estimates_from(unbiased(self._estimates, state), dt, first=first)
-        self._revision += 1
+        known = self._estimates_from(unbiased(self.model.estimates, state), dt, first=first)
+        self.model = VehicleModel(self.model.revision + 1, self._roll.bank_deg, known)
 
     def _estimates_from(self, state: State, dt: float, *, first: bool) -> VehicleEstimates:
         """The estimates including a state without biases, `dt` seconds after the last."""
@@ -196,7 +192,7 @@ class IdentifiedVehicle:
         if abs(state.bank_deg) > self._tight_deg:
             self._turn_airspeed.add(V, dt)
         # The direction of flight is to the right of the heading by this angle.
-        air.add(state, self._lead.lead_s * turning.ratio * rate, self._estimates.heading_bias_deg, dt)
+        air.add(state, self._lead.lead_s * turning.ratio * rate, self.model.estimates.heading_bias_deg, dt)
         return VehicleEstimates(
             *self._roll.estimate,
             turning.ratio,

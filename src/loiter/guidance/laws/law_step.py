@@ -1,12 +1,11 @@
 """The law as a pure step: settings, memory, what is known of the vehicle, and a measurement give memory and command.
 
-Numbers alone: no exceptions, no objects that change. Sides are those of `kernel.words.Side`, phases those of
-`PhaseCode`. `loiter_entry` gives them names and checks arguments.
+Numbers alone: no exceptions, no objects that change. Sides are those of `kernel.words.Side`, phases are controls,
+`HOLD` or `NO_DATA`. `loiter_entry` gives them names and checks arguments.
 """
 
 from __future__ import annotations
 
-from enum import IntEnum
 from math import ceil, degrees, inf, nan
 from typing import NamedTuple
 
@@ -143,18 +142,11 @@ NEGLIGIBLE_WIND = 0.03
 # error is less than the third, in radii.
 TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.12, 0.15, 0.05
 
+# What a command does: the control that it flies, +1 to the left; or one of these.
+HOLD, NO_DATA = 2, 3
+
 # A bank that no piece has: the table of leads is then empty.
 NO_BANK = -(10**9)
-
-
-class PhaseCode(IntEnum):
-    """What a command does: the control that it flies, +1 to the left; or on the circle; or without data."""
-
-    RIGHT = -1
-    STRAIGHT = 0
-    LEFT = 1
-    HOLD = 2
-    NO_DATA = 3
 
 
 class Settings(NamedTuple):
@@ -185,8 +177,9 @@ class Limits(NamedTuple):
 
     Whether the wind differs so much from the declared one that the estimated one is planned with, and the velocity of
     the air past the circle to plan with. The roll response for which delays of changes of bank are computed, the bank
-    limit at present, the limits of turns, the banks of the circle and of planned turns, how far an aircraft is
-    displaced towards the circle while it rolls from an opposite planned turn onto it, and the response time.
+    limit at present, the limits of turns, and the bank of the circle; it and that of planned turns in whole half
+    degrees. The delay of a roll to the limit, and the variance of that from an opposite planned turn onto the circle;
+    how far an aircraft is displaced towards the circle meanwhile, and the response time.
     """
 
     revision: int
@@ -198,7 +191,10 @@ class Limits(NamedTuple):
     limit_deg: float
     turns: TurnLimits
     hold_deg: float
-    planned_deg: float
+    hold_half_deg: int
+    planned_half_deg: int
+    lead_s: float
+    reversal_s2: float
     reversal_m: float
     lag_s: float
 
@@ -293,7 +289,7 @@ def first_memory(settings: Settings, vehicle: VehicleModel) -> Memory:
     """The memory before the first measurement, with wings level."""
     first = Limits(
         -1, False, 0.0, 0.0, vehicle.estimates.roll.time_s, vehicle.estimates.roll.rate_deg_s, settings.limit_deg,
-        TurnLimits(1.0, 1.0, 1.0), 0.0, 0.0, 0.0, 0.0,
+        TurnLimits(1.0, 1.0, 1.0), 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0,
     )  # fmt: skip
     limits = limits_of(settings, vehicle, first)
     observer, history = first_observer(settings.smoothing_s), constant_history(vehicle.bank_deg)
@@ -317,7 +313,7 @@ def step(
         plan = first_plan(settings, sensing, plan)
     if not is_known or plan.route.side == 0:
         return without_data(settings, memory, sensing, plan, vehicle.estimates, dt)
-    if limits.revision != memory.sensing.limits.revision:
+    if is_other_roll(limits, memory.sensing.limits):
         leads = NO_LEADS
     plan, leads, response = advanced_plan(settings, limits, plan, leads, present)
     plan, is_new = reconsidered(settings, sensing, plan, response)
@@ -342,7 +338,7 @@ def step(
 
 def phase_code(u: int) -> int:
     """The phase in which a control is flown; on the circle, which follows the last control, if that is absent."""
-    return PhaseCode.HOLD + 0 if u == ABSENT else u
+    return HOLD if u == ABSENT else u
 
 
 def crosstrack_m(settings: Settings, memory: Memory) -> float:
@@ -396,20 +392,25 @@ def limits_of(settings: Settings, vehicle: VehicleModel, before: Limits) -> Limi
     widest_m = widest_turn_m(V, R, east, north)
     limit_deg = present_limit_deg(settings, known, widest_m)
     roll_time_s, rate_deg_s = before.roll_time_s, before.roll_rate_deg_s
-    if (
+    is_other = (
         abs(known.roll.time_s - roll_time_s) > ROLL_CHANGED * roll_time_s
         or abs(known.roll.rate_deg_s - rate_deg_s) > ROLL_CHANGED * rate_deg_s
         or limit_deg != before.limit_deg
-    ):
+    )
+    if is_other:
         roll_time_s, rate_deg_s = known.roll.time_s, known.roll.rate_deg_s
     tightest_m = radius_at_bank(known.turn_airspeed_m_s, limit_deg) / known.turn_ratio
-    lead_s = rounded_onset(roll_time_s, rate_deg_s, 0.0, limit_deg, limit_deg).lead_s
+    lead_s, is_same = before.lead_s, before.revision >= 0 and not is_other
+    if not is_same:
+        lead_s = rounded_onset(roll_time_s, rate_deg_s, 0.0, limit_deg, limit_deg).lead_s
     turned = lead_s * V / tightest_m
     reserve = settings.reserve * (1.0 + known.turns_unknown + ROLL_RESERVE * turned)
     planned_m = min(tightest_m * (1.0 + reserve), widest_m)
-    hold_deg, planned_deg = bank_for(known, V / R), bank_for(known, V / planned_m)
-    begin_deg, end_deg = clip(-planned_deg, limit_deg), clip(hold_deg, limit_deg)
-    reversal = rounded_onset(roll_time_s, rate_deg_s, begin_deg, end_deg, limit_deg)
+    hold_deg = clip(bank_for(known, V / R), limit_deg)
+    planned, hold = half_degrees(clip(bank_for(known, V / planned_m), limit_deg)), half_degrees(hold_deg)
+    reversal_s2 = before.reversal_s2
+    if not (is_same and planned == before.planned_half_deg and hold == before.hold_half_deg):
+        reversal_s2 = turn_onset(roll_time_s, rate_deg_s, -0.5 * planned, 0.5 * hold, limit_deg).variance_s2
     return Limits(
         revision=vehicle.revision,
         wind_differs=wind_differs,
@@ -420,8 +421,11 @@ def limits_of(settings: Settings, vehicle: VehicleModel, before: Limits) -> Limi
         limit_deg=limit_deg,
         turns=TurnLimits(V, tightest_m, planned_m),
         hold_deg=hold_deg,
-        planned_deg=planned_deg,
-        reversal_m=0.5 * reversal.variance_s2 * V * V * (1.0 / planned_m + 1.0 / R),
+        hold_half_deg=hold,
+        planned_half_deg=planned,
+        lead_s=lead_s,
+        reversal_s2=reversal_s2,
+        reversal_m=0.5 * reversal_s2 * V * V * (1.0 / planned_m + 1.0 / R),
         lag_s=lead_s + DELAY_SHARE * known.delay_s,
     )
 
@@ -479,12 +483,19 @@ def lead_s(limits: Limits, bank_deg: float, target_deg: float) -> float:
     return rounded_onset(limits.roll_time_s, limits.roll_rate_deg_s, bank_deg, target_deg, limits.limit_deg).lead_s
 
 
+def is_other_roll(limits: Limits, before: Limits) -> bool:
+    """Whether delays of changes of bank are others than before."""
+    same = limits.roll_time_s == before.roll_time_s and limits.roll_rate_deg_s == before.roll_rate_deg_s
+    return not (same and limits.limit_deg == before.limit_deg)
+
+
 def leads_to(limits: Limits, leads: Leads, bank_deg: float, route: Route) -> Leads:
     """The delays of changes from a bank to those of the pieces of a route; those that are known are not recomputed."""
-    bank = half_degrees(bank_deg)
-    first = half_degrees(piece_bank_deg(limits, route.side, route.current.u))
-    second = half_degrees(piece_bank_deg(limits, route.side, route.second.u))
-    last = half_degrees(piece_bank_deg(limits, route.side, last_control(route)))
+    bank, side, hold, planned = ceil(2.0 * bank_deg - 0.5), route.side, limits.hold_half_deg, limits.planned_half_deg
+    u1, u2, u3 = route.current.u, route.second.u, last_control(route)
+    first = side * hold if u1 == ABSENT else -u1 * planned
+    second = side * hold if u2 == ABSENT else -u2 * planned
+    last = side * hold if u3 == ABSENT else -u3 * planned
     if leads.bank == bank and leads.current == first and leads.next == second and leads.last == last:
         return leads
     time_s, rate_deg_s, limit_deg, begin_deg = limits.roll_time_s, limits.roll_rate_deg_s, limits.limit_deg, 0.5 * bank
@@ -494,11 +505,6 @@ def leads_to(limits: Limits, leads: Leads, bank_deg: float, route: Route) -> Lea
         return Leads(bank, first, second, last, first_s, second_s, first_s if last == first else second_s)
     last_s = turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * last, limit_deg).lead_s
     return Leads(bank, first, second, last, first_s, second_s, last_s)
-
-
-def piece_bank_deg(limits: Limits, side: int, u: int) -> float:
-    """The planned bank, positive to the right, of a piece with the control u, or of the circle if that is absent."""
-    return clip(side * limits.hold_deg if u == ABSENT else -u * limits.planned_deg, limits.limit_deg)
 
 
 def relative_state(settings: Settings, estimate: Estimate) -> RelativeState:
@@ -529,11 +535,11 @@ def without_data(
     bank_deg, route = memory.command_deg, plan.route
     if sensing.clock.since_s > BLIND_S:
         on_circle = route.side != 0 and is_holding(route)
-        bank_deg = piece_bank_deg(sensing.limits, route.side, ABSENT) if on_circle else 0.0
+        bank_deg = route.side * sensing.limits.hold_deg if on_circle else 0.0
     # The limit may be lower now than when the last command was given.
     bank_deg = clip(bank_deg, settings.command_limit_deg)
     rate = turn_rate_deg_s(known, bank_deg)
-    command = LawCommand(rate, bank_deg, PhaseCode.NO_DATA, nan, memory.side, PhaseCode.NO_DATA, nan)
+    command = LawCommand(rate, bank_deg, NO_DATA, nan, memory.side, NO_DATA, nan)
     return Memory(sensing, plan, NO_LEADS, memory.trim, bank_deg, memory.side, dt), command
 
 
@@ -574,6 +580,8 @@ def early_end_s(route: Route, leads: Leads) -> float:
 def reconsidered(settings: Settings, sensing: Sensing, plan: Plan, response: ResponsePoint) -> tuple[Plan, bool]:
     """The plan after a search for another one, if that is due, and whether it is another."""
     limits, route, offset = sensing.limits, plan.route, response.offset
+    if not is_search_due(sensing.clock, plan):
+        return plan, False
     r, V = limits.turns.planned_m, limits.turns.airspeed_m_s
     holding = is_holding(route)
     is_lost = abs(offset.crosstrack) > LOST_OFFSET * r or abs(offset.course_error) > LOST_COURSE
@@ -589,6 +597,11 @@ def reconsidered(settings: Settings, sensing: Sensing, plan: Plan, response: Res
     return searched(settings, sensing, plan, response.state, is_any=False, update=deviates or is_still)
 
 
+def is_search_due(clock: Clock, plan: Plan) -> bool:
+    """Whether the last search is long enough ago."""
+    return clock.time_s - plan.searched_s >= SEARCH_INTERVAL_S - ROUNDING_S
+
+
 def first_plan(settings: Settings, sensing: Sensing, plan: Plan) -> Plan:
     """The fastest entry from where a command takes effect, which depends on the bank and the first turn."""
     limits, present = sensing.limits, sensing.present
@@ -600,6 +613,8 @@ def first_plan(settings: Settings, sensing: Sensing, plan: Plan) -> Plan:
     if entry.side == 0:
         return plan
     first, _, _ = controls(entry.word)
+    if not is_search_due(sensing.clock, plan):
+        return plan
     bank_deg = -first * limits.limit_deg if first != ABSENT else entry.side * limits.hold_deg
     later = estimate_after(present, lead_s(limits, present.bank_deg, bank_deg))
     plan, _ = searched(settings, sensing, plan, relative_state(settings, later), is_any=True, update=True)
@@ -624,11 +639,9 @@ def searched(
 ) -> tuple[Plan, bool]:
     """The fastest entry from a state if it is better than the plan, and whether it is; with `is_any` it always is.
 
-    With `update` the same plan from the present state counts as better. Searches are `SEARCH_INTERVAL_S` apart.
+    With `update` the same plan from the present state counts as better.
     """
     now_s, limits = sensing.clock.time_s, sensing.limits
-    if now_s - plan.searched_s < SEARCH_INTERVAL_S - ROUNDING_S:
-        return plan, False
     route, left_s, join_s, planned_join_s, _ = plan
     entry = entry_from(settings, limits, state, route.side == 0 or reverses(route))
     if entry.side == 0 or not (is_any or is_better(entry, plan, limits.turns, update)):

@@ -11,15 +11,25 @@ from loiter.guidance.identification.vehicle import (
     VehicleEstimates,
 )
 from loiter.guidance.laws import law_step
-from loiter.guidance.laws.law_step import DELAY_S, GAIN, NEGLIGIBLE_WIND, RESERVE, SMOOTHING_S, PhaseCode, Settings
-from loiter.guidance.protocol import Command, Phase, State
+from loiter.guidance.laws.law_step import (
+    DELAY_S,
+    GAIN,
+    HOLD,
+    NEGLIGIBLE_WIND,
+    NO_DATA,
+    RESERVE,
+    SMOOTHING_S,
+    Settings,
+)
+from loiter.guidance.protocol import PHASES, Command, Phase, State
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll, RollValues
-from loiter.kernel.words import Side
 from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, Aircraft, Orbit, Wind
 from loiter.planning.sides import SIDES, TURNS
 
-PHASES = {code + 0: Phase[code.name] for code in PhaseCode}
+# The names of the codes of a step.
+NAMED_PHASES = {**PHASES, HOLD: Phase.HOLD, NO_DATA: Phase.NO_DATA}
+NAMED_TURNS = {side + 0: turn for side, turn in TURNS.items()}
 
 
 class LoiterEntry:
@@ -139,4 +149,4 @@ class LoiterEntry:
         self._vehicle.measure(state)
         self._memory, command = law_step.step(self._settings, self._memory, self._vehicle.model, state, dt)
         rate, bank_deg, phase, join_s, side, next_phase, next_s = command
-        return Command(rate, bank_deg, PHASES[phase], join_s, TURNS[Side(side)], PHASES[next_phase], next_s)
+        return Command(rate, bank_deg, NAMED_PHASES[phase], join_s, NAMED_TURNS[side], NAMED_PHASES[next_phase], next_s)
