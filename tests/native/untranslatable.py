@@ -1,8 +1,17 @@
 """Functions with one thing each that is outside the kernel's subset of Python; and `rounds`, which is inside."""
 
 from math import gamma
+from typing import Annotated, NamedTuple
 
 from loiter.kernel.synthesis import ROUNDING
+
+
+class Pair(NamedTuple):
+    a: float
+    b: float
+
+
+Ring = Annotated[tuple[Pair, ...], 4]
 
 
 def rounds(x: float) -> float:
@@ -69,3 +78,11 @@ def taken(x: float, y: float) -> float:
 
 def lazy_tuple(x: float) -> float:
     return taken(*halved(x)) if x > 0.0 else 0.0
+
+
+def two_into_ring(ring: Ring, pair: Pair) -> Ring:
+    return (*ring[2:], pair, pair)
+
+
+def ring_by_number(ring: Ring, x: float) -> Pair:
+    return ring[x]  # type: ignore[call-overload,no-any-return]
