@@ -199,6 +199,25 @@ class Limits(NamedTuple):
     lag_s: float
 
 
+NO_LIMITS = Limits(
+    revision=-1,
+    wind_differs=False,
+    wind_east_m_s=0.0,
+    wind_north_m_s=0.0,
+    roll_time_s=0.0,
+    roll_rate_deg_s=0.0,
+    limit_deg=0.0,
+    turns=TurnLimits(1.0, 1.0, 1.0),
+    hold_deg=0.0,
+    hold_half_deg=0,
+    planned_half_deg=0,
+    lead_s=0.0,
+    reversal_s2=0.0,
+    reversal_m=0.0,
+    lag_s=0.0,
+)
+
+
 class Sensing(NamedTuple):
     """What is known of the present: the clock, the observer, the modelled bank and the limits.
 
@@ -287,11 +306,7 @@ class ResponsePoint(NamedTuple):
 
 def first_memory(settings: Settings, vehicle: VehicleModel) -> Memory:
     """The memory before the first measurement, with wings level."""
-    first = Limits(
-        -1, False, 0.0, 0.0, vehicle.estimates.roll.time_s, vehicle.estimates.roll.rate_deg_s, settings.limit_deg,
-        TurnLimits(1.0, 1.0, 1.0), 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0,
-    )  # fmt: skip
-    limits = limits_of(settings, vehicle, first)
+    limits = limits_of(settings, vehicle, NO_LIMITS)
     observer, history = first_observer(settings.smoothing_s), constant_history(vehicle.bank_deg)
     sensing = Sensing(FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, 0.0, 0.0)
     return Memory(sensing, NO_PLAN, NO_LEADS, 0.0, 0.0, settings.side, 0.0)
@@ -400,8 +415,8 @@ def limits_of(settings: Settings, vehicle: VehicleModel, before: Limits) -> Limi
     if is_other:
         roll_time_s, rate_deg_s = known.roll.time_s, known.roll.rate_deg_s
     tightest_m = radius_at_bank(known.turn_airspeed_m_s, limit_deg) / known.turn_ratio
-    lead_s, is_same = before.lead_s, before.revision >= 0 and not is_other
-    if not is_same:
+    lead_s = before.lead_s
+    if is_other:
         lead_s = rounded_onset(roll_time_s, rate_deg_s, 0.0, limit_deg, limit_deg).lead_s
     turned = lead_s * V / tightest_m
     reserve = settings.reserve * (1.0 + known.turns_unknown + ROLL_RESERVE * turned)
@@ -409,7 +424,7 @@ def limits_of(settings: Settings, vehicle: VehicleModel, before: Limits) -> Limi
     hold_deg = clip(bank_for(known, V / R), limit_deg)
     planned, hold = half_degrees(clip(bank_for(known, V / planned_m), limit_deg)), half_degrees(hold_deg)
     reversal_s2 = before.reversal_s2
-    if not (is_same and planned == before.planned_half_deg and hold == before.hold_half_deg):
+    if is_other or planned != before.planned_half_deg or hold != before.hold_half_deg:
         reversal_s2 = turn_onset(roll_time_s, rate_deg_s, -0.5 * planned, 0.5 * hold, limit_deg).variance_s2
     return Limits(
         revision=vehicle.revision,
@@ -491,7 +506,7 @@ def is_other_roll(limits: Limits, before: Limits) -> bool:
 
 def leads_to(limits: Limits, leads: Leads, bank_deg: float, route: Route) -> Leads:
     """The delays of changes from a bank to those of the pieces of a route; those that are known are not recomputed."""
-    bank, side, hold, planned = ceil(2.0 * bank_deg - 0.5), route.side, limits.hold_half_deg, limits.planned_half_deg
+    bank, side, hold, planned = half_degrees(bank_deg), route.side, limits.hold_half_deg, limits.planned_half_deg
     u1, u2, u3 = route.current.u, route.second.u, last_control(route)
     first = side * hold if u1 == ABSENT else -u1 * planned
     second = side * hold if u2 == ABSENT else -u2 * planned
