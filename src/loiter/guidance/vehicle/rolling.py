@@ -58,11 +58,6 @@ class Roll:
         if not as_float(self.rate_deg_s) > 0.0:
             raise InvalidArgument("roll rate_deg_s", f"is {self.rate_deg_s}: it must be above 0 degrees per second")
 
-    @property
-    def is_instant(self) -> bool:
-        """Whether the bank follows a command instantly."""
-        return self.time_s == 0.0 and self.rate_deg_s == inf
-
     def demand_deg(self, bank_deg: float, target_deg: float, limit_deg: float) -> float:
         """`demand_deg` for this response."""
         return demand_deg(self.time_s, bank_deg, target_deg, limit_deg)
