@@ -2,6 +2,7 @@
 
 import os
 import sys
+from importlib.util import find_spec
 from math import inf, isfinite, nan
 from numbers import Real
 from typing import Any, NoReturn, Self
@@ -60,6 +61,12 @@ class MissingPackage(LoiterError):
         return cls(
             f'{needs} {package}: pip install "loiter[{extra}]" brings it (in a checkout: pip install ".[{extra}]")'
         )
+
+
+def check_installed(module: str, needs: str, package: str, extra: str) -> None:
+    """Raise `MissingPackage.of_extra(needs, package, extra)` where a module cannot be imported."""
+    if find_spec(module) is None:
+        raise MissingPackage.of_extra(needs, package, extra)
 
 
 class LinkFailed(LoiterError):

@@ -193,7 +193,7 @@ def test_jsbsim_prints_nothing(capfd):
 
 
 def test_without_jsbsim(monkeypatch):
-    monkeypatch.setattr("loiter.guidance.simulators.jsbsim_aircraft.find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, "jsbsim", None)
     with pytest.raises(MissingPackage, match=r"six degrees of freedom need JSBSim.*pip install \"loiter\[sim\]\""):
         JsbsimAircraft(START, AEROSONDE)
 

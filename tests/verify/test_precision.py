@@ -1,5 +1,6 @@
 """The kernel in doubles against itself in 50 digits."""
 
+import sys
 from math import inf, nextafter
 
 import numpy as np
@@ -83,8 +84,8 @@ def test_at_least_one_state():
 
 
 def test_without_mpmath_a_sentence_says_what_to_install(monkeypatch):
-    monkeypatch.setattr(module, "find_spec", lambda name: None)
-    with pytest.raises(MissingPackage, match="pip install mpmath"):
+    monkeypatch.setitem(sys.modules, "mpmath", None)
+    with pytest.raises(MissingPackage, match=r"mpmath: pip install \"loiter\[verify\]\""):
         precision(1, 0)
 
 

@@ -318,7 +318,9 @@ def test_without_python_flint_one_sentence_says_so(monkeypatch, capsys):
     with pytest.raises(MissingPackage):
         prove()
     assert main(["prove"]) == 2
-    assert capsys.readouterr().err.strip().endswith("pip install python-flint")
+    assert capsys.readouterr().err.startswith(
+        'loiter: exact and ball arithmetic need python-flint: pip install "loiter[verify]"'
+    )
 
 
 def test_the_document_has_the_table_of_the_program(findings):

@@ -1,5 +1,6 @@
 """`loiter.min_time` compared with a Hamilton-Jacobi reachability map, which shares no code with the kernel."""
 
+import sys
 from itertools import pairwise
 
 import numpy as np
@@ -88,6 +89,6 @@ def test_a_wrong_map_is_caught(monkeypatch, wrong):
 def test_bad_input_is_refused_at_once(monkeypatch):
     with pytest.raises(InvalidArgument, match="cells is 5"):
         compare_with_reachability([40, 5])
-    monkeypatch.setattr("loiter.verify.checks.reachability.find_spec", lambda name: None)
-    with pytest.raises(MissingPackage, match="pip install hj-reachability"):
+    monkeypatch.setitem(sys.modules, "hj_reachability", None)
+    with pytest.raises(MissingPackage, match=r"hj-reachability: pip install \"loiter\[verify\]\""):
         compare_with_reachability([40])

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
-from importlib.util import find_spec
 from math import ceil, nan, sqrt
 from typing import Any
 
 import numpy as np
 
-from loiter.errors import LoiterError, MissingPackage, not_negative
+from loiter import errors
+from loiter.errors import LoiterError, not_negative
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.simulators.airframes import Airframe
 from loiter.guidance.simulators.gusts import FOOT_M
@@ -166,8 +166,7 @@ def _banks(simulator: JsbsimAircraft, bank_deg: float) -> list[float]:
 
 def check_installed() -> None:
     """Raise `MissingPackage` where JSBSim is not installed."""
-    if find_spec("jsbsim") is None:
-        raise MissingPackage('six degrees of freedom need JSBSim, which is not installed: pip install "loiter[sim]"')
+    errors.check_installed("jsbsim", "six degrees of freedom need", "JSBSim", "sim")
 
 
 def trimmed(airframe: Airframe) -> tuple[Any, Surfaces]:

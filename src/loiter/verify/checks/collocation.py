@@ -14,7 +14,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib.util import find_spec
 from itertools import groupby, pairwise, product
 from math import cos, hypot, inf, sin, sqrt
 from operator import itemgetter
@@ -22,7 +21,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from loiter.errors import MissingPackage
+from loiter import errors
 from loiter.verify.checks.oracle import Circle, Planar
 
 if TYPE_CHECKING:
@@ -117,8 +116,7 @@ def word(pieces: Sequence[tuple[str, float]], shortest: float) -> str:
 
 def check_installed() -> None:
     """Raise `MissingPackage` where CasADi is not installed."""
-    if find_spec("casadi") is None:
-        raise MissingPackage("the collocation needs CasADi, which is not installed: pip install casadi")
+    errors.check_installed("casadi", "the collocation needs", "CasADi", "verify")
 
 
 def collocate(start: Planar, circles: Sequence[Circle], wind: AirVelocity = STILL_AIR) -> CollocatedPath:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib.util import find_spec
 from math import cos, degrees, pi, sin
 from random import Random
 
-from loiter.errors import InvalidArgument, MissingPackage
+from loiter.errors import InvalidArgument, check_installed
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn
 from loiter.planning.solve import plan
 from loiter.verify.checks.oracle import Circle, OraclePath, Planar, Search, from_compass
@@ -99,8 +98,7 @@ def compare_with_oracle(states: int, seed: int) -> Iterator[OracleDifference]:
     """
     if states < 1:
         raise InvalidArgument("states", f"is {states}: it must be at least 1")
-    if find_spec("ompl") is None:
-        raise MissingPackage("the search needs OMPL, which is not installed: pip install ompl")
+    check_installed("ompl", "the search needs", "OMPL", "verify")
     return map(oracle_difference, random_problems(states, seed))
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
-from importlib.util import find_spec
 from math import cos, pi, sin
 from random import Random
 from typing import Any
 
-from loiter.errors import InvalidArgument, MissingPackage
+from loiter.errors import InvalidArgument, check_installed
 from loiter.kernel.exact import beyond
 from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.switching_curves import switching_abscissa
@@ -68,8 +67,7 @@ def precision(states: int, seed: int) -> Iterator[RoundingError]:
     """
     if states < 1:
         raise InvalidArgument("states", f"is {states}: it must be at least 1")
-    if find_spec("mpmath") is None:
-        raise MissingPackage("50 digits need mpmath, which is not installed: pip install mpmath")
+    check_installed("mpmath", "50 digits need", "mpmath", "verify")
     return (rounded(*state) for state in drawn(states, seed))
 
 

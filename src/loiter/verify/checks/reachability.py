@@ -17,13 +17,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.util import find_spec
 from math import sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from loiter.errors import MissingPackage
+from loiter import errors
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -85,10 +84,7 @@ REDUCED_PLANE = ReducedPlane()
 
 def check_installed() -> None:
     """Raise `MissingPackage` where hj-reachability is not installed."""
-    if find_spec("hj_reachability") is None:
-        raise MissingPackage(
-            "the reachability map needs hj-reachability, which is not installed: pip install hj-reachability"
-        )
+    errors.check_installed("hj_reachability", "the reachability map needs", "hj-reachability", "verify")
 
 
 def reach(R: float, sides: Sequence[int], cells: int) -> Reach:

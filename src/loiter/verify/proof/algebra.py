@@ -16,7 +16,7 @@ from fractions import Fraction
 from math import inf, isqrt
 from typing import Any
 
-from loiter.errors import MissingPackage
+from loiter.errors import check_installed
 from loiter.verify.proof.sign_proofs import (
     NEVER_NEGATIVE,
     NEVER_POSITIVE,
@@ -34,12 +34,9 @@ ROOTS, MOST_TERMS = 8, 1_000
 
 def flint() -> Any:
     """The module python-flint; raises `MissingPackage` where it is not installed."""
-    try:
-        import flint
-    except ImportError as error:
-        raise MissingPackage(
-            "exact and ball arithmetic need python-flint, which is not installed: pip install python-flint"
-        ) from error
+    check_installed("flint", "exact and ball arithmetic need", "python-flint", "verify")
+    import flint
+
     return flint
 
 
