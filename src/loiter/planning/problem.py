@@ -59,6 +59,11 @@ class Problem:
         return self.relative_wind.still
 
     @property
+    def has_closed_form(self) -> bool:
+        """Whether the kernel answers in closed form, with all extremals: it does in still air; elsewhere it searches."""
+        return self.still
+
+    @property
     def radius(self) -> float:
         """R, the radius of the circle in turn radii."""
         return radius_in_turns(self.orbit, self.aircraft)

@@ -98,7 +98,7 @@ def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneu
     Raises the errors of `plan`. In wind it takes half the time of `plan_all` followed by `candidates`.
     """
     known = solved(problem.with_turn(Turn.EITHER), ranked, wind_solver.ranked)
-    best = all_fastest(problem) if problem.still else _tied(known, problem)
+    best = all_fastest(problem) if problem.has_closed_form else _tied(known, problem)
     others = maneuvers(known)
     return best, tuple(m for m in others if not any(m.turn == b.turn and m.segments == b.segments for b in best))
 
@@ -121,7 +121,7 @@ def solved(
     in_wind: Callable[..., list[WindEntry]],
 ) -> tuple[Solved, ...]:
     """The answers, in SI, of the kernel's function for still air or of its function for wind, as the problem needs."""
-    if problem.still:
+    if problem.has_closed_form:
         reduced = problem.reduced()
         x, y, R, _, _ = reduced
         return tuple(

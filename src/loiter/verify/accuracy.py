@@ -60,7 +60,7 @@ class Accuracy(NamedTuple):
 
 def accuracy_of(trajectory: Trajectory, others: Sequence[Candidate]) -> Accuracy:
     """The accuracy of a trajectory's residuals; `others` are the candidates it is compared with."""
-    return _in_still_air(trajectory, others) if trajectory.problem.still else _in_wind(trajectory)
+    return _in_still_air(trajectory, others) if trajectory.problem.has_closed_form else _in_wind(trajectory)
 
 
 def _of_difference(third_derivative: float, rounding: float) -> float:

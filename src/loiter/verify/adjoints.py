@@ -60,13 +60,13 @@ def trajectory_of(maneuver: Maneuver, problem: Problem) -> Trajectory:
     controls, durations = [CONTROLS[letter] for letter in word_of(maneuver).letters], durations_of(maneuver)
     if not controls:
         return Trajectory(maneuver, problem, start, 1.0, ())
-    plans = (_in_still_air if problem.still else _in_wind)(start, controls, durations)
+    plans = (_in_still_air if problem.has_closed_form else _in_wind)(start, controls, durations)
     flown = (Trajectory(maneuver, problem, plan.start, plan.adjoint.lam, tuple(flown_pieces(*plan))) for plan in plans)
     return min(flown, key=lambda trajectory: trajectory.worst_violation)
 
 
 def _start(problem: Problem, side: int) -> RelativeStart:
-    if problem.still:
+    if problem.has_closed_form:
         x, y, R, _, _ = problem.reduced()
         return RelativeStart(complex(x, y), 1.0 + 0.0j, 0.0j, R, side)
     x, y, c, s, R, _, wx, wy, _ = problem.in_wind()

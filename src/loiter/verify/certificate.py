@@ -199,7 +199,7 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
         others,
         trajectory.pieces,
         accuracy.tie * problem.time_unit_s,
-        complete=problem.still and tolerance_m == 0.0,
+        complete=problem.has_closed_form and tolerance_m == 0.0,
     )
 
 

@@ -47,7 +47,7 @@ class LeastTimes(NamedTuple):
 
 def least_times(trajectory: Trajectory) -> LeastTimes:
     """T around the start of a trajectory."""
-    return _in_still_air(trajectory) if trajectory.problem.still else _in_wind(trajectory)
+    return _in_still_air(trajectory) if trajectory.problem.has_closed_form else _in_wind(trajectory)
 
 
 def _in_wind(trajectory: Trajectory) -> LeastTimes:
