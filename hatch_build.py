@@ -10,6 +10,7 @@ import hashlib
 import os
 import platform
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +25,6 @@ NO_COMPILER = (
 LEVELS = ("v2", "v3", "v4")
 
 GNU = ["-std=c11", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fvisibility=hidden", "-g0"]
-# Without it gcc does not vectorise the loops; clang has no such flag.
-LOOPS = ["-fno-tree-pre"]
 MICROSOFT = ["/std:c11", "/O2", "/fp:precise"]
 
 
@@ -59,7 +58,7 @@ def build(root: Path) -> list[Path]:
             macros = [("LOITER_SOURCES", digest(root)), *([("LOITER_X86_LEVELS", "1")] if levels else [])]
             objects = []
 
-            def compiled(name: str, folder_of_objects: str, macros: list[Any], more: list[str]) -> None:
+            def compiled(name: str, folder_of_objects: str, macros: list[Any], more: Sequence[str] = ()) -> None:
                 found = self.compiler.compile(
                     [str(folder / name)],
                     output_dir=str(Path(self.build_temp) / folder_of_objects),
@@ -71,12 +70,11 @@ def build(root: Path) -> list[Path]:
 
             for name in ext.sources:
                 if name != "loops.c":
-                    compiled(name, ext.name, macros, [])
+                    compiled(name, ext.name, macros)
                     continue
-                loops = LOOPS if is_gnu else []
-                compiled(name, "any", [("LOITER_LEVEL", "any")], loops)
+                compiled(name, "any", [("LOITER_LEVEL", "any")])
                 for level in levels:
-                    compiled(name, level, [("LOITER_LEVEL", level)], [*loops, f"-march=x86-64-{level}"])
+                    compiled(name, level, [("LOITER_LEVEL", level)], [f"-march=x86-64-{level}"])
             self.compiler.link_shared_object(
                 objects, self.get_ext_fullpath(ext.name), libraries=[] if os.name == "nt" else ["m"]
             )

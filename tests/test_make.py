@@ -73,7 +73,10 @@ def test_a_new_python_will_do(make, tmp_path, version):
 
 
 def test_packages_are_installed_by_the_script_that_waits(make):
-    assert make("--dry-run", "--always-make", "/usr/bin/chromium-headless-shell").stdout == "requirements/apt-install chromium-headless-shell\n"
+    assert (
+        make("--dry-run", "--always-make", "/usr/bin/chromium-headless-shell").stdout
+        == "requirements/apt-install chromium-headless-shell\n"
+    )
 
 
 def test_a_missing_compiler_is_installed_by_the_same_script(make):

@@ -1,9 +1,11 @@
 """The C with the sanitizers of addresses and of undefined behaviour, over random and special numbers."""
 
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
+import hatch_build
 import pytest
 from codegen.files import FOLDER
 
@@ -26,3 +28,12 @@ def test_no_number_makes_the_c_do_what_c_does_not_define(tmp_path):
     counts = os.environ.get("LOITER_FUZZ", "50000 1000").split()
     done = subprocess.run([program, *counts], capture_output=True, text=True, timeout=3600)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.skipif(not shutil.which("clang"), reason="clang is not installed")
+def test_clang_knows_the_flags_of_the_build_and_warns_of_nothing():
+    """Apple's compiler is a clang, and gcc's own flags are errors there."""
+    flags = [*hatch_build.GNU, "-Wall", "-Wextra", "-Werror", "-DLOITER_LEVEL=any", "-fsyntax-only"]
+    for file in SOURCES:
+        done = subprocess.run(["clang", *flags, file], capture_output=True, text=True)
+        assert (done.returncode, done.stderr) == (0, "")

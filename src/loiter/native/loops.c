@@ -4,6 +4,12 @@
  * and copies the results out: it allocates nothing, and its speed does not depend on the strides. The same file is
  * compiled for several kinds of processors; LOITER_LEVEL is a suffix of the names.
  */
+
+/* gcc would share expressions between branches, and then vectorise nothing; clang has no such option. */
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("no-tree-pre")
+#endif
+
 #include "loops.h"
 
 #include <fenv.h>

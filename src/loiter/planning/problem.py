@@ -60,7 +60,7 @@ class Problem:
 
     @property
     def has_closed_form(self) -> bool:
-        """Whether the kernel answers in closed form, with all extremals: it does in still air; elsewhere it searches."""
+        """Whether the kernel answers in closed form: it does in still air, and searches elsewhere."""
         return self.still
 
     @property
