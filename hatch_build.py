@@ -10,9 +10,9 @@ import hashlib
 import os
 import platform
 import sys
-from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
@@ -26,6 +26,14 @@ LEVELS = ("v2", "v3", "v4")
 
 GNU = ["-std=c11", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fvisibility=hidden", "-g0"]
 MICROSOFT = ["/std:c11", "/O2", "/fp:precise"]
+
+
+class Job(NamedTuple):
+    """A file to compile, the folder of its object, and its macros."""
+
+    file: str
+    folder: str
+    macros: list[Any]
 
 
 def sources(root: Path) -> list[Path]:
@@ -56,25 +64,21 @@ def build(root: Path) -> list[Path]:
             flags = GNU if is_gnu else MICROSOFT
             levels = LEVELS if is_x86 and is_gnu else ()
             macros = [("LOITER_SOURCES", digest(root)), *([("LOITER_X86_LEVELS", "1")] if levels else [])]
-            objects = []
+            jobs = [Job(name, ext.name, macros) for name in ext.sources if name != "loops.c"]
+            if "loops.c" in ext.sources:
+                jobs += [Job("loops.c", level, [("LOITER_LEVEL", level)]) for level in ("any", *levels)]
 
-            def compiled(name: str, folder_of_objects: str, macros: list[Any], more: Sequence[str] = ()) -> None:
-                found = self.compiler.compile(
-                    [str(folder / name)],
-                    output_dir=str(Path(self.build_temp) / folder_of_objects),
-                    macros=macros,
+            def compiled(job: Job) -> list[str]:
+                return self.compiler.compile(
+                    [str(folder / job.file)],
+                    output_dir=str(Path(self.build_temp) / job.folder),
+                    macros=job.macros,
                     include_dirs=[str(folder), numpy.get_include(), *self.compiler.include_dirs],
-                    extra_postargs=[*flags, *more],
+                    extra_postargs=[*flags, *([f"-march=x86-64-{job.folder}"] if job.folder in levels else [])],
                 )
-                objects.extend(found)
 
-            for name in ext.sources:
-                if name != "loops.c":
-                    compiled(name, ext.name, macros)
-                    continue
-                compiled(name, "any", [("LOITER_LEVEL", "any")])
-                for level in levels:
-                    compiled(name, level, [("LOITER_LEVEL", level)], [f"-march=x86-64-{level}"])
+            with ThreadPoolExecutor(os.cpu_count()) as pool:
+                objects = [path for paths in pool.map(compiled, jobs) for path in paths]
             self.compiler.link_shared_object(
                 objects, self.get_ext_fullpath(ext.name), libraries=[] if os.name == "nt" else ["m"]
             )
