@@ -64,8 +64,9 @@ def check_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind, wind: Wind |
             f"its airspeed must be above {speed:.4g} m/s{_swapped_hint(orbit, aircraft, wind)}"
         )
     if status in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
-        sentence = too_tight(orbit, aircraft) if air.still else _not_held(orbit, aircraft, air)
-        raise RadiusTooSmall(sentence, _least_radius_m(aircraft, air))
+        tightest = tightest_radius(*air)
+        sentence = too_tight(orbit, aircraft) if air.still else _not_held(orbit, aircraft, air, tightest)
+        raise RadiusTooSmall(sentence, tightest * aircraft.turn_radius_m)
 
 
 def is_holdable(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> bool:
@@ -80,14 +81,9 @@ def fitted_radius_m(orbit: Orbit, aircraft: Aircraft, wind: Wind) -> float:
     """
     air = relative_wind(orbit, aircraft, wind)
     if _status(orbit, aircraft, air) in (Status.NOT_HELD, Status.RADIUS_TOO_SMALL):
-        return _least_radius_m(aircraft, air)
+        return tightest_radius(*air) * aircraft.turn_radius_m
     check_held(orbit, aircraft, air, wind)
     return orbit.radius_m
-
-
-def _least_radius_m(aircraft: Aircraft, air: RelativeWind) -> float:
-    """The least radius, metres, that the aircraft can hold in the wind relative to the circle."""
-    return tightest_radius(*air) * aircraft.turn_radius_m
 
 
 def _status(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> int:
@@ -130,9 +126,9 @@ def _air(orbit: Orbit, speed: float) -> str:
     return f"air that passes the circle at {speed:.4g} m/s" if orbit.moves else f"a wind of {speed:.4g} m/s"
 
 
-def _not_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind) -> str:
-    """The error message for a circle that is too tight to be held in the wind."""
-    r, V, tightest = aircraft.turn_radius_m, aircraft.airspeed_m_s, tightest_radius(*air)
+def _not_held(orbit: Orbit, aircraft: Aircraft, air: RelativeWind, tightest: float) -> str:
+    """The error message for a circle that is too tight to be held in the wind: below `tightest` turn radii."""
+    r, V = aircraft.turn_radius_m, aircraft.airspeed_m_s
     bank = f"{aircraft.bank_deg(orbit.radius_m / tightest):.4g} deg"
     if aircraft.max_bank_deg is not None:
         limit, need = f"{aircraft.max_bank_deg:.4g} deg of bank", bank

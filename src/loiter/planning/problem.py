@@ -94,7 +94,7 @@ class Problem:
         Raises `RadiusTooSmall` for a circle tighter than the turn radius, `OutOfRange` for a scene too large.
         """
         orbit, r = self.orbit, self.aircraft.turn_radius_m
-        x, y = motion.reduce(*self._place(), *heading_vector(self.pose.heading_deg))
+        x, y = motion.reduce(*self._relative_state())
         reduced = ReducedProblem(x, y, rounded_radius(self.radius), SIDES[orbit.turn], self.tolerance_m / r)
         status = status_of(reduced.x, reduced.y, reduced.R, reduced.tolerance)
         if status == Status.RADIUS_TOO_SMALL:
@@ -109,7 +109,7 @@ class Problem:
         Raises `RadiusTooSmall` or `WindTooStrong` for a circle that cannot be held, `OutOfRange` for a scene too large.
         """
         check_held(self.orbit, self.aircraft, self.relative_wind, self.wind)
-        (x, y), (c, s) = self._place(), heading_vector(self.pose.heading_deg)
+        x, y, c, s = self._relative_state()
         wx, wy = self.relative_wind
         tolerance = self.tolerance_m / self.aircraft.turn_radius_m
         found = WindProblem(x, y, c, s, self.radius, SIDES[self.orbit.turn], wx, wy, tolerance)
@@ -117,13 +117,15 @@ class Problem:
             raise self._too_large()
         return found
 
-    def _place(self) -> tuple[float, float]:
-        """The position of the aircraft relative to the centre of the circle, in turn radii.
+    def _relative_state(self) -> tuple[float, float, float, float]:
+        """The position of the aircraft relative to the centre of the circle, in turn radii, and its unit heading.
 
         A difference of doubles is rounded relative to itself, so its error does not grow with the coordinates.
         """
         r = self.aircraft.turn_radius_m
-        return (self.pose.east_m - self.orbit.east_m) / r, (self.pose.north_m - self.orbit.north_m) / r
+        pose, orbit = self.pose, self.orbit
+        c, s = heading_vector(pose.heading_deg)
+        return (pose.east_m - orbit.east_m) / r, (pose.north_m - orbit.north_m) / r, c, s
 
     def _has_finite_results(self) -> bool:
         """Whether paths of up to REACH turn radii are finite numbers of metres and seconds too."""
