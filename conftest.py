@@ -37,8 +37,8 @@ SLOW = {
     "web": "api drawing failure fields history layout limits load missions page places schema serve tiles touch",
 }
 
-# Files of tests that first build the package, or the site: by one worker, not by each.
-BUILDING = "documents/test_package.py", "documents/test_site.py"
+# Files of tests that first build the package, the site or a library, or check all types: by one worker, not by each.
+BUILDING = "documents/test_package.py", "documents/test_site.py", "guidance/test_law_in_c.py", "tests/test_types.py"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
