@@ -17,7 +17,7 @@ from loiter.geo import LocalFrame
 from loiter.io import save
 from loiter.io.maps.chart import chart
 from loiter.io.maps.geojson import geojson
-from loiter.planning.flight import sampled_at
+from loiter.planning.flight import samples_at
 
 settings.register_profile("maps", deadline=None, max_examples=25)
 settings.load_profile("maps")
@@ -180,7 +180,7 @@ def test_lines_of_degrees_are_no_further_off_the_track_than_requested(scene, err
         duration = line.segment.duration_s / (len(corners) - 1)
         for i in {0, (len(corners) - 1) // 2, len(corners) - 2}:
             times = line.segment.start_s + duration * (i + np.linspace(0.0, 1.0, 9))
-            track = sampled_at(times, m.start, m.segments, m.aircraft, m.wind)
+            track = samples_at(times, m.start, m.segments, m.aircraft, m.wind)
             straight = drawn_line(corners[i], corners[i + 1])
             here = LocalFrame(corners[i][1], corners[i][0])
             flown = plane(here, *frame.to_geodetic(track.east_m, track.north_m))

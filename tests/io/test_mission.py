@@ -16,7 +16,7 @@ from loiter.io import Autopilot, Frame, MavCommand, mission
 from loiter.io.maps.track import step_counts, vertices
 from loiter.io.missions.mission import BEND_PER_M, MAX_ITEMS
 from loiter.io.missions.signs import circle
-from loiter.planning.flight import sampled_at
+from loiter.planning.flight import samples_at
 
 settings.register_profile("missions", deadline=None, max_examples=25)
 settings.load_profile("missions")
@@ -138,7 +138,7 @@ def test_far_from_the_origin_waypoints_are_where_geodesics_stay_on_the_track():
         for i, (a, b) in enumerate(pairwise(items)):
             here = LocalFrame(a.latitude_deg, a.longitude_deg)
             dense = np.linspace(times[i], times[i + 1], 9)
-            track = sampled_at(dense, m.start, m.segments, m.aircraft, m.wind)
+            track = samples_at(dense, m.start, m.segments, m.aircraft, m.wind)
             east, north = here.to_local(*frame.to_geodetic(track.east_m, track.north_m))
             end = complex(*map(float, here.to_local(b.latitude_deg, b.longitude_deg)))
             if not np.isnan(east).any():

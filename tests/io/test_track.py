@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from earth import SCENES, at_time, off_lines, placed, switches
 from loiter.errors import InvalidArgument
 from loiter.io.maps.track import LEAST_SIDES, circle_polygon, step_counts, vertices
-from loiter.planning.flight import sampled_at
+from loiter.planning.flight import samples_at
 
 settings.register_profile("tracks", deadline=None, max_examples=40)
 settings.load_profile("tracks")
@@ -23,7 +23,7 @@ def between(m, track, parts=20):
     """The track, some samples in each step of a polyline; and the polyline's vertices before and after each."""
     shares = np.linspace(0.0, 1.0, parts, endpoint=False)
     times = np.concatenate([a + shares * (b - a) for a, b in pairwise(track.time_s)])
-    dense = sampled_at(times, m.start, m.segments, m.aircraft, m.wind)
+    dense = samples_at(times, m.start, m.segments, m.aircraft, m.wind)
     corners = track.east_m + 1j * track.north_m
     return dense.east_m + 1j * dense.north_m, corners[:-1].repeat(parts), corners[1:].repeat(parts)
 

@@ -13,7 +13,7 @@ from loiter import Aircraft, Orbit, Pose, Turn, Wind, candidates, plan, plan_all
 from loiter.compiled.wind_solver import PLAIN
 from loiter.errors import InvalidArgument, NotConverged, OutOfRange, RadiusTooSmall, WindTooStrong
 from loiter.kernel.statuses import Status
-from loiter.planning.flight import sampled_at
+from loiter.planning.flight import samples_at
 from loiter.planning.model import Segment
 from planning.flying import fly
 from strategies import scenes, windy_scenes
@@ -298,14 +298,14 @@ def test_the_curvature_over_the_ground_of_a_headwind_and_a_tailwind():
     here = Pose(-400.0, 0.0, 90.0)
     for from_deg, speed in ((90.0, 12.0), (270.0, 24.0)):
         segment = Segment("L", 0.0, 1.0, 18.0, tight, here, here)
-        samples = sampled_at(np.array([0.0]), here, [segment], UAV, Wind(6.0, from_deg))
+        samples = samples_at(np.array([0.0]), here, [segment], UAV, Wind(6.0, from_deg))
         assert samples.ground_curvature_per_m == pytest.approx(tight * (18.0 / speed) ** 2, rel=1e-14)
 
 
 def test_where_the_wind_stops_the_aircraft_the_track_has_no_curvature():
     here = Pose(0.0, 0.0, 0.0)
     segment = Segment("R", 0.0, 1.0, 18.0, -1.0 / UAV.turn_radius_m, here, here)
-    samples = sampled_at(np.array([0.0, 1.0]), here, [segment], UAV, Wind(18.0, 0.0))
+    samples = samples_at(np.array([0.0, 1.0]), here, [segment], UAV, Wind(18.0, 0.0))
     assert samples.ground_speed_m_s[0] == 0.0
     assert np.isnan(samples.ground_curvature_per_m[0])
     assert samples.ground_curvature_per_m[1] < 0.0

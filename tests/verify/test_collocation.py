@@ -10,7 +10,7 @@ from golden.paper import EXAMPLES
 from loiter import Aircraft, Orbit, Pose, Turn, candidates
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.verify.checks import collocation_check as module
-from loiter.verify.checks.collocation import collocate, flown, letter, on_even_mesh, program, word
+from loiter.verify.checks.collocation import collocate, interval_ends, letter, on_even_mesh, program, word
 from loiter.verify.checks.collocation_check import (
     collocation_difference,
     compare_with_collocation,
@@ -95,7 +95,7 @@ def test_straight_to_the_peel_off():
 def test_the_path_ends_on_the_circle_when_flown_exactly():
     """The program's quadrature is not used here: arcs of constant control."""
     path = collocate(Planar(4.0, 4.0, 0.0), [Circle(1.0, clockwise=False)])
-    end = flown(Planar(4.0, 4.0, 0.0), path.controls, path.lengths)[-1]
+    end = interval_ends(Planar(4.0, 4.0, 0.0), path.controls, path.lengths)[-1]
     assert end.east**2 + end.north**2 == pytest.approx(1.0, abs=SMALL)
 
 

@@ -13,7 +13,15 @@ from loiter.kernel.words import Side
 from loiter.planning.model import Turn
 from loiter.planning.sides import SIDES
 from loiter.verify.checks import precision as module
-from loiter.verify.checks.precision import PLACES, WORST, allowed_error, drawn, on_a_last_circle, precision, rounded
+from loiter.verify.checks.precision import (
+    PLACES,
+    WORST,
+    allowed_error,
+    on_a_last_circle,
+    precision,
+    random_states,
+    rounding_error,
+)
 
 
 def test_doubles_keep_thirteen_digits_next_to_every_boundary():
@@ -28,7 +36,7 @@ def excess(x, y, R, side):
 
     Where circles touch T changes with the square root of a displacement: no more digits can be had there.
     """
-    error, allowed = rounded("sought", x, y, R, side).error, allowed_error(R)
+    error, allowed = rounding_error("sought", x, y, R, side).error, allowed_error(R)
     if error <= allowed:
         return error / allowed
     T = duration(optimum(x, y, R, side, 0.0))
@@ -53,12 +61,12 @@ def test_no_search_finds_an_error_beyond_what_is_allowed_however_wide_the_circle
 
 
 def test_the_papers_example_in_fifty_digits():
-    assert rounded("here", -0.53, 0.31, 1.0, Side.EITHER).error < 1e-15
+    assert rounding_error("here", -0.53, 0.31, 1.0, Side.EITHER).error < 1e-15
 
 
 def test_states_are_reproducible():
-    assert list(drawn(100, 3)) == list(drawn(100, 3))
-    assert list(drawn(100, 3)) != list(drawn(100, 4))
+    assert list(random_states(100, 3)) == list(random_states(100, 3))
+    assert list(random_states(100, 3)) != list(random_states(100, 4))
 
 
 def test_lost_digits_are_caught(monkeypatch):
@@ -91,5 +99,5 @@ def test_without_mpmath_a_sentence_says_what_to_install(monkeypatch):
 
 def test_next_to_the_jump_the_kernel_has_the_digits_of_the_state_as_given():
     """60 digits give 2.662764758932; the neighbouring doubles of y already differ in the third decimal."""
-    state = rounded("jump", 5.09e-14, -1.0000000000000264, 1.0, Side.CCW)
+    state = rounding_error("jump", 5.09e-14, -1.0000000000000264, 1.0, Side.CCW)
     assert state.error <= 1e-14

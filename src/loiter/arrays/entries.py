@@ -17,7 +17,7 @@ from loiter.kernel.synthesis import REACH
 from loiter.kernel.words import Word
 from loiter.planning.compass import heading_after
 from loiter.planning.feasibility import RelativeWind, relative_velocity
-from loiter.planning.model import CONTROLS, moved, radius_at_bank, radius_at_rate, wind_velocity
+from loiter.planning.model import CONTROLS, position_after, radius_at_bank, radius_at_rate, wind_velocity
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -110,7 +110,7 @@ for _word in Word:
 def _in_still_air(s: States) -> Entries:
     """The entries of rows in still air relative to the circle; rows in wind get values that are overwritten later."""
     r = _turn_radius(s)
-    refused = _refused(s, r)
+    refused = _refused_statuses(s, r)
     east, north = s.east_m - s.orbit_east_m, s.north_m - s.orbit_north_m
     # The formula is plain arithmetic, so it takes arrays.
     reduced: Any = motion.reduce(east / r, north / r, *heading_vectors()(s.heading_deg))
@@ -120,7 +120,7 @@ def _in_still_air(s: States) -> Entries:
         x = np.where(refused, nan, x)
     time, word, durations, status, side, _ = _kernel(x, y, R, s.side, s.tolerance_m / r if s.tolerance_m else 0.0)
     if status.any():
-        status = _explained(s, status, refused)
+        status = _final_statuses(s, status, refused)
     seconds = r / s.airspeed_m_s
     time_s, (first_s, second_s, third_s) = time * seconds, durations.T * seconds
     heading = _joining_heading(s, word, durations)
@@ -145,7 +145,7 @@ def _in_still_air(s: States) -> Entries:
 def _in_wind(s: States) -> Entries:
     """The entries of rows in wind relative to the circle."""
     r = _turn_radius(s)
-    refused = _refused(s, r)
+    refused = _refused_statuses(s, r)
     x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
     (c, v), (wx, wy) = heading_vectors()(s.heading_deg), _relative_wind(s)
     solution = _kernel_in_wind(
@@ -165,7 +165,7 @@ def _in_wind(s: States) -> Entries:
         first_s,
         second_s,
         third_s,
-        _explained(s, status, refused),
+        _final_statuses(s, status, refused),
     )
 
 
@@ -192,8 +192,8 @@ def _centre_after(s: States, time_s: Any) -> tuple[Any, Any]:
     """The position of the circle's centre when it is joined."""
     if not any(np.ndim(v) or v for v in (s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)):
         return s.orbit_east_m, s.orbit_north_m
-    east_m = moved(s.orbit_east_m, s.orbit_velocity_east_m_s, time_s)
-    return east_m, moved(s.orbit_north_m, s.orbit_velocity_north_m_s, time_s)
+    east_m = position_after(s.orbit_east_m, s.orbit_velocity_east_m_s, time_s)
+    return east_m, position_after(s.orbit_north_m, s.orbit_velocity_north_m_s, time_s)
 
 
 def _kernel(x: Any, y: Any, R: Any, side: Any, tolerance: Any) -> tuple[Any, ...]:
@@ -222,7 +222,7 @@ def _radius(limit: str) -> Function:
     return rebound(formula, {"tan": np.tan, "radians": np.radians})
 
 
-def _refused(s: States, r: Any) -> Any:
+def _refused_statuses(s: States, r: Any) -> Any:
     """The statuses of rows that are not solved, 0 elsewhere: an array, or 0 for all."""
     # Paths of up to REACH turn radii must be finite numbers of metres and seconds too.
     finite = _positive(REACH * r / s.airspeed_m_s) & np.less(REACH * r, inf)
@@ -247,7 +247,7 @@ def _positive(value: Any) -> Any:
     return np.greater(value, 0.0) & np.less(value, inf)
 
 
-def _explained(s: States, status: Any, refused: Any) -> Any:
+def _final_statuses(s: States, status: Any, refused: Any) -> Any:
     """The final statuses of the rows, from `refused` and the statuses of the kernel."""
     # Finite coordinates whose difference is infinite are out of range.
     finite = np.isfinite(s.east_m) & np.isfinite(s.north_m) & np.isfinite(s.heading_deg)

@@ -7,7 +7,7 @@ from typing import Any, Literal
 from cyclopts import App, CycloptsError, Group, Parameter
 
 import loiter
-from loiter.cli.arguments import prepared
+from loiter.cli.arguments import prepare
 from loiter.cli.examples import epilogue, program_epilogue
 from loiter.cli.sentences import sentence
 from loiter.cli.status import INTERRUPTED, LINK_FAILED, USAGE_ERROR, abandon_output
@@ -161,7 +161,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit status; an error prints one sentence to standard error."""
     try:
         status = app(
-            prepared(sys.argv[1:] if arguments is None else arguments),
+            prepare(sys.argv[1:] if arguments is None else arguments),
             exit_on_error=False,
             print_error=False,
             result_action="return_value",

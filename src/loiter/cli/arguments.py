@@ -26,7 +26,7 @@ METAR_UNITS = {"KT": "kn", "MPS": "m/s", "KMH": "km/h"}
 NO_LETTER = re.compile(r"""[\d.:°'’′"”″]+""")
 
 
-def prepared(arguments: Iterable[str]) -> list[str]:
+def prepare(arguments: Iterable[str]) -> list[str]:
     """The arguments, in the form that the parser of the commands expects.
 
     Each number of a list and each coordinate is one argument, and a wind has its speed first. Raises

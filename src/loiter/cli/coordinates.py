@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from cyclopts import Token
 
-from loiter.cli.numbers import refused, typed
+from loiter.cli.numbers import refusal, typed
 from loiter.planning.units import parse_number
 
 # Other ways to write the marks of degrees, minutes and seconds, in upper case.
@@ -53,14 +53,14 @@ def _degrees(token: Token, coordinate: Coordinate) -> float:
     *whole, _ = parts or [""]
     # Only the last part may have decimals.
     if not parts or (first and last) or "." in "".join(whole):
-        raise refused(token, f"it must be a {coordinate.name} in degrees, or like {coordinate.example}")
+        raise refusal(token, f"it must be a {coordinate.name} in degrees, or like {coordinate.example}")
     if letter not in ("", coordinate.positive, coordinate.negative):
         letters = f"{coordinate.positive} or {coordinate.negative}"
-        raise refused(token, f"a {coordinate.name} has {letters}; the latitude comes first, then the longitude")
+        raise refusal(token, f"a {coordinate.name} has {letters}; the latitude comes first, then the longitude")
     if sign == "-" and letter:
         size = text.removeprefix(sign)
         other = f" or -{size}" if letter == coordinate.negative else f", or -{size} for the other hemisphere"
-        raise refused(token, f"it has a sign and a hemisphere: write {size}{letter}{other}")
+        raise refusal(token, f"it has a sign and a hemisphere: write {size}{letter}{other}")
     degrees = sum(float(part) / size for part, size in zip(parts, (1.0, 60.0, 3600.0), strict=False))
     return -degrees if sign == "-" or letter == coordinate.negative else degrees
 

@@ -103,7 +103,7 @@ def declination(token: Token) -> float:
     """A magnetic declination in degrees, positive to the east: 3.5, 3.5E, -2 or 2W."""
     digits, letter = _parts(DECLINATION, typed(token))
     if letter and digits.startswith(("-", "+")):
-        raise refused(token, "it has a sign and a letter; -2 and 2W mean the same")
+        raise refusal(token, "it has a sign and a letter; -2 and 2W mean the same")
     degrees = _with_unit(token, digits, ANGLES, "it must be a number of degrees, positive to the east, or like 2W")
     return -degrees if letter == "W" else degrees
 
@@ -120,7 +120,7 @@ def altitude(token: Token) -> float:
         return FlightLevel(FLIGHT_LEVEL_M * float(level[1]))
     above_ground = ABOVE_GROUND.fullmatch(typed(token))
     if above_ground:
-        raise refused(
+        raise refusal(
             token,
             "the height of the ground is not known: give the altitude above mean sea level, or for the mission of an "
             f"ArduPilot {above_ground[1]} with --altitude-reference ground",
@@ -179,12 +179,12 @@ def check_declination(declination_deg: float | None, *directions: float) -> None
         raise InvalidArgument("declination_deg", "has no effect: a direction from magnetic north ends in M, 87M")
 
 
-def given(count: int) -> str:
+def values_given(count: int) -> str:
     """How many values were given, for an error message."""
     return f"{count} {'was' if count == 1 else 'were'} given"
 
 
-def refused(token: Token, need: str) -> CoercionError:
+def refusal(token: Token, need: str) -> CoercionError:
     """The error for a value that cannot be read; `need` says what it must be."""
     return CoercionError(token=token, target_type=float, msg=need)
 
@@ -207,4 +207,4 @@ def _with_unit(token: Token, text: str, units: Mapping[str, float], need: str) -
     try:
         return parse_number(digits.strip()) * factor
     except ValueError as error:
-        raise refused(token, need) from error
+        raise refusal(token, need) from error

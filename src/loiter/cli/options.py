@@ -20,7 +20,6 @@ from loiter.cli.numbers import (
     check_declination,
     declination,
     direction,
-    given,
     metres,
     metres_per_second,
     millimetres,
@@ -29,6 +28,7 @@ from loiter.cli.numbers import (
     true_direction,
     turn_name,
     turn_rate,
+    values_given,
 )
 from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, positive
@@ -637,5 +637,5 @@ def _with_radius(argument: str, numbers: Sequence[float], radius_m: float | None
             return first, second, radius_m
     raise InvalidArgument(
         argument,
-        f"needs 3 numbers, centre and radius, or 2 and --params with a radius: {given(len(numbers))}",
+        f"needs 3 numbers, centre and radius, or 2 and --params with a radius: {values_given(len(numbers))}",
     )

@@ -48,7 +48,7 @@ def read_options(
     """
     preset = aircraft.preset()
     aircraft = aircraft.above_sea(preset, datum)
-    pose, circle, frame = placed(start, orbit, wind, preset)
+    pose, circle, frame = place_scene(start, orbit, wind, preset)
     uav = aircraft.aircraft(preset)
     planned = circle.fitted(uav, wind.moving_air) if fit else circle
     problem = Problem(pose, planned, uav, wind.moving_air, tolerance_m)
@@ -96,7 +96,7 @@ def _fit_remark(asked: Orbit, planned: Orbit) -> str:
     return f"A circle of {asked.radius_m:g} m cannot be held; planned for {planned.radius_m:.4g} m, the least radius."
 
 
-def placed(
+def place_scene(
     start: StartOptions, orbit: OrbitOptions, air: WindOptions, preset: Preset | None = None
 ) -> tuple[Pose, Orbit, LocalFrame | None]:
     """The start and the circle, and the local frame if they are in degrees; `air` has the declination."""

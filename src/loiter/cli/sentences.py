@@ -12,7 +12,7 @@ from cyclopts import (
     UnusedCliTokensError,
 )
 
-from loiter.cli.numbers import given, typed
+from loiter.cli.numbers import typed, values_given
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TURN_LIMITS
 
@@ -169,7 +169,7 @@ def _missing(error: MissingArgumentError, argument: Argument) -> str:
     if count <= 1:
         return f"{name} needs a value, {metavar}"
     reported = ", or one like 250/15kn" if name == "--wind" else ""
-    return f"{name} needs {count} numbers, {metavar}{reported}: {given(len(error.tokens_so_far) % count)}"
+    return f"{name} needs {count} numbers, {metavar}{reported}: {values_given(len(error.tokens_so_far) % count)}"
 
 
 def _option(error: CycloptsError) -> str:

@@ -21,7 +21,7 @@ def print_line(document: dict[str, object]) -> None:
     sys.stdout.flush()
 
 
-def watched(vehicle: Report) -> dict[str, object]:
+def watch_document(vehicle: Report) -> dict[str, object]:
     """A report of `watch` as plain values, in the units of `Report`; what is unknown is None."""
     return {
         "time_s": vehicle.time_s,
@@ -49,7 +49,7 @@ def watched(vehicle: Report) -> dict[str, object]:
     }
 
 
-def guided(vehicle: GuideReport) -> dict[str, object]:
+def guide_document(vehicle: GuideReport) -> dict[str, object]:
     """A report of `guide` as plain values, in the units of `GuideReport`; what is unknown is None."""
     return {
         "time_s": vehicle.time_s,

@@ -14,7 +14,7 @@ from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.synthesis import ROUNDING
 from loiter.planning.compass import heading_after, heading_vector, wrapped
-from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment, Wind, moved
+from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment, Wind, position_after
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -42,19 +42,19 @@ def over_ground(heading_deg: float, aircraft: Aircraft, wind: Wind) -> tuple[flo
     return wrapped(degrees(atan2(east, north))), hypot(east, north)
 
 
-def sampled(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: Wind, step_s: float) -> Samples:
+def samples(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: Wind, step_s: float) -> Samples:
     """The samples of `Maneuver.sample`, where the arguments are documented and checked."""
     import numpy as np
 
     if not segments:
-        return sampled_at(np.zeros(1), start, segments, aircraft, wind)
+        return samples_at(np.zeros(1), start, segments, aircraft, wind)
     ends_s = segments[-1].start_s + segments[-1].duration_s
     # A last step that exists only by rounding is dropped.
     times = np.append(np.arange(0.0, ends_s * (1.0 - ROUNDING), step_s), ends_s)
-    return sampled_at(times, start, segments, aircraft, wind)
+    return samples_at(times, start, segments, aircraft, wind)
 
 
-def sampled_at(
+def samples_at(
     time_s: NDArray[float64], start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: Wind
 ) -> Samples:
     """The samples at given times, in seconds from the start, ascending; without segments each is the start."""
@@ -110,8 +110,8 @@ def _flown(start: Pose, u: int, length_m: Any, aircraft: Aircraft, wind: Wind, f
     wind_east, wind_north = wind.velocity_m_s
     heading = heading_after(start.heading_deg, u * t)
     return (
-        moved(start.east_m + r * east, wind_east, time_s),
-        moved(start.north_m + r * north, wind_north, time_s),
+        position_after(start.east_m + r * east, wind_east, time_s),
+        position_after(start.north_m + r * north, wind_north, time_s),
         heading,
     )
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from loiter.errors import InvalidArgument, MissingPackage, instance, positive
 from loiter.planning.drawing import Drawing
-from loiter.planning.flight import over_ground, sampled
+from loiter.planning.flight import over_ground, samples
 from loiter.planning.hold import Hold
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Samples, Segment, Turn, Wind
 
@@ -82,7 +82,7 @@ class Maneuver:
         step_s = positive("step_s", step_s, "seconds")
         if self.duration_s / step_s > MAX_SAMPLES:
             raise InvalidArgument("step_s", f"is {step_s}: it would take more than {MAX_SAMPLES} samples")
-        return sampled(self.start, self.segments, self.aircraft, self.wind, step_s)
+        return samples(self.start, self.segments, self.aircraft, self.wind, step_s)
 
     def to_dict(self) -> dict[str, object]:
         """The maneuver as plain values for JSON: the members of `loiter plan --json`, in metres, seconds, degrees."""

@@ -40,7 +40,7 @@ def wind_velocity(speed_m_s: float, from_deg: float) -> tuple[float, float]:
     return 0.0 - speed_m_s * east, 0.0 - speed_m_s * north
 
 
-def moved(place: Any, velocity: Any, time_s: Any) -> Any:
+def position_after(place: Any, velocity: Any, time_s: Any) -> Any:
     """A coordinate `time_s` seconds later at a constant velocity; numbers or arrays."""
     return place + velocity * time_s
 
@@ -189,7 +189,7 @@ class Orbit:
     def centre_after(self, time_s: AnyTime) -> tuple[AnyTime, AnyTime]:
         """East and north of the centre `time_s` seconds later, metres: numbers for a number, arrays for an array."""
         velocity_east, velocity_north = self.velocity_east_m_s, self.velocity_north_m_s
-        return moved(self.east_m, velocity_east, time_s), moved(self.north_m, velocity_north, time_s)
+        return position_after(self.east_m, velocity_east, time_s), position_after(self.north_m, velocity_north, time_s)
 
     def fitted(self, aircraft: Aircraft, wind: Wind | None = None) -> Orbit:
         """The circle, or where the aircraft cannot hold it in the wind, the one with the least radius that it can hold.

@@ -78,18 +78,18 @@ def candidates(
 
 def fastest(problem: Problem) -> Maneuver:
     """The answer of `plan` to a problem."""
-    best, *_ = solved(problem, _optimum_alone, _fastest_alone)
+    best, *_ = solve_problem(problem, _optimum_alone, _fastest_alone)
     return best.maneuver
 
 
 def all_fastest(problem: Problem) -> tuple[Maneuver, ...]:
     """The answer of `plan_all` to a problem."""
-    return maneuvers(solved(problem, optima, wind_solver.optima))
+    return maneuvers(solve_problem(problem, optima, wind_solver.optima))
 
 
 def extremals(problem: Problem) -> tuple[Maneuver, ...]:
     """The answer of `candidates` to a problem."""
-    return maneuvers(solved(problem, ranked, wind_solver.ranked))
+    return maneuvers(solve_problem(problem, ranked, wind_solver.ranked))
 
 
 def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
@@ -97,7 +97,7 @@ def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneu
 
     Raises the errors of `plan`. In wind it takes half the time of `plan_all` followed by `candidates`.
     """
-    known = solved(problem.with_turn(Turn.EITHER), ranked, wind_solver.ranked)
+    known = solve_problem(problem.with_turn(Turn.EITHER), ranked, wind_solver.ranked)
     best = all_fastest(problem) if problem.has_closed_form else _tied(known, problem)
     others = maneuvers(known)
     return best, tuple(m for m in others if not any(m.turn == b.turn and m.segments == b.segments for b in best))
@@ -115,7 +115,7 @@ def maneuvers(found: Iterable[Solved]) -> tuple[Maneuver, ...]:
     return tuple(candidate.maneuver for candidate in found)
 
 
-def solved(
+def solve_problem(
     problem: Problem,
     in_still_air: Callable[..., list[Entry]],
     in_wind: Callable[..., list[WindEntry]],

@@ -57,18 +57,18 @@ def residuals(
     formulation: Formulation, trajectory: Trajectory, accuracy: Accuracy, others: Sequence[Candidate]
 ) -> Iterator[Residual]:
     """The residual of every condition; those of the adjoint only where the maneuver has pieces."""
-    yield from _checked(formulation.arrival, trajectory, accuracy)
+    yield from _check(formulation.arrival, trajectory, accuracy)
     if trajectory.pieces:
         yield from _motions(formulation.motion, trajectory, accuracy)
         for name, equation in formulation.maximum_principle.items():
             off, bound = getattr(trajectory.violations, name), getattr(accuracy.maximum_principle, name)
             yield Residual(name, equation, off, bound)
-        yield from _checked(formulation.further, trajectory, accuracy)
+        yield from _check(formulation.further, trajectory, accuracy)
         yield from gradient_residuals(formulation.gradient, trajectory, accuracy)
     yield _comparison(trajectory, accuracy, others)
 
 
-def _checked(conditions: Sequence[Condition], trajectory: Trajectory, accuracy: Accuracy) -> Iterator[Residual]:
+def _check(conditions: Sequence[Condition], trajectory: Trajectory, accuracy: Accuracy) -> Iterator[Residual]:
     for condition in conditions:
         violation = condition.violation(trajectory, accuracy)
         if violation is not None:

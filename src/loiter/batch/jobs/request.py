@@ -83,8 +83,8 @@ def _check_apart(source: Source, target: Target) -> None:
 
 
 def _check_rejects_apart(rejects: Path, source: Source, target: Target) -> None:
-    others = {storage.resolved(place) for place in (*source.files, target.folder.place(target.name).rstrip("/"))}
-    if storage.resolved(str(rejects)) in others:
+    others = {storage.resolve(place) for place in (*source.files, target.folder.place(target.name).rstrip("/"))}
+    if storage.resolve(str(rejects)) in others:
         raise InvalidArgument("rejects", f"is {str(rejects)!r}: that is the input or the output")
 
 
@@ -101,7 +101,7 @@ def describe(request: JobRequest) -> dict[str, Any]:
     return {
         "program": __version__,
         "files": [
-            {"file": storage.resolved(file), "size": size, "version": version}
+            {"file": storage.resolve(file), "size": size, "version": version}
             for file, (size, version) in zip(request.source.files, request.versions, strict=True)
         ],
         "output": request.target.kind,

@@ -105,7 +105,7 @@ def is_same_file(one: str, other: str) -> bool:
     return Path(one).exists() and Path(one).samefile(other)
 
 
-def resolved(place: str) -> str:
+def resolve(place: str) -> str:
     """The place without links and relative parts."""
     return place if is_url(place) else str(Path(place).resolve())
 

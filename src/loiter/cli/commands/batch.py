@@ -153,7 +153,7 @@ def batch(
             wind=moving_air(wind, declination),
             orbit_velocity_m_s=orbit_velocity,
             origin=origin,
-            columns=_mapped(map_ or []),
+            columns=_mapping(map_ or []),
             tolerance_m=tolerance,
             workers=workers,
             scheduler=scheduler,
@@ -178,7 +178,7 @@ def _circle(
     return Orbit(0.0, 0.0, circle_radius_m("origin radius_m", radius)), LocalFrame(lat, lon)
 
 
-def _mapped(texts: list[str]) -> dict[str, str]:
+def _mapping(texts: list[str]) -> dict[str, str]:
     """Columns by the quantities that they hold, from texts such as "east_m=X_East [ft]"."""
     mapped: dict[str, str] = {}
     for text in texts:

@@ -27,7 +27,7 @@ from loiter.cli.options import (
     WindOptions,
     output,
 )
-from loiter.cli.scenes import placed
+from loiter.cli.scenes import place_scene
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
 from loiter.plot.sizes import LEAST_FLIGHT_HEIGHT_MM
@@ -223,7 +223,7 @@ def fly(
     simulated.check()
     _check_files(wanted, simulated.runs)
     if simulated.runs is None:
-        pose, orbit, _ = placed(start, circle, air, uav.preset())
+        pose, orbit, _ = place_scene(start, circle, air, uav.preset())
         trial = campaign.Trial(loiter.plan(pose, orbit, simulated.aircraft(uav), air.moving_air), simulated.seed)
         _fly_once(trial, simulated, wanted)
         return

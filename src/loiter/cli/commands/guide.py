@@ -120,7 +120,7 @@ def guide(
         try:
             for vehicle in reports:
                 if json:
-                    vehicles.print_line(vehicles.guided(vehicle))
+                    vehicles.print_line(vehicles.guide_document(vehicle))
                     continue
                 report.write(*vehicle.notices, line(vehicle))
                 sys.stdout.flush()

@@ -269,7 +269,7 @@ def watch(
     )
     if json:
         for vehicle in islice(vehicle_reports, reports):
-            vehicles.print_line(vehicles.watched(vehicle))
+            vehicles.print_line(vehicles.watch_document(vehicle))
         return
     if remark := uav.remark(preset):
         report.write(remark)

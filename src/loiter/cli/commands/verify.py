@@ -111,7 +111,7 @@ def _states(method: Method, states: int | None) -> int:
     return WINDY_STATES if method == "wind" else STATES
 
 
-def _tracked(name: str, results: Iterable[Any], total: int) -> Iterator[Any]:
+def _with_progress(name: str, results: Iterable[Any], total: int) -> Iterator[Any]:
     # The progress goes to standard error, so that standard output contains the result only.
     return iter(track(results, description=name, total=total, console=Console(stderr=True)))
 
@@ -129,7 +129,7 @@ def _against_search(
     """Compare plans with a search that resolves times to `resolution`; `columns` are further fields of its results."""
 
     def compare() -> Findings:
-        found = list(_tracked(name, results, states))
+        found = list(_with_progress(name, results, states))
         rows: list[Row] = []
         for place, here in _by_place([(d.problem.place, d) for d in found]):
             beyond = sum(max(d.later, d.earlier) > resolution for d in here)
@@ -149,7 +149,7 @@ def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
     results = precision(states, seed)
 
     def compare() -> Findings:
-        found: list[RoundingError] = list(_tracked("digits", results, states))
+        found: list[RoundingError] = list(_with_progress("digits", results, states))
         rows: list[Row] = []
         for place, here in _by_place([(r.place, r) for r in found]):
             beyond = sum(not r.passed for r in here)
@@ -171,7 +171,7 @@ def _collocation(states: int, cases: int, seed: int) -> Callable[[], Findings]:
     results = compare_with_collocation(cases, seed)
 
     def compare() -> Findings:
-        found: list[CollocationDifference] = list(_tracked("collocation", results, cases + 2))
+        found: list[CollocationDifference] = list(_with_progress("collocation", results, cases + 2))
         rows: list[Row] = []
         for place, here in _by_place([(c.problem.place, c) for c in found]):
             later, earlier = max(0.0, *(c.later for c in here)), max(0.0, *(-c.later for c in here))
@@ -190,7 +190,7 @@ def _reachability(states: int, cases: int, seed: int) -> Callable[[], Findings]:
     results = compare_with_reachability(CELLS)
 
     def compare() -> Findings:
-        found: list[ReachabilityDifference] = list(_tracked("reachability", results, len(CELLS) * len(MAPS)))
+        found: list[ReachabilityDifference] = list(_with_progress("reachability", results, len(CELLS) * len(MAPS)))
         rows: list[Row] = []
         for m in found:
             grid: Row = {"map": f"R = {m.radius:g}, {m.turn.value}", "spacing": float(m.spacing), "nodes": int(m.nodes)}

@@ -11,7 +11,7 @@ from math import ceil, hypot, pi, sqrt
 from typing import TYPE_CHECKING
 
 from loiter.errors import InvalidArgument, positive
-from loiter.planning.flight import sampled_at
+from loiter.planning.flight import samples_at
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Samples, Segment
 
@@ -74,7 +74,7 @@ def vertices(maneuver: Maneuver, counts: tuple[int, ...]) -> Samples:
     ]
     last = maneuver.segments[-1] if maneuver.segments else None
     times.append(np.array([0.0 if last is None else last.start_s + last.duration_s]))
-    return sampled_at(np.concatenate(times), maneuver.start, maneuver.segments, maneuver.aircraft, maneuver.wind)
+    return samples_at(np.concatenate(times), maneuver.start, maneuver.segments, maneuver.aircraft, maneuver.wind)
 
 
 def circle_polygon(

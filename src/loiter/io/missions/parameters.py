@@ -155,14 +155,14 @@ def _value(source: Source, lines: list[ParameterLine], quantity: str) -> float |
         meaning = PARAMETERS[line.name]
         if meaning.quantity != quantity:
             continue
-        value = _checked(source, line, line.value / meaning.units)
+        value = _check_value(source, line, line.value / meaning.units)
         if found is not None and found != value:
             raise source.fault(f"{line.described}: that contradicts another parameter, which says {found:g}")
         found = value
     return found
 
 
-def _checked(source: Source, line: ParameterLine, value: float) -> float:
+def _check_value(source: Source, line: ParameterLine, value: float) -> float:
     """The value of a line, if it is possible for its quantity."""
     quantity = PARAMETERS[line.name].quantity
     if quantity == "loiter" and value == 0.0:

@@ -139,7 +139,7 @@ def on_even_mesh(
     """Every guess optimised on a mesh of equal intervals; guesses that do not converge are left out."""
     for first, second, time in guesses(start, circle):
         controls = [first] * (intervals // 2) + [second] * (intervals - intervals // 2)
-        yield from optimised(start, circle, controls, [time / intervals] * intervals, wind, even=True)
+        yield from optimise(start, circle, controls, [time / intervals] * intervals, wind, even=True)
 
 
 def on_free_mesh(
@@ -150,7 +150,7 @@ def on_free_mesh(
     parts = FINE // len(coarse.lengths)
     controls = [u for u in coarse.controls for _ in range(parts)]
     lengths = [h / parts for h in coarse.lengths for _ in range(parts)]
-    return optimised(start, circle, controls, lengths, wind, even=False)
+    return optimise(start, circle, controls, lengths, wind, even=False)
 
 
 def local_minima(paths: Sequence[CollocatedPath]) -> list[CollocatedPath]:
@@ -177,7 +177,7 @@ def guesses(start: Planar, circle: Circle) -> Iterator[tuple[float, float, float
     return product((-0.9, 0.0, 0.9), (-0.9, 0.0, 0.9), (away + 2.0, away + 7.0))
 
 
-def optimised(
+def optimise(
     start: Planar, circle: Circle, controls: Sequence[float], lengths: Sequence[float], wind: AirVelocity, *, even: bool
 ) -> Iterator[CollocatedPath]:
     """The path to which IPOPT converges from a guess; none where it does not converge."""
@@ -185,7 +185,7 @@ def optimised(
     poses, steps = np.full(3 * (n + 1), inf), lengths[:1] if even else lengths
     lower = np.concatenate([-poses, np.full(n, -1.0), np.zeros(len(steps))])
     upper = np.concatenate([poses, np.full(n, 1.0), np.full(len(steps), LONGEST * max(lengths))])
-    guess = np.concatenate([np.ravel(flown(start, controls, lengths, wind)), controls, steps])
+    guess = np.concatenate([np.ravel(interval_ends(start, controls, lengths, wind)), controls, steps])
     parameters = [*start, circle.radius, 1.0 if circle.clockwise else -1.0, *wind]
     solver = program(n, even)
     found = solver(x0=guess, p=parameters, lbx=lower, ubx=upper, lbg=0.0, ubg=0.0)
@@ -215,7 +215,7 @@ def path_of(
     return CollocatedPath(time, circle.clockwise, tuple(controls.tolist()), tuple(lengths.tolist()), error, gap)
 
 
-def flown(
+def interval_ends(
     start: Planar, controls: Sequence[float], lengths: Sequence[float], wind: AirVelocity = STILL_AIR
 ) -> list[Planar]:
     """The poses at the ends of the intervals, flown exactly: the chord of an arc is along the heading at half time."""

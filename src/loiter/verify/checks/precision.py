@@ -68,10 +68,10 @@ def precision(states: int, seed: int) -> Iterator[RoundingError]:
     if states < 1:
         raise InvalidArgument("states", f"is {states}: it must be at least 1")
     check_installed("mpmath", "50 digits need", "mpmath", "verify")
-    return (rounded(*state) for state in drawn(states, seed))
+    return (rounding_error(*state) for state in random_states(states, seed))
 
 
-def rounded(place: str, x: float, y: float, R: float, side: Side) -> RoundingError:
+def rounding_error(place: str, x: float, y: float, R: float, side: Side) -> RoundingError:
     """The rounding error of T at one state."""
     from mpmath import mp, mpf
 
@@ -94,7 +94,7 @@ def _exact_optimum() -> Function:
         return rebound(optimum, names)
 
 
-def drawn(states: int, seed: int) -> Iterator[tuple[str, float, float, float, Side]]:
+def random_states(states: int, seed: int) -> Iterator[tuple[str, float, float, float, Side]]:
     """Random states, the places in rotation, the same for the same seed."""
     random = Random(seed)
     places = tuple(PLACES.items())

@@ -73,20 +73,20 @@ def random_problems(states: int, seed: int, windiest: float = WINDIEST) -> Itera
 
 def inside(random: Random, R: float) -> Planar:
     """Inside the circle, any heading."""
-    return placed(random, R * random.random() ** 0.5)
+    return random_start(random, R * random.random() ** 0.5)
 
 
 def near(random: Random, R: float) -> Planar:
     """Within three turn radii of the circle, any heading."""
-    return placed(random, abs(R + random.uniform(-3.0, 3.0)))
+    return random_start(random, abs(R + random.uniform(-3.0, 3.0)))
 
 
 def far(random: Random, R: float) -> Planar:
     """Up to a hundred turn radii away."""
-    return placed(random, R + 10.0 ** random.uniform(0.5, 2.0))
+    return random_start(random, R + 10.0 ** random.uniform(0.5, 2.0))
 
 
-def placed(random: Random, distance: float) -> Planar:
+def random_start(random: Random, distance: float) -> Planar:
     """A start at a distance from the centre, in any direction, on any heading."""
     azimuth = random.uniform(0.0, 2.0 * pi)
     return Planar(distance * cos(azimuth), distance * sin(azimuth), random.uniform(0.0, 2.0 * pi))

@@ -39,7 +39,11 @@ LEMMAS = (
     Lemma("theorem 2 d", "a tolerance leaves out arcs, and widens circles, by no more than it says", turns.tolerances),
     Lemma("theorem 2 e", "the list of all extremals has each word once", maneuvers.all_extremals),
     Lemma("theorem 2 f", "words are encoded, mirrored and shortened without loss", maneuvers.all_words),
-    Lemma("theorem 2 g", "the maneuver has the pieces of the word, without those that are short", maneuvers.flown),
+    Lemma(
+        "theorem 2 g",
+        "the maneuver has the pieces of the word, without those that are short",
+        maneuvers.flown_entries,
+    ),
     Lemma("theorem 2 h", "the sides, the tolerances and the faster of two maneuvers", maneuvers.optima),
     Lemma("theorem 2 i", "states that are solved, the feedback law, and the motion itself", maneuvers.laws),
     Lemma("section 9", "rounding errors of first order are added where digits would be lost", turns.rounding_errors),
@@ -48,7 +52,7 @@ LEMMAS = (
 
 def _of_word(region: rounding.Region) -> Lemma:
     statement = f"{region.word}: T is off by at most {region.limit:g} units"
-    return Lemma("theorem 4", statement, partial(rounding.bounded, region))
+    return Lemma("theorem 4", statement, partial(rounding.bound_word, region))
 
 
 # Theorem 4, for `loiter prove --rounding`.

@@ -105,7 +105,7 @@ def bound(region: Region) -> Bound:
         flint().ctx.prec = before
 
 
-def bounded(region: Region) -> Certainty:
+def bound_word(region: Region) -> Certainty:
     """What the bound of a word took."""
     return bound(region).certainty
 

@@ -101,7 +101,7 @@ class Lengths(NamedTuple):
     no_angle: Any
 
 
-def dropped() -> int:
+def check_dropping() -> int:
     """`drop_short_pieces` leaves out what is short, joins equal arcs, and keeps all other pieces in their order."""
     context = flint().fmpq_mpoly_ctx.get(Lengths._fields, "lex")
     t1, t2, t3, short, no_angle = context.gens()
@@ -153,9 +153,9 @@ def left_after(pieces: list[tuple[int, Any]], lengths: Lengths) -> list[tuple[in
     return pieces[1:] if pieces and pieces[0][1] <= lengths.no_angle else pieces
 
 
-def flown() -> Certainty:
+def flown_entries() -> Certainty:
     """From an extremal to the maneuver that is flown."""
-    return Certainty(dropped() + flown_as(), 0)
+    return Certainty(check_dropping() + flown_as(), 0)
 
 
 def flown_as() -> int:

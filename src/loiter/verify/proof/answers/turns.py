@@ -222,7 +222,7 @@ def tolerances() -> Certainty:
     """`snap_full_turn` and `is_near_circle` do what the text says, for every combination of signs."""
     cases = 0
     for cross, dot, excess in product(SIGNS, SIGNS, SIGNS):
-        cases += snapped(cross, dot, excess)
+        cases += check_snapping(cross, dot, excess)
     for cross, dot in product(SIGNS, SIGNS):
         cases += without_tolerance_nothing_is_snapped(cross, dot)
     for inwards, outwards, wide in product(
@@ -232,7 +232,7 @@ def tolerances() -> Certainty:
     return Certainty(cases, 0)
 
 
-def snapped(cross_sign: Possible, dot_sign: Possible, excess: Possible) -> int:
+def check_snapping(cross_sign: Possible, dot_sign: Possible, excess: Possible) -> int:
     """A rotation is replaced by none where its tangent times the radius is in [-tolerance, 0); the number of cases."""
     cross, dot, radius2, tolerance, field = variables("cross dot radius2 tolerance")
     try:
