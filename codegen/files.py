@@ -2,6 +2,8 @@
 
 from codegen.arithmetic import DOUBLE, VECTOR
 from codegen.unit import ROOT, Unit
+from loiter.guidance.identification import identification_step
+from loiter.guidance.identification.vehicle import flown_as_declared
 from loiter.guidance.laws import law_step
 from loiter.kernel import extremals, motion, synthesis, wind_search
 
@@ -46,9 +48,20 @@ LAW_ARITHMETIC = DOUBLE._replace(
 )
 
 
+# The steps of the law and of the identification, and what stands in for the latter.
+STEPS = (
+    law_step.first_memory,
+    law_step.step,
+    identification_step.settings_of,
+    identification_step.first_identification,
+    identification_step.identify,
+    flown_as_declared,
+)
+
+
 def law() -> str:
-    """The guidance law as C; it belongs to no package."""
-    return Unit("law.h", LAW_ARITHMETIC, (law_step.first_memory, law_step.step)).text()
+    """The guidance law and the identification of the vehicle as C; it belongs to no package."""
+    return Unit("law.h", LAW_ARITHMETIC, STEPS).text()
 
 
 def files() -> dict[str, str]:

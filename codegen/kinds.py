@@ -37,7 +37,7 @@ def tuple_of(kinds: tuple[Kind, ...]) -> Kind:
 
 def ring_of(element: Kind, length: int) -> Kind:
     """The structure of a ring, a tuple of many structures: an array of fixed length, which is passed by value."""
-    return Kind(f"{element.name}_ring", (("at", element),), length=length)
+    return Kind(f"{element.name}_ring_{length}", (("at", element),), length=length)
 
 
 def kind_of_type(hint: Any, place: str) -> Kind:

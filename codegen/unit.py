@@ -173,8 +173,8 @@ class Unit:
         """Declare a structure, after those of its fields."""
         for _, inner in kind.fields:
             self._structure(inner)
-        if kind.fields and kind.name not in self.structures:
-            self.structures[kind.name] = kind
+        if kind.fields and self.structures.setdefault(kind.name, kind) != kind:
+            raise NotTranslated(f"two structures have the name {kind.name}: rename one of them")
 
     def _constant(self, name: str, names: dict[str, Any]) -> Expression:
         """A constant of the module with these globals, where it is defined."""
@@ -198,6 +198,8 @@ class Unit:
             shown = "" if source in (found.text, repr(value)) else f" /* {source} */"
             above = list(comment_above(owner, name))
             known = any(above == lines[:-1] for lines in self.constants.values())
+            if name in {other for _, other in self.constants}:
+                raise NotTranslated(f"{owner.__name__}: another module has a constant {name} too: rename one of them")
             self.constants[key] = [*(() if known else above), line + shown]
             self.constant_kinds[key] = kind
         return Expression(name, kind)
@@ -303,7 +305,10 @@ def digest(files: list[Path]) -> str:
 
 
 DESCRIPTIONS = {
-    "law.h": "A guidance law that flies the fastest entry onto a holding circle, as a step without side effects.",
+    "law.h": (
+        "A guidance law that flies the fastest entry onto a holding circle, and the identification of its vehicle, as "
+        "steps without side effects."
+    ),
     "kernel.h": (
         "The fastest way onto a holding circle, in still air and in wind, in double precision, with the functions of "
         "the C library: the same answers as in Python, to the last bit."

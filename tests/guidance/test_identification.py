@@ -8,14 +8,30 @@ import pytest
 
 from guidance.varied import result
 from loiter import Aircraft, Orbit, Pose, Wind, plan
-from loiter.guidance.identification.roll_response import RollIdentifier
-from loiter.guidance.identification.vehicle import (
-    QUICK_TURNS,
+from loiter.guidance.identification.identification_step import (
+    AIRSPEED_MEMORY_S,
+    NO_OVERSHOOT,
     Average,
-    CourseLead,
-    Overshoot,
-    SlowTurns,
-    TurnRatio,
+    averaged,
+    measured_overshoot,
+)
+from loiter.guidance.identification.roll_response import (
+    begun,
+    commanded_roll,
+    first_roll,
+    measured_roll,
+    roll_settings,
+)
+from loiter.guidance.identification.turn_fits import (
+    NO_PAIRS,
+    NO_TURNS,
+    first_lead,
+    first_quick_turns,
+    first_slow_turns,
+    measured_lead,
+    measured_quick_turn,
+    measured_slow_turn,
+    turned_deg,
 )
 from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import State
@@ -24,7 +40,7 @@ from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import EXACT, Noise
 from loiter.guidance.trials.flight import fly
 from loiter.guidance.trials.varied import varied_trials
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle.rolling import Roll, RollValues
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 
 UAV, ORBIT = Aircraft(18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, 120.0)
@@ -33,23 +49,23 @@ START = Pose(-400.0, 120.0, 200.0)
 
 def identified(roll, delay_s, *, noise_deg=0.5, seconds=12.0, dt=0.02):
     """The estimate after reversals of the bank every two seconds, and the banks that were predicted for the present."""
-    random, identifier = np.random.default_rng(4), RollIdentifier(Roll(0.5, 60.0), 0.1)
-    bank, banks, errors = 0.0, [], []
+    random, settings = np.random.default_rng(4), roll_settings(RollValues(0.5, 60.0), 0.1)
+    memory, bank, banks, errors = first_roll(settings), 0.0, [], []
     for i in range(round(seconds / dt)):
         command = 35.0 if (i * dt) % 4.0 < 2.0 else -35.0
         banks.append(bank)
         measured = banks[max(len(banks) - 1 - round(delay_s / dt), 0)]
-        identifier.measure(measured + random.normal(0.0, noise_deg))
-        identifier.record(command, dt)
+        memory = measured_roll(memory, measured + random.normal(0.0, noise_deg))
+        memory = commanded_roll(settings, memory, command, dt)
         bank = roll.bank_after(bank, command, dt)
-        errors.append(identifier.bank_deg - bank)
-    return identifier.estimate, np.array(errors)
+        errors.append(memory.bank_deg - bank)
+    return memory.weights.estimate, np.array(errors)
 
 
 @pytest.mark.parametrize("delay_s", [0.0, 0.3, 0.8])
 @pytest.mark.parametrize("roll", [Roll(0.12, 130.0), Roll(0.4, 75.0), Roll(1.0, 50.0)])
 def test_roll_response_and_delay_are_found(roll, delay_s):
-    """To the nearest model: their time constants differ by a factor of 1.5, their delays by 0.05 s."""
+    """Between the models: their time constants differ by a factor of 1.8, their delays by 0.1 s."""
     estimate, errors = identified(roll, delay_s)
     assert 1.0 / 1.5 < estimate.roll.time_s / roll.time_s < 1.5
     assert estimate.delay_s == pytest.approx(delay_s, abs=0.06)
@@ -61,20 +77,37 @@ def test_roll_response_and_delay_are_found(roll, delay_s):
 @pytest.mark.parametrize("delay_s", [0.0, 0.1, 0.6])
 @pytest.mark.parametrize("roll", [Roll(0.1, 100.0), Roll(0.5, 60.0), Roll(1.2, 45.0)])
 def test_before_anything_is_measured_the_estimate_is_what_is_declared(roll, delay_s):
-    estimate = RollIdentifier(roll, delay_s).estimate
+    estimate = first_roll(roll_settings(RollValues(roll.time_s, roll.rate_deg_s), delay_s)).weights.estimate
     assert estimate.delay_s == pytest.approx(delay_s, abs=1e-9)
     assert estimate.roll.time_s == pytest.approx(roll.time_s)
     assert estimate.roll.rate_deg_s == pytest.approx(roll.rate_deg_s)
 
 
+@pytest.mark.parametrize("delay_s", [1.3, 2.0, 1e6])
+def test_a_delay_beyond_the_longest_counts_as_that(delay_s):
+    settings = roll_settings(RollValues(0.5, 60.0), delay_s)
+    memory = commanded_roll(settings, measured_roll(first_roll(settings), 0.0), 30.0, 0.5)
+    assert memory.weights.estimate.delay_s == pytest.approx(1.3, abs=1e-6)
+
+
+def test_a_long_flight_of_wrong_predictions_leaves_the_probabilities_finite():
+    """Of a vehicle that banks the other way: the probabilities of all pairs fall, by the same factor."""
+    settings = roll_settings(RollValues(0.5, 60.0), 0.1)
+    memory = first_roll(settings)
+    for i in range(6000):
+        command_deg = 35.0 if i % 100 < 50 else -35.0
+        memory = commanded_roll(settings, measured_roll(memory, -command_deg), command_deg, 0.05)
+    assert sum(memory.weights.probabilities) == pytest.approx(1.0)
+    assert 0.1 < memory.weights.estimate.roll.time_s < 1.0
+
+
 def test_a_constant_bank_teaches_nothing_and_makes_nothing_forgotten():
-    identifier = RollIdentifier(Roll(0.5, 60.0), 0.1)
-    identifier.begin(20.0)
+    settings = roll_settings(RollValues(0.5, 60.0), 0.1)
+    memory = begun(first_roll(settings), 20.0)
     for _ in range(3000):
-        identifier.measure(20.0)
-        identifier.record(20.0, 0.02)
-    assert identifier.estimate.delay_s == pytest.approx(0.1, abs=1e-6)
-    assert identifier.estimate.roll.time_s == pytest.approx(0.5, rel=1e-6)
+        memory = commanded_roll(settings, measured_roll(memory, 20.0), 20.0, 0.02)
+    assert memory.weights.estimate.delay_s == pytest.approx(0.1, abs=1e-6)
+    assert memory.weights.estimate.roll.time_s == pytest.approx(0.5, rel=1e-6)
 
 
 @pytest.mark.parametrize("ratio", [0.7, 0.9, 1.1])
@@ -102,7 +135,7 @@ def test_the_lead_of_the_course_is_found_in_wind(lead_s):
     def bank_deg(t):
         return 30.0 if t % 6.0 < 3.0 else -30.0
 
-    lead, heading = CourseLead(0.0), 0.0
+    lead, heading = first_lead(0.0, NO_PAIRS), 0.0
     states = list(sampled(bank_deg, lambda t: 0.0))
     for before, state in pairwise(states):
         rate = rate_at_bank(state.bank_deg, 20.0)
@@ -111,32 +144,40 @@ def test_the_lead_of_the_course_is_found_in_wind(lead_s):
         velocity = 20.0 * sin(course) + 4.0, 20.0 * sin(course + pi / 2) - 3.0
         found = state._replace(heading_deg=heading, velocity_east_m_s=velocity[0], velocity_north_m_s=velocity[1])
         # The wind is known to a metre a second.
-        lead.measure(found, 1.0, (4.7, -3.7), state.time_s - before.time_s)
+        lead = measured_lead(lead, 0.0, found, 1.0, 4.7, -3.7, state.time_s - before.time_s)
     assert lead.lead_s == pytest.approx(lead_s, abs=0.03)
 
 
 @pytest.mark.parametrize("gain", [0.8, 1.0, 2.2])
 def test_quick_turns_have_a_ratio_of_their_own(gain):
     """A steady turn with an oscillation of 0.75 Hz, in which the course turns `gain` times as far as the bank says."""
-    slow, quick, w = SlowTurns(1.0), TurnRatio(1.0, QUICK_TURNS), 2.0 * pi * 0.75
+    slow, quick, w = first_slow_turns(1.0, 0.0, NO_TURNS), first_quick_turns(1.0, NO_PAIRS), 2.0 * pi * 0.75
     for i in range(1200):
         t = i * 0.025
         rate_deg_s = 15.0 + 5.0 * sin(w * t + pi / 2)
         course_deg = 0.9 * 15.0 * t + gain * 5.0 / w * sin(w * t)
-        slow.measure(course_deg, bank_at_rate(radians(rate_deg_s), 18.0), 18.0, 0.025)
-        quick.measure(course_deg, rate_deg_s, 0.025)
+        bank_deg = bank_at_rate(radians(rate_deg_s), 18.0)
+        state = State(t, 0.0, 0.0, course_deg, bank_deg, 0.0, 0.0, 18.0)
+        slow = measured_slow_turn(slow, 1.0, state, 0.025)
+        quick = measured_quick_turn(quick, 1.0, course_deg, rate_deg_s, 0.025)
     assert slow.ratio == pytest.approx(0.9, abs=0.06)
     # The prior of 1 keeps a share.
     assert quick.ratio == pytest.approx(gain, abs=0.35 * abs(gain - 1.0) + 0.03)
 
 
+def test_angles_between_directions_are_the_short_way():
+    assert [turned_deg(a, b) for a, b in ((350.0, 10.0), (10.0, 350.0), (-700.0, 30.0))] == [20.0, -20.0, 10.0]
+
+
 def test_an_average_begins_with_what_is_known():
-    told, untold = Average(5.0, 30.0, 60.0), Average(0.0, 0.0, 60.0)
-    for _ in range(500):
-        told.add(3.0, 0.02)
-        untold.add(3.0, 0.02)
-    assert told.value == pytest.approx(5.0 - 2.0 * 10.0 / 40.0, abs=0.05)
-    assert untold.value == pytest.approx(3.0)
+    told, untold = Average(5.0, 10.0), Average(0.0, 0.0)
+    for _ in range(250):
+        told, untold = averaged(told, 3.0, 0.02), averaged(untold, 3.0, 0.02)
+    assert told.value == pytest.approx(5.0 - 2.0 * 5.0 / 15.0, abs=0.05)
+    assert untold == pytest.approx((3.0, 5.0))
+    for _ in range(2000):
+        told = averaged(told, 3.0, 0.02)
+    assert told.known_s == AIRSPEED_MEMORY_S
 
 
 @pytest.mark.parametrize("told", [None, Wind(6.0, 80.0), Wind(3.0, 260.0)])
@@ -205,13 +246,14 @@ def test_trials_of_unknown_aircraft_do_not_depend_on_their_number():
 
 
 def test_the_overshoot_is_what_lies_beyond_the_limit_and_is_forgotten():
-    overshoot = Overshoot(40.0)
-    assert overshoot.add(55.0, 0.1) == 0.0, "a bank with which the flight begins"
-    assert overshoot.add(47.0, 0.1) == 0.0
-    assert overshoot.add(-58.0, 0.1) == 10.0
-    later = [overshoot.add(30.0, 0.1) for _ in range(600)]
-    assert later == sorted(later, reverse=True)
-    assert later[-1] == pytest.approx(10.0 / np.e, rel=1e-3)
+    overshoot, found = NO_OVERSHOOT, []
+    for bank_deg in (55.0, 47.0, -58.0, *[30.0] * 600):
+        overshoot = measured_overshoot(overshoot, 40.0, bank_deg, 0.1)
+        found.append(overshoot.overshoot_deg)
+    assert found[0] == 0.0, "a bank with which the flight begins"
+    assert found[1:3] == [0.0, 10.0]
+    assert found[2:] == sorted(found[2:], reverse=True)
+    assert found[-1] == pytest.approx(10.0 / np.e, rel=1e-3)
 
 
 def test_an_aircraft_whose_bank_overshoots_its_limit_by_half_of_it_does_not_oscillate():

@@ -1,4 +1,4 @@
-"""The law as C, generated from its Python: compiled, and flown beside it with the same measurements."""
+"""The law and the identification as C, generated from their Python: compiled, and flown beside it."""
 
 import subprocess
 from ctypes import CDLL, Structure, byref, c_bool, c_double, c_int64, sizeof
@@ -12,7 +12,8 @@ from codegen.kinds import INTEGER, REAL, TRUTH, Kind, kind_of_type
 
 from guidance.recorded import damaged
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.guidance.identification.vehicle import VehicleModel
+from loiter.guidance.identification.identification_step import Identification, IdentificationSettings
+from loiter.guidance.identification.vehicle import VehicleEstimates, VehicleModel
 from loiter.guidance.laws.law_step import LawCommand, Memory, Settings
 from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import State
@@ -27,12 +28,27 @@ START = Pose(-400.0, 120.0, 200.0)
 
 STEP = """
 #include "law.h"
-void law_begin(const Settings *settings, const VehicleModel *vehicle, Memory *memory) {
-    *memory = first_memory(*settings, *vehicle);
+typedef struct { IdentificationSettings settings; Identification memory; VehicleModel model; } Vehicle;
+void vehicle_begin(const VehicleEstimates *declared, const double *limit_deg, const double *wind_known_s,
+                   Vehicle *vehicle) {
+    vehicle->settings = settings_of(*declared, *limit_deg, *wind_known_s);
+    vehicle->memory = first_identification(vehicle->settings);
+    vehicle->model = (VehicleModel){0, 0.0, *declared};
 }
-void law_step(const Settings *settings, Memory *memory, const VehicleModel *vehicle, const State *state,
+void law_begin(const Settings *settings, const Vehicle *vehicle, Memory *memory) {
+    *memory = first_memory(*settings, vehicle->model);
+}
+void law_step(const Settings *settings, Memory *memory, Vehicle *vehicle, const bool *identifies, const State *state,
               const double *dt, LawCommand *command) {
-    const Memory_LawCommand after = step(*settings, *memory, *vehicle, *state, *dt);
+    if (*identifies) {
+        const Identification_VehicleModel known =
+            identify(vehicle->settings, vehicle->memory, *state, memory->command_deg, memory->step_s);
+        vehicle->memory = known.a0;
+        vehicle->model = known.a1;
+    } else {
+        vehicle->model = flown_as_declared(vehicle->model, memory->command_deg, memory->step_s);
+    }
+    const Memory_LawCommand after = step(*settings, *memory, vehicle->model, *state, *dt);
     *memory = after.a0;
     *command = after.a1;
 }
@@ -49,7 +65,16 @@ def structure(kind: Kind):
     return type(kind.name, (Structure,), {"_fields_": fields})
 
 
-TYPES = {each: structure(kind_of_type(each, "")) for each in (Settings, Memory, VehicleModel, State, LawCommand)}
+KINDS = Settings, Memory, State, LawCommand, VehicleEstimates, VehicleModel, IdentificationSettings, Identification
+TYPES = {each: structure(kind_of_type(each, "")) for each in KINDS}
+
+
+class Vehicle(Structure):
+    _fields_ = (
+        ("settings", TYPES[IdentificationSettings]),
+        ("memory", TYPES[Identification]),
+        ("model", TYPES[VehicleModel]),
+    )
 
 
 def in_c(value, kind=None):
@@ -94,8 +119,11 @@ def test_the_law_in_c_gives_the_commands_of_python(library, i, identify):
         PointMass(START, UAV, air.get("wind"), seed=3, **others),
     )
     random, dt, last = np.random.default_rng(i), 0.02, mass.measured_state()
-    settings, memory, command = in_c(law._settings), TYPES[Memory](), TYPES[LawCommand]()
-    library.law_begin(byref(settings), byref(in_c(law._vehicle.model)), byref(memory))
+    settings, memory, command, vehicle = in_c(law._settings), TYPES[Memory](), TYPES[LawCommand](), Vehicle()
+    declared = law._declared
+    numbers = byref(c_double(declared.limit_deg)), byref(c_double(declared.wind_known_s))
+    library.vehicle_begin(byref(in_c(declared.declared)), *numbers, byref(vehicle))
+    library.law_begin(byref(settings), byref(vehicle), byref(memory))
     flown = set()
     for step in range(2500):
         last = damaged(mass.measured_state(), last, 8 if i else 0, step, 1500, random)
@@ -103,7 +131,8 @@ def test_the_law_in_c_gives_the_commands_of_python(library, i, identify):
         library.law_step(
             byref(settings),
             byref(memory),
-            byref(in_c(law._vehicle.model)),
+            byref(vehicle),
+            byref(c_bool(identify)),
             byref(in_c(last)),
             byref(c_double(dt)),
             byref(command),
@@ -113,10 +142,19 @@ def test_the_law_in_c_gives_the_commands_of_python(library, i, identify):
         assert same(command.time_to_join_s, given.time_to_join_s), step
         assert same(command.next_in_s, given.next_in_s), step
         assert command.side == law._memory.side
+        assert vehicle.model.revision == law._vehicle.revision
+        assert same(vehicle.model.bank_deg, law._vehicle.bank_deg), step
         flown.add(command.phase)
         mass.advance(given, dt)
     assert {0, 2} <= flown
+    roll, *others = law.estimates
+    known = vehicle.model.estimates
+    assert same(known.roll.time_s, roll.time_s)
+    assert same(known.roll.rate_deg_s, roll.rate_deg_s)
+    for name, value in zip(law.estimates._fields[1:], others, strict=True):
+        assert same(getattr(known, name), value), name
 
 
-def test_the_memory_of_the_law_in_c_fits_a_microcontroller():
+def test_the_memories_in_c_fit_a_microcontroller():
     assert sizeof(TYPES[Memory]) < 6000
+    assert sizeof(TYPES[Identification]) < 4100

@@ -1,4 +1,4 @@
-"""The law as a pure step: its memory is numbers, of a fixed size, and a step changes nothing that it is given."""
+"""The law and the identification as pure steps: memories of numbers, of a fixed size; a step changes no argument."""
 
 from copy import deepcopy
 from dataclasses import replace
@@ -12,7 +12,14 @@ from codegen.kinds import NotTranslated
 from codegen.unit import Unit
 
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.guidance.identification import bank_history
+from loiter.guidance.identification import (
+    bank_history,
+    identification_step,
+    roll_response,
+    turn_fits,
+    wind_fit,
+)
+from loiter.guidance.identification import vehicle as vehicle_model
 from loiter.guidance.laws import clock, entry_planner, law_step, observer, path_tracking, route
 from loiter.guidance.laws.loiter_entry import NAMED_PHASES, LoiterEntry
 from loiter.guidance.protocol import Phase
@@ -38,7 +45,7 @@ def flown(law, mass, steps, dt=0.02, lost=()):
     for i in range(steps):
         state = mass.measured_state()._replace(**({"east_m": nan} if i in lost else {}))
         command = law.step(state, dt)
-        seen.append((law._settings, law._memory, law._vehicle.model, state, dt))
+        seen.append((law._settings, law._memory, law._vehicle, state, dt))
         mass.advance(command, dt)
     return seen
 
@@ -86,7 +93,25 @@ def test_the_commands_are_limited_further_at_any_time():
     assert max(banks[50:]) == law.command_limit_deg == 10.0
 
 
-PURE = bank_history, clock, entry_planner, law_step, observer, path_tracking, rolling, route, turning
+def test_the_identification_changes_nothing_and_depends_on_nothing_else():
+    law, mass = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=3, noise=Noise(delay_s=0.2))
+    sizes = {len(numbers_in(law._identification))}
+    for i in range(400):
+        before, command = law._identification, law._memory.command_deg
+        copy, state = deepcopy(before), mass.measured_state()
+        if i in (100, 101, 250):
+            state = state._replace(east_m=nan)
+        mass.advance(law.step(state, 0.02), 0.02)
+        now = law._identification, law._vehicle
+        assert repr(before) == repr(copy)
+        step_s = 0.02 if i else 0.0
+        assert repr(identification_step.identify(law._declared, copy, state, command, step_s)) == repr(now)
+        sizes.add(len(numbers_in(law._identification)))
+    assert len(sizes) == 1
+
+
+IDENTIFICATION = bank_history, identification_step, roll_response, turn_fits, vehicle_model, wind_fit
+PURE = *IDENTIFICATION, clock, entry_planner, law_step, observer, path_tracking, rolling, route, turning
 
 
 def refusals(module):

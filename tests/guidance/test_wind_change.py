@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.guidance.identification.vehicle import CHANGED_S, WindChange
+from loiter.guidance.identification.wind_fit import CHANGED_S, NO_CHANGE, measured_change
 from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
@@ -51,30 +51,36 @@ def test_a_wind_that_changes_is_known_after_three_seconds(seed, change_s):
         assert max(outside) < 5.0
 
 
+def changes(differences):
+    """The memory after differences, 0.1 s apart, and for each whether the wind has changed."""
+    change, found = NO_CHANGE, []
+    for east, north in differences:
+        change, has_changed = measured_change(change, east, north, 22.0, 0.1)
+        found.append(has_changed)
+    return change, found
+
+
 def test_a_gust_is_no_change_of_the_wind():
-    change, changed = WindChange(), []
-    for k in range(400):
-        off = 9.0 if 200 <= k < 200 + round(0.8 * CHANGED_S / 0.1) else 0.5
-        changed.append(change.add(off, 0.0, 22.0, 0.1))
-    assert not any(changed)
+    gust = range(200, 200 + round(0.8 * CHANGED_S / 0.1))
+    change, found = changes([(9.0 if k in gust else 0.5, 0.0) for k in range(400)])
+    assert not any(found)
     assert change.since_s == 0.0
 
 
 def test_a_change_is_the_mean_since_it_began():
-    change = WindChange()
-    for _ in range(100):
-        assert not change.add(0.5, 0.0, 22.0, 0.1)
-    steps = next(k for k in range(1, 100) if change.add(8.0, -4.0, 22.0, 0.1))
+    _, found = changes([(0.5, 0.0)] * 100 + [(8.0, -4.0)] * 100)
+    steps = found.index(True) - 99
     assert CHANGED_S <= 0.1 * steps <= CHANGED_S + 0.5
-    assert change.mean == pytest.approx((8.0, -4.0))
+    change, _ = changes([(0.5, 0.0)] * 100 + [(8.0, -4.0)] * steps)
+    assert (change.mean_east_m_s, change.mean_north_m_s) == pytest.approx((8.0, -4.0))
 
 
 def test_in_constant_gusts_a_change_must_be_larger():
     """Where differences of 0.2 airspeeds are usual, one of 0.3 is no change."""
-    change, random = WindChange(), np.random.default_rng(4)
-    usual = [change.add(*(0.2 * 22.0 * random.normal(size=2)), 22.0, 0.1) for _ in range(3000)]
-    assert sum(usual) <= 2
-    assert not any(change.add(0.3 * 22.0, 0.0, 22.0, 0.1) for _ in range(10))
+    random = np.random.default_rng(4)
+    _, found = changes([*(0.2 * 22.0 * random.normal(size=(3000, 2))), *[(0.3 * 22.0, 0.0)] * 10])
+    assert sum(found[:3000]) <= 2
+    assert not any(found[3000:])
 
 
 @pytest.mark.parametrize(

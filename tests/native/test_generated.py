@@ -11,7 +11,7 @@ from codegen.kinds import NotTranslated
 from codegen.unit import ROOT, Unit
 
 from loiter.compiled.still_air_solver import single
-from native import untranslatable
+from native import same_names, untranslatable
 
 
 def test_make_generate_was_run_after_the_last_change():
@@ -66,6 +66,13 @@ def test_what_is_outside_the_subset_is_refused_in_one_sentence(name, sentence):
         Unit("kernel.h", DOUBLE, (getattr(untranslatable, name),))
     assert "\n" not in str(refusal.value)
     assert str(refusal.value).startswith("tests/native/untranslatable.py")
+
+
+@pytest.mark.parametrize("name", ["two_structures", "two_constants"])
+def test_two_things_of_one_name_are_refused(name):
+    """C would take one for the other, or refuse both with a riddle."""
+    with pytest.raises(NotTranslated, match="rename one of them"):
+        Unit("law.h", DOUBLE, (getattr(same_names, name),))
 
 
 def test_every_function_of_the_refused_ones_is_tried():

@@ -8,24 +8,30 @@ predict the same, and the weights stay as they are.
 
 The delay is the age of the measurements plus the dead time of the roll. For guidance both are the same: a command
 given now has its effect that long after the motion that is measured now.
+
+Past predictions are not kept: each model keeps its bank before the longest delay, from which it flies the last commands
+again when a bank was measured.
 """
 
 from __future__ import annotations
 
 from math import exp, log
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
-import numpy as np
+from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle.rolling import RollValues, bank_after
 
-from loiter.guidance.vehicle.rolling import Roll, RollValues, bank_after
+# The models: so many time constants and rate limits, of which each is the next multiple of the one before it; the
+# declared ones have these indices.
+TIMES, TIME_RATIO, DECLARED_TIME = 4, 1.8, 2
+RATES, RATE_RATIO, DECLARED_RATE = 6, 1.35, 2
+MODELS = TIMES * RATES
 
-# The models: each of these multiples of the declared time constant and rate limit. They make steps of `STEP_S` seconds,
-# and the delays are whole steps; the longest, the first, is 1.3 s.
-TIMES, RATES = 1.5 ** np.arange(-4.0, 3.0), 1.3 ** np.arange(-4.0, 4.0)
-STEP_S = 0.05
-DELAYS_S = STEP_S * np.arange(26.0, -1.0, -1.0)
+# The models make steps of this length, seconds. The delays are whole steps, from the longest one down to 0.
+STEP_S, DELAYS = 0.1, 14
 
-# The least time constant, seconds, and the largest rate limit, degrees per second, that count as declared.
+# The least time constant, seconds, and the largest rate limit, degrees per second, that count as declared; a longer
+# delay than those of the grid counts as the longest of them.
 LEAST_TIME_S, LARGEST_RATE_DEG_S = 0.1, 200.0
 
 # What is declared counts as a measurement with these standard deviations: of the logarithms of the time constant and
@@ -45,9 +51,6 @@ MEASURED_S = 0.15
 # After a longer step, seconds, the banks are those of a step of this length: it has the same effect on every model.
 LONGEST_STEP_S = 20.0
 
-# The last predictions, one more than there are delays, are rows that follow each other in an array of this many rows.
-KEPT, ROWS = len(DELAYS_S) + 1, 4 * len(DELAYS_S)
-
 
 class RollEstimate(NamedTuple):
     """The identified roll response, and the delay, seconds."""
@@ -56,147 +59,265 @@ class RollEstimate(NamedTuple):
     delay_s: float
 
 
-class _Measured(NamedTuple):
-    """A measured bank, the time since the last step of the models when it arrived, and that since the last one used."""
+class Unknown(NamedTuple):
+    """An unknown on a grid: the declared value and its index, the step from one index to the next, and the spread.
+
+    The declared value counts as a measurement with the standard deviation `spread`. With that alone the weighted mean
+    of all indices exceeds the declared one by `bias`, since the grid has an end, and they have this variance. In an
+    estimate the bias is taken away, in proportion to the variance that is left.
+    """
+
+    declared: float
+    at_index: float
+    step: float
+    spread: float
+    bias: float
+    variance: float
+
+
+class RollSettings(NamedTuple):
+    """The models: the share of the difference to the command that each flies in a step, and the limit of that, degrees.
+
+    Time constants and rate limits are unknown by their logarithms. `delay_logs` are the logarithms of the probabilities
+    of the delays as declared.
+    """
+
+    time: Unknown
+    rate: Unknown
+    delay: Unknown
+    shares: Annotated[tuple[float, ...], TIMES]
+    limits_deg: Annotated[tuple[float, ...], RATES]
+    delay_logs: Annotated[tuple[float, ...], DELAYS]
+
+
+class RollModel(NamedTuple):
+    """A model: its bank at the last step, and that before all commands that are kept, degrees."""
+
+    bank_deg: float
+    earliest_deg: float
+
+
+class Models(NamedTuple):
+    """All models, and the commands of their last steps, degrees, the oldest first."""
+
+    commands_deg: Annotated[tuple[float, ...], DELAYS]
+    models: Annotated[tuple[RollModel, ...], MODELS]
+
+
+class MeasuredBank(NamedTuple):
+    """A measured bank that waits for the next step of the models.
+
+    `after_s` is the time since the last step when it arrived, `since_s` that since the last bank that was used; 0 where
+    no bank waits.
+    """
 
     bank_deg: float
     after_s: float
     since_s: float
 
 
-class RollIdentifier:
-    """Estimates the roll response and the delay of a vehicle, beginning with those that are declared.
+NOTHING_MEASURED = MeasuredBank(0.0, 0.0, 0.0)
 
-    `bank_deg` is the bank that the models predict for the present.
+
+class Weights(NamedTuple):
+    """What the measurements say: the probabilities of the models, and the estimate.
+
+    `logs` are the logarithms of the probabilities of the pairs of a model and a delay, from measurements alone, up to a
+    constant; `log_total` is that of the sum of the probabilities. The last predictions had this variance.
     """
 
-    def __init__(self, declared: Roll | RollValues, delay_s: float) -> None:
-        time_s, rate_deg_s = max(declared.time_s, LEAST_TIME_S), min(declared.rate_deg_s, LARGEST_RATE_DEG_S)
-        times, rates = (each.ravel() for each in np.meshgrid(TIMES * time_s, RATES * rate_deg_s, indexing="ij"))
-        self._log_time = _Unknown(np.log(times), log(time_s), SPREAD)
-        self._log_rate = _Unknown(np.log(rates), log(rate_deg_s), SPREAD)
-        self._delay = _Unknown(DELAYS_S, delay_s, DELAY_SPREAD_S)
-        # The logarithms of the probabilities of the pairs, delays by models: as declared, and from measurements.
-        self._declared = -0.5 * ((self._log_time.cost + self._log_rate.cost)[None, :] + self._delay.cost[:, None])
-        self._measured = np.zeros_like(self._declared)
-        # Matrix products with these are sums over all models and all delays.
-        self._each_model, self._each_delay = np.ones(len(times)), np.ones(len(DELAYS_S))
-        # What a step changes: the share of the difference to the command, within limits.
-        self._share, self._largest = -np.expm1(-STEP_S / times), rates * STEP_S
-        self._least, self._change = -self._largest, np.zeros(len(times))
-        # The predictions, of which the last is in the row before `_next`; before the first step those of the beginning.
-        self._banks, self._next = np.zeros((ROWS, len(times))), KEPT
-        # The time since the last step of the models, and the integral of the command over it.
-        self._waiting_s = self._commanded = self.bank_deg = 0.0
-        # A measured bank that waits for the next step, and the time since the last one that was used.
-        self._pending: _Measured | None = None
-        self._since_s = CORRELATION_S
-        self._model_weights = np.empty(0)
-        self.estimate = RollEstimate(RollValues(declared.time_s, declared.rate_deg_s), delay_s)
-        self._weigh()
-
-    def begin(self, bank_deg: float) -> None:
-        """Start every model at a bank."""
-        self._banks[:] = self.bank_deg = bank_deg
-
-    def record(self, command_deg: float, dt: float) -> None:
-        """Fly `dt` seconds under a command."""
-        dt = min(dt, LONGEST_STEP_S)
-        self._since_s += dt
-        missing_s = STEP_S - self._waiting_s
-        if dt < missing_s:
-            self._waiting_s += dt
-            self._commanded += dt * command_deg
-            # Between the steps of the models the present bank is that of the estimated response.
-            self.bank_deg = bank_after(*self.estimate.roll, self.bank_deg, command_deg, dt)
-            return
-        self._make_step((self._commanded + missing_s * command_deg) / STEP_S)
-        left_s = dt - missing_s
-        while left_s >= STEP_S:
-            self._make_step(command_deg)
-            left_s -= STEP_S
-        self._waiting_s, self._commanded = left_s, left_s * command_deg
-        bank_deg = float(self._model_weights @ self._banks[self._next - 1])
-        self.bank_deg = bank_after(*self.estimate.roll, bank_deg, command_deg, left_s)
-
-    def _make_step(self, command_deg: float) -> None:
-        """Fly every model for `STEP_S` under the mean command."""
-        if self._next == ROWS:
-            self._banks[:KEPT] = self._banks[-KEPT:]
-            self._next = KEPT
-        change, before = self._change, self._banks[self._next - 1]
-        np.subtract(command_deg, before, out=change)
-        change *= self._share
-        np.minimum(change, self._largest, out=change)
-        np.maximum(change, self._least, out=change)
-        np.add(before, change, out=self._banks[self._next])
-        self._next += 1
-        if self._pending is not None:
-            self._compare(self._pending)
-            self._pending = None
-
-    def measure(self, bank_deg: float) -> None:
-        """Take a measured bank that has just arrived; it is compared with the predictions at their next step."""
-        if self._since_s >= MEASURED_S:
-            self._pending = _Measured(bank_deg, self._waiting_s, min(self._since_s, CORRELATION_S))
-            self._since_s = 0.0
-
-    def _compare(self, measured: _Measured) -> None:
-        """Update the probabilities with a bank that was measured within the last step of the models."""
-        error = self._predictions(measured.after_s)
-        mean = float(self._each_delay @ error @ self._each_model) / error.size
-        variance = max(float(np.vdot(error, error)) / error.size - mean * mean, 0.0)
-        excitation = variance / (variance + EXCITED_DEG * EXCITED_DEG)
-        self._measured *= exp(-excitation * measured.since_s / MEMORY_S)
-        error -= measured.bank_deg
-        error *= error
-        np.minimum(error, LARGEST_ERROR_DEG * LARGEST_ERROR_DEG, out=error)
-        error *= -0.5 * measured.since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG)
-        self._measured += error
-        self._weigh()
-
-    def _predictions(self, after_s: float) -> np.ndarray:
-        """The banks predicted for each delay before a time in the last step, `after_s` after its beginning.
-
-        An array of delays by models.
-        """
-        end = self._next
-        earlier, later = self._banks[end - KEPT : end - 1], self._banks[end - KEPT + 1 : end]
-        predictions: np.ndarray = later - earlier
-        predictions *= after_s / STEP_S
-        predictions += earlier
-        return predictions
-
-    def _weigh(self) -> None:
-        """Set the weights of the models, and the estimate, from the probabilities."""
-        weights = self._declared + self._measured
-        weights -= weights.max()
-        np.exp(weights, out=weights)
-        of_delays = weights @ self._each_model
-        total = float(of_delays @ self._each_delay)
-        self._model_weights = (self._each_delay @ weights) / total
-        log_time, log_rate = self._log_time.mean(self._model_weights), self._log_rate.mean(self._model_weights)
-        delay_s = max(self._delay.mean(of_delays / total), 0.0)
-        self.estimate = RollEstimate(RollValues(exp(log_time), exp(log_rate)), delay_s)
+    logs: Annotated[tuple[Annotated[tuple[float, ...], DELAYS], ...], MODELS]
+    log_total: float
+    variance_deg2: float
+    probabilities: Annotated[tuple[float, ...], MODELS]
+    estimate: RollEstimate
 
 
-class _Unknown:
-    """An unknown with the values that it may have, and the value that is declared.
+class RollMemory(NamedTuple):
+    """What the identification of the roll remembers; `bank_deg` is the bank that is predicted for the present.
 
-    The values have limits, so that the weighted mean differs from the declared value even before anything is measured.
-    That difference is taken away, in proportion to the variance that is left.
+    `waiting_s` is the time since the last step of the models, and `commanded` the integral of the command over it;
+    `since_s` is the time since the last measured bank that was used.
     """
 
-    def __init__(self, values: np.ndarray, declared: float, spread: float) -> None:
-        self._moments = np.stack((values, values * values))
-        self.cost = ((values - declared) / spread) ** 2
-        weights = np.exp(-0.5 * self.cost)
-        weights /= weights.sum()
-        mean, square = (self._moments @ weights).tolist()
-        self._excess, self._variance = mean - declared, square - mean * mean
+    bank_deg: float
+    waiting_s: float
+    commanded: float
+    since_s: float
+    measured: MeasuredBank
+    models: Models
+    weights: Weights
 
-    def mean(self, weights: np.ndarray) -> float:
-        """The weighted mean."""
-        mean, square = (self._moments @ weights).tolist()
-        left: float = (square - mean * mean) / self._variance
-        return float(mean - min(max(left, 0.0), 1.0) * self._excess)
+
+def roll_settings(declared: RollValues, delay_s: float) -> RollSettings:
+    """The models for what is declared."""
+    time_s, rate_deg_s = max(declared.time_s, LEAST_TIME_S), min(declared.rate_deg_s, LARGEST_RATE_DEG_S)
+    time = unknown_of(log(time_s), DECLARED_TIME, log(TIME_RATIO), SPREAD, TIMES)
+    rate = unknown_of(log(rate_deg_s), DECLARED_RATE, log(RATE_RATIO), SPREAD, RATES)
+    delay_s = min(delay_s, STEP_S * (DELAYS - 1))
+    delay = unknown_of(delay_s, DELAYS - 1 - delay_s / STEP_S, -STEP_S, DELAY_SPREAD_S, DELAYS)
+    shares, limits_deg, delay_logs = (0.0,) * TIMES, (0.0,) * RATES, (0.0,) * DELAYS
+    for i in range(TIMES):
+        shares = (*shares[1:], 1.0 - exp(-STEP_S / exp(value_at(time, i))))
+    for i in range(RATES):
+        limits_deg = (*limits_deg[1:], STEP_S * exp(value_at(rate, i)))
+    for i in range(DELAYS):
+        delay_logs = (*delay_logs[1:], declared_log(delay, i))
+    return RollSettings(time=time, rate=rate, delay=delay, shares=shares, limits_deg=limits_deg, delay_logs=delay_logs)
+
+
+def unknown_of(declared: float, index: float, step: float, spread: float, count: int) -> Unknown:
+    """The unknown with `count` indices, of which the declared one need not be whole."""
+    unknown, sums = Unknown(declared, index, step, spread, 0.0, 1.0), NO_SUMS
+    for i in range(count):
+        sums = with_index(sums, i, exp(declared_log(unknown, i)))
+    return Unknown(declared, index, step, spread, mean_of(sums) - index, variance_of(sums))
+
+
+def value_at(unknown: Unknown, index: float) -> float:
+    """The value of an unknown at an index."""
+    return unknown.declared + unknown.step * (index - unknown.at_index)
+
+
+def declared_log(unknown: Unknown, index: float) -> float:
+    """The logarithm of the probability of an index, as declared, up to a constant."""
+    off = unknown.step * (index - unknown.at_index) / unknown.spread
+    return -0.5 * off * off
+
+
+class Sums(NamedTuple):
+    """The sums of the weights of indices, of the weighted indices, and of their weighted squares."""
+
+    total: float
+    weighted: float
+    squared: float
+
+
+NO_SUMS = Sums(0.0, 0.0, 0.0)
+
+
+def with_index(sums: Sums, index: int, weight: float) -> Sums:
+    """The sums with another index."""
+    return Sums(sums.total + weight, sums.weighted + weight * index, sums.squared + weight * (index * index))
+
+
+def mean_of(sums: Sums) -> float:
+    """The weighted mean of the indices."""
+    return sums.weighted / sums.total
+
+
+def variance_of(sums: Sums) -> float:
+    """The weighted variance of the indices."""
+    return sums.squared / sums.total - mean_of(sums) * mean_of(sums)
+
+
+def estimated(unknown: Unknown, sums: Sums) -> float:
+    """The weighted mean of an unknown, without the bias that is left."""
+    left = min(max(variance_of(sums) / unknown.variance, 0.0), 1.0)
+    return value_at(unknown, mean_of(sums) - left * unknown.bias)
+
+
+def first_roll(settings: RollSettings) -> RollMemory:
+    """The memory before the first command, with wings level."""
+    estimate = RollEstimate(
+        RollValues(exp(settings.time.declared), exp(settings.rate.declared)), settings.delay.declared
+    )
+    weights = Weights(((0.0,) * DELAYS,) * MODELS, 0.0, 0.0, (0.0,) * MODELS, estimate)
+    models = constant_models(0.0)
+    # A measurement that counts for no time leaves the probabilities as they are declared.
+    weights = compared(settings, models, weights, NOTHING_MEASURED)
+    return RollMemory(0.0, 0.0, 0.0, CORRELATION_S, NOTHING_MEASURED, models, weights)
+
+
+def constant_models(bank_deg: float) -> Models:
+    """The models at a bank that has always been this."""
+    return Models((bank_deg,) * DELAYS, (RollModel(bank_deg, bank_deg),) * MODELS)
+
+
+def begun(memory: RollMemory, bank_deg: float) -> RollMemory:
+    """The memory with every model at a bank."""
+    _, waiting_s, commanded, since_s, measured, _, weights = memory
+    return RollMemory(bank_deg, waiting_s, commanded, since_s, measured, constant_models(bank_deg), weights)
+
+
+def commanded_roll(settings: RollSettings, memory: RollMemory, command_deg: float, dt: float) -> RollMemory:
+    """The memory after `dt` seconds under a command."""
+    bank_deg, waiting_s, commanded, since_s, measured, models, weights = memory
+    dt = min(dt, LONGEST_STEP_S)
+    since_s, missing_s = since_s + dt, STEP_S - waiting_s
+    if dt < missing_s:
+        # Between the steps of the models the present bank is that of the estimated response.
+        bank_deg = bank_after(*weights.estimate.roll, bank_deg, command_deg, dt)
+        waiting_s, commanded = waiting_s + dt, commanded + dt * command_deg
+        return RollMemory(bank_deg, waiting_s, commanded, since_s, measured, models, weights)
+    models = stepped(settings, models, (commanded + missing_s * command_deg) / STEP_S)
+    if measured.since_s > 0.0:
+        weights = compared(settings, models, weights, measured)
+    left_s = dt - missing_s
+    while left_s >= STEP_S:
+        models, left_s = stepped(settings, models, command_deg), left_s - STEP_S
+    bank_deg = 0.0
+    for i in range(MODELS):
+        bank_deg += weights.probabilities[i] * models.models[i].bank_deg
+    bank_deg = bank_after(*weights.estimate.roll, bank_deg, command_deg, left_s)
+    return RollMemory(bank_deg, left_s, left_s * command_deg, since_s, NOTHING_MEASURED, models, weights)
+
+
+def measured_roll(memory: RollMemory, measured_deg: float) -> RollMemory:
+    """The memory with a measured bank that has just arrived; it is compared with the models at their next step."""
+    bank_deg, waiting_s, commanded, since_s, measured, models, weights = memory
+    if since_s < MEASURED_S:
+        return memory
+    measured = MeasuredBank(measured_deg, waiting_s, min(since_s, CORRELATION_S))
+    return RollMemory(bank_deg, waiting_s, commanded, 0.0, measured, models, weights)
+
+
+def stepped(settings: RollSettings, before: Models, command_deg: float) -> Models:
+    """All models after a step under the mean command."""
+    commands_deg, models = before
+    oldest_deg = commands_deg[0]
+    for i in range(TIMES):
+        share = settings.shares[i]
+        for j in range(RATES):
+            (bank_deg, earliest_deg), limit_deg = models[0], settings.limits_deg[j]
+            bank_deg += clip(share * (command_deg - bank_deg), limit_deg)
+            earliest_deg += clip(share * (oldest_deg - earliest_deg), limit_deg)
+            models = (*models[1:], RollModel(bank_deg, earliest_deg))
+    return Models((*commands_deg[1:], command_deg), models)
+
+
+def compared(settings: RollSettings, models: Models, before: Weights, measured: MeasuredBank) -> Weights:
+    """The weights after a bank that was measured within the last step of the models."""
+    (commands_deg, states), (logs, log_total, variance_deg2, probabilities, _) = models, before
+    kept = exp(-variance_deg2 / (variance_deg2 + EXCITED_DEG * EXCITED_DEG) * measured.since_s / MEMORY_S)
+    scale = -0.5 * measured.since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG)
+    measured_deg, done, largest = measured.bank_deg, measured.after_s / STEP_S, LARGEST_ERROR_DEG * LARGEST_ERROR_DEG
+    delay_logs, errors, squares, index, index_square = settings.delay_logs, 0.0, 0.0, 0.0, 0.0
+    time, rate = NO_SUMS, NO_SUMS
+    for i in range(TIMES):
+        share, time_log = settings.shares[i], declared_log(settings.time, i) - log_total
+        for j in range(RATES):
+            limit_deg, model_log = settings.limits_deg[j], time_log + declared_log(settings.rate, j)
+            bank_deg, pairs, total = states[i * RATES + j].earliest_deg, logs[0], 0.0
+            for k in range(DELAYS):
+                change = clip(share * (commands_deg[k] - bank_deg), limit_deg)
+                error = bank_deg + done * change - measured_deg
+                bank_deg, square = bank_deg + change, error * error
+                errors, squares = errors + error, squares + square
+                one = kept * pairs[0] + scale * (square if square < largest else largest)
+                pairs, weight = (*pairs[1:], one), exp(model_log + delay_logs[k] + one)
+                total, index, index_square = total + weight, index + k * weight, index_square + k * k * weight
+            logs, probabilities = (*logs[1:], pairs), (*probabilities[1:], total)
+            time, rate = with_index(time, i, total), with_index(rate, j, total)
+    for _ in range(MODELS):
+        probabilities = (*probabilities[1:], probabilities[0] / time.total)
+    roll = RollValues(exp(estimated(settings.time, time)), exp(estimated(settings.rate, rate)))
+    delay_s = max(estimated(settings.delay, Sums(time.total, index, index_square)), 0.0)
+    mean = errors / (MODELS * DELAYS)
+    return Weights(
+        logs,
+        log_total + log(time.total),
+        max(squares / (MODELS * DELAYS) - mean * mean, 0.0),
+        probabilities,
+        RollEstimate(roll, delay_s),
+    )

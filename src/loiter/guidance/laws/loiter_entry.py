@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from loiter.errors import instance, not_negative, positive
+from loiter.guidance.identification import identification_step
 from loiter.guidance.identification.bank_history import COVERED_S
-from loiter.guidance.identification.vehicle import (
-    DeclaredVehicle,
-    IdentifiedVehicle,
-    Vehicle,
-    VehicleEstimates,
-)
+from loiter.guidance.identification.vehicle import VehicleEstimates, VehicleModel, flown_as_declared
+from loiter.guidance.identification.wind_fit import DECLARED_WIND_S
 from loiter.guidance.laws import law_step
 from loiter.guidance.laws.law_step import (
     DELAY_S,
@@ -109,10 +106,12 @@ class LoiterEntry:
             heading_bias_deg=0.0,
             bank_bias_deg=0.0,
         )
-        self._vehicle: Vehicle = DeclaredVehicle(declared)
-        if identify:
-            self._vehicle = IdentifiedVehicle(declared, limit_deg, wind_declared=wind is not None)
-        self._memory = law_step.first_memory(self._settings, self._vehicle.model)
+        self._identifies = identify
+        wind_known_s = 0.0 if wind is None else DECLARED_WIND_S
+        self._declared = identification_step.settings_of(declared, limit_deg, wind_known_s)
+        self._identification = identification_step.first_identification(self._declared)
+        self._vehicle = VehicleModel(0, 0.0, declared)
+        self._memory = law_step.first_memory(self._settings, self._vehicle)
 
     @classmethod
     def exact(cls, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None) -> LoiterEntry:
@@ -122,7 +121,7 @@ class LoiterEntry:
     @property
     def estimates(self) -> VehicleEstimates:
         """What the law believes of the vehicle at present."""
-        return self._vehicle.model.estimates
+        return self._vehicle.estimates
 
     @property
     def crosstrack_m(self) -> float:
@@ -145,8 +144,13 @@ class LoiterEntry:
         """
         dt = positive("dt", dt, "seconds")
         instance("state", state, State)
-        self._vehicle.fly(self._memory.command_deg, self._memory.step_s)
-        self._vehicle.measure(state)
-        self._memory, command = law_step.step(self._settings, self._memory, self._vehicle.model, state, dt)
+        before = self._memory
+        if self._identifies:
+            self._identification, self._vehicle = identification_step.identify(
+                self._declared, self._identification, state, before.command_deg, before.step_s
+            )
+        else:
+            self._vehicle = flown_as_declared(self._vehicle, before.command_deg, before.step_s)
+        self._memory, command = law_step.step(self._settings, before, self._vehicle, state, dt)
         rate, bank_deg, phase, join_s, side, next_phase, next_s = command
         return Command(rate, bank_deg, NAMED_PHASES[phase], join_s, NAMED_TURNS[side], NAMED_PHASES[next_phase], next_s)

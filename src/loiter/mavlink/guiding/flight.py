@@ -8,7 +8,8 @@ from math import inf, isfinite
 from time import monotonic
 
 from loiter.errors import LinkFailed, LoiterError
-from loiter.guidance.identification.vehicle import VehicleEstimates, bounded_turn_ratio
+from loiter.guidance.identification.turn_fits import bounded_turn_ratio
+from loiter.guidance.identification.vehicle import VehicleEstimates
 from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.vehicle.limits import clip
