@@ -2,11 +2,12 @@
 
 import re
 from importlib import import_module
+from itertools import chain
 
 import hatch_build
 import pytest
 from codegen.arithmetic import CONSTANTS, DOUBLE
-from codegen.files import FOLDER, files
+from codegen.files import FOLDER, PAGE, files
 from codegen.kinds import NotTranslated
 from codegen.unit import ROOT, Unit
 
@@ -15,8 +16,8 @@ from native import untranslatable
 
 
 def test_make_generate_was_run_after_the_last_change():
-    for name, text in files().items():
-        assert (FOLDER / name).read_text("utf-8") == text, f"{name}: run make generate"
+    for path, text in files().items():
+        assert path.read_text("utf-8") == text, f"{path.name}: run make generate"
 
 
 @pytest.mark.skipif(single is None, reason="this package has no machine code")
@@ -25,7 +26,8 @@ def test_the_machine_code_is_that_of_the_c_beside_it():
 
 
 def test_no_other_file_claims_to_be_generated():
-    made = {path.name for path in FOLDER.glob("*.[ch]") if "do not edit" in path.read_text("utf-8")}
+    folders = FOLDER.glob("*.[ch]"), PAGE.parent.rglob("*.js")
+    made = {path for path in chain(*folders) if "do not edit" in path.read_text("utf-8")}
     assert made == set(files())
 
 

@@ -1,0 +1,52 @@
+"""The generated JavaScript beside the Python it comes from, with the same arithmetic: the same bits, the same steps."""
+
+from random import Random
+
+import pytest
+
+from compiled.windy import drawn
+from native import states
+from native.javascript import KERNEL, Portable, counting, differing
+from native.test_kernel import scenes
+
+
+@pytest.fixture(scope="module")
+def portable():
+    return Portable()
+
+
+@pytest.fixture(scope="module")
+def counted(tmp_path_factory):
+    """The module, which counts calls."""
+    path = tmp_path_factory.mktemp("kernel") / "kernel.mjs"
+    path.write_text(counting(KERNEL.read_text("utf-8")), "utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    "rows", [states.drawn(10_000, 0), states.drawn(5_000, 1, nearest=-17.0), states.SPECIAL[::7]], ids=len
+)
+def test_a_state_in_still_air_has_the_same_bits(portable, rows):
+    assert differing("inStillAir", portable.in_still_air, rows) == []
+
+
+def test_the_candidates_in_still_air_have_the_same_bits(portable):
+    rows = [*states.drawn(300, 2), *states.SPECIAL[::300]]
+    assert differing("rankedInStillAir", portable.ranked_in_still_air, rows) == []
+
+
+def test_the_search_in_wind_has_the_same_bits_after_the_same_steps(portable, counted):
+    assert differing("inWind", portable.in_wind, scenes(), counted) == []
+
+
+def test_the_candidates_in_wind_have_the_same_bits(portable):
+    assert differing("rankedInWind", portable.ranked_in_wind, drawn(16, 3)) == []
+
+
+def test_curves_paths_and_holds_have_the_same_bits(portable):
+    random = Random(6)
+    rows = [
+        (random.uniform(-4, 4), random.uniform(-4, 4), random.choice([1.0, 1.5, 2.5]), side, random.uniform(-10, 10))
+        for side in (-1, 0, 1) * 200
+    ]
+    assert differing("around", portable.around, rows) == []
