@@ -29,7 +29,7 @@ SLOW = {
     "kernel": "cell_bounds wind_search",
     "mavlink": "guide guide_misbehaving peers upload watch",
     "mutation": "mutation",
-    "native": "kernel mutants",
+    "native": "javascript javascript_mutants kernel mutants",
     "planning": "wind",
     "plot": "picture sizes",
     "": "make types",

@@ -138,8 +138,8 @@ class JavaScriptExpressions(Expressions):
 
     def _of_each(self, node: ast.ListComp | ast.GeneratorExp, method: str) -> Expression:
         """The list of a comprehension: its elements filtered, then each taken by a method of arrays."""
-        (part,) = node.generators
-        if not isinstance(part.target, ast.Name) or part.target.id in self.names.local:
+        part, *others = node.generators
+        if others or not isinstance(part.target, ast.Name) or part.target.id in self.names.local:
             raise self.refused(node, f"{ast.unparse(node)!r}")
         source, name = self.elements(part.iter), part.target.id
         self.names.local[name] = element_of(source.kind)

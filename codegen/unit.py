@@ -51,7 +51,7 @@ static inline {ring} {ring}_appended({ring} ring, {element} last) {{
 }}"""
 
 # Names of the C library, and of POSIX, that functions of the kernel have too.
-TAKEN = frozenset({"atan2", "sin", "cos", "hypot", "select", "l", "r"})
+TAKEN = frozenset({"atan2", "acos", "sin", "cos", "hypot", "select", "l", "r"})
 
 
 @cache
@@ -139,6 +139,8 @@ class Unit:
         place = str(Path(inspect.getfile(module)).relative_to(ROOT))
         parameters, result = signature(function, place)
         for kind in (*parameters.values(), result):
+            if kind.length < 0 and not self.has_lists:
+                raise NotTranslated(f"{place}: {function.__name__} has a list, {kind.name}, which only JavaScript has")
             self._structure(kind)
         title = self.name(function)
         if function in self.open:
@@ -182,8 +184,6 @@ class Unit:
 
     def _structure(self, kind: Kind) -> None:
         """Declare a structure, after those of its fields."""
-        if kind.length < 0 and not self.has_lists:
-            raise NotTranslated(f"{self.title}: a list, {kind.name!r}, is not part of the kernel's subset of Python")
         for _, inner in kind.fields:
             self._structure(inner)
         if kind.fields and kind.name not in self.structures:

@@ -31,7 +31,7 @@ def answers(name, rows, kernel=KERNEL):
     numbers = np.array(rows, dtype=float)
     assert numbers.shape[1] == WIDTHS[name]
     command = [NODE, RUN, kernel, name, str(WIDTHS[name])]
-    done = subprocess.run(command, input=numbers.tobytes(), capture_output=True, check=True)
+    done = subprocess.run(command, input=numbers.tobytes(), capture_output=True, check=True, timeout=600)
     found, at = np.frombuffer(done.stdout), 0
     while at < len(found):
         count = int(found[at])

@@ -7,6 +7,8 @@ import pytest
 from compiled.windy import drawn
 from native import states
 from native.javascript import KERNEL, Portable, counting, differing
+from native.javascript_table import main
+from native.library import needs_compiler
 from native.test_kernel import scenes
 
 
@@ -43,10 +45,23 @@ def test_the_candidates_in_wind_have_the_same_bits(portable):
     assert differing("rankedInWind", portable.ranked_in_wind, drawn(16, 3)) == []
 
 
-def test_curves_paths_and_holds_have_the_same_bits(portable):
+def beside(count):
+    """States near the circle, with a control and a time."""
     random = Random(6)
-    rows = [
-        (random.uniform(-4, 4), random.uniform(-4, 4), random.choice([1.0, 1.5, 2.5]), side, random.uniform(-10, 10))
-        for side in (-1, 0, 1) * 200
+    return [
+        (random.uniform(-4, 4), random.uniform(-4, 4), random.choice([1.0, 1.5, 2.5]), u, random.uniform(-10, 10))
+        for u in (-1, 0, 1) * (count // 3)
     ]
-    assert differing("around", portable.around, rows) == []
+
+
+def test_curves_paths_and_holds_have_the_same_bits(portable):
+    assert differing("around", portable.around, beside(600)) == []
+
+
+@needs_compiler
+def test_the_c_with_the_same_functions_has_the_same_bits(capsys):
+    """And with those of the C library a time differs by three units in the last place at most."""
+    assert main(8_000, 100) == 0
+    rows = [line.split("|") for line in capsys.readouterr().out.splitlines() if line.startswith(("| still", "| wind"))]
+    assert len(rows) == 7
+    assert all(float(differs) <= 4 for _, _, _, _, differs, *_ in rows)
