@@ -438,7 +438,9 @@ def constant_value(value: Any, place: str, translator: Expressions) -> Expressio
     kind = kind_of_value(value, place)
     if kind == REAL:
         return Expression(translator.literal(value), REAL, PRIMARY if value >= 0.0 else UNARY)
-    if kind in (INTEGER, TRUTH):
+    if kind == TRUTH:
+        return Expression("true" if value else "false", kind)
+    if kind == INTEGER:
         return Expression(str(int(value)), kind, PRIMARY if value >= 0 else UNARY)
     if kind == NOTHING or not kind.fields:
         raise NotTranslated(f"{place}: a constant {value!r} is not part of the kernel's subset of Python")

@@ -71,14 +71,21 @@ PLANNING = (
 )
 
 # In the law the kernel's functions stand in for machine code that Python calls.
-LAW_ARITHMETIC = DOUBLE._replace(
-    replaced={"entry_in_still_air": synthesis.optimum, "fastest_in_wind": wind_search.fastest}
-)
+LAW_REPLACED = {"entry_in_still_air": synthesis.optimum, "fastest_in_wind": wind_search.fastest}
+LAW_ARITHMETIC = DOUBLE._replace(replaced=LAW_REPLACED)
+LAW = law_step.first_memory, law_step.step
 
 
 def law() -> str:
     """The guidance law as C; it belongs to no package."""
-    return Unit("law.h", LAW_ARITHMETIC, (law_step.first_memory, law_step.step)).text()
+    return Unit("law.h", LAW_ARITHMETIC, LAW).text()
+
+
+def law_module() -> str:
+    """The guidance law as JavaScript; it belongs to no package. Its tangents and exponentials are the browser's."""
+    functions = PORTABLE.functions | {name: f"Math.{name}" for name in ("tan", "atan", "exp", "log")}
+    arithmetic = PORTABLE._replace(functions=functions, replaced=PORTABLE.replaced | LAW_REPLACED)
+    return Module("law.js", arithmetic, LAW).text()
 
 
 def files() -> dict[Path, str]:

@@ -29,7 +29,7 @@ from loiter.compiled import branchless
 
 # The functions of `math` that JavaScript computes exactly. The others are not the same in every browser, so those of
 # `compiled/branchless.py` stand in for them; the cube root decides only which maneuvers count as one.
-EXACT = {name: f"Math.{name}" for name in ("sqrt", "floor", "ceil", "cbrt")} | {"fabs": "Math.abs"}
+EXACT = {name: f"Math.{name}" for name in ("sqrt", "floor", "ceil", "cbrt")} | {"fabs": "Math.abs", "fmod": "fmod"}
 PORTABLE = DOUBLE._replace(
     functions=EXACT, replaced={name: getattr(branchless, name) for name in ("atan2", "sin", "cos", "acos")}
 )
@@ -80,6 +80,14 @@ class JavaScriptExpressions(Expressions):
     def member(self, enum: EnumType, name: str) -> str:
         """A member of an enumeration."""
         return f"{enum.__name__}.{name}"
+
+    def ring_call(self, kind: Kind, change: str, *arguments: Expression) -> str:
+        """A ring as an array: filled, with another last element, or without its first one besides."""
+        first, *others = (argument.text for argument in arguments)
+        if change == "filled":
+            return f"Array({kind.length}).fill({first})"
+        kept = "1" if change == "appended" else "0, -1"
+        return f"[...{first}.slice({kept}), {', '.join(others)}]"
 
     def literal(self, value: float) -> str:
         """A number."""

@@ -325,6 +325,7 @@ DESCRIPTIONS = {
         "The fastest way onto a holding circle, in still air and in wind, for browsers and Node: the same answers in "
         "all of them, to the last bit, since sine, cosine and arctangent are its own."
     ),
+    "law.js": "A guidance law that flies the fastest entry onto a holding circle, as a step without side effects.",
     "law.h": "A guidance law that flies the fastest entry onto a holding circle, as a step without side effects.",
     "kernel.h": (
         "The fastest way onto a holding circle, in still air and in wind, in double precision, with the functions of "

@@ -15,6 +15,7 @@ from codegen.files import SINGLE
 from codegen.javascript import PORTABLE
 from codegen.unit import Unit
 
+from compiled.windy import PLACES
 from compiled.windy import drawn as drawn_in_wind
 from loiter.kernel.wind_search import WindProblem
 from native import states
@@ -110,10 +111,13 @@ def main(count=1_000_000, scenes=20_000):
         wrong += still_air(states.SPECIAL, portable, exact, difference)
         rows.append(difference.row("still air, special numbers"))
         for windiest in (0.6, 0.95):
-            difference = Difference()
             problems = drawn_in_wind(scenes // 2, 11, windiest)
-            wrong += in_wind(problems, portable, exact, difference, folder)
-            rows.append(difference.row(f"wind up to {windiest}"))
+            on_circle = problems[PLACES.index("on the circle") :: len(PLACES)]
+            elsewhere = [problem for i, problem in enumerate(problems) if PLACES[i % len(PLACES)] != "on the circle"]
+            for place, chosen in (("", elsewhere), (", on the circle or 1e-16 to 1e-8 beside it", on_circle)):
+                difference = Difference()
+                wrong += in_wind(chosen, portable, exact, difference, folder)
+                rows.append(difference.row(f"wind up to {windiest}{place}"))
     print("\n".join(rows))
     print(f"{wrong} answers with other bits than C with the same functions")
     return wrong
