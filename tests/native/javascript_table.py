@@ -96,8 +96,8 @@ def in_wind(problems, portable, exact, difference, folder):
     return wrong
 
 
-def main(count=1_000_000, scenes=20_000):
-    """Compare, and write the table; the number of answers whose bits are wrong."""
+def main(count=1_000_000, scenes=20_000, stride=1):
+    """Compare, and write the table, with every so many of the special states; the number of wrong answers."""
     wrong, rows = 0, ["| states | compared | same bits | T differs by, ulps | other word or side | there by |"]
     rows.append("|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
@@ -108,7 +108,7 @@ def main(count=1_000_000, scenes=20_000):
             wrong += still_air(drawn, portable, exact, difference)
             rows.append(difference.row(f"still air, 1e{nearest:.0f} to 1e{farthest:.0f} from boundaries"))
         difference = Difference()
-        wrong += still_air(states.SPECIAL, portable, exact, difference)
+        wrong += still_air(states.SPECIAL[::stride], portable, exact, difference)
         rows.append(difference.row("still air, special numbers"))
         for windiest in (0.6, 0.95):
             problems = drawn_in_wind(scenes // 2, 11, windiest)
