@@ -25,13 +25,16 @@ export const integer_quotient = (a, b) => Math.floor(a / b);
 export const integer_modulo = (a, b) => a - Math.floor(a / b) * b;
 
 /** @type {(bits: number) => number} */
-const power_of_two = (bits) => (bits < 31 ? (1 << bits) >>> 0 : 1073741824 * power_of_two(bits - 30));
+const power_of_two = (bits) => (bits < 31 ? 1 << bits : 1073741824 * power_of_two(bits - 30));
 
 /** @type {(a: number, bits: number) => number} */
 export const shift_left = (a, bits) => a * power_of_two(bits);
 
 /** @type {(a: number, bits: number) => number} */
 export const shift_right = (a, bits) => Math.floor(a / power_of_two(bits));
+
+/** @type {(a: number, b: number) => number} */
+export const fmod = (a, b) => a % b;
 
 /** @type {(a: number, b: number) => number} */
 export function real_modulo(a, b) {
