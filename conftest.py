@@ -25,16 +25,16 @@ SLOW = {
     "cli": "errors guide json man mavlink",
     "compiled": "ufuncs wind_solver",
     "documents": "notebooks package site",
-    "guidance": "campaign following identification jsbsim_aircraft loiter_entry",
+    "guidance": "campaign following identification jsbsim_aircraft law_in_javascript loiter_entry",
     "kernel": "cell_bounds wind_search",
     "mavlink": "guide guide_misbehaving peers upload watch",
     "mutation": "mutation",
-    "native": "kernel mutants",
+    "native": "javascript javascript_mutants kernel mutants",
     "planning": "wind",
     "plot": "picture sizes",
     "": "make types",
     "verify": "certificate certificate_in_wind collocation oracle_check proof reachability rounding signs wind_scan",
-    "web": "api drawing failure fields history layout limits load missions page places schema serve tiles touch",
+    "web": "api drawing failure fields history kernel layout limits load missions page places schema serve tiles touch",
 }
 
 # Files of tests that first build the package, the site or a library, or check all types: by one worker, not by each.

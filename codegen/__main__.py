@@ -1,7 +1,7 @@
-"""`python -m codegen`: writes the files of src/loiter/native that are generated."""
+"""`python -m codegen`: writes the files that are generated."""
 
-from codegen.files import FOLDER, files
+from codegen.files import files
 
 if __name__ == "__main__":
-    for name, text in files().items():
-        (FOLDER / name).write_text(text, encoding="utf-8")
+    for path, text in files().items():
+        path.write_text(text, encoding="utf-8")

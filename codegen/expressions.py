@@ -65,7 +65,9 @@ class Names(NamedTuple):
 
 
 class Expressions:
-    """The translation of expressions within one function."""
+    """The translation of expressions within one function to C; another language overrides what it writes otherwise."""
+
+    compared = COMPARED
 
     def __init__(self, names: Names, file: str) -> None:
         self.names = names
@@ -97,7 +99,8 @@ class Expressions:
         if found.kind == TRUTH:
             return found
         if found.kind in (INTEGER, REAL):
-            return Expression(f"{found.within(EQUALITY + 1)} != {self.zero(found.kind)}", TRUTH, EQUALITY)
+            sign, level = self.compared[ast.NotEq]
+            return Expression(f"{found.within(level + 1)} {sign} {self.zero(found.kind)}", TRUTH, level)
         raise self.refused(node, f"{ast.unparse(node)!r} as a condition")
 
     def zero(self, kind: Kind) -> str:
@@ -120,8 +123,28 @@ class Expressions:
             )
         self.temporaries += 1
         name = f"{stem}_{self.temporaries}"
-        self.before.append(f"const {found.kind.name} {name} = {found.text};")
+        self.before.append(f"{self.declared(found.kind, True)} {name} = {found.text};")
         return name
+
+    def declared(self, kind: Kind, is_constant: bool) -> str:
+        """What stands before the name of a variable where it is declared."""
+        return f"const {kind.name}" if is_constant else kind.name
+
+    def field(self, text: str, kind: Kind, name: str) -> str:
+        """A field of a structure of a kind."""
+        return f"{text}.{name}"
+
+    def real(self, integer: Expression) -> str:
+        """An integer as a real number."""
+        return f"(real){integer.within(UNARY)}"
+
+    def member(self, enum: EnumType, name: str) -> str:
+        """A member of an enumeration."""
+        return f"{enum.__name__.upper()}_{name}"
+
+    def ring_call(self, kind: Kind, change: str, *arguments: Expression) -> str:
+        """A call of a function that makes or changes a ring."""
+        return f"{kind.name}_{change}({', '.join(argument.text for argument in arguments)})"
 
     def parts(self, node: ast.expr) -> list[Expression]:
         """The elements of an expression that is a tuple."""
@@ -136,7 +159,7 @@ class Expressions:
         if not isinstance(node, ast.Name | ast.Attribute):
             stem = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else "parts"
             name = self.temporary(found, stem)
-        return [Expression(f"{name}.{field}", kind) for field, kind in found.kind.fields]
+        return [Expression(self.field(name, found.kind, field), kind) for field, kind in found.kind.fields]
 
     def _chosen_parts(self, node: ast.IfExp) -> list[Expression]:
         """The elements of a choice between two tuples, each chosen by itself."""
@@ -158,6 +181,10 @@ class Expressions:
     def structure(self, kind: Kind, values: list[Expression]) -> Expression:
         """A structure made from its fields."""
         return Expression(f"({kind.name}){{{', '.join(value.text for value in values)}}}", kind)
+
+    def constant(self, kind: Kind, values: list[Expression]) -> Expression:
+        """A structure that initialises a constant."""
+        return Expression(f"{{{', '.join(value.text for value in values)}}}", kind)
 
     def _Constant(self, node: ast.Constant) -> Expression:
         if isinstance(node.value, bool):
@@ -181,8 +208,7 @@ class Expressions:
 
     def _Attribute(self, node: ast.Attribute) -> Expression:
         if isinstance(node.value, ast.Name) and isinstance(self.names.globals.get(node.value.id), EnumType):
-            member = self.names.globals[node.value.id][node.attr]
-            return Expression(f"{type(member).__name__.upper()}_{node.attr}", INTEGER)
+            return Expression(self.member(self.names.globals[node.value.id], node.attr), INTEGER)
         found = self.translate(node.value)
         kinds = dict(found.kind.fields)
         if safe(node.attr) not in kinds or found.kind.is_tuple:
@@ -208,7 +234,7 @@ class Expressions:
                 index = self.translate(node.slice)
         if index.kind != INTEGER:
             raise self.refused(node, f"{ast.unparse(node)!r}")
-        return Expression(f"{ring.within(PRIMARY)}.at[{index.text}]", element)
+        return Expression(f"{self.field(ring.within(PRIMARY), ring.kind, 'at')}[{index.text}]", element)
 
     def _changed_ring(self, node: ast.Tuple) -> Expression:
         """A ring with another last element, `(*ring[:-1], x)`, or without its first one too: `(*ring[1:], x)`."""
@@ -216,7 +242,7 @@ class Expressions:
             case [ast.Starred(value=ast.Subscript(value=source, slice=ast.Slice() as part)), last]:
                 ring, change = self.translate(source), {"1:": "appended", ":-1": "with_last"}.get(ast.unparse(part))
                 if ring.kind.length and change:
-                    return Expression(f"{ring.kind.name}_{change}({ring.text}, {self.translate(last).text})", ring.kind)
+                    return Expression(self.ring_call(ring.kind, change, ring, self.translate(last)), ring.kind)
         raise self.refused(node, f"{ast.unparse(node)!r}")
 
     def _filled_ring(self, node: ast.BinOp) -> Expression:
@@ -226,7 +252,7 @@ class Expressions:
                 element, length = self.translate(one), self.names.globals.get(name)
                 if isinstance(length, int):
                     kind = ring_of(element.kind, length)
-                    return Expression(f"{kind.name}_filled({element.text})", kind)
+                    return Expression(self.ring_call(kind, "filled", element), kind)
         raise self.refused(node, f"{ast.unparse(node)!r}")
 
     def _Tuple(self, node: ast.Tuple) -> Expression:
@@ -257,7 +283,7 @@ class Expressions:
             sign, level = OPERATORS[operator]
             left = a.within(level)
             if operator is ast.Div and whole:
-                left = f"(real){a.within(UNARY)}"
+                left = self.real(a)
             kind = INTEGER if whole and operator is not ast.Div else REAL
             return Expression(f"{left} {sign} {b.within(level + 1)}", kind, level)
         if operator is ast.Mod and not whole:
@@ -287,9 +313,9 @@ class Expressions:
         values = [self.translate(one) for one in operands]
         texts = []
         for a, op, b in zip(values, node.ops, values[1:], strict=False):
-            if type(op) not in COMPARED or not {a.kind, b.kind} <= {REAL, INTEGER, TRUTH}:
+            if type(op) not in self.compared or not {a.kind, b.kind} <= {REAL, INTEGER, TRUTH}:
                 raise self.refused(node, f"the comparison {ast.unparse(node)!r}")
-            sign, level = COMPARED[type(op)]
+            sign, level = self.compared[type(op)]
             texts.append(f"{a.within(level + 1)} {sign} {b.within(level + 1)}")
         level = COMPARED[type(node.ops[0])][1] if len(texts) == 1 else AND
         return Expression(" && ".join(texts), TRUTH, level)
@@ -300,7 +326,8 @@ class Expressions:
         if not isinstance(choices, ast.Tuple) or not isinstance(node.left, ast.Name):
             raise self.refused(node, f"{ast.unparse(node)!r}")
         value = self.translate(node.left)
-        texts = [f"{value.text} == {self.translate(one).within(EQUALITY + 1)}" for one in choices.elts]
+        sign, level = self.compared[ast.Eq]
+        texts = [f"{value.text} {sign} {self.translate(one).within(level + 1)}" for one in choices.elts]
         return Expression(" || ".join(texts), TRUTH, OR)
 
     def _IfExp(self, node: ast.IfExp) -> Expression:
@@ -403,16 +430,18 @@ class Expressions:
 
     def _call_float(self, node: ast.Call, arguments: list[Expression]) -> Expression:
         (value,) = arguments
-        return Expression(f"(real){value.within(UNARY)}", REAL, UNARY)
+        return Expression(self.real(value), REAL, UNARY)
 
 
-def constant_value(value: Any, place: str, literal: Callable[[float], str]) -> Expression:
+def constant_value(value: Any, place: str, translator: Expressions) -> Expression:
     """A constant of Python as a constant of C: a number, or a structure."""
     kind = kind_of_value(value, place)
     if kind == REAL:
-        return Expression(literal(value), REAL, PRIMARY if value >= 0.0 else UNARY)
-    if kind in (INTEGER, TRUTH):
+        return Expression(translator.literal(value), REAL, PRIMARY if value >= 0.0 else UNARY)
+    if kind == TRUTH:
+        return Expression("true" if value else "false", kind)
+    if kind == INTEGER:
         return Expression(str(int(value)), kind, PRIMARY if value >= 0 else UNARY)
     if kind == NOTHING or not kind.fields:
         raise NotTranslated(f"{place}: a constant {value!r} is not part of the kernel's subset of Python")
-    return Expression("{" + ", ".join(constant_value(one, place, literal).text for one in value) + "}", kind)
+    return translator.constant(kind, [constant_value(one, place, translator) for one in value])

@@ -1,13 +1,17 @@
-"""The files of C, and the functions of the kernel that each of them offers."""
+"""The files of C and JavaScript, and the functions of the kernel that each of them offers."""
+
+from pathlib import Path
 
 from codegen.arithmetic import DOUBLE, VECTOR
+from codegen.javascript import PORTABLE, Module
 from codegen.unit import ROOT, Unit
 from loiter.guidance.identification import identification_step
 from loiter.guidance.identification.vehicle import flown_as_declared
 from loiter.guidance.laws import law_step
-from loiter.kernel import extremals, motion, synthesis, wind_search
+from loiter.kernel import adjoint, extremals, hold, motion, switching_curves, synthesis, wind_search
 
 FOLDER = ROOT / "src" / "loiter" / "native"
+PAGE = ROOT / "src" / "loiter" / "web" / "static" / "kernel"
 
 SINGLE = (
     motion.reduce,
@@ -41,11 +45,36 @@ LOOPED = (
     synthesis.miss,
 )
 
+# Everything that the page needs.
+PLANNING = (
+    motion.reduce,
+    motion.fly,
+    motion.flow,
+    synthesis.status_of,
+    synthesis.rounded_radius,
+    synthesis.optimum,
+    synthesis.optima,
+    synthesis.ranked,
+    synthesis.least_time,
+    synthesis.first_control,
+    synthesis.miss,
+    synthesis.is_tie_in_wind,
+    adjoint.adjoint,
+    adjoint.turn_adjoint,
+    adjoint.switching_function,
+    switching_curves.region,
+    switching_curves.last_arc_abscissa,
+    hold.hold_pose,
+    hold.hold_rate,
+    hold.phase_of,
+    wind_search.fastest,
+    wind_search.optima,
+    wind_search.ranked,
+)
 
 # In the law the kernel's functions stand in for machine code that Python calls.
-LAW_ARITHMETIC = DOUBLE._replace(
-    replaced={"entry_in_still_air": synthesis.optimum, "fastest_in_wind": wind_search.fastest}
-)
+LAW_REPLACED = {"entry_in_still_air": synthesis.optimum, "fastest_in_wind": wind_search.fastest}
+LAW_ARITHMETIC = DOUBLE._replace(replaced=LAW_REPLACED)
 
 
 # The steps of the law and of the identification, and what stands in for the latter.
@@ -64,9 +93,17 @@ def law() -> str:
     return Unit("law.h", LAW_ARITHMETIC, STEPS).text()
 
 
-def files() -> dict[str, str]:
-    """The generated files, by name."""
+def law_module() -> str:
+    """The same as JavaScript. Its tangents and exponentials are the browser's."""
+    functions = PORTABLE.functions | {name: f"Math.{name}" for name in ("tan", "atan", "exp", "log")}
+    arithmetic = PORTABLE._replace(functions=functions, replaced=PORTABLE.replaced | LAW_REPLACED)
+    return Module("law.js", arithmetic, STEPS).text()
+
+
+def files() -> dict[Path, str]:
+    """The generated files."""
     return {
-        "kernel.h": Unit("kernel.h", DOUBLE, SINGLE).text(),
-        "still_air_loops.h": Unit("still_air_loops.h", VECTOR, LOOPED).text(),
+        FOLDER / "kernel.h": Unit("kernel.h", DOUBLE, SINGLE).text(),
+        FOLDER / "still_air_loops.h": Unit("still_air_loops.h", VECTOR, LOOPED).text(),
+        PAGE / "kernel.js": Module("kernel.js", PORTABLE, PLANNING).text(),
     }

@@ -12,7 +12,10 @@ class NotTranslated(Exception):
 
 
 class Kind(NamedTuple):
-    """A kind of value: its name in C, and the fields where it is a structure; `length` is that of a ring, else 0."""
+    """A kind of value: its name in C, and the fields where it is a structure.
+
+    `length` is that of a ring, -1 for a list, otherwise 0.
+    """
 
     name: str
     fields: tuple[tuple[str, Kind], ...] = ()
@@ -40,6 +43,11 @@ def ring_of(element: Kind, length: int) -> Kind:
     return Kind(f"{element.name}_ring_{length}", (("at", element),), length=length)
 
 
+def list_of(element: Kind) -> Kind:
+    """A list, of which only JavaScript knows more than those of real numbers."""
+    return Kind(f"{element.name}[]", (("at", element),), length=-1)
+
+
 def kind_of_type(hint: Any, place: str) -> Kind:
     """The kind for a type of Python."""
     if hint is type(None):
@@ -51,6 +59,8 @@ def kind_of_type(hint: Any, place: str) -> Kind:
         return tuple_of(tuple(kind_of_type(one, place) for one in get_args(hint)))
     if isinstance(hint, GenericAlias) and hint == list[float]:
         return REALS
+    if get_origin(hint) is list:
+        return list_of(kind_of_type(get_args(hint)[0], place))
     if isinstance(hint, type):
         if issubclass(hint, bool):
             return TRUTH
@@ -81,10 +91,11 @@ def signature(function: FunctionType, place: str) -> tuple[dict[str, Kind], Kind
     return {name: kind_of_type(hints[name], place) for name in names}, result
 
 
-# Words of C that are names in Python.
+# Words of C or of JavaScript that are names in Python.
 RESERVED = {"short", "long", "double", "float", "int", "register", "union", "auto", "const", "restrict", "default"}
+RESERVED |= {"new", "var", "let", "function", "this", "delete", "void", "typeof", "switch", "case", "arguments"}
 
 
 def safe(name: str) -> str:
-    """A name that is none of C's words."""
+    """A name that is no word of C or JavaScript."""
     return f"{name}_" if name in RESERVED else name

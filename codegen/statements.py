@@ -51,6 +51,8 @@ def occurrences(body: list[ast.stmt], blocks: tuple[Block, ...]) -> Iterator[tup
             case ast.Assign(targets=[target]):
                 read, written = [statement.value], list(targets(target))
                 read += [target.value, target.slice] if isinstance(target, ast.Subscript) else []
+            case ast.AnnAssign(target=ast.Name(id=name), value=value):
+                read, written = [value], [name]
             case ast.AugAssign(target=ast.Name(id=name)):
                 yield name, Occurrence(blocks, statement, False)
                 read, written = [statement.value], [name]
@@ -106,7 +108,10 @@ def _declared(places: list[Occurrence]) -> Declared:
 
 
 class Function:
-    """One function, translated."""
+    """One function, translated to C; another language overrides what it writes otherwise."""
+
+    translator = Expressions
+    remark = "/* {} */"
 
     def __init__(self, node: ast.FunctionDef, names: Names, result: Kind, file: str, comments: dict[int, str]) -> None:
         self.node, self.result, self.file, self.comments = node, result, file, comments
@@ -123,7 +128,7 @@ class Function:
             before = dict(self.names.local)
             self.lines, self.loops = [], 0
             self.last_line = self.node.body[0].lineno
-            self.expressions = Expressions(self.names, self.file)
+            self.expressions = self.translator(self.names, self.file)
             statements = self.node.body[1:] if ast.get_docstring(self.node) else self.node.body
             if statements is not self.node.body:
                 self.last_line = self.node.body[0].end_lineno or self.last_line
@@ -138,7 +143,7 @@ class Function:
         for statement in body:
             for number in range(self.last_line + 1, statement.lineno):
                 if number in self.comments:
-                    self.lines.append(f"{indent}/* {self.comments[number]} */")
+                    self.lines.append(indent + self.remark.format(self.comments[number]))
             self.last_line = max(self.last_line, statement.lineno)
             self._declare_before(statement, indent)
             method = getattr(self, f"_{type(statement).__name__}", None)
@@ -152,9 +157,10 @@ class Function:
         by_kind: dict[str, list[str]] = {}
         for name, declared in self.declared.items():
             if declared.at is statement and not declared.where_set and name in self.names.local:
-                by_kind.setdefault(self.names.local[name].name, []).append(safe(name))
-        for kind, names in by_kind.items():
-            self._write(indent, f"{kind} {', '.join(names)};")
+                head = self.expressions.declared(self.names.local[name], False)
+                by_kind.setdefault(head, []).append(safe(name))
+        for head, names in by_kind.items():
+            self._write(indent, f"{head} {', '.join(names)};")
 
     def _before(self, indent: str) -> None:
         for line in self.expressions.before:
@@ -204,7 +210,9 @@ class Function:
             raise self.expressions.refused(target, f"the assignment of {len(parts)} values to {ast.unparse(target)!r}")
         for one, part in zip(target.elts, parts, strict=True):
             if isinstance(one, ast.Tuple):
-                inner = [Expression(f"{part.text}.{field}", kind) for field, kind in part.kind.fields]
+                inner = [
+                    Expression(self.expressions.field(part.text, part.kind, f), kind) for f, kind in part.kind.fields
+                ]
                 yield from self._fields(one, inner)
             elif isinstance(one, ast.Name) and one.id != "_":
                 yield one.id, part
@@ -216,12 +224,11 @@ class Function:
         run: list[tuple[str, str]] = []
         for name, value in pairs:
             declared = self.declared.get(name)
-            kind = self.names.local[name].name
             if declared is None or declared.at is not node or not declared.where_set:
                 self._flush(run, indent)
                 self._write(indent, f"{safe(name)} = {value.text};")
                 continue
-            head = f"const {kind}" if declared.is_constant else kind
+            head = self.expressions.declared(self.names.local[name], declared.is_constant)
             if run and run[0][0] != head:
                 self._flush(run, indent)
             run.append((head, f"{safe(name)} = {value.text}"))
@@ -252,7 +259,7 @@ class Function:
         changed = []
         for name, value in pairs:
             fresh = f"new_{name}"
-            self._write(indent, f"const {self.names.local[name].name} {fresh} = {value.text};")
+            self._write(indent, f"{self.expressions.declared(self.names.local[name], True)} {fresh} = {value.text};")
             changed.append((name, Expression(fresh, value.kind)))
         return changed
 
@@ -335,9 +342,10 @@ class Function:
         self._before(indent)
         if not last.isidentifier() and not last.isdigit():
             self.loops += 1
-            self._write(indent, f"const integer last_{self.loops} = {last};")
+            self._write(indent, f"{self.expressions.declared(INTEGER, True)} last_{self.loops} = {last};")
             last = f"last_{self.loops}"
-        self._write(indent, f"for (integer {name} = {first}; {name} < {last}; {name}++) {{")
+        head = self.expressions.declared(INTEGER, False)
+        self._write(indent, f"for ({head} {name} = {first}; {name} < {last}; {name}++) {{")
         self._block(node.body, indent + STEP)
         self._write(indent, "}")
         self._disown(node)
@@ -397,13 +405,17 @@ def wrapped(text: str, indent: str = "") -> list[str]:
     )
 
 
+def paragraphs(text: str, width: int = WIDTH - 3) -> list[str]:
+    """A docstring in lines that are not too long."""
+    lines: list[str] = []
+    for paragraph in text.strip().split("\n\n"):
+        lines += [*wrap(" ".join(paragraph.split()), width), ""]
+    return lines[:-1]
+
+
 def comment(text: str, indent: str = "") -> Iterable[str]:
     """A docstring as a comment."""
-    paragraphs = [" ".join(paragraph.split()) for paragraph in text.strip().split("\n\n")]
-    lines: list[str] = []
-    for paragraph in paragraphs:
-        lines += [*wrap(paragraph, WIDTH - len(indent) - 3), ""]
-    lines.pop()
+    lines = paragraphs(text, WIDTH - len(indent) - 3)
     if len(lines) == 1:
         yield f"{indent}/* {lines[0]} */"
         return

@@ -17,9 +17,10 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 from codegen.arithmetic import CONSTANTS, Arithmetic
-from codegen.expressions import PRIMARY, Expression, Expressions, Names, constant_value
+from codegen.expressions import PRIMARY, Expression, Names, constant_value
 from codegen.kinds import Kind, NotTranslated, kind_of_value, safe, signature
 from codegen.statements import STEP, Function, comment, wrapped
+from loiter.kernel.rebinding import names_used
 from loiter.version import __version__
 
 ROOT = Path(__file__).parents[1]
@@ -50,7 +51,7 @@ static inline {ring} {ring}_appended({ring} ring, {element} last) {{
 }}"""
 
 # Names of the C library, and of POSIX, that functions of the kernel have too.
-TAKEN = {"atan2", "sin", "cos", "hypot", "select", "l", "r"}
+TAKEN = frozenset({"atan2", "acos", "sin", "cos", "hypot", "select", "l", "r"})
 
 
 @cache
@@ -86,7 +87,11 @@ def comments_of(module: ModuleType) -> dict[int, str]:
 
 
 class Unit:
-    """The file of the functions `roots`, and of what they need."""
+    """The file of C of the functions `roots`, and of what they need."""
+
+    translator = Function
+    taken = TAKEN
+    has_lists = False
 
     def __init__(self, title: str, arithmetic: Arithmetic, roots: Sequence[Any]) -> None:
         self.title, self.arithmetic = title, arithmetic
@@ -111,7 +116,7 @@ class Unit:
             if function not in found:
                 found.add(function)
                 replaced = self._replaced(function)
-                for name in function.__code__.co_names:
+                for name in names_used(function.__code__):
                     value = replaced.get(name, function.__globals__.get(name))
                     if isinstance(value, FunctionType) and value.__module__.startswith("loiter."):
                         waiting.append(value)
@@ -125,7 +130,7 @@ class Unit:
     def name(self, function: FunctionType) -> str:
         """The name in C: that in Python, after that of the module where two functions share it, or C has it too."""
         module = function.__module__.rpartition(".")[2]
-        taken = function.__name__ in self.shared or function.__name__ in TAKEN
+        taken = function.__name__ in self.shared or function.__name__ in self.taken
         return f"{module}_{function.__name__}" if taken else function.__name__
 
     def _add(self, function: FunctionType) -> tuple[str, dict[str, Kind], Kind]:
@@ -134,6 +139,8 @@ class Unit:
         place = str(Path(inspect.getfile(module)).relative_to(ROOT))
         parameters, result = signature(function, place)
         for kind in (*parameters.values(), result):
+            if kind.length < 0 and not self.has_lists:
+                raise NotTranslated(f"{place}: {function.__name__} has a list, {kind.name}, which only JavaScript has")
             self._structure(kind)
         title = self.name(function)
         if function in self.open:
@@ -159,9 +166,15 @@ class Unit:
             self._add,
             self._constant,
         )
-        body = Function(node, names, result, place, comments_of(module)).body()
+        body = self.translator(node, names, result, place, comments_of(module)).body()
         for kind in names.local.values():
             self._structure(kind)
+        return self._function(function, node, parameters, result, body)
+
+    def _function(
+        self, function: FunctionType, node: ast.FunctionDef, parameters: dict[str, Kind], result: Kind, body: list[str]
+    ) -> list[str]:
+        """The lines of a function whose body is translated."""
         listed = ", ".join(_declaration(kind, safe(name)) for name, kind in parameters.items()) or "void"
         if node.name in self.arithmetic.faster:
             body = ["#ifdef FP_FAST_FMA", STEP + self.arithmetic.faster[node.name], "#else", *body, "#endif"]
@@ -188,21 +201,23 @@ class Unit:
         kind = kind_of_value(value, owner.__name__)
         self._structure(kind)
         if key not in self.constants:
-            literal = Expressions(Names(self.arithmetic, {}, {}, {}, self._add, self._constant), "").literal
-            found = constant_value(value, owner.__name__, literal)
+            names_here = Names(self.arithmetic, {}, {}, {}, self._add, self._constant)
+            found = constant_value(value, owner.__name__, self.translator.translator(names_here, ""))
             source = ast.unparse(assigned(owner)[name])
-            if kind.fields:
-                line = f"static const {kind.name} {name} = {found.text};"
-            else:
-                line = f"#define {name} {found.text if found.level == PRIMARY else f'({found.text})'}"
-            shown = "" if source in (found.text, repr(value)) else f" /* {source} */"
+            shown = "" if kind.fields or source in (found.text, repr(value)) else f" /* {source} */"
             above = list(comment_above(owner, name))
             known = any(above == lines[:-1] for lines in self.constants.values())
             if name in {other for _, other in self.constants}:
                 raise NotTranslated(f"{owner.__name__}: another module has a constant {name} too: rename one of them")
-            self.constants[key] = [*(() if known else above), line + shown]
+            self.constants[key] = [*(() if known else above), self._definition(name, found) + shown]
             self.constant_kinds[key] = kind
         return Expression(name, kind)
+
+    def _definition(self, name: str, value: Expression) -> str:
+        """The line that defines a constant."""
+        if value.kind.fields:
+            return f"static const {value.kind.name} {name} = {value.text};"
+        return f"#define {name} {value.text if value.level == PRIMARY else f'({value.text})'}"
 
     def _owner(self, name: str, value: Any, importer: str) -> ModuleType:
         """The module that defines a constant."""
@@ -229,11 +244,14 @@ class Unit:
 
     def _head(self) -> Iterator[str]:
         guard = f"LOITER_{Path(self.title).stem.upper()}_H"
-        yield from comment(
+        yield from comment(self._description())
+        yield f"#ifndef {guard}\n#define {guard}\n"
+
+    def _description(self) -> str:
+        return (
             f"{DESCRIPTIONS[self.title]}\n\nGenerated from the Python of loiter {__version__} by `make generate`; "
             f"do not edit.\n\nSHA-256 of the source: {digest(self.sources())}"
         )
-        yield f"#ifndef {guard}\n#define {guard}\n"
 
     def _types(self) -> Iterator[str]:
         yield "#include <math.h>\n#include <stdbool.h>\n#include <stdint.h>\n"
@@ -304,11 +322,18 @@ def digest(files: list[Path]) -> str:
     return found.hexdigest()
 
 
+LAW = (
+    "A guidance law that flies the fastest entry onto a holding circle, and the identification of its vehicle, as "
+    "steps without side effects."
+)
+
 DESCRIPTIONS = {
-    "law.h": (
-        "A guidance law that flies the fastest entry onto a holding circle, and the identification of its vehicle, as "
-        "steps without side effects."
+    "kernel.js": (
+        "The fastest way onto a holding circle, in still air and in wind, for browsers and Node: the same answers in "
+        "all of them, to the last bit, since sine, cosine and arctangent are its own."
     ),
+    "law.h": LAW,
+    "law.js": LAW,
     "kernel.h": (
         "The fastest way onto a holding circle, in still air and in wind, in double precision, with the functions of "
         "the C library: the same answers as in Python, to the last bit."

@@ -50,6 +50,17 @@ def test_sine_and_cosine_are_within_two_roundings_of_one(a):
         assert abs(branchless.cos(a) - mpmath.cos(a)) <= 2.0 * ULP
 
 
+@settings(max_examples=500)
+@given(st.floats(-1.0, 1.0))
+@example(1.0)
+@example(-1.0)
+@example(1.0 - 2.0**-53)
+def test_the_arccosine_is_within_six_roundings(x):
+    with mpmath.workdps(50):
+        true = mpmath.acos(x)
+        assert abs(branchless.acos(x) - true) <= 6.0 * ULP * true
+
+
 @given(st.floats(1e-300, 1e-9))
 def test_sines_of_small_angles_keep_their_digits(a):
     assert branchless.sin(a) == pytest.approx(a, rel=2e-16)

@@ -10,13 +10,13 @@ RADII = (1.0, 1.0, 1.0 + 1e-6, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 30.0)
 NEAREST, FARTHEST = -12.0, -5.0
 
 
-def drawn(count, seed, nearest=NEAREST):
+def drawn(count, seed, nearest=NEAREST, farthest=FARTHEST):
     """States (x, y, R, side, tolerance), two thirds of them next to a circle or to the axis of the synthesis."""
     random = Random(seed)
     rows = []
     for _ in range(count):
         R, angle = random.choice(RADII), random.uniform(-pi, pi)
-        off = 10.0 ** random.uniform(nearest, FARTHEST) * random.choice([-1.0, 0.0, 1.0])
+        off = 10.0 ** random.uniform(nearest, farthest) * random.choice([-1.0, 0.0, 1.0])
         circles = {"outer": (R + 1.0, -1.0), "inner": (R - 1.0, 1.0), "fold": (abs(R - 3.0), -1.0)}
         place = random.choice([*circles, "axis", "anywhere", "anywhere"])
         if place in circles:

@@ -2,11 +2,13 @@
 
 import re
 from importlib import import_module
+from itertools import chain
 
 import hatch_build
 import pytest
 from codegen.arithmetic import CONSTANTS, DOUBLE
-from codegen.files import FOLDER, files
+from codegen.files import FOLDER, PAGE, files
+from codegen.javascript import PORTABLE, Module
 from codegen.kinds import NotTranslated
 from codegen.unit import ROOT, Unit
 
@@ -15,8 +17,8 @@ from native import same_names, untranslatable
 
 
 def test_make_generate_was_run_after_the_last_change():
-    for name, text in files().items():
-        assert (FOLDER / name).read_text("utf-8") == text, f"{name}: run make generate"
+    for path, text in files().items():
+        assert path.read_text("utf-8") == text, f"{path.name}: run make generate"
 
 
 @pytest.mark.skipif(single is None, reason="this package has no machine code")
@@ -25,7 +27,8 @@ def test_the_machine_code_is_that_of_the_c_beside_it():
 
 
 def test_no_other_file_claims_to_be_generated():
-    made = {path.name for path in FOLDER.glob("*.[ch]") if "do not edit" in path.read_text("utf-8")}
+    folders = FOLDER.glob("*.[ch]"), PAGE.parent.rglob("*.js")
+    made = {path for path in chain(*folders) if "do not edit" in path.read_text("utf-8")}
     assert made == set(files())
 
 
@@ -56,6 +59,7 @@ REFUSED = {
     "lazy_tuple": "a structure is taken apart where it may not be computed",
     "two_into_ring": "'(*ring[2:], pair, pair)' is not part of",
     "ring_by_number": "'ring[x]' is not part of",
+    "makes_list": "makes_list has a list, Pair[], which only JavaScript has",
     "wrong_argument": "is called with '(real_2){x, x}', which is no real",
 }
 
@@ -75,10 +79,26 @@ def test_two_things_of_one_name_are_refused(name):
         Unit("law.h", DOUBLE, (getattr(same_names, name),))
 
 
+REFUSED_IN_JAVASCRIPT = {
+    "nested_list": "'[Pair(a, b) for a in (x, x) for b in (x, x)]' is not part of",
+    "mixed_list": "the list '[Pair(x, x), x]' is not part of",
+    "list_of_some": "'found: list[Pair] = [Pair(x, x)]' is not part of",
+    "loop_over_number": "'x' as a list is not part of",
+    "sorted_by_lambda": "as a function is not part of",
+}
+
+
+@pytest.mark.parametrize(("name", "sentence"), REFUSED_IN_JAVASCRIPT.items())
+def test_what_javascript_does_not_have_either_is_refused_in_one_sentence(name, sentence):
+    with pytest.raises(NotTranslated, match=re.escape(sentence)) as refusal:
+        Module("kernel.js", PORTABLE, (getattr(untranslatable, name),))
+    assert str(refusal.value).startswith("tests/native/untranslatable.py")
+
+
 def test_every_function_of_the_refused_ones_is_tried():
     names = {
         name
         for name, value in vars(untranslatable).items()
         if getattr(value, "__module__", "") == untranslatable.__name__
     }
-    assert names - {"Pair", "rounds", "halved", "taken"} == set(REFUSED)
+    assert names - {"Pair", "rounds", "halved", "taken"} == {*REFUSED, *REFUSED_IN_JAVASCRIPT}

@@ -84,5 +84,32 @@ def two_into_ring(ring: Ring, pair: Pair) -> Ring:
     return (*ring[2:], pair, pair)
 
 
+def makes_list(x: float) -> list[Pair]:
+    return [Pair(x, x)]
+
+
+def nested_list(x: float) -> list[Pair]:
+    return [Pair(a, b) for a in (x, x) for b in (x, x)]
+
+
+def mixed_list(x: float) -> list[Pair]:
+    return [Pair(x, x), x]  # type: ignore[list-item]
+
+
+def list_of_some(x: float) -> list[Pair]:
+    found: list[Pair] = [Pair(x, x)]
+    return found
+
+
+def loop_over_number(x: float) -> float:
+    for one in x:  # type: ignore[attr-defined]
+        return one
+    return x
+
+
+def sorted_by_lambda(x: float) -> list[Pair]:
+    return sorted([Pair(x, x)], key=lambda pair: pair.a)
+
+
 def ring_by_number(ring: Ring, x: float) -> Pair:
     return ring[x]  # type: ignore[call-overload,no-any-return]

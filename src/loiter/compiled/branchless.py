@@ -48,6 +48,11 @@ def cos(a: float) -> float:
     return -value if quarters == 1.0 or quarters == 2.0 else value
 
 
+def acos(x: float) -> float:
+    """The angle in [0, pi] whose cosine is x."""
+    return atan2(sqrt((1.0 - x) * (1.0 + x)), x)
+
+
 def hypot(x: float, y: float) -> float:
     """Length of (x, y) where its square neither overflows nor underflows."""
     return sqrt(x * x + y * y)

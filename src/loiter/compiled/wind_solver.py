@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from loiter.kernel import wind_search
-from loiter.kernel.wind_search import WindEntry, WindProblem, WindSolver
+from loiter.kernel.rebinding import rebound
+from loiter.kernel.wind_search import WindEntry, WindProblem
 
 try:
     from loiter.compiled import single as _single
@@ -14,30 +16,19 @@ except ImportError:
 
 single: Any = _single
 
-PLAIN = WindSolver(wind_search.fastest, wind_search.local_minima)
-
-
-def _fastest(problem: WindProblem) -> WindEntry:
-    return WindEntry(*single.fastest_in_wind(*problem))
-
-
-def _local_minima(problem: WindProblem) -> list[WindEntry]:
-    return [WindEntry(*entry) for entry in single.local_minima_in_wind(*problem)]
-
-
-SOLVER = PLAIN if single is None else WindSolver(_fastest, _local_minima)
-
 
 def fastest(problem: WindProblem) -> WindEntry:
     """`wind_search.fastest`."""
-    return SOLVER.fastest(problem)
+    return wind_search.fastest(problem) if single is None else WindEntry(*single.fastest_in_wind(*problem))
 
 
-def ranked(problem: WindProblem) -> list[WindEntry]:
-    """`wind_search.ranked`."""
-    return wind_search.ranked(problem, SOLVER)
+def local_minima(problem: WindProblem) -> list[WindEntry]:
+    """`wind_search.local_minima`."""
+    if single is None:
+        return wind_search.local_minima(problem)
+    return [WindEntry(*entry) for entry in single.local_minima_in_wind(*problem)]
 
 
-def optima(problem: WindProblem) -> list[WindEntry]:
-    """`wind_search.optima`."""
-    return wind_search.optima(problem, SOLVER)
+_SEARCH = {"fastest": fastest, "local_minima": local_minima}
+ranked: Callable[[WindProblem], list[WindEntry]] = rebound(wind_search.ranked, _SEARCH)
+optima: Callable[[WindProblem], list[WindEntry]] = rebound(wind_search.optima, _SEARCH)

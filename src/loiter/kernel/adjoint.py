@@ -14,10 +14,10 @@ psi is determined by a point where phi = 0 (docs/theory.md, section 2):
 Nothing is mirrored: `side` is +1 for the target (0, R), -1 for (0, -R), and L, R, u are as flown.
 """
 
-from math import hypot, nan
+from math import nan
 from typing import NamedTuple
 
-from loiter.kernel.angles import angle
+from loiter.kernel.angles import angle, length
 from loiter.kernel.extremals import onto_axis
 from loiter.kernel.motion import flow, fly
 from loiter.kernel.synthesis import Entry, rounding
@@ -51,7 +51,7 @@ def at_switch(x: float, y: float, u: int, R: float) -> Adjoint:
     of u. The two agree on an optimum; the larger component of (x, y) decides, so that rounding of the smaller one has
     no effect. At the centre any psi is possible: (1, 0) is chosen, that of the straight piece.
     """
-    r = hypot(x, y)
+    r = length(x, y)
     if r <= rounding(x, y, R):
         return Adjoint(1.0, 1.0, 0.0)
     backwards = x < 0.0 if abs(x) > abs(y) else u * y > 0.0

@@ -227,13 +227,13 @@ def lrl(start: Start) -> Extremal:
     return Extremal(Word.LRL, first, 0.0 if exists else inf, middle, last)
 
 
-def extremals(x: float, y: float, R: float, arc_tolerance: float) -> tuple[Extremal, ...]:
+def extremals(x: float, y: float, R: float, arc_tolerance: float) -> list[Extremal]:
     """Every extremal for the target (0, R); of several that tie, the first is preferred.
 
     Where a straight piece is about to vanish, the words with and without it tie.
     """
     start = start_at(x, y, R, arc_tolerance)
-    return (
+    return [
         l(start),
         r(start),
         lsl(start),
@@ -245,7 +245,7 @@ def extremals(x: float, y: float, R: float, arc_tolerance: float) -> tuple[Extre
         lr(start, -1.0),
         lr(start, 1.0),
         lrl(start),
-    )
+    ]
 
 
 def select(condition: bool, a: Extremal, b: Extremal) -> Extremal:

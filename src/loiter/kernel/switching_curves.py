@@ -1,6 +1,6 @@
 """Switching curves, and the paper's synthesis at R = 1 by signed region predicates, without comparing words."""
 
-from math import sqrt
+from math import nan, sqrt
 
 from loiter.kernel.exact import beyond
 from loiter.kernel.words import Word
@@ -30,15 +30,15 @@ def switching_abscissa(y: float, R: float) -> float:
     K = R * (R + 2.0)
     A, B2 = 3.0 * y + 0.5 * K, y * y + 3.0 * K * y + 0.25 * K * K
     if B2 < 0.0 or A + sqrt(B2) <= 0.0:
-        return float("nan")
+        return nan
     excess = 8.0 / (A + sqrt(B2)) - 1.0
-    return y * sqrt(excess) if excess >= 0.0 else float("nan")
+    return y * sqrt(excess) if excess >= 0.0 else nan
 
 
 def last_arc_abscissa(y: float) -> float:
     """The x of the last arc (27) at R = 1, y >= 0: left half of the circle of radius 2 about (0, -1); nan above it."""
     square = (1.0 - y) * (3.0 + y)
-    return -sqrt(square) if square >= 0.0 else float("nan")
+    return -sqrt(square) if square >= 0.0 else nan
 
 
 def region(x: float, y: float) -> Word:

@@ -1,6 +1,5 @@
 """Which extremal is the fastest: the optimum, every extremal in order, the feedback law."""
 
-from itertools import pairwise
 from math import cbrt, inf, isfinite
 from typing import NamedTuple
 
@@ -144,13 +143,14 @@ def ranked(x: float, y: float, R: float, side: int, tolerance: float) -> list[En
     """
     length_tolerance = rounding(x, y, R)
     least = duration(optimum(x, y, R, side, tolerance)) - length_tolerance
-    sides = (near_side(y), -near_side(y)) if side == Side.EITHER else (side,)
+    sides = [near_side(y), -near_side(y)] if side == Side.EITHER else [side]
     maneuvers: list[Entry] = []
     for s in sides:
         for extremal in extremals(x, s * y, R, arc_tolerance_of(x, y, R, tolerance)):
             maneuver = flown_entry(extremal, length_tolerance, s)
             known = any(is_same(maneuver, other, length_tolerance) for other in maneuvers)
-            if least <= duration(maneuver) < inf and not known:
+            time = duration(maneuver)
+            if least <= time < inf and not known:
                 maneuvers.append(maneuver)
     return sorted(maneuvers, key=duration)
 
@@ -195,8 +195,12 @@ def is_tie_in_wind(T: float, least: float, R: float) -> bool:
 
 def time_apart(a: Entry, b: Entry) -> float:
     """The time during which two maneuvers fly different controls."""
-    instants = sorted({0.0, *piece_ends(a), *piece_ends(b)})
-    return sum(end - begin for begin, end in pairwise(instants) if control_at(a, begin) != control_at(b, begin))
+    apart, begin = 0.0, 0.0
+    for end in sorted([*piece_ends(a), *piece_ends(b)]):
+        if control_at(a, begin) != control_at(b, begin):
+            apart += end - begin
+        begin = end
+    return apart
 
 
 def piece_ends(maneuver: Entry) -> tuple[float, float, float]:

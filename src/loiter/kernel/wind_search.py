@@ -6,7 +6,6 @@ gives the first path to it, and the fastest of these paths is found by branch an
 `wind.cell_bounds`.
 """
 
-from collections.abc import Callable
 from math import atan2, cbrt, inf, isfinite, nan, pi
 from typing import NamedTuple
 
@@ -68,13 +67,6 @@ class WindEntry(NamedTuple):
     miss: float
 
 
-class WindSolver(NamedTuple):
-    """The two functions that search: `fastest`, and `local_minima` for one side. `compiled` has faster ones."""
-
-    fastest: Callable[[WindProblem], WindEntry]
-    local_minima: Callable[[WindProblem], list[WindEntry]]
-
-
 class CellVisit(NamedTuple):
     """A cell, one of `FIRST_CELLS` << `level` equal arcs of the circle, by its number; and words, six bits a level.
 
@@ -95,13 +87,15 @@ class LeafEnd(NamedTuple):
 
 
 class Leaves(NamedTuple):
-    """A set of cells of the level `LEAF`: a bit for each of the first half of them, and one for each of the second."""
+    """A set of cells of the level `LEAF`: a bit for each, for each quarter of the circle."""
 
     first: int
     second: int
+    third: int
+    fourth: int
 
 
-NO_LEAVES = Leaves(0, 0)
+NO_LEAVES = Leaves(0, 0, 0, 0)
 
 # Points of joining on each side that are tried first.
 JOINS = 8
@@ -112,8 +106,8 @@ JOINS = 8
 FIRST_CELLS = 8
 COARSE, LEAF, LAST = 2, 4, 44
 
-# Half of the cells of the level `LEAF`.
-HALF_OF_LEAVES = FIRST_CELLS << (LEAF - 1)
+# A quarter of the cells of the level `LEAF`: as many as there are bits in the integers of JavaScript.
+LEAVES = FIRST_CELLS << (LEAF - 2)
 
 # After so many cells of the level `LEAF` and below, the tolerance is `hold_tolerance`. More are needed only in
 # degenerate scenes, some of those in still air with R = 1 or 2; the slowest others found take some 2,500.
@@ -122,8 +116,9 @@ MOST_VISITS = 4096
 # In cells within this many half widths of the end of the best path, bounds around that end are tried too.
 NEAR_BEST = 8.0
 
-# The last level to which a cell hands on its words: ten sets of six bits fit into a machine word.
-NARROWED = 9
+# The last level to which a cell hands on its words: five sets of six bits, from the first level or from `LEAF` on, fit
+# into the integers of JavaScript.
+NARROWED = 8
 
 # Points of joining around the circle between which `ranked` looks for local minima.
 SAMPLES = 128
@@ -156,16 +151,23 @@ def best_of_joins(side: int, scene: WindScene, best: WindCandidate) -> WindCandi
 
 def with_leaf(leaves: Leaves, number: int) -> Leaves:
     """A set of leaves and one more, by its number."""
-    if number < HALF_OF_LEAVES:
-        return Leaves(leaves.first | 1 << number, leaves.second)
-    return Leaves(leaves.first, leaves.second | 1 << (number - HALF_OF_LEAVES))
+    first, second, third, fourth = leaves
+    quarter, leaf = number // LEAVES, 1 << number % LEAVES
+    if quarter == 0:
+        return Leaves(first | leaf, second, third, fourth)
+    if quarter == 1:
+        return Leaves(first, second | leaf, third, fourth)
+    if quarter == 2:
+        return Leaves(first, second, third | leaf, fourth)
+    return Leaves(first, second, third, fourth | leaf)
 
 
 def has_leaf(leaves: Leaves, number: int) -> bool:
     """Whether a set of leaves contains the one with a number."""
-    if number < HALF_OF_LEAVES:
-        return leaves.first >> number & 1 != 0
-    return leaves.second >> (number - HALF_OF_LEAVES) & 1 != 0
+    first, second, third, fourth = leaves
+    quarter = number // LEAVES
+    members = first if quarter == 0 else second if quarter == 1 else third if quarter == 2 else fourth
+    return members >> number % LEAVES & 1 != 0
 
 
 def searched_coarsely(side: int, scene: WindScene, best: WindCandidate) -> tuple[WindCandidate, Leaves]:
@@ -450,31 +452,31 @@ def local_minima(problem: WindProblem) -> list[WindEntry]:
     return [entry_near_sample(i, problem.side, scene) for i in range(SAMPLES) if is_local_minimum(times, i)]
 
 
-def ranked(problem: WindProblem, solver: WindSolver | None = None) -> list[WindEntry]:
+def ranked(problem: WindProblem) -> list[WindEntry]:
     """The maneuvers that are local minima over the point of joining, each once, fastest first.
 
     Those of both sides for *either*; the fastest of each side is among them. The list is empty where `fastest` finds
-    none. To be called only where `status_of` is OK. `solver` has other versions of the two functions that search.
+    none. To be called only where `status_of` is OK.
     """
-    solver = solver or WindSolver(fastest, local_minima)
     sides = [problem._replace(side=one) for one in (1, -1) if problem.side != -one]
-    best = [solver.fastest(one) for one in sides]
-    if any(maneuver.status != Status.OK for maneuver in best):
+    found = [fastest(one) for one in sides]
+    if any(maneuver.status != Status.OK for maneuver in found):
         return []
-    others = [entry for one in sides for entry in solver.local_minima(one)]
+    for one in sides:
+        found += local_minima(one)
     # The phase of a local minimum is known to the square root of rounding, the length of a piece that vanishes there to
     # the cube root, as in `synthesis.optima`.
     one_maneuver = 2.0 * cbrt(24.0 * rounding(problem.x, problem.y, problem.R))
     distinct: list[WindEntry] = []
-    for maneuver in sorted((m for m in (*best, *others) if m.status == Status.OK), key=time_of):
+    for maneuver in sorted([m for m in found if m.status == Status.OK], key=time_of):
         if all(maneuver.side != m.side or time_apart(entry_of(maneuver), entry_of(m)) > one_maneuver for m in distinct):
             distinct.append(maneuver)
     return distinct
 
 
-def optima(problem: WindProblem, solver: WindSolver | None = None) -> list[WindEntry]:
+def optima(problem: WindProblem) -> list[WindEntry]:
     """The maneuvers of `ranked` that tie with the fastest, within the accuracy of `fastest`."""
-    maneuvers = ranked(problem, solver)
+    maneuvers = ranked(problem)
     least = min(map(time_of, maneuvers), default=inf)
     return [m for m in maneuvers if is_tie_in_wind(time_of(m), least, problem.R)]
 

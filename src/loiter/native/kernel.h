@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: b24b95656b215684c639fe8fac373e938e6fd13efabca6d4039d68ea06aeb144
+ * SHA-256 of the source: 396ae34f06b2e37f4807b56954c92784e8bbc3c8135fd94b8ac36a644179ad53
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -135,8 +135,8 @@ typedef struct { JoinPoint a0, a1; } JoinPoint_2;
 
 typedef struct { Entry a0; real a1; } Entry_real;
 
-/* A set of cells of the level `LEAF`: a bit for each of the first half of them, and one for each of the second. */
-typedef struct { integer first, second; } Leaves;
+/* A set of cells of the level `LEAF`: a bit for each, for each quarter of the circle. */
+typedef struct { integer first, second, third, fourth; } Leaves;
 
 typedef struct { WindCandidate a0; Leaves a1; } WindCandidate_Leaves;
 
@@ -210,7 +210,7 @@ static const real_2 NO_ROTATION = {0.0, 1.0};
 
 /* A slower wind displaces no point within REACH by as much as rounding, and its square would be subnormal. */
 #define NEGLIGIBLE_WIND 3.8725919148493183e-121 /* 2.0 ** (-400) */
-static const Path NO_PATH = {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}; /* Path(inf, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0) */
+static const Path NO_PATH = {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0};
 
 /* Points of joining on each side that are tried first. */
 #define JOINS 8
@@ -259,7 +259,7 @@ static const Path NO_PATH = {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}; /* Path
  * where that is below 1.
  */
 #define BESIDE 1e-07
-static const Leaves NO_LEAVES = {0, 0}; /* Leaves(0, 0) */
+static const Leaves NO_LEAVES = {0, 0, 0, 0};
 
 /* Cells at first. Those that may hold a faster path than the best are halved to 2 pi/128, where local minima are
  * found, and then until none may hold a path that is faster by more than `time_tolerance`: the hold through a cell
@@ -272,12 +272,14 @@ static const Leaves NO_LEAVES = {0, 0}; /* Leaves(0, 0) */
 #define COARSE 2
 #define LEAF 4
 
-/* Half of the cells of the level `LEAF`. */
-#define HALF_OF_LEAVES 64 /* FIRST_CELLS << LEAF - 1 */
+/* A quarter of the cells of the level `LEAF`: as many as there are bits in the integers of JavaScript. */
+#define LEAVES 32 /* FIRST_CELLS << LEAF - 2 */
 
-/* The last level to which a cell hands on its words: ten sets of six bits fit into a machine word. */
-#define NARROWED 9
-static const Corner NO_CORNER = {0.0, 0, 0.0, 0.0}; /* Corner(0.0, 0, 0.0, 0.0) */
+/* The last level to which a cell hands on its words: five sets of six bits, from the first level or from `LEAF` on,
+ * fit into the integers of JavaScript.
+ */
+#define NARROWED 8
+static const Corner NO_CORNER = {0.0, 0, 0.0, 0.0};
 
 /* After so many cells of the level `LEAF` and below, the tolerance is `hold_tolerance`. More are needed only in
  * degenerate scenes, some of those in still air with R = 1 or 2; the slowest others found take some 2,500.
@@ -2151,10 +2153,18 @@ static inline integer_LeafEnd_WindCandidate examined(CellVisit visit, integer po
 
 /* A set of leaves and one more, by its number. */
 static inline Leaves with_leaf(Leaves leaves, integer number) {
-    if (number < HALF_OF_LEAVES) {
-        return (Leaves){(leaves.first | shift_left(1, number)), leaves.second};
+    const integer first = leaves.first, second = leaves.second, third = leaves.third, fourth = leaves.fourth;
+    const integer quarter = integer_quotient(number, LEAVES), leaf = shift_left(1, integer_modulo(number, LEAVES));
+    if (quarter == 0) {
+        return (Leaves){(first | leaf), second, third, fourth};
     }
-    return (Leaves){leaves.first, (leaves.second | shift_left(1, number - HALF_OF_LEAVES))};
+    if (quarter == 1) {
+        return (Leaves){first, (second | leaf), third, fourth};
+    }
+    if (quarter == 2) {
+        return (Leaves){first, second, (third | leaf), fourth};
+    }
+    return (Leaves){first, second, third, (fourth | leaf)};
 }
 
 /* The first half of a cell inside which a set of words may join. */
@@ -2206,10 +2216,10 @@ static inline WindCandidate_Leaves searched_coarsely(integer side, WindScene sce
 
 /* Whether a set of leaves contains the one with a number. */
 static inline bool has_leaf(Leaves leaves, integer number) {
-    if (number < HALF_OF_LEAVES) {
-        return ((leaves.first >> number) & 1) != 0;
-    }
-    return ((leaves.second >> (number - HALF_OF_LEAVES)) & 1) != 0;
+    const integer first = leaves.first, second = leaves.second, third = leaves.third, fourth = leaves.fourth;
+    const integer quarter = integer_quotient(number, LEAVES);
+    const integer members = quarter == 0 ? first : quarter == 1 ? second : quarter == 2 ? third : fourth;
+    return ((members >> integer_modulo(number, LEAVES)) & 1) != 0;
 }
 
 /* By how much a path may be faster than the best one and remain unknown. */

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: c1a700ca7e9d0c4ef469787d4ae8bed132e14a54765a61b558fc507678e26ada
+ * SHA-256 of the source: 4f79ebda697eece48b1b9e920b7cb803351eb9a91336a442cd8f088f88ce38dd
  */
 #ifndef LOITER_STILL_AIR_LOOPS_H
 #define LOITER_STILL_AIR_LOOPS_H

@@ -70,7 +70,7 @@ def all_extremals() -> Certainty:
     found = rebinding({"start_at": StandIn("start_at", numbers, start), **labels(start)})(kernel.extremals)(*numbers)
     singles = [(name, 0.0) for name in ("l", "r", "lsl", "rsl", "lsr", "rsr")]
     crossings = [(name, branch) for name in ("rl", "lr") for branch in (-1.0, 1.0)]
-    expected = (*singles, *crossings, ("lrl", 0.0))
+    expected = [*singles, *crossings, ("lrl", 0.0)]
     require(found == expected, "`extremals` leaves out a word, has another one, or has them in another order")
     return Certainty(len(expected), 0)
 
