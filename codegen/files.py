@@ -94,7 +94,7 @@ def law() -> str:
 
 
 def law_module() -> str:
-    """The same as JavaScript. Its tangents and exponentials are the browser's."""
+    """What `law` has, as JavaScript; it belongs to no package. Its tangents and exponentials are the browser's."""
     functions = PORTABLE.functions | {name: f"Math.{name}" for name in ("tan", "atan", "exp", "log")}
     arithmetic = PORTABLE._replace(functions=functions, replaced=PORTABLE.replaced | LAW_REPLACED)
     return Module("law.js", arithmetic, STEPS).text()

@@ -322,18 +322,16 @@ def digest(files: list[Path]) -> str:
     return found.hexdigest()
 
 
-LAW = (
-    "A guidance law that flies the fastest entry onto a holding circle, and the identification of its vehicle, as "
-    "steps without side effects."
-)
-
 DESCRIPTIONS = {
     "kernel.js": (
         "The fastest way onto a holding circle, in still air and in wind, for browsers and Node: the same answers in "
         "all of them, to the last bit, since sine, cosine and arctangent are its own."
     ),
-    "law.h": LAW,
-    "law.js": LAW,
+    **dict.fromkeys(
+        ("law.h", "law.js"),
+        "A guidance law that flies the fastest entry onto a holding circle, and the identification of its vehicle, as "
+        "steps without side effects.",
+    ),
     "kernel.h": (
         "The fastest way onto a holding circle, in still air and in wind, in double precision, with the functions of "
         "the C library: the same answers as in Python, to the last bit."

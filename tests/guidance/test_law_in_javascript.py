@@ -1,4 +1,4 @@
-"""The law as JavaScript, generated from its Python: flown by Node with the same measurements."""
+"""The law and the identification as JavaScript, generated from their Python: flown by Node beside them."""
 
 import json
 import subprocess
@@ -14,14 +14,19 @@ from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass
 
 FLY = """
-import { first_memory, step } from "./law.js";
-import { settings, vehicles, states, dt } from "./flight.mjs";
-let memory = first_memory(settings, vehicles[0]);
-const said = states.map((state, i) => {
-  const [after, command] = step(settings, memory, vehicles[i], state, dt);
-  memory = after;
+import { first_identification, first_memory, flown_as_declared, identify, settings_of, step } from "./law.js";
+import { settings, declared, identifies, states, dt } from "./flight.mjs";
+const known = settings_of(declared.declared, declared.limit_deg, declared.wind_known_s);
+let identification = first_identification(known);
+let model = { revision: 0, bank_deg: 0, estimates: declared.declared };
+let memory = first_memory(settings, model), command;
+const said = states.map((state) => {
+  const { command_deg, step_s } = memory;
+  if (identifies) [identification, model] = identify(known, identification, state, command_deg, step_s);
+  else model = flown_as_declared(model, command_deg, step_s);
+  [memory, command] = step(settings, memory, model, state, dt);
   const { turn_rate_deg_s, bank_deg, time_to_join_s, next_in_s, side, phase } = command;
-  return [turn_rate_deg_s, bank_deg, time_to_join_s, next_in_s, side, phase];
+  return [turn_rate_deg_s, bank_deg, time_to_join_s, next_in_s, side, model.revision, model.bank_deg, phase];
 });
 console.log(JSON.stringify(said.map((row) => row.map((number) => (Number.isFinite(number) ? number : null)))));
 """
@@ -46,16 +51,15 @@ def test_the_law_in_javascript_gives_the_commands_of_python(tmp_path, i, identif
     law = LoiterEntry(orbit, UAV, told, identify=identify)
     mass = PointMass(START, UAV, air.get("wind"), seed=3, **others)
     random, dt, last = np.random.default_rng(i), 0.02, mass.measured_state()
-    states, vehicles, given = [], [], []
+    states, given = [], []
     for step in range(2500):
         last = damaged(mass.measured_state(), last, 8 if i else 0, step, 1500, random)
         command = law.step(last, dt)
         states.append(last)
-        vehicles.append(law._vehicle)
         numbers = command.turn_rate_deg_s, command.bank_deg, command.time_to_join_s, command.next_in_s
-        given.append([*numbers, law._memory.side])
+        given.append([*numbers, law._memory.side, law._vehicle.revision, law._vehicle.bank_deg])
         mass.advance(command, dt)
-    parts = {"settings": law._settings, "vehicles": vehicles, "states": states, "dt": dt}
+    parts = {"settings": law._settings, "declared": law._declared, "identifies": identify, "states": states, "dt": dt}
     flight = "\n".join(f"export const {name} = {in_javascript(value)};" for name, value in parts.items())
     (tmp_path / "flight.mjs").write_text(flight, "utf-8")
     (tmp_path / "law.js").write_text(law_module(), "utf-8")
