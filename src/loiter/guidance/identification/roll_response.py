@@ -23,7 +23,7 @@ from loiter.guidance.vehicle.rolling import RollValues, bank_after
 
 # The models: so many time constants and rate limits, of which each is the next multiple of the one before it; the
 # declared ones have these indices.
-TIMES, TIME_RATIO, DECLARED_TIME = 4, 1.8, 2
+TIMES, TIME_RATIO, DECLARED_TIME = 5, 1.8, 3
 RATES, RATE_RATIO, DECLARED_RATE = 6, 1.35, 2
 MODELS = TIMES * RATES
 
