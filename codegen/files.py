@@ -3,7 +3,7 @@
 from codegen.arithmetic import DOUBLE, VECTOR
 from codegen.unit import ROOT, Unit
 from loiter.guidance.identification import identification_step
-from loiter.guidance.identification.vehicle import flown_as_declared
+from loiter.guidance.identification.vehicle import fly_as_declared
 from loiter.guidance.laws import law_step
 from loiter.kernel import extremals, motion, synthesis, wind_search
 
@@ -55,7 +55,7 @@ STEPS = (
     identification_step.settings_of,
     identification_step.first_identification,
     identification_step.identify,
-    flown_as_declared,
+    fly_as_declared,
 )
 
 

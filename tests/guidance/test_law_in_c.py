@@ -46,7 +46,7 @@ void law_step(const Settings *settings, Memory *memory, Vehicle *vehicle, const 
         vehicle->memory = known.a0;
         vehicle->model = known.a1;
     } else {
-        vehicle->model = flown_as_declared(vehicle->model, memory->command_deg, memory->step_s);
+        vehicle->model = fly_as_declared(vehicle->model, memory->command_deg, memory->step_s);
     }
     const Memory_LawCommand after = step(*settings, *memory, vehicle->model, *state, *dt);
     *memory = after.a0;
