@@ -6,7 +6,7 @@ from codegen.arithmetic import DOUBLE, VECTOR
 from codegen.javascript import PORTABLE, Module
 from codegen.unit import ROOT, Unit
 from loiter.guidance.identification import identification_step
-from loiter.guidance.identification.vehicle import flown_as_declared
+from loiter.guidance.identification.vehicle import fly_as_declared
 from loiter.guidance.laws import law_step
 from loiter.kernel import adjoint, extremals, hold, motion, switching_curves, synthesis, wind_search
 
@@ -84,7 +84,7 @@ STEPS = (
     identification_step.settings_of,
     identification_step.first_identification,
     identification_step.identify,
-    flown_as_declared,
+    fly_as_declared,
 )
 
 

@@ -12,26 +12,26 @@ from loiter.guidance.identification.identification_step import (
     AIRSPEED_MEMORY_S,
     NO_OVERSHOOT,
     Average,
-    averaged,
-    measured_overshoot,
+    update_average,
+    update_overshoot,
 )
 from loiter.guidance.identification.roll_response import (
-    begun,
-    commanded_roll,
+    add_measured_bank,
     first_roll,
-    measured_roll,
+    fly_models,
     roll_settings,
+    start_models,
 )
 from loiter.guidance.identification.turn_fits import (
     NO_PAIRS,
     NO_TURNS,
+    add_course,
+    add_quick_turn,
+    add_slow_turn,
     first_lead,
     first_quick_turns,
     first_slow_turns,
-    measured_lead,
-    measured_quick_turn,
-    measured_slow_turn,
-    turned_deg,
+    turn_between_deg,
 )
 from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import State
@@ -55,8 +55,8 @@ def identified(roll, delay_s, *, noise_deg=0.5, seconds=12.0, dt=0.02):
         command = 35.0 if (i * dt) % 4.0 < 2.0 else -35.0
         banks.append(bank)
         measured = banks[max(len(banks) - 1 - round(delay_s / dt), 0)]
-        memory = measured_roll(memory, measured + random.normal(0.0, noise_deg))
-        memory = commanded_roll(settings, memory, command, dt)
+        memory = add_measured_bank(memory, measured + random.normal(0.0, noise_deg))
+        memory = fly_models(settings, memory, command, dt)
         bank = roll.bank_after(bank, command, dt)
         errors.append(memory.bank_deg - bank)
     return memory.weights.estimate, np.array(errors)
@@ -86,7 +86,7 @@ def test_before_anything_is_measured_the_estimate_is_what_is_declared(roll, dela
 @pytest.mark.parametrize("delay_s", [1.3, 2.0, 1e6])
 def test_a_delay_beyond_the_longest_counts_as_that(delay_s):
     settings = roll_settings(RollValues(0.5, 60.0), delay_s)
-    memory = commanded_roll(settings, measured_roll(first_roll(settings), 0.0), 30.0, 0.5)
+    memory = fly_models(settings, add_measured_bank(first_roll(settings), 0.0), 30.0, 0.5)
     assert memory.weights.estimate.delay_s == pytest.approx(1.3, abs=1e-6)
 
 
@@ -96,16 +96,16 @@ def test_a_long_flight_of_wrong_predictions_leaves_the_probabilities_finite():
     memory = first_roll(settings)
     for i in range(6000):
         command_deg = 35.0 if i % 100 < 50 else -35.0
-        memory = commanded_roll(settings, measured_roll(memory, -command_deg), command_deg, 0.05)
+        memory = fly_models(settings, add_measured_bank(memory, -command_deg), command_deg, 0.05)
     assert sum(memory.weights.probabilities) == pytest.approx(1.0)
     assert 0.1 < memory.weights.estimate.roll.time_s < 1.0
 
 
 def test_a_constant_bank_teaches_nothing_and_makes_nothing_forgotten():
     settings = roll_settings(RollValues(0.5, 60.0), 0.1)
-    memory = begun(first_roll(settings), 20.0)
+    memory = start_models(first_roll(settings), 20.0)
     for _ in range(3000):
-        memory = commanded_roll(settings, measured_roll(memory, 20.0), 20.0, 0.02)
+        memory = fly_models(settings, add_measured_bank(memory, 20.0), 20.0, 0.02)
     assert memory.weights.estimate.delay_s == pytest.approx(0.1, abs=1e-6)
     assert memory.weights.estimate.roll.time_s == pytest.approx(0.5, rel=1e-6)
 
@@ -144,7 +144,7 @@ def test_the_lead_of_the_course_is_found_in_wind(lead_s):
         velocity = 20.0 * sin(course) + 4.0, 20.0 * sin(course + pi / 2) - 3.0
         found = state._replace(heading_deg=heading, velocity_east_m_s=velocity[0], velocity_north_m_s=velocity[1])
         # The wind is known to a metre a second.
-        lead = measured_lead(lead, 0.0, found, 1.0, 4.7, -3.7, state.time_s - before.time_s)
+        lead = add_course(lead, 0.0, found, 1.0, 4.7, -3.7, state.time_s - before.time_s)
     assert lead.lead_s == pytest.approx(lead_s, abs=0.03)
 
 
@@ -158,25 +158,25 @@ def test_quick_turns_have_a_ratio_of_their_own(gain):
         course_deg = 0.9 * 15.0 * t + gain * 5.0 / w * sin(w * t)
         bank_deg = bank_at_rate(radians(rate_deg_s), 18.0)
         state = State(t, 0.0, 0.0, course_deg, bank_deg, 0.0, 0.0, 18.0)
-        slow = measured_slow_turn(slow, 1.0, state, 0.025)
-        quick = measured_quick_turn(quick, 1.0, course_deg, rate_deg_s, 0.025)
+        slow = add_slow_turn(slow, 1.0, state, 0.025)
+        quick = add_quick_turn(quick, 1.0, course_deg, rate_deg_s, 0.025)
     assert slow.ratio == pytest.approx(0.9, abs=0.06)
     # The prior of 1 keeps a share.
     assert quick.ratio == pytest.approx(gain, abs=0.35 * abs(gain - 1.0) + 0.03)
 
 
 def test_angles_between_directions_are_the_short_way():
-    assert [turned_deg(a, b) for a, b in ((350.0, 10.0), (10.0, 350.0), (-700.0, 30.0))] == [20.0, -20.0, 10.0]
+    assert [turn_between_deg(a, b) for a, b in ((350.0, 10.0), (10.0, 350.0), (-700.0, 30.0))] == [20.0, -20.0, 10.0]
 
 
 def test_an_average_begins_with_what_is_known():
     told, untold = Average(5.0, 10.0), Average(0.0, 0.0)
     for _ in range(250):
-        told, untold = averaged(told, 3.0, 0.02), averaged(untold, 3.0, 0.02)
+        told, untold = update_average(told, 3.0, 0.02), update_average(untold, 3.0, 0.02)
     assert told.value == pytest.approx(5.0 - 2.0 * 5.0 / 15.0, abs=0.05)
     assert untold == pytest.approx((3.0, 5.0))
     for _ in range(2000):
-        told = averaged(told, 3.0, 0.02)
+        told = update_average(told, 3.0, 0.02)
     assert told.known_s == AIRSPEED_MEMORY_S
 
 
@@ -248,7 +248,7 @@ def test_trials_of_unknown_aircraft_do_not_depend_on_their_number():
 def test_the_overshoot_is_what_lies_beyond_the_limit_and_is_forgotten():
     overshoot, found = NO_OVERSHOOT, []
     for bank_deg in (55.0, 47.0, -58.0, *[30.0] * 600):
-        overshoot = measured_overshoot(overshoot, 40.0, bank_deg, 0.1)
+        overshoot = update_overshoot(overshoot, 40.0, bank_deg, 0.1)
         found.append(overshoot.overshoot_deg)
     assert found[0] == 0.0, "a bank with which the flight begins"
     assert found[1:3] == [0.0, 10.0]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.guidance.identification.wind_fit import CHANGED_S, NO_CHANGE, measured_change
+from loiter.guidance.identification.wind_fit import CHANGED_S, NO_CHANGE, add_difference
 from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
@@ -55,7 +55,7 @@ def changes(differences):
     """The memory after differences, 0.1 s apart, and for each whether the wind has changed."""
     change, found = NO_CHANGE, []
     for east, north in differences:
-        change, has_changed = measured_change(change, east, north, 22.0, 0.1)
+        change, has_changed = add_difference(change, east, north, 22.0, 0.1)
         found.append(has_changed)
     return change, found
 

@@ -12,11 +12,11 @@ from typing import NamedTuple
 from loiter.guidance.identification.roll_response import (
     RollMemory,
     RollSettings,
-    begun,
-    commanded_roll,
+    add_measured_bank,
     first_roll,
-    measured_roll,
+    fly_models,
     roll_settings,
+    start_models,
 )
 from loiter.guidance.identification.turn_fits import (
     NO_PAIRS,
@@ -24,15 +24,15 @@ from loiter.guidance.identification.turn_fits import (
     CourseLead,
     QuickTurns,
     SlowTurns,
+    add_course,
+    add_quick_turn,
+    add_slow_turn,
     first_lead,
     first_quick_turns,
     first_slow_turns,
-    measured_lead,
-    measured_quick_turn,
-    measured_slow_turn,
 )
 from loiter.guidance.identification.vehicle import VehicleEstimates, VehicleModel, unbiased
-from loiter.guidance.identification.wind_fit import WindFit, first_wind, is_changing, measured_wind
+from loiter.guidance.identification.wind_fit import WindFit, add_air_velocity, first_wind, is_changing
 from loiter.guidance.laws.clock import FIRST_CLOCK, Clock, advanced, checked
 from loiter.guidance.laws.observer import is_usable
 from loiter.guidance.protocol import State
@@ -152,22 +152,22 @@ def identify(
     """
     (clock, waited_s, used_s), roll, turns, wind, airspeeds, overshoot, revision, known = memory
     if dt > 0.0:
-        roll, waited_s = commanded_roll(settings.roll, roll, command_deg, dt), waited_s + dt
+        roll, waited_s = fly_models(settings.roll, roll, command_deg, dt), waited_s + dt
     if is_usable(measurement) and measurement.time_s != clock.time_s:
         clock, is_new = checked(advanced(clock, waited_s), measurement.time_s)
         waited_s, since_s = 0.0, measurement.time_s - used_s
         if is_new and not 0.0 < since_s < SHORTEST_GAP_S:
             stamps = Stamps(clock, 0.0, measurement.time_s)
             if used_s == -inf:
-                roll = begun(roll, unbiased(known, measurement).bank_deg)
+                roll = start_models(roll, unbiased(known, measurement).bank_deg)
             before = Identification(stamps, roll, turns, wind, airspeeds, overshoot, revision, known)
-            after = fitted_vehicle(settings, before, measurement, since_s)
+            after = update_fits(settings, before, measurement, since_s)
             return after, VehicleModel(after.revision, after.roll.bank_deg, after.estimates)
     memory = Identification(Stamps(clock, waited_s, used_s), roll, turns, wind, airspeeds, overshoot, revision, known)
     return memory, VehicleModel(revision, roll.bank_deg, known)
 
 
-def fitted_vehicle(
+def update_fits(
     settings: IdentificationSettings, memory: Identification, measurement: State, since_s: float
 ) -> Identification:
     """The memory with a new measurement, `since_s` seconds after the last one that was used."""
@@ -178,16 +178,16 @@ def fitted_vehicle(
         quick = first_quick_turns(quick.ratio, quick.fit)
     if not is_near or is_changing(wind):
         lead = first_lead(lead.lead_s, lead.fit)
-    slow = measured_slow_turn(slow, declared.turn_ratio, measurement, dt)
+    slow = add_slow_turn(slow, declared.turn_ratio, measurement, dt)
     state = unbiased(known, measurement)
     rate = rate_at_bank(state.bank_deg, state.airspeed_m_s)
     course = atan2(state.velocity_east_m_s - wind.east_m_s, state.velocity_north_m_s - wind.north_m_s)
-    quick = measured_quick_turn(quick, declared.turn_ratio, degrees(course), degrees(rate), dt)
-    lead = measured_lead(lead, declared.course_lead_s, state, slow.ratio, wind.east_m_s, wind.north_m_s, dt)
+    quick = add_quick_turn(quick, declared.turn_ratio, degrees(course), degrees(rate), dt)
+    lead = add_course(lead, declared.course_lead_s, state, slow.ratio, wind.east_m_s, wind.north_m_s, dt)
     # The direction of flight is to the right of the heading by this angle.
-    wind = measured_wind(wind, state, lead.lead_s * slow.ratio * rate, known.heading_bias_deg, dt)
-    roll, airspeeds = measured_roll(roll, state.bank_deg), measured_airspeeds(settings, airspeeds, state, dt)
-    overshoot = measured_overshoot(overshoot, settings.limit_deg, state.bank_deg, dt)
+    wind = add_air_velocity(wind, state, lead.lead_s * slow.ratio * rate, known.heading_bias_deg, dt)
+    roll, airspeeds = add_measured_bank(roll, state.bank_deg), update_airspeeds(settings, airspeeds, state, dt)
+    overshoot = update_overshoot(overshoot, settings.limit_deg, state.bank_deg, dt)
     estimates = VehicleEstimates(
         roll=roll.weights.estimate.roll,
         delay_s=roll.weights.estimate.delay_s,
@@ -206,21 +206,21 @@ def fitted_vehicle(
     return Identification(stamps, roll, Turns(slow, quick, lead), wind, airspeeds, overshoot, revision + 1, estimates)
 
 
-def measured_airspeeds(settings: IdentificationSettings, airspeeds: Airspeeds, state: State, dt: float) -> Airspeeds:
+def update_airspeeds(settings: IdentificationSettings, airspeeds: Airspeeds, state: State, dt: float) -> Airspeeds:
     """The airspeeds including a state, `dt` seconds after the last."""
     always, in_turns = airspeeds
     if abs(state.bank_deg) > TIGHT_SHARE * settings.limit_deg:
-        in_turns = averaged(in_turns, state.airspeed_m_s, dt)
-    return Airspeeds(averaged(always, state.airspeed_m_s, dt), in_turns)
+        in_turns = update_average(in_turns, state.airspeed_m_s, dt)
+    return Airspeeds(update_average(always, state.airspeed_m_s, dt), in_turns)
 
 
-def averaged(average: Average, value: float, dt: float) -> Average:
+def update_average(average: Average, value: float, dt: float) -> Average:
     """The average over `AIRSPEED_MEMORY_S` at most, including a value measured `dt` seconds after the last."""
     known_s = min(average.known_s + max(dt, 1e-3), AIRSPEED_MEMORY_S)
     return Average(average.value + min(dt / known_s, 1.0) * (value - average.value), known_s)
 
 
-def measured_overshoot(overshoot: Overshoot, limit_deg: float, bank_deg: float, dt: float) -> Overshoot:
+def update_overshoot(overshoot: Overshoot, limit_deg: float, bank_deg: float, dt: float) -> Overshoot:
     """The overshoot including a bank measured `dt` seconds after the last."""
     beyond_deg = max(abs(bank_deg) - limit_deg - NORMAL_OVERSHOOT_DEG, 0.0)
     has_begun = overshoot.has_begun or beyond_deg == 0.0

@@ -23,7 +23,7 @@ from loiter.guidance.vehicle.rolling import RollValues, bank_after
 
 # The models: so many time constants and rate limits, of which each is the next multiple of the one before it; the
 # declared ones have these indices.
-TIMES, TIME_RATIO, DECLARED_TIME = 4, 1.8, 2
+TIMES, TIME_RATIO, DECLARED_TIME = 5, 1.8, 3
 RATES, RATE_RATIO, DECLARED_RATE = 6, 1.35, 2
 MODELS = TIMES * RATES
 
@@ -211,7 +211,7 @@ def variance_of(sums: Sums) -> float:
     return sums.squared / sums.total - mean_of(sums) * mean_of(sums)
 
 
-def estimated(unknown: Unknown, sums: Sums) -> float:
+def estimate_of(unknown: Unknown, sums: Sums) -> float:
     """The weighted mean of an unknown, without the bias that is left."""
     left = min(max(variance_of(sums) / unknown.variance, 0.0), 1.0)
     return value_at(unknown, mean_of(sums) - left * unknown.bias)
@@ -225,7 +225,7 @@ def first_roll(settings: RollSettings) -> RollMemory:
     weights = Weights(((0.0,) * DELAYS,) * MODELS, 0.0, 0.0, (0.0,) * MODELS, estimate)
     models = constant_models(0.0)
     # A measurement that counts for no time leaves the probabilities as they are declared.
-    weights = compared(settings, models, weights, NOTHING_MEASURED)
+    weights = update_weights(settings, models, weights, NOTHING_MEASURED)
     return RollMemory(0.0, 0.0, 0.0, CORRELATION_S, NOTHING_MEASURED, models, weights)
 
 
@@ -234,13 +234,13 @@ def constant_models(bank_deg: float) -> Models:
     return Models((bank_deg,) * DELAYS, (RollModel(bank_deg, bank_deg),) * MODELS)
 
 
-def begun(memory: RollMemory, bank_deg: float) -> RollMemory:
+def start_models(memory: RollMemory, bank_deg: float) -> RollMemory:
     """The memory with every model at a bank."""
     _, waiting_s, commanded, since_s, measured, _, weights = memory
     return RollMemory(bank_deg, waiting_s, commanded, since_s, measured, constant_models(bank_deg), weights)
 
 
-def commanded_roll(settings: RollSettings, memory: RollMemory, command_deg: float, dt: float) -> RollMemory:
+def fly_models(settings: RollSettings, memory: RollMemory, command_deg: float, dt: float) -> RollMemory:
     """The memory after `dt` seconds under a command."""
     bank_deg, waiting_s, commanded, since_s, measured, models, weights = memory
     dt = min(dt, LONGEST_STEP_S)
@@ -250,12 +250,12 @@ def commanded_roll(settings: RollSettings, memory: RollMemory, command_deg: floa
         bank_deg = bank_after(*weights.estimate.roll, bank_deg, command_deg, dt)
         waiting_s, commanded = waiting_s + dt, commanded + dt * command_deg
         return RollMemory(bank_deg, waiting_s, commanded, since_s, measured, models, weights)
-    models = stepped(settings, models, (commanded + missing_s * command_deg) / STEP_S)
+    models = step_models(settings, models, (commanded + missing_s * command_deg) / STEP_S)
     if measured.since_s > 0.0:
-        weights = compared(settings, models, weights, measured)
+        weights = update_weights(settings, models, weights, measured)
     left_s = dt - missing_s
     while left_s >= STEP_S:
-        models, left_s = stepped(settings, models, command_deg), left_s - STEP_S
+        models, left_s = step_models(settings, models, command_deg), left_s - STEP_S
     bank_deg = 0.0
     for i in range(MODELS):
         bank_deg += weights.probabilities[i] * models.models[i].bank_deg
@@ -263,7 +263,7 @@ def commanded_roll(settings: RollSettings, memory: RollMemory, command_deg: floa
     return RollMemory(bank_deg, left_s, left_s * command_deg, since_s, NOTHING_MEASURED, models, weights)
 
 
-def measured_roll(memory: RollMemory, measured_deg: float) -> RollMemory:
+def add_measured_bank(memory: RollMemory, measured_deg: float) -> RollMemory:
     """The memory with a measured bank that has just arrived; it is compared with the models at their next step."""
     bank_deg, waiting_s, commanded, since_s, measured, models, weights = memory
     if since_s < MEASURED_S:
@@ -272,7 +272,7 @@ def measured_roll(memory: RollMemory, measured_deg: float) -> RollMemory:
     return RollMemory(bank_deg, waiting_s, commanded, 0.0, measured, models, weights)
 
 
-def stepped(settings: RollSettings, before: Models, command_deg: float) -> Models:
+def step_models(settings: RollSettings, before: Models, command_deg: float) -> Models:
     """All models after a step under the mean command."""
     commands_deg, models = before
     oldest_deg = commands_deg[0]
@@ -286,7 +286,7 @@ def stepped(settings: RollSettings, before: Models, command_deg: float) -> Model
     return Models((*commands_deg[1:], command_deg), models)
 
 
-def compared(settings: RollSettings, models: Models, before: Weights, measured: MeasuredBank) -> Weights:
+def update_weights(settings: RollSettings, models: Models, before: Weights, measured: MeasuredBank) -> Weights:
     """The weights after a bank that was measured within the last step of the models."""
     (commands_deg, states), (logs, log_total, variance_deg2, probabilities, _) = models, before
     kept = exp(-variance_deg2 / (variance_deg2 + EXCITED_DEG * EXCITED_DEG) * measured.since_s / MEMORY_S)
@@ -311,8 +311,8 @@ def compared(settings: RollSettings, models: Models, before: Weights, measured: 
             time, rate = with_index(time, i, total), with_index(rate, j, total)
     for _ in range(MODELS):
         probabilities = (*probabilities[1:], probabilities[0] / time.total)
-    roll = RollValues(exp(estimated(settings.time, time)), exp(estimated(settings.rate, rate)))
-    delay_s = max(estimated(settings.delay, Sums(time.total, index, index_square)), 0.0)
+    roll = RollValues(exp(estimate_of(settings.time, time)), exp(estimate_of(settings.rate, rate)))
+    delay_s = max(estimate_of(settings.delay, Sums(time.total, index, index_square)), 0.0)
     mean = errors / (MODELS * DELAYS)
     return Weights(
         logs,

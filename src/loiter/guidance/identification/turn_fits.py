@@ -50,7 +50,7 @@ def high_pass(filtered: float, change: float, dt: float, time_s: float) -> float
     return exp(-dt / time_s) * (filtered + change)
 
 
-def filtered_value(before: HighPass, value: float, dt: float, time_s: float) -> HighPass:
+def filter_value(before: HighPass, value: float, dt: float, time_s: float) -> HighPass:
     """The filter after a value, `dt` seconds after the last."""
     change = value - before.last if before.last == before.last else 0.0
     return HighPass(high_pass(before.value, change, dt, time_s), value)
@@ -66,12 +66,12 @@ class RatioFit(NamedTuple):
 NO_PAIRS = RatioFit(0.0, 0.0)
 
 
-def fitted(fit: RatioFit, y: float, x: float, seconds: float, kept: float) -> RatioFit:
+def add_pair(fit: RatioFit, y: float, x: float, seconds: float, kept: float) -> RatioFit:
     """The sums of which a share is kept, with a pair that counts for so many seconds."""
     return RatioFit(kept * fit.product + seconds * y * x, kept * fit.square + seconds * x * x)
 
 
-def fitted_ratio(fit: RatioFit, declared: float, prior: float) -> float:
+def ratio_of(fit: RatioFit, declared: float, prior: float) -> float:
     """The ratio; `prior` is how much the declared one weighs, in x^2 s."""
     return (fit.product + declared * prior) / (fit.square + prior)
 
@@ -81,7 +81,7 @@ def bounded_turn_ratio(ratio: float) -> float:
     return min(max(ratio, LEAST_TURN_RATIO), LARGEST_TURN_RATIO)
 
 
-def turned_deg(from_deg: float, to_deg: float) -> float:
+def turn_between_deg(from_deg: float, to_deg: float) -> float:
     """The angle from one direction to another, from -180 to below 180 degrees."""
     return (to_deg - from_deg + 180.0) % 360.0 - 180.0
 
@@ -116,24 +116,24 @@ def first_quick_turns(ratio: float, fit: RatioFit) -> QuickTurns:
     )
 
 
-def measured_quick_turn(
+def add_quick_turn(
     turns: QuickTurns, declared: float, direction_deg: float, rate_deg_s: float, dt: float
 ) -> QuickTurns:
     """The fit with a direction and the turn rate of a coordinated turn, `dt` seconds after the last."""
     measured, computed = 0.0, 0.0
     if turns.last_deg == turns.last_deg:
-        measured = turned_deg(turns.last_deg, direction_deg)
+        measured = turn_between_deg(turns.last_deg, direction_deg)
         computed = 0.5 * dt * (turns.last_rate_deg_s + rate_deg_s)
     measured_deg = high_pass(turns.measured_deg, measured, dt, QUICK_FILTER_S)
     computed_deg = high_pass(turns.computed_deg, computed, dt, QUICK_FILTER_S)
-    measured_mean = filtered_value(turns.measured_mean, measured_deg, dt, QUICK_MEAN_S)
-    computed_mean = filtered_value(turns.computed_mean, computed_deg, dt, QUICK_MEAN_S)
+    measured_mean = filter_value(turns.measured_mean, measured_deg, dt, QUICK_MEAN_S)
+    computed_mean = filter_value(turns.computed_mean, computed_deg, dt, QUICK_MEAN_S)
     y, x = measured_mean.value, computed_mean.value
     excess = max(abs(x) / QUICK_SATURATION_DEG, 1.0)
-    fit = fitted(turns.fit, y, x, dt / (excess * excess), exp(-dt / QUICK_MEMORY_S))
+    fit = add_pair(turns.fit, y, x, dt / (excess * excess), exp(-dt / QUICK_MEMORY_S))
     prior = QUICK_ERROR_DEG * QUICK_ERROR_DEG * QUICK_FILTER_S / (QUICK_RATIO_SPREAD * QUICK_RATIO_SPREAD)
     return QuickTurns(
-        ratio=bounded_turn_ratio(fitted_ratio(fit, declared, prior)),
+        ratio=bounded_turn_ratio(ratio_of(fit, declared, prior)),
         fit=fit,
         last_deg=direction_deg,
         last_rate_deg_s=rate_deg_s,
@@ -192,7 +192,7 @@ def first_slow_turns(ratio: float, bank_bias_deg: float, sums: TurnSums) -> Slow
     )
 
 
-def measured_slow_turn(turns: SlowTurns, declared: float, state: State, dt: float) -> SlowTurns:
+def add_slow_turn(turns: SlowTurns, declared: float, state: State, dt: float) -> SlowTurns:
     """The fit with a measured heading, bank and airspeed, `dt` seconds after the last."""
     # Degrees per second, and degrees per second for each degree of bank: tan(45 degrees) is 1.
     rate = degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s))
@@ -200,7 +200,7 @@ def measured_slow_turn(turns: SlowTurns, declared: float, state: State, dt: floa
     slope = rate_at_bank(45.0, state.airspeed_m_s) / (cosine * cosine)
     turned, computed, of_bias = 0.0, 0.0, 0.0
     if turns.last_deg == turns.last_deg:
-        turned = turned_deg(turns.last_deg, state.heading_deg)
+        turned = turn_between_deg(turns.last_deg, state.heading_deg)
         computed, of_bias = 0.5 * dt * (turns.last_rate + rate), -0.5 * dt * (turns.last_slope + slope)
     y = high_pass(turns.measured_deg, turned, dt, TURN_FILTER_S)
     x = high_pass(turns.computed_deg, computed, dt, TURN_FILTER_S)
@@ -213,7 +213,7 @@ def measured_slow_turn(turns: SlowTurns, declared: float, state: State, dt: floa
         kept * xy + dt * x * y,
         kept * uy + dt * u * y,
     )
-    ratio, bank_bias_deg = solved_turns(sums, declared)
+    ratio, bank_bias_deg = solve_turns(sums, declared)
     return SlowTurns(
         ratio=ratio,
         bank_bias_deg=bank_bias_deg,
@@ -227,7 +227,7 @@ def measured_slow_turn(turns: SlowTurns, declared: float, state: State, dt: floa
     )
 
 
-def solved_turns(sums: TurnSums, declared: float) -> tuple[float, float]:
+def solve_turns(sums: TurnSums, declared: float) -> tuple[float, float]:
     """The ratio and the bank bias, degrees, from the sums and what is declared."""
     error = TURN_ERROR_DEG * TURN_ERROR_DEG * TURN_FILTER_S
     ratio_prior = error / (TURN_RATIO_SPREAD * TURN_RATIO_SPREAD)
@@ -257,7 +257,7 @@ def first_lead(lead_s: float, fit: RatioFit) -> CourseLead:
     return CourseLead(lead_s, fit, NO_VALUE, NO_VALUE)
 
 
-def measured_lead(
+def add_course(
     lead: CourseLead,
     declared_s: float,
     state: State,
@@ -270,9 +270,9 @@ def measured_lead(
     c, s = heading_vector(state.heading_deg)
     east, north = state.velocity_east_m_s - wind_east_m_s, state.velocity_north_m_s - wind_north_m_s
     # Both positive to the right.
-    angle = filtered_value(lead.angle, atan2(east * s - north * c, east * c + north * s), dt, LEAD_FILTER_S)
+    angle = filter_value(lead.angle, atan2(east * s - north * c, east * c + north * s), dt, LEAD_FILTER_S)
     turn_rate = turn_ratio * rate_at_bank(state.bank_deg, state.airspeed_m_s)
-    rate = filtered_value(lead.rate, turn_rate, dt, LEAD_FILTER_S)
-    fit = fitted(lead.fit, angle.value, rate.value, dt, exp(-dt / LEAD_MEMORY_S))
+    rate = filter_value(lead.rate, turn_rate, dt, LEAD_FILTER_S)
+    fit = add_pair(lead.fit, angle.value, rate.value, dt, exp(-dt / LEAD_MEMORY_S))
     prior = DIRECTION_ERROR * DIRECTION_ERROR / (LEAD_SPREAD_S * LEAD_SPREAD_S)
-    return CourseLead(clip(fitted_ratio(fit, declared_s, prior), LARGEST_LEAD_S), fit, angle, rate)
+    return CourseLead(clip(ratio_of(fit, declared_s, prior), LARGEST_LEAD_S), fit, angle, rate)

@@ -55,7 +55,7 @@ def unbiased(known: VehicleEstimates, state: State) -> State:
     return State(time_s, x, y, heading_deg - heading_bias_deg, bank_deg - bank_bias_deg, east, north, V)
 
 
-def flown_as_declared(vehicle: VehicleModel, command_deg: float, dt: float) -> VehicleModel:
+def fly_as_declared(vehicle: VehicleModel, command_deg: float, dt: float) -> VehicleModel:
     """The model of a vehicle that is as declared after `dt` seconds under a command; `identify` is not needed then."""
     revision, bank_deg, known = vehicle
     bank_deg = bank_after(known.roll.time_s, known.roll.rate_deg_s, bank_deg, command_deg, dt)

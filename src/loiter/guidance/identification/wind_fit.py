@@ -42,7 +42,7 @@ class WindChange(NamedTuple):
 NO_CHANGE = WindChange(0.0, 0.0, 0.0, 0.0, 0.0, USUAL_SHARE * USUAL_SHARE)
 
 
-def measured_change(
+def add_difference(
     change: WindChange, east_m_s: float, north_m_s: float, airspeed_m_s: float, dt: float
 ) -> tuple[WindChange, bool]:
     """The change with a difference, `dt` seconds after the last, and whether the wind has changed."""
@@ -101,7 +101,7 @@ def is_changing(wind: WindFit) -> bool:
     return wind.change.since_s > 0.0
 
 
-def measured_wind(wind: WindFit, state: State, off: float, removed_deg: float, dt: float) -> WindFit:
+def add_air_velocity(wind: WindFit, state: State, off: float, removed_deg: float, dt: float) -> WindFit:
     """The fit with a state whose heading was corrected by `removed_deg`; the flight is `off` radians to its right."""
     dt, V = max(dt, 1e-3), state.airspeed_m_s
     c, s = heading_vector(state.heading_deg + removed_deg + degrees(off))
@@ -111,13 +111,13 @@ def measured_wind(wind: WindFit, state: State, off: float, removed_deg: float, d
     if known_s > 0.0:
         bias = radians(bias_deg)
         off_east, off_north = east + bias * right_east - wind_east, north + bias * right_north - wind_north
-        change, has_changed = measured_change(change, off_east, off_north, V, dt)
+        change, has_changed = add_difference(change, off_east, off_north, V, dt)
         if has_changed:
-            means, known_s = shifted(means, change.mean_east_m_s, change.mean_north_m_s), CHANGED_S
+            means, known_s = shift_means(means, change.mean_east_m_s, change.mean_north_m_s), CHANGED_S
         if change.since_s > 0.0:
             return WindFit(wind_east, wind_north, bias_deg, known_s, means, change)
     known_s = min(known_s + dt, WIND_MEMORY_S)
-    means = averaged_means(
+    means = update_means(
         means,
         AirMeans(east, north, right_east, right_north, right_east * east + right_north * north, V * V),
         min(dt / known_s, 1.0),
@@ -128,7 +128,7 @@ def measured_wind(wind: WindFit, state: State, off: float, removed_deg: float, d
     return WindFit(wind_east, wind_north, degrees(bias), known_s, means, change)
 
 
-def averaged_means(means: AirMeans, now: AirMeans, share: float) -> AirMeans:
+def update_means(means: AirMeans, now: AirMeans, share: float) -> AirMeans:
     """The means, corrected by a share of their differences from the present values."""
     return AirMeans(
         means.east_m_s + share * (now.east_m_s - means.east_m_s),
@@ -147,7 +147,7 @@ def heading_bias(means: AirMeans, prior: float) -> float:
     return -(product - east * right_east - north * right_north) / (spread + prior)
 
 
-def shifted(means: AirMeans, east_m_s: float, north_m_s: float) -> AirMeans:
+def shift_means(means: AirMeans, east_m_s: float, north_m_s: float) -> AirMeans:
     """The means as if the wind had always been as it is after a change by this velocity."""
     east, north, right_east, right_north, product, square = means
     product += east_m_s * right_east + north_m_s * right_north

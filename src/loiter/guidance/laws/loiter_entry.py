@@ -5,7 +5,7 @@ from __future__ import annotations
 from loiter.errors import instance, not_negative, positive
 from loiter.guidance.identification import identification_step
 from loiter.guidance.identification.bank_history import COVERED_S
-from loiter.guidance.identification.vehicle import VehicleEstimates, VehicleModel, flown_as_declared
+from loiter.guidance.identification.vehicle import VehicleEstimates, VehicleModel, fly_as_declared
 from loiter.guidance.identification.wind_fit import DECLARED_WIND_S
 from loiter.guidance.laws import law_step
 from loiter.guidance.laws.law_step import (
@@ -150,7 +150,7 @@ class LoiterEntry:
                 self._declared, self._identification, state, before.command_deg, before.step_s
             )
         else:
-            self._vehicle = flown_as_declared(self._vehicle, before.command_deg, before.step_s)
+            self._vehicle = fly_as_declared(self._vehicle, before.command_deg, before.step_s)
         self._memory, command = law_step.step(self._settings, before, self._vehicle, state, dt)
         rate, bank_deg, phase, join_s, side, next_phase, next_s = command
         return Command(rate, bank_deg, NAMED_PHASES[phase], join_s, NAMED_TURNS[side], NAMED_PHASES[next_phase], next_s)
