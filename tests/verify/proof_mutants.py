@@ -218,7 +218,10 @@ def alternatives(node: ast.AST, names: list[str]) -> Iterator[tuple[str, ast.AST
                 ("branch", like(node, test=other))
                 for other in (ast.UnaryOp(ast.Not(), test), ast.Constant(True), ast.Constant(False))
             )
-        case ast.Return(value=ast.Tuple(elts=elements)) | ast.Assign(value=ast.Tuple(elts=elements)):
+        case (
+            ast.Return(value=ast.Tuple(elts=elements) | ast.List(elts=elements))
+            | ast.Assign(value=ast.Tuple(elts=elements))
+        ):
             for i in range(len(elements) - 1):
                 swapped = [*elements[:i], elements[i + 1], elements[i], *elements[i + 2 :]]
                 yield "order", like(node, value=like(node.value, elts=swapped))
