@@ -14,7 +14,7 @@ from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass
 
 FLY = """
-import { first_identification, first_memory, flown_as_declared, identify, settings_of, step } from "./law.js";
+import { first_identification, first_memory, fly_as_declared, identify, settings_of, step } from "./law.js";
 import { settings, declared, identifies, states, dt } from "./flight.mjs";
 const known = settings_of(declared.declared, declared.limit_deg, declared.wind_known_s);
 let identification = first_identification(known);
@@ -23,7 +23,7 @@ let memory = first_memory(settings, model), command;
 const said = states.map((state) => {
   const { command_deg, step_s } = memory;
   if (identifies) [identification, model] = identify(known, identification, state, command_deg, step_s);
-  else model = flown_as_declared(model, command_deg, step_s);
+  else model = fly_as_declared(model, command_deg, step_s);
   [memory, command] = step(settings, memory, model, state, dt);
   const { turn_rate_deg_s, bank_deg, time_to_join_s, next_in_s, side, phase } = command;
   return [turn_rate_deg_s, bank_deg, time_to_join_s, next_in_s, side, model.revision, model.bank_deg, phase];
