@@ -18,8 +18,9 @@ class Arithmetic(NamedTuple):
     maps those of Python's `math` to C. `storage` stands before each function. `replaced` maps names of the kernel to
     other functions of Python. `faster` has bodies in C for processors with a fused multiply-add.
 
-    A number stands between `prefix` and `suffix`, and `made` is how a structure is made. Where C is for two arithmetics,
-    of which a macro chooses one, `single` is the other one. `in_place` says that rings are changed where they are.
+    A number stands between `prefix` and `suffix`, and `made` is how a structure is made. Where C is for two arithmetics
+    of which a macro chooses one, `single` is the other one. `in_place` says that rings are changed where they are, and
+    that large structures are passed by address.
     """
 
     real: str

@@ -410,7 +410,10 @@ class Expressions:
     def _called(self, title: str, kinds: list[Kind], arguments: list[Expression], result: Kind) -> Expression:
         pairs = list(zip(kinds, arguments, strict=True))
         for kind, argument in pairs:
-            if kind._replace(by_address=False) != argument.kind and (kind, argument.kind) not in ((REAL, INTEGER), (INTEGER, TRUTH)):
+            if kind._replace(by_address=False) != argument.kind and (kind, argument.kind) not in (
+                (REAL, INTEGER),
+                (INTEGER, TRUTH),
+            ):
                 raise NotTranslated(f"{self.file}: {title} is called with {argument.text!r}, which is no {kind.name}")
         texts = [self.address(one) if kind.by_address else self.of_kind(kind, one).text for kind, one in pairs]
         return Expression(f"{title}({', '.join(texts)})", result)

@@ -5,10 +5,9 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from codegen.arithmetic import FUNCTIONS, ONBOARD
-from codegen.expressions import PRIMARY, Expressions, Names
+from codegen.expressions import Expressions, Names
 from codegen.kinds import Kind, NotTranslated, kind_of_type
 from codegen.statements import comment, wrapped
 from codegen.unit import ROOT, Unit, digest
@@ -51,10 +50,10 @@ SHA-256 of the source: {digest}"""
 
 TITLES = {
     "loiter.h": (
-        "The fastest way onto a holding circle, and the guidance law that flies it, for autopilots: docs/onboard.md.\n\n"
-        "Double or single precision; no memory is allocated, nothing is kept between calls but what the caller holds, "
-        "and of the C library only math.h is needed. No function calls itself. Compile with -ffp-contract=off, and never "
-        "with -ffast-math."
+        "The fastest way onto a holding circle, and the guidance law that flies it, for autopilots: docs/onboard.md."
+        "\n\nDouble or single precision; no memory is allocated, nothing is kept between calls but what the caller "
+        "holds, and of the C library only math.h is needed. No function calls itself. Compile with -ffp-contract=off, "
+        "and never with -ffast-math."
     ),
     "loiter.c": "The functions of loiter.h, C99 and C++.",
 }

@@ -89,23 +89,28 @@ loiter_law_config loiter_law_defaults(loiter_real airspeed_m_s, loiter_real bank
     return config;
 }
 
-static bool is_at_least(real value, real least) { return value >= least && isfinite(value); }
+static bool is_within(real value, real least, real most) { return value >= least && value <= most; }
+
+/* The largest times, seconds, gains and speeds of any aircraft, and the least rate of a roll, degrees per second; with
+ * others numbers might overflow. */
+#define MOST REAL(1000.0)
+#define LEAST_ROLL_RATE REAL(0.1)
 
 /* Whether a law can be made for a configuration. */
 static int status_of_config(const loiter_law_config *c) {
-    if (!is_at_least(c->airspeed_m_s, LEAST_AIRSPEED_M_S) || !(c->bank_limit_deg > REAL(0.0)) ||
+    if (!is_within(c->airspeed_m_s, LEAST_AIRSPEED_M_S, MOST) || !(c->bank_limit_deg > REAL(0.0)) ||
         !(c->bank_limit_deg < REAL(90.0))) {
         return LOITER_BAD_AIRCRAFT;
     }
-    if (!(c->radius_m > REAL(0.0)) || !isfinite(c->radius_m)) {
+    if (!(c->radius_m > REAL(0.0)) || !(c->radius_m <= LARGEST_VALUE)) {
         return LOITER_BAD_ORBIT;
     }
     if (status_of_side(c->side) != LOITER_OK) {
         return LOITER_BAD_TURN;
     }
-    if (!is_at_least(c->roll_time_s, REAL(0.0)) || !(c->roll_rate_deg_s > REAL(0.0)) ||
-        !is_at_least(c->delay_s, REAL(0.0)) || !is_at_least(c->reserve, REAL(0.0)) ||
-        !is_at_least(c->smoothing_s, REAL(0.0)) || !(c->gain > REAL(0.0)) || !isfinite(c->gain)) {
+    if (!is_within(c->roll_time_s, REAL(0.0), MOST) || !(c->roll_rate_deg_s >= LEAST_ROLL_RATE) ||
+        !is_within(c->delay_s, REAL(0.0), MOST) || !is_within(c->reserve, REAL(0.0), MOST) ||
+        !is_within(c->smoothing_s, REAL(0.0), MOST) || !(c->gain > REAL(0.0)) || !(c->gain <= MOST)) {
         return LOITER_BAD_RESPONSE;
     }
     const real R = rounded_radius(c->radius_m / radius_at_bank(c->airspeed_m_s, c->bank_limit_deg));

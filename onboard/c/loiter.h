@@ -48,7 +48,7 @@ enum {
     LOITER_BAD_WIND = 13,
     /* `dt_s` of a step is not a positive, finite number. */
     LOITER_BAD_STEP = 14,
-    /* Roll response, delay or gain is negative or not a number. */
+    /* Roll response, delay, reserve, smoothing or gain is what no aircraft has. */
     LOITER_BAD_RESPONSE = 15
 };
 

@@ -57,7 +57,9 @@ def differences(rows):
 
 
 def kernel(count=20_000):
-    print("| distance | R | tolerance | median | largest | another turn | another word |\n|---|---|---|---|---|---|---|")
+    print(
+        "| distance | R | tolerance | median | largest | another turn | another word |\n|---|---|---|---|---|---|---|"
+    )
     cases = [(10.0**-k, RADII, tolerance) for tolerance in (0.0, 1e-5, 1e-4, TOLERANCE) for k in (1, 2, 3, 4, 5, 6, 7)]
     cases += [(1e-6, (1.0 + 10.0**-k,), tolerance) for tolerance in (0.0, TOLERANCE) for k in (2, 3, 4, 5, 6)]
     for distance, radii, tolerance in cases:
@@ -71,9 +73,9 @@ def kernel(count=20_000):
 
 def wind(count=1000):
     off, words, statuses = [], 0, 0
-    problems = [each for strength in (None, 0.95) for each in (drawn(count, 1, strength) if strength else drawn(count, 1))]
-    for problem in problems:
-        problem = problem._replace(**{name: float(np.float32(getattr(problem, name))) for name in ("x", "y", "R", "wx", "wy")})
+    for problem in (*drawn(count, 1), *drawn(count, 1, 0.95)):
+        rounded = {name: float(np.float32(getattr(problem, name))) for name in ("x", "y", "R", "wx", "wy")}
+        problem = problem._replace(**rounded)
         a, b = library(True).fastest(problem), library(False).fastest(problem)
         if b.status == 0 and a.status != 0:
             statuses += 1
@@ -81,9 +83,10 @@ def wind(count=1000):
             off.append((time_of(a) - time_of(b)) / (1.0 + problem.R + time_of(b)))
             words += (a.side, a.word) != (b.side, b.word)
     off = np.array(off)
-    shares = ", ".join(f"{100 * (np.abs(off) > limit).mean():.2f} % by more than {limit:g}" for limit in (1e-5, 1e-4, 1e-3, 1e-2))
     print(f"{len(off)} scenes, {statuses} without an answer, {words} other words; median {np.median(np.abs(off)):.1e}")
-    print(f"{shares}; slower by {off.max():.2g}, faster by {-off.min():.2g} at most")
+    for limit in (1e-5, 1e-4, 1e-3, 1e-2):
+        print(f"{100 * (np.abs(off) > limit).mean():.2f} % by more than {limit:g}")
+    print(f"slower by {off.max():.2g}, faster by {-off.min():.2g} at most")
 
 
 class DoubleLaw(OnboardLaw):
@@ -111,9 +114,11 @@ def law(folder, first=0, last=None):
     rows = np.concatenate(flights)
     bank, join = np.abs(rows[:, 0] - rows[:, 2]), np.abs(rows[:, 1] - rows[:, 3])
     largest = np.array([np.abs(each[:, 0] - each[:, 2]).max() for each in flights])
-    print(f"{len(flights)} flights, {len(rows)} steps; bank: median {np.median(bank):.1e} deg, largest {bank.max():.3g} deg")
+    print(f"{len(flights)} flights, {len(rows)} steps")
+    print(f"bank: median {np.median(bank):.1e} deg, largest {bank.max():.3g} deg")
     for limit in (0.01, 0.1, 1.0, 10.0):
-        print(f"{100 * (bank > limit).mean():.3f} % of steps, {100 * (largest > limit).mean():.1f} % of flights beyond {limit} deg")
+        steps, some = 100 * (bank > limit).mean(), 100 * (largest > limit).mean()
+        print(f"beyond {limit} deg: {steps:.3f} % of steps, {some:.1f} % of flights")
     print(f"time to join: median {np.nanmedian(join):.1e} s, 99.9 % within {np.nanquantile(join, 0.999):.3g} s")
 
 
