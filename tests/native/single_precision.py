@@ -1,12 +1,14 @@
-"""What single precision costs: `python -m native.single_precision kernel`, `wind`, `law FOLDER`, in the folder `tests`.
+"""What single precision costs: `python -m native.single_precision kernel`, `wind`, `law FOLDER`, `flown`, in `tests`.
 
 `kernel` compares times and words in single precision with those in double, for the same states, against the distance
 of the states from the circles where the word changes, and next to R = 1. `wind` does so for the search in wind. `law`
 gives the measurements of flights that `guidance.recorded` has recorded to the law in single and in double precision.
+`flown` flies both from the same starts, with varied aircraft in gusts of 5 %.
 """
 
 import pickle
 import sys
+from functools import partial
 from math import cos, inf, pi, sin
 from pathlib import Path
 from random import Random
@@ -16,6 +18,10 @@ import numpy as np
 from compiled.windy import drawn
 from guidance.recorded import LIMIT_DEG
 from loiter.guidance.protocol import State
+from loiter.guidance.trials.campaign import campaign
+from loiter.guidance.trials.settings import varied_setting
+from loiter.guidance.trials.summary import summary
+from loiter.guidance.trials.varied import varied_trials
 from loiter.kernel.wind_search import time_of
 from native.onboard import OnboardLaw, library
 
@@ -122,8 +128,24 @@ def law(folder, first=0, last=None):
     print(f"time to join: median {np.nanmedian(join):.1e} s, 99.9 % within {np.nanquantile(join, 0.999):.3g} s")
 
 
+def flown(count=100):
+    setting = varied_setting(0.05)
+    laws = {str(kind.single): partial(law_of, kind) for kind in (OnboardLaw, DoubleLaw)}
+    done = campaign(laws, setting.simulator, varied_trials(count, 0), band=setting.band, workers=1)
+    for name, outcomes in done.items():
+        found = summary(outcomes)
+        print(f"single precision {name}: {found.settled} of {found.flights} settled, go-arounds {found.round_again}")
+        print(f"median ratio {found.median_ratio:.4f}, 90 % {found.ninth_decile_ratio:.4f}")
+        print(f"rate of the bank {found.bank_rate_deg_s:.2f} deg/s")
+
+
+def law_of(kind, trial):
+    return kind(trial.ideal.orbit, trial.declared)
+
+
 if __name__ == "__main__":
     action, *others = sys.argv[1:]
-    {"kernel": kernel, "wind": wind, "law": lambda folder, *some: law(folder, *map(int, some))}[action](
-        *(others if action == "law" else map(int, others))
-    )
+    if action == "law":
+        law(others[0], *map(int, others[1:]))
+    else:
+        {"kernel": kernel, "wind": wind, "flown": flown}[action](*map(int, others))

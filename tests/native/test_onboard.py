@@ -143,8 +143,9 @@ def test_single_precision_finds_every_entry_in_wind():
         fields = ("x", "y", "R", "wx", "wy")
         rounded = problem._replace(**{name: float(np.float32(getattr(problem, name))) for name in fields})
         single, double = library(True).fastest(rounded), library(False).fastest(rounded)
-        assert (single.status == 0) == (double.status == 0), problem
+        # Single precision also holds circles that are too tight by a few roundings of its own.
         if double.status == 0:
+            assert single.status == 0, problem
             size = 1.0 + problem.R + wind_search.time_of(double)
             assert abs(wind_search.time_of(single) - wind_search.time_of(double)) < 1e-3 * size, problem
 
