@@ -124,8 +124,8 @@ static int status_of_config(const loiter_law_config *c) {
 
 /* Let the memory use the rings of this law, wherever that is now. */
 static void use_own_rings(loiter_law *law) {
-    law->memory.sensing.history.entries = &law->rings.BankEntry_ring;
-    law->memory.sensing.observer.air.recent = &law->rings.AirSample_ring;
+    law->memory.sensing.history.entries = &law->rings.BankEntry_ring_128;
+    law->memory.sensing.observer.air.recent = &law->rings.AirSample_ring_64;
 }
 
 int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
@@ -191,13 +191,13 @@ static void follow_clock(loiter_law *law, uint32_t time_us) {
     sensing->observer.estimate.time_s -= past_s;
     sensing->present.time_s -= past_s;
     law->memory.plan = plan_by_clock(&law->memory.plan, -past_s);
-    BankEntry *entries = law->rings.BankEntry_ring.at;
+    BankEntry *entries = law->rings.BankEntry_ring_128.at;
     const BankEntry last = entries[ENTRIES - 1];
     for (int i = 0; i < ENTRIES; i++) {
         entries[i].end_s -= last.end_s;
         entries[i].integral -= last.integral;
     }
-    AirSample *samples = law->rings.AirSample_ring.at;
+    AirSample *samples = law->rings.AirSample_ring_64.at;
     const real now_s = samples[SAMPLES - 1].time_s;
     for (int i = 0; i < SAMPLES; i++) {
         samples[i].time_s -= now_s;
@@ -226,9 +226,7 @@ int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loit
     if (!(dt_s > REAL(0.0)) || !isfinite(dt_s)) {
         return LOITER_BAD_STEP;
     }
-    const RollValues roll = law->vehicle.estimates.roll;
-    law->vehicle.bank_deg =
-        bank_after(roll.time_s, roll.rate_deg_s, law->vehicle.bank_deg, law->memory.command_deg, law->memory.step_s);
+    law->vehicle = flown_as_declared(&law->vehicle, law->memory.command_deg, law->memory.step_s);
     step_with(law, measurement, dt_s, command);
     return LOITER_OK;
 }

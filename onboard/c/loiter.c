@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 89ea772a1e7e2eda49c50d14b7b696f82f0901505b9231b2132f05cb40e6fe16
+ * SHA-256 of the source: 5f7ebb4a129c767b8c4692d7bd6ab1a4bcff9e83aa1a13b40b69ac71d3a9d4ec
  */
 #include "loiter.h"
 
@@ -223,13 +223,13 @@ typedef struct { Entry entry; real phase, miss; } EntryBeside;
 /* An arc that ends with the heading of a point of joining: its duration, and how far along the hold it is short. */
 typedef struct { real t, short_; } ArcEnd;
 
-typedef loiter_Settings Settings;
-
 typedef loiter_RollValues RollValues;
 
 typedef loiter_VehicleEstimates VehicleEstimates;
 
 typedef loiter_VehicleModel VehicleModel;
+
+typedef loiter_Settings Settings;
 
 typedef loiter_Clock Clock;
 
@@ -237,21 +237,21 @@ typedef loiter_Difference Difference;
 
 typedef loiter_AirSample AirSample;
 
-typedef loiter_AirSample_ring *AirSample_ring;
+typedef loiter_AirSample_ring_64 *AirSample_ring_64;
 
-static inline AirSample_ring AirSample_ring_filled(AirSample_ring ring, AirSample one) {
+static inline AirSample_ring_64 AirSample_ring_64_filled(AirSample_ring_64 ring, AirSample one) {
     for (int i = 0; i < 64; i++) {
         ring->at[i] = one;
     }
     return ring;
 }
 
-static inline AirSample_ring AirSample_ring_with_last(AirSample_ring ring, AirSample last) {
+static inline AirSample_ring_64 AirSample_ring_64_with_last(AirSample_ring_64 ring, AirSample last) {
     ring->at[63] = last;
     return ring;
 }
 
-static inline AirSample_ring AirSample_ring_appended(AirSample_ring ring, AirSample last) {
+static inline AirSample_ring_64 AirSample_ring_64_appended(AirSample_ring_64 ring, AirSample last) {
     for (int i = 0; i < 63; i++) {
         ring->at[i] = ring->at[i + 1];
     }
@@ -271,21 +271,21 @@ typedef loiter_Observer Observer;
 
 typedef loiter_BankEntry BankEntry;
 
-typedef loiter_BankEntry_ring *BankEntry_ring;
+typedef loiter_BankEntry_ring_128 *BankEntry_ring_128;
 
-static inline BankEntry_ring BankEntry_ring_filled(BankEntry_ring ring, BankEntry one) {
+static inline BankEntry_ring_128 BankEntry_ring_128_filled(BankEntry_ring_128 ring, BankEntry one) {
     for (int i = 0; i < 128; i++) {
         ring->at[i] = one;
     }
     return ring;
 }
 
-static inline BankEntry_ring BankEntry_ring_with_last(BankEntry_ring ring, BankEntry last) {
+static inline BankEntry_ring_128 BankEntry_ring_128_with_last(BankEntry_ring_128 ring, BankEntry last) {
     ring->at[127] = last;
     return ring;
 }
 
-static inline BankEntry_ring BankEntry_ring_appended(BankEntry_ring ring, BankEntry last) {
+static inline BankEntry_ring_128 BankEntry_ring_128_appended(BankEntry_ring_128 ring, BankEntry last) {
     for (int i = 0; i < 127; i++) {
         ring->at[i] = ring->at[i + 1];
     }
@@ -3236,6 +3236,15 @@ static inline real bank_after(real roll_time_s, real rate_deg_s, real bank_deg, 
     return time_s <= limited_s ? command_deg - missing : command_deg;
 }
 
+/* The model of a vehicle that is as declared after `dt` seconds under a command; `identify` is not needed then. */
+static inline VehicleModel flown_as_declared(const VehicleModel *vehicle, real command_deg, real dt) {
+    const integer revision = vehicle->revision;
+    real bank_deg = vehicle->bank_deg;
+    const VehicleEstimates known = vehicle->estimates;
+    bank_deg = bank_after(known.roll.time_s, known.roll.rate_deg_s, bank_deg, command_deg, dt);
+    return MAKE(VehicleModel){revision, bank_deg, known};
+}
+
 /* The velocity of the air past the circle to plan with, and whether it differs from the declared one.
  *
  * It is the declared one, unless the wind is found to differ from that by more than gusts do.
@@ -3431,7 +3440,7 @@ static inline AirAverage first_air(Rings *rings) {
     const Difference near = MAKE(Difference){REAL(0.02), REAL(2.0) * FIRST_NOISE, REAL(0.0)};
     const Difference far = MAKE(Difference){GUST_LAG_S, REAL(2.0) * FIRST_NOISE + FIRST_GUST * GUST_LAG_S,
             REAL(0.0)};
-    const AirSample_ring recent = AirSample_ring_filled(&rings->AirSample_ring, MAKE(AirSample){REAL(0.0),
+    const AirSample_ring_64 recent = AirSample_ring_64_filled(&rings->AirSample_ring_64, MAKE(AirSample){REAL(0.0),
             REAL(0.0), REAL(0.0), REAL(0.0)});
     return MAKE(AirAverage){REAL(0.0), REAL(0.0), ASSUMED_S, near, far, recent, SAMPLES - 2};
 }
@@ -3443,9 +3452,9 @@ static inline Observer first_observer(Rings *rings, real smoothing_s) {
 
 /* The history of a bank that has always been this. */
 static inline BankHistory constant_history(Rings *rings, real bank_deg) {
-    const BankEntry_ring unused = BankEntry_ring_filled(&rings->BankEntry_ring, MAKE(BankEntry){-REAL_INFINITY,
-            bank_deg, REAL(0.0)});
-    return MAKE(BankHistory){bank_deg, BankEntry_ring_with_last(unused, MAKE(BankEntry){REAL(0.0), bank_deg,
+    const BankEntry_ring_128 unused = BankEntry_ring_128_filled(&rings->BankEntry_ring_128,
+            MAKE(BankEntry){-REAL_INFINITY, bank_deg, REAL(0.0)});
+    return MAKE(BankHistory){bank_deg, BankEntry_ring_128_with_last(unused, MAKE(BankEntry){REAL(0.0), bank_deg,
             REAL(0.0)})};
 }
 
@@ -3492,16 +3501,16 @@ static inline Clock advanced(const Clock *clock, real dt) {
  * their mean bank.
  */
 static inline BankHistory recorded(BankHistory history, real bank_deg, real dt, real covered_s) {
-    const BankEntry_ring entries = history.entries;
+    const BankEntry_ring_128 entries = history.entries;
     dt = min_real(dt, covered_s);
     const BankEntry before = entries->at[126], last = entries->at[127];
     const real end_s = last.end_s + dt, integral = last.integral + dt * bank_deg;
     if (end_s - before.end_s > REAL(2.0) * covered_s / (real)ENTRIES || entries->at[0].end_s == -REAL_INFINITY) {
-        return MAKE(BankHistory){bank_deg, BankEntry_ring_appended(entries, MAKE(BankEntry){end_s, bank_deg,
+        return MAKE(BankHistory){bank_deg, BankEntry_ring_128_appended(entries, MAKE(BankEntry){end_s, bank_deg,
                 integral})};
     }
     const real mean_deg = (integral - before.integral) / (end_s - before.end_s);
-    return MAKE(BankHistory){bank_deg, BankEntry_ring_with_last(entries, MAKE(BankEntry){end_s, mean_deg,
+    return MAKE(BankHistory){bank_deg, BankEntry_ring_128_with_last(entries, MAKE(BankEntry){end_s, mean_deg,
             integral})};
 }
 
@@ -3617,7 +3626,7 @@ static inline Observer restarted(const Observer *observer) {
 
 /* The index of the first entry that ends at a time or later. */
 static inline integer index_at(BankHistory history, real time_s) {
-    const BankEntry_ring entries = history.entries;
+    const BankEntry_ring_128 entries = history.entries;
     integer low = 0, high = ENTRIES - 1;
     while (low < high) {
         const integer middle = ((low + high) >> 1);
@@ -3635,7 +3644,7 @@ static inline real delayed_deg(BankHistory history, real delay_s) {
     if (delay_s <= REAL(0.0)) {
         return history.current_deg;
     }
-    const BankEntry_ring entries = history.entries;
+    const BankEntry_ring_128 entries = history.entries;
     return entries->at[index_at(history, entries->at[127].end_s - delay_s)].bank_deg;
 }
 
@@ -3689,7 +3698,7 @@ static inline Estimate _estimate_from(const State *state, Turning turning) {
 static inline AirAverage restarted_air(Rings *rings, const AirAverage *air, real east_m_s, real north_m_s) {
     const AirSample sample = MAKE(AirSample){air->recent->at[63].time_s, east_m_s, north_m_s, REAL(0.0)};
     return MAKE(AirAverage){east_m_s, north_m_s, air->known_s, air->near, air->far,
-            AirSample_ring_filled(&rings->AirSample_ring, sample), SAMPLES - 2};
+            AirSample_ring_64_filled(&rings->AirSample_ring_64, sample), SAMPLES - 2};
 }
 
 /* The mean square change of each component of the air's velocity in a second, (m/s)^2.
@@ -3757,7 +3766,7 @@ static inline AirAverage averaged_air(const AirAverage *air, real east_m_s, real
         real slip_m_s) {
     real east = air->east_m_s, north = air->north_m_s, known_s = air->known_s;
     Difference near = air->near, far = air->far;
-    AirSample_ring recent = air->recent;
+    AirSample_ring_64 recent = air->recent;
     integer lag_index = air->lag_index;
     const real now_s = recent->at[63].time_s + dt;
     known_s = min_real(known_s + dt, GUST_AVERAGE_S);
@@ -3769,9 +3778,9 @@ static inline AirAverage averaged_air(const AirAverage *air, real east_m_s, real
     near = _mean(near, recent->at[63], sample, weight);
     far = _mean(far, recent->at[lag_index], sample, weight);
     if (lag_index == 0 && recent->at[63].time_s - recent->at[62].time_s < SAMPLE_GAP_S) {
-        recent = AirSample_ring_with_last(recent, sample);
+        recent = AirSample_ring_64_with_last(recent, sample);
     } else {
-        recent = AirSample_ring_appended(recent, sample);
+        recent = AirSample_ring_64_appended(recent, sample);
         lag_index = max_integer(lag_index - 1, 0);
     }
     const real averaging_s = _averaging_s(near, far, longest_s);
@@ -3822,7 +3831,7 @@ static inline real mean_deg(BankHistory history, real delay_s) {
     if (delay_s <= REAL(0.0)) {
         return history.current_deg;
     }
-    const BankEntry_ring entries = history.entries;
+    const BankEntry_ring_128 entries = history.entries;
     const BankEntry last = entries->at[127];
     const real then_s = entries->at[127].end_s - delay_s;
     const BankEntry first = entries->at[index_at(history, then_s)];
@@ -4639,8 +4648,8 @@ static int status_of_config(const loiter_law_config *c) {
 
 /* Let the memory use the rings of this law, wherever that is now. */
 static void use_own_rings(loiter_law *law) {
-    law->memory.sensing.history.entries = &law->rings.BankEntry_ring;
-    law->memory.sensing.observer.air.recent = &law->rings.AirSample_ring;
+    law->memory.sensing.history.entries = &law->rings.BankEntry_ring_128;
+    law->memory.sensing.observer.air.recent = &law->rings.AirSample_ring_64;
 }
 
 int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
@@ -4706,13 +4715,13 @@ static void follow_clock(loiter_law *law, uint32_t time_us) {
     sensing->observer.estimate.time_s -= past_s;
     sensing->present.time_s -= past_s;
     law->memory.plan = plan_by_clock(&law->memory.plan, -past_s);
-    BankEntry *entries = law->rings.BankEntry_ring.at;
+    BankEntry *entries = law->rings.BankEntry_ring_128.at;
     const BankEntry last = entries[ENTRIES - 1];
     for (int i = 0; i < ENTRIES; i++) {
         entries[i].end_s -= last.end_s;
         entries[i].integral -= last.integral;
     }
-    AirSample *samples = law->rings.AirSample_ring.at;
+    AirSample *samples = law->rings.AirSample_ring_64.at;
     const real now_s = samples[SAMPLES - 1].time_s;
     for (int i = 0; i < SAMPLES; i++) {
         samples[i].time_s -= now_s;
@@ -4741,9 +4750,7 @@ int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loit
     if (!(dt_s > REAL(0.0)) || !isfinite(dt_s)) {
         return LOITER_BAD_STEP;
     }
-    const RollValues roll = law->vehicle.estimates.roll;
-    law->vehicle.bank_deg =
-        bank_after(roll.time_s, roll.rate_deg_s, law->vehicle.bank_deg, law->memory.command_deg, law->memory.step_s);
+    law->vehicle = flown_as_declared(&law->vehicle, law->memory.command_deg, law->memory.step_s);
     step_with(law, measurement, dt_s, command);
     return LOITER_OK;
 }

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 89ea772a1e7e2eda49c50d14b7b696f82f0901505b9231b2132f05cb40e6fe16
+ * SHA-256 of the source: 5f7ebb4a129c767b8c4692d7bd6ab1a4bcff9e83aa1a13b40b69ac71d3a9d4ec
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
@@ -132,8 +132,8 @@ typedef struct { loiter_integer revision; loiter_real bank_deg; loiter_VehicleEs
 typedef struct { loiter_real time_s, since_s, gap_s, jump_s, first_s, latest_s; } loiter_Clock;
 typedef struct { loiter_real time_s, square, slip_square; } loiter_Difference;
 typedef struct { loiter_real time_s, east_m_s, north_m_s, slip_m_s; } loiter_AirSample;
-typedef struct { loiter_AirSample at[64]; } loiter_AirSample_ring;
-typedef struct { loiter_real east_m_s, north_m_s, known_s; loiter_Difference near, far; loiter_AirSample_ring
+typedef struct { loiter_AirSample at[64]; } loiter_AirSample_ring_64;
+typedef struct { loiter_real east_m_s, north_m_s, known_s; loiter_Difference near, far; loiter_AirSample_ring_64
         *recent; loiter_integer lag_index; } loiter_AirAverage;
 typedef struct { loiter_real x, y, c, s; } loiter_PlanarPose;
 typedef struct { loiter_real ratio, lead_s; } loiter_Turning;
@@ -142,8 +142,8 @@ typedef struct { loiter_real time_s; loiter_PlanarPose pose; loiter_real airspee
 typedef struct { loiter_real smoothing_s, interval_s; loiter_AirAverage air; loiter_Estimate estimate; }
         loiter_Observer;
 typedef struct { loiter_real end_s, bank_deg, integral; } loiter_BankEntry;
-typedef struct { loiter_BankEntry at[128]; } loiter_BankEntry_ring;
-typedef struct { loiter_real current_deg; loiter_BankEntry_ring *entries; } loiter_BankHistory;
+typedef struct { loiter_BankEntry at[128]; } loiter_BankEntry_ring_128;
+typedef struct { loiter_real current_deg; loiter_BankEntry_ring_128 *entries; } loiter_BankHistory;
 typedef struct { loiter_real airspeed_m_s, tightest_m, planned_m; } loiter_TurnLimits;
 typedef struct { loiter_integer revision; bool wind_differs; loiter_real wind_east_m_s, wind_north_m_s, roll_time_s,
         roll_rate_deg_s, limit_deg; loiter_TurnLimits turns; loiter_real hold_deg; loiter_integer hold_half_deg,
@@ -157,7 +157,7 @@ typedef struct { loiter_Route route; loiter_real remaining_s, join_s, planned_jo
 typedef struct { loiter_integer bank, current, next, last; loiter_real current_s, next_s, last_s; } loiter_Leads;
 typedef struct { loiter_Sensing sensing; loiter_Plan plan; loiter_Leads leads; loiter_real trim, command_deg;
         loiter_integer side; loiter_real step_s; } loiter_Memory;
-typedef struct { loiter_AirSample_ring AirSample_ring; loiter_BankEntry_ring BankEntry_ring; } loiter_Rings;
+typedef struct { loiter_AirSample_ring_64 AirSample_ring_64; loiter_BankEntry_ring_128 BankEntry_ring_128; } loiter_Rings;
 
 /* The state of a law; it contains no pointers, so that it may be copied and moved. `estimates` of `vehicle` are what is
  * known of the vehicle; a program that identifies more than is declared writes it there and adds 1 to `revision`. */

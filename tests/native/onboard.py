@@ -10,7 +10,8 @@ import numpy as np
 from codegen.kinds import INTEGER, REAL, TRUTH, kind_of_type
 from codegen.onboard import FOLDER
 
-from loiter.guidance.identification.vehicle import VehicleModel
+from loiter.guidance.identification.identification_step import identify
+from loiter.guidance.identification.vehicle import VehicleModel, flown_as_declared
 from loiter.guidance.laws.law_step import LawCommand, Settings
 from loiter.guidance.laws.loiter_entry import NAMED_PHASES, NAMED_TURNS, LoiterEntry
 from loiter.guidance.protocol import Command, State
@@ -162,7 +163,7 @@ class OnboardLaw(LoiterEntry):
 
     def known(self):
         """What is known of the vehicle, with the wind relative to the circle."""
-        model, (east, north) = self._vehicle.model, self.velocity
+        model, (east, north) = self._vehicle, self.velocity
         known = model.estimates
         known = known._replace(wind_east_m_s=known.wind_east_m_s - east, wind_north_m_s=known.wind_north_m_s - north)
         return self.types.in_c(model._replace(estimates=known))
@@ -183,8 +184,13 @@ class OnboardLaw(LoiterEntry):
         )
 
     def step(self, state, dt):
-        self._vehicle.fly(self._memory.command_deg, self._memory.step_s)
-        self._vehicle.measure(state)
+        before = self._memory
+        if self._identifies:
+            self._identification, self._vehicle = identify(
+                self._declared, self._identification, state, before.command_deg, before.step_s
+            )
+        else:
+            self._vehicle = flown_as_declared(self._vehicle, before.command_deg, before.step_s)
         given = self.types.command()
         measured = self.measurement(state)
         self.library.c.test_step_with(

@@ -85,12 +85,12 @@ def test_the_law_has_the_same_bits_in_double(i):
     arguments, simulator, dt = scene(i, np.random.default_rng((5, i)))
     law, onboard, random = law_for(*arguments), library(False), np.random.default_rng(i)
     types, memory, command = onboard.types, onboard.c.test_law(), onboard.types.of[LawCommand]()
-    onboard.c.test_begin(memory, byref(types.in_c(law._settings)), byref(types.in_c(law._vehicle.model)))
+    onboard.c.test_begin(memory, byref(types.in_c(law._settings)), byref(types.in_c(law._vehicle)))
     last = simulator.measured_state()
     for step in range(int(25.0 / dt)):
         last = damaged(simulator.measured_state(), last, i, step, int(12.0 / dt), random)
         given = law.step(last, dt)
-        model = byref(types.in_c(law._vehicle.model))
+        model = byref(types.in_c(law._vehicle))
         onboard.c.test_step(memory, model, byref(types.in_c(last)), byref(types.real(dt)), byref(command))
         for name in ("turn_rate_deg_s", "bank_deg", "time_to_join_s", "next_in_s"):
             assert same(getattr(command, name), getattr(given, name)), (step, name)
