@@ -5,7 +5,7 @@
 # make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
 # make docs   the documentation site, in build/docs: every warning and every broken link is an error
 # make notebooks  run the notebooks of docs/notebooks and write their outputs
-# make generate  translate the kernel's Python to C and JavaScript: src/loiter/native/*.h, the page's kernel.js
+# make generate  translate the kernel and the law from Python to C and JavaScript, for the package, the page and autopilots
 # make pins   rewrite the requirement files from pyproject.toml
 PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin

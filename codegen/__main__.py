@@ -1,7 +1,8 @@
 """`python -m codegen`: writes the files that are generated."""
 
 from codegen.files import files
+from codegen.onboard import onboard_files
 
 if __name__ == "__main__":
-    for path, text in files().items():
+    for path, text in (files() | onboard_files()).items():
         path.write_text(text, encoding="utf-8")

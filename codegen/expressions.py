@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import math
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import EnumType
@@ -41,6 +42,10 @@ COMPARED = {
 }
 
 
+# The parameter of functions that fill rings in place: a pointer to the structure of all rings.
+RINGS = "rings"
+
+
 class Expression(NamedTuple):
     """An expression of C: its text, its kind, and how tightly its outermost operator binds."""
 
@@ -62,6 +67,7 @@ class Names(NamedTuple):
     replaced: dict[str, Any]
     function: Callable[[FunctionType], tuple[str, dict[str, Kind], Kind]]
     constant: Callable[[str, Any], Expression]
+    by_address: frozenset[str] = frozenset()
 
 
 class Expressions:
@@ -109,11 +115,20 @@ class Expressions:
 
     def literal(self, value: float) -> str:
         """A number of the arithmetic."""
+        known = self.names.arithmetic
         if math.isnan(value):
-            return "NAN"
+            return known.functions.get("nan", "NAN")
         if math.isinf(value):
-            return "INFINITY" if value > 0 else "-INFINITY"
-        return f"{value!r}{self.names.arithmetic.suffix}"
+            return ("" if value > 0 else "-") + known.functions.get("inf", "INFINITY")
+        return f"{known.prefix}{value!r}{known.suffix}"
+
+    def as_real(self, found: Expression) -> Expression:
+        """An expression as a real number; C would convert an integer without a word, but C++ and warnings do not."""
+        return Expression(self.real(found), REAL, UNARY) if found.kind == INTEGER else found
+
+    def of_kind(self, kind: Kind, found: Expression) -> Expression:
+        """An expression as a value of a kind."""
+        return self.as_real(found) if kind == REAL else found
 
     def temporary(self, found: Expression, stem: str) -> str:
         """The name of a new constant with this value."""
@@ -132,7 +147,7 @@ class Expressions:
 
     def field(self, text: str, kind: Kind, name: str) -> str:
         """A field of a structure of a kind."""
-        return f"{text}.{name}"
+        return f"{text}->{name}" if kind.length and self.names.arithmetic.in_place else f"{text}.{name}"
 
     def real(self, integer: Expression) -> str:
         """An integer as a real number."""
@@ -144,7 +159,8 @@ class Expressions:
 
     def ring_call(self, kind: Kind, change: str, *arguments: Expression) -> str:
         """A call of a function that makes or changes a ring."""
-        return f"{kind.name}_{change}({', '.join(argument.text for argument in arguments)})"
+        place = [f"&{RINGS}->{kind.name}"] if change == "filled" and self.names.arithmetic.in_place else []
+        return f"{kind.name}_{change}({', '.join([*place, *(argument.text for argument in arguments)])})"
 
     def parts(self, node: ast.expr) -> list[Expression]:
         """The elements of an expression that is a tuple."""
@@ -180,7 +196,15 @@ class Expressions:
 
     def structure(self, kind: Kind, values: list[Expression]) -> Expression:
         """A structure made from its fields."""
-        return Expression(f"({kind.name}){{{', '.join(value.text for value in values)}}}", kind)
+        texts = (self.of_kind(inner, value).text for (_, inner), value in zip(kind.fields, values, strict=True))
+        return Expression(f"{self.names.arithmetic.made.format(kind.name)}{{{', '.join(texts)}}}", kind)
+
+    def as_result(self, node: ast.expr, found: Expression, kind: Kind) -> Expression:
+        """A tuple as the structure that a function returns."""
+        if isinstance(node, ast.Tuple):
+            return self.structure(kind, [self.translate(one) for one in node.elts])
+        made = self.names.arithmetic.made
+        return Expression(found.text.replace(made.format(found.kind.name), made.format(kind.name), 1), kind)
 
     def constant(self, kind: Kind, values: list[Expression]) -> Expression:
         """A structure that initialises a constant."""
@@ -196,6 +220,8 @@ class Expressions:
         raise self.refused(node, f"the constant {node.value!r}")
 
     def _Name(self, node: ast.Name) -> Expression:
+        if node.id in self.names.by_address:
+            return Expression(f"(*{safe(node.id)})", self.names.local[node.id])
         if node.id in self.names.local:
             return Expression(safe(node.id), self.names.local[node.id])
         if node.id not in self.names.globals:
@@ -281,13 +307,11 @@ class Expressions:
         whole = a.kind == b.kind == INTEGER
         if operator in OPERATORS:
             sign, level = OPERATORS[operator]
-            left = a.within(level)
-            if operator is ast.Div and whole:
-                left = self.real(a)
-            kind = INTEGER if whole and operator is not ast.Div else REAL
-            return Expression(f"{left} {sign} {b.within(level + 1)}", kind, level)
+            if not whole or operator is ast.Div:
+                a, b = self.as_real(a), self.as_real(b)
+            return Expression(f"{a.within(level)} {sign} {b.within(level + 1)}", a.kind, level)
         if operator is ast.Mod and not whole:
-            return Expression(f"real_modulo({a.text}, {b.text})", REAL)
+            return Expression(f"real_modulo({self.as_real(a).text}, {self.as_real(b).text})", REAL)
         helpers = {ast.LShift: "shift_left", ast.Mod: "integer_modulo", ast.FloorDiv: "integer_quotient"}
         if whole and operator in helpers:
             return Expression(f"{helpers[operator]}({a.text}, {b.text})", INTEGER)
@@ -316,6 +340,8 @@ class Expressions:
             if type(op) not in self.compared or not {a.kind, b.kind} <= {REAL, INTEGER, TRUTH}:
                 raise self.refused(node, f"the comparison {ast.unparse(node)!r}")
             sign, level = self.compared[type(op)]
+            if REAL in (a.kind, b.kind):
+                a, b = self.as_real(a), self.as_real(b)
             texts.append(f"{a.within(level + 1)} {sign} {b.within(level + 1)}")
         level = COMPARED[type(node.ops[0])][1] if len(texts) == 1 else AND
         return Expression(" && ".join(texts), TRUTH, level)
@@ -342,6 +368,7 @@ class Expressions:
         kind = REAL if {a.kind, b.kind} == {REAL, INTEGER} else a.kind
         if kind != a.kind and kind != b.kind:
             raise self.refused(node, f"the choice {ast.unparse(node)!r} between two kinds")
+        a, b = self.of_kind(kind, a), self.of_kind(kind, b)
         return Expression(f"{test.within(CHOICE + 1)} ? {a.within(CHOICE + 1)} : {b.within(CHOICE)}", kind, CHOICE)
 
     def _Call(self, node: ast.Call) -> Expression:
@@ -357,6 +384,8 @@ class Expressions:
             return self._constructed(node, called, arguments)
         if isinstance(called, FunctionType):
             title, parameters, result = self.names.function(called)
+            if RINGS in parameters:
+                arguments.insert(0, Expression(RINGS, parameters[RINGS]))
             arguments += self._defaults(node, called, list(parameters), len(arguments))
             return self._called(title, list(parameters.values()), arguments, result)
         if called is not None and getattr(math, name, None) is called:
@@ -379,10 +408,22 @@ class Expressions:
         return values
 
     def _called(self, title: str, kinds: list[Kind], arguments: list[Expression], result: Kind) -> Expression:
-        for kind, argument in zip(kinds, arguments, strict=True):
-            if kind != argument.kind and (kind, argument.kind) not in ((REAL, INTEGER), (INTEGER, TRUTH)):
+        pairs = list(zip(kinds, arguments, strict=True))
+        for kind, argument in pairs:
+            if kind._replace(by_address=False) != argument.kind and (kind, argument.kind) not in (
+                (REAL, INTEGER),
+                (INTEGER, TRUTH),
+            ):
                 raise NotTranslated(f"{self.file}: {title} is called with {argument.text!r}, which is no {kind.name}")
-        return Expression(f"{title}({', '.join(argument.text for argument in arguments)})", result)
+        texts = [self.address(one) if kind.by_address else self.of_kind(kind, one).text for kind, one in pairs]
+        return Expression(f"{title}({', '.join(texts)})", result)
+
+    def address(self, found: Expression) -> str:
+        """The address of a structure, which is stored first unless it is already."""
+        if parameter := re.fullmatch(r"\(\*(\w+)\)", found.text):
+            return parameter.group(1)
+        is_stored = re.fullmatch(r"(\w+|\(\*\w+\))(\.\w+)*", found.text)
+        return f"&{found.text if is_stored else self.temporary(found, 'stored')}"
 
     def _constructed(self, node: ast.Call, called: type, arguments: list[Expression]) -> Expression:
         kind = kind_of_type(called, f"{self.file}:{node.lineno}")
@@ -394,7 +435,7 @@ class Expressions:
         return self.structure(kind, arguments)
 
     def _of_math(self, node: ast.Call, name: str, arguments: list[Expression]) -> Expression:
-        texts = ", ".join(argument.text for argument in arguments)
+        texts = ", ".join(self.as_real(argument).text for argument in arguments)
         if name == "isfinite":
             return Expression(f"isfinite({texts})", TRUTH)
         if name in ("degrees", "radians"):
@@ -417,7 +458,7 @@ class Expressions:
     def _folded(self, name: str, arguments: list[Expression]) -> Expression:
         """The least or largest of several, compared from left to right as Python does."""
         kind = INTEGER if all(argument.kind == INTEGER for argument in arguments) else REAL
-        text, *others = (argument.text for argument in arguments)
+        text, *others = (self.of_kind(kind, argument).text for argument in arguments)
         for other in others:
             text = f"{name}_{kind.name}({text}, {other})"
         return Expression(text, kind)

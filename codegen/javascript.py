@@ -77,6 +77,10 @@ class JavaScriptExpressions(Expressions):
         """An integer as a real number."""
         return integer.within(UNARY)
 
+    def as_real(self, found: Expression) -> Expression:
+        """An expression as a real number: integers are real numbers."""
+        return found
+
     def member(self, enum: EnumType, name: str) -> str:
         """A member of an enumeration."""
         return f"{enum.__name__}.{name}"

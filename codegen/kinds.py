@@ -14,13 +14,20 @@ class NotTranslated(Exception):
 class Kind(NamedTuple):
     """A kind of value: its name in C, and the fields where it is a structure.
 
-    `length` is that of a ring, -1 for a list, otherwise 0.
+    `length` is that of a ring, -1 for a list, otherwise 0. With `by_address` it is that of a parameter: a pointer to
+    the value.
     """
 
     name: str
     fields: tuple[tuple[str, Kind], ...] = ()
     is_tuple: bool = False
     length: int = 0
+    by_address: bool = False
+
+    @property
+    def size(self) -> int:
+        """The numbers in a value of this kind, of which a ring in place is one."""
+        return sum(inner.size for _, inner in self.fields) if self.fields and not self.length else 1
 
 
 REAL, INTEGER, TRUTH, NOTHING, REALS = Kind("real"), Kind("integer"), Kind("bool"), Kind("void"), Kind("real *")

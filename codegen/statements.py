@@ -184,7 +184,7 @@ class Function:
         if isinstance(target, ast.Subscript):
             place, value = self.expressions.translate(target), self.expressions.translate(node.value)
             self._before(indent)
-            self._write(indent, f"{place.text} = {value.text};")
+            self._write(indent, f"{place.text} = {self.expressions.of_kind(place.kind, value).text};")
             return
         pairs = list(self._pairs(target, node.value))
         self._before(indent)
@@ -220,6 +220,7 @@ class Function:
     def _assign(self, pairs: list[tuple[str, Expression]], node: ast.Assign, indent: str) -> None:
         for name, value in pairs:
             self._set_kind(name, value.kind, node)
+        pairs = [(name, self.expressions.of_kind(self.names.local[name], value)) for name, value in pairs]
         pairs = self._without_hazards(pairs, node, indent)
         run: list[tuple[str, str]] = []
         for name, value in pairs:
@@ -274,6 +275,7 @@ class Function:
         if self.names.local[name] == INTEGER and value.kind != INTEGER:
             raise self.expressions.refused(node, f"{ast.unparse(node)!r}, which makes a real number of an integer,")
         self._before(indent)
+        value = self.expressions.of_kind(self.names.local[name], value)
         self._write(indent, f"{safe(name)} {signs[type(node.op)]} {value.text};")
 
     def _Return(self, node: ast.Return, indent: str) -> None:
@@ -288,9 +290,9 @@ class Function:
                 raise self.expressions.refused(
                     node, f"the result {ast.unparse(node.value)!r}, which is no {self.result.name},"
                 )
-            value = value._replace(text=value.text.replace(f"({value.kind.name}){{", f"({self.result.name}){{", 1))
+            value = self.expressions.as_result(node.value, value, self.result)
         self._before(indent)
-        self._write(indent, f"return {value.text};")
+        self._write(indent, f"return {self.expressions.of_kind(self.result, value).text};")
 
     def _If(self, node: ast.If, indent: str) -> None:
         test = self.expressions.condition(node.test)
@@ -379,7 +381,7 @@ class Function:
             self._own(target.id, node, kind)
             lengths.add(len(parts))
             self._before(indent)
-            values = ", ".join(part.text for part in parts)
+            values = ", ".join(self.expressions.of_kind(kind, part).text for part in parts)
             self._write(indent, f"const {kind.name} each_{target.id}_{self.loops}[{len(parts)}] = {{{values}}};")
             inside.append(f"const {kind.name} {safe(target.id)} = each_{target.id}_{self.loops}[{index}];")
         (length,) = lengths

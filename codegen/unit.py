@@ -6,6 +6,7 @@ import ast
 import hashlib
 import inspect
 import io
+import re
 import tokenize
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -17,9 +18,9 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 from codegen.arithmetic import CONSTANTS, Arithmetic
-from codegen.expressions import PRIMARY, Expression, Names, constant_value
+from codegen.expressions import PRIMARY, RINGS, Expression, Names, constant_value
 from codegen.kinds import Kind, NotTranslated, kind_of_value, safe, signature
-from codegen.statements import STEP, Function, comment, wrapped
+from codegen.statements import STEP, Function, comment, occurrences, wrapped
 from loiter.kernel.rebinding import names_used
 from loiter.version import __version__
 
@@ -49,6 +50,9 @@ static inline {ring} {ring}_appended({ring} ring, {element} last) {{
     ring.at[{last}] = last;
     return ring;
 }}"""
+
+# Structures of so many numbers are passed by address where rings are in place.
+LARGE = 6
 
 # Names of the C library, and of POSIX, that functions of the kernel have too.
 TAKEN = frozenset({"atan2", "acos", "sin", "cos", "hypot", "select", "l", "r"})
@@ -108,19 +112,35 @@ class Unit:
             self._add(root)
 
     def _reachable(self, roots: Sequence[Any]) -> set[FunctionType]:
-        """All functions that are called: by name, whether or not they are replaced."""
+        """These functions and all that they call."""
         found: set[FunctionType] = set()
         waiting = list(roots)
         while waiting:
             function = waiting.pop()
             if function not in found:
                 found.add(function)
-                replaced = self._replaced(function)
-                for name in names_used(function.__code__):
-                    value = replaced.get(name, function.__globals__.get(name))
-                    if isinstance(value, FunctionType) and value.__module__.startswith("loiter."):
-                        waiting.append(value)
+                waiting += self._called(function)
         return found
+
+    def _called(self, function: FunctionType) -> list[FunctionType]:
+        """The functions that a function calls: by name, whether or not they are replaced."""
+        replaced = self._replaced(function)
+        named = (replaced.get(name, function.__globals__.get(name)) for name in names_used(function.__code__))
+        return [one for one in named if isinstance(one, FunctionType) and one.__module__.startswith("loiter.")]
+
+    def _fills(self, function: FunctionType) -> bool:
+        """Whether a function fills a ring, `(x,) * LENGTH`, itself or by a function that it calls."""
+        return any(
+            isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and isinstance(node.left, ast.Tuple)
+            for one in self._reachable([function])
+            for node in ast.walk(syntax(modules[one.__module__])[one.__name__])
+        )
+
+    def _passed(self, function: FunctionType, name: str, kind: Kind) -> Kind:
+        """The kind of a parameter: large structures are passed by address, unless the function sets them."""
+        body = syntax(modules[function.__module__])[function.__name__].body
+        is_set = any(one == name and place.is_set for one, place in occurrences(body, ()))
+        return kind._replace(by_address=kind.size >= LARGE and not is_set)
 
     def _replaced(self, function: FunctionType) -> dict[str, Any]:
         """What stands in for the globals of a function; replacements are themselves as they are written."""
@@ -138,10 +158,14 @@ class Unit:
         module = modules[function.__module__]
         place = str(Path(inspect.getfile(module)).relative_to(ROOT))
         parameters, result = signature(function, place)
+        if self.arithmetic.in_place and self._fills(function):
+            parameters = {RINGS: Kind("Rings *"), **parameters}
+        if self.arithmetic.in_place:
+            parameters = {name: self._passed(function, name, kind) for name, kind in parameters.items()}
         for kind in (*parameters.values(), result):
             if kind.length < 0 and not self.has_lists:
                 raise NotTranslated(f"{place}: {function.__name__} has a list, {kind.name}, which only JavaScript has")
-            self._structure(kind)
+            self._structure(kind._replace(by_address=False))
         title = self.name(function)
         if function in self.open:
             raise NotTranslated(f"{place}: {function.__name__} calls itself, which a kernel function must not")
@@ -161,12 +185,14 @@ class Unit:
         names = Names(
             self.arithmetic,
             function.__globals__,
-            dict(parameters),
+            {name: kind._replace(by_address=False) for name, kind in parameters.items()},
             self._replaced(function),
             self._add,
             self._constant,
+            frozenset(name for name, kind in parameters.items() if kind.by_address),
         )
         body = self.translator(node, names, result, place, comments_of(module)).body()
+        body = [re.sub(r"\(\*(\w+)\)\.", r"\1->", line) for line in body]
         for kind in names.local.values():
             self._structure(kind)
         return self._function(function, node, parameters, result, body)
@@ -205,11 +231,16 @@ class Unit:
             found = constant_value(value, owner.__name__, self.translator.translator(names_here, ""))
             source = ast.unparse(assigned(owner)[name])
             shown = "" if kind.fields or source in (found.text, repr(value)) else f" /* {source} */"
+            lines = [self._definition(name, found) + shown]
+            if self.arithmetic.single and key in CONSTANTS:
+                translator = self.translator.translator(names_here, "")
+                single = constant_value(CONSTANTS[key](self.arithmetic.single), owner.__name__, translator)
+                lines = ["#ifdef LOITER_FLOAT", self._definition(name, single), "#else", *lines, "#endif"]
             above = list(comment_above(owner, name))
-            known = any(above == lines[:-1] for lines in self.constants.values())
+            known = any(above and above == lines[: len(above)] for lines in self.constants.values())
             if name in {other for _, other in self.constants}:
                 raise NotTranslated(f"{owner.__name__}: another module has a constant {name} too: rename one of them")
-            self.constants[key] = [*(() if known else above), self._definition(name, found) + shown]
+            self.constants[key] = [*(() if known else above), *lines]
             self.constant_kinds[key] = kind
         return Expression(name, kind)
 
@@ -230,8 +261,12 @@ class Unit:
 
     def text(self) -> str:
         """The whole file."""
+        return "\n".join([*self._head(), *self._types(), self.body(), "#endif"]) + "\n"
+
+    def body(self) -> str:
+        """All but the beginning and the end."""
         used = "\n".join(line for lines in self.functions.values() for line in lines)
-        parts: list[str] = [*self._head(), *self._types(), HELPERS, *self._enums(used)]
+        parts: list[str] = [self._helpers(), *self._enums(used)]
         for kind in self.structures.values():
             parts += [*self._structure_lines(kind), ""]
         for lines in self.constants.values():
@@ -239,8 +274,13 @@ class Unit:
         parts.append("")
         for lines in self.functions.values():
             parts += lines
-        parts.append("#endif")
-        return "\n".join(parts) + "\n"
+        return "\n".join(parts)
+
+    def _helpers(self) -> str:
+        """What Python has and C has not, in this arithmetic."""
+        a = self.arithmetic
+        text = re.sub(r"\d+\.\d+", lambda number: f"{a.prefix}{number.group()}{a.suffix}", HELPERS)
+        return re.sub(r"\b(fmod|copysign)\(", lambda call: f"{a.functions[call.group(1)]}(", text)
 
     def _head(self) -> Iterator[str]:
         guard = f"LOITER_{Path(self.title).stem.upper()}_H"
@@ -300,6 +340,8 @@ class Unit:
 
 
 def _declaration(kind: Kind, name: str) -> str:
+    if kind.by_address:
+        return f"const {kind.name} *{name}"
     return f"{kind.name}{'' if kind.name.endswith('*') else ' '}{name}"
 
 

@@ -589,7 +589,8 @@ static inline LOITER_ALWAYS_INLINE real_Extremal fastest(real x, real y, real R,
 
 /* T of `optimum_on_side`, without its pieces; a piece that is too short to be flown may be included. */
 static inline LOITER_ALWAYS_INLINE real least_time(real x, real y, real R, integer side, real tolerance) {
-    const real_Extremal fastest_1 = fastest(x, side * y, R, arc_tolerance_of(x, y, R, tolerance), tolerance == 0.0);
+    const real_Extremal fastest_1 = fastest(x, (real)side * y, R, arc_tolerance_of(x, y, R, tolerance), tolerance ==
+            0.0);
     const real time = fastest_1.a0;
     return time;
 }
@@ -704,7 +705,7 @@ static inline LOITER_ALWAYS_INLINE bool is_faster(Entry maneuver, Entry other, r
 static inline LOITER_ALWAYS_INLINE real first_control(real R, Entry maneuver) {
     const integer_3 controls_1 = controls(maneuver.word);
     const integer first = controls_1.a0;
-    return first != ABSENT ? (real)first : -maneuver.side / R;
+    return first != ABSENT ? (real)first : (real)-maneuver.side / R;
 }
 
 /* sin(q)/q - 1 for z = q^2 up to (pi/4)^2. */
@@ -755,9 +756,9 @@ static inline LOITER_ALWAYS_INLINE real_2 flow(real x, real y, integer u, real t
     if (u == 0) {
         return (real_2){x + t, y};
     }
-    const real w = u * y + 1.0;
+    const real w = (real)u * y + 1.0;
     const real ce = branchless_cos(t), se = branchless_sin(t);
-    return (real_2){x * ce + w * se, u * (w * ce - x * se - 1.0)};
+    return (real_2){x * ce + w * se, (real)u * (w * ce - x * se - 1.0)};
 }
 
 /* The length of a vector whose square neither overflows nor underflows.
@@ -784,7 +785,7 @@ static inline LOITER_ALWAYS_INLINE real miss(real x, real y, real R, Entry maneu
             y = flow_2.a1;
         }
     }
-    return length(x, y - side * R);
+    return length(x, y - (real)side * R);
 }
 
 #endif

@@ -1,0 +1,232 @@
+@HEAD@
+#include "loiter.h"
+
+#include <math.h>
+
+typedef loiter_real real;
+typedef loiter_integer integer;
+
+/* Numbers and functions of the arithmetic; and structures, which C and C++ make in different ways. */
+#ifdef LOITER_FLOAT
+typedef uint32_t unsigned_integer;
+#define REAL(number) number##f
+@FLOAT_FUNCTIONS@
+#else
+typedef uint64_t unsigned_integer;
+#define REAL(number) number
+@DOUBLE_FUNCTIONS@
+#endif
+#define REAL_NAN ((real)NAN)
+#define REAL_INFINITY ((real)INFINITY)
+#ifdef __cplusplus
+#define MAKE(type) type
+#else
+#define MAKE(type) (type)
+#endif
+
+@TYPEDEFS@
+
+@GENERATED@
+/* ---- The functions of loiter.h ---------------------------------------------------------------------------------- */
+
+static int exported(Entry found, loiter_entry *entry) {
+    const integer_3 u = controls(found.word);
+    const integer each[3] = {u.a0, u.a1, u.a2};
+    const real durations[3] = {found.t1, found.t2, found.t3};
+    entry->side = (int)found.side;
+    entry->pieces = 0;
+    for (int i = 0; i < 3; i++) {
+        const bool is_piece = each[i] != ABSENT;
+        entry->controls[i] = is_piece ? (int)each[i] : LOITER_STRAIGHT;
+        entry->durations[i] = is_piece ? durations[i] : REAL(0.0);
+        entry->pieces += is_piece ? 1 : 0;
+    }
+    return LOITER_OK;
+}
+
+static int status_of_side(int side) { return side >= -1 && side <= 1 ? LOITER_OK : LOITER_BAD_TURN; }
+
+int loiter_fastest(const loiter_problem *p, loiter_entry *entry) {
+    const real size = length(p->c, p->s);
+    WindProblem problem;
+    if (status_of_side(p->side) != LOITER_OK) {
+        return LOITER_BAD_TURN;
+    }
+    if (!(real_fabs(size - REAL(1.0)) <= REAL(1e-3))) {
+        return LOITER_BAD_POSE;
+    }
+    problem = MAKE(WindProblem){p->x,    p->y,         p->c / size, p->s / size, rounded_radius(p->radius),
+                                p->side, p->wx, p->wy, p->tolerance};
+    const integer status = status_of(&problem);
+    if (status != STATUS_OK) {
+        return (int)status;
+    }
+    if (p->wx == REAL(0.0) && p->wy == REAL(0.0)) {
+        const real_2 at = reduce(problem.x, problem.y, problem.c, problem.s);
+        return exported(optimum(at.a0, at.a1, problem.R, problem.side, problem.tolerance), entry);
+    }
+    const WindEntry found = wind_search_fastest(&problem);
+    if (found.status != STATUS_OK) {
+        return (int)found.status;
+    }
+    return exported(entry_of(&found), entry);
+}
+
+loiter_law_config loiter_law_defaults(loiter_real airspeed_m_s, loiter_real bank_limit_deg, loiter_real radius_m,
+                                      int side) {
+    loiter_law_config config;
+    config.radius_m = radius_m;
+    config.side = side;
+    config.airspeed_m_s = airspeed_m_s;
+    config.bank_limit_deg = bank_limit_deg;
+    config.roll_time_s = @ROLL_TIME@;
+    config.roll_rate_deg_s = @ROLL_RATE@;
+    config.delay_s = @DELAY@;
+    config.wind_east_m_s = config.wind_north_m_s = REAL(0.0);
+    config.reserve = @RESERVE@;
+    config.smoothing_s = @SMOOTHING@;
+    config.gain = @GAIN@;
+    return config;
+}
+
+static bool is_within(real value, real least, real most) { return value >= least && value <= most; }
+
+/* The largest times, seconds, gains and speeds of any aircraft, and the least rate of a roll, degrees per second; with
+ * others numbers might overflow. */
+#define MOST REAL(1000.0)
+#define LEAST_ROLL_RATE REAL(0.1)
+
+/* Whether a law can be made for a configuration. */
+static int status_of_config(const loiter_law_config *c) {
+    if (!is_within(c->airspeed_m_s, LEAST_AIRSPEED_M_S, MOST) || !(c->bank_limit_deg > REAL(0.0)) ||
+        !(c->bank_limit_deg < REAL(90.0))) {
+        return LOITER_BAD_AIRCRAFT;
+    }
+    if (!(c->radius_m > REAL(0.0)) || !(c->radius_m <= LARGEST_VALUE)) {
+        return LOITER_BAD_ORBIT;
+    }
+    if (status_of_side(c->side) != LOITER_OK) {
+        return LOITER_BAD_TURN;
+    }
+    if (!is_within(c->roll_time_s, REAL(0.0), MOST) || !(c->roll_rate_deg_s >= LEAST_ROLL_RATE) ||
+        !is_within(c->delay_s, REAL(0.0), MOST) || !is_within(c->reserve, REAL(0.0), MOST) ||
+        !is_within(c->smoothing_s, REAL(0.0), MOST) || !(c->gain > REAL(0.0)) || !(c->gain <= MOST)) {
+        return LOITER_BAD_RESPONSE;
+    }
+    const real R = rounded_radius(c->radius_m / radius_at_bank(c->airspeed_m_s, c->bank_limit_deg));
+    const real wx = c->wind_east_m_s / c->airspeed_m_s, wy = c->wind_north_m_s / c->airspeed_m_s;
+    if (!isfinite(wx) || !isfinite(wy)) {
+        return LOITER_BAD_WIND;
+    }
+    const WindProblem at_centre = {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), R, SIDE_EITHER, wx, wy, REAL(0.0)};
+    return (int)status_of(&at_centre);
+}
+
+/* Let the memory use the rings of this law, wherever that is now. */
+static void use_own_rings(loiter_law *law) {
+    law->memory.sensing.history.entries = &law->rings.BankEntry_ring_128;
+    law->memory.sensing.observer.air.recent = &law->rings.AirSample_ring_64;
+}
+
+int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
+    const int status = status_of_config(c);
+    if (status != LOITER_OK) {
+        return status;
+    }
+    const RollValues roll = {c->roll_time_s, c->roll_rate_deg_s};
+    const VehicleEstimates declared = {roll,
+                                       c->delay_s,
+                                       REAL(1.0),
+                                       REAL(1.0),
+                                       REAL(0.0),
+                                       c->wind_east_m_s,
+                                       c->wind_north_m_s,
+                                       c->airspeed_m_s,
+                                       c->airspeed_m_s,
+                                       REAL(0.0),
+                                       REAL(0.0),
+                                       REAL(0.0),
+                                       REAL(0.0)};
+    law->settings = MAKE(Settings){REAL(0.0),
+                                   REAL(0.0),
+                                   c->radius_m,
+                                   c->side,
+                                   REAL(0.0),
+                                   REAL(0.0),
+                                   c->wind_east_m_s,
+                                   c->wind_north_m_s,
+                                   c->bank_limit_deg,
+                                   c->bank_limit_deg,
+                                   c->gain,
+                                   c->reserve,
+                                   c->smoothing_s,
+                                   REAL(0.0),
+                                   max_real(@COVERED@, c->delay_s)};
+    law->vehicle = MAKE(VehicleModel){0, REAL(0.0), declared};
+    law->begin_us = 0;
+    law->memory = first_memory(&law->rings, &law->settings, &law->vehicle);
+    return LOITER_OK;
+}
+
+/* Times in the memory are relative to `begin_us`, which follows the clock at these intervals, seconds: single precision
+ * resolves 4 microseconds in the first of them. */
+#define INTERVAL_S 64
+
+static void follow_clock(loiter_law *law, uint32_t time_us) {
+    Sensing *sensing = &law->memory.sensing;
+    Clock *clock = &sensing->clock;
+    if (clock->time_s == -REAL_INFINITY) {
+        law->begin_us = time_us;
+        return;
+    }
+    const int32_t intervals = (int32_t)real_floor(clock->time_s / (real)INTERVAL_S);
+    if (intervals == 0) {
+        return;
+    }
+    const real past_s = (real)(intervals * INTERVAL_S);
+    law->begin_us += (uint32_t)intervals * (uint32_t)INTERVAL_S * UINT32_C(1000000);
+    clock->time_s -= past_s;
+    clock->first_s -= past_s;
+    clock->latest_s -= past_s;
+    sensing->observer.estimate.time_s -= past_s;
+    sensing->present.time_s -= past_s;
+    law->memory.plan = plan_by_clock(&law->memory.plan, -past_s);
+    BankEntry *entries = law->rings.BankEntry_ring_128.at;
+    const BankEntry last = entries[ENTRIES - 1];
+    for (int i = 0; i < ENTRIES; i++) {
+        entries[i].end_s -= last.end_s;
+        entries[i].integral -= last.integral;
+    }
+    AirSample *samples = law->rings.AirSample_ring_64.at;
+    const real now_s = samples[SAMPLES - 1].time_s;
+    for (int i = 0; i < SAMPLES; i++) {
+        samples[i].time_s -= now_s;
+    }
+}
+
+/* A step, once the bank of the vehicle is modelled for the end of the last command. */
+static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, loiter_command *command) {
+    use_own_rings(law);
+    follow_clock(law, m->time_us);
+    const real time_s = (real)(int32_t)(m->time_us - law->begin_us) * REAL(1e-6);
+    const State state = {time_s,      m->east_m,           m->north_m,           m->heading_deg,
+                         m->bank_deg, m->velocity_east_m_s, m->velocity_north_m_s, m->airspeed_m_s};
+    const Memory_LawCommand after = step(&law->rings, &law->settings, &law->memory, &law->vehicle, &state, dt_s);
+    law->memory = after.a0;
+    command->turn_rate_deg_s = after.a1.turn_rate_deg_s;
+    command->bank_deg = after.a1.bank_deg;
+    command->phase = (int)after.a1.phase;
+    command->time_to_join_s = after.a1.time_to_join_s;
+    command->side = (int)after.a1.side;
+    command->next_phase = (int)after.a1.next_phase;
+    command->next_in_s = after.a1.next_in_s;
+}
+
+int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
+    if (!(dt_s > REAL(0.0)) || !isfinite(dt_s)) {
+        return LOITER_BAD_STEP;
+    }
+    law->vehicle = flown_as_declared(&law->vehicle, law->memory.command_deg, law->memory.step_s);
+    step_with(law, measurement, dt_s, command);
+    return LOITER_OK;
+}

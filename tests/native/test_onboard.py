@@ -1,0 +1,183 @@
+"""The C for autopilots: it compiles without a warning as C and as C++, and in double its answers are Python's."""
+
+import os
+import shutil
+import subprocess
+from ctypes import byref
+from math import isnan
+from pathlib import Path
+
+import numpy as np
+import pytest
+from codegen.onboard import FOLDER, onboard_files
+from codegen.unit import ROOT
+
+from compiled.windy import BAD, drawn
+from guidance.recorded import damaged, law_for, scene
+from kernel.slow_scenes import CORNERS
+from loiter import Aircraft, Orbit, Pose, Wind
+from loiter.guidance.laws.law_step import LawCommand
+from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.protocol import Phase
+from loiter.guidance.simulators.point_mass import PointMass
+from loiter.kernel import synthesis, wind_search
+from native import states
+from native.library import COMPILER, needs_compiler
+from native.onboard import WARNINGS, OnboardLaw, library
+from native.single_precision import RADII, TOLERANCE, beside, differences
+from native.test_kernel import text
+from native.test_sanitized import SANITIZERS
+
+pytestmark = needs_compiler
+
+
+def test_make_generate_was_run_after_the_last_change():
+    for path, generated in onboard_files().items():
+        assert path.read_text("utf-8") == generated, f"{path.name}: run make generate"
+
+
+COMPILERS = {"c99": [COMPILER, "-std=c99"], "c++": [shutil.which("c++"), "-x", "c++", "-std=c++11"]}
+
+
+@pytest.mark.parametrize("single", [False, True])
+@pytest.mark.parametrize("language", COMPILERS)
+def test_it_compiles_without_a_warning(language, single, tmp_path):
+    command = COMPILERS[language]
+    if command[0] is None:
+        pytest.skip("there is no compiler of C++")
+    flags = ["-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror", *WARNINGS]
+    macros = ["-DLOITER_FLOAT"] if single else []
+    subprocess.run([*command, *flags, *macros, "-c", FOLDER / "loiter.c", "-o", tmp_path / "loiter.o"], check=True)
+
+
+def test_it_needs_no_header_but_those_of_the_language_and_math():
+    for name in ("loiter.h", "loiter.c"):
+        included = {line.split()[1] for line in (FOLDER / name).read_text("utf-8").splitlines() if "#include" in line}
+        assert included <= {"<math.h>", "<stdint.h>", "<stdbool.h>", '"loiter.h"'}
+    source = (FOLDER / "loiter.c").read_text("utf-8")
+    assert "malloc" not in source
+    assert "static real" not in source
+
+
+@pytest.mark.parametrize("rows", [states.drawn(10_000, 0), states.SPECIAL[::7]], ids=len)
+def test_a_state_in_still_air_has_the_same_bits(rows):
+    for row in rows:
+        x, y, R, side, tolerance = row
+        status, entry = library(False).optimum(*row)
+        assert (status == 0) == synthesis.is_solvable(x, y, R, tolerance), row
+        if status == 0:
+            expected = synthesis.optimum(x, y, synthesis.rounded_radius(R), side, tolerance)
+            assert text(entry) == text(synthesis.Entry(*expected)), row
+
+
+def test_the_search_in_wind_has_the_same_bits():
+    for problem in [*drawn(60, 1), *drawn(20, 2, 0.95), *BAD, *(one for one, _ in CORNERS[:2])]:
+        expected = wind_search.WindEntry(*wind_search.fastest(problem))
+        assert text(library(False).fastest(problem)) == text(expected), problem
+
+
+FLIGHTS = (0, 3, 5, 6, 8, 9, 17)
+
+
+@pytest.mark.parametrize("i", FLIGHTS)
+def test_the_law_has_the_same_bits_in_double(i):
+    """Flights with measurements that are lost, wrong or repeated, and clocks that jump; rings are changed in place."""
+    arguments, simulator, dt = scene(i, np.random.default_rng((5, i)))
+    law, onboard, random = law_for(*arguments), library(False), np.random.default_rng(i)
+    types, memory, command = onboard.types, onboard.c.test_law(), onboard.types.of[LawCommand]()
+    onboard.c.test_begin(memory, byref(types.in_c(law._settings)), byref(types.in_c(law._vehicle)))
+    last = simulator.measured_state()
+    for step in range(int(25.0 / dt)):
+        last = damaged(simulator.measured_state(), last, i, step, int(12.0 / dt), random)
+        given = law.step(last, dt)
+        model = byref(types.in_c(law._vehicle))
+        onboard.c.test_step(memory, model, byref(types.in_c(last)), byref(types.real(dt)), byref(command))
+        for name in ("turn_rate_deg_s", "bank_deg", "time_to_join_s", "next_in_s"):
+            assert same(getattr(command, name), getattr(given, name)), (step, name)
+        assert command.side == law._memory.side
+        simulator.advance(given, dt)
+
+
+def same(a, b):
+    """Equal but for the rounding of the C library's functions, which Python has elsewhere too."""
+    return a == b or (isnan(a) and isnan(b)) or abs(a - b) < 1e-9
+
+
+def test_the_state_of_the_law_in_single_precision_fits_a_microcontroller(tmp_path):
+    source = tmp_path / "size.c"
+    source.write_text('#include "loiter.h"\nchar fits[sizeof(loiter_law) <= 3200 ? 1 : -1];\n', "utf-8")
+    subprocess.run([COMPILER, "-DLOITER_FLOAT", f"-I{FOLDER}", "-c", source, "-o", tmp_path / "size.o"], check=True)
+
+
+@pytest.mark.parametrize("single", [False, True])
+def test_no_number_makes_it_do_what_c_does_not_define(single, tmp_path):
+    program, macros = tmp_path / "fuzz", ["-DLOITER_FLOAT"] if single else []
+    flags = ["-std=c99", "-O1", "-g", "-ffp-contract=off", f"-fsanitize={SANITIZERS}", "-fno-sanitize-recover=all"]
+    sources = [Path(__file__).with_name("fuzz_onboard.c"), FOLDER / "loiter.c"]
+    command = [COMPILER, *flags, *macros, f"-I{FOLDER}", *sources, "-o", program, "-lm"]
+    built = subprocess.run(command, capture_output=True, text=True)
+    if "cannot find" in built.stderr:
+        pytest.skip("this compiler has no sanitizers")
+    assert built.returncode == 0, built.stderr
+    counts = os.environ.get("LOITER_FUZZ_ONBOARD", "100000 2000 100000").split()
+    done = subprocess.run([program, *counts], capture_output=True, text=True, timeout=3600)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+# With the tolerance that docs/onboard.md recommends, times in single precision differ from those in double by no more
+# than this, over 1 + |x| + |y| + R, however close a state is to a boundary.
+LARGEST_ERROR = 2e-5
+
+
+@pytest.mark.parametrize("k", [1, 3, 5, 7])
+@pytest.mark.parametrize("radii", [RADII, (1.0,), (1.0 + 1e-6,), (1.0 + 1e-3,)], ids=str)
+def test_single_precision_with_a_tolerance_misses_no_turn(radii, k):
+    median, largest, jumps, _ = differences(beside(2000, 10.0**-k, radii, TOLERANCE))
+    assert median < 1e-7
+    assert largest < LARGEST_ERROR
+    assert jumps == 0.0
+
+
+def test_single_precision_finds_every_entry_in_wind():
+    for problem in drawn(60, 7):
+        fields = ("x", "y", "R", "wx", "wy")
+        rounded = problem._replace(**{name: float(np.float32(getattr(problem, name))) for name in fields})
+        single, double = library(True).fastest(rounded), library(False).fastest(rounded)
+        # Single precision also holds circles that are too tight by a few roundings of its own.
+        if double.status == 0:
+            assert single.status == 0, problem
+            size = 1.0 + problem.R + wind_search.time_of(double)
+            assert abs(wind_search.time_of(single) - wind_search.time_of(double)) < 1e-3 * size, problem
+
+
+def test_the_example_does_what_the_documentation_shows(tmp_path):
+    flags = ["-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror", "-DLOITER_FLOAT"]
+    sources = [FOLDER / "example.c", FOLDER / "loiter.c"]
+    subprocess.run([COMPILER, *flags, *sources, "-o", tmp_path / "example", "-lm"], check=True)
+    printed = subprocess.run([tmp_path / "example"], check=True, capture_output=True, text=True).stdout
+    assert printed in (ROOT / "docs" / "onboard.md").read_text("utf-8")
+
+
+@pytest.mark.skipif(shutil.which("cmake") is None, reason="there is no cmake")
+@pytest.mark.parametrize("more", [(), ("-DLOITER_DOUBLE=ON",)], ids=["single", "double"])
+def test_cmake_builds_it(more, tmp_path):
+    subprocess.run(["cmake", "-S", FOLDER, "-B", tmp_path, *more], check=True, capture_output=True)
+    subprocess.run(["cmake", "--build", tmp_path], check=True, capture_output=True)
+    assert subprocess.run([tmp_path / "example"], check=True, capture_output=True, text=True).stdout.startswith("plan:")
+
+
+def test_a_law_in_single_precision_commands_what_one_in_double_does():
+    """Over a flight of half an hour, in which its times are made relative again and again."""
+    orbit, aircraft = Orbit(0.0, 0.0, 90.0), Aircraft(18.0, max_bank_deg=35.0)
+    mass = PointMass(Pose(-300.0, 80.0, 70.0), aircraft, Wind(4.0, 200.0), seed=2)
+    single, double = (kind(orbit, aircraft, identify=False) for kind in (OnboardLaw, LoiterEntry))
+    largest = 0.0
+    for step in range(int(1800.0 / 0.1)):
+        measured = mass.measured_state()
+        measured = measured._replace(time_s=measured.time_s + 4000.0)
+        given, wanted = single.step(measured, 0.1), double.step(measured, 0.1)
+        if step > 600:
+            largest = max(largest, abs(given.bank_deg - wanted.bank_deg))
+        mass.advance(wanted, 0.1)
+    assert given.phase == wanted.phase == Phase.HOLD
+    assert largest < 0.5
