@@ -12,7 +12,7 @@ from codegen.kinds import Kind, NotTranslated, kind_of_type
 from codegen.statements import comment, wrapped
 from codegen.unit import ROOT, Unit, digest
 from loiter.guidance.identification import bank_history
-from loiter.guidance.identification.vehicle import VehicleModel, flown_as_declared
+from loiter.guidance.identification.vehicle import VehicleModel, fly_as_declared
 from loiter.guidance.laws import law_step
 from loiter.guidance.laws.law_step import Memory, Settings
 from loiter.guidance.vehicle import rolling
@@ -36,7 +36,7 @@ ROOTS = (
     wind_search.fastest,
     wind_search.entry_of,
     model.radius_at_bank,
-    flown_as_declared,
+    fly_as_declared,
     law_step.first_memory,
     law_step.plan_by_clock,
     law_step.step,

@@ -226,7 +226,7 @@ int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loit
     if (!(dt_s > REAL(0.0)) || !isfinite(dt_s)) {
         return LOITER_BAD_STEP;
     }
-    law->vehicle = flown_as_declared(&law->vehicle, law->memory.command_deg, law->memory.step_s);
+    law->vehicle = fly_as_declared(&law->vehicle, law->memory.command_deg, law->memory.step_s);
     step_with(law, measurement, dt_s, command);
     return LOITER_OK;
 }

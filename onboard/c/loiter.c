@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 5f7ebb4a129c767b8c4692d7bd6ab1a4bcff9e83aa1a13b40b69ac71d3a9d4ec
+ * SHA-256 of the source: 3d1ea0976d2a2d4297bdbc32ab535e596fbe60ecc31094622fe0eba8e3803e67
  */
 #include "loiter.h"
 
@@ -178,7 +178,7 @@ typedef struct { JoinPoint a0, a1; } JoinPoint_2;
 
 typedef struct { Entry a0; real a1; } Entry_real;
 
-/* A set of cells of the level `LEAF`: a bit for each of the first quarter of them, and so on. */
+/* A set of cells of the level `LEAF`: a bit for each, for each quarter of the circle. */
 typedef struct { integer first, second, third, fourth; } Leaves;
 
 typedef struct { WindCandidate a0; Leaves a1; } WindCandidate_Leaves;
@@ -428,7 +428,7 @@ static const real_2 NO_ROTATION = {REAL(0.0), REAL(1.0)};
 #else
 #define NEGLIGIBLE_WIND REAL(3.8725919148493183e-121) /* 2.0 ** (-400) */
 #endif
-static const Path NO_PATH = {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}; /* Path(inf, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0) */
+static const Path NO_PATH = {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)};
 
 /* Points of joining on each side that are tried first. */
 #define JOINS 8
@@ -497,7 +497,7 @@ static const Path NO_PATH = {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), 
 #else
 #define BESIDE REAL(1e-07)
 #endif
-static const Leaves NO_LEAVES = {0, 0, 0, 0}; /* Leaves(0, 0, 0, 0) */
+static const Leaves NO_LEAVES = {0, 0, 0, 0};
 
 /* Cells at first. Those that may hold a faster path than the best are halved to 2 pi/128, where local minima are
  * found, and then until none may hold a path that is faster by more than `time_tolerance`: the hold through a cell
@@ -510,16 +510,18 @@ static const Leaves NO_LEAVES = {0, 0, 0, 0}; /* Leaves(0, 0, 0, 0) */
 #define COARSE 2
 #define LEAF 4
 
-/* A quarter of the cells of the level `LEAF`: as many as the bits of a small integer. */
-#define QUARTER_OF_LEAVES 32 /* FIRST_CELLS << LEAF - 2 */
+/* A quarter of the cells of the level `LEAF`: as many as there are bits in the integers of JavaScript. */
+#define LEAVES 32 /* FIRST_CELLS << LEAF - 2 */
 
-/* The last level to which a cell hands on its words: ten sets of six bits fit into a machine word. */
+/* The last level to which a cell hands on its words: five sets of six bits, from the first level or from `LEAF` on,
+ * fit into the integers of JavaScript.
+ */
 #ifdef LOITER_FLOAT
 #define NARROWED 4
 #else
-#define NARROWED 9
+#define NARROWED 9 /* 8 */
 #endif
-static const Corner NO_CORNER = {REAL(0.0), 0, REAL(0.0), REAL(0.0)}; /* Corner(0.0, 0, 0.0, 0.0) */
+static const Corner NO_CORNER = {REAL(0.0), 0, REAL(0.0), REAL(0.0)};
 
 /* After so many cells of the level `LEAF` and below, the tolerance is `hold_tolerance`. More are needed only in
  * degenerate scenes, some of those in still air with R = 1 or 2; the slowest others found take some 2,500.
@@ -569,7 +571,7 @@ static const Corner NO_CORNER = {REAL(0.0), 0, REAL(0.0), REAL(0.0)}; /* Corner(
 /* Points of joining around the circle between which single arcs are looked for. */
 #define ARC_SAMPLES 32
 #define STANDARD_GRAVITY_M_S2 REAL(9.80665)
-static const Limits NO_LIMITS = {-1, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}; /* Limits(revision=-1, wind_differs=False, wind_east_m_s=0.0, wind_north_m_s=0.0, roll_time_s=0.0, roll_rate_deg_s=0.0, limit_deg=0.0, turns=TurnLimits(1.0, 1.0, 1.0), hold_deg=0.0, hold_half_deg=0, planned_half_deg=0, lead_s=0.0, reversal_s2=0.0, reversal_m=0.0, lag_s=0.0) */
+static const Limits NO_LIMITS = {-1, false, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 
 /* The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until
  * they differ by less than the second.
@@ -603,10 +605,10 @@ static const Limits NO_LIMITS = {-1, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.
 #define SMALL_CHANGE_DEG REAL(5.0)
 
 /* Gauss-Legendre points and weights on [0, 1], and Gauss-Laguerre points x, exp(-x) and weights. */
-static const real_3 LEGENDRE_POINTS = {REAL(0.1127016653792583), REAL(0.5), REAL(0.8872983346207417)}; /* (0.5 - 0.5 * sqrt(0.6), 0.5, 0.5 + 0.5 * sqrt(0.6)) */
-static const real_3 LEGENDRE_WEIGHTS = {REAL(0.2777777777777778), REAL(0.4444444444444444), REAL(0.2777777777777778)}; /* (5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0) */
+static const real_3 LEGENDRE_POINTS = {REAL(0.1127016653792583), REAL(0.5), REAL(0.8872983346207417)};
+static const real_3 LEGENDRE_WEIGHTS = {REAL(0.2777777777777778), REAL(0.4444444444444444), REAL(0.2777777777777778)};
 static const real_3 LAGUERRE_POINTS = {REAL(0.4157745567834791), REAL(2.294280360279042), REAL(6.2899450829374794)};
-static const real_3 LAGUERRE_SHARES = {REAL(0.6598290076917097), REAL(0.10083393126672065), REAL(0.0018548618076203868)}; /* (exp(-LAGUERRE_POINTS[0]), exp(-LAGUERRE_POINTS[1]), exp(-LAGUERRE_POINTS[2])) */
+static const real_3 LAGUERRE_SHARES = {REAL(0.6598290076917097), REAL(0.10083393126672065), REAL(0.0018548618076203868)};
 static const real_3 LAGUERRE_WEIGHTS = {REAL(0.711093009929173), REAL(0.27851773356924087), REAL(0.010389256501586137)};
 
 /* The reserve grows by this share for each radian that the aircraft could turn during the delay of its roll: the
@@ -633,10 +635,10 @@ static const real_3 LAGUERRE_WEIGHTS = {REAL(0.711093009929173), REAL(0.27851773
  * this, seconds, are left out.
  */
 #define SAMPLES 64
-static const Estimate NO_ESTIMATE = {-REAL_INFINITY, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(0.0)}}; /* Estimate(-inf, PlanarPose(0.0, 0.0, 1.0, 0.0), 0.0, 0.0, 0.0, 0.0, 0.0, COORDINATED) */
-static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN}; /* Clock(-inf, 0.0, inf, 0.0, nan, nan) */
-static const Plan NO_PLAN = {{0, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, -2, REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY, REAL_INFINITY, -REAL_INFINITY}; /* Plan(NO_ROUTE, 0.0, inf, inf, -inf) */
-static const Leads NO_LEADS = {-1000000000, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0)}; /* Leads(NO_BANK, 0, 0, 0, 0.0, 0.0, 0.0) */
+static const Estimate NO_ESTIMATE = {-REAL_INFINITY, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(0.0)}};
+static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
+static const Plan NO_PLAN = {{0, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, -2, REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY, REAL_INFINITY, -REAL_INFINITY};
+static const Leads NO_LEADS = {-1000000000, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 
 /* The history covers at least this time, seconds, in this many entries. */
 #define ENTRIES 128
@@ -692,13 +694,13 @@ static const Leads NO_LEADS = {-1000000000, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(
  * measured velocity is not that of an aircraft in flight.
  */
 #define LEAST_SPEED REAL(0.05)
-static const RoutePiece NO_PIECE = {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}; /* RoutePiece(ABSENT, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0) */
+static const RoutePiece NO_PIECE = {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 
 /* A flight that begins on the circle, within half of the reserve and this angle, radians, holds it at once. */
 #define ON_COURSE REAL(0.09)
 
 /* The answer of the kernel where there is no entry. */
-static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)}; /* Entry(0, Word.EMPTY + 0, 0.0, 0.0, 0.0) */
+static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 
 /* The interval between searches for another plan, seconds. */
 #define SEARCH_INTERVAL_S REAL(0.1)
@@ -2604,8 +2606,7 @@ static inline integer_LeafEnd_WindCandidate examined(CellVisit visit, integer po
 /* A set of leaves and one more, by its number. */
 static inline Leaves with_leaf(Leaves leaves, integer number) {
     const integer first = leaves.first, second = leaves.second, third = leaves.third, fourth = leaves.fourth;
-    const integer quarter = integer_quotient(number, QUARTER_OF_LEAVES), leaf = shift_left(1, integer_modulo(number,
-            QUARTER_OF_LEAVES));
+    const integer quarter = integer_quotient(number, LEAVES), leaf = shift_left(1, integer_modulo(number, LEAVES));
     if (quarter == 0) {
         return MAKE(Leaves){(first | leaf), second, third, fourth};
     }
@@ -2668,9 +2669,9 @@ static inline WindCandidate_Leaves searched_coarsely(integer side, const WindSce
 /* Whether a set of leaves contains the one with a number. */
 static inline bool has_leaf(Leaves leaves, integer number) {
     const integer first = leaves.first, second = leaves.second, third = leaves.third, fourth = leaves.fourth;
-    const integer quarter = integer_quotient(number, QUARTER_OF_LEAVES);
-    const integer those = quarter == 0 ? first : quarter == 1 ? second : quarter == 2 ? third : fourth;
-    return ((those >> integer_modulo(number, QUARTER_OF_LEAVES)) & 1) != 0;
+    const integer quarter = integer_quotient(number, LEAVES);
+    const integer members = quarter == 0 ? first : quarter == 1 ? second : quarter == 2 ? third : fourth;
+    return ((members >> integer_modulo(number, LEAVES)) & 1) != 0;
 }
 
 /* By how much a path may be faster than the best one and remain unknown. */
@@ -3237,7 +3238,7 @@ static inline real bank_after(real roll_time_s, real rate_deg_s, real bank_deg, 
 }
 
 /* The model of a vehicle that is as declared after `dt` seconds under a command; `identify` is not needed then. */
-static inline VehicleModel flown_as_declared(const VehicleModel *vehicle, real command_deg, real dt) {
+static inline VehicleModel fly_as_declared(const VehicleModel *vehicle, real command_deg, real dt) {
     const integer revision = vehicle->revision;
     real bank_deg = vehicle->bank_deg;
     const VehicleEstimates known = vehicle->estimates;
@@ -3497,21 +3498,19 @@ static inline Clock advanced(const Clock *clock, real dt) {
 /* The history with another step of `dt` seconds and the bank at its end; it covers at least `covered_s`.
  *
  * Once the ring is full, steps that are so short that it would not cover that time are joined: two entries that
- * follow each other then last longer than twice that time divided by their number. An entry of joined steps has
- * their mean bank.
+ * follow each other then last longer than twice that time divided by their number.
  */
 static inline BankHistory recorded(BankHistory history, real bank_deg, real dt, real covered_s) {
     const BankEntry_ring_128 entries = history.entries;
     dt = min_real(dt, covered_s);
-    const BankEntry before = entries->at[126], last = entries->at[127];
-    const real end_s = last.end_s + dt, integral = last.integral + dt * bank_deg;
-    if (end_s - before.end_s > REAL(2.0) * covered_s / (real)ENTRIES || entries->at[0].end_s == -REAL_INFINITY) {
-        return MAKE(BankHistory){bank_deg, BankEntry_ring_128_appended(entries, MAKE(BankEntry){end_s, bank_deg,
-                integral})};
+    const BankEntry last = entries->at[127];
+    const BankEntry entry = MAKE(BankEntry){last.end_s + dt, bank_deg, last.integral + dt * REAL(0.5) *
+            (last.bank_deg + bank_deg)};
+    if (entry.end_s - entries->at[126].end_s > REAL(2.0) * covered_s / (real)ENTRIES || entries->at[0].end_s ==
+            -REAL_INFINITY) {
+        return MAKE(BankHistory){bank_deg, BankEntry_ring_128_appended(entries, entry)};
     }
-    const real mean_deg = (integral - before.integral) / (end_s - before.end_s);
-    return MAKE(BankHistory){bank_deg, BankEntry_ring_128_with_last(entries, MAKE(BankEntry){end_s, mean_deg,
-            integral})};
+    return MAKE(BankHistory){bank_deg, BankEntry_ring_128_with_last(entries, entry)};
 }
 
 /* Whether the time of a measurement is within `LATEST_S`, and all other numbers together within `LARGEST_VALUE`. */
@@ -3639,13 +3638,27 @@ static inline integer index_at(BankHistory history, real time_s) {
     return low;
 }
 
+/* The bank at a time within an entry, between those at its ends; before the first entry it was constant. */
+static inline real bank_within(BankHistory history, integer index, real time_s) {
+    const BankEntry entry = history.entries->at[index];
+    if (index == 0) {
+        return entry.bank_deg;
+    }
+    const BankEntry before = history.entries->at[index - 1];
+    if (before.end_s == -REAL_INFINITY || entry.end_s <= before.end_s) {
+        return entry.bank_deg;
+    }
+    return entry.bank_deg - (entry.end_s - time_s) / (entry.end_s - before.end_s) * (entry.bank_deg -
+            before.bank_deg);
+}
+
 /* The bank `delay_s` seconds ago. */
 static inline real delayed_deg(BankHistory history, real delay_s) {
     if (delay_s <= REAL(0.0)) {
         return history.current_deg;
     }
-    const BankEntry_ring_128 entries = history.entries;
-    return entries->at[index_at(history, entries->at[127].end_s - delay_s)].bank_deg;
+    const real then_s = history.entries->at[127].end_s - delay_s;
+    return bank_within(history, index_at(history, then_s), then_s);
 }
 
 /* A measured state without the biases of heading and bank. */
@@ -3831,11 +3844,13 @@ static inline real mean_deg(BankHistory history, real delay_s) {
     if (delay_s <= REAL(0.0)) {
         return history.current_deg;
     }
-    const BankEntry_ring_128 entries = history.entries;
-    const BankEntry last = entries->at[127];
-    const real then_s = entries->at[127].end_s - delay_s;
-    const BankEntry first = entries->at[index_at(history, then_s)];
-    return (last.integral - first.integral + (first.end_s - then_s) * first.bank_deg) / delay_s;
+    const BankEntry last = history.entries->at[127];
+    const real then_s = last.end_s - delay_s;
+    const integer index = index_at(history, then_s);
+    const BankEntry first = history.entries->at[index];
+    const real bank_deg = bank_within(history, index, then_s);
+    return (last.integral - first.integral + (first.end_s - then_s) * REAL(0.5) * (bank_deg + first.bank_deg)) /
+            delay_s;
 }
 
 /* The estimate extrapolated over the measurement delay, with the banks modelled since then. */
@@ -4750,7 +4765,7 @@ int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loit
     if (!(dt_s > REAL(0.0)) || !isfinite(dt_s)) {
         return LOITER_BAD_STEP;
     }
-    law->vehicle = flown_as_declared(&law->vehicle, law->memory.command_deg, law->memory.step_s);
+    law->vehicle = fly_as_declared(&law->vehicle, law->memory.command_deg, law->memory.step_s);
     step_with(law, measurement, dt_s, command);
     return LOITER_OK;
 }

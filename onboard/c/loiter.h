@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 5f7ebb4a129c767b8c4692d7bd6ab1a4bcff9e83aa1a13b40b69ac71d3a9d4ec
+ * SHA-256 of the source: 3d1ea0976d2a2d4297bdbc32ab535e596fbe60ecc31094622fe0eba8e3803e67
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

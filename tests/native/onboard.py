@@ -11,7 +11,7 @@ from codegen.kinds import INTEGER, REAL, TRUTH, kind_of_type
 from codegen.onboard import FOLDER
 
 from loiter.guidance.identification.identification_step import identify
-from loiter.guidance.identification.vehicle import VehicleModel, flown_as_declared
+from loiter.guidance.identification.vehicle import VehicleModel, fly_as_declared
 from loiter.guidance.laws.law_step import LawCommand, Settings
 from loiter.guidance.laws.loiter_entry import NAMED_PHASES, NAMED_TURNS, LoiterEntry
 from loiter.guidance.protocol import Command, State
@@ -190,7 +190,7 @@ class OnboardLaw(LoiterEntry):
                 self._declared, self._identification, state, before.command_deg, before.step_s
             )
         else:
-            self._vehicle = flown_as_declared(self._vehicle, before.command_deg, before.step_s)
+            self._vehicle = fly_as_declared(self._vehicle, before.command_deg, before.step_s)
         given = self.types.command()
         measured = self.measurement(state)
         self.library.c.test_step_with(

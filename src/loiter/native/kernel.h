@@ -278,7 +278,7 @@ static const Leaves NO_LEAVES = {0, 0, 0, 0};
 /* The last level to which a cell hands on its words: five sets of six bits, from the first level or from `LEAF` on,
  * fit into the integers of JavaScript.
  */
-#define NARROWED 8
+#define NARROWED 9 /* 8 */
 static const Corner NO_CORNER = {0.0, 0, 0.0, 0.0};
 
 /* After so many cells of the level `LEAF` and below, the tolerance is `hold_tolerance`. More are needed only in
@@ -836,7 +836,7 @@ static inline Entry flown_entry(Extremal extremal, real length_tolerance, intege
 
 /* The fastest maneuver onto the circle held on one side. */
 static inline Entry optimum_on_side(real x, real y, real R, integer side, real tolerance) {
-    const real_Extremal fastest_1 = extremals_fastest(x, side * y, R, arc_tolerance_of(x, y, R, tolerance),
+    const real_Extremal fastest_1 = extremals_fastest(x, (real)side * y, R, arc_tolerance_of(x, y, R, tolerance),
             tolerance == 0.0);
     const Extremal best = fastest_1.a1;
     return flown_entry(best, rounding(x, y, R), side);
@@ -867,7 +867,7 @@ static inline Entry optimum(real x, real y, real R, integer side, real tolerance
 
 /* T of `optimum_on_side`, without its pieces; a piece that is too short to be flown may be included. */
 static inline real least_time(real x, real y, real R, integer side, real tolerance) {
-    const real_Extremal fastest_1 = extremals_fastest(x, side * y, R, arc_tolerance_of(x, y, R, tolerance),
+    const real_Extremal fastest_1 = extremals_fastest(x, (real)side * y, R, arc_tolerance_of(x, y, R, tolerance),
             tolerance == 0.0);
     const real time = fastest_1.a0;
     return time;
@@ -877,7 +877,7 @@ static inline real least_time(real x, real y, real R, integer side, real toleran
 static inline real first_control(real R, Entry maneuver) {
     const integer_3 controls_1 = controls(maneuver.word);
     const integer first = controls_1.a0;
-    return first != ABSENT ? (real)first : -maneuver.side / R;
+    return first != ABSENT ? (real)first : (real)-maneuver.side / R;
 }
 
 /* The state after a time t with control u, by (7): turned about (0, -u), or shifted along x for u = 0. */
@@ -885,9 +885,9 @@ static inline real_2 flow(real x, real y, integer u, real t) {
     if (u == 0) {
         return (real_2){x + t, y};
     }
-    const real w = u * y + 1.0;
+    const real w = (real)u * y + 1.0;
     const real ce = cos(t), se = sin(t);
-    return (real_2){x * ce + w * se, u * (w * ce - x * se - 1.0)};
+    return (real_2){x * ce + w * se, (real)u * (w * ce - x * se - 1.0)};
 }
 
 /* The length of a vector whose square neither overflows nor underflows.
@@ -914,7 +914,7 @@ static inline real miss(real x, real y, real R, Entry maneuver) {
             y = flow_2.a1;
         }
     }
-    return length(x, y - side * R);
+    return length(x, y - (real)side * R);
 }
 
 /* The least R of a circle that can be held all round: the rate of turn is largest downwind, (1 + |w|)^2 / R. */
@@ -969,14 +969,14 @@ static inline real_2 downwind(real wx, real wy) {
 static inline real_2 arc_rotation(integer u, real ax, real ay, real bx, real by) {
     const real_2 rotation_1 = rotation(ax, ay, bx, by);
     const real cross = rotation_1.a0, dot = rotation_1.a1;
-    return (real_2){u * cross, dot};
+    return (real_2){(real)u * cross, dot};
 }
 
 /* The phase of the point of the circle that is nearest to (x, y). */
 static inline real phase_of(real x, real y, integer side, real wx, real wy) {
     const real_2 downwind_1 = downwind(wx, wy);
     const real dx = downwind_1.a0, dy = downwind_1.a1;
-    return angle(arc_rotation(-side, -dx, -dy, side * y, -side * x));
+    return angle(arc_rotation(-side, -dx, -dy, (real)side * y, (real)-side * x));
 }
 
 /* The candidate without pieces, which joins at the point of the circle that is nearest to the start. */
@@ -991,10 +991,10 @@ static inline WindCandidate start_on_circle(integer side, WindScene scene) {
  * difference of two nearly equal sines for short arcs.
  */
 static inline real_4 fly(real x, real y, real c, real s, integer u, real t) {
-    const real half = 0.5 * u * t;
+    const real half = 0.5 * (real)u * t;
     const real ch = cos(half), sh = sin(half);
     const real chord = u != 0 ? 2.0 * sin(0.5 * t) : t;
-    const real ce = cos(u * t), se = sin(u * t);
+    const real ce = cos((real)u * t), se = sin((real)u * t);
     return (real_4){x + chord * (c * ch - s * sh), y + chord * (s * ch + c * sh), c * ce - s * se, s * ce + c * se};
 }
 
@@ -1002,9 +1002,9 @@ static inline real_4 fly(real x, real y, real c, real s, integer u, real t) {
 static inline real_5 hold_pose(real phase, integer side, real R, real wx, real wy) {
     const real_2 downwind_1 = downwind(wx, wy);
     const real dx = downwind_1.a0, dy = downwind_1.a1;
-    const real a = -cos(phase), b = side * sin(phase);
+    const real a = -cos(phase), b = (real)side * sin(phase);
     const real tx = a * dx - b * dy, ty = a * dy + b * dx;
-    const real nx = -side * ty, ny = side * tx;
+    const real nx = (real)-side * ty, ny = (real)side * tx;
     const real out = wx * nx + wy * ny;
     const real crab = sqrt((1.0 - out) * (1.0 + out));
     return (real_5){R * nx, R * ny, crab * tx - out * nx, crab * ty - out * ny, crab + wx * tx + wy * ty};
@@ -1126,7 +1126,8 @@ static inline real_2 time_within(real dx, real dy, real wx, real wy, real limit)
 static inline real_3 tangent(integer u, real dx, real dy) {
     const real square = dx * dx + dy * dy;
     const real straight = sqrt(max_real(square - 4.0, 0.0));
-    return (real_3){straight, (straight * dx - 2.0 * u * dy) / square, (straight * dy + 2.0 * u * dx) / square};
+    return (real_3){straight, (straight * dx - 2.0 * (real)u * dy) / square, (straight * dy + 2.0 * (real)u * dx) /
+            square};
 }
 
 /* By how much each arc of LSR (u = +1) or RSL grows in an interval, continued beyond whole turns. */
@@ -1142,7 +1143,7 @@ static inline real arc_growth(integer u, real dx, real dy, Ends ends, real_2 int
         p2 = tangent_2.a2;
     }
     const real turned = fabs(atan2(e1 * p2 - e2 * p1, e1 * p1 + e2 * p2));
-    return u * (ends.wx * e2 - ends.wy * e1) >= 0.0 ? turned : -turned;
+    return (real)u * (ends.wx * e2 - ends.wy * e1) >= 0.0 ? turned : -turned;
 }
 
 /* 1 where an arc exceeds a limit, or almost: the ends of arcs are known up to rounding only; otherwise 0. */
@@ -1175,7 +1176,7 @@ static inline real lsr_rsl_root(integer u, real dx, real dy, Ends ends, real arc
         p1 = tangent_2.a1;
         p2 = tangent_2.a2;
         /* The direction turns one way only, by no more than pi in all. */
-        turned = 2.0 * u * atan2(e1 * p2 - e2 * p1, e1 * p1 + e2 * p2);
+        turned = 2.0 * (real)u * atan2(e1 * p2 - e2 * p1, e1 * p1 + e2 * p2);
     }
     return time;
 }
@@ -1202,7 +1203,7 @@ static inline Path first_lsr_rsl(integer u, real dx, real dy, Ends ends, real_2 
     const integer gained = passes(-least, 0.0) + passes(-most, 0.0);
     const integer last_1 = gained + 1;
     for (integer turns = fewest; turns < last_1; turns++) {
-        const real time = lsr_rsl_root(u, dx, dy, ends, arcs + TWO_PI * turns, interval);
+        const real time = lsr_rsl_root(u, dx, dy, ends, arcs + TWO_PI * (real)turns, interval);
         if (time > end) {
             break;
         }
@@ -1280,8 +1281,8 @@ static inline Path three_arcs(integer u, real middle, real dx, real dy, Ends end
     const real lam = -cos(0.5 * middle), across = sin(0.5 * middle);
     /* The headings at the two switches: p turned by the angle whose cosine is lambda, against the sense of the outer */
     /* arcs at the first switch and in their sense at the second. */
-    const real ax = lam * p1 + u * across * p2, ay = lam * p2 - u * across * p1;
-    const real bx = lam * p1 - u * across * p2, by = lam * p2 + u * across * p1;
+    const real ax = lam * p1 + (real)u * across * p2, ay = lam * p2 - (real)u * across * p1;
+    const real bx = lam * p1 - (real)u * across * p2, by = lam * p2 + (real)u * across * p1;
     const real first = arc_time(arc_rotation(u, c0, s0, ax, ay), 4.0, arc_tolerance);
     const real last = arc_time(arc_rotation(u, bx, by, c, s), 1.0, arc_tolerance);
     return (Path){first + middle + last, encode(u, -u, u), first, middle, last, lam, p1, p2};
@@ -1336,7 +1337,8 @@ static inline Path first_path_of(integer words, real phase, integer side, WindSc
         for (int i_1 = 0; i_1 < 2; i_1++) {
             const integer u = each_u_1[i_1];
             if ((words & set_of(encode(u, 0, u))) != 0) {
-                path = lsl_rsr(u, dx - u * (s - s0), dy + u * (c - c0), ends, min_real(until, best.time));
+                path = lsl_rsr(u, dx - (real)u * (s - s0), dy + (real)u * (c - c0), ends, min_real(until,
+                        best.time));
                 best = faster_path(best, path, until);
             }
         }
@@ -1344,7 +1346,8 @@ static inline Path first_path_of(integer words, real phase, integer side, WindSc
         for (int i_2 = 0; i_2 < 2; i_2++) {
             const integer u = each_u_2[i_2];
             if ((words & set_of(encode(u, 0, -u))) != 0) {
-                path = lsr_rsl(u, dx + u * (s + s0), dy - u * (c + c0), ends, min_real(until, best.time));
+                path = lsr_rsl(u, dx + (real)u * (s + s0), dy - (real)u * (c + c0), ends, min_real(until,
+                        best.time));
                 best = faster_path(best, path, until);
             }
         }
@@ -1352,7 +1355,8 @@ static inline Path first_path_of(integer words, real phase, integer side, WindSc
         for (int i_3 = 0; i_3 < 2; i_3++) {
             const integer u = each_u_3[i_3];
             if ((words & set_of(encode(u, -u, u))) != 0) {
-                path = lrl_rlr(u, dx - u * (s - s0), dy + u * (c - c0), ends, min_real(until, best.time));
+                path = lrl_rlr(u, dx - (real)u * (s - s0), dy + (real)u * (c - c0), ends, min_real(until,
+                        best.time));
                 best = faster_path(best, path, until);
             }
         }
@@ -1363,7 +1367,7 @@ static inline Path first_path_of(integer words, real phase, integer side, WindSc
 /* The fastest of `best` and the paths to `JOINS` points around the circle, where possible with a straight piece. */
 static inline WindCandidate best_of_joins(integer side, WindScene scene, WindCandidate best) {
     for (integer i = 0; i < JOINS; i++) {
-        const real phase = TWO_PI / JOINS * (i + 0.5);
+        const real phase = TWO_PI / (real)JOINS * ((real)i + 0.5);
         const integer words = best.path.time < INFINITY ? WITH_STRAIGHT : ALL_WORDS;
         const Path path = first_path_of(words, phase, side, scene, best.path.time);
         if (path.time < best.path.time) {
@@ -1390,7 +1394,7 @@ static inline real join_slope(Path path, real phase, integer side, WindScene sce
     const real along = path.p1 * c + path.p2 * s, drift = path.p1 * scene.wx + path.p2 * scene.wy;
     const integer_3 controls_2 = controls(path.word);
     const integer last = controls_2.a2;
-    const real rate = side * last * hold_rate(phase, side, scene.R, scene.wx, scene.wy);
+    const real rate = (real)(side * last) * hold_rate(phase, side, scene.R, scene.wx, scene.wy);
     return (along + drift - rate * (path.lam - along)) / (path.lam + drift);
 }
 
@@ -1483,14 +1487,15 @@ static inline Entry_real fit_two_arcs(Entry arcs, real phase, WindScene scene) {
                 hold_pose_4.a4;
         const real rx = px - x2 - wx * (t1 + t2), ry = py - y2 - wy * (t1 + t2);
         /* How the end moves with t1, which turns the second arc about its start, and with t2. */
-        const real ax = c1 + wx - first * (y2 - y1), ay = s1 + wy + first * (x2 - x1);
+        const real ax = c1 + wx - (real)first * (y2 - y1), ay = s1 + wy + (real)first * (x2 - x1);
         const real bx = c2 + wx, by = s2 + wy;
-        const real across = ax * by - ay * bx, bend = second + side * hold_rate(phase, side, R, wx, wy);
+        const real across = ax * by - ay * bx, bend = (real)second + (real)side * hold_rate(phase, side, R, wx, wy);
         if (across == 0.0 || bend == 0.0) {
             break;
         }
         const real d1 = (rx * by - ry * bx) / across, d2 = (ax * ry - ay * rx) / across;
-        const real later = (atan2(c2 * se - s2 * ce, c2 * ce + s2 * se) - first * d1 - second * d2) / bend;
+        const real later = (atan2(c2 * se - s2 * ce, c2 * ce + s2 * se) - (real)first * d1 - (real)second * d2) /
+                bend;
         t1 = t1 + d1;
         t2 = t2 + d2 + later;
         phase = phase + later * g / R;
@@ -1639,8 +1644,8 @@ static inline WindCandidate refined_minimum(WindCandidate found, real width, Win
 
 /* The phase in the middle of a cell, and half its width. */
 static inline real_2 middle_of(CellVisit visit) {
-    const real half = 0.5 * TWO_PI / shift_left(FIRST_CELLS, visit.level);
-    return (real_2){half * (2.0 * visit.number + 1.0), half};
+    const real half = 0.5 * TWO_PI / (real)shift_left(FIRST_CELLS, visit.level);
+    return (real_2){half * (2.0 * (real)visit.number + 1.0), half};
 }
 
 /* The cell around a phase. */
@@ -1656,12 +1661,12 @@ static inline Cell cell_at(real phase, real half, integer side, WindScene scene)
     const real bend = R + fastest_turning * fastest_turning + twist;
     const real tx = R * (c + wx) / g, ty = R * (s + wy) / g;
     const real still = (1.0 - wind) * (1.0 + wind);
-    const real turned_more = side * out * still / (crab * crab * crab);
+    const real turned_more = (real)side * out * still / (crab * crab * crab);
     const real jerk = twist * (1.0 + 2.0 * wind * wind) / still;
     const real bend_change = R + jerk + 3.0 * fastest_turning * twist + fastest_turning * fastest_turning *
             fastest_turning;
-    return (Cell){half, px - x, py - y, c, s, tx, ty, -px, -py, -side * turning, turned_more, bend, bend_change,
-            twist, jerk, fastest_turning, wind, c0, s0, wx, wy};
+    return (Cell){half, px - x, py - y, c, s, tx, ty, -px, -py, (real)-side * turning, turned_more, bend,
+            bend_change, twist, jerk, fastest_turning, wind, c0, s0, wx, wy};
 }
 
 /* Whether no vehicle, however fast it turns, reaches the cell before the time. */
@@ -1671,11 +1676,12 @@ static inline bool is_out_of_reach(Cell cell, real radius, real time) {
 
 /* The centres of the first and the last arc of a word with these controls. */
 static inline Centres centres(integer first, integer last, Cell cell) {
-    const real x = cell.px - last * cell.s + first * cell.s0, y = cell.py + last * cell.c - first * cell.c0;
+    const real x = cell.px - (real)last * cell.s + (real)first * cell.s0, y = cell.py + (real)last * cell.c -
+            (real)first * cell.c0;
     const real turning = cell.turning, c = cell.c, s = cell.s;
-    const real dx = cell.tx - last * turning * c, dy = cell.ty - last * turning * s;
-    const real ddx = cell.nx - last * (cell.turned_more * c - turning * turning * s);
-    const real ddy = cell.ny - last * (cell.turned_more * s + turning * turning * c);
+    const real dx = cell.tx - (real)last * turning * c, dy = cell.ty - (real)last * turning * s;
+    const real ddx = cell.nx - (real)last * (cell.turned_more * c - turning * turning * s);
+    const real ddy = cell.ny - (real)last * (cell.turned_more * s + turning * turning * c);
     const real rate = length(dx, dy);
     const real change = (rate + 0.5 * cell.bend * cell.half) * cell.half;
     return (Centres){x, y, dx, dy, ddx, ddy, change, rate + cell.bend * cell.half};
@@ -1765,10 +1771,11 @@ static inline real lsl_rsr_margin(integer u, Cell cell, real time) {
     const real arcs = lowest_turn(angle(arc_rotation(u, cell.c0, cell.s0, cell.c, cell.s)), turned);
     const real distance = length(x, y);
     const real nearer = distance > 0.0 ? (x * between.dx + y * between.dy) / distance : between.change / cell.half;
-    const real slope = nearer + u * cell.turning, bend = cell.bend + cell.twist, value = distance + arcs - time;
+    const real slope = nearer + (real)u * cell.turning, bend = cell.bend + cell.twist, value = distance + arcs -
+            time;
     real margin = least_inside(value, slope, bend, cell.half);
     if (margin < 0.0 && 0.0 < distance - between.change) {
-        const real curvature = distance_curvature(x / distance, y / distance, distance, between) + u *
+        const real curvature = distance_curvature(x / distance, y / distance, distance, between) + (real)u *
                 cell.turned_more;
         const real change = distance_curvature_change(distance - between.change, 0.0, between, cell) + cell.jerk;
         margin = max_real(margin, least_inside_curved(value, slope, curvature, change, cell.half));
@@ -1845,15 +1852,15 @@ static inline real tangent_margin(integer u, Centres between, Cell cell, real_2 
     }
     const real_3 tangent_2 = tangent(u, between.x - cell.wx * begin, between.y - cell.wy * begin);
     const real q1 = tangent_2.a1, q2 = tangent_2.a2;
-    const real earlier = u * atan2(p1 * q2 - p2 * q1, p1 * q1 + p2 * q2);
+    const real earlier = (real)u * atan2(p1 * q2 - p2 * q1, p1 * q1 + p2 * q2);
     const real turned = cell.fastest_turning * cell.half;
     const real first = angle(arc_rotation(u, cell.c0, cell.s0, p1, p2)), last = angle(arc_rotation(u, cell.c,
             cell.s, p1, p2));
-    const real slope = p1 * between.dx + p2 * between.dy - u * cell.turning;
+    const real slope = p1 * between.dx + p2 * between.dy - (real)u * cell.turning;
     const real middle = straight + first + last - time;
     real value = least_inside(middle, slope, cell.bend + cell.twist, cell.half);
     if (value < 0.0) {
-        const real curvature = distance_curvature(p1, p2, straight, between) - u * cell.turned_more;
+        const real curvature = distance_curvature(p1, p2, straight, between) - (real)u * cell.turned_more;
         const real change = distance_curvature_change(sqrt(nearest * nearest - 4.0), 2.0, between, cell) +
                 cell.jerk;
         value = max_real(value, least_inside_curved(middle, slope, curvature, change, cell.half));
@@ -1921,14 +1928,14 @@ static inline real middle_margin_at(integer u, Centres between, Cell cell, real 
     }
     const real turning = cell.fastest_turning;
     const real across = sin(half_middle), along = cos(half_middle), nearest = distance - between.change;
-    const real slope = along * u * cell.turning + (x * between.dx + y * between.dy) / distance;
+    const real slope = along * (real)u * cell.turning + (x * between.dx + y * between.dy) / distance;
     const real bend = 0.25 * turning * turning + cell.twist + cell.bend + between.fastest * between.fastest /
             nearest;
     const real value = 4.0 * across - distance;
     real margin = least_inside(value, slope, bend, cell.half);
     if (margin < 0.0) {
         real curvature = -distance_curvature(x / distance, y / distance, distance, between);
-        curvature -= 0.25 * across * cell.turning * cell.turning + along * u * cell.turned_more;
+        curvature -= 0.25 * across * cell.turning * cell.turning + along * (real)u * cell.turned_more;
         real change = distance_curvature_change(nearest, 0.0, between, cell);
         change += (0.0625 * turning * turning + 0.75 * cell.twist) * turning + cell.jerk;
         margin = max_real(margin, least_inside_curved(value, slope, curvature, change, cell.half));
@@ -2117,8 +2124,8 @@ static inline WindCandidate refined_if_better(LeafEnd before, LeafEnd after, int
             after.point;
     const real phase = parts_1.phase;
     const Path path = parts_1.path;
-    const WindCandidate found = refined_minimum((WindCandidate){phase, side, path}, TWO_PI / shift_left(FIRST_CELLS,
-            LEAF), scene);
+    const WindCandidate found = refined_minimum((WindCandidate){phase, side, path}, TWO_PI /
+            (real)shift_left(FIRST_CELLS, LEAF), scene);
     return found.path.time < best.path.time ? found : best;
 }
 
@@ -2274,7 +2281,7 @@ static inline bool is_late_before(Centres between, Cell cell, real longest, Corn
         const real p1 = tangent_2.a1, p2 = tangent_2.a2;
         const real_3 tangent_3 = tangent(u, between.x, between.y);
         const real q1 = tangent_3.a1, q2 = tangent_3.a2;
-        return arc + max_real(u * atan2(p1 * q2 - p2 * q1, p1 * q1 + p2 * q2), 0.0) < TWO_PI;
+        return arc + max_real((real)u * atan2(p1 * q2 - p2 * q1, p1 * q1 + p2 * q2), 0.0) < TWO_PI;
     }
     if (arc >= TWO_PI || change >= 2.0) {
         return false;
@@ -2305,9 +2312,9 @@ static inline bool straight_vanishes(Corner corner, Cell cell) {
     const real x = between.x - cell.wx * time, y = between.y - cell.wy * time;
     const real_3 tangent_1 = tangent(u, x, y);
     const real p1 = tangent_1.a1, p2 = tangent_1.a2;
-    const real slope = p1 * between.dx + p2 * between.dy - u * cell.turning, fall = 1.0 + cell.wx * p1 + cell.wy *
-            p2;
-    const real steep = fabs(slope), curvature = p1 * between.ddx + p2 * between.ddy - u * cell.turned_more;
+    const real slope = p1 * between.dx + p2 * between.dy - (real)u * cell.turning, fall = 1.0 + cell.wx * p1 +
+            cell.wy * p2;
+    const real steep = fabs(slope), curvature = p1 * between.ddx + p2 * between.ddy - (real)u * cell.turned_more;
     /* v is at most TURNS (|D'| x + |w| s)/2, and (a + b)^3 <= 4 (a^3 + b^3). For s up to `longest` the second cube is */
     /* less than a sixth of `fall` s. */
     const real windy = CUBE * wind * wind * wind;
@@ -2349,7 +2356,7 @@ static inline bool arc_vanishes(integer u, integer first, real middle, real othe
     }
     x = x / distance;
     y = y / distance;
-    const real slope = -along * u * cell.turning - x * between.dx - y * between.dy;
+    const real slope = -along * (real)u * cell.turning - x * between.dx - y * between.dy;
     const real fall = -along - x * cell.wx - y * cell.wy, steep = fabs(slope);
     if (fall <= 0.0) {
         return lrl_rlr_margin(u, cell, time, INFINITY) >= 0.0;
@@ -2372,10 +2379,11 @@ static inline bool arc_vanishes(integer u, integer first, real middle, real othe
         return false;
     }
     /* How the arc that vanishes changes along x, on the side where the word would be faster. */
-    const real turned = u * (x * between.dy - y * between.dx) / distance;
-    const real drift = -u * (x * cell.wy - y * cell.wx) / distance;
-    const real growth = first * turned - 0.25 * u * cell.turning + (first < 0 ? u * cell.turning : 0.0);
-    const real sooner = first * drift + 0.25;
+    const real turned = (real)u * (x * between.dy - y * between.dx) / distance;
+    const real drift = (real)-u * (x * cell.wy - y * cell.wx) / distance;
+    const real growth = (real)first * turned - 0.25 * (real)u * cell.turning + (first < 0 ? (real)u * cell.turning :
+            0.0);
+    const real sooner = (real)first * drift + 0.25;
     const real sign = slope > 0.0 ? 1.0 : -1.0;
     const real longer = -sign * growth - min_real(sooner * (steep - spare), sooner * (steep + spare)) / fall;
     if (longer + 0.5 * (cell.twist + cell.bend / nearest + rate * rate / (nearest * nearest)) * half >= 0.0) {
@@ -2533,11 +2541,12 @@ static inline Entry_real fit_one_arc(Entry arc, real phase, WindScene scene) {
         const real px = hold_pose_3.a0, py = hold_pose_3.a1, ce = hold_pose_3.a2, se = hold_pose_3.a3, g =
                 hold_pose_3.a4;
         const real rx = px - x1 - wx * t, ry = py - y1 - wy * t, vx = ce + wx, vy = se + wy;
-        const real longer = (rx * vx + ry * vy) / (g * g), bend = u + side * hold_rate(phase, side, R, wx, wy);
+        const real longer = (rx * vx + ry * vy) / (g * g), bend = (real)u + (real)side * hold_rate(phase, side, R,
+                wx, wy);
         if (bend == 0.0) {
             break;
         }
-        const real later = (atan2(c1 * se - s1 * ce, c1 * ce + s1 * se) - u * longer) / bend;
+        const real later = (atan2(c1 * se - s1 * ce, c1 * ce + s1 * se) - (real)u * longer) / bend;
         t = t + longer + later;
         phase = phase + later * g / R;
         if (fabs(longer) + fabs(later) <= arc_tolerance) {
@@ -2621,7 +2630,7 @@ static inline WindEntry fastest_onto(integer side, WindScene scene) {
                 best = best_of_joins(one, scene, best);
             }
         }
-        best = refined_minimum(best, TWO_PI / JOINS, scene);
+        best = refined_minimum(best, TWO_PI / (real)JOINS, scene);
     }
     if (best.path.time > 0.0) {
         best = fastest_of_sides(side, scene, best);
@@ -2668,7 +2677,7 @@ static inline EntryBeside fastest_arc_beside(EntryBeside best, integer u, intege
     ArcEnd before = arc_end(u, 0.0, side, scene);
     const integer last_1 = ARC_SAMPLES + 1;
     for (integer i = 1; i < last_1; i++) {
-        const real phase = TWO_PI / ARC_SAMPLES * i;
+        const real phase = TWO_PI / (real)ARC_SAMPLES * (real)i;
         const ArcEnd after = arc_end(u, phase, side, scene);
         /* Where the heading of the start lies between those of two points, one of the two arcs is almost a whole turn. */
         if ((before.short_ <= 0.0 && 0.0 <= after.short_) && fabs(after.t - before.t) < 3.141592653589793) {
@@ -2745,7 +2754,7 @@ static inline WindEntry wind_search_fastest(WindProblem problem) {
 /* Write the times of the first paths to `SAMPLES` points around the circle. */
 static inline void sampled_times(integer side, WindScene scene, real *times) {
     for (integer i = 0; i < SAMPLES; i++) {
-        times[i] = first_path(TWO_PI / SAMPLES * i, side, scene, INFINITY).time;
+        times[i] = first_path(TWO_PI / (real)SAMPLES * (real)i, side, scene, INFINITY).time;
     }
 }
 
@@ -2757,7 +2766,7 @@ static inline bool is_local_minimum(real *times, integer i) {
 
 /* The maneuver at the local minimum next to sample i. */
 static inline WindEntry entry_near_sample(integer i, integer side, WindScene scene) {
-    const real phase = TWO_PI / SAMPLES * i, width = TWO_PI / SAMPLES;
+    const real phase = TWO_PI / (real)SAMPLES * (real)i, width = TWO_PI / (real)SAMPLES;
     const WindCandidate start = (WindCandidate){phase, side, first_path(phase, side, scene, INFINITY)};
     return wind_entry(refined_minimum(start, width, scene), scene);
 }
