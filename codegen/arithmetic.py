@@ -93,5 +93,5 @@ CONSTANTS: dict[tuple[str, str], Callable[[Arithmetic], float]] = {
     ("synthesis", "WIND_TIE_TOLERANCE"): lambda a: 1e-12 * 2.0 ** (53 - a.digits),
     ("turning", "SMALLEST_TURN"): lambda a: 2.0 ** -(a.digits + 1),
     ("wind_search", "LAST"): lambda a: a.digits - 9,
-    ("wind_search", "NARROWED"): lambda a: bits(a) // 6 - 1,
+    ("wind_search", "NARROWED"): lambda a: bits(a) // 6 - 2,
 }

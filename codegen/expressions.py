@@ -309,7 +309,8 @@ class Expressions:
             sign, level = OPERATORS[operator]
             if not whole or operator is ast.Div:
                 a, b = self.as_real(a), self.as_real(b)
-            return Expression(f"{a.within(level)} {sign} {b.within(level + 1)}", a.kind, level)
+            kind = INTEGER if whole and operator is not ast.Div else REAL
+            return Expression(f"{a.within(level)} {sign} {b.within(level + 1)}", kind, level)
         if operator is ast.Mod and not whole:
             return Expression(f"real_modulo({self.as_real(a).text}, {self.as_real(b).text})", REAL)
         helpers = {ast.LShift: "shift_left", ast.Mod: "integer_modulo", ast.FloorDiv: "integer_quotient"}

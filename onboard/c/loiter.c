@@ -517,9 +517,9 @@ static const Leaves NO_LEAVES = {0, 0, 0, 0};
  * fit into the integers of JavaScript.
  */
 #ifdef LOITER_FLOAT
-#define NARROWED 4
+#define NARROWED 3
 #else
-#define NARROWED 9 /* 8 */
+#define NARROWED 8
 #endif
 static const Corner NO_CORNER = {REAL(0.0), 0, REAL(0.0), REAL(0.0)};
 

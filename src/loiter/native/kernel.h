@@ -278,7 +278,7 @@ static const Leaves NO_LEAVES = {0, 0, 0, 0};
 /* The last level to which a cell hands on its words: five sets of six bits, from the first level or from `LEAF` on,
  * fit into the integers of JavaScript.
  */
-#define NARROWED 9 /* 8 */
+#define NARROWED 8
 static const Corner NO_CORNER = {0.0, 0, 0.0, 0.0};
 
 /* After so many cells of the level `LEAF` and below, the tolerance is `hold_tolerance`. More are needed only in

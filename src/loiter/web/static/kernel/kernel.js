@@ -331,7 +331,7 @@ export const LEAVES = 32; /* FIRST_CELLS << LEAF - 2 */
 /* The last level to which a cell hands on its words: five sets of six bits, from the first level or from `LEAF` on,
  * fit into the integers of JavaScript.
  */
-export const NARROWED = 9; /* 8 */
+export const NARROWED = 8;
 /** @type {Corner} */
 export const NO_CORNER = { phase: 0.0, u: 0, t1: 0.0, t2: 0.0 };
 
@@ -453,7 +453,7 @@ export function fly(x, y, c, s, u, t) {
     const half = 0.5 * u * t;
     const ch = cos(half), sh = sin(half);
     const chord = u !== 0 ? 2.0 * sin(0.5 * t) : t;
-    const ce = cos(u * t + 0), se = sin(u * t + 0);
+    const ce = cos(u * t), se = sin(u * t);
     return [x + chord * (c * ch - s * sh), y + chord * (s * ch + c * sh), c * ce - s * se, s * ce + c * se];
 }
 
@@ -466,9 +466,9 @@ export function flow(x, y, u, t) {
     if (u === 0) {
         return [x + t, y];
     }
-    const w = u * y + 0 + 1.0;
+    const w = u * y + 1.0;
     const ce = cos(t), se = sin(t);
-    return [x * ce + (w * se + 0), u * (w * ce + 0 - x * se - 1.0) + 0];
+    return [x * ce + w * se, u * (w * ce - x * se - 1.0)];
 }
 
 /**
@@ -1209,8 +1209,7 @@ export function flown_entry(extremal, length_tolerance, side) {
  * @type {(x: number, y: number, R: number, side: number, tolerance: number) => Entry}
  */
 export function optimum_on_side(x, y, R, side, tolerance) {
-    const fastest_1 = extremals_fastest(x, side * y + 0, R, arc_tolerance_of(x, y, R, tolerance), tolerance ===
-            0.0);
+    const fastest_1 = extremals_fastest(x, side * y, R, arc_tolerance_of(x, y, R, tolerance), tolerance === 0.0);
     const best = fastest_1[1];
     return flown_entry(best, rounding(x, y, R), side);
 }
@@ -1286,7 +1285,7 @@ export function synthesis_ranked(x, y, R, side, tolerance) {
     /** @type {Entry[]} */
     const maneuvers = [];
     for (const s of sides) {
-        for (const extremal of extremals(x, s * y + 0, R, arc_tolerance_of(x, y, R, tolerance))) {
+        for (const extremal of extremals(x, s * y, R, arc_tolerance_of(x, y, R, tolerance))) {
             const maneuver = flown_entry(extremal, length_tolerance, s);
             /** @type {boolean} */ const known = maneuvers.some((other) => is_same(maneuver, other,
                     length_tolerance));
@@ -1383,8 +1382,7 @@ export function synthesis_optima(x, y, R, side, tolerance) {
  * @type {(x: number, y: number, R: number, side: number, tolerance: number) => number}
  */
 export function least_time(x, y, R, side, tolerance) {
-    const fastest_1 = extremals_fastest(x, side * y + 0, R, arc_tolerance_of(x, y, R, tolerance), tolerance ===
-            0.0);
+    const fastest_1 = extremals_fastest(x, side * y, R, arc_tolerance_of(x, y, R, tolerance), tolerance === 0.0);
     const time = fastest_1[0];
     return time;
 }
@@ -1427,7 +1425,7 @@ export function miss(x, y, R, maneuver) {
             y = flow_1[1];
         }
     }
-    return length(x, y - (side * R + 0));
+    return length(x, y - side * R);
 }
 
 /**
@@ -1466,7 +1464,7 @@ export function at_switch(x, y, u, R) {
     if (r <= rounding(x, y, R)) {
         return { lam: 1.0, psi1: 1.0, psi2: 0.0 };
     }
-    /** @type {boolean} */ const backwards = Math.abs(x) > Math.abs(y) ? x < 0.0 : u * y + 0 > 0.0;
+    /** @type {boolean} */ const backwards = Math.abs(x) > Math.abs(y) ? x < 0.0 : u * y > 0.0;
     if (backwards) {
         r = -r;
     }
@@ -1481,7 +1479,7 @@ export function at_switch(x, y, u, R) {
 export function of_single_arc(x, y, R, maneuver) {
     const controls_1 = controls(maneuver.word);
     const u = controls_1[0];
-    const onto_axis_2 = onto_axis(x, u * y + 0, -1.0 * u * maneuver.side, 0.0);
+    const onto_axis_2 = onto_axis(x, u * y, -1.0 * u * maneuver.side, 0.0);
     /** @type {[number, number]} */ const to_axis = onto_axis_2[0];
     const c = onto_axis_2[1];
     if (c >= 0.0 && angle(to_axis) < maneuver.t1) {
@@ -1505,7 +1503,7 @@ export function of_arcs(R, maneuver) {
     const first = controls_1[0], second = controls_1[1], third = controls_1[2];
     let x, y, lam, psi1, psi2;
     if (third === ABSENT) {
-        const flow_2 = flow(0.0, side * R + 0, second, -t2);
+        const flow_2 = flow(0.0, side * R, second, -t2);
         x = flow_2[0];
         y = flow_2[1];
         const at_switch_3 = at_switch(x, y, second, R);
@@ -1513,7 +1511,7 @@ export function of_arcs(R, maneuver) {
         psi1 = at_switch_3.psi1;
         psi2 = at_switch_3.psi2;
     } else {
-        const flow_4 = flow(0.0, side * R + 0, third, -t3);
+        const flow_4 = flow(0.0, side * R, third, -t3);
         x = flow_4[0];
         y = flow_4[1];
         const at_switch_5 = at_switch(x, y, third, R);
@@ -1659,9 +1657,9 @@ export function downwind(wx, wy) {
 export function hold_pose(phase, side, R, wx, wy) {
     const downwind_1 = downwind(wx, wy);
     const dx = downwind_1[0], dy = downwind_1[1];
-    const a = -cos(phase), b = side * sin(phase) + 0;
-    const tx = a * dx - (b * dy + 0), ty = a * dy + (b * dx + 0);
-    const nx = (0 - side) * ty + 0, ny = side * tx + 0;
+    const a = -cos(phase), b = side * sin(phase);
+    const tx = a * dx - b * dy, ty = a * dy + b * dx;
+    const nx = (0 - side) * ty, ny = side * tx;
     const out = wx * nx + wy * ny;
     const crab = Math.sqrt((1.0 - out) * (1.0 + out));
     return [R * nx, R * ny, crab * tx - out * nx, crab * ty - out * ny, crab + wx * tx + wy * ty];
@@ -1686,7 +1684,7 @@ export function hold_rate(phase, side, R, wx, wy) {
 export function arc_rotation(u, ax, ay, bx, by) {
     const rotation_1 = rotation(ax, ay, bx, by);
     const cross = rotation_1[0], dot = rotation_1[1];
-    return [u * cross + 0, dot];
+    return [u * cross, dot];
 }
 
 /**
@@ -1697,7 +1695,7 @@ export function arc_rotation(u, ax, ay, bx, by) {
 export function phase_of(x, y, side, wx, wy) {
     const downwind_1 = downwind(wx, wy);
     const dx = downwind_1[0], dy = downwind_1[1];
-    return angle(arc_rotation(0 - side, -dx, -dy, side * y + 0, (0 - side) * x + 0));
+    return angle(arc_rotation(0 - side, -dx, -dy, side * y, (0 - side) * x));
 }
 
 /**
@@ -1931,7 +1929,7 @@ export function arc_growth(u, dx, dy, ends, interval) {
         p2 = tangent_2[2];
     }
     const turned = Math.abs(atan2(e1 * p2 - e2 * p1, e1 * p1 + e2 * p2));
-    return u * (ends.wx * e2 - ends.wy * e1) + 0 >= 0.0 ? turned : -turned;
+    return u * (ends.wx * e2 - ends.wy * e1) >= 0.0 ? turned : -turned;
 }
 
 /**
@@ -2100,8 +2098,8 @@ export function three_arcs(u, middle, dx, dy, ends) {
     const lam = -cos(0.5 * middle), across = sin(0.5 * middle);
     // The headings at the two switches: p turned by the angle whose cosine is lambda, against the sense of the outer
     // arcs at the first switch and in their sense at the second.
-    const ax = lam * p1 + ((u * across + 0) * p2 + 0), ay = lam * p2 - ((u * across + 0) * p1 + 0);
-    const bx = lam * p1 - ((u * across + 0) * p2 + 0), by = lam * p2 + ((u * across + 0) * p1 + 0);
+    const ax = lam * p1 + u * across * p2, ay = lam * p2 - u * across * p1;
+    const bx = lam * p1 - u * across * p2, by = lam * p2 + u * across * p1;
     const first = arc_time(arc_rotation(u, c0, s0, ax, ay), 4.0, arc_tolerance);
     const last = arc_time(arc_rotation(u, bx, by, c, s), 1.0, arc_tolerance);
     return { time: first + middle + last, word: encode(u, 0 - u, u), t1: first, t2: middle, t3: last, lam, p1, p2 };
@@ -2160,22 +2158,19 @@ export function first_path_of(words, phase, side, scene, until) {
         let path;
         for (const u of [1, -1]) {
             if ((words & set_of(encode(u, 0, u))) !== 0) {
-                path = lsl_rsr(u, dx - (u * (s - s0) + 0), dy + (u * (c - c0) + 0), ends, min_real(until,
-                        best.time));
+                path = lsl_rsr(u, dx - u * (s - s0), dy + u * (c - c0), ends, min_real(until, best.time));
                 best = faster_path(best, path, until);
             }
         }
         for (const u of [1, -1]) {
             if ((words & set_of(encode(u, 0, 0 - u))) !== 0) {
-                path = lsr_rsl(u, dx + (u * (s + s0) + 0), dy - (u * (c + c0) + 0), ends, min_real(until,
-                        best.time));
+                path = lsr_rsl(u, dx + u * (s + s0), dy - u * (c + c0), ends, min_real(until, best.time));
                 best = faster_path(best, path, until);
             }
         }
         for (const u of [1, -1]) {
             if ((words & set_of(encode(u, 0 - u, u))) !== 0) {
-                path = lrl_rlr(u, dx - (u * (s - s0) + 0), dy + (u * (c - c0) + 0), ends, min_real(until,
-                        best.time));
+                path = lrl_rlr(u, dx - u * (s - s0), dy + u * (c - c0), ends, min_real(until, best.time));
                 best = faster_path(best, path, until);
             }
         }
@@ -2213,8 +2208,8 @@ export function join_slope(path, phase, side, scene) {
     const along = path.p1 * c + path.p2 * s, drift = path.p1 * scene.wx + path.p2 * scene.wy;
     const controls_2 = controls(path.word);
     const last = controls_2[2];
-    const rate = (side * last + 0) * hold_rate(phase, side, scene.R, scene.wx, scene.wy) + 0;
-    return (along + drift - (rate * (path.lam - along) + 0)) / (path.lam + drift);
+    const rate = (side * last + 0) * hold_rate(phase, side, scene.R, scene.wx, scene.wy);
+    return (along + drift - rate * (path.lam - along)) / (path.lam + drift);
 }
 
 /**
@@ -2331,14 +2326,14 @@ export function fit_two_arcs(arcs, phase, scene) {
                 hold_pose_4[4];
         const rx = px - x2 - wx * (t1 + t2), ry = py - y2 - wy * (t1 + t2);
         // How the end moves with t1, which turns the second arc about its start, and with t2.
-        const ax = c1 + wx - (first * (y2 - y1) + 0), ay = s1 + wy + (first * (x2 - x1) + 0);
+        const ax = c1 + wx - first * (y2 - y1), ay = s1 + wy + first * (x2 - x1);
         const bx = c2 + wx, by = s2 + wy;
-        const across = ax * by - ay * bx, bend = second + (side * hold_rate(phase, side, R, wx, wy) + 0);
+        const across = ax * by - ay * bx, bend = second + side * hold_rate(phase, side, R, wx, wy);
         if (across === 0.0 || bend === 0.0) {
             break;
         }
         const d1 = (rx * by - ry * bx) / across, d2 = (ax * ry - ay * rx) / across;
-        const later = (atan2(c2 * se - s2 * ce, c2 * ce + s2 * se) - (first * d1 + 0) - (second * d2 + 0)) / bend;
+        const later = (atan2(c2 * se - s2 * ce, c2 * ce + s2 * se) - first * d1 - second * d2) / bend;
         t1 = t1 + d1;
         t2 = t2 + d2 + later;
         phase = phase + later * g / R;
@@ -2532,11 +2527,11 @@ export function cell_at(phase, half, side, scene) {
     const bend = R + fastest_turning * fastest_turning + twist;
     const tx = R * (c + wx) / g, ty = R * (s + wy) / g;
     const still = (1.0 - wind) * (1.0 + wind);
-    const turned_more = ((side * out + 0) * still + 0) / (crab * crab * crab);
+    const turned_more = side * out * still / (crab * crab * crab);
     const jerk = twist * (1.0 + 2.0 * wind * wind) / still;
     const bend_change = R + jerk + 3.0 * fastest_turning * twist + fastest_turning * fastest_turning *
             fastest_turning;
-    return { half, px: px - x, py: py - y, c, s, tx, ty, nx: -px, ny: -py, turning: (0 - side) * turning + 0,
+    return { half, px: px - x, py: py - y, c, s, tx, ty, nx: -px, ny: -py, turning: (0 - side) * turning,
             turned_more, bend, bend_change, twist, jerk, fastest_turning, wind, c0, s0, wx, wy };
 }
 
@@ -2555,12 +2550,11 @@ export function is_out_of_reach(cell, radius, time) {
  * @type {(first: number, last: number, cell: Cell) => Centres}
  */
 export function centres(first, last, cell) {
-    const x = cell.px - (last * cell.s + 0) + (first * cell.s0 + 0), y = cell.py + (last * cell.c + 0) - (first *
-            cell.c0 + 0);
+    const x = cell.px - last * cell.s + first * cell.s0, y = cell.py + last * cell.c - first * cell.c0;
     const turning = cell.turning, c = cell.c, s = cell.s;
-    const dx = cell.tx - ((last * turning + 0) * c + 0), dy = cell.ty - ((last * turning + 0) * s + 0);
-    const ddx = cell.nx - (last * (cell.turned_more * c - turning * turning * s) + 0);
-    const ddy = cell.ny - (last * (cell.turned_more * s + turning * turning * c) + 0);
+    const dx = cell.tx - last * turning * c, dy = cell.ty - last * turning * s;
+    const ddx = cell.nx - last * (cell.turned_more * c - turning * turning * s);
+    const ddy = cell.ny - last * (cell.turned_more * s + turning * turning * c);
     const rate = length(dx, dy);
     const change = (rate + 0.5 * cell.bend * cell.half) * cell.half;
     return { x, y, dx, dy, ddx, ddy, change, fastest: rate + cell.bend * cell.half };
@@ -2678,11 +2672,10 @@ export function lsl_rsr_margin(u, cell, time) {
     const arcs = lowest_turn(angle(arc_rotation(u, cell.c0, cell.s0, cell.c, cell.s)), turned);
     const distance = length(x, y);
     const nearer = distance > 0.0 ? (x * between.dx + y * between.dy) / distance : between.change / cell.half;
-    const slope = nearer + (u * cell.turning + 0), bend = cell.bend + cell.twist, value = distance + arcs - time;
+    const slope = nearer + u * cell.turning, bend = cell.bend + cell.twist, value = distance + arcs - time;
     let margin = least_inside(value, slope, bend, cell.half);
     if (margin < 0.0 && 0.0 < distance - between.change) {
-        const curvature = distance_curvature(x / distance, y / distance, distance, between) + (u * cell.turned_more
-                + 0);
+        const curvature = distance_curvature(x / distance, y / distance, distance, between) + u * cell.turned_more;
         const change = distance_curvature_change(distance - between.change, 0.0, between, cell) + cell.jerk;
         margin = max_real(margin, least_inside_curved(value, slope, curvature, change, cell.half));
     }
@@ -2769,15 +2762,15 @@ export function tangent_margin(u, between, cell, interval, before, after) {
     }
     const tangent_2 = tangent(u, between.x - cell.wx * begin, between.y - cell.wy * begin);
     const q1 = tangent_2[1], q2 = tangent_2[2];
-    const earlier = u * atan2(p1 * q2 - p2 * q1, p1 * q1 + p2 * q2) + 0;
+    const earlier = u * atan2(p1 * q2 - p2 * q1, p1 * q1 + p2 * q2);
     const turned = cell.fastest_turning * cell.half;
     const first = angle(arc_rotation(u, cell.c0, cell.s0, p1, p2)), last = angle(arc_rotation(u, cell.c, cell.s, p1,
             p2));
-    const slope = p1 * between.dx + p2 * between.dy - (u * cell.turning + 0);
+    const slope = p1 * between.dx + p2 * between.dy - u * cell.turning;
     const middle = straight + first + last - time;
     let value = least_inside(middle, slope, cell.bend + cell.twist, cell.half);
     if (value < 0.0) {
-        const curvature = distance_curvature(p1, p2, straight, between) - (u * cell.turned_more + 0);
+        const curvature = distance_curvature(p1, p2, straight, between) - u * cell.turned_more;
         const change = distance_curvature_change(Math.sqrt(nearest * nearest - 4.0), 2.0, between, cell) +
                 cell.jerk;
         value = max_real(value, least_inside_curved(middle, slope, curvature, change, cell.half));
@@ -3269,7 +3262,7 @@ export function is_late_before(between, cell, longest, corner) {
         const p1 = tangent_2[1], p2 = tangent_2[2];
         const tangent_3 = tangent(u, between.x, between.y);
         const q1 = tangent_3[1], q2 = tangent_3[2];
-        return arc + max_real(u * atan2(p1 * q2 - p2 * q1, p1 * q1 + p2 * q2) + 0, 0.0) < TWO_PI;
+        return arc + max_real(u * atan2(p1 * q2 - p2 * q1, p1 * q1 + p2 * q2), 0.0) < TWO_PI;
     }
     if (arc >= TWO_PI || change >= 2.0) {
         return false;
@@ -3302,9 +3295,8 @@ export function straight_vanishes(corner, cell) {
     const x = between.x - cell.wx * time, y = between.y - cell.wy * time;
     const tangent_1 = tangent(u, x, y);
     const p1 = tangent_1[1], p2 = tangent_1[2];
-    const slope = p1 * between.dx + p2 * between.dy - (u * cell.turning + 0), fall = 1.0 + cell.wx * p1 + cell.wy *
-            p2;
-    const steep = Math.abs(slope), curvature = p1 * between.ddx + p2 * between.ddy - (u * cell.turned_more + 0);
+    const slope = p1 * between.dx + p2 * between.dy - u * cell.turning, fall = 1.0 + cell.wx * p1 + cell.wy * p2;
+    const steep = Math.abs(slope), curvature = p1 * between.ddx + p2 * between.ddy - u * cell.turned_more;
     // v is at most TURNS (|D'| x + |w| s)/2, and (a + b)^3 <= 4 (a^3 + b^3). For s up to `longest` the second cube is
     // less than a sixth of `fall` s.
     const windy = CUBE * wind * wind * wind;
@@ -3371,12 +3363,12 @@ export function arc_vanishes(u, first, middle, other, corner, cell) {
         return false;
     }
     // How the arc that vanishes changes along x, on the side where the word would be faster.
-    const turned = (u * (x * between.dy - y * between.dx) + 0) / distance;
-    const drift = ((0 - u) * (x * cell.wy - y * cell.wx) + 0) / distance;
-    const growth = first * turned + 0 - 0.25 * u * cell.turning + (first < 0 ? u * cell.turning + 0 : 0.0);
-    const sooner = first * drift + 0 + 0.25;
+    const turned = u * (x * between.dy - y * between.dx) / distance;
+    const drift = (0 - u) * (x * cell.wy - y * cell.wx) / distance;
+    const growth = first * turned - 0.25 * u * cell.turning + (first < 0 ? u * cell.turning : 0.0);
+    const sooner = first * drift + 0.25;
     const sign = slope > 0.0 ? 1.0 : -1.0;
-    const longer = -sign * growth - min_integer(sooner * (steep - spare) + 0, sooner * (steep + spare) + 0) / fall;
+    const longer = -sign * growth - min_real(sooner * (steep - spare), sooner * (steep + spare)) / fall;
     if (longer + 0.5 * (cell.twist + cell.bend / nearest + rate * rate / (nearest * nearest)) * half >= 0.0) {
         return false;
     }
@@ -3555,11 +3547,11 @@ export function fit_one_arc(arc, phase, scene) {
         const px = hold_pose_3[0], py = hold_pose_3[1], ce = hold_pose_3[2], se = hold_pose_3[3], g =
                 hold_pose_3[4];
         const rx = px - x1 - wx * t, ry = py - y1 - wy * t, vx = ce + wx, vy = se + wy;
-        const longer = (rx * vx + ry * vy) / (g * g), bend = u + (side * hold_rate(phase, side, R, wx, wy) + 0);
+        const longer = (rx * vx + ry * vy) / (g * g), bend = u + side * hold_rate(phase, side, R, wx, wy);
         if (bend === 0.0) {
             break;
         }
-        const later = (atan2(c1 * se - s1 * ce, c1 * ce + s1 * se) - (u * longer + 0)) / bend;
+        const later = (atan2(c1 * se - s1 * ce, c1 * ce + s1 * se) - u * longer) / bend;
         t = t + longer + later;
         phase = phase + later * g / R;
         if (Math.abs(longer) + Math.abs(later) <= arc_tolerance) {
