@@ -86,14 +86,18 @@ def in_c(value, kind=None):
     return kind(*(in_c(one, inner) for one, inner in zip(value, kinds, strict=True)))
 
 
-@pytest.fixture(scope="module")
-def library(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("law")
+def compiled(folder):
+    """The law and the identification, compiled in a folder."""
     (folder / "law.h").write_text(law(), "utf-8")
     (folder / "law.c").write_text(STEP, "utf-8")
     flags = [*FLAGS, "-o", "law.so", "law.c", "-lm"]
     subprocess.run([str(COMPILER), *flags], cwd=folder, check=True)
     return CDLL(str(folder / "law.so"))
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    return compiled(tmp_path_factory.mktemp("law"))
 
 
 def same(a, b):

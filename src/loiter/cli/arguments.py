@@ -32,11 +32,11 @@ def prepare(arguments: Iterable[str]) -> list[str]:
     Each number of a list and each coordinate is one argument, and a wind has its speed first. Raises
     `InvalidArgument` for a wind of weather reports without a unit.
 
-    >>> prepared(["plan", "--pose", "-400,120,90", "--orbit=0,", "0,", "80", "--wind", "250/15kn"])
+    >>> prepare(["plan", "--pose", "-400,120,90", "--orbit=0,", "0,", "80", "--wind", "250/15kn"])
     ['plan', '--pose', '-400', '120', '90', '--orbit', '0', '0', '80', '--wind', '15kn', '250']
-    >>> prepared(["--wind", "25015G25KT"])
+    >>> prepare(["--wind", "25015G25KT"])
     ['--wind', '15kn', '250']
-    >>> prepared(["--pose-lla", "N47", "06.0", "E8", "12.0", "90"])
+    >>> prepare(["--pose-lla", "N47", "06.0", "E8", "12.0", "90"])
     ['--pose-lla', 'N47 06.0', 'E8 12.0', '90']
     """
     return [word for words in _groups(arguments) for word in _prepared_group(*words)]
