@@ -13,10 +13,10 @@ from benchmarks import peers, plain
 from benchmarks.timing import least_times
 from loiter import Aircraft, Orbit, Pose
 from loiter.compiled import ufuncs, wind_solver
-from loiter.kernel import wind_search
-from loiter.kernel.wind_search import WindProblem
+from loiter.evidence.checks import wind_scan_check
+from loiter.kernel.wind import wind_search
+from loiter.kernel.wind.wind_search import WindProblem
 from loiter.kernel.words import Side
-from loiter.verify.checks import wind_scan_check
 
 COUNT = 4_000_000
 ROUNDS = 7
@@ -125,7 +125,8 @@ def single_scenes(windiest: float, count: int) -> list[float]:
 
 def scalar(x, y, R, side) -> np.ndarray:
     """T by the scalar functions for the first ten thousand states: the reference of all errors."""
-    from loiter.kernel.synthesis import duration, optimum
+    from loiter.kernel.entry import duration
+    from loiter.kernel.still_air.synthesis import optimum
 
     first = zip(x[:10_000].tolist(), y[:10_000].tolist(), R[:10_000].tolist(), side[:10_000].tolist(), strict=True)
     return np.array([duration(optimum(*state, 0.0)) for state in first])

@@ -78,6 +78,7 @@ def bits(a: Arithmetic) -> int:
 # The kernel's constants that belong to an arithmetic, by module and name, from its digits and exponents.
 CONSTANTS: dict[tuple[str, str], Callable[[Arithmetic], float]] = {
     ("angles", "TINY"): lambda a: 2.0 ** -(300 * a.exponents // 1022),
+    ("entry", "WIND_TIE_TOLERANCE"): lambda a: 1e-12 * 2.0 ** (53 - a.digits),
     ("exact", "SPLITTER"): lambda a: 2.0 ** ((a.digits + 1) // 2) + 1.0,
     ("extremals", "SMALLEST_SCALE"): lambda a: 2.0 ** -(300 * a.exponents // 1022),
     ("fits", "SHORT"): lambda a: 1e-4 * 2.0 ** ((53 - a.digits) / 4),
@@ -88,9 +89,8 @@ CONSTANTS: dict[tuple[str, str], Callable[[Arithmetic], float]] = {
     ("minimum", "WORTH"): lambda a: 2.0**a.digits,
     ("moving_target", "ALMOST"): lambda a: 1e-6 * 2.0 ** ((53 - a.digits) / 3),
     ("moving_target", "NO_STEP"): lambda a: 2.0 ** -(a.digits + 5),
-    ("synthesis", "REACH"): lambda a: 2.0 ** (a.digits - 1),
-    ("synthesis", "ROUNDING"): lambda a: 64.0 * 2.0 ** -(a.digits - 1),
-    ("synthesis", "WIND_TIE_TOLERANCE"): lambda a: 1e-12 * 2.0 ** (53 - a.digits),
+    ("rounding", "REACH"): lambda a: 2.0 ** (a.digits - 1),
+    ("rounding", "ROUNDING"): lambda a: 64.0 * 2.0 ** -(a.digits - 1),
     ("turning", "SMALLEST_TURN"): lambda a: 2.0 ** -(a.digits + 1),
     ("wind_search", "LAST"): lambda a: a.digits - 9,
     ("wind_search", "NARROWED"): lambda a: bits(a) // 6 - 2,

@@ -5,10 +5,12 @@ from pathlib import Path
 from codegen.arithmetic import DOUBLE, VECTOR
 from codegen.javascript import PORTABLE, Module
 from codegen.unit import ROOT, Unit
-from loiter.guidance.identification import identification_step
-from loiter.guidance.identification.vehicle import fly_as_declared
-from loiter.guidance.laws import law_step
-from loiter.kernel import adjoint, extremals, hold, motion, switching_curves, synthesis, wind_search
+from loiter.guidance.entry import law_step
+from loiter.guidance.estimation import identification_step
+from loiter.guidance.estimation.vehicle import fly_as_declared
+from loiter.kernel import adjoint, entry, motion, rounding
+from loiter.kernel.still_air import extremals, switching_curves, synthesis
+from loiter.kernel.wind import hold, wind_search
 
 FOLDER = ROOT / "src" / "loiter" / "native"
 PAGE = ROOT / "src" / "loiter" / "web" / "static" / "kernel"
@@ -16,12 +18,12 @@ PAGE = ROOT / "src" / "loiter" / "web" / "static" / "kernel"
 SINGLE = (
     motion.reduce,
     synthesis.status_of,
-    synthesis.rounded_radius,
+    rounding.rounded_radius,
     synthesis.side_or_near,
     synthesis.optimum,
     synthesis.least_time,
-    synthesis.first_control,
-    synthesis.miss,
+    entry.first_control,
+    entry.miss,
     wind_search.fastest,
     wind_search.scene_of,
     wind_search.sampled_times,
@@ -34,15 +36,15 @@ LOOPED = (
     synthesis.side_or_near,
     synthesis.is_solvable,
     synthesis.status_of,
-    synthesis.rounded_radius,
-    synthesis.rounding,
+    rounding.rounded_radius,
+    rounding.rounding,
     synthesis.least_time,
     extremals.fastest,
-    synthesis.arc_tolerance_of,
+    rounding.arc_tolerance_of,
     synthesis.flown_entry,
-    synthesis.is_faster,
-    synthesis.first_control,
-    synthesis.miss,
+    entry.is_faster,
+    entry.first_control,
+    entry.miss,
 )
 
 # Everything that the page needs.
@@ -51,14 +53,14 @@ PLANNING = (
     motion.fly,
     motion.flow,
     synthesis.status_of,
-    synthesis.rounded_radius,
+    rounding.rounded_radius,
     synthesis.optimum,
     synthesis.optima,
     synthesis.ranked,
     synthesis.least_time,
-    synthesis.first_control,
-    synthesis.miss,
-    synthesis.is_tie_in_wind,
+    entry.first_control,
+    entry.miss,
+    entry.is_tie_in_wind,
     adjoint.adjoint,
     adjoint.turn_adjoint,
     adjoint.switching_function,

@@ -5,7 +5,7 @@ from math import atan2, cos, degrees, hypot, pi, sin, sqrt
 from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind
-from loiter.kernel.synthesis import rounding
+from loiter.kernel.rounding import rounding
 from loiter.kernel.words import Side
 
 coordinates = st.one_of(

@@ -44,7 +44,7 @@ CLAIM = re.compile(r"\b(proofs?|prov(?:e|es|ed|en|ing)|witness\w*)\b", re.IGNORE
 # Names of an option, a command, a document and a folder.
 NAMED = re.compile(
     r"--witness \w+|loiter prove|prove Check|prove\.py|theory proof certificate checks paper|(docs/)?proof\.md|"
-    r"verify/proof\b"
+    r"evidence/proof\b"
 )
 
 

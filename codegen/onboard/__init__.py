@@ -11,13 +11,16 @@ from codegen.expressions import Expressions, Names
 from codegen.kinds import Kind, NotTranslated, kind_of_type
 from codegen.statements import comment, wrapped
 from codegen.unit import ROOT, Unit, digest
-from loiter.guidance.identification import bank_history
-from loiter.guidance.identification.vehicle import VehicleModel, fly_as_declared
-from loiter.guidance.laws import law_step
-from loiter.guidance.laws.law_step import Memory, Settings
+from loiter.guidance.entry import law_step
+from loiter.guidance.entry.law_step import Memory, Settings
+from loiter.guidance.estimation import bank_history
+from loiter.guidance.estimation.vehicle import VehicleModel, fly_as_declared
 from loiter.guidance.vehicle import rolling
-from loiter.kernel import motion, synthesis, wind_search
+from loiter.kernel import motion
+from loiter.kernel.rounding import rounded_radius
 from loiter.kernel.statuses import Status
+from loiter.kernel.still_air import synthesis
+from loiter.kernel.wind import wind_search
 from loiter.planning import model
 from loiter.version import __version__
 
@@ -30,7 +33,7 @@ ARITHMETIC = ONBOARD._replace(
 
 ROOTS = (
     motion.reduce,
-    synthesis.rounded_radius,
+    rounded_radius,
     synthesis.optimum,
     wind_search.status_of,
     wind_search.fastest,

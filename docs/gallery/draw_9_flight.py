@@ -8,7 +8,7 @@ reported time to join.
 
 from loiter import Aircraft, Orbit, Pose, plan
 from loiter.guidance import LoiterEntry
-from loiter.guidance.laws.l1 import L1
+from loiter.guidance.rivals.l1 import L1
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.trials.flight import fly
 from loiter.plot.flown import draw

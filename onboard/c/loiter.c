@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 3d1ea0976d2a2d4297bdbc32ab535e596fbe60ecc31094622fe0eba8e3803e67
+ * SHA-256 of the source: bcde6f8d737a92c666df2ce152853a0863b9438d6f1f236862fc0f8eceb06c1e
  */
 #include "loiter.h"
 
@@ -1307,13 +1307,13 @@ static inline Entry optimum_on_side(real x, real y, real R, integer side, real t
 }
 
 /* T, the whole time of a maneuver. */
-static inline real synthesis_duration(Entry maneuver) {
+static inline real entry_duration(Entry maneuver) {
     return maneuver.t1 + maneuver.t2 + maneuver.t3;
 }
 
 /* Whether a maneuver is faster than another by more than rounding. */
 static inline bool is_faster(Entry maneuver, Entry other, real length_tolerance) {
-    return synthesis_duration(maneuver) < synthesis_duration(other) - length_tolerance;
+    return entry_duration(maneuver) < entry_duration(other) - length_tolerance;
 }
 
 /* The fastest maneuver onto the circle from the reduced state (x, y); to be called only where `status_of` is OK.
@@ -2687,7 +2687,7 @@ static inline real hold_tolerance(const WindScene *scene) {
 /* Whether one or two arcs end on the circle, and no later than `latest`, up to rounding. */
 static inline bool is_close(Entry arcs, real phase, real latest, const WindScene *scene) {
     const bool both_flown = min_real(arcs.t1, arcs.t2) >= REAL(0.0);
-    const real late = synthesis_duration(arcs) - latest;
+    const real late = entry_duration(arcs) - latest;
     return both_flown && max_real(late, end_miss(arcs, phase, scene)) <= REAL(3.0) * scene->arc_tolerance;
 }
 
@@ -3184,7 +3184,7 @@ static inline Entry entry_of(const WindEntry *maneuver) {
 
 /* T, the whole time of a maneuver. */
 static inline real time_of(const WindEntry *maneuver) {
-    return synthesis_duration(entry_of(maneuver));
+    return entry_duration(entry_of(maneuver));
 }
 
 /* The fastest maneuver onto the circle, or beside it within the tolerance; nan, with a status, where there is none.

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 3d1ea0976d2a2d4297bdbc32ab535e596fbe60ecc31094622fe0eba8e3803e67
+ * SHA-256 of the source: bcde6f8d737a92c666df2ce152853a0863b9438d6f1f236862fc0f8eceb06c1e
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

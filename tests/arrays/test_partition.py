@@ -8,8 +8,8 @@ import pytest
 import loiter
 from loiter.arrays.partition import Partition, boundaries, partition, worth
 from loiter.errors import InvalidArgument
-from loiter.kernel.switching_curves import beyond_first_circle, beyond_last_circle, switching_abscissa
-from loiter.kernel.synthesis import rounding
+from loiter.kernel.rounding import rounding
+from loiter.kernel.still_air.switching_curves import beyond_first_circle, beyond_last_circle, switching_abscissa
 from loiter.kernel.words import Word
 
 # Boundaries are known to 1e-6 grid steps of at most 0.1.

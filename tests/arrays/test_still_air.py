@@ -13,8 +13,9 @@ from golden.paper import EXAMPLES
 from loiter import Aircraft, Orbit, Pose, plan
 from loiter.arrays import Solution
 from loiter.errors import InvalidArgument
+from loiter.kernel.entry import duration, first_control, miss
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import duration, first_control, miss, optimum
+from loiter.kernel.still_air.synthesis import optimum
 from loiter.kernel.words import Side, Word
 from strategies import times_of
 

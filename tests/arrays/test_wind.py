@@ -14,7 +14,7 @@ from loiter.arrays import WindSolution
 from loiter.compiled import ufunc
 from loiter.errors import InvalidArgument
 from loiter.kernel.statuses import Status
-from loiter.kernel.wind_search import WindProblem, fastest
+from loiter.kernel.wind.wind_search import WindProblem, fastest
 from loiter.kernel.words import Side
 
 random = np.random.default_rng(5)

@@ -7,8 +7,8 @@ import pytest
 
 import loiter
 from loiter.cli.app import main
-from loiter.verify.checks import oracle_check, wind_scan_check
-from loiter.verify.checks.oracle_check import PLACES
+from loiter.evidence.checks import oracle_check, wind_scan_check
+from loiter.evidence.checks.oracle_check import PLACES
 
 EIGHT = ["verify", "--witness", "search", "--states", "8", "--seed", "1"]
 

@@ -10,18 +10,11 @@ import pytest
 
 from loiter.compiled import branchless, ufuncs
 from loiter.kernel import motion
+from loiter.kernel.entry import duration, first_control, miss
 from loiter.kernel.rebinding import rebinding
+from loiter.kernel.rounding import rounding
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import (
-    duration,
-    first_control,
-    least_time,
-    miss,
-    optimum,
-    optimum_on_side,
-    rounding,
-    status_of,
-)
+from loiter.kernel.still_air.synthesis import least_time, optimum, optimum_on_side, status_of
 from loiter.kernel.words import Side
 from strategies import times_of
 

@@ -9,7 +9,7 @@ import pytest
 from compiled.windy import BAD, drawn
 from kernel.slow_scenes import CORNERS, SLOW, VALLEYS
 from loiter.compiled import wind_solver
-from loiter.kernel import wind_search
+from loiter.kernel.wind import wind_search
 
 
 @pytest.fixture

@@ -3,8 +3,8 @@
 from math import cos, nan, pi, sin
 from random import Random
 
-from loiter.kernel.hold import hold_pose, tightest_radius
-from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.wind.hold import hold_pose, tightest_radius
+from loiter.kernel.wind.wind_search import WindProblem
 
 PLACES = ("near", "near", "far", "mirrored", "towards the centre", "on the circle", "tightest", "calm")
 

@@ -12,8 +12,8 @@ DOCUMENT = ROOT / "docs" / "design.md"
 BEGIN, END = "<!-- From the docstrings: tests/golden/build_design.py -->\n", "<!-- End of the map -->\n"
 
 # From the mathematics up to the front ends.
-ORDER = ["kernel", "compiled", "planning", "arrays", "geo", "verify", "guidance", "batch", "io", "plot", "mavlink"]
-ORDER += ["web", "cli"]
+ORDER = ["kernel", "compiled", "planning", "arrays", "geo", "verify", "evidence", "guidance", "batch", "io", "plot"]
+ORDER += ["mavlink", "web", "cli"]
 
 
 def summary(path: Path) -> str:

@@ -27,7 +27,7 @@ PACKAGES = [
 
 # Import paths that the documentation has given, with the names found there.
 DOCUMENTED = {
-    "loiter.guidance.laws.loiter_entry": ["LoiterEntry"],
+    "loiter.guidance.entry.loiter_entry": ["LoiterEntry"],
     "loiter.guidance.simulators.airframes": ["AEROSONDE", "J3CUB"],
     "loiter.guidance.simulators.jsbsim_aircraft": ["JsbsimAircraft"],
     "loiter.guidance.simulators.kinematic": ["Kinematic"],

@@ -18,7 +18,7 @@ import numpy as np
 from guidance.biased_trials import biased_trials
 from loiter import Aircraft, Wind
 from loiter.errors import LoiterError
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Phase, State
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass

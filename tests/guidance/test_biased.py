@@ -8,7 +8,7 @@ import pytest
 from guidance.biased import ratio
 from guidance.biased_trials import biased_trials
 from loiter import Aircraft, Orbit, Pose, Wind, plan
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.simulators.telemetry import Telemetry, WithTelemetry

@@ -4,7 +4,7 @@ from math import inf
 
 import pytest
 
-from loiter.guidance.laws.clock import FIRST_CLOCK, LARGEST_GAP_S, advanced, checked
+from loiter.guidance.estimation.clock import FIRST_CLOCK, LARGEST_GAP_S, advanced, checked
 
 DT = 0.02
 

@@ -11,10 +11,10 @@ from guidance.circling import next_state, settled_s, state_of
 from guidance.mirrors import FOLLOWERS, mirrored_command, mirrored_orbit, mirrored_state, states
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
 from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
-from loiter.guidance.laws.l1 import L1
-from loiter.guidance.laws.tangent import Tangent
-from loiter.guidance.laws.vector_field import VectorField
 from loiter.guidance.protocol import Phase, State
+from loiter.guidance.rivals.l1 import L1
+from loiter.guidance.rivals.tangent import Tangent
+from loiter.guidance.rivals.vector_field import VectorField
 from loiter.planning.compass import heading_vector
 from strategies import poses
 

@@ -8,21 +8,22 @@ import pytest
 
 from guidance.varied import result
 from loiter import Aircraft, Orbit, Pose, Wind, plan
-from loiter.guidance.identification.identification_step import (
+from loiter.guidance.entry.loiter_entry import LoiterEntry
+from loiter.guidance.estimation.identification_step import (
     AIRSPEED_MEMORY_S,
     NO_OVERSHOOT,
     Average,
     update_average,
     update_overshoot,
 )
-from loiter.guidance.identification.roll_response import (
+from loiter.guidance.estimation.roll_response import (
     add_measured_bank,
     first_roll,
     fly_models,
     roll_settings,
     start_models,
 )
-from loiter.guidance.identification.turn_fits import (
+from loiter.guidance.estimation.turn_fits import (
     NO_PAIRS,
     NO_TURNS,
     add_course,
@@ -33,7 +34,6 @@ from loiter.guidance.identification.turn_fits import (
     first_slow_turns,
     turn_between_deg,
 )
-from loiter.guidance.laws.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import State
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import RollResponse

@@ -6,8 +6,8 @@ import pytest
 
 from guidance.circling import state_of
 from loiter import Aircraft, Orbit
-from loiter.guidance.laws.l1 import L1, advised_period_s
 from loiter.guidance.protocol import Phase
+from loiter.guidance.rivals.l1 import L1, advised_period_s
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 

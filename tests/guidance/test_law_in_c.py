@@ -12,10 +12,10 @@ from codegen.kinds import INTEGER, REAL, TRUTH, Kind, kind_of_type
 
 from guidance.recorded import damaged
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.guidance.identification.identification_step import Identification, IdentificationSettings
-from loiter.guidance.identification.vehicle import VehicleEstimates, VehicleModel
-from loiter.guidance.laws.law_step import LawCommand, Memory, Settings
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.entry.law_step import LawCommand, Memory, Settings
+from loiter.guidance.entry.loiter_entry import LoiterEntry
+from loiter.guidance.estimation.identification_step import Identification, IdentificationSettings
+from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel
 from loiter.guidance.protocol import State
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise

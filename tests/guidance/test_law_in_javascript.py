@@ -10,7 +10,7 @@ from codegen.files import law_module
 
 from guidance.recorded import damaged
 from guidance.test_law_in_c import SCENES, START, UAV, same
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass
 
 FLY = """

@@ -12,16 +12,18 @@ from codegen.kinds import NotTranslated
 from codegen.unit import Unit
 
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.guidance.identification import (
+from loiter.guidance.entry import entry_planner, law_step, path_tracking, route
+from loiter.guidance.entry.loiter_entry import NAMED_PHASES, LoiterEntry
+from loiter.guidance.estimation import (
     bank_history,
+    clock,
     identification_step,
+    observer,
     roll_response,
     turn_fits,
     wind_fit,
 )
-from loiter.guidance.identification import vehicle as vehicle_model
-from loiter.guidance.laws import clock, entry_planner, law_step, observer, path_tracking, route
-from loiter.guidance.laws.loiter_entry import NAMED_PHASES, LoiterEntry
+from loiter.guidance.estimation import vehicle as vehicle_model
 from loiter.guidance.protocol import Phase
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise

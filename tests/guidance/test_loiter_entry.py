@@ -12,7 +12,7 @@ from guidance.flights import UAV, hard_starts
 from guidance.mirrors import mirrored_command, mirrored_state
 from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Phase, State
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass

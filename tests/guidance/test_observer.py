@@ -9,14 +9,14 @@ from hypothesis import strategies as st
 
 from guidance.flights import UAV
 from loiter import Pose, Wind
-from loiter.guidance.identification.bank_history import (
+from loiter.guidance.estimation.bank_history import (
     ENTRIES,
     constant_history,
     delayed_deg,
     mean_deg,
     recorded,
 )
-from loiter.guidance.laws.observer import (
+from loiter.guidance.estimation.observer import (
     SAMPLES,
     averaged_air,
     estimate_after,

@@ -6,15 +6,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter.guidance.laws.path_tracking import (
+from loiter.guidance.entry.path_tracking import (
     air_rate,
     arc_offset,
     course_rate,
     flight_velocity,
     line_offset,
 )
-from loiter.kernel.hold import hold_pose, hold_rate, tightest_radius
 from loiter.kernel.motion import fly
+from loiter.kernel.wind.hold import hold_pose, hold_rate, tightest_radius
 from strategies import one_way
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from guidance.circling import state_of
 from loiter import Aircraft, Orbit, Pose, plan
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Phase
 from loiter.planning.compass import heading_vector
 

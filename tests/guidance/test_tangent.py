@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 
 from guidance.circling import settled_s, state_of
 from loiter import Aircraft, Orbit, Pose, Turn
-from loiter.guidance.laws.tangent import SHORT_M, Tangent
+from loiter.evidence.checks.oracle import Circle, Search, from_compass
 from loiter.guidance.protocol import Phase
+from loiter.guidance.rivals.tangent import SHORT_M, Tangent
 from loiter.planning.compass import heading_vector
-from loiter.verify.checks.oracle import Circle, Search, from_compass
 from strategies import poses
 
 V = 20.0

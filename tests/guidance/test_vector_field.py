@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from guidance.circling import state_of
 from loiter import Aircraft, Orbit
-from loiter.guidance.laws.vector_field import (
+from loiter.guidance.rivals.vector_field import (
     FieldGains,
     VectorField,
     advised_gains,

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.guidance.identification.wind_fit import CHANGED_S, NO_CHANGE, add_difference
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.entry.loiter_entry import LoiterEntry
+from loiter.guidance.estimation.wind_fit import CHANGED_S, NO_CHANGE, add_difference
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials.flight import fly

@@ -19,8 +19,8 @@ from codegen.files import law_module
 from guidance.recorded import LIMIT_DEG, law_for
 from guidance.test_law_in_c import TYPES, Vehicle, compiled, in_c
 from guidance.test_law_in_javascript import in_javascript
-from loiter.guidance.laws.law_step import LawCommand, Memory
-from loiter.guidance.laws.loiter_entry import NAMED_PHASES
+from loiter.guidance.entry.law_step import LawCommand, Memory
+from loiter.guidance.entry.loiter_entry import NAMED_PHASES
 from loiter.guidance.protocol import State
 
 NUMBERED = {phase: number for number, phase in NAMED_PHASES.items()}

@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 from loiter.kernel.adjoint import turn_adjoint
+from loiter.kernel.entry import Entry
 from loiter.kernel.motion import flow
-from loiter.kernel.synthesis import Entry
 from loiter.kernel.words import ABSENT, controls
 
 

@@ -1,6 +1,6 @@
 """Scenes that are hard for the search: slow ones, valleys close together, minima at corners. With their least times."""
 
-from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.wind.wind_search import WindProblem
 
 # By hill climbing on the time that the machine code takes; the first three with |w| < 0.6, the others up to 0.95.
 SLOW = [

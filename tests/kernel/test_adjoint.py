@@ -13,7 +13,8 @@ from loiter.kernel.adjoint import (
     switching_function,
     turn_adjoint,
 )
-from loiter.kernel.synthesis import Entry, optimum
+from loiter.kernel.entry import Entry
+from loiter.kernel.still_air.synthesis import optimum
 from loiter.kernel.words import Side, Word, mirrored
 from strategies import controls, coordinates, one_way, radii, sides, times_of
 

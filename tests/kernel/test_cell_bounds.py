@@ -8,14 +8,13 @@ import pytest
 from compiled.windy import drawn
 from kernel.slow_scenes import CORNERS, SLOW, VALLEYS
 from kernel.tie_scenes import BESIDE_CORNERS, TWO_MINIMA
-from loiter.kernel import wind_search
-from loiter.kernel.hold import hold_pose
 from loiter.kernel.motion import fly
-from loiter.kernel.wind import minimum
+from loiter.kernel.wind import minimum, wind_search
 from loiter.kernel.wind.cell_bounds import cell_at, centres, least_inside_curved, words_inside
 from loiter.kernel.wind.corner_bounds import Corner, words_beside
+from loiter.kernel.wind.hold import hold_pose
 from loiter.kernel.wind.paths import WindScene, first_path, first_path_of, join_point
-from loiter.kernel.wind_search import fastest, scene_of, time_of
+from loiter.kernel.wind.wind_search import fastest, scene_of, time_of
 from loiter.kernel.words import ALL_WORDS, Word, encode, set_of
 
 WORDS = Word.LSL, Word.RSR, Word.LSR, Word.RSL, Word.LRL, Word.RLR

@@ -7,7 +7,9 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from loiter.kernel.angles import angle
-from loiter.kernel.extremals import (
+from loiter.kernel.motion import flow
+from loiter.kernel.rounding import rounding
+from loiter.kernel.still_air.extremals import (
     duration,
     durations,
     extremals,
@@ -18,8 +20,6 @@ from loiter.kernel.extremals import (
     rl,
     start_at,
 )
-from loiter.kernel.motion import flow
-from loiter.kernel.synthesis import rounding
 from loiter.kernel.words import Word
 from strategies import coordinates, radii
 

@@ -5,8 +5,8 @@ from math import pi, sqrt
 import pytest
 
 from loiter.kernel.angles import angle
-from loiter.kernel.extremals import onto_axis
 from loiter.kernel.motion import flow
+from loiter.kernel.still_air.extremals import onto_axis
 
 
 @pytest.mark.parametrize("end", [-1.0, 1.0])

@@ -4,7 +4,9 @@ from math import cos, inf, pi, sin
 
 import pytest
 
-from loiter.kernel.extremals import (
+from loiter.kernel.motion import flow
+from loiter.kernel.rounding import rounding
+from loiter.kernel.still_air.extremals import (
     duration,
     extremals,
     fastest,
@@ -15,8 +17,7 @@ from loiter.kernel.extremals import (
     right_first,
     start_at,
 )
-from loiter.kernel.motion import flow
-from loiter.kernel.synthesis import optimum, rounding
+from loiter.kernel.still_air.synthesis import optimum
 from loiter.kernel.words import Side, Word
 
 

@@ -7,14 +7,15 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from loiter.kernel.motion import flow
-from loiter.kernel.switching_curves import (
+from loiter.kernel.rounding import rounding
+from loiter.kernel.still_air.switching_curves import (
     beyond_first_circle,
     beyond_last_circle,
     last_arc_abscissa,
     region,
     switching_abscissa,
 )
-from loiter.kernel.synthesis import optimum, rounding
+from loiter.kernel.still_air.synthesis import optimum
 from loiter.kernel.words import Side, Word
 from strategies import coordinates, radii
 

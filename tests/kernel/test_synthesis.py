@@ -7,18 +7,11 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from golden.paper import EXAMPLES
+from loiter.kernel.entry import duration, first_control, miss
 from loiter.kernel.motion import flow
+from loiter.kernel.rounding import rounding
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import (
-    duration,
-    first_control,
-    miss,
-    optima,
-    optimum,
-    ranked,
-    rounding,
-    status_of,
-)
+from loiter.kernel.still_air.synthesis import optima, optimum, ranked, status_of
 from loiter.kernel.words import Side, Word, mirrored
 from strategies import blur, controls, coordinates, one_way, radii, sides, times_of
 

@@ -7,12 +7,14 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from loiter.kernel.hold import hold_pose, hold_rate, hold_time, phase_of, tightest_radius
+from loiter.kernel.entry import duration, is_tie_in_wind
 from loiter.kernel.motion import reduce
+from loiter.kernel.rounding import rounding
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import duration, is_tie_in_wind, optimum, rounding
+from loiter.kernel.still_air.synthesis import optimum
+from loiter.kernel.wind.hold import hold_pose, hold_rate, hold_time, phase_of, tightest_radius
 from loiter.kernel.wind.paths import WindScene, first_path, join_slope
-from loiter.kernel.wind_search import WindProblem, fastest, optima, ranked
+from loiter.kernel.wind.wind_search import WindProblem, fastest, optima, ranked
 from loiter.kernel.words import Side, Word
 from strategies import blur, coordinates, one_way, radii, sides, times_of
 
@@ -379,7 +381,7 @@ def test_no_point_beside_a_ranked_one_is_met_sooner(scene, side):
 
 
 def test_a_side_without_an_answer_leaves_none(monkeypatch):
-    monkeypatch.setattr("loiter.kernel.wind_search.end_miss", lambda *_: nan)
+    monkeypatch.setattr("loiter.kernel.wind.wind_search.end_miss", lambda *_: nan)
     assert ranked(WindProblem(3.0, 1.0, 1.0, 0.0, 2.0, Side.EITHER, 0.1, 0.0)) == []
 
 

@@ -6,11 +6,12 @@ from random import Random
 import pytest
 
 from compiled.windy import drawn
-from loiter.kernel.hold import hold_pose, tightest_radius
+from loiter.kernel.entry import duration
 from loiter.kernel.motion import fly
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import duration, optimum
-from loiter.kernel.wind_search import WindProblem, fastest, time_of
+from loiter.kernel.still_air.synthesis import optimum
+from loiter.kernel.wind.hold import hold_pose, tightest_radius
+from loiter.kernel.wind.wind_search import WindProblem, fastest, time_of
 from loiter.kernel.words import Side, Word
 
 

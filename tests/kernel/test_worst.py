@@ -9,11 +9,13 @@ from hypothesis import strategies as st
 
 import loiter
 from kernel.worst import later_than_min_time, miss, miss_with_tolerance, slower_by_tolerance, worst
-from loiter.kernel.extremals import duration as extremal_duration
-from loiter.kernel.extremals import extremals
+from loiter.kernel.entry import duration
+from loiter.kernel.entry import miss as missed
+from loiter.kernel.rounding import rounding
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import duration, optimum, rounding
-from loiter.kernel.synthesis import miss as missed
+from loiter.kernel.still_air.extremals import duration as extremal_duration
+from loiter.kernel.still_air.extremals import extremals
+from loiter.kernel.still_air.synthesis import optimum
 from loiter.kernel.words import Side, Word
 from strategies import coordinates, radii, sides
 

@@ -1,6 +1,6 @@
 """Starts next to ties in wind at which the search once ended later than the least time; with their least times."""
 
-from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.wind.wind_search import WindProblem
 
 # Two local minima lie in the same cell of 2 pi/128: the search ended in the higher one, later by 6e-4 to 1e-2.
 TWO_MINIMA = [

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 import loiter
-from loiter.kernel.synthesis import ROUNDING
+from loiter.kernel.rounding import ROUNDING
 
 Array = Any
 
@@ -59,7 +59,7 @@ class States:
 
     @property
     def rounding(self) -> Array:
-        """The rounding of a length of this size, `synthesis.rounding`."""
+        """The rounding of a length of this size, `rounding.rounding`."""
         return ROUNDING * (1.0 + abs(self.x) + abs(self.y) + self.radius)
 
 

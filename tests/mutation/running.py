@@ -43,15 +43,12 @@ HEAVY = [
 LIMITS = "tests/batch/test_resume.py::test_limits_of_this_process_are_as_they_were"
 WIND = (
     [*tests("kernel", "wind_search"), *tests("planning", "hold wind"), *(f"--deselect={test}" for test in HEAVY)],
-    [*tests("verify", "certificate_in_wind wind_scan"), *HEAVY],
+    [*tests("verify", "certificate_in_wind"), *tests("evidence", "wind_scan"), *HEAVY],
 )
 
 # The tests of a file: those of the first name here that its path begins with, in stages, fast ones first.
 STAGES = {
-    "kernel/wind_search.py": WIND,
     "kernel/wind/": WIND,
-    "kernel/moving_target.py": WIND,
-    "kernel/hold.py": WIND,
     "kernel/": (
         tests("kernel", "words statuses angles motion exact switching_curves extremals synthesis worst"),
         [*tests("kernel", "adjoint"), *tests("planning", "solve")],
@@ -59,7 +56,8 @@ STAGES = {
             "tests/compiled",
             "tests/paper",
             *tests("arrays", "still_air partition"),
-            *tests("verify", "certificate precision"),
+            *tests("verify", "certificate"),
+            *tests("evidence", "precision"),
         ],
     ),
     "compiled/": (["tests/compiled"], tests("arrays", "still_air wind")),
@@ -80,13 +78,12 @@ STAGES = {
         ["tests/io", *tests("mavlink", "watch"), "docs/maps.md"],
     ),
     "verify/": (
-        tests("verify", "precision certificate_in_wind certificate wind_scan oracle_check"),
-        [
-            *tests("cli", "verify certify"),
-            *tests("verify", "reachability collocation"),
-            "docs/theory.md",
-            "docs/wind.md",
-        ],
+        tests("verify", "certificate_in_wind certificate bounds"),
+        [*tests("cli", "certify"), "docs/theory.md", "docs/wind.md"],
+    ),
+    "evidence/": (
+        tests("evidence", "precision wind_scan oracle_check"),
+        [*tests("cli", "verify"), *tests("evidence", "reachability collocation")],
     ),
     "batch/": (
         tests("batch", "frames light csv files wind"),

@@ -12,9 +12,13 @@ from benchmarks.browsing import NODE
 from codegen.files import PAGE
 from codegen.javascript import PORTABLE
 
-from loiter.kernel import adjoint, hold, motion, switching_curves, synthesis, wind_search
+from loiter.kernel import adjoint, entry, motion
+from loiter.kernel.entry import first_control
 from loiter.kernel.rebinding import rebinding
+from loiter.kernel.rounding import rounded_radius
 from loiter.kernel.statuses import Status
+from loiter.kernel.still_air import switching_curves, synthesis
+from loiter.kernel.wind import hold, wind_search
 from native.library import COUNTED
 
 KERNEL = PAGE / "kernel.js"
@@ -58,9 +62,9 @@ class Portable:
     def __init__(self):
         self.calls = Counter()
         bound = rebinding(PORTABLE.replaced)
-        self.synthesis, self.adjoint, self.motion, self.hold, self.curves = (
+        self.synthesis, self.entry, self.adjoint, self.motion, self.hold, self.curves = (
             SimpleNamespace(**{name: bound(f) for name, f in vars(module).items() if is_of(f, module)})
-            for module in (synthesis, adjoint, motion, hold, switching_curves)
+            for module in (synthesis, entry, adjoint, motion, hold, switching_curves)
         )
         self.fastest = rebinding(PORTABLE.replaced, self._counted)(wind_search.fastest)
         self.ranked, self.optima = bound(wind_search.ranked), bound(wind_search.optima)
@@ -80,10 +84,10 @@ class Portable:
         status = synthesis.status_of(x, y, R, tolerance)
         if status != Status.OK:
             return [float(status), *NOT_SOLVED]
-        R = synthesis.rounded_radius(R)
+        R = rounded_radius(R)
         entry = self.synthesis.optimum(x, y, R, side, tolerance)
         least = self.synthesis.least_time(x, y, R, synthesis.side_or_near(y, side), tolerance)
-        miss, control = self.synthesis.miss(x, y, R, entry), synthesis.first_control(R, entry)
+        miss, control = self.entry.miss(x, y, R, entry), first_control(R, entry)
         return [0.0, *map(float, entry), miss, least, control, *self.adjoint.adjoint(x, y, R, entry)]
 
     def in_wind(self, *problem):
@@ -96,7 +100,7 @@ class Portable:
         """`rankedInStillAir`."""
         if synthesis.status_of(x, y, R, tolerance) != Status.OK:
             return []
-        state = x, y, synthesis.rounded_radius(R), side, tolerance
+        state = x, y, rounded_radius(R), side, tolerance
         found = [*self.synthesis.ranked(*state), *self.synthesis.optima(*state)]
         return [float(number) for entry in found for number in entry]
 

@@ -17,7 +17,7 @@ from codegen.unit import Unit
 
 from compiled.windy import PLACES
 from compiled.windy import drawn as drawn_in_wind
-from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.wind.wind_search import WindProblem
 from native import states
 from native.javascript import KERNEL, answers, counting
 from native.library import build

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from codegen.files import FOLDER
 
-from loiter.kernel.synthesis import Entry
-from loiter.kernel.wind_search import WindEntry
+from loiter.kernel.entry import Entry
+from loiter.kernel.wind.wind_search import WindEntry
 
 COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")

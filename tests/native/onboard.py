@@ -10,13 +10,13 @@ import numpy as np
 from codegen.kinds import INTEGER, REAL, TRUTH, kind_of_type
 from codegen.onboard import FOLDER
 
-from loiter.guidance.identification.identification_step import identify
-from loiter.guidance.identification.vehicle import VehicleModel, fly_as_declared
-from loiter.guidance.laws.law_step import LawCommand, Settings
-from loiter.guidance.laws.loiter_entry import NAMED_PHASES, NAMED_TURNS, LoiterEntry
+from loiter.guidance.entry.law_step import LawCommand, Settings
+from loiter.guidance.entry.loiter_entry import NAMED_PHASES, NAMED_TURNS, LoiterEntry
+from loiter.guidance.estimation.identification_step import identify
+from loiter.guidance.estimation.vehicle import VehicleModel, fly_as_declared
 from loiter.guidance.protocol import Command, State
-from loiter.kernel.synthesis import Entry
-from loiter.kernel.wind_search import WindEntry, WindProblem
+from loiter.kernel.entry import Entry
+from loiter.kernel.wind.wind_search import WindEntry, WindProblem
 from native.library import COMPILER, FLAGS
 
 WARNINGS = ["-Wpedantic", "-Wconversion", "-Wdouble-promotion"]

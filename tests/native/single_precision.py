@@ -22,7 +22,7 @@ from loiter.guidance.trials.campaign import campaign
 from loiter.guidance.trials.settings import varied_setting
 from loiter.guidance.trials.summary import summary
 from loiter.guidance.trials.varied import varied_trials
-from loiter.kernel.wind_search import time_of
+from loiter.kernel.wind.wind_search import time_of
 from native.onboard import OnboardLaw, library
 
 RADII = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 30.0)

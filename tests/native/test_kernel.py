@@ -9,9 +9,12 @@ import pytest
 from compiled.windy import BAD, drawn
 from kernel.slow_scenes import CORNERS, SLOW, VALLEYS
 from kernel.test_wind_tolerance import beside_last_arc
-from loiter.kernel import synthesis, wind_search
+from loiter.kernel.entry import Entry, miss
 from loiter.kernel.rebinding import rebinding
+from loiter.kernel.rounding import rounded_radius
 from loiter.kernel.statuses import Status
+from loiter.kernel.still_air import synthesis
+from loiter.kernel.wind import wind_search
 from native import states
 from native.library import COUNTED, build, counting, needs_compiler
 
@@ -34,16 +37,16 @@ def solved(x, y, R, side, tolerance):
     status = synthesis.status_of(x, y, R, tolerance)
     if status != Status.OK:
         return int(status), None, None
-    R = synthesis.rounded_radius(R)
+    R = rounded_radius(R)
     entry = synthesis.optimum(x, y, R, side, tolerance)
-    return 0, synthesis.Entry(*entry), synthesis.miss(x, y, R, entry)
+    return 0, Entry(*entry), miss(x, y, R, entry)
 
 
 def least_time(x, y, R, side, tolerance):
     """What `Library.least_time` returns, in plain Python."""
     if not synthesis.is_solvable(x, y, R, tolerance):
         return nan
-    R, near = synthesis.rounded_radius(R), synthesis.side_or_near(y, side)
+    R, near = rounded_radius(R), synthesis.side_or_near(y, side)
     sides = (near,) if side != 0 or tolerance == 0.0 else (near, -near)
     return min(synthesis.least_time(x, y, R, one, tolerance) for one in sides)
 

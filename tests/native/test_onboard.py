@@ -16,11 +16,14 @@ from compiled.windy import BAD, drawn
 from guidance.recorded import damaged, law_for, scene
 from kernel.slow_scenes import CORNERS
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.guidance.laws.law_step import LawCommand
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.entry.law_step import LawCommand
+from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Phase
 from loiter.guidance.simulators.point_mass import PointMass
-from loiter.kernel import synthesis, wind_search
+from loiter.kernel.entry import Entry
+from loiter.kernel.rounding import rounded_radius
+from loiter.kernel.still_air import synthesis
+from loiter.kernel.wind import wind_search
 from native import states
 from native.library import COMPILER, needs_compiler
 from native.onboard import WARNINGS, OnboardLaw, library
@@ -66,8 +69,8 @@ def test_a_state_in_still_air_has_the_same_bits(rows):
         status, entry = library(False).optimum(*row)
         assert (status == 0) == synthesis.is_solvable(x, y, R, tolerance), row
         if status == 0:
-            expected = synthesis.optimum(x, y, synthesis.rounded_radius(R), side, tolerance)
-            assert text(entry) == text(synthesis.Entry(*expected)), row
+            expected = synthesis.optimum(x, y, rounded_radius(R), side, tolerance)
+            assert text(entry) == text(Entry(*expected)), row
 
 
 def test_the_search_in_wind_has_the_same_bits():

@@ -3,7 +3,7 @@
 from math import gamma
 from typing import Annotated, NamedTuple
 
-from loiter.kernel.synthesis import ROUNDING
+from loiter.kernel.rounding import ROUNDING
 
 
 class Pair(NamedTuple):

@@ -9,8 +9,9 @@ import loiter
 from golden.paper import EXAMPLES
 from loiter.kernel.motion import flow
 from loiter.kernel.rebinding import rebound
-from loiter.kernel.switching_curves import beyond_first_circle, switching_abscissa
-from loiter.kernel.synthesis import optima, optimum, rounding
+from loiter.kernel.rounding import rounding
+from loiter.kernel.still_air.switching_curves import beyond_first_circle, switching_abscissa
+from loiter.kernel.still_air.synthesis import optima, optimum
 from loiter.kernel.words import Side, Word
 from paper.printed import curve_23, distance_24, feedback, inside_26, on_right_circle, right_bound
 

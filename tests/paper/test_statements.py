@@ -11,10 +11,12 @@ import loiter
 from golden.paper import ADMISSIBLE, EXAMPLES
 from kernel.adjoint_along import StateAndAdjoint, state_and_adjoint_at
 from loiter.kernel.adjoint import adjoint, switching_function, turn_adjoint
+from loiter.kernel.entry import duration, miss
 from loiter.kernel.motion import flow, reduce
 from loiter.kernel.rebinding import rebound
-from loiter.kernel.switching_curves import beyond_last_circle, switching_abscissa
-from loiter.kernel.synthesis import duration, miss, optima, optimum, ranked, rounding
+from loiter.kernel.rounding import rounding
+from loiter.kernel.still_air.switching_curves import beyond_last_circle, switching_abscissa
+from loiter.kernel.still_air.synthesis import optima, optimum, ranked
 from loiter.kernel.words import Side, Word
 from paper.printed import T1, T, curve_23, on_left_circle, on_right_circle, root_21
 from strategies import times_of

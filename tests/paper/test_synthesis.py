@@ -9,14 +9,15 @@ import pytest
 
 import loiter
 from loiter.kernel.rebinding import rebound
-from loiter.kernel.switching_curves import (
+from loiter.kernel.rounding import rounding
+from loiter.kernel.still_air.switching_curves import (
     beyond_first_circle,
     beyond_last_circle,
     last_arc_abscissa,
     region,
     switching_abscissa,
 )
-from loiter.kernel.synthesis import mirrored, rounding
+from loiter.kernel.still_air.synthesis import mirrored
 from loiter.kernel.words import Word
 
 MILLION = 1_000_000
@@ -56,7 +57,7 @@ def on_a_boundary(x, y):
     # Past the circle (24) by beyond, the straight piece is c - sqrt 3 = beyond/(c + sqrt 3), c near sqrt 3.
     if abs(beyond_first_circle(x, y, 1.0)) <= 2.0 * sqrt(3.0) * STRAIGHT * 1.01:
         return True
-    # A state counts as on the last circle up to rounding of its place (synthesis.arc_tolerance_of), times 2 radii.
+    # A state counts as on the last circle up to rounding of its place (rounding.arc_tolerance_of), times 2 radii.
     if y <= LENGTH_TOLERANCE or abs(beyond_last_circle(x, y, 1.0)) <= 4.0 * LENGTH_TOLERANCE:
         return True
     # L moves along the curve's normal by no more than its duration times the radius, 2.

@@ -9,8 +9,8 @@ import pytest
 
 import loiter
 from golden.paper import ADMISSIBLE, EXAMPLES
-from loiter.kernel.switching_curves import beyond_last_circle, switching_abscissa
-from loiter.kernel.synthesis import rounding
+from loiter.kernel.rounding import rounding
+from loiter.kernel.still_air.switching_curves import beyond_last_circle, switching_abscissa
 from loiter.plot.figures import FIGURES, piece
 
 SQRT3 = sqrt(3.0)

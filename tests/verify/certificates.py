@@ -23,7 +23,8 @@ from kernel.worst import drawn as worst_drawn
 from kernel.worst import states as worst_states
 from loiter import Aircraft, Maneuver, Orbit, Pose, Turn, Wind, candidates, plan
 from loiter.compiled import wind_solver
-from loiter.kernel.synthesis import WIND_TIE_TOLERANCE, Entry, rounding
+from loiter.kernel.entry import WIND_TIE_TOLERANCE, Entry
+from loiter.kernel.rounding import rounding
 from loiter.kernel.words import Word
 from loiter.planning.model import CONTROLS
 from loiter.planning.problem import problem_of

@@ -19,11 +19,11 @@ from kernel.worst import drawn
 from kernel.worst import states as worst_states
 from loiter import Aircraft, Orbit, Pose, Turn, candidates, plan, plan_all
 from loiter.errors import InvalidArgument
+from loiter.evidence.checks.oracle_check import random_problems as hard_problems
 from loiter.planning.problem import problem_of
 from loiter.verify import Certificate, certify, gradient
 from loiter.verify.accuracy import accuracy_of
 from loiter.verify.adjoints import trajectory_of
-from loiter.verify.checks.oracle_check import random_problems as hard_problems
 from loiter.verify.conditions import IN_WIND
 from loiter.verify.least_times import least_times
 from loiter.verify.paper_conditions import IN_STILL_AIR

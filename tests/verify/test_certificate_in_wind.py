@@ -11,13 +11,13 @@ from hypothesis import given, settings
 import loiter
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, hold, plan, plan_all
 from loiter.errors import InvalidArgument
-from loiter.kernel import wind_search
-from loiter.kernel.synthesis import Entry
+from loiter.evidence.checks.wind_scan_check import random_problems
+from loiter.kernel.entry import Entry
+from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.paths import first_path
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
 from loiter.verify import certify
-from loiter.verify.checks.wind_scan_check import random_problems
 from strategies import windy_scenes
 from verify.certificates import at_windy_tie, worst
 

@@ -12,8 +12,8 @@ import numpy as np
 from loiter.arrays.reduction import heading_vectors
 from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
+from loiter.kernel.rounding import REACH
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import REACH
 from loiter.kernel.words import Word
 from loiter.planning.compass import heading_after
 from loiter.planning.feasibility import RelativeWind, relative_velocity

@@ -11,7 +11,7 @@ from loiter.planning.model import wind_from_velocity
 from loiter.planning.vocabulary import ACTIONS
 
 if TYPE_CHECKING:
-    from loiter.guidance.identification.vehicle import VehicleEstimates
+    from loiter.guidance.estimation.vehicle import VehicleEstimates
     from loiter.mavlink import GuideReport, Report
 
 

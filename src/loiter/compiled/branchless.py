@@ -8,7 +8,7 @@ below 6e-18.
 from math import floor, pi, sqrt
 
 from loiter.kernel.angles import Rotation
-from loiter.kernel.extremals import Extremal
+from loiter.kernel.still_air.extremals import Extremal
 
 TAN_EIGHTH = sqrt(2.0) - 1.0  # tan(pi/8)
 

@@ -10,9 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from loiter.kernel import motion, synthesis, wind_search
+from loiter.kernel import motion
+from loiter.kernel.entry import duration, first_control, miss
+from loiter.kernel.rounding import rounded_radius
 from loiter.kernel.statuses import Status
-from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.still_air import synthesis
+from loiter.kernel.wind import wind_search
+from loiter.kernel.wind.wind_search import WindProblem
 
 # The types of results: those of `solve`, and those of `solve_in_wind`, without the durations' axis.
 _SOLVED = (np.float64, np.int8, np.float64, np.int8, np.int8, np.float64)
@@ -24,10 +28,10 @@ def _solved(x: float, y: float, R: float, side: float, tolerance: float) -> tupl
     status = synthesis.status_of(x, y, R, tolerance)
     if status != Status.OK:
         return nan, 0, (nan, nan, nan), int(status), 0, nan
-    R = synthesis.rounded_radius(R)
+    R = rounded_radius(R)
     entry = synthesis.optimum(x, y, R, int(side), tolerance)
-    missed = synthesis.miss(x, y, R, entry)
-    return synthesis.duration(entry), entry.word, entry[2:], 0, entry.side, missed
+    missed = miss(x, y, R, entry)
+    return duration(entry), entry.word, entry[2:], 0, entry.side, missed
 
 
 def _time(*state: float) -> float:
@@ -38,8 +42,8 @@ def _time(*state: float) -> float:
 def _control(x: float, y: float, R: float, side: float, tolerance: float) -> float:
     if not synthesis.is_solvable(x, y, R, tolerance):
         return nan
-    R = synthesis.rounded_radius(R)
-    return synthesis.first_control(R, synthesis.optimum(x, y, R, int(side), tolerance))
+    R = rounded_radius(R)
+    return first_control(R, synthesis.optimum(x, y, R, int(side), tolerance))
 
 
 def _solved_in_wind(*numbers: float) -> tuple[Any, ...]:

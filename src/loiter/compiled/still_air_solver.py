@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from loiter.kernel import synthesis
-from loiter.kernel.synthesis import Entry
+from loiter.kernel.entry import Entry
+from loiter.kernel.rounding import rounded_radius
+from loiter.kernel.still_air import synthesis
 
 try:
     from loiter.compiled import single as _single
@@ -30,4 +31,4 @@ def plain_optimum(x: float, y: float, R: float, side: int, tolerance: float) -> 
     """`optimum` in plain Python."""
     if not synthesis.is_solvable(x, y, R, tolerance):
         return None
-    return synthesis.optimum(x, y, synthesis.rounded_radius(R), side, tolerance)
+    return synthesis.optimum(x, y, rounded_radius(R), side, tolerance)

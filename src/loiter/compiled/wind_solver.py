@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from loiter.kernel import wind_search
 from loiter.kernel.rebinding import rebound
-from loiter.kernel.wind_search import WindEntry, WindProblem
+from loiter.kernel.wind import wind_search
+from loiter.kernel.wind.wind_search import WindEntry, WindProblem
 
 try:
     from loiter.compiled import single as _single

@@ -18,9 +18,10 @@ from math import nan
 from typing import NamedTuple
 
 from loiter.kernel.angles import angle, length
-from loiter.kernel.extremals import onto_axis
+from loiter.kernel.entry import Entry
 from loiter.kernel.motion import flow, fly
-from loiter.kernel.synthesis import Entry, rounding
+from loiter.kernel.rounding import rounding
+from loiter.kernel.still_air.extremals import onto_axis
 from loiter.kernel.words import ABSENT, controls
 
 

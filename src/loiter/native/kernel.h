@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 396ae34f06b2e37f4807b56954c92784e8bbc3c8135fd94b8ac36a644179ad53
+ * SHA-256 of the source: bde044c2ce9ed1c788793935d6c675d4d6de94fe035c937452f217a0af4a0834
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -843,13 +843,13 @@ static inline Entry optimum_on_side(real x, real y, real R, integer side, real t
 }
 
 /* T, the whole time of a maneuver. */
-static inline real synthesis_duration(Entry maneuver) {
+static inline real entry_duration(Entry maneuver) {
     return maneuver.t1 + maneuver.t2 + maneuver.t3;
 }
 
 /* Whether a maneuver is faster than another by more than rounding. */
 static inline bool is_faster(Entry maneuver, Entry other, real length_tolerance) {
-    return synthesis_duration(maneuver) < synthesis_duration(other) - length_tolerance;
+    return entry_duration(maneuver) < entry_duration(other) - length_tolerance;
 }
 
 /* The fastest maneuver onto the circle from the reduced state (x, y); to be called only where `status_of` is OK.
@@ -2242,7 +2242,7 @@ static inline real hold_tolerance(WindScene scene) {
 /* Whether one or two arcs end on the circle, and no later than `latest`, up to rounding. */
 static inline bool is_close(Entry arcs, real phase, real latest, WindScene scene) {
     const bool both_flown = min_real(arcs.t1, arcs.t2) >= 0.0;
-    const real late = synthesis_duration(arcs) - latest;
+    const real late = entry_duration(arcs) - latest;
     return both_flown && max_real(late, end_miss(arcs, phase, scene)) <= 3.0 * scene.arc_tolerance;
 }
 
@@ -2722,7 +2722,7 @@ static inline Entry entry_of(WindEntry maneuver) {
 
 /* T, the whole time of a maneuver. */
 static inline real time_of(WindEntry maneuver) {
-    return synthesis_duration(entry_of(maneuver));
+    return entry_duration(entry_of(maneuver));
 }
 
 /* The fastest maneuver onto the circle, or beside it within the tolerance; nan, with a status, where there is none.

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 4f79ebda697eece48b1b9e920b7cb803351eb9a91336a442cd8f088f88ce38dd
+ * SHA-256 of the source: 6404f554e150ec29f92792b7e778bd706fd7d98102c0600f21905d2f83e5ac05
  */
 #ifndef LOITER_STILL_AIR_LOOPS_H
 #define LOITER_STILL_AIR_LOOPS_H
@@ -692,13 +692,13 @@ static inline LOITER_ALWAYS_INLINE Entry flown_entry(Extremal extremal, real len
 }
 
 /* T, the whole time of a maneuver. */
-static inline LOITER_ALWAYS_INLINE real synthesis_duration(Entry maneuver) {
+static inline LOITER_ALWAYS_INLINE real entry_duration(Entry maneuver) {
     return maneuver.t1 + maneuver.t2 + maneuver.t3;
 }
 
 /* Whether a maneuver is faster than another by more than rounding. */
 static inline LOITER_ALWAYS_INLINE bool is_faster(Entry maneuver, Entry other, real length_tolerance) {
-    return synthesis_duration(maneuver) < synthesis_duration(other) - length_tolerance;
+    return entry_duration(maneuver) < entry_duration(other) - length_tolerance;
 }
 
 /* Feedback law: the first control of a maneuver; at the target the rate -1/R or 1/R that holds the circle. */

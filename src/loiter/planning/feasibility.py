@@ -4,11 +4,11 @@ from math import hypot
 from typing import NamedTuple
 
 from loiter.errors import RadiusTooSmall, WindTooStrong, instance
-from loiter.kernel import wind_search
-from loiter.kernel.hold import tightest_radius
+from loiter.kernel.rounding import ROUNDING
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import ROUNDING
-from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.wind import wind_search
+from loiter.kernel.wind.hold import tightest_radius
+from loiter.kernel.wind.wind_search import WindProblem
 from loiter.kernel.words import Side
 from loiter.planning.model import Aircraft, Orbit, Wind
 from loiter.planning.units import KNOT

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
-from loiter.kernel.synthesis import ROUNDING
+from loiter.kernel.rounding import ROUNDING
 from loiter.planning.compass import heading_after, heading_vector, wrapped
 from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment, Wind, position_after
 

@@ -7,7 +7,7 @@ from math import atan2, degrees, pi
 from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.errors import InvalidArgument, positive
-from loiter.kernel.hold import hold_pose, hold_rate, phase_of
+from loiter.kernel.wind.hold import hold_pose, hold_rate, phase_of
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.feasibility import check_held, radius_in_turns, relative_wind
 from loiter.planning.flight import over_ground
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 # A finer step round the circle would take seconds and add no information.
 FINEST_DEG = 1e-3
 
-# Phases (`kernel.hold`) at which the aircraft heads into the relative wind, and away from it.
+# Phases (`kernel.wind.hold`) at which the aircraft heads into the relative wind, and away from it.
 UPWIND, DOWNWIND = 0.0, pi
 
 

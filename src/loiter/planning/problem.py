@@ -7,10 +7,12 @@ from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, instance, not_negative
-from loiter.kernel import motion, wind_search
+from loiter.kernel import motion
+from loiter.kernel.rounding import REACH, rounded_radius
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import REACH, rounded_radius, status_of
-from loiter.kernel.wind_search import WindProblem
+from loiter.kernel.still_air.synthesis import status_of
+from loiter.kernel.wind import wind_search
+from loiter.kernel.wind.wind_search import WindProblem
 from loiter.kernel.words import Side
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import RelativeWind, check_held, radius_in_turns, relative_wind, too_tight

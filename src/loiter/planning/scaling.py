@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from loiter.kernel.synthesis import Entry
+from loiter.kernel.entry import Entry
 from loiter.kernel.words import Side, Word
 from loiter.planning.flight import flown_from
 from loiter.planning.maneuver import Maneuver

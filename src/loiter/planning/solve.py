@@ -6,10 +6,11 @@ from typing import Any, NamedTuple
 
 from loiter.compiled import still_air_solver, wind_solver
 from loiter.errors import NotConverged
-from loiter.kernel import wind_search
+from loiter.kernel.entry import Entry, duration, is_tie_in_wind, miss
 from loiter.kernel.statuses import Status
-from loiter.kernel.synthesis import Entry, duration, is_tie_in_wind, miss, optima, ranked
-from loiter.kernel.wind_search import WindEntry, WindProblem
+from loiter.kernel.still_air.synthesis import optima, ranked
+from loiter.kernel.wind import wind_search
+from loiter.kernel.wind.wind_search import WindEntry, WindProblem
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.problem import Problem

@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 
 from loiter.arrays import control
 from loiter.kernel.adjoint import adjoint, turn_adjoint
+from loiter.kernel.entry import Entry, duration
 from loiter.kernel.motion import flow
 from loiter.kernel.rebinding import Function, rebound
-from loiter.kernel.switching_curves import last_arc_abscissa, switching_abscissa
-from loiter.kernel.synthesis import Entry, duration, optima, ranked
+from loiter.kernel.still_air.switching_curves import last_arc_abscissa, switching_abscissa
+from loiter.kernel.still_air.synthesis import optima, ranked
 from loiter.kernel.words import Side, Word, controls
 from loiter.planning.model import CONTROLS
 from loiter.plot.marks import CHORD_RAD

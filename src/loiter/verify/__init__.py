@@ -1,4 +1,4 @@
-"""Independent verification methods, which share no code with the kernel, and certificates of single maneuvers."""
+"""Certificates of single maneuvers: the conditions of the maximum principle, checked one by one."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -28,7 +28,8 @@ from collections.abc import Sequence
 from math import hypot, radians, sin, sqrt
 from typing import NamedTuple
 
-from loiter.kernel.synthesis import ROUNDING, WIND_TIE_TOLERANCE, rounding
+from loiter.kernel.entry import WIND_TIE_TOLERANCE
+from loiter.kernel.rounding import ROUNDING, rounding
 from loiter.planning.maneuver import Maneuver
 from loiter.verify.residual import Candidate
 from loiter.verify.trajectory import MaximumPrinciple, Trajectory, inner

@@ -13,8 +13,9 @@ from math import atan2, cos, hypot, pi, sqrt
 from typing import NamedTuple
 
 from loiter.kernel.adjoint import adjoint, switching_function, turn_adjoint
+from loiter.kernel.entry import Entry
 from loiter.kernel.motion import flow
-from loiter.kernel.synthesis import Entry, rounding
+from loiter.kernel.rounding import rounding
 from loiter.kernel.wind import fits
 from loiter.kernel.words import encode
 from loiter.planning.maneuver import Maneuver

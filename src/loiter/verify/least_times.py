@@ -9,10 +9,12 @@ from math import hypot, inf
 from typing import NamedTuple
 
 from loiter.compiled import wind_solver
-from loiter.kernel import wind_search
+from loiter.kernel.entry import WIND_TIE_TOLERANCE, Entry, duration
 from loiter.kernel.exact import beyond
 from loiter.kernel.motion import flow
-from loiter.kernel.synthesis import WIND_TIE_TOLERANCE, Entry, duration, optimum, rounding
+from loiter.kernel.rounding import rounding
+from loiter.kernel.still_air.synthesis import optimum
+from loiter.kernel.wind import wind_search
 from loiter.kernel.words import Side, Word
 from loiter.planning.problem import ReducedProblem
 from loiter.verify.trajectory import FlownPiece, Trajectory

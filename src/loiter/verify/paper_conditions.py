@@ -13,7 +13,7 @@ from itertools import pairwise
 from math import atan2, hypot, pi, sqrt
 
 from loiter.kernel.angles import angle
-from loiter.kernel.extremals import onto_axis
+from loiter.kernel.still_air.extremals import onto_axis
 from loiter.planning.model import Turn
 from loiter.verify import conditions
 from loiter.verify.accuracy import Accuracy

@@ -19,7 +19,7 @@ from math import atan2, pi, sin
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, as_float
-from loiter.kernel.synthesis import REACH
+from loiter.kernel.rounding import REACH
 from loiter.kernel.words import Word
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn

@@ -9,9 +9,9 @@ from rich.table import Table
 
 from loiter.cli import report
 from loiter.cli.status import CHECK_FAILED
-from loiter.verify.proof.lemmas import LEMMAS, ROUNDING
-from loiter.verify.proof.run import Finding
-from loiter.verify.proof.run import prove as findings_of
+from loiter.evidence.proof.lemmas import LEMMAS, ROUNDING
+from loiter.evidence.proof.run import Finding
+from loiter.evidence.proof.run import prove as findings_of
 
 
 def prove(

@@ -117,7 +117,7 @@ def _with_progress(name: str, results: Iterable[Any], total: int) -> Iterator[An
 
 
 def _search(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.oracle_check import RESOLUTION, compare_with_oracle
+    from loiter.evidence.checks.oracle_check import RESOLUTION, compare_with_oracle
 
     note = "Largest differences, over turn radius plus length"
     return _against_search("search", compare_with_oracle(states, seed), states, RESOLUTION, note)
@@ -144,7 +144,7 @@ def _against_search(
 
 
 def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.precision import WIDE, WORST, RoundingError, precision
+    from loiter.evidence.checks.precision import WIDE, WORST, RoundingError, precision
 
     results = precision(states, seed)
 
@@ -166,7 +166,7 @@ def _digits(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
 
 def _collocation(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.collocation_check import CollocationDifference, compare_with_collocation
+    from loiter.evidence.checks.collocation_check import CollocationDifference, compare_with_collocation
 
     results = compare_with_collocation(cases, seed)
 
@@ -185,7 +185,7 @@ def _collocation(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
 
 def _reachability(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.reachability_check import MAPS, ReachabilityDifference, compare_with_reachability
+    from loiter.evidence.checks.reachability_check import MAPS, ReachabilityDifference, compare_with_reachability
 
     results = compare_with_reachability(CELLS)
 
@@ -203,7 +203,7 @@ def _reachability(states: int, cases: int, seed: int) -> Callable[[], Findings]:
 
 
 def _wind(states: int, cases: int, seed: int) -> Callable[[], Findings]:
-    from loiter.verify.checks.wind_scan_check import RESOLUTION, WINDIEST, compare_with_scan
+    from loiter.evidence.checks.wind_scan_check import RESOLUTION, WINDIEST, compare_with_scan
 
     note = f"Largest differences of T over 1 + T in wind up to {WINDIEST:g} of the airspeed"
     results = compare_with_scan(states, seed)

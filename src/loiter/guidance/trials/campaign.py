@@ -12,18 +12,18 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy as np
 
 from loiter.errors import InvalidArgument
-from loiter.guidance.laws.l1 import L1, advised_period_s
-from loiter.guidance.laws.loiter_entry import LoiterEntry
-from loiter.guidance.laws.tangent import Tangent
-from loiter.guidance.laws.vector_field import VectorField, advised_gains
+from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Law, Simulator
+from loiter.guidance.rivals.l1 import L1, advised_period_s
+from loiter.guidance.rivals.tangent import Tangent
+from loiter.guidance.rivals.vector_field import VectorField, advised_gains
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials.flight import LIMIT_S, STEP_S, Flight, fly
 from loiter.guidance.vehicle.circle import Band
 from loiter.guidance.vehicle.rolling import Roll
-from loiter.kernel.hold import tightest_radius
+from loiter.kernel.wind.hold import tightest_radius
 from loiter.planning.feasibility import relative_wind
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind

@@ -7,7 +7,7 @@ from functools import partial
 from typing import NamedTuple
 
 from loiter.errors import not_negative
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Law, Simulator
 from loiter.guidance.simulators.airframes import Airframe
 from loiter.guidance.trials.campaign import (

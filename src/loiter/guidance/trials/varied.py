@@ -9,11 +9,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from loiter.guidance.laws.l1 import L1, advised_period_s
-from loiter.guidance.laws.loiter_entry import LoiterEntry
-from loiter.guidance.laws.tangent import Tangent
-from loiter.guidance.laws.vector_field import VectorField, advised_gains
+from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Law, Simulator
+from loiter.guidance.rivals.l1 import L1, advised_period_s
+from loiter.guidance.rivals.tangent import Tangent
+from loiter.guidance.rivals.vector_field import VectorField, advised_gains
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise

@@ -1,1 +1,1 @@
-"""The parts of the search in wind, `kernel.wind_search`: first paths, bounds for arcs of the circle, local minima."""
+"""The fastest entry in wind, and onto circles that move: a search over the point of joining, and its parts."""

@@ -13,8 +13,8 @@ from math import acos, atan2, cos, inf, pi, sin, sqrt
 from typing import NamedTuple
 
 from loiter.kernel.angles import TWO_PI, angle, arc_rotation, length
-from loiter.kernel.hold import hold_pose
-from loiter.kernel.moving_target import (
+from loiter.kernel.wind.hold import hold_pose
+from loiter.kernel.wind.moving_target import (
     Ends,
     Interval,
     interception,

@@ -11,8 +11,8 @@ from math import acos, atan2, cos, inf, pi, sqrt
 from typing import NamedTuple
 
 from loiter.kernel.angles import TWO_PI, length
-from loiter.kernel.moving_target import tangent, time_within
 from loiter.kernel.wind.cell_bounds import Cell, Centres, cell_at, centres, lrl_rlr_margin, tangent_margin
+from loiter.kernel.wind.moving_target import tangent, time_within
 from loiter.kernel.wind.paths import WindScene
 from loiter.kernel.words import encode, set_of
 

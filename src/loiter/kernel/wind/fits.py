@@ -6,9 +6,9 @@ A search among the words of three pieces, of which they are the limits, finds th
 from math import atan2
 
 from loiter.kernel.angles import length
-from loiter.kernel.hold import hold_pose, hold_rate
+from loiter.kernel.entry import Entry, duration
 from loiter.kernel.motion import fly
-from loiter.kernel.synthesis import Entry, duration
+from loiter.kernel.wind.hold import hold_pose, hold_rate
 from loiter.kernel.wind.paths import WindCandidate, WindScene
 from loiter.kernel.words import ABSENT, controls, encode
 

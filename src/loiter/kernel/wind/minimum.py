@@ -3,8 +3,8 @@
 from math import inf, pi
 
 from loiter.kernel.angles import length
-from loiter.kernel.moving_target import NO_PATH, Path
 from loiter.kernel.wind.fits import end_miss, fit_two_arcs, two_arc_entry
+from loiter.kernel.wind.moving_target import NO_PATH, Path
 from loiter.kernel.wind.paths import JoinPoint, WindCandidate, WindScene, first_path, join_point, join_slope
 from loiter.kernel.words import ALL_WORDS, set_of
 

@@ -3,8 +3,8 @@
 from math import inf
 from typing import NamedTuple
 
-from loiter.kernel.hold import hold_pose, hold_rate
-from loiter.kernel.moving_target import NO_PATH, Ends, Path, interception, lrl_rlr, lsl_rsr, lsr_rsl
+from loiter.kernel.wind.hold import hold_pose, hold_rate
+from loiter.kernel.wind.moving_target import NO_PATH, Ends, Path, interception, lrl_rlr, lsl_rsr, lsr_rsl
 from loiter.kernel.words import ALL_WORDS, controls, encode, set_of
 
 

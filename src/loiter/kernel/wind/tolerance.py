@@ -4,10 +4,10 @@ from math import inf, pi
 from typing import NamedTuple
 
 from loiter.kernel.angles import TWO_PI, angle, arc_rotation, length
-from loiter.kernel.hold import hold_pose, phase_of
+from loiter.kernel.entry import Entry
 from loiter.kernel.motion import fly
-from loiter.kernel.synthesis import Entry
 from loiter.kernel.wind.fits import end_miss, fit_one_arc
+from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.kernel.wind.paths import WindScene
 from loiter.kernel.words import encode
 

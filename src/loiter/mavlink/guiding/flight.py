@@ -8,9 +8,9 @@ from math import inf, isfinite
 from time import monotonic
 
 from loiter.errors import LinkFailed, LoiterError
-from loiter.guidance.identification.turn_fits import bounded_turn_ratio
-from loiter.guidance.identification.vehicle import VehicleEstimates
-from loiter.guidance.laws.loiter_entry import LoiterEntry
+from loiter.guidance.entry.loiter_entry import LoiterEntry
+from loiter.guidance.estimation.turn_fits import bounded_turn_ratio
+from loiter.guidance.estimation.vehicle import VehicleEstimates
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.vehicle.limits import clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign, sign_of_version

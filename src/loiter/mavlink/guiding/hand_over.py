@@ -12,7 +12,7 @@ from dataclasses import replace
 from math import atan, degrees, hypot, pi, radians, tan
 
 from loiter.errors import LoiterError
-from loiter.guidance.identification.vehicle import VehicleEstimates
+from loiter.guidance.estimation.vehicle import VehicleEstimates
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.circle import circle_offset
 from loiter.guidance.vehicle.limits import clip

@@ -6,7 +6,7 @@ from enum import StrEnum
 from math import nan
 from typing import NamedTuple
 
-from loiter.guidance.identification.vehicle import VehicleEstimates
+from loiter.guidance.estimation.vehicle import VehicleEstimates
 from loiter.guidance.protocol import Phase, State
 from loiter.mavlink.guiding.measurements import AirspeedSource
 from loiter.planning.model import Turn

@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 240efe01d9537683f86bf6778c22539dbeaa85531e48a852a7831a004c35599f
+ * SHA-256 of the source: 18b7b1f658e403bd1f292538c2e3580dee08a5ca1dfed9084d7fdf7ecf48c33e
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -1219,7 +1219,7 @@ export function optimum_on_side(x, y, R, side, tolerance) {
  *
  * @type {(maneuver: Entry) => number}
  */
-export function synthesis_duration(maneuver) {
+export function entry_duration(maneuver) {
     return maneuver.t1 + maneuver.t2 + maneuver.t3;
 }
 
@@ -1229,7 +1229,7 @@ export function synthesis_duration(maneuver) {
  * @type {(maneuver: Entry, other: Entry, length_tolerance: number) => boolean}
  */
 export function is_faster(maneuver, other, length_tolerance) {
-    return synthesis_duration(maneuver) < synthesis_duration(other) - length_tolerance;
+    return entry_duration(maneuver) < entry_duration(other) - length_tolerance;
 }
 
 /**
@@ -1280,7 +1280,7 @@ export function is_same(a, b, length_tolerance) {
  */
 export function synthesis_ranked(x, y, R, side, tolerance) {
     const length_tolerance = rounding(x, y, R);
-    const least = synthesis_duration(optimum(x, y, R, side, tolerance)) - length_tolerance;
+    const least = entry_duration(optimum(x, y, R, side, tolerance)) - length_tolerance;
     const sides = side === Side.EITHER ? [near_side(y), 0 - near_side(y)] : [side];
     /** @type {Entry[]} */
     const maneuvers = [];
@@ -1289,13 +1289,13 @@ export function synthesis_ranked(x, y, R, side, tolerance) {
             const maneuver = flown_entry(extremal, length_tolerance, s);
             /** @type {boolean} */ const known = maneuvers.some((other) => is_same(maneuver, other,
                     length_tolerance));
-            const time = synthesis_duration(maneuver);
+            const time = entry_duration(maneuver);
             if ((least <= time && time < Infinity) && !known) {
                 maneuvers.push(maneuver);
             }
         }
     }
-    return sorted(maneuvers, synthesis_duration);
+    return sorted(maneuvers, entry_duration);
 }
 
 /**
@@ -1363,12 +1363,12 @@ export function time_apart(a, b) {
 export function synthesis_optima(x, y, R, side, tolerance) {
     const maneuvers = synthesis_ranked(x, y, R, side, tolerance);
     const length_tolerance = rounding(x, y, R);
-    const least = Math.min(...maneuvers.map(synthesis_duration));
+    const least = Math.min(...maneuvers.map(entry_duration));
     const one_maneuver = 2.0 * Math.cbrt(24.0 * length_tolerance);
     /** @type {Entry[]} */
     const distinct = [];
     for (const maneuver of maneuvers) {
-        /** @type {boolean} */ const ties = is_tie(synthesis_duration(maneuver), least, length_tolerance);
+        /** @type {boolean} */ const ties = is_tie(entry_duration(maneuver), least, length_tolerance);
         if (ties && distinct.every((m) => maneuver.side !== m.side || time_apart(maneuver, m) > one_maneuver)) {
             distinct.push(maneuver);
         }
@@ -3217,7 +3217,7 @@ export function hold_tolerance(scene) {
  */
 export function is_close(arcs, phase, latest, scene) {
     /** @type {boolean} */ const both_flown = min_real(arcs.t1, arcs.t2) >= 0.0;
-    const late = synthesis_duration(arcs) - latest;
+    const late = entry_duration(arcs) - latest;
     return both_flown && max_real(late, end_miss(arcs, phase, scene)) <= 3.0 * scene.arc_tolerance;
 }
 
@@ -3762,7 +3762,7 @@ export function entry_of(maneuver) {
  * @type {(maneuver: WindEntry) => number}
  */
 export function time_of(maneuver) {
-    return synthesis_duration(entry_of(maneuver));
+    return entry_duration(entry_of(maneuver));
 }
 
 /**

@@ -1,0 +1,1 @@
+"""The law that flies the fastest entry: `LoiterEntry`, its pure step, and the route that it follows."""

@@ -1,0 +1,775 @@
+"""The law as a pure step: settings, memory, what is known of the vehicle, and a measurement give memory and command.
+
+Numbers alone: no exceptions, no objects that change. Sides are those of `kernel.words.Side`, phases are controls,
+`HOLD` or `NO_DATA`. `loiter_entry` gives them names and checks arguments.
+"""
+
+from __future__ import annotations
+
+from math import ceil, degrees, inf, nan
+from typing import NamedTuple
+
+from loiter.guidance.entry.entry_planner import (
+    PlannedEntry,
+    RelativeState,
+    TurnLimits,
+    duration_s,
+    fastest_entry,
+    widest_turn_m,
+)
+from loiter.guidance.entry.path_tracking import PathOffset, air_rate, course_rate
+from loiter.guidance.entry.route import (
+    NO_ROUTE,
+    Route,
+    by_clock,
+    is_holding,
+    last_control,
+    later_s,
+    offset_of,
+    path_velocity,
+    remaining_s,
+    reverses,
+    route_of,
+    without_current,
+)
+from loiter.guidance.estimation.bank_history import (
+    BankHistory,
+    constant_history,
+    delayed_deg,
+    recorded,
+)
+from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advanced, checked
+from loiter.guidance.estimation.observer import (
+    NO_ESTIMATE,
+    Estimate,
+    Observer,
+    Turning,
+    estimate_after,
+    estimate_at_present,
+    estimate_with_bank,
+    first_observer,
+    is_usable,
+    observed,
+    restarted,
+    roughness,
+)
+from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, unbiased
+from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle.rolling import TurnOnset, demand_deg, turn_onset
+from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
+from loiter.kernel.angles import length
+from loiter.kernel.words import ABSENT, Side, Word, controls, encode
+from loiter.planning.model import radius_at_bank
+
+# The values below were tuned in gusts, with 200 to 500 starts each: docs/guidance.md.
+# Planned turns are wider than the tightest turn by this share; the difference is left to correct the last arc. It is up
+# to twice as large until the vehicle has flown a tight turn, which may be wider than declared.
+RESERVE = 0.1
+
+# The reserve grows by this share for each radian that the aircraft could turn during the delay of its roll: the slower
+# the roll, the farther an error of its estimate takes the aircraft off the last arc.
+ROLL_RESERVE = 0.8
+
+# The averaging time of measurements, and their dead time, seconds.
+SMOOTHING_S, DELAY_S = 0.5, 0.1
+
+# The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank plus
+# the averaging time. A faster correction of crosstrack errors would need an intercept angle of several degrees.
+GAIN, PLACE_GAIN = 4.0, 0.25
+
+# In calm air the gain of course corrections falls to this share: only noise would be corrected. The air is rough where
+# gusts change the course by this angle in a second, radians (root mean square).
+CALM_GAIN, ROUGH_AIR = 0.75, 0.02
+
+# On the circle it falls so far that course errors are corrected at this rate, 1/s, or at this multiple of that at which
+# crosstrack errors are, but not below the last share. It rises with weaker gusts already. A vehicle that turns more
+# quickly than its bank says where that changes would swing about the circle otherwise.
+HOLD_RATE, HOLD_MULTIPLE, CALM_HOLD_GAIN, ROUGH_HOLD = 1.3, 4.0, 0.35, 0.015
+
+# In heavy gusts it rises in proportion to them, from this angle on and up to this multiple.
+HEAVY_GUSTS, HEAVY_GAIN = 0.04, 1.5
+
+# On the circle crosstrack errors are corrected over an arc of 1/HOLD_GAIN radians, so that the intercept angle depends
+# only on the ratio of the error to the radius.
+HOLD_GAIN = 1.2
+
+# Margins, turn radii over airspeed. A different plan replaces the present one if it is faster by the first margin, the
+# same plan, made again from the present state, if it is slower by no more than the second. Sensor noise changes the
+# least time by less than these margins, except where that time jumps; there the present plan is the fastest.
+SWITCH_MARGIN, UPDATE_MARGIN = 0.25, 0.25
+
+# The interval between searches for another plan, seconds.
+SEARCH_INTERVAL_S = 0.1
+
+# In wind a new plan counts as the same one if it differs only by a first turn back to the path that is no longer than
+# `LONGEST_BEND`, turn radii. It is not adopted before the crosstrack error or the change of the time to join exceeds
+# `DEVIATION`, turn radii: each adds such a turn.
+DEVIATION, LONGEST_BEND = 0.1, 0.1
+
+# Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is accepted.
+LOST_OFFSET, LOST_COURSE = 0.5, 1.0
+
+# A flight that begins on the circle, within half of the reserve and this angle, radians, holds it at once.
+ON_COURSE = 0.09
+
+# Without a usable measurement the last command is kept for the first time, seconds. Until the next measurement arrives
+# the last one is extrapolated, but no longer than for the second; older ones are not averaged with new ones.
+BLIND_S, EXTRAPOLATED_S = 1.0, 3.0
+
+# Where the bank overshoots its limit, less than that is commanded, but at least this multiple of the circle's bank.
+LEAST_LIMIT = 1.2
+
+# The delays of changes of bank are computed again when the time constant or the rate of the roll changes by this share.
+ROLL_CHANGED = 0.01
+
+# A piece with less than this left, seconds, is complete but for rounding.
+ROUNDING_S = 1e-9
+
+# The gain of course corrections is reduced by this share of the delay: a part of it is not predicted exactly.
+DELAY_SHARE = 1.0
+
+# The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until they
+# differ by less than the second.
+WIND_DIFFERS, WIND_KEPT = 0.1, 0.05
+
+# An estimated wind below this share of the airspeed is planned as none: plans in still air can be made anew all the
+# time, and make up for the drift.
+NEGLIGIBLE_WIND = 0.03
+
+# On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn, at this share of the
+# gain at which it would begin to oscillate, up to the second share of the circle's rate of turn, and only while the
+# error is less than the third, in radii.
+TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.12, 0.15, 0.05
+
+# What a command does: the control that it flies, +1 to the left; or one of these.
+HOLD, NO_DATA = 2, 3
+
+# A bank that no piece has: the table of leads is then empty.
+NO_BANK = -(10**9)
+
+
+class Settings(NamedTuple):
+    """What a law is made for: the circle at time 0, its velocity and side, the declared wind, limits and gains.
+
+    `covered_s` is the time that the history of the bank must cover. SI units; banks are in degrees.
+    """
+
+    east_m: float
+    north_m: float
+    radius_m: float
+    side: int
+    velocity_east_m_s: float
+    velocity_north_m_s: float
+    wind_east_m_s: float
+    wind_north_m_s: float
+    limit_deg: float
+    command_limit_deg: float
+    gain: float
+    reserve: float
+    smoothing_s: float
+    negligible_wind: float
+    covered_s: float
+
+
+class Limits(NamedTuple):
+    """What follows from the estimates of the vehicle, of which `revision` is the number.
+
+    Whether the wind differs so much from the declared one that the estimated one is planned with, and the velocity of
+    the air past the circle to plan with. The roll response for which delays of changes of bank are computed, the bank
+    limit at present, the limits of turns, and the bank of the circle; it and that of planned turns in whole half
+    degrees. The delay of a roll to the limit, and the variance of that from an opposite planned turn onto the circle;
+    how far an aircraft is displaced towards the circle meanwhile, and the response time.
+    """
+
+    revision: int
+    wind_differs: bool
+    wind_east_m_s: float
+    wind_north_m_s: float
+    roll_time_s: float
+    roll_rate_deg_s: float
+    limit_deg: float
+    turns: TurnLimits
+    hold_deg: float
+    hold_half_deg: int
+    planned_half_deg: int
+    lead_s: float
+    reversal_s2: float
+    reversal_m: float
+    lag_s: float
+
+
+NO_LIMITS = Limits(
+    revision=-1,
+    wind_differs=False,
+    wind_east_m_s=0.0,
+    wind_north_m_s=0.0,
+    roll_time_s=0.0,
+    roll_rate_deg_s=0.0,
+    limit_deg=0.0,
+    turns=TurnLimits(1.0, 1.0, 1.0),
+    hold_deg=0.0,
+    hold_half_deg=0,
+    planned_half_deg=0,
+    lead_s=0.0,
+    reversal_s2=0.0,
+    reversal_m=0.0,
+    lag_s=0.0,
+)
+
+
+class Sensing(NamedTuple):
+    """What is known of the present: the clock, the observer, the modelled bank and the limits.
+
+    `present` is the last estimate of the present state, `elapsed_s` the time since then, and `model_error_deg` how far
+    its bank was from the modelled one.
+    """
+
+    clock: Clock
+    observer: Observer
+    history: BankHistory
+    limits: Limits
+    present: Estimate
+    elapsed_s: float
+    model_error_deg: float
+
+
+class Plan(NamedTuple):
+    """The present plan: the route, the time left of its current piece, and when the circle is joined, as predicted.
+
+    `planned_join_s` is the prediction at the beginning of the plan. The last search for a plan was at `searched_s`.
+    """
+
+    route: Route
+    remaining_s: float
+    join_s: float
+    planned_join_s: float
+    searched_s: float
+
+
+NO_PLAN = Plan(NO_ROUTE, 0.0, inf, inf, -inf)
+
+
+class Leads(NamedTuple):
+    """Delays of changes from a bank to those of the current, the next and the last piece; banks in half degrees."""
+
+    bank: int
+    current: int
+    next: int
+    last: int
+    current_s: float
+    next_s: float
+    last_s: float
+
+
+NO_LEADS = Leads(NO_BANK, 0, 0, 0, 0.0, 0.0, 0.0)
+
+
+class Memory(NamedTuple):
+    """What the law remembers from one step to the next.
+
+    `trim` is the correction of the rate of turn that cancels a steady crosstrack error on the circle, radians per
+    second. The last command was the bank `command_deg`, for `step_s` seconds, with the circle on `side`.
+    """
+
+    sensing: Sensing
+    plan: Plan
+    leads: Leads
+    trim: float
+    command_deg: float
+    side: int
+    step_s: float
+
+
+class LawCommand(NamedTuple):
+    """A command: turn rate, bank, phase, time to join, side, the next phase and when it begins (as `Command`)."""
+
+    turn_rate_deg_s: float
+    bank_deg: float
+    phase: int
+    time_to_join_s: float
+    side: int
+    next_phase: int
+    next_in_s: float
+
+
+class ResponsePoint(NamedTuple):
+    """The predicted state in which a command takes effect, and its offset from the route.
+
+    The next piece begins `early_s` seconds before the current one ends.
+    """
+
+    state: RelativeState
+    offset: PathOffset
+    early_s: float
+
+
+def first_memory(settings: Settings, vehicle: VehicleModel) -> Memory:
+    """The memory before the first measurement, with wings level."""
+    limits = limits_of(settings, vehicle, NO_LIMITS)
+    observer, history = first_observer(settings.smoothing_s), constant_history(vehicle.bank_deg)
+    sensing = Sensing(FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, 0.0, 0.0)
+    return Memory(sensing, NO_PLAN, NO_LEADS, 0.0, 0.0, settings.side, 0.0)
+
+
+def step(
+    settings: Settings, memory: Memory, vehicle: VehicleModel, measurement: State, dt: float
+) -> tuple[Memory, LawCommand]:
+    """The memory and the command for the next `dt` seconds.
+
+    `vehicle` is what is known at this time, with the bank that is modelled for the end of the last command.
+    """
+    sensing, plan, leads, trim, _, _, step_s = memory
+    sensing, is_known = sensed(settings, sensing, vehicle, measurement, step_s)
+    clock, _, _, limits, present, _, _ = sensing
+    if is_known and clock.since_s == 0.0 and clock.jump_s != 0.0:
+        plan = plan_by_clock(plan, clock.jump_s)
+    if is_known and plan.route.side == 0:
+        plan = first_plan(settings, sensing, plan)
+    if not is_known or plan.route.side == 0:
+        return without_data(settings, memory, sensing, plan, vehicle.estimates, dt)
+    if is_other_roll(limits, memory.sensing.limits):
+        leads = NO_LEADS
+    plan, leads, response = advanced_plan(settings, limits, plan, leads, present)
+    plan, is_new = reconsidered(settings, sensing, plan, response)
+    if is_new:
+        plan, leads, response = advanced_plan(settings, limits, plan, leads, present)
+    route, known = plan.route, vehicle.estimates
+    target_deg, trim = target_bank(settings, sensing, known, route, response, trim, dt)
+    target_deg = clip(target_deg, limits.limit_deg)
+    bank_deg = demand_deg(known.roll.time_s, present.bank_deg, target_deg, limits.limit_deg)
+    bank_deg = clip(bank_deg, settings.command_limit_deg)
+    command = LawCommand(
+        turn_rate_deg_s(known, bank_deg),
+        bank_deg,
+        phase_code(route.current.u),
+        max(plan.join_s - present.time_s, 0.0),
+        route.side,
+        phase_code(route.second.u),
+        inf if is_holding(route) else plan.remaining_s - response.early_s,
+    )
+    return Memory(sensing, plan, leads, trim, bank_deg, route.side, dt), command
+
+
+def phase_code(u: int) -> int:
+    """The phase in which a control is flown; on the circle, which follows the last control, if that is absent."""
+    return HOLD if u == ABSENT else u
+
+
+def crosstrack_m(settings: Settings, memory: Memory) -> float:
+    """The crosstrack error, metres, positive to the left of the path; nan before there is a plan."""
+    present, route = memory.sensing.present, memory.plan.route
+    if route.side == 0 or present.airspeed_m_s == 0.0:
+        return nan
+    return offset_of(route, relative_state(settings, present), settings.radius_m).crosstrack
+
+
+def sensed(
+    settings: Settings, sensing: Sensing, vehicle: VehicleModel, measurement: State, step_s: float
+) -> tuple[Sensing, bool]:
+    """What is known at a measurement, `step_s` seconds after the last, and whether the present state is.
+
+    Telemetry may be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last
+    estimate is extrapolated with the modelled bank.
+    """
+    clock, observer, history, limits, present, elapsed_s, error_deg = sensing
+    if step_s > 0.0:
+        clock, elapsed_s = advanced(clock, step_s), elapsed_s + step_s
+        history = recorded(history, vehicle.bank_deg, step_s, settings.covered_s)
+    if not is_usable(measurement):
+        return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg), False
+    if measurement.time_s == clock.time_s:
+        if present.airspeed_m_s == 0.0 or clock.since_s > EXTRAPOLATED_S:
+            return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg), False
+        present = estimate_after(estimate_with_bank(present, history.current_deg + error_deg), elapsed_s)
+        return Sensing(clock, observer, history, limits, present, 0.0, error_deg), True
+    is_first = clock.time_s == -inf
+    clock, is_new = checked(clock, measurement.time_s)
+    if not is_new:
+        return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg), False
+    if is_first:
+        history = constant_history(vehicle.bank_deg)
+    if clock.jump_s != 0.0 or clock.gap_s > EXTRAPOLATED_S:
+        observer = restarted(observer)
+    if vehicle.revision != limits.revision:
+        limits = limits_of(settings, vehicle, limits)
+    known = vehicle.estimates
+    turning, bank_deg = Turning(known.turn_ratio, known.course_lead_s), delayed_deg(history, known.delay_s)
+    observer = observed(observer, unbiased(known, measurement), bank_deg, settings.smoothing_s, turning)
+    present = estimate_at_present(observer.estimate, history, known.delay_s)
+    return Sensing(clock, observer, history, limits, present, 0.0, present.bank_deg - history.current_deg), True
+
+
+def limits_of(settings: Settings, vehicle: VehicleModel, before: Limits) -> Limits:
+    """What follows from the estimates of the vehicle, after other estimates."""
+    known, V, R = vehicle.estimates, vehicle.estimates.airspeed_m_s, settings.radius_m
+    wind_differs, east, north = planned_wind(settings, known, before.wind_differs)
+    widest_m = widest_turn_m(V, R, east, north)
+    limit_deg = present_limit_deg(settings, known, widest_m)
+    roll_time_s, rate_deg_s = before.roll_time_s, before.roll_rate_deg_s
+    is_other = (
+        abs(known.roll.time_s - roll_time_s) > ROLL_CHANGED * roll_time_s
+        or abs(known.roll.rate_deg_s - rate_deg_s) > ROLL_CHANGED * rate_deg_s
+        or limit_deg != before.limit_deg
+    )
+    if is_other:
+        roll_time_s, rate_deg_s = known.roll.time_s, known.roll.rate_deg_s
+    tightest_m = radius_at_bank(known.turn_airspeed_m_s, limit_deg) / known.turn_ratio
+    lead_s = before.lead_s
+    if is_other:
+        lead_s = rounded_onset(roll_time_s, rate_deg_s, 0.0, limit_deg, limit_deg).lead_s
+    turned = lead_s * V / tightest_m
+    reserve = settings.reserve * (1.0 + known.turns_unknown + ROLL_RESERVE * turned)
+    planned_m = min(tightest_m * (1.0 + reserve), widest_m)
+    hold_deg = clip(bank_for(known, V / R), limit_deg)
+    planned, hold = half_degrees(clip(bank_for(known, V / planned_m), limit_deg)), half_degrees(hold_deg)
+    reversal_s2 = before.reversal_s2
+    if is_other or planned != before.planned_half_deg or hold != before.hold_half_deg:
+        reversal_s2 = turn_onset(roll_time_s, rate_deg_s, -0.5 * planned, 0.5 * hold, limit_deg).variance_s2
+    return Limits(
+        revision=vehicle.revision,
+        wind_differs=wind_differs,
+        wind_east_m_s=east,
+        wind_north_m_s=north,
+        roll_time_s=roll_time_s,
+        roll_rate_deg_s=rate_deg_s,
+        limit_deg=limit_deg,
+        turns=TurnLimits(V, tightest_m, planned_m),
+        hold_deg=hold_deg,
+        hold_half_deg=hold,
+        planned_half_deg=planned,
+        lead_s=lead_s,
+        reversal_s2=reversal_s2,
+        reversal_m=0.5 * reversal_s2 * V * V * (1.0 / planned_m + 1.0 / R),
+        lag_s=lead_s + DELAY_SHARE * known.delay_s,
+    )
+
+
+def planned_wind(settings: Settings, known: VehicleEstimates, differed: bool) -> tuple[bool, float, float]:
+    """The velocity of the air past the circle to plan with, and whether it differs from the declared one.
+
+    It is the declared one, unless the wind is found to differ from that by more than gusts do.
+    """
+    east, north, V = settings.wind_east_m_s, settings.wind_north_m_s, known.airspeed_m_s
+    share = length(known.wind_east_m_s - east, known.wind_north_m_s - north) / V
+    differs = share > (WIND_KEPT if differed else WIND_DIFFERS)
+    if differs:
+        east, north = known.wind_east_m_s, known.wind_north_m_s
+    east, north = east - settings.velocity_east_m_s, north - settings.velocity_north_m_s
+    if length(east, north) < settings.negligible_wind * V:
+        return differs, 0.0, 0.0
+    return differs, east, north
+
+
+def present_limit_deg(settings: Settings, known: VehicleEstimates, widest_m: float) -> float:
+    """The bank limit, lowered by what the bank overshoots it, but not below what turns of `widest_m` need."""
+    declared_deg = settings.limit_deg
+    if known.overshoot_deg == 0.0:
+        return declared_deg
+    least_deg = LEAST_LIMIT * bank_for(known, known.airspeed_m_s / widest_m)
+    return max(declared_deg - known.overshoot_deg, min(least_deg, declared_deg))
+
+
+def bank_for(known: VehicleEstimates, rate: float) -> float:
+    """The bank at which the vehicle turns at a rate, radians per second; degrees with the sign of the rate."""
+    return bank_at_rate(rate / known.turn_ratio, known.airspeed_m_s)
+
+
+def turn_rate_deg_s(known: VehicleEstimates, bank_deg: float) -> float:
+    """The rate at which the vehicle turns at a bank: the inverse of `bank_for`, but in degrees per second."""
+    return degrees(known.turn_ratio * rate_at_bank(bank_deg, known.airspeed_m_s))
+
+
+def half_degrees(bank_deg: float) -> int:
+    """A bank in whole half degrees."""
+    return ceil(2.0 * bank_deg - 0.5)
+
+
+def rounded_onset(
+    roll_time_s: float, rate_deg_s: float, bank_deg: float, target_deg: float, limit_deg: float
+) -> TurnOnset:
+    """`turn_onset` for whole half degrees."""
+    begin_deg, end_deg = 0.5 * half_degrees(bank_deg), 0.5 * half_degrees(target_deg)
+    return turn_onset(roll_time_s, rate_deg_s, begin_deg, end_deg, limit_deg)
+
+
+def lead_s(limits: Limits, bank_deg: float, target_deg: float) -> float:
+    """The delay of a change of bank."""
+    return rounded_onset(limits.roll_time_s, limits.roll_rate_deg_s, bank_deg, target_deg, limits.limit_deg).lead_s
+
+
+def is_other_roll(limits: Limits, before: Limits) -> bool:
+    """Whether delays of changes of bank are others than before."""
+    same = limits.roll_time_s == before.roll_time_s and limits.roll_rate_deg_s == before.roll_rate_deg_s
+    return not (same and limits.limit_deg == before.limit_deg)
+
+
+def leads_to(limits: Limits, leads: Leads, bank_deg: float, route: Route) -> Leads:
+    """The delays of changes from a bank to those of the pieces of a route; those that are known are not recomputed."""
+    bank, side, hold, planned = half_degrees(bank_deg), route.side, limits.hold_half_deg, limits.planned_half_deg
+    u1, u2, u3 = route.current.u, route.second.u, last_control(route)
+    first = side * hold if u1 == ABSENT else -u1 * planned
+    second = side * hold if u2 == ABSENT else -u2 * planned
+    last = side * hold if u3 == ABSENT else -u3 * planned
+    if leads.bank == bank and leads.current == first and leads.next == second and leads.last == last:
+        return leads
+    time_s, rate_deg_s, limit_deg, begin_deg = limits.roll_time_s, limits.roll_rate_deg_s, limits.limit_deg, 0.5 * bank
+    first_s = turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * first, limit_deg).lead_s
+    second_s = first_s if second == first else turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * second, limit_deg).lead_s
+    if last in (first, second):
+        return Leads(bank, first, second, last, first_s, second_s, first_s if last == first else second_s)
+    last_s = turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * last, limit_deg).lead_s
+    return Leads(bank, first, second, last, first_s, second_s, last_s)
+
+
+def relative_state(settings: Settings, estimate: Estimate) -> RelativeState:
+    """The aircraft relative to the circle."""
+    time_s, (x, y, c, s), V, _, _, air_east, air_north, _ = estimate
+    east, north, hx, hy = settings.velocity_east_m_s, settings.velocity_north_m_s, V * c, V * s
+    return RelativeState(
+        time_s,
+        x - (settings.east_m + east * time_s),
+        y - (settings.north_m + north * time_s),
+        hx + air_east - east,
+        hy + air_north - north,
+        hx,
+        hy,
+    )
+
+
+def plan_by_clock(plan: Plan, jump_s: float) -> Plan:
+    """The plan by a clock that has jumped by `jump_s`."""
+    route, left_s, join_s, planned_join_s, searched_s = plan
+    return Plan(by_clock(route, jump_s), left_s, join_s + jump_s, planned_join_s + jump_s, searched_s + jump_s)
+
+
+def without_data(
+    settings: Settings, memory: Memory, sensing: Sensing, plan: Plan, known: VehicleEstimates, dt: float
+) -> tuple[Memory, LawCommand]:
+    """The safe command while there is no usable measurement."""
+    bank_deg, route = memory.command_deg, plan.route
+    if sensing.clock.since_s > BLIND_S:
+        on_circle = route.side != 0 and is_holding(route)
+        bank_deg = route.side * sensing.limits.hold_deg if on_circle else 0.0
+    # The limit may be lower now than when the last command was given.
+    bank_deg = clip(bank_deg, settings.command_limit_deg)
+    rate = turn_rate_deg_s(known, bank_deg)
+    command = LawCommand(rate, bank_deg, NO_DATA, nan, memory.side, NO_DATA, nan)
+    return Memory(sensing, plan, NO_LEADS, memory.trim, bank_deg, memory.side, dt), command
+
+
+def advanced_plan(
+    settings: Settings, limits: Limits, plan: Plan, leads: Leads, estimate: Estimate
+) -> tuple[Plan, Leads, ResponsePoint]:
+    """The plan without the pieces that are complete when a command takes effect, and the predicted state then.
+
+    A change of bank takes effect with a delay; from then on the aircraft turns like one that banks instantly.
+    """
+    route, left_s, join_s, planned_join_s, searched_s = plan
+    # At most three pieces are dropped.
+    while True:
+        leads = leads_to(limits, leads, estimate.bank_deg, route)
+        state = relative_state(settings, estimate_after(estimate, leads.current_s))
+        left_s = remaining_s(route, state, left_s)
+        if is_holding(route):
+            response = ResponsePoint(state, offset_of(route, state, settings.radius_m), 0.0)
+            return Plan(route, left_s, join_s, planned_join_s, searched_s), leads, response
+        early_s = early_end_s(route, leads)
+        if left_s > early_s + ROUNDING_S:
+            response = ResponsePoint(state, offset_of(route, state, settings.radius_m), early_s)
+            join_s = state.time_s + left_s + later_s(route)
+            return Plan(route, left_s, join_s, planned_join_s, searched_s), leads, response
+        route = without_current(route)
+        left_s = route.current.time_s
+
+
+def early_end_s(route: Route, leads: Leads) -> float:
+    """How long before its end the current piece must end, since the next bank takes effect with a delay."""
+    early_s = leads.next_s - leads.current_s
+    if route.second.u == 0 and route.third.u != ABSENT and route.third.u != route.current.u:
+        # A straight line between opposite turns may be shorter than the reversal, which then begins before its end.
+        early_s = max(early_s, leads.last_s - leads.current_s - 0.5 * route.second.time_s)
+    return max(early_s, 0.0)
+
+
+def reconsidered(settings: Settings, sensing: Sensing, plan: Plan, response: ResponsePoint) -> tuple[Plan, bool]:
+    """The plan after a search for another one, if that is due, and whether it is another."""
+    limits, route, offset = sensing.limits, plan.route, response.offset
+    if not is_search_due(sensing.clock, plan):
+        return plan, False
+    r, V = limits.turns.planned_m, limits.turns.airspeed_m_s
+    holding = is_holding(route)
+    is_lost = abs(offset.crosstrack) > LOST_OFFSET * r or abs(offset.course_error) > LOST_COURSE
+    # A plan for a wind that differs so much from the present one means nothing.
+    east, north = limits.wind_east_m_s - route.wind_east_m_s, limits.wind_north_m_s - route.wind_north_m_s
+    if is_lost or (not holding and length(east, north) > WIND_DIFFERS * V):
+        return searched(settings, sensing, plan, response.state, is_any=True, update=True)
+    if holding:
+        return plan, False
+    later_m = abs(plan.join_s - plan.planned_join_s) * V
+    deviates = max(abs(offset.crosstrack), later_m) > DEVIATION * r
+    is_still = limits.wind_east_m_s == 0.0 and limits.wind_north_m_s == 0.0
+    return searched(settings, sensing, plan, response.state, is_any=False, update=deviates or is_still)
+
+
+def is_search_due(clock: Clock, plan: Plan) -> bool:
+    """Whether the last search is long enough ago."""
+    return clock.time_s - plan.searched_s >= SEARCH_INTERVAL_S - ROUNDING_S
+
+
+def first_plan(settings: Settings, sensing: Sensing, plan: Plan) -> Plan:
+    """The fastest entry from where a command takes effect, which depends on the bank and the first turn."""
+    limits, present = sensing.limits, sensing.present
+    plan = plan_on_circle(settings, limits, plan, relative_state(settings, present))
+    if plan.route.side != 0:
+        return plan
+    level_s = lead_s(limits, present.bank_deg, 0.0)
+    entry = entry_from(settings, limits, relative_state(settings, estimate_after(present, level_s)), True)
+    if entry.side == 0:
+        return plan
+    first, _, _ = controls(entry.word)
+    if not is_search_due(sensing.clock, plan):
+        return plan
+    bank_deg = -first * limits.limit_deg if first != ABSENT else entry.side * limits.hold_deg
+    later = estimate_after(present, lead_s(limits, present.bank_deg, bank_deg))
+    plan, _ = searched(settings, sensing, plan, relative_state(settings, later), is_any=True, update=True)
+    return plan
+
+
+def plan_on_circle(settings: Settings, limits: Limits, plan: Plan, state: RelativeState) -> Plan:
+    """The plan that holds the circle at once, if the flight begins on it; otherwise the plan as it is."""
+    r, V, R = limits.turns.planned_m, limits.turns.airspeed_m_s, settings.radius_m
+    for side in (Side.CW + 0, Side.CCW + 0):
+        if settings.side == side or settings.side == Side.EITHER:
+            entry = PlannedEntry(side, Word.EMPTY + 0, 0.0, 0.0, 0.0, r, V, limits.wind_east_m_s, limits.wind_north_m_s)
+            route = route_of(state, entry)
+            offset = offset_of(route, state, R)
+            if abs(offset.crosstrack) < 0.5 * settings.reserve * R and abs(offset.course_error) < ON_COURSE:
+                return Plan(route, 0.0, state.time_s, state.time_s, plan.searched_s)
+    return plan
+
+
+def searched(
+    settings: Settings, sensing: Sensing, plan: Plan, state: RelativeState, is_any: bool, update: bool
+) -> tuple[Plan, bool]:
+    """The fastest entry from a state if it is better than the plan, and whether it is; with `is_any` it always is.
+
+    With `update` the same plan from the present state counts as better.
+    """
+    now_s, limits = sensing.clock.time_s, sensing.limits
+    route, left_s, join_s, planned_join_s, _ = plan
+    entry = entry_from(settings, limits, state, route.side == 0 or reverses(route))
+    if entry.side == 0 or not (is_any or is_better(entry, plan, limits.turns, update)):
+        return Plan(route, left_s, join_s, planned_join_s, now_s), False
+    route, join_s = route_of(state, entry), state.time_s + duration_s(entry)
+    return Plan(route, route.current.time_s, join_s, join_s, now_s), True
+
+
+def entry_from(settings: Settings, limits: Limits, state: RelativeState, reversing: bool) -> PlannedEntry:
+    """The fastest entry from a state, onto a circle that is wider by the reversal if its last turn is opposite.
+
+    It is first assumed to be so where `reversing`.
+    """
+    R, wide_m, side = settings.radius_m, settings.radius_m + limits.reversal_m, settings.side
+    east, north = limits.wind_east_m_s, limits.wind_north_m_s
+    entry = fastest_entry(state, limits.turns, wide_m if reversing else R, side, east, north)
+    if entry.side == 0 or ends_opposite(entry) == reversing:
+        return entry
+    return fastest_entry(state, limits.turns, R if reversing else wide_m, side, east, north)
+
+
+def ends_opposite(entry: PlannedEntry) -> bool:
+    """Whether the last turn of an entry is opposite to that of the circle."""
+    u1, u2, u3 = controls(entry.word)
+    return (u3 if u3 != ABSENT else u2 if u2 != ABSENT else u1) == entry.side
+
+
+def is_better(entry: PlannedEntry, plan: Plan, turns: TurnLimits, update: bool) -> bool:
+    """Whether an entry should replace a plan.
+
+    Either `update` holds, and it is the same plan and not much slower; or it is faster by a margin.
+
+    In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a different plan.
+    The duration of a plan with tighter turns grows with their radius.
+    """
+    route, unit_s = plan.route, turns.planned_m / turns.airspeed_m_s
+    is_still = entry.wind_east_m_s == 0.0 and entry.wind_north_m_s == 0.0
+    left = encode(route.current.u, route.second.u, route.third.u)
+    same = entry.side == route.side and is_rest(entry, left, 0.0 if is_still else LONGEST_BEND * unit_s)
+    if same and not update:
+        return False
+    widened = max(1.0, entry.turn_radius_m / route.turn_radius_m) if same else 1.0
+    margin_s = (UPDATE_MARGIN if same else -SWITCH_MARGIN) * unit_s
+    return duration_s(entry) < widened * (plan.remaining_s + later_s(route)) + margin_s
+
+
+def is_rest(entry: PlannedEntry, left: int, bend_s: float) -> bool:
+    """Whether a word is that of an entry, without pieces at its beginning that take no longer than `bend_s` in all."""
+    word = entry.word
+    if word == left:
+        return True
+    if word >> 2 == left:
+        return entry.t1_s <= bend_s
+    return word >> 4 == left and entry.t1_s + entry.t2_s <= bend_s
+
+
+def target_bank(
+    settings: Settings,
+    sensing: Sensing,
+    known: VehicleEstimates,
+    route: Route,
+    response: ResponsePoint,
+    trim: float,
+    dt: float,
+) -> tuple[float, float]:
+    """The bank that follows the route, and the trim; on a turn before the last piece it is the bank limit.
+
+    Such a turn is planned again before it ends; flying it as wide as planned would only cost time.
+    """
+    limits, observer, u = sensing.limits, sensing.observer, route.current.u
+    if u != 0 and route.second.u != ABSENT:
+        return -u * limits.limit_deg, trim
+    state, offset, _ = response
+    vx, vy = path_velocity(route, state)
+    speed, R, V, holding = length(vx, vy), settings.radius_m, limits.turns.airspeed_m_s, is_holding(route)
+    response_s = limits.lag_s + observer.smoothing_s
+    gain = corrections_gain(settings, known, observer, response_s, V / R, holding)
+    bandwidth = 1.0 / (response_s + gain * dt)
+    place_gain = HOLD_GAIN * speed / R if holding else PLACE_GAIN * bandwidth
+    course = course_rate(offset, gain * bandwidth, place_gain, speed)
+    if holding:
+        trim = trimmed(settings, trim, offset.crosstrack, gain * bandwidth, V, dt)
+        course -= trim
+    rate = -air_rate(course, vx, vy, state.hx, state.hy)
+    # At the present airspeed, which differs from the mean one where an autopilot holds it less exactly.
+    return bank_at_rate(rate / known.turn_ratio, length(state.hx, state.hy)), trim
+
+
+def corrections_gain(
+    settings: Settings, known: VehicleEstimates, observer: Observer, response_s: float, turn_rate: float, holding: bool
+) -> float:
+    """The gain of course corrections in the present air; on the circle, which turns at `turn_rate`, it is smaller.
+
+    It is larger in heavy gusts, and smaller where quick turns are quicker than the bank says.
+    """
+    gain = settings.gain
+    if holding:
+        rough = roughness(observer, 1.0)
+        calm_rate = max(HOLD_RATE, HOLD_MULTIPLE * HOLD_GAIN * turn_rate)
+        calm_share = max(min(calm_rate * response_s / gain, CALM_GAIN), CALM_HOLD_GAIN)
+        share = max(min(rough / ROUGH_HOLD, 1.0), calm_share)
+    else:
+        rough = roughness(observer, 0.0)
+        share = max(min(rough / ROUGH_AIR, 1.0), CALM_GAIN)
+    lively = max(known.quick_turn_ratio / known.turn_ratio, 1.0)
+    return gain * max(share, min(rough / HEAVY_GUSTS, HEAVY_GAIN)) / lively
+
+
+def trimmed(settings: Settings, trim: float, crosstrack: float, course_gain: float, V: float, dt: float) -> float:
+    """The correction of the rate of turn on the circle after another step, radians per second."""
+    R, turn_rate = settings.radius_m, V / settings.radius_m
+    if abs(crosstrack) >= TRIMMED_OFFSET * R:
+        return trim
+    place_gain = HOLD_GAIN * turn_rate
+    integral_gain = TRIM_GAIN * place_gain * place_gain * course_gain / V
+    return clip(trim + integral_gain * crosstrack * dt, LARGEST_TRIM * turn_rate)

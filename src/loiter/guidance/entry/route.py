@@ -1,0 +1,161 @@
+"""A plan as a path to follow: arcs and straight lines through drifting air, then the circle."""
+
+from __future__ import annotations
+
+from math import ceil
+from typing import NamedTuple
+
+from loiter.guidance.entry.entry_planner import PlannedEntry, RelativeState
+from loiter.guidance.entry.path_tracking import PathOffset, arc_offset, flight_velocity, line_offset
+from loiter.kernel.angles import TWO_PI, angle, arc_rotation, length
+from loiter.kernel.motion import fly
+from loiter.kernel.words import ABSENT, controls
+
+
+class RoutePiece(NamedTuple):
+    """One arc or straight line of a route: its control u, `ABSENT` for none, its path, end and duration.
+
+    An arc has the centre (x, y); a line passes through (x, y) along the unit vector (c, s). Metres and seconds.
+    """
+
+    u: int
+    x: float
+    y: float
+    c: float
+    s: float
+    end_x: float
+    end_y: float
+    time_s: float
+
+
+NO_PIECE = RoutePiece(ABSENT, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class Route(NamedTuple):
+    """The rest of a plan: at most three pieces, the current one first, then the circle, held on `side`.
+
+    `side` is 0 where there is no plan. `last_u` is the control of the last piece of the whole plan, and `start_s` the
+    time at which that began. The pieces are at rest in the steady wind of the plan.
+    """
+
+    side: int
+    current: RoutePiece
+    second: RoutePiece
+    third: RoutePiece
+    last_u: int
+    start_s: float
+    turn_radius_m: float
+    speed_m_s: float
+    wind_east_m_s: float
+    wind_north_m_s: float
+
+
+NO_ROUTE = Route(0, NO_PIECE, NO_PIECE, NO_PIECE, ABSENT, 0.0, 1.0, 1.0, 0.0, 0.0)
+
+
+class Motion(NamedTuple):
+    """Position and velocity, relative to the steady wind of a plan, as if the air were still."""
+
+    x: float
+    y: float
+    vx: float
+    vy: float
+
+
+def route_of(state: RelativeState, entry: PlannedEntry) -> Route:
+    """The route of an entry that begins at a state."""
+    side, word, t1_s, t2_s, t3_s, r, speed, east, north = entry
+    vx, vy = flight_velocity(state.vx - east, state.vy - north, state.hx, state.hy)
+    size = length(vx, vy)
+    u1, u2, u3 = controls(word)
+    first, c, s = _piece(u1, state.x, state.y, vx / size, vy / size, t1_s, r, speed)
+    second, c, s = _piece(u2, first.end_x, first.end_y, c, s, t2_s, r, speed)
+    third, _, _ = _piece(u3, second.end_x, second.end_y, c, s, t3_s, r, speed)
+    last_u = u3 if u3 != ABSENT else u2 if u2 != ABSENT else u1
+    return Route(side, first, second, third, last_u, state.time_s, r, speed, east, north)
+
+
+def _piece(
+    u: int, x: float, y: float, c: float, s: float, time_s: float, r: float, speed: float
+) -> tuple[RoutePiece, float, float]:
+    """A piece of the control `u` that begins at (x, y) along (c, s), and the direction (c, s) at its end."""
+    if u == ABSENT:
+        return NO_PIECE, c, s
+    dx, dy, end_c, end_s = fly(0.0, 0.0, c, s, u, time_s * speed / r)
+    centre_x, centre_y = x - u * r * s, y + u * r * c
+    return RoutePiece(u, centre_x, centre_y, c, s, x + r * dx, y + r * dy, time_s), end_c, end_s
+
+
+def is_holding(route: Route) -> bool:
+    """Whether only the circle is left."""
+    return route.current.u == ABSENT
+
+
+def without_current(route: Route) -> Route:
+    """The route without its current piece."""
+    side, _, second, third, last_u, start_s, r, speed, east, north = route
+    return Route(side, second, third, NO_PIECE, last_u, start_s, r, speed, east, north)
+
+
+def by_clock(route: Route, jump_s: float) -> Route:
+    """The route by a clock that has jumped."""
+    side, first, second, third, last_u, start_s, r, speed, east, north = route
+    return Route(side, first, second, third, last_u, start_s + jump_s, r, speed, east, north)
+
+
+def last_control(route: Route) -> int:
+    """The control of the last piece before the circle; `ABSENT` on the circle."""
+    return route.current.u if route.second.u == ABSENT else route.last_u
+
+
+def reverses(route: Route) -> bool:
+    """Whether the last turn of the plan is opposite to that of the circle."""
+    return route.last_u == route.side
+
+
+def later_s(route: Route) -> float:
+    """The time from the end of the current piece to the circle."""
+    return route.second.time_s + route.third.time_s
+
+
+def in_air(route: Route, state: RelativeState) -> Motion:
+    """The motion of a vehicle relative to the steady wind of the plan."""
+    time_s, x, y, vx, vy, hx, hy = state
+    east, north, elapsed_s = route.wind_east_m_s, route.wind_north_m_s, time_s - route.start_s
+    vx, vy = flight_velocity(vx - east, vy - north, hx, hy)
+    return Motion(x - east * elapsed_s, y - north * elapsed_s, vx, vy)
+
+
+def path_velocity(route: Route, state: RelativeState) -> tuple[float, float]:
+    """The velocity along the path: relative to the plan's steady wind; on the circle, relative to the circle."""
+    if is_holding(route):
+        return flight_velocity(state.vx, state.vy, state.hx, state.hy)
+    east, north = route.wind_east_m_s, route.wind_north_m_s
+    return flight_velocity(state.vx - east, state.vy - north, state.hx, state.hy)
+
+
+def offset_of(route: Route, state: RelativeState, radius_m: float) -> PathOffset:
+    """The offset of a state from the current piece, or from the circle of `radius_m`."""
+    if is_holding(route):
+        vx, vy = flight_velocity(state.vx, state.vy, state.hx, state.hy)
+        return arc_offset(-route.side, radius_m, state.x, state.y, vx, vy)
+    piece = route.current
+    x, y, vx, vy = in_air(route, state)
+    if piece.u == 0:
+        return line_offset(x - piece.x, y - piece.y, piece.c, piece.s, vx, vy)
+    return arc_offset(piece.u, route.turn_radius_m, x - piece.x, y - piece.y, vx, vy)
+
+
+def remaining_s(route: Route, state: RelativeState, previous_s: float) -> float:
+    """The time left of the current piece at a state; 0 on the circle.
+
+    On an arc this is known up to whole turns: the value nearest to `previous_s` is taken.
+    """
+    if is_holding(route):
+        return 0.0
+    piece, (x, y, _, _) = route.current, in_air(route, state)
+    if piece.u == 0:
+        return ((piece.end_x - x) * piece.c + (piece.end_y - y) * piece.s) / route.speed_m_s
+    left = angle(arc_rotation(piece.u, x - piece.x, y - piece.y, piece.end_x - piece.x, piece.end_y - piece.y))
+    rate = route.speed_m_s / route.turn_radius_m
+    return (left + TWO_PI * ceil((previous_s * rate - left) / TWO_PI - 0.5)) / rate

@@ -1,0 +1,229 @@
+"""Identification as a pure step: settings, memory, the last command and a measurement give memory and estimates.
+
+Numbers alone, as in `laws.law_step`, of which the result is an input; the law does without where the vehicle is as
+declared.
+"""
+
+from __future__ import annotations
+
+from math import atan2, degrees, exp, inf
+from typing import NamedTuple
+
+from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advanced, checked
+from loiter.guidance.estimation.observer import is_usable
+from loiter.guidance.estimation.roll_response import (
+    RollMemory,
+    RollSettings,
+    add_measured_bank,
+    first_roll,
+    fly_models,
+    roll_settings,
+    start_models,
+)
+from loiter.guidance.estimation.turn_fits import (
+    NO_PAIRS,
+    NO_TURNS,
+    CourseLead,
+    QuickTurns,
+    SlowTurns,
+    add_course,
+    add_quick_turn,
+    add_slow_turn,
+    first_lead,
+    first_quick_turns,
+    first_slow_turns,
+)
+from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, unbiased
+from loiter.guidance.estimation.wind_fit import WindFit, add_air_velocity, first_wind, is_changing
+from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.turning import rate_at_bank
+
+# The airspeed is averaged over the first time, seconds, at most; the declared one counts for the second.
+AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
+
+# The same for the airspeed in turns with more than this share of the bank limit.
+TIGHT_SHARE, DECLARED_TURN_AIRSPEED_S = 0.7, 0.3
+
+# Of the bank beyond the limit this much, degrees, is normal; the rest is forgotten over the second time, seconds.
+NORMAL_OVERSHOOT_DEG, OVERSHOOT_MEMORY_S = 8.0, 60.0
+
+# Measurements further apart than this, seconds, are not related to each other.
+RELATED_S = 1.0
+
+# Measurements that follow each other sooner than this, seconds, are left out: identification needs no more.
+SHORTEST_GAP_S = 0.095
+
+
+class IdentificationSettings(NamedTuple):
+    """What is declared of the vehicle; for how many seconds a declared wind counts; the bank limit, degrees."""
+
+    declared: VehicleEstimates
+    wind_known_s: float
+    limit_deg: float
+    roll: RollSettings
+
+
+class Average(NamedTuple):
+    """A running average, and the time for which it is known."""
+
+    value: float
+    known_s: float
+
+
+class Overshoot(NamedTuple):
+    """By how much the bank has lately been beyond its limit and `NORMAL_OVERSHOOT_DEG`, degrees.
+
+    A bank beyond the limit with which the flight begins does not count: only once the bank has been within it.
+    """
+
+    overshoot_deg: float
+    has_begun: bool
+
+
+NO_OVERSHOOT = Overshoot(0.0, False)
+
+
+class Stamps(NamedTuple):
+    """The clock at the last stamp that it was given, the time since then, and the stamp of the last state used."""
+
+    clock: Clock
+    waited_s: float
+    used_s: float
+
+
+class Turns(NamedTuple):
+    """How the vehicle turns: slowly, quickly, and how far it flies beside its nose."""
+
+    slow: SlowTurns
+    quick: QuickTurns
+    lead: CourseLead
+
+
+class Airspeeds(NamedTuple):
+    """The airspeed in all, and in tight turns."""
+
+    always: Average
+    in_turns: Average
+
+
+class Identification(NamedTuple):
+    """What the identification remembers from one step to the next; `revision` counts the changes of the estimates."""
+
+    stamps: Stamps
+    roll: RollMemory
+    turns: Turns
+    wind: WindFit
+    airspeeds: Airspeeds
+    overshoot: Overshoot
+    revision: int
+    estimates: VehicleEstimates
+
+
+def settings_of(declared: VehicleEstimates, limit_deg: float, wind_known_s: float) -> IdentificationSettings:
+    """The settings for what is declared."""
+    return IdentificationSettings(declared, wind_known_s, limit_deg, roll_settings(declared.roll, declared.delay_s))
+
+
+def first_identification(settings: IdentificationSettings) -> Identification:
+    """The memory before the first command and the first measurement, with wings level."""
+    declared = settings.declared
+    airspeed = Average(declared.airspeed_m_s, DECLARED_AIRSPEED_S)
+    turn_airspeed = Average(declared.turn_airspeed_m_s, DECLARED_TURN_AIRSPEED_S)
+    slow, quick = first_slow_turns(declared.turn_ratio, 0.0, NO_TURNS), first_quick_turns(declared.turn_ratio, NO_PAIRS)
+    lead = first_lead(declared.course_lead_s, NO_PAIRS)
+    return Identification(
+        stamps=Stamps(FIRST_CLOCK, 0.0, -inf),
+        roll=first_roll(settings.roll),
+        turns=Turns(slow, quick, lead),
+        wind=first_wind(declared.wind_east_m_s, declared.wind_north_m_s, settings.wind_known_s),
+        airspeeds=Airspeeds(airspeed, turn_airspeed),
+        overshoot=NO_OVERSHOOT,
+        revision=0,
+        estimates=declared,
+    )
+
+
+def identify(
+    settings: IdentificationSettings, memory: Identification, measurement: State, command_deg: float, dt: float
+) -> tuple[Identification, VehicleModel]:
+    """The memory, and what is known of the vehicle, at a measurement `dt` seconds after the last call.
+
+    The bank `command_deg` was commanded since then. The measurement may be unusable, or repeat the last one.
+    """
+    (clock, waited_s, used_s), roll, turns, wind, airspeeds, overshoot, revision, known = memory
+    if dt > 0.0:
+        roll, waited_s = fly_models(settings.roll, roll, command_deg, dt), waited_s + dt
+    if is_usable(measurement) and measurement.time_s != clock.time_s:
+        clock, is_new = checked(advanced(clock, waited_s), measurement.time_s)
+        waited_s, since_s = 0.0, measurement.time_s - used_s
+        if is_new and not 0.0 < since_s < SHORTEST_GAP_S:
+            stamps = Stamps(clock, 0.0, measurement.time_s)
+            if used_s == -inf:
+                roll = start_models(roll, unbiased(known, measurement).bank_deg)
+            before = Identification(stamps, roll, turns, wind, airspeeds, overshoot, revision, known)
+            after = update_fits(settings, before, measurement, since_s)
+            return after, VehicleModel(after.revision, after.roll.bank_deg, after.estimates)
+    memory = Identification(Stamps(clock, waited_s, used_s), roll, turns, wind, airspeeds, overshoot, revision, known)
+    return memory, VehicleModel(revision, roll.bank_deg, known)
+
+
+def update_fits(
+    settings: IdentificationSettings, memory: Identification, measurement: State, since_s: float
+) -> Identification:
+    """The memory with a new measurement, `since_s` seconds after the last one that was used."""
+    stamps, roll, (slow, quick, lead), wind, airspeeds, overshoot, revision, known = memory
+    declared, dt, is_near = settings.declared, since_s, 0.0 < since_s <= RELATED_S
+    if not is_near:
+        dt, slow = 0.0, first_slow_turns(slow.ratio, slow.bank_bias_deg, slow.sums)
+        quick = first_quick_turns(quick.ratio, quick.fit)
+    if not is_near or is_changing(wind):
+        lead = first_lead(lead.lead_s, lead.fit)
+    slow = add_slow_turn(slow, declared.turn_ratio, measurement, dt)
+    state = unbiased(known, measurement)
+    rate = rate_at_bank(state.bank_deg, state.airspeed_m_s)
+    course = atan2(state.velocity_east_m_s - wind.east_m_s, state.velocity_north_m_s - wind.north_m_s)
+    quick = add_quick_turn(quick, declared.turn_ratio, degrees(course), degrees(rate), dt)
+    lead = add_course(lead, declared.course_lead_s, state, slow.ratio, wind.east_m_s, wind.north_m_s, dt)
+    # The direction of flight is to the right of the heading by this angle.
+    wind = add_air_velocity(wind, state, lead.lead_s * slow.ratio * rate, known.heading_bias_deg, dt)
+    roll, airspeeds = add_measured_bank(roll, state.bank_deg), update_airspeeds(settings, airspeeds, state, dt)
+    overshoot = update_overshoot(overshoot, settings.limit_deg, state.bank_deg, dt)
+    estimates = VehicleEstimates(
+        roll=roll.weights.estimate.roll,
+        delay_s=roll.weights.estimate.delay_s,
+        turn_ratio=slow.ratio,
+        quick_turn_ratio=quick.ratio,
+        course_lead_s=lead.lead_s,
+        wind_east_m_s=wind.east_m_s,
+        wind_north_m_s=wind.north_m_s,
+        airspeed_m_s=airspeeds.always.value,
+        turn_airspeed_m_s=airspeeds.in_turns.value,
+        overshoot_deg=overshoot.overshoot_deg,
+        turns_unknown=DECLARED_TURN_AIRSPEED_S / airspeeds.in_turns.known_s,
+        heading_bias_deg=wind.heading_bias_deg,
+        bank_bias_deg=slow.bank_bias_deg,
+    )
+    return Identification(stamps, roll, Turns(slow, quick, lead), wind, airspeeds, overshoot, revision + 1, estimates)
+
+
+def update_airspeeds(settings: IdentificationSettings, airspeeds: Airspeeds, state: State, dt: float) -> Airspeeds:
+    """The airspeeds including a state, `dt` seconds after the last."""
+    always, in_turns = airspeeds
+    if abs(state.bank_deg) > TIGHT_SHARE * settings.limit_deg:
+        in_turns = update_average(in_turns, state.airspeed_m_s, dt)
+    return Airspeeds(update_average(always, state.airspeed_m_s, dt), in_turns)
+
+
+def update_average(average: Average, value: float, dt: float) -> Average:
+    """The average over `AIRSPEED_MEMORY_S` at most, including a value measured `dt` seconds after the last."""
+    known_s = min(average.known_s + max(dt, 1e-3), AIRSPEED_MEMORY_S)
+    return Average(average.value + min(dt / known_s, 1.0) * (value - average.value), known_s)
+
+
+def update_overshoot(overshoot: Overshoot, limit_deg: float, bank_deg: float, dt: float) -> Overshoot:
+    """The overshoot including a bank measured `dt` seconds after the last."""
+    beyond_deg = max(abs(bank_deg) - limit_deg - NORMAL_OVERSHOOT_DEG, 0.0)
+    has_begun = overshoot.has_begun or beyond_deg == 0.0
+    if not has_begun:
+        return overshoot
+    return Overshoot(max(overshoot.overshoot_deg * exp(-dt / OVERSHOOT_MEMORY_S), beyond_deg), True)

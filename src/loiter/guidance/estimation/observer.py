@@ -1,0 +1,330 @@
+"""State estimation for the law: measurements smoothed without lag, and extrapolated to the present."""
+
+from __future__ import annotations
+
+from math import cos, degrees, exp, inf, sin, sqrt
+from typing import Annotated, NamedTuple
+
+from loiter.guidance.estimation.bank_history import BankHistory, delayed_deg, mean_deg
+from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.turning import PlanarPose, constant_turn, rate_at_bank
+from loiter.kernel.angles import length
+from loiter.planning.compass import heading_vector
+
+# How fast the velocity of the air changes is measured from its differences over this time, seconds, averaged over the
+# second time.
+GUST_LAG_S, GUST_AVERAGE_S = 1.0, 10.0
+
+# What is assumed until then, as if it had been measured for the last time, seconds: gusts of about 10 % of the
+# airspeed, as the mean square change of each component in a second, and noise of 0.4 m/s; (m/s)^2.
+FIRST_GUST, FIRST_NOISE, ASSUMED_S = 0.6, 0.16, 1.0
+
+# A change of the turn rate changes the slip. What that changes in the velocity of the air, with an error of this much,
+# seconds, in the time by which the direction of flight leads the heading, is no gust.
+SLIP_ERROR_S = 0.2
+
+# In calm air, where gusts turn the course by less than `CALM_COURSE` in a second, radians, only noise is left: averages
+# take longer, up to this multiple. They have at least this many measurements; of their mean interval each is this
+# share, and a longer one, seconds, counts as that.
+CALM_COURSE, CALM_MULTIPLE, LEAST_COUNT, INTERVAL_SHARE, LONGEST_INTERVAL_S = 0.02, 1.6, 5.0, 0.05, 0.3
+
+# Bounds of a plausible measurement: the largest value in metres, degrees or metres per second, the least airspeed.
+LARGEST_VALUE, LEAST_AIRSPEED_M_S = 1e9, 0.1
+
+# The largest plausible time stamp, seconds: 32,000 years, where a double still resolves a tenth of a millisecond.
+LATEST_S = 1e12
+
+
+class Turning(NamedTuple):
+    """How a vehicle turns: its turn rate divided by that of a coordinated turn, and how far it flies beside its nose.
+
+    In a turn the direction of flight is ahead of the heading by `lead_s` times the turn rate: the vehicle slips, or its
+    velocity is measured later than its attitude (then the lead is negative).
+    """
+
+    ratio: float
+    lead_s: float
+
+
+COORDINATED = Turning(1.0, 0.0)
+
+
+def turn_rate_at(turning: Turning, bank_deg: float, airspeed_m_s: float) -> float:
+    """The turn rate at a bank, radians per second, positive to the left."""
+    return -turning.ratio * rate_at_bank(bank_deg, airspeed_m_s)
+
+
+class Estimate(NamedTuple):
+    """The estimated motion: pose, airspeed, turn rate through the air, bank, and the velocity of the air.
+
+    The pose has the direction of flight through the air. The turn rate is in radians per second, positive to the left;
+    bank is positive to the right. `turning` relates bank, turn rate and the heading of the nose. Before the first
+    measurement the airspeed is 0.
+    """
+
+    time_s: float
+    pose: PlanarPose
+    airspeed_m_s: float
+    turn_rate: float
+    bank_deg: float
+    air_east_m_s: float
+    air_north_m_s: float
+    turning: Turning
+
+
+NO_ESTIMATE = Estimate(-inf, PlanarPose(0.0, 0.0, 1.0, 0.0), 0.0, 0.0, 0.0, 0.0, 0.0, COORDINATED)
+
+
+def estimate_after(estimate: Estimate, time_s: float) -> Estimate:
+    """The estimate `time_s` seconds later, with constant bank in a constant wind."""
+    then_s, pose, V, turn_rate, bank_deg, east, north, turning = estimate
+    pose = constant_turn(pose, V, turn_rate, time_s, (east, north))
+    return Estimate(then_s + time_s, pose, V, turn_rate, bank_deg, east, north, turning)
+
+
+def estimate_with_bank(estimate: Estimate, bank_deg: float) -> Estimate:
+    """The estimate with another bank, which also changes the direction of flight if the vehicle slips."""
+    time_s, pose, V, last_rate, _, east, north, turning = estimate
+    turn_rate = turn_rate_at(turning, bank_deg, V)
+    pose = _rotated(pose, turning.lead_s * (turn_rate - last_rate))
+    return Estimate(time_s, pose, V, turn_rate, bank_deg, east, north, turning)
+
+
+def estimate_at_present(estimate: Estimate, history: BankHistory, delay_s: float) -> Estimate:
+    """The estimate extrapolated over the measurement delay, with the banks modelled since then."""
+    time_s, pose, V, last_rate, bank_deg, east, north, turning = estimate
+    error_deg = bank_deg - delayed_deg(history, delay_s)
+    mean_rate = turn_rate_at(turning, mean_deg(history, delay_s) + error_deg, V)
+    present_deg = history.current_deg + error_deg
+    present_rate = turn_rate_at(turning, present_deg, V)
+    # The slip changes with the turn rate, and with it the direction of flight.
+    pose = _rotated(pose, turning.lead_s * (mean_rate - last_rate))
+    pose = constant_turn(pose, V, mean_rate, delay_s, (east, north))
+    pose = _rotated(pose, turning.lead_s * (present_rate - mean_rate))
+    return Estimate(time_s + delay_s, pose, V, present_rate, present_deg, east, north, turning)
+
+
+def is_plausible(state: State) -> bool:
+    """Whether the time of a measurement is within `LATEST_S`, and all other numbers together within `LARGEST_VALUE`."""
+    time_s, east, north, heading, bank, velocity_east, velocity_north, airspeed = state
+    position, angles = abs(east) + abs(north), abs(heading) + abs(bank)
+    size = position + angles + abs(velocity_east) + abs(velocity_north) + abs(airspeed)
+    # Neither comparison holds for nan.
+    return abs(time_s) < LATEST_S and size < LARGEST_VALUE
+
+
+def is_usable(state: State) -> bool:
+    """Whether a measurement is plausible and of an aircraft in flight, faster than `LEAST_AIRSPEED_M_S`."""
+    return is_plausible(state) and state.airspeed_m_s > LEAST_AIRSPEED_M_S
+
+
+# The ring of the last measurements. Where it would not cover the lag, those that follow each other sooner than this,
+# seconds, are left out.
+SAMPLES = 64
+SAMPLE_GAP_S = GUST_LAG_S / (SAMPLES - 2)
+
+
+class AirSample(NamedTuple):
+    """A measured velocity of the air, and what an error of the slip may account for; seconds and metres per second."""
+
+    time_s: float
+    east_m_s: float
+    north_m_s: float
+    slip_m_s: float
+
+
+class Difference(NamedTuple):
+    """The mean square difference of measurements, that of the slip's part, and the mean time between them."""
+
+    time_s: float
+    square: float
+    slip_square: float
+
+
+class AirAverage(NamedTuple):
+    """The velocity of the air, averaged over the time that suits its gusts and the noise of the measurements.
+
+    The air is taken as a random walk, the noise as white. The mean square difference of measurements a time t apart is
+    then 2 noise + gust t. From that of neighbours, `near`, and that over `GUST_LAG_S`, `far`, both are known, and the
+    best average is that of the Kalman filter: exponential over sqrt(noise dt/gust) seconds, dt apart.
+
+    `recent` is a ring of the last measurements, oldest first, of which `lag_index` is `GUST_LAG_S` old, or the first.
+    `known_s` is for how long both means are known.
+    """
+
+    east_m_s: float
+    north_m_s: float
+    known_s: float
+    near: Difference
+    far: Difference
+    recent: Annotated[tuple[AirSample, ...], SAMPLES]
+    lag_index: int
+
+
+def first_air() -> AirAverage:
+    """The average before the first measurement."""
+    near = Difference(0.02, 2.0 * FIRST_NOISE, 0.0)
+    far = Difference(GUST_LAG_S, 2.0 * FIRST_NOISE + FIRST_GUST * GUST_LAG_S, 0.0)
+    recent = (AirSample(0.0, 0.0, 0.0, 0.0),) * SAMPLES
+    return AirAverage(0.0, 0.0, ASSUMED_S, near, far, recent, SAMPLES - 2)
+
+
+def restarted_air(air: AirAverage, east_m_s: float, north_m_s: float) -> AirAverage:
+    """The average restarted from a velocity; what is known of gusts and noise stays."""
+    sample = AirSample(air.recent[-1].time_s, east_m_s, north_m_s, 0.0)
+    return AirAverage(east_m_s, north_m_s, air.known_s, air.near, air.far, (sample,) * SAMPLES, SAMPLES - 2)
+
+
+def averaged_air(
+    air: AirAverage, east_m_s: float, north_m_s: float, dt: float, longest_s: float, slip_m_s: float = 0.0
+) -> AirAverage:
+    """The average, over `longest_s` at most, including a velocity measured `dt` seconds after the last.
+
+    `slip_m_s` is how much an error of the slip may account for, with the sign of the turn.
+    """
+    east, north, known_s, near, far, recent, lag_index = air
+    now_s, known_s = recent[-1].time_s + dt, min(known_s + dt, GUST_AVERAGE_S)
+    while lag_index < SAMPLES - 1 and now_s - recent[lag_index + 1].time_s >= GUST_LAG_S:
+        lag_index += 1
+    sample, weight = AirSample(now_s, east_m_s, north_m_s, slip_m_s), 1.0 - exp(-dt / known_s)
+    near, far = _mean(near, recent[-1], sample, weight), _mean(far, recent[lag_index], sample, weight)
+    if lag_index == 0 and recent[-1].time_s - recent[-2].time_s < SAMPLE_GAP_S:
+        recent = (*recent[:-1], sample)
+    else:
+        recent, lag_index = (*recent[1:], sample), max(lag_index - 1, 0)
+    averaging_s = _averaging_s(near, far, longest_s)
+    share = 1.0 - exp(-dt / averaging_s) if averaging_s > 0.0 else 1.0
+    east, north = east + share * (east_m_s - east), north + share * (north_m_s - north)
+    return AirAverage(east, north, known_s, near, far, recent, lag_index)
+
+
+def _mean(mean: Difference, before: AirSample, now: AirSample, weight: float) -> Difference:
+    """A mean with the difference of two measurements."""
+    time_s, square, slip_square = mean
+    then_s, then_east, then_north, then_slip = before
+    now_s, now_east, now_north, now_slip = now
+    east, north, slip = now_east - then_east, now_north - then_north, now_slip - then_slip
+    return Difference(
+        time_s + weight * (now_s - then_s - time_s),
+        square + weight * (0.5 * (east * east + north * north) - square),
+        slip_square + weight * (0.5 * slip * slip - slip_square),
+    )
+
+
+def gust(near: Difference, far: Difference, slip: float) -> float:
+    """The mean square change of each component of the air's velocity in a second, (m/s)^2.
+
+    From it `slip` times what an error of the slip may account for is subtracted.
+    """
+    near_square, far_square = near.square - slip * near.slip_square, far.square - slip * far.slip_square
+    return max(far_square - near_square, 0.0) / max(far.time_s - near.time_s, 0.1)
+
+
+def _averaging_s(near: Difference, far: Difference, longest_s: float) -> float:
+    """The averaging time that suits gusts and noise, `longest_s` at most."""
+    change = gust(near, far, 0.0)
+    noise = max(near.square - change * near.time_s, 0.0) / 2.0
+    if noise * near.time_s >= change * longest_s * longest_s:
+        return longest_s
+    return sqrt(noise * near.time_s / change)
+
+
+class Observer(NamedTuple):
+    """Measurements smoothed by dead reckoning: a step extrapolates the last estimate and corrects it by a small share.
+
+    Position and heading are thus averages over about `smoothing_s` seconds that do not lag in a turn: a time that is
+    given, and longer in calm air and where measurements are rare, `interval_s` apart on average. The velocity of the
+    air, which is the measured velocity less the airspeed along the heading, is averaged over a shorter time
+    (`AirAverage`). A smoothing time of 0 disables smoothing.
+    """
+
+    smoothing_s: float
+    interval_s: float
+    air: AirAverage
+    estimate: Estimate
+
+
+def first_observer(smoothing_s: float) -> Observer:
+    """The observer before the first measurement."""
+    return Observer(smoothing_s, 0.0, first_air(), NO_ESTIMATE)
+
+
+def restarted(observer: Observer) -> Observer:
+    """The observer that starts again from the next measurement."""
+    return Observer(observer.smoothing_s, observer.interval_s, observer.air, NO_ESTIMATE)
+
+
+def roughness(observer: Observer, slip: float = 0.0) -> float:
+    """The root mean square change of course that gusts cause in a second, radians.
+
+    With `slip` 1 this excludes what an error of the slip may account for: swings of the bank do not count as gusts.
+    """
+    V = observer.estimate.airspeed_m_s
+    return sqrt(gust(observer.air.near, observer.air.far, slip)) / V if V > 0.0 else 0.0
+
+
+def observed(
+    observer: Observer, state: State, bank_deg: float, shortest_s: float, turning: Turning = COORDINATED
+) -> Observer:
+    """The observer after a usable measurement that is later than the last one.
+
+    `bank_deg` is the bank that the roll model predicts for that time, `shortest_s` the shortest smoothing time.
+    """
+    smoothing_s, interval_s, air, last = observer
+    if last.airspeed_m_s == 0.0 or shortest_s == 0.0:
+        measured = _estimate_from(state, turning)
+        air = restarted_air(air, measured.air_east_m_s, measured.air_north_m_s)
+        return Observer(smoothing_s, interval_s, air, measured)
+    last_s, pose, V, last_rate, _, air_east, air_north, _ = last
+    dt = state.time_s - last_s
+    interval_s += (INTERVAL_SHARE if interval_s > 0.0 else 1.0) * (min(dt, LONGEST_INTERVAL_S) - interval_s)
+    smoothing_s = _smoothing_s(roughness(observer), interval_s, shortest_s)
+    share = 1.0 - exp(-dt / smoothing_s)
+    V += share * (state.airspeed_m_s - V)
+    bank_deg += share * (state.bank_deg - bank_deg)
+    turn_rate = turn_rate_at(turning, bank_deg, V)
+    pose = _rotated(pose, turning.lead_s * (turn_rate - last_rate))
+    predicted = constant_turn(pose, V, turn_rate, dt, (air_east, air_north))
+    pose = _blended(predicted, _flight_pose(state, turning), share)
+    east, north = state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s
+    air = averaged_air(air, east, north, dt, shortest_s, SLIP_ERROR_S * V * turn_rate)
+    estimate = Estimate(state.time_s, pose, V, turn_rate, bank_deg, air.east_m_s, air.north_m_s, turning)
+    return Observer(smoothing_s, interval_s, air, estimate)
+
+
+def _smoothing_s(rough: float, interval_s: float, shortest_s: float) -> float:
+    """The smoothing time for the present air and the interval of the measurements."""
+    calm = 1.0 - min(rough / CALM_COURSE, 1.0)
+    multiple = 1.0 + (CALM_MULTIPLE - 1.0) * calm
+    return multiple * max(shortest_s, LEAST_COUNT * interval_s)
+
+
+def _blended(pose: PlanarPose, measured: PlanarPose, share: float) -> PlanarPose:
+    """A pose corrected by a share of its difference from the measured one."""
+    x, y, c, s = pose
+    c, s = c + share * (measured.c - c), s + share * (measured.s - s)
+    size = length(c, s)
+    return PlanarPose(x + share * (measured.x - x), y + share * (measured.y - y), c / size, s / size)
+
+
+def _estimate_from(state: State, turning: Turning) -> Estimate:
+    """The estimate from a single measurement."""
+    V, pose = state.airspeed_m_s, _flight_pose(state, turning)
+    turn_rate = turn_rate_at(turning, state.bank_deg, V)
+    east, north = state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s
+    return Estimate(state.time_s, pose, V, turn_rate, state.bank_deg, east, north, turning)
+
+
+def _flight_pose(state: State, turning: Turning) -> PlanarPose:
+    """The measured position, with the direction of flight through the air."""
+    ahead_deg = degrees(turning.lead_s * turn_rate_at(turning, state.bank_deg, state.airspeed_m_s))
+    return PlanarPose(state.east_m, state.north_m, *heading_vector(state.heading_deg - ahead_deg))
+
+
+def _rotated(pose: PlanarPose, angle: float) -> PlanarPose:
+    """A pose turned to the left by an angle, radians."""
+    if angle == 0.0:
+        return pose
+    x, y, c, s = pose
+    cosine, sine = cos(angle), sin(angle)
+    return PlanarPose(x, y, c * cosine - s * sine, s * cosine + c * sine)

@@ -1,1 +1,0 @@
-"""Identification of the vehicle in flight, from the commands that a law gives and the measurements it gets."""

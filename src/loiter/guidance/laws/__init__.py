@@ -1,1 +1,0 @@
-"""Guidance laws: `LoiterEntry`, which flies the fastest entry, and the laws that it is compared with."""

@@ -1,0 +1,1 @@
+"""Guidance laws that the fastest entry is compared with."""

@@ -1,0 +1,161 @@
+"""Theorem 4 of docs/proof.md: bounds on the rounding error of T, and that unstable formulas have none."""
+
+import re
+from contextlib import contextmanager
+from fractions import Fraction
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from evidence.changing import changed
+from evidence.rounding_errors import measured
+from loiter.cli.app import main
+from loiter.evidence.proof import balls, lemmas, rounding
+from loiter.evidence.proof.algebra import flint
+from loiter.evidence.proof.balls import Interval, ball
+from loiter.evidence.proof.rounded import BRANCHES, Rounded, Undecided, arctangent, root
+from loiter.evidence.proof.sign_proofs import NotProved
+from loiter.kernel import angles, exact
+from loiter.kernel.still_air import extremals
+
+pytest.importorskip("flint")
+
+REGIONS = {region.word: region for region in rounding.regions()}
+PROOF = Path(__file__).parents[2] / "docs" / "proof.md"
+
+# A part of the region of LRL, of which the whole takes half a minute.
+PART_OF_LRL = [(Interval(0.3, 0.4), Interval(0.4, 0.45), Interval(1.4, 1.45))]
+
+# Formulas that are right but lose digits: word, module, function, text, replacement.
+UNSTABLE = [
+    ("RL, left crossing", extremals, "rl", "max(p * inner", "max(p * (x * x + (y - R) * (y + R - 2.0))"),
+    (
+        "LR, right crossing, R >= 2",
+        extremals,
+        "lr",
+        "-outer * fold",
+        "(y * y + 2.0 * y + x * x - R * (R + 2.0)) * -fold",
+    ),
+    ("LR, right crossing, R <= 2", extremals, "lr", "(x1, R - 1.0 + 0.25", "(x1, (R + 1e6) - (1e6 + 1.0) + 0.25"),
+    ("LSL", extremals, "external_join", "max(c - X, 0.0)", "max((c + 1e6) - (X + 1e6), 0.0)"),
+    ("LSR", extremals, "internal_join", "max(X - c, 0.0)", "max((X + 1e6) - (c + 1e6), 0.0)"),
+    ("RSL", extremals, "onto_axis", "c * along + y + 1.0", "c * along + (y + 1e6) - (1e6 - 1.0)"),
+    ("LR, left crossing", extremals, "angle", "atan2(cross, dot)", "acos(dot / sqrt(cross * cross + dot * dot))"),
+    ("LRL", extremals, "lrl", "-0.5 * (w + d) * q", "(ya - 1e6 + 1e6 - q)"),
+]
+
+
+def some(word):
+    """A region, or of LRL a part of it."""
+    region = REGIONS[word]
+    return region._replace(boxes=PART_OF_LRL) if word == "LRL" else region
+
+
+@pytest.mark.parametrize("word", REGIONS)
+def test_the_rounding_error_of_every_word_is_bounded(word):
+    region = some(word)
+    found = rounding.bound(region)
+    assert 0.0 < found.units <= region.limit
+    worst, count = measured(region, 60, 4)
+    assert count > 10
+    assert worst <= found.units
+
+
+@pytest.mark.parametrize(("word", "module", "function", "text", "replacement"), UNSTABLE)
+def test_an_unstable_formula_has_no_bound(word, module, function, text, replacement, monkeypatch):
+    monkeypatch.setattr(rounding, "MOST_BOXES", 1_500)
+    monkeypatch.setattr(module, function, changed(module, function, text, replacement))
+    with pytest.raises(NotProved):
+        rounding.bound(some(word))
+
+
+def test_the_lengths_of_rotations_and_the_sum_of_angles_are_certain(monkeypatch):
+    assert rounding.lengths().cases == 16
+    assert rounding.sum_of_angles().cases > 1000
+    monkeypatch.setattr(extremals, "rl", changed(extremals, "rl", "(-x1, R + 1.0", "(-x1, R + 1.000001"))
+    with pytest.raises(NotProved):
+        rounding.lengths()
+
+
+def test_a_sum_of_angles_that_loses_digits_is_not_certain(monkeypatch):
+    monkeypatch.setattr(balls, "MOST_BOXES", 5_000)
+    text, replacement = "(c1 * d2 + d1 * c2, d1 * d2", "(c1 * d2 + 1e3 + d1 * c2 - 1e3, d1 * d2"
+    monkeypatch.setattr(angles, "total_angle", changed(angles, "total_angle", text, replacement))
+    with pytest.raises(NotProved):
+        rounding.sum_of_angles()
+
+
+def test_beyond_has_the_relative_error_that_the_theorem_assumes():
+    """In exact fractions, next to the circles: farther than three roundings, which is the hypothesis."""
+    random, worst = Random(4), 0.0
+    for _ in range(20_000):
+        R = 1.0 + 10.0 ** random.uniform(-12.0, 4.0)
+        x, y = (random.choice((-1.0, 1.0)) * R * 10.0 ** random.uniform(-6.0, 2.0) for _ in range(2))
+        k, circle = random.choice(((2.0, R), (-2.0, R), (2.0, 2.0 - R)))
+        if random.random() < 0.5:
+            square = (circle - y) * (circle + y + k)
+            if square > 0.0:
+                x = square**0.5 * (1.0 + random.choice((-1.0, 1.0)) * 10.0 ** random.uniform(-14.0, -1.0))
+        exactly = Fraction(x) ** 2 + (Fraction(y) - Fraction(circle)) * (Fraction(y) + Fraction(circle) + Fraction(k))
+        if abs(exactly) > 2.0**-46 * (1.0 + abs(x) + abs(y) + R) ** 2:
+            worst = max(worst, float(abs(Fraction(exact.beyond(x, y, circle, k)) - exactly) / abs(exactly)))
+    assert 2.0**-54 < worst <= rounding.BEYOND
+
+
+# The arithmetic itself
+
+
+@contextmanager
+def precision(bits):
+    """Balls of more digits inside a block."""
+    before, flint().ctx.prec = flint().ctx.prec, bits
+    yield
+    flint().ctx.prec = before
+
+
+def test_bounds_contain_the_errors_of_doubles():
+    """Random expressions: the double lies within the bound of the exact value, and the bound is of that size."""
+    random = Random(7)
+    for _ in range(2000):
+        a, b, c = (random.uniform(0.1, 10.0) for _ in range(3))
+        formula = random.choice(
+            (
+                lambda x, y, z, sqrt: x * y - z / x,
+                lambda x, y, z, sqrt: sqrt(x * x + y) * (z - y),
+                lambda x, y, z, sqrt: (x + y + z) / (x * 0.25 + 1.0),
+                lambda x, y, z, sqrt: sqrt(sqrt(x) + y * y) - sqrt(z),
+            )
+        )
+        bounded = formula(*(Rounded(flint().arb(v)) for v in (a, b, c)), root)
+        double = formula(a, b, c, lambda v: v**0.5)
+        with precision(200):
+            exactly = formula(*(Rounded(flint().arb(v)) for v in (a, b, c)), root).value
+        assert float(abs(exactly - double)) <= bounded.error < 1e-13
+
+
+def test_comparisons_are_decided_explored_or_refused():
+    exact_ball, rounded_ball = Rounded(ball(Interval(-1.0, 1.0))), Rounded(ball(Interval(-1.0, 1.0)), 1e-16)
+    assert BRANCHES.explored(lambda: (exact_ball > 0.0, exact_ball > 0.0)) == [(True, True), (False, False)]
+    assert Rounded(ball(Interval(1.0, 2.0)), 1e-16) > 0.0
+    with pytest.raises(Undecided):
+        assert rounded_ball > 0.0
+    # A relative error keeps the sign, and zero.
+    assert Rounded(ball(Interval(0.0, 1.0)), 1e-16, 1e-15, 1) >= 0.0
+    with pytest.raises(Undecided):
+        arctangent(rounded_ball, rounded_ball)
+
+
+def test_the_command_prints_a_table(monkeypatch, capsys):
+    entries = tuple(one for one in lemmas.ROUNDING if "LR, right" in one.statement)
+    monkeypatch.setattr("loiter.cli.commands.prove.ROUNDING", entries)
+    assert main(["prove", "--rounding"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 1 + len(entries) == 3
+    assert all(line.startswith("theorem 4") and line.rstrip().endswith("certain") for line in lines[1:])
+
+
+def test_the_document_has_every_word():
+    section = PROOF.read_text().partition("## 9. Rounding")[2]
+    table = re.findall(r"^\| (.*?) \| (\d+) \| [\d.]+ \| (\d+) \| (\d+) \|$", section, re.MULTILINE)
+    assert [(word, float(limit)) for word, limit, *_ in table] == [(r.word, r.limit) for r in REGIONS.values()]
