@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: bcde6f8d737a92c666df2ce152853a0863b9438d6f1f236862fc0f8eceb06c1e
+ * SHA-256 of the source: f4df80032459eae567caa19963673f311c982dacb412393732de57570d3b50c0
  */
 #include "loiter.h"
 
@@ -1269,7 +1269,7 @@ static inline integer_real_3 drop_short_pieces(integer word, real t1, real t2, r
 }
 
 /* The opposite control; `ABSENT` stays as it is. */
-static inline integer opposed(integer u) {
+static inline integer opposite(integer u) {
     return u == ABSENT ? u : -u;
 }
 
@@ -1277,7 +1277,7 @@ static inline integer opposed(integer u) {
 static inline integer mirrored(integer word) {
     const integer_3 controls_1 = controls(word);
     const integer u1 = controls_1.a0, u2 = controls_1.a1, u3 = controls_1.a2;
-    return encode(opposed(u1), opposed(u2), opposed(u3));
+    return encode(opposite(u1), opposite(u2), opposite(u3));
 }
 
 /* An extremal of the clockwise circle as the maneuver flown onto the circle of the given side.
@@ -2534,7 +2534,7 @@ static inline integer words_inside(real phase, real half, integer words, integer
 }
 
 /* An angle, in [-pi, pi). */
-static inline real wrapped(real angle) {
+static inline real wrap(real angle) {
     return real_modulo(angle + REAL(3.141592653589793), TWO_PI) - REAL(3.141592653589793);
 }
 
@@ -2561,7 +2561,7 @@ static inline bool has_minimum(const LeafEnd *before, const LeafEnd *after) {
 }
 
 /* The faster of `best` and the local minimum in a leaf. */
-static inline WindCandidate refined_if_better(const LeafEnd *before, const LeafEnd *after, integer side, const
+static inline WindCandidate refine_if_better(const LeafEnd *before, const LeafEnd *after, integer side, const
         WindScene *scene, const WindCandidate *best) {
     const bool adjoins = before->number == after->number - 1;
     const JoinPoint parts_1 = adjoins && before->point.path.time < after->point.path.time ? before->point :
@@ -2578,12 +2578,12 @@ static inline WindCandidate refined_if_better(const LeafEnd *before, const LeafE
  * A path that joins inside the cell can follow the circle to the cell's end. So no path into the cell is faster
  * than the first path to its end less the time to hold the circle through the cell.
  */
-static inline integer_LeafEnd_WindCandidate examined(CellVisit visit, integer possible, integer side, const
+static inline integer_LeafEnd_WindCandidate examine_cell(CellVisit visit, integer possible, integer side, const
         WindScene *scene, LeafEnd before, WindCandidate best) {
     const real_2 middle_of_1 = middle_of(visit);
     const real middle = middle_of_1.a0, half = middle_of_1.a1;
     const real end = middle + half;
-    const bool holds_best = side == best.side && real_fabs(wrapped(best.phase - middle)) <= half;
+    const bool holds_best = side == best.side && real_fabs(wrap(best.phase - middle)) <= half;
     if (visit.level < LEAF && holds_best) {
         return MAKE(integer_LeafEnd_WindCandidate){possible, before, best};
     }
@@ -2596,7 +2596,7 @@ static inline integer_LeafEnd_WindCandidate examined(CellVisit visit, integer po
         const LeafEnd after = MAKE(LeafEnd){visit.number, MAKE(JoinPoint){end, path, join_slope(&path, end, side,
                 scene)}};
         if (!holds_best && has_minimum(&before, &after)) {
-            best = refined_if_better(&before, &after, side, scene, &best);
+            best = refine_if_better(&before, &after, side, scene, &best);
         }
         before = after;
     }
@@ -2639,11 +2639,11 @@ static inline CellVisit next_cell(CellVisit visit) {
     return MAKE(CellVisit){number, level, words};
 }
 
-/* The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `searched`.
+/* The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `search`.
  *
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  */
-static inline WindCandidate_Leaves searched_coarsely(integer side, const WindScene *scene, WindCandidate best) {
+static inline WindCandidate_Leaves coarse_search(integer side, const WindScene *scene, WindCandidate best) {
     CellVisit visit = MAKE(CellVisit){0, 0, ALL_WORDS};
     LeafEnd before = MAKE(LeafEnd){-2, MAKE(JoinPoint){REAL(0.0), NO_PATH, REAL(0.0)}};
     Leaves leaves = NO_LEAVES;
@@ -2652,10 +2652,11 @@ static inline WindCandidate_Leaves searched_coarsely(integer side, const WindSce
         integer possible = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, scene,
                 best.path.time);
         if (possible != 0 && visit.level >= COARSE) {
-            const integer_LeafEnd_WindCandidate examined_2 = examined(visit, possible, side, scene, before, best);
-            possible = examined_2.a0;
-            before = examined_2.a1;
-            best = examined_2.a2;
+            const integer_LeafEnd_WindCandidate examine_cell_2 = examine_cell(visit, possible, side, scene, before,
+                    best);
+            possible = examine_cell_2.a0;
+            before = examine_cell_2.a1;
+            best = examine_cell_2.a2;
             if (possible != 0 && visit.level == LEAF) {
                 leaves = with_leaf(leaves, visit.number);
                 possible = 0;
@@ -2871,10 +2872,10 @@ static inline integer words_beside_best(CellVisit visit, integer words, const Wi
         *best, Corner corner, real sooner) {
     const real_2 middle_of_1 = middle_of(visit);
     const real middle = middle_of_1.a0, half = middle_of_1.a1;
-    real reach = real_fabs(wrapped(best->phase - middle)) + half;
+    real reach = real_fabs(wrap(best->phase - middle)) + half;
     if (reach <= NEAR_BEST * half) {
         if (corner.u != 0) {
-            reach = real_fabs(wrapped(corner.phase - middle)) + half;
+            reach = real_fabs(wrap(corner.phase - middle)) + half;
             words = words_beside(corner, reach, words, best->side, scene);
         } else {
             words = words_inside(best->phase, reach, words, best->side, scene, sooner);
@@ -2883,8 +2884,8 @@ static inline integer words_beside_best(CellVisit visit, integer words, const Wi
     return words;
 }
 
-/* The words that may still join inside a cell early enough, as in `examined`; the faster of `best` and others. */
-static inline integer_WindCandidate compared_at_end(CellVisit visit, integer possible, integer side, const WindScene
+/* The words that may still join in a cell early enough, as in `examine_cell`; the faster of `best` and others. */
+static inline integer_WindCandidate compare_at_end(CellVisit visit, integer possible, integer side, const WindScene
         *scene, WindCandidate best, real tolerance) {
     const real_2 middle_of_1 = middle_of(visit);
     const real middle = middle_of_1.a0, half = middle_of_1.a1;
@@ -2899,8 +2900,7 @@ static inline integer_WindCandidate compared_at_end(CellVisit visit, integer pos
 }
 
 /* The fastest path onto the circle held on one side, if it joins inside one of the leaves; otherwise `best`. */
-static inline WindCandidate wind_search_searched(integer side, const WindScene *scene, WindCandidate best, Leaves
-        leaves) {
+static inline WindCandidate search(integer side, const WindScene *scene, WindCandidate best, Leaves leaves) {
     Corner corner = NO_CORNER;
     real compared = REAL_INFINITY;
     integer visits = 0;
@@ -2923,10 +2923,10 @@ static inline WindCandidate wind_search_searched(integer side, const WindScene *
                     possible = words_beside_best(visit, possible, scene, &best, corner, sooner);
                 }
                 if (possible != 0 && integer_modulo(LAST - visit.level, 2) == 0 && visit.level > LEAF) {
-                    const integer_WindCandidate compared_at_end_2 = compared_at_end(visit, possible, side, scene,
+                    const integer_WindCandidate compare_at_end_2 = compare_at_end(visit, possible, side, scene,
                             best, tolerance);
-                    possible = compared_at_end_2.a0;
-                    best = compared_at_end_2.a1;
+                    possible = compare_at_end_2.a0;
+                    best = compare_at_end_2.a1;
                 }
                 visit = possible != 0 ? first_half(visit, possible) : next_cell(visit);
             }
@@ -2941,17 +2941,17 @@ static inline WindCandidate fastest_of_sides(integer side, const WindScene *scen
     const integer first = best.side != 0 ? best.side : 1;
     Leaves leaves = NO_LEAVES, others = NO_LEAVES;
     if (side != -first) {
-        const WindCandidate_Leaves searched_coarsely_1 = searched_coarsely(first, scene, best);
-        best = searched_coarsely_1.a0;
-        leaves = searched_coarsely_1.a1;
+        const WindCandidate_Leaves coarse_search_1 = coarse_search(first, scene, best);
+        best = coarse_search_1.a0;
+        leaves = coarse_search_1.a1;
     }
     if (side != first) {
-        const WindCandidate_Leaves searched_coarsely_2 = searched_coarsely(-first, scene, best);
-        best = searched_coarsely_2.a0;
-        others = searched_coarsely_2.a1;
+        const WindCandidate_Leaves coarse_search_2 = coarse_search(-first, scene, best);
+        best = coarse_search_2.a0;
+        others = coarse_search_2.a1;
     }
-    best = wind_search_searched(first, scene, best, leaves);
-    return wind_search_searched(-first, scene, best, others);
+    best = search(first, scene, best, leaves);
+    return search(-first, scene, best, others);
 }
 
 /* The arc left of a word whose other pieces together last `SHORT` or less; the empty word where there is none. */
@@ -3489,7 +3489,7 @@ static inline Plan plan_by_clock(const Plan *plan, real jump_s) {
 }
 
 /* The clock `dt` seconds later. */
-static inline Clock advanced(const Clock *clock, real dt) {
+static inline Clock advance(const Clock *clock, real dt) {
     const real time_s = clock->time_s, since_s = clock->since_s, gap_s = clock->gap_s, jump_s =
             clock->jump_s, first_s = clock->first_s, latest_s = clock->latest_s;
     return MAKE(Clock){time_s, since_s + dt, gap_s, jump_s, first_s, latest_s};
@@ -3500,7 +3500,7 @@ static inline Clock advanced(const Clock *clock, real dt) {
  * Once the ring is full, steps that are so short that it would not cover that time are joined: two entries that
  * follow each other then last longer than twice that time divided by their number.
  */
-static inline BankHistory recorded(BankHistory history, real bank_deg, real dt, real covered_s) {
+static inline BankHistory record_bank(BankHistory history, real bank_deg, real dt, real covered_s) {
     const BankEntry_ring_128 entries = history.entries;
     dt = min_real(dt, covered_s);
     const BankEntry last = entries->at[127];
@@ -3601,7 +3601,7 @@ static inline Estimate estimate_after(const Estimate *estimate, real time_s) {
  *
  * It may be one by this clock, or by another that is confirmed by now.
  */
-static inline Clock_bool checked(const Clock *clock, real time_s) {
+static inline Clock_bool check_stamp(const Clock *clock, real time_s) {
     const real ahead_s = time_s - clock->time_s;
     if ((REAL(0.0) < ahead_s && ahead_s <= clock->since_s + LARGEST_GAP_S) || clock->time_s == -REAL_INFINITY) {
         return MAKE(Clock_bool){MAKE(Clock){time_s, REAL(0.0), ahead_s, REAL(0.0), REAL_NAN, REAL_NAN}, true};
@@ -3619,7 +3619,7 @@ static inline Clock_bool checked(const Clock *clock, real time_s) {
 }
 
 /* The observer that starts again from the next measurement. */
-static inline Observer restarted(const Observer *observer) {
+static inline Observer restart(const Observer *observer) {
     return MAKE(Observer){observer->smoothing_s, observer->interval_s, observer->air, NO_ESTIMATE};
 }
 
@@ -3662,7 +3662,7 @@ static inline real delayed_deg(BankHistory history, real delay_s) {
 }
 
 /* A measured state without the biases of heading and bank. */
-static inline State unbiased(const VehicleEstimates *known, const State *state) {
+static inline State remove_bias(const VehicleEstimates *known, const State *state) {
     const real heading_bias_deg = known->heading_bias_deg, bank_bias_deg = known->bank_bias_deg;
     if (heading_bias_deg == REAL(0.0) && bank_bias_deg == REAL(0.0)) {
         return (*state);
@@ -3708,7 +3708,7 @@ static inline Estimate _estimate_from(const State *state, Turning turning) {
 }
 
 /* The average restarted from a velocity; what is known of gusts and noise stays. */
-static inline AirAverage restarted_air(Rings *rings, const AirAverage *air, real east_m_s, real north_m_s) {
+static inline AirAverage restart_air(Rings *rings, const AirAverage *air, real east_m_s, real north_m_s) {
     const AirSample sample = MAKE(AirSample){air->recent->at[63].time_s, east_m_s, north_m_s, REAL(0.0)};
     return MAKE(AirAverage){east_m_s, north_m_s, air->known_s, air->near, air->far,
             AirSample_ring_64_filled(&rings->AirSample_ring_64, sample), SAMPLES - 2};
@@ -3775,7 +3775,7 @@ static inline real _averaging_s(Difference near, Difference far, real longest_s)
  *
  * `slip_m_s` is how much an error of the slip may account for, with the sign of the turn.
  */
-static inline AirAverage averaged_air(const AirAverage *air, real east_m_s, real north_m_s, real dt, real longest_s,
+static inline AirAverage average_air(const AirAverage *air, real east_m_s, real north_m_s, real dt, real longest_s,
         real slip_m_s) {
     real east = air->east_m_s, north = air->north_m_s, known_s = air->known_s;
     Difference near = air->near, far = air->far;
@@ -3807,14 +3807,14 @@ static inline AirAverage averaged_air(const AirAverage *air, real east_m_s, real
  *
  * `bank_deg` is the bank that the roll model predicts for that time, `shortest_s` the shortest smoothing time.
  */
-static inline Observer observed(Rings *rings, const Observer *observer, const State *state, real bank_deg, real
+static inline Observer observe(Rings *rings, const Observer *observer, const State *state, real bank_deg, real
         shortest_s, Turning turning) {
     real smoothing_s = observer->smoothing_s, interval_s = observer->interval_s;
     AirAverage air = observer->air;
     const Estimate last = observer->estimate;
     if (last.airspeed_m_s == REAL(0.0) || shortest_s == REAL(0.0)) {
         const Estimate measured = _estimate_from(state, turning);
-        air = restarted_air(rings, &air, measured.air_east_m_s, measured.air_north_m_s);
+        air = restart_air(rings, &air, measured.air_east_m_s, measured.air_north_m_s);
         return MAKE(Observer){smoothing_s, interval_s, air, measured};
     }
     const real last_s = last.time_s;
@@ -3833,7 +3833,7 @@ static inline Observer observed(Rings *rings, const Observer *observer, const St
     const PlanarPose predicted = constant_turn(pose, V, turn_rate, dt, MAKE(real_2){air_east, air_north});
     pose = _blended(predicted, _flight_pose(state, turning), share);
     const real east = state->velocity_east_m_s - V * pose.c, north = state->velocity_north_m_s - V * pose.s;
-    air = averaged_air(&air, east, north, dt, shortest_s, SLIP_ERROR_S * V * turn_rate);
+    air = average_air(&air, east, north, dt, shortest_s, SLIP_ERROR_S * V * turn_rate);
     const Estimate estimate = MAKE(Estimate){state->time_s, pose, V, turn_rate, bank_deg, air.east_m_s,
             air.north_m_s, turning};
     return MAKE(Observer){smoothing_s, interval_s, air, estimate};
@@ -3876,7 +3876,7 @@ static inline Estimate estimate_at_present(const Estimate *estimate, BankHistory
  * Telemetry may be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last
  * estimate is extrapolated with the modelled bank.
  */
-static inline Sensing_bool sensed(Rings *rings, const Settings *settings, const Sensing *sensing, const VehicleModel
+static inline Sensing_bool sense(Rings *rings, const Settings *settings, const Sensing *sensing, const VehicleModel
         *vehicle, const State *measurement, real step_s) {
     Clock clock = sensing->clock;
     Observer observer = sensing->observer;
@@ -3886,9 +3886,9 @@ static inline Sensing_bool sensed(Rings *rings, const Settings *settings, const 
     real elapsed_s = sensing->elapsed_s;
     const real error_deg = sensing->model_error_deg;
     if (step_s > REAL(0.0)) {
-        clock = advanced(&clock, step_s);
+        clock = advance(&clock, step_s);
         elapsed_s = elapsed_s + step_s;
-        history = recorded(history, vehicle->bank_deg, step_s, settings->covered_s);
+        history = record_bank(history, vehicle->bank_deg, step_s, settings->covered_s);
     }
     if (!is_usable(measurement)) {
         return MAKE(Sensing_bool){MAKE(Sensing){clock, observer, history, limits, present, elapsed_s, error_deg},
@@ -3905,9 +3905,9 @@ static inline Sensing_bool sensed(Rings *rings, const Settings *settings, const 
                 true};
     }
     const bool is_first = clock.time_s == -REAL_INFINITY;
-    const Clock_bool checked_2 = checked(&clock, measurement->time_s);
-    clock = checked_2.a0;
-    const bool is_new = checked_2.a1;
+    const Clock_bool check_stamp_2 = check_stamp(&clock, measurement->time_s);
+    clock = check_stamp_2.a0;
+    const bool is_new = check_stamp_2.a1;
     if (!is_new) {
         return MAKE(Sensing_bool){MAKE(Sensing){clock, observer, history, limits, present, elapsed_s, error_deg},
                 false};
@@ -3916,7 +3916,7 @@ static inline Sensing_bool sensed(Rings *rings, const Settings *settings, const 
         history = constant_history(rings, vehicle->bank_deg);
     }
     if (clock.jump_s != REAL(0.0) || clock.gap_s > EXTRAPOLATED_S) {
-        observer = restarted(&observer);
+        observer = restart(&observer);
     }
     if (vehicle->revision != limits.revision) {
         limits = limits_of(settings, vehicle, &limits);
@@ -3924,8 +3924,8 @@ static inline Sensing_bool sensed(Rings *rings, const Settings *settings, const 
     const VehicleEstimates known = vehicle->estimates;
     const Turning turning = MAKE(Turning){known.turn_ratio, known.course_lead_s};
     const real bank_deg = delayed_deg(history, known.delay_s);
-    const State stored_3 = unbiased(&known, measurement);
-    observer = observed(rings, &observer, &stored_3, bank_deg, settings->smoothing_s, turning);
+    const State stored_3 = remove_bias(&known, measurement);
+    observer = observe(rings, &observer, &stored_3, bank_deg, settings->smoothing_s, turning);
     present = estimate_at_present(&observer.estimate, history, known.delay_s);
     return MAKE(Sensing_bool){MAKE(Sensing){clock, observer, history, limits, present, REAL(0.0), present.bank_deg -
             history.current_deg}, true};
@@ -4194,7 +4194,7 @@ static inline bool is_better(const PlannedEntry *entry, const Plan *plan, TurnLi
  *
  * With `update` the same plan from the present state counts as better.
  */
-static inline Plan_bool law_step_searched(const Settings *settings, const Sensing *sensing, const Plan *plan, const
+static inline Plan_bool search_plan(const Settings *settings, const Sensing *sensing, const Plan *plan, const
         RelativeState *state, bool is_any, bool update) {
     const real now_s = sensing->clock.time_s;
     const Limits limits = sensing->limits;
@@ -4235,8 +4235,8 @@ static inline Plan first_plan(const Settings *settings, const Sensing *sensing, 
     const real bank_deg = first != ABSENT ? (real)-first * limits.limit_deg : (real)entry.side * limits.hold_deg;
     const Estimate later = estimate_after(&present, lead_s(&limits, present.bank_deg, bank_deg));
     const RelativeState stored_5 = relative_state(settings, &later);
-    const Plan_bool searched_6 = law_step_searched(settings, sensing, &plan, &stored_5, true, true);
-    plan = searched_6.a0;
+    const Plan_bool search_plan_6 = search_plan(settings, sensing, &plan, &stored_5, true, true);
+    plan = search_plan_6.a0;
     return plan;
 }
 
@@ -4342,7 +4342,7 @@ static inline Route without_current(const Route *route) {
  *
  * A change of bank takes effect with a delay; from then on the aircraft turns like one that banks instantly.
  */
-static inline Plan_Leads_ResponsePoint advanced_plan(const Settings *settings, const Limits *limits, const Plan
+static inline Plan_Leads_ResponsePoint advance_plan(const Settings *settings, const Limits *limits, const Plan
         *plan, Leads leads, const Estimate *estimate) {
     Route route = plan->route;
     real left_s = plan->remaining_s, join_s = plan->join_s;
@@ -4372,7 +4372,7 @@ static inline Plan_Leads_ResponsePoint advanced_plan(const Settings *settings, c
 }
 
 /* The plan after a search for another one, if that is due, and whether it is another. */
-static inline Plan_bool reconsidered(const Settings *settings, const Sensing *sensing, const Plan *plan, const
+static inline Plan_bool reconsider(const Settings *settings, const Sensing *sensing, const Plan *plan, const
         ResponsePoint *response) {
     const Limits limits = sensing->limits;
     const Route route = plan->route;
@@ -4388,7 +4388,7 @@ static inline Plan_bool reconsidered(const Settings *settings, const Sensing *se
     const real east = limits.wind_east_m_s - route.wind_east_m_s, north = limits.wind_north_m_s -
             route.wind_north_m_s;
     if (is_lost || (!holding && length(east, north) > WIND_DIFFERS * V)) {
-        return law_step_searched(settings, sensing, plan, &response->state, true, true);
+        return search_plan(settings, sensing, plan, &response->state, true, true);
     }
     if (holding) {
         return MAKE(Plan_bool){(*plan), false};
@@ -4396,7 +4396,7 @@ static inline Plan_bool reconsidered(const Settings *settings, const Sensing *se
     const real later_m = real_fabs(plan->join_s - plan->planned_join_s) * V;
     const bool deviates = max_real(real_fabs(offset.crosstrack), later_m) > DEVIATION * r;
     const bool is_still = limits.wind_east_m_s == REAL(0.0) && limits.wind_north_m_s == REAL(0.0);
-    return law_step_searched(settings, sensing, plan, &response->state, false, deviates || is_still);
+    return search_plan(settings, sensing, plan, &response->state, false, deviates || is_still);
 }
 
 /* The velocity along the path: relative to the plan's steady wind; on the circle, relative to the circle. */
@@ -4441,8 +4441,8 @@ static inline real course_rate(PathOffset offset, real course_gain, real place_g
 }
 
 /* The correction of the rate of turn on the circle after another step, radians per second. */
-static inline real trimmed(const Settings *settings, real trim, real crosstrack, real course_gain, real V, real dt)
-        {
+static inline real next_trim(const Settings *settings, real trim, real crosstrack, real course_gain, real V, real
+        dt) {
     const real R = settings->radius_m, turn_rate = V / settings->radius_m;
     if (real_fabs(crosstrack) >= TRIMMED_OFFSET * R) {
         return trim;
@@ -4486,7 +4486,7 @@ static inline real_2 target_bank(const Settings *settings, const Sensing *sensin
     const real place_gain = holding ? HOLD_GAIN * speed / R : PLACE_GAIN * bandwidth;
     real course = course_rate(offset, gain * bandwidth, place_gain, speed);
     if (holding) {
-        trim = trimmed(settings, trim, offset.crosstrack, gain * bandwidth, V, dt);
+        trim = next_trim(settings, trim, offset.crosstrack, gain * bandwidth, V, dt);
         course -= trim;
     }
     const real rate = -air_rate(course, vx, vy, state.hx, state.hy);
@@ -4521,9 +4521,9 @@ static inline Memory_LawCommand step(Rings *rings, const Settings *settings, con
     Leads leads = memory->leads;
     real trim = memory->trim;
     const real step_s = memory->step_s;
-    const Sensing_bool sensed_1 = sensed(rings, settings, &sensing, vehicle, measurement, step_s);
-    sensing = sensed_1.a0;
-    const bool is_known = sensed_1.a1;
+    const Sensing_bool sense_1 = sense(rings, settings, &sensing, vehicle, measurement, step_s);
+    sensing = sense_1.a0;
+    const bool is_known = sense_1.a1;
     const Clock clock = sensing.clock;
     const Limits limits = sensing.limits;
     const Estimate present = sensing.present;
@@ -4539,18 +4539,18 @@ static inline Memory_LawCommand step(Rings *rings, const Settings *settings, con
     if (is_other_roll(&limits, &memory->sensing.limits)) {
         leads = NO_LEADS;
     }
-    const Plan_Leads_ResponsePoint advanced_plan_2 = advanced_plan(settings, &limits, &plan, leads, &present);
-    plan = advanced_plan_2.a0;
-    leads = advanced_plan_2.a1;
-    ResponsePoint response = advanced_plan_2.a2;
-    const Plan_bool reconsidered_3 = reconsidered(settings, &sensing, &plan, &response);
-    plan = reconsidered_3.a0;
-    const bool is_new = reconsidered_3.a1;
+    const Plan_Leads_ResponsePoint advance_plan_2 = advance_plan(settings, &limits, &plan, leads, &present);
+    plan = advance_plan_2.a0;
+    leads = advance_plan_2.a1;
+    ResponsePoint response = advance_plan_2.a2;
+    const Plan_bool reconsider_3 = reconsider(settings, &sensing, &plan, &response);
+    plan = reconsider_3.a0;
+    const bool is_new = reconsider_3.a1;
     if (is_new) {
-        const Plan_Leads_ResponsePoint advanced_plan_4 = advanced_plan(settings, &limits, &plan, leads, &present);
-        plan = advanced_plan_4.a0;
-        leads = advanced_plan_4.a1;
-        response = advanced_plan_4.a2;
+        const Plan_Leads_ResponsePoint advance_plan_4 = advance_plan(settings, &limits, &plan, leads, &present);
+        plan = advance_plan_4.a0;
+        leads = advance_plan_4.a1;
+        response = advance_plan_4.a2;
     }
     const Route route = plan.route;
     const VehicleEstimates known = vehicle->estimates;

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: bcde6f8d737a92c666df2ce152853a0863b9438d6f1f236862fc0f8eceb06c1e
+ * SHA-256 of the source: f4df80032459eae567caa19963673f311c982dacb412393732de57570d3b50c0
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -37,7 +37,7 @@ SCOPE = {
         "fold_half_turn",
         "total_angle",
     },
-    "words.py": {"ABSENT", "encode", "controls", "rest", "mirrored", "opposed", "Side", "Word"},
+    "words.py": {"ABSENT", "encode", "controls", "rest", "mirrored", "opposite", "Side", "Word"},
     "motion.py": {"reduce", "flow"},
     "still_air/extremals.py": None,
     "still_air/switching_curves.py": {"switching_abscissa"},

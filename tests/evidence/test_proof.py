@@ -114,7 +114,7 @@ ONCE_CERTAIN = [
     ("theorem 2 e", extremals, "extremals", "rl(start, 1.0)", "rl(start, -1.0)"),
     ("theorem 2 e", extremals, "extremals", "rl(start, 1.0)", "lrl(start)"),
     ("theorem 2 e", extremals, "extremals", "lsl(start),\n        rsl(start)", "rsl(start),\n        lsl(start)"),
-    ("theorem 2 f", words, "opposed", "-u", "u"),
+    ("theorem 2 f", words, "opposite", "-u", "u"),
     ("theorem 2 g", entry, "drop_short_pieces", "t1 + t3", "t1"),
     ("theorem 2 g", entry, "drop_short_pieces", "t2 <= short", "t2 <= no_angle"),
     ("theorem 2 g", entry, "drop_short_pieces", "t1 + t3, 0.0, 0.0", "t1 + t3, 0.25, 0.0"),

@@ -4,7 +4,7 @@ from math import inf
 
 import pytest
 
-from loiter.guidance.estimation.clock import FIRST_CLOCK, LARGEST_GAP_S, advanced, checked
+from loiter.guidance.estimation.clock import FIRST_CLOCK, LARGEST_GAP_S, advance, check_stamp
 
 DT = 0.02
 
@@ -13,9 +13,9 @@ def stepped(stamps, clock=FIRST_CLOCK):
     """Whether each of the stamps, `DT` apart, is accepted, and the clock after them."""
     answers = []
     for time_s in stamps:
-        clock, is_new = checked(clock, time_s)
+        clock, is_new = check_stamp(clock, time_s)
         answers.append(is_new)
-        clock = advanced(clock, DT)
+        clock = advance(clock, DT)
     return answers, clock
 
 
@@ -65,9 +65,9 @@ def test_a_repeated_stamp_is_not_new():
 def test_after_a_pause_stamps_are_accepted():
     """A law that was not called for a while, or had no data for any time, continues at once."""
     assert accepted([0.0, 0.02, 0.02 + LARGEST_GAP_S]) == [True, True, True]
-    clock, is_new = checked(FIRST_CLOCK, 5.0)
+    clock, is_new = check_stamp(FIRST_CLOCK, 5.0)
     assert is_new
-    clock, is_new = checked(advanced(clock, 3.0 * LARGEST_GAP_S), 5.0 + 3.0 * LARGEST_GAP_S)
+    clock, is_new = check_stamp(advance(clock, 3.0 * LARGEST_GAP_S), 5.0 + 3.0 * LARGEST_GAP_S)
     assert is_new
     assert (clock.gap_s, clock.jump_s) == (3.0 * LARGEST_GAP_S, 0.0)
 

@@ -12,7 +12,7 @@ from loiter import Pose, Wind
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.guidance.protocol import Command, Phase
 from loiter.guidance.simulators.airframes import AEROSONDE, AIRFRAMES, J3CUB
-from loiter.guidance.simulators.jsbsim_aircraft import JsbsimAircraft, identified_roll, trimmed
+from loiter.guidance.simulators.jsbsim_aircraft import JsbsimAircraft, identified_roll, trimmed_model
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials import campaign
 from loiter.planning.model import STANDARD_GRAVITY_M_S2, Turn
@@ -213,7 +213,7 @@ M, JX, JZ, JXZ, S, B, C = 11.0, 0.8244, 1.759, 0.1204, 0.55, 2.8956, 0.18994
 
 
 def test_the_aerosonde_trims_as_its_publication_says():
-    fdm, trim = trimmed(AEROSONDE)
+    fdm, trim = trimmed_model(AEROSONDE)
     rho, V = fdm["atmosphere/rho-slugs_ft3"] * 515.378819, 25.0
     alpha, elevator = fdm["aero/alpha-rad"], fdm["fcs/elevator-pos-rad"]
     q = 0.5 * rho * V * V * S
@@ -242,7 +242,7 @@ def test_the_aerosonde_trims_as_its_publication_says():
 @pytest.mark.parametrize(("surface", "roll", "yaw"), [("aileron", 0.17, -0.011), ("rudder", 0.0024, -0.069)])
 def test_the_aerosonde_answers_its_surfaces_as_its_publication_says(surface, roll, yaw):
     # (3.17) with (5.1): the inertia couples roll and yaw, p' = G3 l + G4 n, r' = G4 l + G8 n.
-    fdm, trim = trimmed(AEROSONDE)
+    fdm, trim = trimmed_model(AEROSONDE)
     q = 0.5 * fdm["atmosphere/rho-slugs_ft3"] * 515.378819 * 25.0**2 * S * B
     G = JX * JZ - JXZ * JXZ
 

@@ -14,19 +14,19 @@ from loiter.guidance.estimation.bank_history import (
     constant_history,
     delayed_deg,
     mean_deg,
-    recorded,
+    record_bank,
 )
 from loiter.guidance.estimation.observer import (
     SAMPLES,
-    averaged_air,
+    average_air,
     estimate_after,
     estimate_at_present,
     first_air,
     first_observer,
     gust,
     is_usable,
-    observed,
-    restarted_air,
+    observe,
+    restart_air,
 )
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.simulators.gusts import Gusts
@@ -50,7 +50,7 @@ def test_exact_measurements_are_not_changed(smoothing, rates, wind):
     vehicle, observer = Kinematic(Pose(-40.0, 10.0, 200.0), UAV, Wind(wind, 30.0)), first_observer(smoothing)
     for rate in rates:
         state = vehicle.measured_state()
-        observer = observed(observer, state, state.bank_deg, smoothing)
+        observer = observe(observer, state, state.bank_deg, smoothing)
         estimate = observer.estimate
         x, y, c, s = estimate.pose
         assert hypot(x - state.east_m, y - state.north_m) < 1e-9
@@ -71,7 +71,7 @@ def test_noise_is_averaged_without_lag_in_a_turn():
     off, across = [], []
     for _ in range(3000):
         true = mass.true_state()
-        observer = observed(observer, mass.measured_state(), true.bank_deg, 0.5)
+        observer = observe(observer, mass.measured_state(), true.bank_deg, 0.5)
         estimate = observer.estimate
         off.append((estimate.pose.x - true.east_m, estimate.pose.y - true.north_m))
         across.append(cos(radians(true.heading_deg)) * off[-1][0])
@@ -92,7 +92,7 @@ def test_averages_take_longer_in_calm_air_and_where_measurements_are_rare(gust, 
     mass, observer = PointMass(Pose(0.0, 0.0, 0.0), UAV, seed=3, gust=gust, noise=noise), first_observer(0.5)
     times = []
     for _ in range(round(120.0 / step_s)):
-        observer = observed(observer, mass.measured_state(), mass.true_state().bank_deg, 0.5)
+        observer = observe(observer, mass.measured_state(), mass.true_state().bank_deg, 0.5)
         times.append(observer.smoothing_s)
         mass.advance(turning(0.0, 20.0), step_s)
     assert np.median(times[len(times) // 2 :]) == pytest.approx(expected_s, rel=0.15)
@@ -102,12 +102,12 @@ def averaged_gusts(gust_m_s, seed):
     """The filter after a minute of measured gusts, and its averages."""
     random = np.random.default_rng(seed)
     gusts = Gusts(gust_m_s, 14.6, random)
-    air = restarted_air(first_air(), *gusts.velocity_m_s)
+    air = restart_air(first_air(), *gusts.velocity_m_s)
     averages = []
     for noise in random.normal(0.0, 0.3, (3000, 2)):
         gusts.advance(0.02)
         east, north = (np.array(gusts.velocity_m_s) + noise).tolist()
-        air = averaged_air(air, east, north, 0.02, 0.5)
+        air = average_air(air, east, north, 0.02, 0.5)
         averages.append((air.east_m_s, air.north_m_s))
     return air, np.array(averages)
 
@@ -118,7 +118,7 @@ def test_air_is_averaged_over_the_time_that_suits_noise_and_gusts(gust_m_s):
     times = []
     for seed in range(12):
         air, averages = averaged_gusts(gust_m_s, seed)
-        after = averaged_air(air, averages[-1][0] + 1.0, averages[-1][1], 1e-3, 0.5)
+        after = average_air(air, averages[-1][0] + 1.0, averages[-1][1], 1e-3, 0.5)
         times.append(-1e-3 / np.log(1.0 - (after.east_m_s - averages[-1][0])))
         assert after.north_m_s == pytest.approx(averages[-1][1])
     # In a second Dryden gusts of 263 m change by 2 sigma^2/T along and 3 sigma^2/T across (mean square), T = 14.6 s.
@@ -136,9 +136,9 @@ def test_in_calm_air_noise_is_averaged_over_the_longest_time():
 
 @given(st.lists(st.tuples(st.floats(-30.0, 30.0), st.floats(-30.0, 30.0), st.floats(0.0, 5.0)), min_size=1))
 def test_an_average_lies_between_its_samples(averages):
-    air = restarted_air(first_air(), *averages[0][:2])
+    air = restart_air(first_air(), *averages[0][:2])
     for i, measured in enumerate(averages):
-        air = averaged_air(air, *measured, 0.5)
+        air = average_air(air, *measured, 0.5)
         for axis, value in enumerate((air.east_m_s, air.north_m_s)):
             so_far = [other[axis] for other in averages[: i + 1]]
             assert min(so_far) - 1e-9 <= value <= max(so_far) + 1e-9
@@ -152,7 +152,7 @@ def test_the_bank_history_covers_the_delay(taken, delay):
     """Compared with the complete history, level before it: the mean over the delay, and the bank at its start."""
     history = constant_history(0.0)
     for dt, bank in taken:
-        history = recorded(history, bank, dt)
+        history = record_bank(history, bank, dt)
     ends = np.cumsum([10.0, *(dt for dt, _ in taken)])
     banks, begin = np.array([0.0, *(bank for _, bank in taken)]), ends[-1] - delay
     assert history.current_deg == taken[-1][1]
@@ -168,7 +168,7 @@ def test_the_bank_history_covers_the_delay(taken, delay):
 def test_a_step_longer_than_the_delay_replaces_the_history():
     history = constant_history(0.0)
     for dt in (0.02, 1e308, 0.02, 0.02):
-        history = recorded(history, 20.0, dt)
+        history = record_bank(history, 20.0, dt)
     assert (delayed_deg(history, 0.1), history.current_deg) == (20.0, 20.0)
     assert mean_deg(history, 0.1) == pytest.approx(20.0)
 
@@ -178,7 +178,7 @@ def test_the_bank_history_forgets_what_is_older_than_the_longest_delay(rate_hz):
     """A bank that rises by a degree a step; at 400 Hz a dozen steps share an entry."""
     history = constant_history(0.0)
     for i in range(10_000):
-        history = recorded(history, float(i), 1.0 / rate_hz)
+        history = record_bank(history, float(i), 1.0 / rate_hz)
     for delay_s in (0.1, 0.333, 2.0):
         assert delayed_deg(history, delay_s) == pytest.approx(9999.0 - delay_s * rate_hz, abs=1e-6)
         assert mean_deg(history, delay_s) == pytest.approx(9999.0 - 0.5 * delay_s * rate_hz, abs=1e-6)
@@ -190,7 +190,7 @@ def test_gusts_are_measured_over_a_second_at_any_rate(dt):
     """The differences are those of neighbours and over a second, though the ring has no place for all at 400 Hz."""
     air = first_air()
     for i in range(round(60.0 / dt)):
-        air = averaged_air(air, 2.0 * i * dt, 0.0, dt, 0.5)
+        air = average_air(air, 2.0 * i * dt, 0.0, dt, 0.5)
         assert len(air.recent) == SAMPLES
     assert air.near.time_s == pytest.approx(dt, abs=3e-4)
     assert 1.0 - 1e-9 <= air.far.time_s <= 1.0 + max(dt, 0.02)
@@ -204,7 +204,7 @@ def test_delayed_measurements_are_flown_on_to_the_present():
     observer, history, roll, bank = first_observer(0.5), constant_history(0.0), Roll(), 0.0
     for i in range(200):
         true = mass.true_state()
-        observer = observed(observer, mass.measured_state(), delayed_deg(history, 0.1), 0.5)
+        observer = observe(observer, mass.measured_state(), delayed_deg(history, 0.1), 0.5)
         estimate = estimate_at_present(observer.estimate, history, 0.1)
         assert estimate.time_s == pytest.approx(true.time_s)
         x, y, c, s = estimate.pose
@@ -213,7 +213,7 @@ def test_delayed_measurements_are_flown_on_to_the_present():
         assert estimate.bank_deg == pytest.approx(true.bank_deg, abs=1.0)
         command = 35.0 if i % 100 < 50 else -35.0
         bank = roll.bank_after(bank, command, 0.02)
-        history = recorded(history, bank, 0.02)
+        history = record_bank(history, bank, 0.02)
         mass.advance(turning(0.0, command), 0.02)
 
 

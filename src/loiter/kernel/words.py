@@ -28,10 +28,10 @@ def rest(word: int) -> int:
 def mirrored(word: int) -> int:
     """The word with L and R exchanged."""
     u1, u2, u3 = controls(word)
-    return encode(opposed(u1), opposed(u2), opposed(u3))
+    return encode(opposite(u1), opposite(u2), opposite(u3))
 
 
-def opposed(u: int) -> int:
+def opposite(u: int) -> int:
     """The opposite control; `ABSENT` stays as it is."""
     return u if u == ABSENT else -u
 

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: bde044c2ce9ed1c788793935d6c675d4d6de94fe035c937452f217a0af4a0834
+ * SHA-256 of the source: acb3d3ddebe3ca4fad2e78781b9015ca7a5b9544b51501d8f881cbeb9d322c20
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -805,7 +805,7 @@ static inline integer_real_3 drop_short_pieces(integer word, real t1, real t2, r
 }
 
 /* The opposite control; `ABSENT` stays as it is. */
-static inline integer opposed(integer u) {
+static inline integer opposite(integer u) {
     return u == ABSENT ? u : -u;
 }
 
@@ -813,7 +813,7 @@ static inline integer opposed(integer u) {
 static inline integer mirrored(integer word) {
     const integer_3 controls_1 = controls(word);
     const integer u1 = controls_1.a0, u2 = controls_1.a1, u3 = controls_1.a2;
-    return encode(opposed(u1), opposed(u2), opposed(u3));
+    return encode(opposite(u1), opposite(u2), opposite(u3));
 }
 
 /* An extremal of the clockwise circle as the maneuver flown onto the circle of the given side.
@@ -2091,7 +2091,7 @@ static inline integer words_inside(real phase, real half, integer words, integer
 }
 
 /* An angle, in [-pi, pi). */
-static inline real wrapped(real angle) {
+static inline real wrap(real angle) {
     return real_modulo(angle + 3.141592653589793, TWO_PI) - 3.141592653589793;
 }
 
@@ -2117,7 +2117,7 @@ static inline bool has_minimum(LeafEnd before, LeafEnd after) {
 }
 
 /* The faster of `best` and the local minimum in a leaf. */
-static inline WindCandidate refined_if_better(LeafEnd before, LeafEnd after, integer side, WindScene scene,
+static inline WindCandidate refine_if_better(LeafEnd before, LeafEnd after, integer side, WindScene scene,
         WindCandidate best) {
     const bool adjoins = before.number == after.number - 1;
     const JoinPoint parts_1 = adjoins && before.point.path.time < after.point.path.time ? before.point :
@@ -2134,12 +2134,12 @@ static inline WindCandidate refined_if_better(LeafEnd before, LeafEnd after, int
  * A path that joins inside the cell can follow the circle to the cell's end. So no path into the cell is faster
  * than the first path to its end less the time to hold the circle through the cell.
  */
-static inline integer_LeafEnd_WindCandidate examined(CellVisit visit, integer possible, integer side, WindScene
+static inline integer_LeafEnd_WindCandidate examine_cell(CellVisit visit, integer possible, integer side, WindScene
         scene, LeafEnd before, WindCandidate best) {
     const real_2 middle_of_1 = middle_of(visit);
     const real middle = middle_of_1.a0, half = middle_of_1.a1;
     const real end = middle + half;
-    const bool holds_best = side == best.side && fabs(wrapped(best.phase - middle)) <= half;
+    const bool holds_best = side == best.side && fabs(wrap(best.phase - middle)) <= half;
     if (visit.level < LEAF && holds_best) {
         return (integer_LeafEnd_WindCandidate){possible, before, best};
     }
@@ -2151,7 +2151,7 @@ static inline integer_LeafEnd_WindCandidate examined(CellVisit visit, integer po
     if (visit.level == LEAF) {
         const LeafEnd after = (LeafEnd){visit.number, (JoinPoint){end, path, join_slope(path, end, side, scene)}};
         if (!holds_best && has_minimum(before, after)) {
-            best = refined_if_better(before, after, side, scene, best);
+            best = refine_if_better(before, after, side, scene, best);
         }
         before = after;
     }
@@ -2194,11 +2194,11 @@ static inline CellVisit next_cell(CellVisit visit) {
     return (CellVisit){number, level, words};
 }
 
-/* The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `searched`.
+/* The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `search`.
  *
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  */
-static inline WindCandidate_Leaves searched_coarsely(integer side, WindScene scene, WindCandidate best) {
+static inline WindCandidate_Leaves coarse_search(integer side, WindScene scene, WindCandidate best) {
     CellVisit visit = (CellVisit){0, 0, ALL_WORDS};
     LeafEnd before = (LeafEnd){-2, (JoinPoint){0.0, NO_PATH, 0.0}};
     Leaves leaves = NO_LEAVES;
@@ -2207,10 +2207,11 @@ static inline WindCandidate_Leaves searched_coarsely(integer side, WindScene sce
         integer possible = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, scene,
                 best.path.time);
         if (possible != 0 && visit.level >= COARSE) {
-            const integer_LeafEnd_WindCandidate examined_2 = examined(visit, possible, side, scene, before, best);
-            possible = examined_2.a0;
-            before = examined_2.a1;
-            best = examined_2.a2;
+            const integer_LeafEnd_WindCandidate examine_cell_2 = examine_cell(visit, possible, side, scene, before,
+                    best);
+            possible = examine_cell_2.a0;
+            before = examine_cell_2.a1;
+            best = examine_cell_2.a2;
             if (possible != 0 && visit.level == LEAF) {
                 leaves = with_leaf(leaves, visit.number);
                 possible = 0;
@@ -2418,10 +2419,10 @@ static inline integer words_beside_best(CellVisit visit, integer words, WindScen
         corner, real sooner) {
     const real_2 middle_of_1 = middle_of(visit);
     const real middle = middle_of_1.a0, half = middle_of_1.a1;
-    real reach = fabs(wrapped(best.phase - middle)) + half;
+    real reach = fabs(wrap(best.phase - middle)) + half;
     if (reach <= NEAR_BEST * half) {
         if (corner.u != 0) {
-            reach = fabs(wrapped(corner.phase - middle)) + half;
+            reach = fabs(wrap(corner.phase - middle)) + half;
             words = words_beside(corner, reach, words, best.side, scene);
         } else {
             words = words_inside(best.phase, reach, words, best.side, scene, sooner);
@@ -2430,9 +2431,9 @@ static inline integer words_beside_best(CellVisit visit, integer words, WindScen
     return words;
 }
 
-/* The words that may still join inside a cell early enough, as in `examined`; the faster of `best` and others. */
-static inline integer_WindCandidate compared_at_end(CellVisit visit, integer possible, integer side, WindScene
-        scene, WindCandidate best, real tolerance) {
+/* The words that may still join in a cell early enough, as in `examine_cell`; the faster of `best` and others. */
+static inline integer_WindCandidate compare_at_end(CellVisit visit, integer possible, integer side, WindScene scene,
+        WindCandidate best, real tolerance) {
     const real_2 middle_of_1 = middle_of(visit);
     const real middle = middle_of_1.a0, half = middle_of_1.a1;
     const real end = middle + half;
@@ -2446,7 +2447,7 @@ static inline integer_WindCandidate compared_at_end(CellVisit visit, integer pos
 }
 
 /* The fastest path onto the circle held on one side, if it joins inside one of the leaves; otherwise `best`. */
-static inline WindCandidate searched(integer side, WindScene scene, WindCandidate best, Leaves leaves) {
+static inline WindCandidate search(integer side, WindScene scene, WindCandidate best, Leaves leaves) {
     Corner corner = NO_CORNER;
     real compared = INFINITY;
     integer visits = 0;
@@ -2469,10 +2470,10 @@ static inline WindCandidate searched(integer side, WindScene scene, WindCandidat
                     possible = words_beside_best(visit, possible, scene, best, corner, sooner);
                 }
                 if (possible != 0 && integer_modulo(LAST - visit.level, 2) == 0 && visit.level > LEAF) {
-                    const integer_WindCandidate compared_at_end_2 = compared_at_end(visit, possible, side, scene,
+                    const integer_WindCandidate compare_at_end_2 = compare_at_end(visit, possible, side, scene,
                             best, tolerance);
-                    possible = compared_at_end_2.a0;
-                    best = compared_at_end_2.a1;
+                    possible = compare_at_end_2.a0;
+                    best = compare_at_end_2.a1;
                 }
                 visit = possible != 0 ? first_half(visit, possible) : next_cell(visit);
             }
@@ -2487,17 +2488,17 @@ static inline WindCandidate fastest_of_sides(integer side, WindScene scene, Wind
     const integer first = best.side != 0 ? best.side : 1;
     Leaves leaves = NO_LEAVES, others = NO_LEAVES;
     if (side != -first) {
-        const WindCandidate_Leaves searched_coarsely_1 = searched_coarsely(first, scene, best);
-        best = searched_coarsely_1.a0;
-        leaves = searched_coarsely_1.a1;
+        const WindCandidate_Leaves coarse_search_1 = coarse_search(first, scene, best);
+        best = coarse_search_1.a0;
+        leaves = coarse_search_1.a1;
     }
     if (side != first) {
-        const WindCandidate_Leaves searched_coarsely_2 = searched_coarsely(-first, scene, best);
-        best = searched_coarsely_2.a0;
-        others = searched_coarsely_2.a1;
+        const WindCandidate_Leaves coarse_search_2 = coarse_search(-first, scene, best);
+        best = coarse_search_2.a0;
+        others = coarse_search_2.a1;
     }
-    best = searched(first, scene, best, leaves);
-    return searched(-first, scene, best, others);
+    best = search(first, scene, best, leaves);
+    return search(-first, scene, best, others);
 }
 
 /* The arc left of a word whose other pieces together last `SHORT` or less; the empty word where there is none. */

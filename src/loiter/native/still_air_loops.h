@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 6404f554e150ec29f92792b7e778bd706fd7d98102c0600f21905d2f83e5ac05
+ * SHA-256 of the source: 12379a80fc83fe3b64143b947faf994b42c880bf455792fd5038b0cb3f849ddc
  */
 #ifndef LOITER_STILL_AIR_LOOPS_H
 #define LOITER_STILL_AIR_LOOPS_H
@@ -662,7 +662,7 @@ static inline LOITER_ALWAYS_INLINE integer_real_3 drop_short_pieces(integer word
 }
 
 /* The opposite control; `ABSENT` stays as it is. */
-static inline LOITER_ALWAYS_INLINE integer opposed(integer u) {
+static inline LOITER_ALWAYS_INLINE integer opposite(integer u) {
     return u == ABSENT ? u : -u;
 }
 
@@ -670,7 +670,7 @@ static inline LOITER_ALWAYS_INLINE integer opposed(integer u) {
 static inline LOITER_ALWAYS_INLINE integer mirrored(integer word) {
     const integer_3 controls_1 = controls(word);
     const integer u1 = controls_1.a0, u2 = controls_1.a1, u3 = controls_1.a2;
-    return encode(opposed(u1), opposed(u2), opposed(u3));
+    return encode(opposite(u1), opposite(u2), opposite(u3));
 }
 
 /* An extremal of the clockwise circle as the maneuver flown onto the circle of the given side.

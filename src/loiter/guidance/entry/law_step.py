@@ -36,9 +36,9 @@ from loiter.guidance.estimation.bank_history import (
     BankHistory,
     constant_history,
     delayed_deg,
-    recorded,
+    record_bank,
 )
-from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advanced, checked
+from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advance, check_stamp
 from loiter.guidance.estimation.observer import (
     NO_ESTIMATE,
     Estimate,
@@ -49,11 +49,11 @@ from loiter.guidance.estimation.observer import (
     estimate_with_bank,
     first_observer,
     is_usable,
-    observed,
-    restarted,
+    observe,
+    restart,
     roughness,
 )
-from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, unbiased
+from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, remove_bias
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import TurnOnset, demand_deg, turn_onset
@@ -320,7 +320,7 @@ def step(
     `vehicle` is what is known at this time, with the bank that is modelled for the end of the last command.
     """
     sensing, plan, leads, trim, _, _, step_s = memory
-    sensing, is_known = sensed(settings, sensing, vehicle, measurement, step_s)
+    sensing, is_known = sense(settings, sensing, vehicle, measurement, step_s)
     clock, _, _, limits, present, _, _ = sensing
     if is_known and clock.since_s == 0.0 and clock.jump_s != 0.0:
         plan = plan_by_clock(plan, clock.jump_s)
@@ -330,10 +330,10 @@ def step(
         return without_data(settings, memory, sensing, plan, vehicle.estimates, dt)
     if is_other_roll(limits, memory.sensing.limits):
         leads = NO_LEADS
-    plan, leads, response = advanced_plan(settings, limits, plan, leads, present)
-    plan, is_new = reconsidered(settings, sensing, plan, response)
+    plan, leads, response = advance_plan(settings, limits, plan, leads, present)
+    plan, is_new = reconsider(settings, sensing, plan, response)
     if is_new:
-        plan, leads, response = advanced_plan(settings, limits, plan, leads, present)
+        plan, leads, response = advance_plan(settings, limits, plan, leads, present)
     route, known = plan.route, vehicle.estimates
     target_deg, trim = target_bank(settings, sensing, known, route, response, trim, dt)
     target_deg = clip(target_deg, limits.limit_deg)
@@ -364,7 +364,7 @@ def crosstrack_m(settings: Settings, memory: Memory) -> float:
     return offset_of(route, relative_state(settings, present), settings.radius_m).crosstrack
 
 
-def sensed(
+def sense(
     settings: Settings, sensing: Sensing, vehicle: VehicleModel, measurement: State, step_s: float
 ) -> tuple[Sensing, bool]:
     """What is known at a measurement, `step_s` seconds after the last, and whether the present state is.
@@ -374,8 +374,8 @@ def sensed(
     """
     clock, observer, history, limits, present, elapsed_s, error_deg = sensing
     if step_s > 0.0:
-        clock, elapsed_s = advanced(clock, step_s), elapsed_s + step_s
-        history = recorded(history, vehicle.bank_deg, step_s, settings.covered_s)
+        clock, elapsed_s = advance(clock, step_s), elapsed_s + step_s
+        history = record_bank(history, vehicle.bank_deg, step_s, settings.covered_s)
     if not is_usable(measurement):
         return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg), False
     if measurement.time_s == clock.time_s:
@@ -384,18 +384,18 @@ def sensed(
         present = estimate_after(estimate_with_bank(present, history.current_deg + error_deg), elapsed_s)
         return Sensing(clock, observer, history, limits, present, 0.0, error_deg), True
     is_first = clock.time_s == -inf
-    clock, is_new = checked(clock, measurement.time_s)
+    clock, is_new = check_stamp(clock, measurement.time_s)
     if not is_new:
         return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg), False
     if is_first:
         history = constant_history(vehicle.bank_deg)
     if clock.jump_s != 0.0 or clock.gap_s > EXTRAPOLATED_S:
-        observer = restarted(observer)
+        observer = restart(observer)
     if vehicle.revision != limits.revision:
         limits = limits_of(settings, vehicle, limits)
     known = vehicle.estimates
     turning, bank_deg = Turning(known.turn_ratio, known.course_lead_s), delayed_deg(history, known.delay_s)
-    observer = observed(observer, unbiased(known, measurement), bank_deg, settings.smoothing_s, turning)
+    observer = observe(observer, remove_bias(known, measurement), bank_deg, settings.smoothing_s, turning)
     present = estimate_at_present(observer.estimate, history, known.delay_s)
     return Sensing(clock, observer, history, limits, present, 0.0, present.bank_deg - history.current_deg), True
 
@@ -558,7 +558,7 @@ def without_data(
     return Memory(sensing, plan, NO_LEADS, memory.trim, bank_deg, memory.side, dt), command
 
 
-def advanced_plan(
+def advance_plan(
     settings: Settings, limits: Limits, plan: Plan, leads: Leads, estimate: Estimate
 ) -> tuple[Plan, Leads, ResponsePoint]:
     """The plan without the pieces that are complete when a command takes effect, and the predicted state then.
@@ -592,7 +592,7 @@ def early_end_s(route: Route, leads: Leads) -> float:
     return max(early_s, 0.0)
 
 
-def reconsidered(settings: Settings, sensing: Sensing, plan: Plan, response: ResponsePoint) -> tuple[Plan, bool]:
+def reconsider(settings: Settings, sensing: Sensing, plan: Plan, response: ResponsePoint) -> tuple[Plan, bool]:
     """The plan after a search for another one, if that is due, and whether it is another."""
     limits, route, offset = sensing.limits, plan.route, response.offset
     if not is_search_due(sensing.clock, plan):
@@ -603,13 +603,13 @@ def reconsidered(settings: Settings, sensing: Sensing, plan: Plan, response: Res
     # A plan for a wind that differs so much from the present one means nothing.
     east, north = limits.wind_east_m_s - route.wind_east_m_s, limits.wind_north_m_s - route.wind_north_m_s
     if is_lost or (not holding and length(east, north) > WIND_DIFFERS * V):
-        return searched(settings, sensing, plan, response.state, is_any=True, update=True)
+        return search_plan(settings, sensing, plan, response.state, is_any=True, update=True)
     if holding:
         return plan, False
     later_m = abs(plan.join_s - plan.planned_join_s) * V
     deviates = max(abs(offset.crosstrack), later_m) > DEVIATION * r
     is_still = limits.wind_east_m_s == 0.0 and limits.wind_north_m_s == 0.0
-    return searched(settings, sensing, plan, response.state, is_any=False, update=deviates or is_still)
+    return search_plan(settings, sensing, plan, response.state, is_any=False, update=deviates or is_still)
 
 
 def is_search_due(clock: Clock, plan: Plan) -> bool:
@@ -632,7 +632,7 @@ def first_plan(settings: Settings, sensing: Sensing, plan: Plan) -> Plan:
         return plan
     bank_deg = -first * limits.limit_deg if first != ABSENT else entry.side * limits.hold_deg
     later = estimate_after(present, lead_s(limits, present.bank_deg, bank_deg))
-    plan, _ = searched(settings, sensing, plan, relative_state(settings, later), is_any=True, update=True)
+    plan, _ = search_plan(settings, sensing, plan, relative_state(settings, later), is_any=True, update=True)
     return plan
 
 
@@ -649,7 +649,7 @@ def plan_on_circle(settings: Settings, limits: Limits, plan: Plan, state: Relati
     return plan
 
 
-def searched(
+def search_plan(
     settings: Settings, sensing: Sensing, plan: Plan, state: RelativeState, is_any: bool, update: bool
 ) -> tuple[Plan, bool]:
     """The fastest entry from a state if it is better than the plan, and whether it is; with `is_any` it always is.
@@ -738,7 +738,7 @@ def target_bank(
     place_gain = HOLD_GAIN * speed / R if holding else PLACE_GAIN * bandwidth
     course = course_rate(offset, gain * bandwidth, place_gain, speed)
     if holding:
-        trim = trimmed(settings, trim, offset.crosstrack, gain * bandwidth, V, dt)
+        trim = next_trim(settings, trim, offset.crosstrack, gain * bandwidth, V, dt)
         course -= trim
     rate = -air_rate(course, vx, vy, state.hx, state.hy)
     # At the present airspeed, which differs from the mean one where an autopilot holds it less exactly.
@@ -765,7 +765,7 @@ def corrections_gain(
     return gain * max(share, min(rough / HEAVY_GUSTS, HEAVY_GAIN)) / lively
 
 
-def trimmed(settings: Settings, trim: float, crosstrack: float, course_gain: float, V: float, dt: float) -> float:
+def next_trim(settings: Settings, trim: float, crosstrack: float, course_gain: float, V: float, dt: float) -> float:
     """The correction of the rate of turn on the circle after another step, radians per second."""
     R, turn_rate = settings.radius_m, V / settings.radius_m
     if abs(crosstrack) >= TRIMMED_OFFSET * R:

@@ -33,7 +33,7 @@ def constant_history(bank_deg: float) -> BankHistory:
     return BankHistory(bank_deg, (*unused[:-1], BankEntry(0.0, bank_deg, 0.0)))
 
 
-def recorded(history: BankHistory, bank_deg: float, dt: float, covered_s: float = COVERED_S) -> BankHistory:
+def record_bank(history: BankHistory, bank_deg: float, dt: float, covered_s: float = COVERED_S) -> BankHistory:
     """The history with another step of `dt` seconds and the bank at its end; it covers at least `covered_s`.
 
     Once the ring is full, steps that are so short that it would not cover that time are joined: two entries that follow

@@ -33,13 +33,13 @@ class Clock(NamedTuple):
 FIRST_CLOCK = Clock(-inf, 0.0, inf, 0.0, nan, nan)
 
 
-def advanced(clock: Clock, dt: float) -> Clock:
+def advance(clock: Clock, dt: float) -> Clock:
     """The clock `dt` seconds later."""
     time_s, since_s, gap_s, jump_s, first_s, latest_s = clock
     return Clock(time_s, since_s + dt, gap_s, jump_s, first_s, latest_s)
 
 
-def checked(clock: Clock, time_s: float) -> tuple[Clock, bool]:
+def check_stamp(clock: Clock, time_s: float) -> tuple[Clock, bool]:
     """The clock after a measurement at `time_s`, and whether that is a new one.
 
     It may be one by this clock, or by another that is confirmed by now.

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import atan2, degrees, exp, inf
 from typing import NamedTuple
 
-from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advanced, checked
+from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advance, check_stamp
 from loiter.guidance.estimation.observer import is_usable
 from loiter.guidance.estimation.roll_response import (
     RollMemory,
@@ -33,7 +33,7 @@ from loiter.guidance.estimation.turn_fits import (
     first_quick_turns,
     first_slow_turns,
 )
-from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, unbiased
+from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, remove_bias
 from loiter.guidance.estimation.wind_fit import WindFit, add_air_velocity, first_wind, is_changing
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.turning import rate_at_bank
@@ -154,12 +154,12 @@ def identify(
     if dt > 0.0:
         roll, waited_s = fly_models(settings.roll, roll, command_deg, dt), waited_s + dt
     if is_usable(measurement) and measurement.time_s != clock.time_s:
-        clock, is_new = checked(advanced(clock, waited_s), measurement.time_s)
+        clock, is_new = check_stamp(advance(clock, waited_s), measurement.time_s)
         waited_s, since_s = 0.0, measurement.time_s - used_s
         if is_new and not 0.0 < since_s < SHORTEST_GAP_S:
             stamps = Stamps(clock, 0.0, measurement.time_s)
             if used_s == -inf:
-                roll = start_models(roll, unbiased(known, measurement).bank_deg)
+                roll = start_models(roll, remove_bias(known, measurement).bank_deg)
             before = Identification(stamps, roll, turns, wind, airspeeds, overshoot, revision, known)
             after = update_fits(settings, before, measurement, since_s)
             return after, VehicleModel(after.revision, after.roll.bank_deg, after.estimates)
@@ -179,7 +179,7 @@ def update_fits(
     if not is_near or is_changing(wind):
         lead = first_lead(lead.lead_s, lead.fit)
     slow = add_slow_turn(slow, declared.turn_ratio, measurement, dt)
-    state = unbiased(known, measurement)
+    state = remove_bias(known, measurement)
     rate = rate_at_bank(state.bank_deg, state.airspeed_m_s)
     course = atan2(state.velocity_east_m_s - wind.east_m_s, state.velocity_north_m_s - wind.north_m_s)
     quick = add_quick_turn(quick, declared.turn_ratio, degrees(course), degrees(rate), dt)

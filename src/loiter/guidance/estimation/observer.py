@@ -169,13 +169,13 @@ def first_air() -> AirAverage:
     return AirAverage(0.0, 0.0, ASSUMED_S, near, far, recent, SAMPLES - 2)
 
 
-def restarted_air(air: AirAverage, east_m_s: float, north_m_s: float) -> AirAverage:
+def restart_air(air: AirAverage, east_m_s: float, north_m_s: float) -> AirAverage:
     """The average restarted from a velocity; what is known of gusts and noise stays."""
     sample = AirSample(air.recent[-1].time_s, east_m_s, north_m_s, 0.0)
     return AirAverage(east_m_s, north_m_s, air.known_s, air.near, air.far, (sample,) * SAMPLES, SAMPLES - 2)
 
 
-def averaged_air(
+def average_air(
     air: AirAverage, east_m_s: float, north_m_s: float, dt: float, longest_s: float, slip_m_s: float = 0.0
 ) -> AirAverage:
     """The average, over `longest_s` at most, including a velocity measured `dt` seconds after the last.
@@ -249,7 +249,7 @@ def first_observer(smoothing_s: float) -> Observer:
     return Observer(smoothing_s, 0.0, first_air(), NO_ESTIMATE)
 
 
-def restarted(observer: Observer) -> Observer:
+def restart(observer: Observer) -> Observer:
     """The observer that starts again from the next measurement."""
     return Observer(observer.smoothing_s, observer.interval_s, observer.air, NO_ESTIMATE)
 
@@ -263,7 +263,7 @@ def roughness(observer: Observer, slip: float = 0.0) -> float:
     return sqrt(gust(observer.air.near, observer.air.far, slip)) / V if V > 0.0 else 0.0
 
 
-def observed(
+def observe(
     observer: Observer, state: State, bank_deg: float, shortest_s: float, turning: Turning = COORDINATED
 ) -> Observer:
     """The observer after a usable measurement that is later than the last one.
@@ -273,7 +273,7 @@ def observed(
     smoothing_s, interval_s, air, last = observer
     if last.airspeed_m_s == 0.0 or shortest_s == 0.0:
         measured = _estimate_from(state, turning)
-        air = restarted_air(air, measured.air_east_m_s, measured.air_north_m_s)
+        air = restart_air(air, measured.air_east_m_s, measured.air_north_m_s)
         return Observer(smoothing_s, interval_s, air, measured)
     last_s, pose, V, last_rate, _, air_east, air_north, _ = last
     dt = state.time_s - last_s
@@ -287,7 +287,7 @@ def observed(
     predicted = constant_turn(pose, V, turn_rate, dt, (air_east, air_north))
     pose = _blended(predicted, _flight_pose(state, turning), share)
     east, north = state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s
-    air = averaged_air(air, east, north, dt, shortest_s, SLIP_ERROR_S * V * turn_rate)
+    air = average_air(air, east, north, dt, shortest_s, SLIP_ERROR_S * V * turn_rate)
     estimate = Estimate(state.time_s, pose, V, turn_rate, bank_deg, air.east_m_s, air.north_m_s, turning)
     return Observer(smoothing_s, interval_s, air, estimate)
 

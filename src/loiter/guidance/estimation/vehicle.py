@@ -46,7 +46,7 @@ class VehicleModel(NamedTuple):
     estimates: VehicleEstimates
 
 
-def unbiased(known: VehicleEstimates, state: State) -> State:
+def remove_bias(known: VehicleEstimates, state: State) -> State:
     """A measured state without the biases of heading and bank."""
     heading_bias_deg, bank_bias_deg = known.heading_bias_deg, known.bank_bias_deg
     if heading_bias_deg == 0.0 and bank_bias_deg == 0.0:

@@ -77,7 +77,7 @@ class JsbsimAircraft:
         self._start, self._time_s, self._step_s = start, 0.0, 0.0
         check_installed()
         with _quiet():
-            self._fdm, trim = trimmed(airframe)
+            self._fdm, trim = trimmed_model(airframe)
             _start_flight(self._fdm, airframe, start.heading_deg, CALM if wind is None else wind)
             _set_turbulence(self._fdm, airframe, gust, seed)
         self._loops = InnerLoops(airframe.gains, trim, airframe.altitude_m, airframe.aircraft.airspeed_m_s)
@@ -169,7 +169,7 @@ def check_installed() -> None:
     errors.check_installed("jsbsim", "six degrees of freedom need", "JSBSim", "sim")
 
 
-def trimmed(airframe: Airframe) -> tuple[Any, Surfaces]:
+def trimmed_model(airframe: Airframe) -> tuple[Any, Surfaces]:
     """An `FGFDMExec` with the airframe trimmed in still air, heading north, and its trimmed surfaces and throttle.
 
     Raises `LoiterError` where JSBSim cannot load or trim it.

@@ -161,8 +161,8 @@ def has_leaf(leaves: Leaves, number: int) -> bool:
     return members >> number % LEAVES & 1 != 0
 
 
-def searched_coarsely(side: int, scene: WindScene, best: WindCandidate) -> tuple[WindCandidate, Leaves]:
-    """The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `searched`.
+def coarse_search(side: int, scene: WindScene, best: WindCandidate) -> tuple[WindCandidate, Leaves]:
+    """The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `search`.
 
     Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
     """
@@ -171,14 +171,14 @@ def searched_coarsely(side: int, scene: WindScene, best: WindCandidate) -> tuple
     while visit.number < FIRST_CELLS << visit.level:
         possible = words_inside(*middle_of(visit), visit.words & ALL_WORDS, side, scene, best.path.time)
         if possible != 0 and visit.level >= COARSE:
-            possible, before, best = examined(visit, possible, side, scene, before, best)
+            possible, before, best = examine_cell(visit, possible, side, scene, before, best)
             if possible != 0 and visit.level == LEAF:
                 leaves, possible = with_leaf(leaves, visit.number), 0
         visit = first_half(visit, possible) if possible != 0 else next_cell(visit)
     return best, leaves
 
 
-def searched(side: int, scene: WindScene, best: WindCandidate, leaves: Leaves) -> WindCandidate:
+def search(side: int, scene: WindScene, best: WindCandidate, leaves: Leaves) -> WindCandidate:
     """The fastest path onto the circle held on one side, if it joins inside one of the leaves; otherwise `best`."""
     corner, compared, visits = NO_CORNER, inf, 0
     for number in range(FIRST_CELLS << LEAF):
@@ -194,7 +194,7 @@ def searched(side: int, scene: WindScene, best: WindCandidate, leaves: Leaves) -
                         corner, compared = corner_of(best, scene), best.path.time
                     possible = words_beside_best(visit, possible, scene, best, corner, sooner)
                 if possible != 0 and (LAST - visit.level) % 2 == 0 and visit.level > LEAF:
-                    possible, best = compared_at_end(visit, possible, side, scene, best, tolerance)
+                    possible, best = compare_at_end(visit, possible, side, scene, best, tolerance)
                 visit = first_half(visit, possible) if possible != 0 else next_cell(visit)
     return best
 
@@ -207,10 +207,10 @@ def words_beside_best(
     Around a local minimum, bounds hold in a neighbourhood that does not depend on how small cells are.
     """
     middle, half = middle_of(visit)
-    reach = abs(wrapped(best.phase - middle)) + half
+    reach = abs(wrap(best.phase - middle)) + half
     if reach <= NEAR_BEST * half:
         if corner.u != 0:
-            reach = abs(wrapped(corner.phase - middle)) + half
+            reach = abs(wrap(corner.phase - middle)) + half
             words = words_beside(corner, reach, words, best.side, scene)
         else:
             words = words_inside(best.phase, reach, words, best.side, scene, sooner)
@@ -228,7 +228,7 @@ def corner_of(best: WindCandidate, scene: WindScene) -> Corner:
     return NO_CORNER
 
 
-def examined(
+def examine_cell(
     visit: CellVisit, possible: int, side: int, scene: WindScene, before: LeafEnd, best: WindCandidate
 ) -> tuple[int, LeafEnd, WindCandidate]:
     """The words that may still join inside a cell early enough; the last leaf's end; the faster of `best` and others.
@@ -238,7 +238,7 @@ def examined(
     """
     middle, half = middle_of(visit)
     end = middle + half
-    holds_best = side == best.side and abs(wrapped(best.phase - middle)) <= half
+    holds_best = side == best.side and abs(wrap(best.phase - middle)) <= half
     if visit.level < LEAF and holds_best:
         return possible, before, best
     within = hold_time(end, 2.0 * half, side, scene.R, scene.wx, scene.wy)
@@ -248,15 +248,15 @@ def examined(
     if visit.level == LEAF:
         after = LeafEnd(visit.number, JoinPoint(end, path, join_slope(path, end, side, scene)))
         if not holds_best and has_minimum(before, after):
-            best = refined_if_better(before, after, side, scene, best)
+            best = refine_if_better(before, after, side, scene, best)
         before = after
     return possible, before, best
 
 
-def compared_at_end(
+def compare_at_end(
     visit: CellVisit, possible: int, side: int, scene: WindScene, best: WindCandidate, tolerance: float
 ) -> tuple[int, WindCandidate]:
-    """The words that may still join inside a cell early enough, as in `examined`; the faster of `best` and others."""
+    """The words that may still join in a cell early enough, as in `examine_cell`; the faster of `best` and others."""
     middle, half = middle_of(visit)
     end = middle + half
     within = hold_time(end, 2.0 * half, side, scene.R, scene.wx, scene.wy)
@@ -275,7 +275,7 @@ def has_minimum(before: LeafEnd, after: LeafEnd) -> bool:
     return (before.point.slope < 0.0 and (rises or later)) or (rises and not later)
 
 
-def refined_if_better(
+def refine_if_better(
     before: LeafEnd, after: LeafEnd, side: int, scene: WindScene, best: WindCandidate
 ) -> WindCandidate:
     """The faster of `best` and the local minimum in a leaf."""
@@ -315,7 +315,7 @@ def hold_tolerance(scene: WindScene) -> float:
     return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / 4096.0)
 
 
-def wrapped(angle: float) -> float:
+def wrap(angle: float) -> float:
     """An angle, in [-pi, pi)."""
     return (angle + pi) % TWO_PI - pi
 
@@ -395,11 +395,11 @@ def fastest_of_sides(side: int, scene: WindScene, best: WindCandidate) -> WindCa
     first = best.side if best.side != 0 else 1
     leaves, others = NO_LEAVES, NO_LEAVES
     if side != -first:
-        best, leaves = searched_coarsely(first, scene, best)
+        best, leaves = coarse_search(first, scene, best)
     if side != first:
-        best, others = searched_coarsely(-first, scene, best)
-    best = searched(first, scene, best, leaves)
-    return searched(-first, scene, best, others)
+        best, others = coarse_search(-first, scene, best)
+    best = search(first, scene, best, leaves)
+    return search(-first, scene, best, others)
 
 
 def wind_entry(found: WindCandidate, scene: WindScene) -> WindEntry:

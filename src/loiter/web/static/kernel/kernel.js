@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 18b7b1f658e403bd1f292538c2e3580dee08a5ca1dfed9084d7fdf7ecf48c33e
+ * SHA-256 of the source: 3ab755cee9a9f012ff347c5ebddda46dde20dccbae09186f32310f8b17620319
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -1167,7 +1167,7 @@ export function drop_short_pieces(word, t1, t2, t3, short_, no_angle) {
  *
  * @type {(u: number) => number}
  */
-export function opposed(u) {
+export function opposite(u) {
     return u === ABSENT ? u : 0 - u;
 }
 
@@ -1179,7 +1179,7 @@ export function opposed(u) {
 export function mirrored(word) {
     const controls_1 = controls(word);
     const u1 = controls_1[0], u2 = controls_1[1], u3 = controls_1[2];
-    return encode(opposed(u1), opposed(u2), opposed(u3));
+    return encode(opposite(u1), opposite(u2), opposite(u3));
 }
 
 /**
@@ -3023,7 +3023,7 @@ export function words_inside(phase, half, words, side, scene, time) {
  *
  * @type {(angle: number) => number}
  */
-export function wrapped(angle) {
+export function wrap(angle) {
     return real_modulo(angle + 3.141592653589793, TWO_PI) - 3.141592653589793;
 }
 
@@ -3061,7 +3061,7 @@ export function has_minimum(before, after) {
  *
  * @type {(before: LeafEnd, after: LeafEnd, side: number, scene: WindScene, best: WindCandidate) => WindCandidate}
  */
-export function refined_if_better(before, after, side, scene, best) {
+export function refine_if_better(before, after, side, scene, best) {
     /** @type {boolean} */ const adjoins = before.number === after.number - 1;
     const parts_1 = adjoins && before.point.path.time < after.point.path.time ? before.point : after.point;
     const phase = parts_1.phase, path = parts_1.path;
@@ -3078,11 +3078,11 @@ export function refined_if_better(before, after, side, scene, best) {
  * @type {(visit: CellVisit, possible: number, side: number, scene: WindScene, before: LeafEnd, best: WindCandidate) =>
  *         [number, LeafEnd, WindCandidate]}
  */
-export function examined(visit, possible, side, scene, before, best) {
+export function examine_cell(visit, possible, side, scene, before, best) {
     const middle_of_1 = middle_of(visit);
     const middle = middle_of_1[0], half = middle_of_1[1];
     const end = middle + half;
-    /** @type {boolean} */ const holds_best = side === best.side && Math.abs(wrapped(best.phase - middle)) <= half;
+    /** @type {boolean} */ const holds_best = side === best.side && Math.abs(wrap(best.phase - middle)) <= half;
     if (visit.level < LEAF && holds_best) {
         return [possible, before, best];
     }
@@ -3095,7 +3095,7 @@ export function examined(visit, possible, side, scene, before, best) {
         const after = { number: visit.number, point: { phase: end, path, slope: join_slope(path, end, side, scene) }
                 };
         if (!holds_best && has_minimum(before, after)) {
-            best = refined_if_better(before, after, side, scene, best);
+            best = refine_if_better(before, after, side, scene, best);
         }
         before = after;
     }
@@ -3151,13 +3151,13 @@ export function next_cell(visit) {
 }
 
 /**
- * The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `searched`.
+ * The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `search`.
  *
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  *
  * @type {(side: number, scene: WindScene, best: WindCandidate) => [WindCandidate, Leaves]}
  */
-export function searched_coarsely(side, scene, best) {
+export function coarse_search(side, scene, best) {
     let visit = { number: 0, level: 0, words: ALL_WORDS }, before = { number: -2, point: { phase: 0.0, path:
             NO_PATH, slope: 0.0 } };
     let leaves = NO_LEAVES;
@@ -3166,10 +3166,10 @@ export function searched_coarsely(side, scene, best) {
         let possible = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), side, scene,
                 best.path.time);
         if (possible !== 0 && visit.level >= COARSE) {
-            const examined_2 = examined(visit, possible, side, scene, before, best);
-            possible = examined_2[0];
-            before = examined_2[1];
-            best = examined_2[2];
+            const examine_cell_2 = examine_cell(visit, possible, side, scene, before, best);
+            possible = examine_cell_2[0];
+            before = examine_cell_2[1];
+            best = examine_cell_2[2];
             if (possible !== 0 && visit.level === LEAF) {
                 leaves = with_leaf(leaves, visit.number);
                 possible = 0;
@@ -3409,10 +3409,10 @@ export function words_beside(corner, reach, words, side, scene) {
 export function words_beside_best(visit, words, scene, best, corner, sooner) {
     const middle_of_1 = middle_of(visit);
     const middle = middle_of_1[0], half = middle_of_1[1];
-    let reach = Math.abs(wrapped(best.phase - middle)) + half;
+    let reach = Math.abs(wrap(best.phase - middle)) + half;
     if (reach <= NEAR_BEST * half) {
         if (corner.u !== 0) {
-            reach = Math.abs(wrapped(corner.phase - middle)) + half;
+            reach = Math.abs(wrap(corner.phase - middle)) + half;
             words = words_beside(corner, reach, words, best.side, scene);
         } else {
             words = words_inside(best.phase, reach, words, best.side, scene, sooner);
@@ -3422,12 +3422,12 @@ export function words_beside_best(visit, words, scene, best, corner, sooner) {
 }
 
 /**
- * The words that may still join inside a cell early enough, as in `examined`; the faster of `best` and others.
+ * The words that may still join in a cell early enough, as in `examine_cell`; the faster of `best` and others.
  *
  * @type {(visit: CellVisit, possible: number, side: number, scene: WindScene, best: WindCandidate, tolerance: number)
  *         => [number, WindCandidate]}
  */
-export function compared_at_end(visit, possible, side, scene, best, tolerance) {
+export function compare_at_end(visit, possible, side, scene, best, tolerance) {
     const middle_of_1 = middle_of(visit);
     const middle = middle_of_1[0], half = middle_of_1[1];
     const end = middle + half;
@@ -3445,7 +3445,7 @@ export function compared_at_end(visit, possible, side, scene, best, tolerance) {
  *
  * @type {(side: number, scene: WindScene, best: WindCandidate, leaves: Leaves) => WindCandidate}
  */
-export function searched(side, scene, best, leaves) {
+export function search(side, scene, best, leaves) {
     let corner = NO_CORNER, compared = Infinity, visits = 0;
     const last_1 = shift_left(FIRST_CELLS, LEAF);
     for (let number = 0; number < last_1; number++) {
@@ -3466,9 +3466,9 @@ export function searched(side, scene, best, leaves) {
                     possible = words_beside_best(visit, possible, scene, best, corner, sooner);
                 }
                 if (possible !== 0 && integer_modulo(LAST - visit.level, 2) === 0 && visit.level > LEAF) {
-                    const compared_at_end_2 = compared_at_end(visit, possible, side, scene, best, tolerance);
-                    possible = compared_at_end_2[0];
-                    best = compared_at_end_2[1];
+                    const compare_at_end_2 = compare_at_end(visit, possible, side, scene, best, tolerance);
+                    possible = compare_at_end_2[0];
+                    best = compare_at_end_2[1];
                 }
                 visit = possible !== 0 ? first_half(visit, possible) : next_cell(visit);
             }
@@ -3487,17 +3487,17 @@ export function fastest_of_sides(side, scene, best) {
     const first = best.side !== 0 ? best.side : 1;
     let leaves = NO_LEAVES, others = NO_LEAVES;
     if (side !== 0 - first) {
-        const searched_coarsely_1 = searched_coarsely(first, scene, best);
-        best = searched_coarsely_1[0];
-        leaves = searched_coarsely_1[1];
+        const coarse_search_1 = coarse_search(first, scene, best);
+        best = coarse_search_1[0];
+        leaves = coarse_search_1[1];
     }
     if (side !== first) {
-        const searched_coarsely_2 = searched_coarsely(0 - first, scene, best);
-        best = searched_coarsely_2[0];
-        others = searched_coarsely_2[1];
+        const coarse_search_2 = coarse_search(0 - first, scene, best);
+        best = coarse_search_2[0];
+        others = coarse_search_2[1];
     }
-    best = searched(first, scene, best, leaves);
-    return searched(0 - first, scene, best, others);
+    best = search(first, scene, best, leaves);
+    return search(0 - first, scene, best, others);
 }
 
 /**
