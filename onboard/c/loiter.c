@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: f4df80032459eae567caa19963673f311c982dacb412393732de57570d3b50c0
+ * SHA-256 of the source: 8fa77353552252c85ed885d9dab806bde23c1a77ebdb6fb19d0e44e6d48c347f
  */
 #include "loiter.h"
 

@@ -164,8 +164,8 @@ class Copy:
             text=True,
             errors="replace",
             start_new_session=True,
-            preexec_fn=limited,
         )
+        limit_resources(process.pid)
         try:
             out, _ = process.communicate(timeout=STAGE_LIMIT_S * patience)
         except subprocess.TimeoutExpired:
@@ -182,10 +182,10 @@ class Copy:
         return Outcome("killed", found[1] if found else "")
 
 
-def limited() -> None:
-    """Limits of a process and its children."""
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (LARGEST_FILE, LARGEST_FILE))
+def limit_resources(pid: int) -> None:
+    """Limits of a process and of its later children; set from outside, since a process with threads may not fork."""
+    resource.prlimit(pid, resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.prlimit(pid, resource.RLIMIT_FSIZE, (LARGEST_FILE, LARGEST_FILE))
 
 
 def stages(file: str) -> list[list[str]]:

@@ -176,11 +176,11 @@ def test_a_link_opened_on_the_page_takes_the_place_of_the_altitude(page):
     page.evaluate("link => (location.hash = link)", f"{OLD_LINK}&altitude=120&altitude-reference=home")
     expect(page.locator("#altitude")).to_have_value("120")
     settle(page)
-    assert page.locator("#altitude-reference").input_value() == "home"
+    expect(page.locator("#altitude-reference")).to_have_value("home")
     page.evaluate("link => (location.hash = link)", OLD_LINK)
     expect(page.locator("#altitude")).to_have_value("")
     settle(page)
-    assert page.locator("#altitude-reference").input_value() == ""
+    expect(page.locator("#altitude-reference")).to_have_value("")
 
 
 def test_a_preset_keeps_place_and_altitude(page, tmp_path):

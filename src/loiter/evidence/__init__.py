@@ -1,1 +1,1 @@
-"""Evidence for the kernel: independent methods that share no code with it, and machine checks of the proof."""
+"""Evidence for the kernel: independent methods that share no code with it, and checks of its formulas by machine."""

@@ -7,6 +7,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from math import cos, degrees, pi, sin, sqrt
+from multiprocessing import get_context
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
@@ -226,7 +227,7 @@ def campaign(
     """Fly each law from each start; the outcomes of each law, in the order of the starts.
 
     The outcomes do not depend on `workers`, the number of processes: by default the number of cores; with 1 no other
-    process is used. `progress` is called with the number of completed starts and the number of all. Raises
+    process is used. The others start anew, so a script calls this below `if __name__ == "__main__":`. `progress` is called with the number of completed starts and the number of all. Raises
     `InvalidArgument` for fewer than one worker.
     """
     if workers is not None:
@@ -256,5 +257,6 @@ def _map_in_processes(
     if workers == 1:
         yield from map(job, tasks)
         return
-    with ProcessPoolExecutor(workers) as pool:
+    # Not forked: a caller with threads of its own (JAX's, a service's) would risk a deadlock.
+    with ProcessPoolExecutor(workers, get_context("forkserver")) as pool:
         yield from pool.map(job, tasks)
