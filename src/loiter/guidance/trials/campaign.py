@@ -227,7 +227,8 @@ def campaign(
     """Fly each law from each start; the outcomes of each law, in the order of the starts.
 
     The outcomes do not depend on `workers`, the number of processes: by default the number of cores; with 1 no other
-    process is used. The others start anew, so a script calls this below `if __name__ == "__main__":`. `progress` is called with the number of completed starts and the number of all. Raises
+    process is used. The others start anew, so a script calls this below `if __name__ == "__main__":`. `progress` is
+    called with the number of completed starts and the number of all. Raises
     `InvalidArgument` for fewer than one worker.
     """
     if workers is not None:
