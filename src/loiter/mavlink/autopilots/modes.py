@@ -54,7 +54,7 @@ PX4_AUTO = {
     10: "VTOL_TAKEOFF",
     19: "GUIDED_COURSE",
 }
-PX4_OFFBOARD, PX4_AUTO_MAIN, PX4_LOITER_SUB = 6, 4, 3
+PX4_OFFBOARD, PX4_AUTO_MAIN, PX4_LOITER_SUB, PX4_MISSION_SUB = 6, 4, 3, 4
 
 # The sub modes of AUTO in which PX4 takes off or lands.
 PX4_UNFIT = {2, 6, 9, 10}
@@ -72,6 +72,12 @@ def px4_mode(main: int, sub: int = 0) -> int:
 
 
 OFFBOARD, HOLD = px4_mode(PX4_OFFBOARD), px4_mode(PX4_AUTO_MAIN, PX4_LOITER_SUB)
+
+# The modes in which autopilots fly their missions, by MAV_AUTOPILOT.
+MISSION_MODES: dict[int, int] = {
+    Autopilot.ARDUPILOT: 10,
+    Autopilot.PX4: px4_mode(PX4_AUTO_MAIN, PX4_MISSION_SUB),
+}
 
 
 def mode_name(autopilot: int, custom_mode: int) -> str:

@@ -6,13 +6,13 @@ FW_PN_R_SLEW_MAX of PX4; the law identifies it in flight.
 
 from __future__ import annotations
 
+from enum import Enum
 from math import nan
 from typing import NamedTuple
 
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.io.missions.items import Autopilot
 from loiter.io.missions.mission import BANK_LIMIT
-from loiter.mavlink.missions.flown_radius import CRUISE, OLD_CRUISE
 
 # The limit of commanded banks lies below the autopilot's own limit by this, degrees, and is never above the second.
 BANK_MARGIN_DEG, STEEPEST_DEG = 0.5, 60.0
@@ -39,72 +39,55 @@ LOSS_ACTIONS = {
 # Those of them after which PX4 circles or comes home: return, hold.
 SAFE_LOSS_ACTIONS = {3, 5}
 
-# The names of parameters, and those of them that must be known before guiding begins: one of each group.
-NAMES = {
-    Autopilot.ARDUPILOT: [
-        CRUISE,
-        OLD_CRUISE,
-        "ROLL_LIMIT_DEG",
-        "LIM_ROLL_CD",
-        "RLL2SRV_TCONST",
-        "RLL2SRV_RMAX",
-        "ARSPD_USE",
-        BANK_LIMIT,
-        "NAVL1_PERIOD",
-        "FENCE_ENABLE",
-        "RCMAP_ROLL",
-        "RCMAP_PITCH",
-    ],
-    Autopilot.PX4: [
-        "FW_AIRSPD_TRIM",
-        "FW_R_LIM",
-        "FW_R_TC",
-        "FW_R_RMAX",
-        "FW_PN_R_SLEW_MAX",
-        "COM_OF_LOSS_T",
-        "COM_OBL_RC_ACT",
-        "GF_ACTION",
-        "RC_MAP_ROLL",
-        "RC_MAP_PITCH",
-    ],
-}
-NEEDED = {
-    Autopilot.ARDUPILOT: [{CRUISE, OLD_CRUISE}, {"ROLL_LIMIT_DEG", "LIM_ROLL_CD"}, {BANK_LIMIT}],
-    Autopilot.PX4: [{"FW_AIRSPD_TRIM"}, {"FW_R_LIM"}],
-}
-# Those that are waited for while others are: later versions have them all.
-WANTED = {
-    Autopilot.ARDUPILOT: [
-        {"RLL2SRV_TCONST"},
-        {"RLL2SRV_RMAX"},
-        {"NAVL1_PERIOD"},
-        {"FENCE_ENABLE"},
-        {"RCMAP_ROLL"},
-        {"RCMAP_PITCH"},
-    ],
-    Autopilot.PX4: [
-        {"FW_R_TC"},
-        {"FW_R_RMAX"},
-        {"COM_OBL_RC_ACT"},
-        {"GF_ACTION"},
-        {"RC_MAP_ROLL"},
-        {"RC_MAP_PITCH"},
-    ],
+# ArduPlane's parameters for the cruise airspeed: in metres per second since version 4.5, before in centimetres per
+# second.
+CRUISE, OLD_CRUISE = "AIRSPEED_CRUISE", "TRIM_ARSPD_CM"
+
+
+class Need(Enum):
+    """How much a parameter is needed: guiding begins not without it, it is waited for while others are, or neither."""
+
+    NEEDED, WANTED, OPTIONAL = range(3)
+
+
+# The parameters that are requested: for each its names, the newest first, and how much it is needed. Later versions
+# have all that are wanted.
+PARAMETERS: dict[Autopilot, dict[tuple[str, ...], Need]] = {
+    Autopilot.ARDUPILOT: {
+        (CRUISE, OLD_CRUISE): Need.NEEDED,
+        ("ROLL_LIMIT_DEG", "LIM_ROLL_CD"): Need.NEEDED,
+        (BANK_LIMIT,): Need.NEEDED,
+        ("RLL2SRV_TCONST",): Need.WANTED,
+        ("RLL2SRV_RMAX",): Need.WANTED,
+        ("NAVL1_PERIOD",): Need.WANTED,
+        ("FENCE_ENABLE",): Need.WANTED,
+        ("RCMAP_ROLL",): Need.WANTED,
+        ("RCMAP_PITCH",): Need.WANTED,
+    },
+    Autopilot.PX4: {
+        ("FW_AIRSPD_TRIM",): Need.NEEDED,
+        ("FW_R_LIM",): Need.NEEDED,
+        ("FW_R_TC",): Need.WANTED,
+        ("FW_R_RMAX",): Need.WANTED,
+        ("FW_PN_R_SLEW_MAX",): Need.OPTIONAL,
+        ("COM_OBL_RC_ACT",): Need.WANTED,
+        ("GF_ACTION",): Need.WANTED,
+        ("RC_MAP_ROLL",): Need.WANTED,
+        ("RC_MAP_PITCH",): Need.WANTED,
+    },
 }
 
 
 class AutopilotSettings(NamedTuple):
     """The settings of an autopilot: indicated cruise airspeed, metres per second, and largest bank, degrees, or nan.
 
-    `has_airspeed_sensor` is whether it uses an airspeed sensor, as far as its parameters tell. `loss_action` is what
-    PX4 does when setpoints stop, `flies_away` whether it then neither circles nor comes home. `fence` is what its
-    parameters say about a fence.
+    `loss_action` is what PX4 does when setpoints stop, `flies_away` whether it then neither circles nor comes home.
+    `fence` is what its parameters say about a fence.
     """
 
     airspeed_m_s: float
     bank_limit_deg: float
     roll: Roll
-    has_airspeed_sensor: bool = True
     loss_action: str = ""
     flies_away: bool = False
     fence: str = "unknown"
@@ -115,15 +98,15 @@ class AutopilotSettings(NamedTuple):
         return min(self.bank_limit_deg - BANK_MARGIN_DEG, STEEPEST_DEG)
 
 
-def missing(autopilot: Autopilot, known: dict[str, float]) -> list[str]:
-    """The parameters that are needed and not known yet; of several names the newest."""
-    newest = NAMES[autopilot]
-    return [min(names, key=newest.index) for names in NEEDED[autopilot] if not names & known.keys()]
+def parameter_names(autopilot: Autopilot) -> list[str]:
+    """The names of all parameters that are requested of an autopilot."""
+    return [name for names in PARAMETERS[autopilot] for name in names]
 
 
-def is_complete(autopilot: Autopilot, known: dict[str, float]) -> bool:
-    """Whether all needed and all wanted parameters are known."""
-    return all(names & known.keys() for names in NEEDED[autopilot] + WANTED[autopilot])
+def missing(autopilot: Autopilot, known: dict[str, float], least: Need = Need.NEEDED) -> list[str]:
+    """The parameters that are needed and not known yet, by their newest names; with `WANTED` the wanted ones too."""
+    needs = PARAMETERS[autopilot].items()
+    return [names[0] for names, need in needs if need.value <= least.value and not known.keys() & set(names)]
 
 
 def autopilot_settings(autopilot: Autopilot, known: dict[str, float]) -> AutopilotSettings:
@@ -136,7 +119,6 @@ def _plane_settings(known: dict[str, float]) -> AutopilotSettings:
         known.get(CRUISE, known.get(OLD_CRUISE, nan) / 100.0),
         known.get("ROLL_LIMIT_DEG", known.get("LIM_ROLL_CD", nan) / 100.0),
         _roll(known.get("RLL2SRV_TCONST", ROLL_TIME_S), known.get("RLL2SRV_RMAX", 0.0)),
-        known.get("ARSPD_USE", 1.0) != 0.0,
         fence=_fence(known.get("FENCE_ENABLE")),
     )
 

@@ -11,7 +11,6 @@ the time of arrival.
 from __future__ import annotations
 
 from math import cos, hypot, inf, isfinite, nan, radians, sin, sqrt, tan
-from typing import Protocol
 
 from loiter.guidance.vehicle.limits import clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign
@@ -33,32 +32,12 @@ ORIGIN_SHIFT_M = 2.0
 LOCAL_POSITION, LOCAL_POSITION_S = "LOCAL_POSITION_NED", 1.0
 
 
-class Steering(Protocol):
-    """Setpoints for a bank."""
-
-    @property
-    def limit_deg(self) -> float:
-        """The largest bank that is sent at present, degrees: small until the vehicle is known to bank as commanded."""
-
-    @property
-    def reversals(self) -> int:
-        """How often the vehicle was found to bank opposite to what was commanded until then."""
-
-    def is_ready(self, now: float) -> bool:
-        """Whether setpoints can be made."""
-
-    def prepare(self, delay_s: float, wind: Wind | None) -> None:
-        """Take the time from a measurement to the flight of its setpoint, seconds, and the wind that is reported."""
-
-    def send(self, link: Link, bank_deg: float, measured_deg: float, now: float) -> float:
-        """Send the setpoint for a bank, degrees, positive to the right; returns the bank that it asks for."""
-
-    def send_level(self, link: Link, now: float) -> None:
-        """Send a setpoint for straight flight, where the measured state is not known."""
-
-
 class RollSteering:
-    """Setpoints for ArduPlane: the roll alone."""
+    """Setpoints for ArduPlane: the roll alone.
+
+    `limit_deg` is the largest bank that is sent at present, degrees; `reversals` counts how often the vehicle was found
+    to bank opposite to what was commanded.
+    """
 
     limit_deg, reversals = inf, 0
 
@@ -70,10 +49,10 @@ class RollSteering:
         return True
 
     def prepare(self, delay_s: float, wind: Wind | None) -> None:
-        """Neither matters."""
+        """Take the time from a measurement to the flight of its setpoint, and the wind: neither matters."""
 
     def send(self, link: Link, bank_deg: float, measured_deg: float, now: float) -> float:
-        """Send the roll."""
+        """Send the setpoint for a bank, degrees, positive to the right; returns the bank that it asks for."""
         half = 0.5 * radians(bank_deg)
         link.send(
             dialect().MAVLink_set_attitude_target_message(
@@ -185,3 +164,7 @@ class AccelerationSteering:
             return 1.0
         across = (wind_east * p.vx - wind_north * p.vy) / speed / airspeed
         return sqrt(max(1.0 - across * across, 0.0))
+
+
+# What steers a vehicle: setpoints for a bank.
+Steering = RollSteering | AccelerationSteering

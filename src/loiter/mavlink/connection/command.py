@@ -19,6 +19,9 @@ from loiter.planning.model import Turn
 # MAV_CMD.
 DO_SET_MODE, SET_MESSAGE_INTERVAL, REQUEST_MESSAGE = 176, 511, 512
 
+# MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.
+CUSTOM_MODE_ENABLED = 1
+
 # Seconds until a command is sent again.
 REPEAT_S = 1.5
 
@@ -112,6 +115,13 @@ def long_command(link: Link, command: int, *params: float) -> Any:
     """A COMMAND_LONG; those of its seven parameters that are not given are 0."""
     seven = (*params, *[0.0] * (7 - len(params)))
     return dialect().MAVLink_command_long_message(link.vehicle.system, link.vehicle.component, command, 0, *seven)
+
+
+def mode_command(link: Link, custom_mode: int, base_mode: int = 0) -> Any:
+    """The command to change to a mode, as HEARTBEAT reports it; PX4 takes its main and its sub mode one by one."""
+    px4 = link.vehicle.autopilot == Autopilot.PX4
+    mode = (custom_mode >> 16 & 255, custom_mode >> 24 & 255) if px4 else (custom_mode,)
+    return long_command(link, DO_SET_MODE, CUSTOM_MODE_ENABLED | base_mode, *mode)
 
 
 def message_request(link: Link, kind: str) -> Any:

@@ -11,7 +11,7 @@ from loiter.geo import LocalFrame
 from loiter.guidance.protocol import State
 from loiter.io.missions.items import Autopilot
 from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD
-from loiter.mavlink.autopilots.settings import NAMES
+from loiter.mavlink.autopilots.settings import parameter_names
 from loiter.mavlink.autopilots.steering import Steering
 from loiter.mavlink.autopilots.sticks import Sticks
 from loiter.mavlink.connection.command import PendingCommand, message_request
@@ -56,7 +56,7 @@ class Contact:
         self.monitor = Monitor(vehicle, self.telemetry, self.measurements)
         self.own_target, self.sticks = OwnTarget(frame), Sticks()
         self.streams = Streams(guide_streams(self.autopilot), self.began, rates_to_try_hz(connection, BAUD))
-        self.parameters = Parameters(NAMES[self.autopilot], vehicle.autopilot)
+        self.parameters = Parameters(parameter_names(self.autopilot), vehicle.autopilot)
         self.round_trip = RoundTrip()
         self.steering: Steering | None = None
         self.pending: PendingCommand | None = None

@@ -14,9 +14,9 @@ from loiter.guidance.estimation.vehicle import VehicleEstimates
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.vehicle.limits import clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign, sign_of_version
-from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD, PX4_OFFBOARD
+from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD
 from loiter.mavlink.autopilots.steering import AccelerationSteering, RollSteering, Steering
-from loiter.mavlink.connection.command import DO_SET_MODE, PendingCommand, hold_command, long_command
+from loiter.mavlink.connection.command import PendingCommand, hold_command, mode_command
 from loiter.mavlink.connection.link import ACTIVE
 from loiter.mavlink.guiding.contact import STEP_S, Contact
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
@@ -25,7 +25,6 @@ from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, choose
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import SteadyHoldDetector
 from loiter.mavlink.guiding.summary import loss_consequence, summary
-from loiter.mavlink.missions.start import CUSTOM_MODE
 from loiter.planning.model import Turn
 
 # Seconds for a command to be confirmed: the fall-back circle, PX4's offboard mode, the hand-over.
@@ -191,7 +190,7 @@ class Flight:
             self._send_level()
             self._contact.request_heartbeat(monotonic())
             self._check(self._contact.listen())
-        change = long_command(self._contact.link, DO_SET_MODE, CUSTOM_MODE, PX4_OFFBOARD)
+        change = mode_command(self._contact.link, OFFBOARD)
         pending = self._contact.pending = PendingCommand(change, "change to the offboard mode", MODE_REPEAT_S)
         self._modes.expect(OFFBOARD)
         yield from self._await(pending)

@@ -13,7 +13,7 @@ from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.protocol import State
 from loiter.mavlink.autopilots.readiness import refusal
-from loiter.mavlink.autopilots.settings import AutopilotSettings, autopilot_settings, is_complete, missing
+from loiter.mavlink.autopilots.settings import AutopilotSettings, Need, autopilot_settings, missing
 from loiter.mavlink.autopilots.steering import LOCAL_POSITION, LOCAL_POSITION_S
 from loiter.mavlink.connection.link import not_found
 from loiter.mavlink.guiding.contact import Contact
@@ -151,7 +151,7 @@ def _missing_data(contact: Contact, now: float) -> str:
         return "does not report whether it is in the air (EXTENDED_SYS_STATE)"
     if unknown := missing(contact.autopilot, contact.parameters.known):
         return f"does not report its parameter {unknown[0]}"
-    if not contact.parameters.done and not is_complete(contact.autopilot, contact.parameters.known):
+    if not contact.parameters.done and missing(contact.autopilot, contact.parameters.known, Need.WANTED):
         return "does not report its parameters"
     if contact.state() is None:
         return "sends no position and attitude"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import nan
+from math import isnan, nan
 from typing import Any, NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed, instance, positive
@@ -14,6 +14,7 @@ from loiter.mavlink.connection.enumerations import autopilot_name
 from loiter.mavlink.connection.link import Link, Vehicle, open_link
 from loiter.mavlink.connection.parameters import Parameters
 from loiter.mavlink.connection.status_text import StatusTexts
+from loiter.mavlink.connection.telemetry import NO_FIX, Fix, Telemetry
 from loiter.mavlink.missions import transfer
 from loiter.mavlink.missions.flown_radius import LoiterScaling, fit_radii, query_scaling, scaling_parameters
 from loiter.mavlink.missions.requirements import REQUIREMENT, requirement_remark
@@ -55,20 +56,6 @@ class MissionSummary:
     cut: tuple[str, ...]
     remarks: tuple[str, ...] = ()
     started: bool = False
-
-
-class Position:
-    """The position of a vehicle from its last GLOBAL_POSITION_INT: `place` is latitude and longitude in 1e-7 degrees.
-
-    It is None until there is one.
-    """
-
-    place: tuple[int, int] | None = None
-
-    def update(self, message: Any) -> None:
-        """Take the position from a message; without a fix both are 0."""
-        if message.get_type() == "GLOBAL_POSITION_INT" and (message.lat or message.lon):
-            self.place = message.lat, message.lon
 
 
 class Behaviour(NamedTuple):
@@ -119,11 +106,11 @@ def upload(
     check_target(system, component, timeout_s)
     if not callable(mission):
         instance("mission", mission, Mission)
-    texts, position = StatusTexts(), Position()
+    texts, telemetry = StatusTexts(), Telemetry()
 
     def on_message(message: Any, now: float) -> None:
         texts.update(message)
-        position.update(message)
+        telemetry.update(message, now)
 
     with open_link(connection, system, component, timeout_s, on_message=on_message) as link:
         new = mission(link.vehicle.autopilot) if callable(mission) else mission
@@ -131,9 +118,7 @@ def upload(
         check_mission(new, link.vehicle)
         scaling = query_scaling(link, scaling_parameters(link.vehicle), true_radius=true_radius)
         behaviour = Behaviour(scaling, true_radius, _requirement(link))
-        summary = replace_mission(
-            link, new, timeout_s, on_progress or (lambda phase, done, total: None), behaviour, position
-        )
+        summary = replace_mission(link, new, timeout_s, on_progress or _no_progress, behaviour, telemetry.fix)
         if not start:
             return summary
         try:
@@ -166,7 +151,7 @@ def download(
     """
     check_target(system, component, timeout_s)
     with open_link(connection, system, component, timeout_s) as link:
-        progress = _in_phase("read", on_progress or (lambda phase, done, total: None))
+        progress = _in_phase("read", on_progress or _no_progress)
         return decode(transfer.receive(link, timeout_s, progress), link.vehicle)
 
 
@@ -176,14 +161,14 @@ def replace_mission(
     timeout_s: float,
     on_progress: ReportProgress,
     behaviour: Behaviour = PLAIN_BEHAVIOUR,
-    position: Position | None = None,
+    fix: Callable[[], Fix] = lambda: NO_FIX,
 ) -> MissionSummary:
-    """The steps of `upload` with an open link, without the start; `position` is that of the vehicle, if it sends it."""
+    """The steps of `upload` with an open link, without the start; `fix` gives the position of the vehicle then."""
     vehicle = link.vehicle
     check_mission(mission, vehicle)
     old = transfer.receive(link, timeout_s, _in_phase("read", on_progress))
     home = own_home(old, vehicle)
-    check_not_swapped(mission, home, position)
+    check_not_swapped(mission, home, fix())
     items, remarks = _adapt(mission, vehicle, home, behaviour)
     try:
         if vehicle.autopilot == Autopilot.PX4 and is_same(old, items, vehicle) and not flies_mission(link):
@@ -218,16 +203,17 @@ def check_mission(mission: Mission, vehicle: Vehicle) -> None:
     encode(mission._replace(home=(0.0, 0.0, 0.0)), vehicle)
 
 
-def check_not_swapped(mission: Mission, home: StoredItem | None, position: Position | None) -> None:
+def check_not_swapped(mission: Mission, home: StoredItem | None, fix: Fix) -> None:
     """Raise `InvalidArgument` for a mission far from the vehicle that would be near with coordinates swapped.
 
     The place of the vehicle is its position or, if it has not sent it, its home; without either nothing is checked.
     """
-    known = position.place if position is not None and position.place else home and (home.x, home.y)
+    if home is not None and isnan(fix.latitude_deg):
+        fix = NO_FIX._replace(latitude_deg=home.x / PER_DEGREE, longitude_deg=home.y / PER_DEGREE)
     item = next((item for item in mission.items if item.frame != Frame.NOWHERE), None)
-    if not known or item is None:
+    if isnan(fix.latitude_deg) or item is None:
         return
-    here = LocalFrame(known[0] / PER_DEGREE, known[1] / PER_DEGREE)
+    here = LocalFrame(fix.latitude_deg, fix.longitude_deg)
     if is_swapped(here, item.latitude_deg, item.longitude_deg):
         raise InvalidArgument(
             "mission",
@@ -294,6 +280,10 @@ def check_target(system: int | None, component: int, timeout_s: float) -> None:
         if number is not None and (isinstance(number, bool) or not isinstance(number, int) or not 0 < number < 256):
             raise InvalidArgument(name, f"is {number!r}: it must be a whole number from 1 to 255")
     positive("timeout_s", timeout_s, "seconds")
+
+
+def _no_progress(phase: str, done: int, total: int) -> None:
+    """Progress that nobody wants to know."""
 
 
 def _in_phase(phase: str, on_progress: ReportProgress) -> transfer.CountItems:

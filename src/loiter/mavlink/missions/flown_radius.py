@@ -17,14 +17,11 @@ from loiter.geo.atmosphere import eas2tas_squared
 from loiter.io.missions.items import Autopilot, MavCommand
 from loiter.io.missions.mission import BANK_LIMIT, LEAST_REPORTED_M
 from loiter.io.missions.signs import COMMANDS, circle, with_circle
+from loiter.mavlink.autopilots.settings import CRUISE, OLD_CRUISE
 from loiter.mavlink.connection.link import Link, Vehicle
 from loiter.mavlink.connection.parameters import Parameters
 from loiter.mavlink.missions.stored_items import StoredItem, above_sea_m, item_name
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
-
-# ArduPlane's parameters for the cruise airspeed: in metres per second since version 4.5, before in centimetres per
-# second.
-CRUISE, OLD_CRUISE = "AIRSPEED_CRUISE", "TRIM_ARSPD_CM"
 
 # The loiters of a mission whose radius ArduPlane stores; it does not store that of NAV_LOITER_TIME.
 LOITERS = {int(c): c for c in (MavCommand.NAV_LOITER_UNLIM, MavCommand.NAV_LOITER_TURNS, MavCommand.NAV_LOITER_TO_ALT)}

@@ -8,31 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from time import monotonic
-from typing import Any, NamedTuple
+from typing import Any
 
 from loiter.errors import LinkFailed
-from loiter.io.missions.items import Autopilot
-from loiter.mavlink.connection.command import DO_SET_MODE, long_command, message_request, send_command
+from loiter.mavlink.autopilots.modes import MISSION_MODES
+from loiter.mavlink.connection.command import DO_SET_MODE, message_request, mode_command, send_command
 from loiter.mavlink.connection.enumerations import ACCEPTED, command_result
 from loiter.mavlink.connection.link import Link, dialect
 from loiter.mavlink.connection.status_text import StatusTexts
 from loiter.mavlink.connection.telemetry import AIRBORNE, UNDEFINED
 from loiter.mavlink.missions.stored_items import keeps_home
-
-# MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.
-CUSTOM_MODE = 1
-
-
-class Mode(NamedTuple):
-    """The mode in which an autopilot flies its mission: for DO_SET_MODE, and as HEARTBEAT reports it."""
-
-    main: float
-    sub: float
-    custom_mode: int
-
-
-# PX4's AUTO.MISSION, main mode 4 and sub mode 4, and ArduPlane's AUTO.
-MODES = {Autopilot.PX4: Mode(4.0, 4.0, 4 << 16 | 4 << 24), Autopilot.ARDUPILOT: Mode(10.0, 0.0, 10)}
 
 # Seconds until a request is repeated, and how often it is sent.
 REPEAT_S, TRIES = 1.0, 4
@@ -49,15 +34,15 @@ def start_mission(link: Link, texts: StatusTexts, timeout_s: float) -> None:
 
     Raises `LinkFailed` if it is not in the air, does not answer, or refuses, with its status texts.
     """
-    mode = _mission_mode(link)
+    mode = MISSION_MODES.get(link.vehicle.autopilot)
     if mode is None:
         raise LinkFailed(f"{link.vehicle.named} has an autopilot whose mission mode is not known here{_HAS_IT}")
     _check_in_the_air(link)
     _go_to_first(link)
     try:
-        base = _await_message(link, "HEARTBEAT")
-        flags = CUSTOM_MODE | (base.base_mode if base is not None else 0)
-        send_command(link, long_command(link, DO_SET_MODE, flags, mode.main, mode.sub), "fly the mission", timeout_s)
+        heartbeat = _await_message(link, "HEARTBEAT")
+        base_mode = 0 if heartbeat is None else heartbeat.base_mode
+        send_command(link, mode_command(link, mode, base_mode), "fly the mission", timeout_s)
         _check_mode_stays(link, mode)
     except LinkFailed as failure:
         link.receive(set(), monotonic() + WORDS_S)
@@ -66,12 +51,8 @@ def start_mission(link: Link, texts: StatusTexts, timeout_s: float) -> None:
 
 def flies_mission(link: Link) -> bool:
     """Whether a vehicle with PX4 or ArduPilot is in the mode in which it flies its mission."""
-    heartbeat, mode = _await_message(link, "HEARTBEAT"), _mission_mode(link)
-    return heartbeat is not None and mode is not None and heartbeat.custom_mode == mode.custom_mode
-
-
-def _mission_mode(link: Link) -> Mode | None:
-    return next((mode for autopilot, mode in MODES.items() if autopilot == link.vehicle.autopilot), None)
+    heartbeat = _await_message(link, "HEARTBEAT")
+    return heartbeat is not None and heartbeat.custom_mode == MISSION_MODES.get(link.vehicle.autopilot)
 
 
 def _check_in_the_air(link: Link) -> None:
@@ -94,12 +75,12 @@ def _go_to_first(link: Link) -> None:
     _await_message(link, "MISSION_CURRENT", lambda current: current.seq == first, request)
 
 
-def _check_mode_stays(link: Link, mode: Mode) -> None:
+def _check_mode_stays(link: Link, mode: int) -> None:
     """Raise `LinkFailed` unless the vehicle changes to a mode and stays in it: PX4 may accept first and then refuse."""
     until, in_mode = monotonic() + STAYS_S, False
     while (message := link.receive({"HEARTBEAT", "COMMAND_ACK"}, until)) is not None:
         if message.get_type() == "HEARTBEAT":
-            in_mode = message.custom_mode == mode.custom_mode
+            in_mode = message.custom_mode == mode
         elif message.command == DO_SET_MODE and message.result != ACCEPTED:
             raise LinkFailed(f"{link.vehicle.named} refused to fly the mission: {command_result(message.result)}")
     if not in_mode:
