@@ -15,8 +15,9 @@ import numpy as np
 
 from guidance.biased_trials import biased_trials
 from loiter import Pose, plan
+from loiter.guidance.trials.campaign import LAWS
 from loiter.guidance.trials.flight import fly
-from loiter.guidance.trials.varied import VARIED_LAWS, VariedTrial, varied_point_mass
+from loiter.guidance.trials.varied import VariedTrial, varied_point_mass
 from loiter.guidance.vehicle.rolling import Roll
 
 # A flight that settles later than this many durations of the plan counts as not settled.
@@ -29,7 +30,7 @@ def ratio(trial: VariedTrial, law: str = "optimal") -> float:
     # The turn of the circle that proves it takes longest against the wind.
     turn_s = 2.0 * pi * 1.05 * m.orbit.radius_m / (trial.declared.airspeed_m_s - m.wind.speed_m_s)
     limit_s = PLANS * m.duration_s + turn_s + 1.0
-    flown = fly(VARIED_LAWS[law](trial), varied_point_mass(trial, 0.0), m.orbit, limit_s=limit_s)
+    flown = fly(LAWS[law](trial), varied_point_mass(trial, 0.0), m.orbit, limit_s=limit_s)
     share = flown.settled_s / m.duration_s
     return share if share <= PLANS else inf
 

@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from loiter.guidance.trials.campaign import is_go_around
+from loiter.guidance.trials.campaign import LAWS, is_go_around
 from loiter.guidance.trials.flight import LIMIT_S, fly
-from loiter.guidance.trials.varied import VARIED_LAWS, VariedTrial, varied_point_mass, varied_trials
+from loiter.guidance.trials.varied import VariedTrial, varied_point_mass, varied_trials
 
 # The default campaign: nothing was tuned with this seed.
 RUNS, SEED = 500, 17
@@ -41,7 +41,7 @@ class Result(NamedTuple):
 
 def result(trial: VariedTrial, law: str, gust: float, limit_s: float = LIMIT_S) -> Result:
     orbit = trial.ideal.orbit
-    flight = fly(VARIED_LAWS[law](trial), varied_point_mass(trial, gust), orbit, limit_s=limit_s)
+    flight = fly(LAWS[law](trial), varied_point_mass(trial, gust), orbit, limit_s=limit_s)
     track, turn = flight.track, flight.track.elapsed_s >= flight.settled_s
     if not flight.settled:
         turn = track.elapsed_s >= track.elapsed_s[-1] - 60.0

@@ -40,7 +40,8 @@ AnyTrial = TypeVar("AnyTrial", bound="Trial")
 class Trial:
     """One start: the fastest entry from it in the steady wind, and the seed of the noise.
 
-    Raises `InvalidArgument` for a seed below 0.
+    `known_aircraft` and `known_wind` are the aircraft and the wind as the laws know them. Raises `InvalidArgument` for
+    a seed below 0.
     """
 
     ideal: Maneuver
@@ -53,6 +54,20 @@ class Trial:
     def orbit(self) -> Orbit:
         """The circle with the direction of the fastest entry."""
         return replace(self.ideal.orbit, turn=self.ideal.turn)
+
+    @property
+    def known_aircraft(self) -> Aircraft:
+        """The aircraft itself."""
+        return self.ideal.aircraft
+
+    @property
+    def known_wind(self) -> Wind:
+        """The wind itself."""
+        return self.ideal.wind
+
+    def lag_s(self, roll: Roll) -> float:
+        """The roll lag that laws are tuned to, seconds, where they know the roll response."""
+        return roll.time_s
 
 
 # A flight counts as a go-around if it turns, off the circle, by this much more than the fastest entry. A go-around is a
@@ -142,24 +157,24 @@ def random_entry(
 
 def optimal(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
     """The fastest entry, which chooses the direction of holding itself."""
-    m = trial.ideal
-    return LoiterEntry(m.orbit, m.aircraft, m.wind, roll=roll)
+    return LoiterEntry(trial.ideal.orbit, trial.known_aircraft, trial.known_wind, roll=roll)
 
 
 def l1(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
     """L1 tuned as its autopilot's guide advises, with the direction of the fastest entry."""
-    return L1(trial.orbit, trial.ideal.aircraft, trial.ideal.wind, period_s=advised_period_s(roll.time_s))
+    period_s = advised_period_s(trial.lag_s(roll))
+    return L1(trial.orbit, trial.known_aircraft, trial.known_wind, period_s=period_s)
 
 
 def vector_field(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
     """The vector field with the gains that its publication advises, with the direction of the fastest entry."""
-    gains = advised_gains(trial.orbit, trial.ideal.aircraft, roll.time_s)
-    return VectorField(trial.orbit, trial.ideal.aircraft, trial.ideal.wind, gains=gains)
+    gains = advised_gains(trial.orbit, trial.known_aircraft, trial.lag_s(roll))
+    return VectorField(trial.orbit, trial.known_aircraft, trial.known_wind, gains=gains)
 
 
 def nearest_tangent(trial: Trial, roll: Roll = Roll()) -> Law:  # noqa: B008 (frozen)
     """Dubins' path to the nearest point of the circle, with the direction of the fastest entry."""
-    return Tangent(trial.orbit, trial.ideal.aircraft, trial.ideal.wind, lead_s=roll.time_s)
+    return Tangent(trial.orbit, trial.known_aircraft, trial.known_wind, lead_s=trial.lag_s(roll))
 
 
 # The laws by name. Each function also takes a `Roll`.

@@ -50,9 +50,9 @@ def point_mass_setting(gust: float) -> Setting:
 
 def varied_setting(gust: float) -> Setting:
     """Aircraft drawn at random, of which the laws know airspeed and bank limit alone, for `varied.varied_trials`."""
-    from loiter.guidance.trials.varied import VARIED_LAWS, varied_point_mass
+    from loiter.guidance.trials.varied import varied_point_mass
 
-    return Setting(partial(varied_point_mass, gust=gust), VARIED_LAWS, settling_band(gust), exact_switches=False)
+    return Setting(partial(varied_point_mass, gust=gust), LAWS, settling_band(gust), exact_switches=False)
 
 
 def jsbsim_setting(airframe: Airframe, gust: float) -> Setting:

@@ -5,22 +5,17 @@ docs/guidance.md, "Unknown vehicles", has the ranges and the results.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.protocol import Law, Simulator
-from loiter.guidance.rivals.l1 import L1, advised_period_s
-from loiter.guidance.rivals.tangent import Tangent
-from loiter.guidance.rivals.vector_field import VectorField, advised_gains
+from loiter.guidance.protocol import Simulator
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.simulators.telemetry import Telemetry, WithTelemetry
 from loiter.guidance.trials.campaign import Trial, random_entry, random_trials
 from loiter.guidance.vehicle.rolling import Roll
-from loiter.planning.model import Aircraft, Wind
+from loiter.planning.model import CALM, Aircraft, Wind
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -45,7 +40,8 @@ class VariedTrial(Trial):
     """A trial with its own aircraft.
 
     `ideal` is the fastest entry at the turn rate that the aircraft truly reaches, in the true wind. `declared` is the
-    aircraft as the laws know it, with the turn rate that belongs to its bank limit. The laws do not know the wind.
+    aircraft as the laws know it, with the turn rate that belongs to its bank limit. The laws do not know the wind. The
+    rivals are tuned to the true roll response, which the fastest entry has to identify.
     """
 
     declared: Aircraft
@@ -54,6 +50,21 @@ class VariedTrial(Trial):
     telemetry: Telemetry
     noise: Noise
     start_bank_deg: float
+
+    @property
+    def known_aircraft(self) -> Aircraft:
+        """The aircraft as it is declared."""
+        return self.declared
+
+    @property
+    def known_wind(self) -> Wind:
+        """No wind is known."""
+        return CALM
+
+    def lag_s(self, roll: Roll) -> float:
+        """The dead time and the time constant of the true response, seconds."""
+        true = self.response
+        return true.time_s if isinstance(true, Roll) else true.dead_time_s + true.time_s
 
 
 def varied_trials(runs: int, seed: int) -> list[VariedTrial]:
@@ -100,38 +111,3 @@ def varied_point_mass(trial: VariedTrial, gust: float = 0.05) -> Simulator:
         start_bank_deg=trial.start_bank_deg,
     )
     return WithTelemetry(aircraft, trial.telemetry, trial.seed)
-
-
-def varied_optimal(trial: VariedTrial) -> Law:
-    """The fastest entry, which knows the airspeed and the bank limit of the aircraft, and nothing else."""
-    return LoiterEntry(trial.ideal.orbit, trial.declared)
-
-
-def varied_l1(trial: VariedTrial) -> Law:
-    """L1 with the advised period for the true roll response, and the direction of the fastest entry."""
-    return L1(trial.orbit, trial.declared, period_s=advised_period_s(_roll_delay_s(trial)))
-
-
-def varied_vector_field(trial: VariedTrial) -> Law:
-    """The vector field with the advised gains for the true roll response, and the direction of the fastest entry."""
-    gains = advised_gains(trial.orbit, trial.declared, _roll_delay_s(trial))
-    return VectorField(trial.orbit, trial.declared, gains=gains)
-
-
-def varied_tangent(trial: VariedTrial) -> Law:
-    """Dubins' path to the nearest point of the circle, with the true roll response and the fastest direction."""
-    return Tangent(trial.orbit, trial.declared, lead_s=_roll_delay_s(trial))
-
-
-# The laws by name, as `campaign.LAWS`.
-VARIED_LAWS: dict[str, Callable[..., Law]] = {
-    "optimal": varied_optimal,
-    "l1": varied_l1,
-    "vector-field": varied_vector_field,
-    "tangent": varied_tangent,
-}
-
-
-def _roll_delay_s(trial: VariedTrial) -> float:
-    roll = trial.response
-    return roll.time_s if isinstance(roll, Roll) else roll.dead_time_s + roll.time_s
