@@ -84,9 +84,9 @@ def stop_after(monkeypatch, count, error):
         if len(done) == count:
             raise error
         done.append(part)
-        solve(job, part, *tick)
+        return solve(job, part, *tick)
 
-    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
+    monkeypatch.setattr("loiter.batch.jobs.job.solve_part", solve_part)
 
 
 def change_after_each_part(monkeypatch, path):
@@ -94,7 +94,7 @@ def change_after_each_part(monkeypatch, path):
     solve = parts.solve_part
 
     def solve_part(job, part, *tick):
-        solve(job, part, *tick)
         os.utime(path, (1, 1))
+        return solve(job, part, *tick)
 
-    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
+    monkeypatch.setattr("loiter.batch.jobs.job.solve_part", solve_part)

@@ -322,10 +322,10 @@ def test_a_part_that_was_damaged_or_deleted_is_done_again(expected):
 
     def solve_part(job, part, *tick):
         seen.append(Path("out", SUCCESS).exists())
-        solve(job, part, *tick)
+        return solve(job, part, *tick)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
+        patch.setattr("loiter.batch.jobs.job.solve_part", solve_part)
         assert run().resumed_parts == 7
     assert seen == [False, False, False]
     assert rows_of() == expected
@@ -446,9 +446,9 @@ def test_what_is_called_finished_is_on_the_disk(expected, monkeypatch):
 
 
 def test_names_sort_in_the_order_of_the_rows():
-    names = [folder.part_name(number, 123_456, "0123456789", ".parquet") for number in (7, 99_999, 100_000)]
+    names = [folder.part_name(number, 123_456, "0123456789") for number in (7, 99_999, 100_000)]
     assert names == sorted(names)
-    assert folder.part_name(7, 10, "0123456789", ".csv.gz") == "part-00007-01234567.csv.gz"
+    assert folder.part_name(7, 10, "0123456789") == "part-00007-01234567.parquet"
 
 
 def script(*arguments):

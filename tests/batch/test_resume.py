@@ -266,7 +266,7 @@ def test_files_of_others_in_the_folder_are_left_alone(job):
 
 def test_a_worker_that_outlives_its_job_writes_nothing(job):
     request = requests.check_request("in.parquet", "out.parquet", shared_values(ORBIT, None, UAV), 0.0)
-    late, [part, *_] = jobs._divide(request, requests.describe(request), None)
+    late, [part, *_] = jobs._divide(request, folder.digest(requests.describe(request)), None)
     Path("out.parquet.parts").mkdir()
     for description, written in [({"of": "another job"}, 0), (requests.describe(request), 1)]:
         assert folder.resume(request.target, description) is None

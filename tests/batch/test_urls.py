@@ -172,11 +172,12 @@ def test_an_input_that_changes_meanwhile_is_reported(root, expected, monkeypatch
     write(poses(1000, seed=3), Path("other.parquet"), 100)
 
     def solve_part(job, part, *tick):
-        solve(job, part, *tick)
+        counts = solve(job, part, *tick)
         if part.number == 9:
             put("other.parquet", f"{root}/in.parquet")
+        return counts
 
-    monkeypatch.setattr("loiter.batch.jobs.runner.solve_part", solve_part)
+    monkeypatch.setattr("loiter.batch.jobs.job.solve_part", solve_part)
     with pytest.raises(InvalidArgument, match="it changed while it was read"):
         loiter.batch.run(f"{root}/in.parquet", f"{root}/out.parquet", workers=1, **GIVEN)
     assert "out.parquet" not in below(root)

@@ -102,7 +102,7 @@ def tables():
     columns = importlib.import_module("loiter.batch.tables.columns")
     folder = importlib.import_module("loiter.batch.jobs.folder")
     return {
-        "dataset": [folder.SUCCESS, folder.TEMPORARY, folder.part_name(0, 10, "0123456789", ".parquet")],
+        "dataset": [folder.SUCCESS, folder.TEMPORARY, folder.part_name(0, 10, "0123456789")],
         "added": columns.added_schema(is_placed=False).names,
         "added on Earth": columns.added_schema(is_placed=True).names,
         "statuses": list(columns.STATUSES),

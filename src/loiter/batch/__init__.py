@@ -58,9 +58,9 @@ def run(
     to columns with other names or units: {"east_m": "X_East [ft]"}; docs/batch.md says how. Positions in degrees are
     columns `latitude_deg` and `longitude_deg`; `origin` is then the local frame of the metres of `orbit`, unless each
     row gives its circle in degrees, too.
-    `workers` is the number of threads, by default that of the cores; `scheduler` is the address of the scheduler of a
-    Dask cluster that does the work instead. `rejects` is a CSV file to write: the malformed lines of CSV files, with
-    file, line number, problem and text. `progress` is called periodically.
+    `workers` is the number of threads that solve, by default that of the cores; `scheduler` is the address of the
+    scheduler of a Dask cluster that does this instead. `rejects` is a CSV file to write: the malformed lines of CSV
+    files, with file, line number, problem and text. `progress` is called periodically.
 
     A file appears whole or not at all, and so does each part in a folder, where _SUCCESS says that all parts are there.
     A job that was stopped resumes from its finished parts when it is run again. A bad row gets nan and a status; the

@@ -6,28 +6,20 @@ import logging
 import os
 import re
 from collections.abc import Iterator
-from concurrent.futures import Future
+from concurrent.futures import CancelledError, Executor
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from loiter.batch.jobs.folder import Target, belongs_to
-from loiter.batch.jobs.parts import Job, solve_part
-from loiter.batch.jobs.runner import Executors, RowCounter, thread_pool
-from loiter.batch.tables.files import Part, reason
+from loiter.batch.tables.files import reason
 from loiter.batch.tables.sources import Source
-from loiter.batch.tables.storage import Folder, LocalFolder, version_of
+from loiter.batch.tables.storage import Folder, version_of
 from loiter.errors import InvalidArgument
 from loiter.version import __version__
-
-if TYPE_CHECKING:
-    from loiter.batch.tables.outputs import Counts
 
 # Seconds to wait for the scheduler, and for its first worker.
 CONNECT_S = 5
 WORKER_S = 10
-
-# Parts submitted to the scheduler for each thread of the cluster: one in progress, and the next.
-AHEAD = 2
 
 
 @contextmanager
@@ -66,64 +58,24 @@ def _without_logs(*names: str) -> Iterator[None]:
 
 
 @contextmanager
-def cluster_executors(client: Any, counter: RowCounter) -> Iterator[Executors]:
-    """Executors that solve on the workers of a cluster and append in this process.
+def cluster_executor(client: Any) -> Iterator[Executor]:
+    """An executor whose tasks run on the workers of a cluster; if a worker is lost, others do its tasks.
 
-    If a worker is lost, the scheduler gives its parts to others.
+    Raises `OSError` if the cluster fails, so that finished parts are kept.
     """
-    submitted: set[Any] = set()
-
-    def solve(job: Job, part: Part) -> Future[Counts | None]:
-        task = client.submit(solve_part, job, part, pure=False)
-        submitted.add(task)
-        solved = _future_of(task)
-        solved.add_done_callback(lambda done: submitted.discard(task))
-        solved.add_done_callback(lambda done: counter.count(0 if done.exception() else part.rows))
-        return solved
-
-    def has_capacity(solving: int, appending: int) -> bool:
-        return solving < max(1, AHEAD * sum(map(int, client.nthreads().values())))
-
-    def check() -> None:
-        # Tasks may never finish if the client has lost its scheduler.
-        if client.status == "closed":
-            raise OSError("the scheduler does not answer any more")
-
-    try:
-        with thread_pool(1, counter) as appender:
-            yield Executors(solve, appender, has_capacity, check)
-    finally:
-        if client.status == "running":
-            client.cancel(list(submitted))
-
-
-def _future_of(task: Any) -> Future[Counts | None]:
-    """A future of the standard library that is done when a Dask task is.
-
-    The result of a task is a file, so that nothing must be fetched from its worker, which may be lost by then.
-    """
-    solved: Future[Counts | None] = Future()
-
-    def on_done(task: Any) -> None:
-        if task.status == "finished":
-            solved.set_result(None)
-        elif task.status == "error":
-            solved.set_exception(_cause(task.exception()))
-        elif task.status == "cancelled":
-            solved.set_exception(OSError("the cluster cancelled a part"))
-        else:
-            # The task was finished, but is run again because its worker was lost.
-            task.add_done_callback(on_done)
-
-    task.add_done_callback(on_done)
-    return solved
-
-
-def _cause(error: BaseException) -> BaseException:
-    """The error to raise for that of a task: `OSError` if the cluster failed, so that finished parts are kept."""
     from distributed import KilledWorker
 
-    return OSError("several workers died while solving the same part") if isinstance(error, KilledWorker) else error
+    executor: Executor = client.get_executor(pure=False)
+    try:
+        yield executor
+    except KilledWorker as error:
+        raise OSError("several workers died while solving the same part") from error
+    except CancelledError as error:
+        raise OSError("the scheduler does not answer any more") from error
+    finally:
+        if client.status == "running":
+            # Cancels what is left.
+            executor.shutdown(wait=False)
 
 
 def check_workers(client: Any, target: Target, digest: str, source: Source, version: list[Any]) -> None:
@@ -147,12 +99,11 @@ def _worker_problem(work: Folder, parts: Folder, digest: str, source: str, size:
         return f"it has loiter {__version__}, not {version}"
     if not _sees(source, size):
         return f"it does not see {source}; {shared}"
-    folder = work.place("").rstrip("/")
     if not belongs_to(work, digest):
-        return f"it does not see {folder}; {shared}"
-    for path in (work, parts):
-        if isinstance(path, LocalFolder) and not os.access(path.path, os.W_OK):
-            return f"it cannot write to {path.path}"
+        return f"it does not see {work.at}; {shared}"
+    for path in (work.path, parts.path):
+        if path is not None and not os.access(path, os.W_OK):
+            return f"it cannot write to {path}"
     return ""
 
 

@@ -11,14 +11,14 @@ import json
 import os
 import re
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from hashlib import sha256
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from loiter.batch.tables import files, sources, storage
 from loiter.batch.tables.sources import SUCCESS, TEMPORARY
-from loiter.batch.tables.storage import Folder, LocalFolder, synchronise
+from loiter.batch.tables.storage import Folder, synchronise
 from loiter.errors import InvalidArgument
 
 DESCRIPTION = "job.json"
@@ -30,10 +30,7 @@ LOCK = "lock"
 # Hexadecimal digits of the digest of a job in the names of its parts.
 _DIGITS = 8
 
-_PART = re.compile(rf"part-(\d+)-([0-9a-f]{{{_DIGITS}}})\.(parquet|csv|csv\.gz)")
-
-# Files deleted at the same time.
-_DELETED_AT_A_TIME = 8
+_PART = re.compile(rf"part-(\d+)-([0-9a-f]{{{_DIGITS}}})\.parquet")
 
 
 class Target(NamedTuple):
@@ -78,9 +75,9 @@ def find_target(argument: str, text: str) -> Target:
     return Target(text, folder, name, kind)
 
 
-def part_name(number: int, count: int, digest: str, kind: files.Kind) -> str:
+def part_name(number: int, count: int, digest: str) -> str:
     """The name of a finished part, which says to which job it belongs; the names sort in the order of the rows."""
-    return f"part-{number:0{max(5, len(str(count - 1)))}}-{digest[:_DIGITS]}{kind}"
+    return f"part-{number:0{max(5, len(str(count - 1)))}}-{digest[:_DIGITS]}.parquet"
 
 
 @contextmanager
@@ -91,7 +88,7 @@ def locked_folder(target: Target) -> Iterator[Folder]:
     a URL: two processes would write the same files.
     """
     work = target.work
-    if not isinstance(work, LocalFolder):
+    if work.path is None:
         try:
             yield work
         finally:
@@ -100,7 +97,7 @@ def locked_folder(target: Target) -> Iterator[Folder]:
                 _clean_up(target)
         return
     was_there = target.is_dataset and work.path.parent.exists()
-    lock = _lock_or_refuse(target, work)
+    lock = _lock_or_refuse(target, work.path)
     try:
         _delete_unfinished(work)
         yield work
@@ -113,27 +110,27 @@ def locked_folder(target: Target) -> Iterator[Folder]:
         os.close(lock)
 
 
-def _lock_or_refuse(target: Target, work: LocalFolder) -> int:
+def _lock_or_refuse(target: Target, work: Path) -> int:
     try:
         return _lock(target, work)
     except BlockingIOError as error:
         raise InvalidArgument("target", f"is {target.text!r}: another loiter batch is writing it") from error
     except OSError as error:
-        problem = f"is {target.text!r}: its working folder {work.path.name} cannot be created, {error.strerror}"
+        problem = f"is {target.text!r}: its working folder {work.name} cannot be created, {error.strerror}"
         raise InvalidArgument("target", problem) from error
 
 
-def _lock(target: Target, work: LocalFolder) -> int:
+def _lock(target: Target, work: Path) -> int:
     """Create the working folder if it does not exist, and lock it; returns the file descriptor of the lock."""
     while True:
-        _create(work.path.parent if target.is_dataset else work.path)
+        _create(work.parent if target.is_dataset else work)
         # A process that had locked the folder may remove it when it ends.
         with suppress(FileNotFoundError):
-            _create(work.path)
-            lock = os.open(work.path / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+            _create(work)
+            lock = os.open(work / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                if os.path.samestat(os.fstat(lock), (work.path / LOCK).stat()):
+                if os.path.samestat(os.fstat(lock), (work / LOCK).stat()):
                     return lock
             except OSError:
                 os.close(lock)
@@ -141,7 +138,7 @@ def _lock(target: Target, work: LocalFolder) -> int:
             os.close(lock)
 
 
-def _create(path: Any) -> None:
+def _create(path: Path) -> None:
     """Create a folder on the disk, if it does not exist."""
     try:
         path.mkdir()
@@ -226,7 +223,7 @@ def finish(target: Target) -> None:
     """Say that the dataset is complete, or delete the parts of a file; the working folder is removed afterwards."""
     if target.is_dataset:
         target.folder.write(SUCCESS, b"", target.work)
-    _delete(target.work, [name for name in target.work.names() if _is_scratch(name)])
+    target.work.delete([name for name in target.work.names() if _is_scratch(name)])
 
 
 def finished_parts(target: Target) -> list[str]:
@@ -242,18 +239,12 @@ def _delete_unfinished(work: Folder) -> None:
     work.delete(name for name in work.names() if name.endswith(".tmp"))
 
 
-def _delete(folder: Folder, names: list[str]) -> None:
-    # By several threads, since large files take time.
-    with ThreadPoolExecutor(_DELETED_AT_A_TIME) as pool:
-        list(pool.map(lambda name: folder.delete([name]), names))
-
-
 def _clean_up(target: Target) -> None:
     """Remove the working folder, unless a job can resume from it, and unless it has files that no job wrote."""
     work = target.work
     if INGESTED in work.names() or (finished_parts(target) and not is_complete(target)):
         return
     work.delete([DESCRIPTION, LOCK])
-    if isinstance(work, LocalFolder):
+    if work.path is not None:
         with suppress(OSError):
             work.path.rmdir()

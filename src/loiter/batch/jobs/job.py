@@ -9,33 +9,30 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from pathlib import PurePosixPath
 from shutil import copyfileobj
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from threading import Lock
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pyarrow as pa
 
 from loiter.batch.jobs import cluster, folder
 from loiter.batch.jobs.folder import Target
-from loiter.batch.jobs.parts import Job, append_part, counts_of
+from loiter.batch.jobs.parts import Job, append_part, counts_of, solve_part
 from loiter.batch.jobs.request import JobRequest, describe, row_limits, versions_of
-from loiter.batch.jobs.runner import Executors, RowCounter, run_parts, thread_executors
 from loiter.batch.tables import files, ingest, outputs, storage
 from loiter.batch.tables.columns import STATUSES, may_drift
 from loiter.batch.tables.ingest import Ingested
-from loiter.batch.tables.outputs import Append, open_joined
 from loiter.batch.tables.storage import Folder
 from loiter.errors import InvalidArgument, Unfinished
 from loiter.writing import write_whole
 
 if TYPE_CHECKING:
-    from loiter.batch.tables.outputs import Counts
-
-Result = TypeVar("Result")
+    from loiter.batch.tables.outputs import Counts, Write
 
 
 class JobProgress(NamedTuple):
@@ -69,27 +66,54 @@ class JobSummary:
 
 ReportProgress = Callable[[JobProgress], object]
 
+# Seconds between two checks of the progress.
+POLL_S = 0.1
+
+
+class JobStopped(Exception):
+    """The job was stopped: its threads must end."""
+
+
+class RowCounter:
+    """The number of rows done, counted by several threads: each row when it is solved and when it is appended.
+
+    When `stopped` is set, the next call of `count_or_stop` ends its thread.
+    """
+
+    def __init__(self, rows: int = 0) -> None:
+        self.rows = rows
+        self.stopped = False
+        self._lock = Lock()
+
+    def count_or_stop(self, rows: int) -> None:
+        """Count rows; raises `JobStopped` if the job was stopped."""
+        if self.stopped:
+            raise JobStopped
+        with self._lock:
+            self.rows += rows
+
 
 def run_request(request: JobRequest, workers: int, scheduler: str | None, report: ReportProgress) -> JobSummary:
     """Run the job, resuming it if possible, and say that the output is complete."""
     started = time.monotonic()
     target, description = request.target, describe(request)
-    with _client(scheduler) as client, _report_finished_parts(target):
+    identity = folder.digest(description)
+    client_context = nullcontext() if scheduler is None else cluster.open_client(scheduler)
+    with client_context as client, _report_finished_parts(target):
         # Also before anything is created: a folder that is refused stays as it was.
-        folder.check_dataset(target, folder.digest(description))
+        folder.check_dataset(target, identity)
         with folder.locked_folder(target) as work:
             is_same_job = folder.resume(target, description)
             if client is not None:
-                cluster.check_workers(client, target, folder.digest(description), request.source, request.versions[0])
+                cluster.check_workers(client, target, identity, request.source, request.versions[0])
             ingested = None if request.source.kind == ".parquet" else _convert_csv(request, report)
-            job, parts = _divide(request, description, ingested)
+            job, parts = _divide(request, identity, ingested)
             finished = _finished(job, parts)
-            _report_replaced(target, report)
-            complete = len(finished) == len(parts) and folder.is_complete(target)
-            _report_start(is_same_job, work, len(finished), len(parts), report, complete=complete)
+            for note in _notes(target, work, len(finished), len(parts), is_same_job=is_same_job):
+                report(JobProgress(0, None, note))
             if len(finished) < len(parts):
                 folder.declare_unfinished(target)
-            counts = _solve_and_write(request, job, parts, finished, _executors(client, workers), report)
+            counts = _solve_and_write(request, job, parts, finished, client, workers, report)
             folder.finish(target)
     resumed_rows = sum(part.rows for part in parts if part.number in finished)
     total, seconds = sum(part.rows for part in parts), time.monotonic() - started
@@ -97,17 +121,7 @@ def run_request(request: JobRequest, workers: int, scheduler: str | None, report
     return JobSummary(total, counts, len(parts), len(finished), total - resumed_rows, seconds, first_malformed)
 
 
-def _client(scheduler: str | None) -> AbstractContextManager[Any]:
-    return nullcontext() if scheduler is None else cluster.open_client(scheduler)
-
-
-def _executors(client: Any, workers: int) -> Callable[..., AbstractContextManager[Executors]]:
-    return partial(thread_executors, workers) if client is None else partial(cluster.cluster_executors, client)
-
-
-def _divide(
-    request: JobRequest, description: dict[str, Any], ingested: Ingested | None
-) -> tuple[Job, list[files.Part]]:
+def _divide(request: JobRequest, identity: str, ingested: Ingested | None) -> tuple[Job, list[files.Part]]:
     """The job and its parts; `ingested` is what is known of CSV files, which have become one Parquet file."""
     target, tables, sizes, schema = request.target, request.source.files, request.sizes, request.schema
     names = schema.names
@@ -125,11 +139,9 @@ def _divide(
         names=tuple(names),
         work=target.work,
         parts=target.parts,
-        kind=target.kind,
         columns=request.columns,
         schema=outputs.output_schema(schema, request.columns),
-        dictionaries=tuple(outputs.dictionary_columns(schema, tables[0])),
-        digest=folder.digest(description),
+        digest=identity,
         count=len(parts),
         batch_rows=batch_rows,
     )
@@ -154,7 +166,7 @@ def _ingest(request: JobRequest, report: ReportProgress) -> None:
     work, counter = request.target.work, RowCounter()
 
     def count_rows(rows: int) -> None:
-        counter.count(rows)
+        counter.count_or_stop(rows)
         report(JobProgress(counter.rows, None))
 
     with work.create(folder.INGESTED, work) as path:
@@ -166,40 +178,31 @@ def _ingest(request: JobRequest, report: ReportProgress) -> None:
 def _finished(job: Job, parts: list[files.Part]) -> dict[int, Counts]:
     """The rows of each status for each part that an earlier run has finished, by its number."""
     present = set(job.parts.names())
-    candidates = [part for part in parts if job.name(part) in present]
 
     def counts(part: files.Part) -> Counts | None:
         # Where the file system has no fsync(2), the end of a part may be missing after a power failure.
         try:
-            return counts_of(job, part)
+            return counts_of(job, part) if job.name(part) in present else None
         except OSError:
             return None
 
-    return {number: found for number, found in _for_each(candidates, counts).items() if found is not None}
-
-
-def _for_each(parts: list[files.Part], function: Callable[[files.Part], Result]) -> dict[int, Result]:
-    """The results of a function for parts, by their numbers, several at a time, since a store takes long to answer."""
+    # Several at a time, since a store takes long to answer.
     with ThreadPoolExecutor(files.FOOTERS_AT_A_TIME) as pool:
-        return dict(zip((part.number for part in parts), pool.map(function, parts), strict=True))
+        found = zip(parts, pool.map(counts, parts), strict=True)
+        return {part.number: known for part, known in found if known is not None}
 
 
-def _report_replaced(target: Target, report: ReportProgress) -> None:
+def _notes(target: Target, work: Folder, finished: int, parts: int, *, is_same_job: bool | None) -> Iterator[str]:
+    """What is to be said before the work starts."""
     if not target.is_dataset and storage.exists(target.folder.place(target.name)):
-        report(JobProgress(0, None, f"{target.text} exists: it will be replaced once all rows are solved"))
-
-
-def _report_start(
-    is_same_job: bool | None, work: Folder, finished: int, parts: int, report: ReportProgress, *, complete: bool
-) -> None:
-    if complete:
-        report(JobProgress(0, None, "already complete: nothing to do"))
+        yield f"{target.text} exists: it will be replaced once all rows are solved"
+    if finished == parts and folder.is_complete(target):
+        yield "already complete: nothing to do"
     elif finished:
-        report(JobProgress(0, None, f"resuming from {finished} of {parts} parts"))
+        yield f"resuming from {finished} of {parts} parts"
     elif is_same_job is False:
-        name = PurePosixPath(work.place("")).name
-        note = f"starting over: the parts in {name} belong to a job with another input, option or program"
-        report(JobProgress(0, None, note))
+        name = PurePosixPath(work.at).name
+        yield f"starting over: the parts in {name} belong to a job with another input, option or program"
 
 
 def _solve_and_write(
@@ -207,51 +210,84 @@ def _solve_and_write(
     job: Job,
     parts: list[files.Part],
     finished: dict[int, Counts],
-    open_executors: Callable[..., AbstractContextManager[Executors]],
+    client: Any,
+    workers: int,
     report: ReportProgress,
 ) -> dict[str, int]:
     """Solve the remaining parts and complete the output; returns the number of rows of each status that occurs."""
-    total = sum(part.rows for part in parts)
+    total, target = sum(part.rows for part in parts), request.target
     counter = RowCounter(sum(part.rows for part in parts if part.number in finished))
-    with _open_output(request, job) as append:
-        # A row of a file is counted when it is solved, and when it is appended.
-        times_counted = 1 if append is None else 2
-        appended = None
-        if append is not None:
-            appended = partial(append_part, job, append=append, count_rows=counter.count_or_stop)
-        with open_executors(counter) as executors:
-            counts = run_parts(
-                job,
-                parts,
-                finished,
-                executors,
-                appended,
-                lambda: report(JobProgress(counter.rows // times_counted, total)),
-            )
+    # A row of a file is counted when it is solved, and when it is appended.
+    times_counted = 1 if target.is_dataset else 2
+
+    def show() -> None:
+        report(JobProgress(counter.rows // times_counted, total))
+
+    def append_rows(rows: int) -> None:
+        counter.count_or_stop(rows)
+        show()
+
+    with _open_output(request, job) as write, _solver(job, counter, client, workers) as solve:
+        solving = {part.number: solve(part) for part in parts if part.number not in finished}
+        counts = dict(finished)
+        for part in parts:
+            if part.number in solving:
+                counts[part.number] = _result(solving, part.number, show)
+            if write is not None:
+                append_part(job, part, write, append_rows)
+        show()
         if versions_of(request.source) != request.versions:
             raise InvalidArgument("source", f"is {request.source.text!r}: it changed while it was read")
-    return _by_status(job, parts, counts)
+    sums = sum(counts.values(), outputs.no_rows())
+    return {name: int(count) for name, count in zip(STATUSES, sums, strict=True) if count}
 
 
-def _by_status(job: Job, parts: list[files.Part], counts: dict[int, Counts | None]) -> dict[str, int]:
-    """The number of rows of each status that occurs; parts whose rows were not counted here are read."""
-    unknown = [part for part in parts if counts[part.number] is None]
-    known = [found for found in (counts | _for_each(unknown, partial(counts_of, job))).values() if found is not None]
-    return {name: count for code, name in enumerate(STATUSES) if (count := sum(int(c[code]) for c in known))}
+def _result(solving: dict[int, Future[Counts]], number: int, on_poll: Callable[[], object]) -> Counts:
+    """The rows of each status of a part, once it is solved; raises the error of any part meanwhile."""
+    while not solving[number].done():
+        done, _ = wait(solving.values(), POLL_S, FIRST_EXCEPTION)
+        for future in done:
+            future.result()
+        on_poll()
+    return solving[number].result()
 
 
 @contextmanager
-def _open_output(request: JobRequest, job: Job) -> Iterator[Append | None]:
-    """A context whose value appends a part to the output file; None for a dataset, whose parts are not appended."""
+def _solver(
+    job: Job, counter: RowCounter, client: Any, workers: int
+) -> Iterator[Callable[[files.Part], Future[Counts]]]:
+    """A context whose value starts solving a part: in `workers` threads, or on a cluster."""
+    if client is not None:
+        with cluster.cluster_executor(client) as executor:
+            yield lambda part: _count_when_solved(executor.submit(solve_part, job, part), part, counter)
+        return
+    pool = ThreadPoolExecutor(workers)
+    try:
+        yield lambda part: pool.submit(solve_part, job, part, counter.count_or_stop)
+    except BaseException:
+        counter.stopped = True
+        raise
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _count_when_solved(solving: Future[Counts], part: files.Part, counter: RowCounter) -> Future[Counts]:
+    solving.add_done_callback(lambda done: counter.count_or_stop(part.rows))
+    return solving
+
+
+@contextmanager
+def _open_output(request: JobRequest, job: Job) -> Iterator[Write | None]:
+    """A context whose value appends rows to the output file; None for a dataset, which consists of its parts."""
     target = request.target
     if target.is_dataset:
         yield None
         return
     with (
         target.folder.create(target.name, target.work) as path,
-        open_joined(target.kind, path, job.schema, job.dictionaries) as append,
+        outputs.open_output(target.kind, path, job.schema) as write,
     ):
-        yield append
+        yield write
 
 
 @contextmanager
@@ -272,6 +308,5 @@ def _finished_parts(target: Target) -> str:
         return "the same command resumes from the finished parts"
     if not count:
         return "no part was finished"
-    place = target.parts.place("").rstrip("/")
     parts = "1 finished part stays" if count == 1 else f"{count} finished parts stay"
-    return f"{parts} in {place}, and the same command resumes from there"
+    return f"{parts} in {target.parts.at}, and the same command resumes from there"

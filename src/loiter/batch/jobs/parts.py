@@ -17,7 +17,7 @@ from loiter.batch.tables.files import BATCH_ROWS, Part
 from loiter.batch.tables.storage import Folder
 
 if TYPE_CHECKING:
-    from loiter.batch.tables.outputs import Counts
+    from loiter.batch.tables.outputs import Counts, Write
 
 # Called with the number of rows that have been processed.
 CountRows = Callable[[int], None]
@@ -31,25 +31,23 @@ class Job:
     """The data that solving a part needs, on this or another machine.
 
     `tables` are the places of the Parquet files to read, and `names` their columns; `parts` is the folder of the parts,
-    whose files are of a kind, with the columns of `schema`, some of them encoded with dictionaries. `work` is the
-    working folder; `digest` identifies the job, which has `count` parts. `batch_rows` are solved at a time.
+    which have the columns of `schema`. `work` is the working folder; `digest` identifies the job, which has `count`
+    parts. `batch_rows` are solved at a time.
     """
 
     tables: tuple[str, ...]
     names: tuple[str, ...]
     work: Folder
     parts: Folder
-    kind: files.Kind
     columns: Columns
     schema: pa.Schema
-    dictionaries: tuple[str, ...]
     digest: str
     count: int
     batch_rows: int = BATCH_ROWS
 
     def name(self, part: Part) -> str:
         """The name of the file of a part."""
-        return part_name(part.number, self.count, self.digest, self.kind)
+        return part_name(part.number, self.count, self.digest)
 
 
 def solve_part(job: Job, part: Part, count_rows: CountRows = lambda rows: None) -> Counts:
@@ -63,7 +61,7 @@ def solve_part(job: Job, part: Part, count_rows: CountRows = lambda rows: None) 
     # The job may have ended before its worker, and the folder may now belong to another job.
     with (
         job.parts.create(job.name(part), job.work, lambda: belongs_to(job.work, job.digest)) as path,
-        outputs.open_part(job.kind, path, job.schema, job.dictionaries) as write,
+        outputs.open_parquet_output(path, job.schema) as write,
     ):
         for batch in files.batches(job.tables, part, job.batch_rows):
             solved = solve_batch(batch.select(job.names), job.columns, job.schema)
@@ -87,7 +85,7 @@ def counts_of(job: Job, part: Part) -> Counts:
     """The number of rows of each status, by its code, in a finished part; raises `OSError` if the part is not whole."""
     place = job.parts.place(job.name(part))
     try:
-        counts = outputs.status_counts(job.kind, place)
+        counts = outputs.status_counts(place)
     except pa.ArrowException as error:
         raise OSError(f"{place} cannot be read, {files.reason(error)}") from error
     if int(counts.sum()) != part.rows:
@@ -95,13 +93,9 @@ def counts_of(job: Job, part: Part) -> Counts:
     return counts
 
 
-def append_part(job: Job, part: Part, known: Counts | None, append: outputs.Append, count_rows: CountRows) -> Counts:
-    """Append a finished part to the output; returns the number of rows of each status, by its code.
-
-    `known` is that number, if it is known. `count_rows` is called with the number of rows. Raises `OSError` if the part
-    is not whole.
-    """
-    counts = counts_of(job, part) if known is None else known
-    append(job.parts.place(job.name(part)))
-    count_rows(part.rows)
-    return counts
+def append_part(job: Job, part: Part, write: Write, count_rows: CountRows) -> None:
+    """Write the rows of a finished part to the output; `count_rows` is called with the number of rows of each batch."""
+    with files.open_parquet(job.parts.place(job.name(part))) as file:
+        for batch in file.iter_batches(BATCH_ROWS, use_threads=False):
+            write(batch)
+            count_rows(batch.num_rows)

@@ -10,7 +10,6 @@ from __future__ import annotations
 import errno
 import os
 import re
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -121,71 +120,65 @@ def os_errors() -> Iterator[None]:
         raise OSError(f"{type(error).__name__}: {error}") from error
 
 
-class Folder(ABC):
-    """A folder, or the common beginning of the names of objects, whose files appear whole or not at all."""
+@dataclass(frozen=True)
+class Folder:
+    """A folder, or the objects behind a URL whose names begin with its own; its files appear whole or not at all.
 
-    @abstractmethod
+    `at` is an absolute path or a URL.
+    """
+
+    at: str
+
+    @property
+    def path(self) -> Path | None:
+        """The path of a folder on this machine, or on a network file system; None behind a URL."""
+        return None if is_url(self.at) else Path(self.at)
+
     def place(self, name: str) -> str:
         """The place of a file of this folder."""
+        return f"{self.at}{name}" if self.at.endswith("/") else f"{self.at}/{name}"
 
-    @abstractmethod
     def subfolder(self, name: str) -> Folder:
         """A folder in this one, which need not exist."""
+        return Folder(self.place(name))
 
-    @abstractmethod
     def names(self) -> list[str]:
         """The sorted names of the files and folders in this folder; none if it does not exist."""
+        try:
+            if self.path is not None:
+                # Listed, since network file systems may cache the fact that a name did not exist.
+                return sorted(os.listdir(self.path))  # noqa: PTH208
+            with os_errors():
+                store, path = filesystem(self.at)
+                found = store.ls(path, detail=False)
+        except FileNotFoundError:
+            return []
+        # Some stores list the folder itself.
+        return sorted({name.rstrip("/").rpartition("/")[2] for name in found if name.strip("/") != path.strip("/")})
 
-    @abstractmethod
     def read(self, name: str) -> bytes:
         """The content of a file; raises `OSError`."""
+        with open_place(self.place(name)) as file:
+            content: bytes = file.read()
+        return content
 
-    @abstractmethod
-    def create(self, name: str, work: Folder, is_wanted: Callable[[], bool] = lambda: True) -> Any:
+    @contextmanager
+    def create(self, name: str, work: Folder, is_wanted: Callable[[], bool] = lambda: True) -> Iterator[str]:
         """A context whose value is a local path to write; the file appears as `name` when it ends without error.
 
         `work` is for temporary files, on the same file system. If `is_wanted` then returns False, nothing appears.
         """
-
-    @abstractmethod
-    def delete(self, names: Iterable[str]) -> None:
-        """Delete files, if they exist."""
-
-    def write(self, name: str, content: bytes, work: Folder) -> None:
-        """Write a small file."""
-        with self.create(name, work) as path:
-            Path(path).write_bytes(content)
-
-
-@dataclass(frozen=True)
-class LocalFolder(Folder):
-    """A folder on this machine, or on a network file system; `path` is absolute."""
-
-    path: Path
-
-    def place(self, name: str) -> str:
-        """The path of a file."""
-        return str(self.path / name)
-
-    def subfolder(self, name: str) -> LocalFolder:
-        """A folder in this one, which need not exist."""
-        return LocalFolder(self.path / name)
-
-    def names(self) -> list[str]:
-        """The names in this folder."""
-        # Listed, since network file systems may cache the fact that a name did not exist.
-        try:
-            return sorted(os.listdir(self.path))  # noqa: PTH208
-        except FileNotFoundError:
-            return []
-
-    def read(self, name: str) -> bytes:
-        """The content of a file."""
-        return (self.path / name).read_bytes()
-
-    @contextmanager
-    def create(self, name: str, work: Folder, is_wanted: Callable[[], bool] = lambda: True) -> Iterator[str]:
-        """A temporary path, which is synchronised with the disk and renamed."""
+        if self.path is None:
+            # Without a name, so that nothing is left of a killed process.
+            with TemporaryFile() as file:
+                local = f"/dev/fd/{file.fileno()}"
+                yield local
+                if is_wanted():
+                    file.seek(0)
+                    with os_errors():
+                        store, path = filesystem(self.place(name))
+                        store.put_file(local, path)
+            return
         # A random name: two workers may write the same part, if a scheduler wrongly counts one of them as lost.
         unfinished = Path(work.place(f"{name}.{token_hex(4)}.tmp"))
         try:
@@ -197,102 +190,38 @@ class LocalFolder(Folder):
         finally:
             unfinished.unlink(missing_ok=True)
 
-    def delete(self, names: Iterable[str]) -> None:
-        """Delete files, if they exist."""
-        for name in names:
-            (self.path / name).unlink(missing_ok=True)
-
-
-@dataclass(frozen=True)
-class RemoteFolder(Folder):
-    """The objects whose URLs begin with `url` and a slash."""
-
-    url: str
-
-    def place(self, name: str) -> str:
-        """The URL of a file."""
-        return f"{self.url}{name}" if self.url.endswith("/") else f"{self.url}/{name}"
-
-    def subfolder(self, name: str) -> RemoteFolder:
-        """A folder in this one, which need not exist."""
-        return RemoteFolder(self.place(name))
-
-    def names(self) -> list[str]:
-        """The names in this folder."""
-        with os_errors():
-            store, path = filesystem(self.url)
-            try:
-                found = store.ls(path, detail=False)
-            except FileNotFoundError:
-                return []
-        # Some stores list the folder itself.
-        return sorted({name.rstrip("/").rpartition("/")[2] for name in found if name.strip("/") != path.strip("/")})
-
-    def read(self, name: str) -> bytes:
-        """The content of a file."""
-        with os_errors():
-            store, path = filesystem(self.place(name))
-            content: bytes = store.cat_file(path)
-        return content
-
-    @contextmanager
-    def create(self, name: str, work: Folder, is_wanted: Callable[[], bool] = lambda: True) -> Iterator[str]:
-        """A temporary local file, which is uploaded. It has no name, so that nothing is left of a killed process."""
-        with TemporaryFile() as file:
-            local = f"/dev/fd/{file.fileno()}"
-            yield local
-            if is_wanted():
-                file.seek(0)
-                with os_errors():
-                    store, path = filesystem(self.place(name))
-                    store.put_file(local, path)
+    def write(self, name: str, content: bytes, work: Folder) -> None:
+        """Write a small file."""
+        with self.create(name, work) as path:
+            Path(path).write_bytes(content)
 
     def delete(self, names: Iterable[str]) -> None:
         """Delete files, if they exist."""
         for name in names:
             with suppress(FileNotFoundError), os_errors():
-                store, path = filesystem(self.place(name))
-                store.rm_file(path)
+                if self.path is not None:
+                    (self.path / name).unlink()
+                else:
+                    store, path = filesystem(self.place(name))
+                    store.rm_file(path)
 
 
 def folder_at(place: str) -> Folder:
     """The folder at a place."""
     if not is_url(place):
-        return LocalFolder(Path(place).absolute())
+        return Folder(str(Path(place).absolute()))
     scheme, _, path = place.partition("://")
-    return RemoteFolder(f"{scheme}://{path.rstrip('/')}")
+    return Folder(f"{scheme}://{path.rstrip('/')}")
 
 
 def split(place: str) -> tuple[Folder, str]:
     """The folder and the name of a file."""
     if not is_url(place):
         path = Path(place).absolute()
-        return LocalFolder(path.parent), path.name
+        return Folder(str(path.parent)), path.name
     scheme, _, path_in_store = place.partition("://")
     parent, _, name = path_in_store.rpartition("/")
     return folder_at(f"{scheme}://{parent}"), name
-
-
-@contextmanager
-def written_behind(path: str) -> Iterator[Callable[[], None]]:
-    """A context whose value makes the system begin to write to the disk what the file at `path` has got so far.
-
-    fsync(2) at the end then has little left to wait for. Nothing happens where the system does not offer it.
-    """
-    handle, begun = os.open(path, os.O_RDONLY), 0
-
-    def begin() -> None:
-        nonlocal begun
-        end = os.fstat(handle).st_size
-        if end > begun and hasattr(os, "posix_fadvise"):
-            # Linux starts to write the dirty pages of the range, and does not wait.
-            os.posix_fadvise(handle, begun, end - begun, os.POSIX_FADV_DONTNEED)
-        begun = end
-
-    try:
-        yield begin
-    finally:
-        os.close(handle)
 
 
 def synchronise(path: Path) -> None:

@@ -116,7 +116,12 @@ def batch(
     ] = 0.0,
     workers: Annotated[
         int | None,
-        Parameter(group=work, metavar="N", converter=whole, help="Number of threads; the number of cores if absent."),
+        Parameter(
+            group=work,
+            metavar="N",
+            converter=whole,
+            help="Number of threads that solve; the number of cores if absent.",
+        ),
     ] = None,
     scheduler: Annotated[
         str | None,
