@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from compiled.windy import BAD, drawn
-from kernel.slow_scenes import CORNERS, SLOW, VALLEYS
+from golden.wind_scenes import CORNERS, SLOW, VALLEYS
 from loiter.compiled import wind_solver
 from loiter.kernel.wind import wind_search
 

@@ -6,8 +6,7 @@ from random import Random
 import pytest
 
 from compiled.windy import drawn
-from kernel.slow_scenes import CORNERS, SLOW, VALLEYS
-from kernel.tie_scenes import BESIDE_CORNERS, TWO_MINIMA
+from golden.wind_scenes import BESIDE_CORNERS, CORNERS, SLOW, TWO_MINIMA, VALLEYS
 from loiter.kernel.motion import fly
 from loiter.kernel.wind import minimum, wind_search
 from loiter.kernel.wind.cell_bounds import cell_at, centres, least_inside_curved, words_inside

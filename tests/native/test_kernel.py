@@ -7,7 +7,7 @@ from random import Random
 import pytest
 
 from compiled.windy import BAD, drawn
-from kernel.slow_scenes import CORNERS, SLOW, VALLEYS
+from golden.wind_scenes import CORNERS, SLOW, VALLEYS
 from kernel.test_wind_tolerance import beside_last_arc
 from loiter.kernel.entry import Entry, miss
 from loiter.kernel.rebinding import rebinding

@@ -13,8 +13,8 @@ from codegen.onboard import FOLDER, onboard_files
 from codegen.unit import ROOT
 
 from compiled.windy import BAD, drawn
+from golden.wind_scenes import CORNERS
 from guidance.recorded import damaged, law_for, scene
-from kernel.slow_scenes import CORNERS
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.guidance.entry.law_step import LawCommand
 from loiter.guidance.entry.loiter_entry import LoiterEntry
