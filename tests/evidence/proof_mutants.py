@@ -9,7 +9,6 @@ many of which kind were refused, and by which lemma, and lists those called cert
 
 import argparse
 import ast
-import copy
 import importlib.abc
 import importlib.util
 import multiprocessing
@@ -20,6 +19,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from time import process_time
 from typing import NamedTuple
+
+from mutation.mutants import Change, like, mutated
 
 KERNEL = Path(__file__).parents[2] / "src" / "loiter" / "kernel"
 
@@ -137,9 +138,7 @@ def changes(file: str, tree: ast.Module, statement: ast.stmt, name: str) -> Iter
     before, _, after = ast.unparse(tree).partition(plain)
     for parent, field, index, node in places(statement):
         for kind, other in alternatives(node, locals_):
-            put(parent, field, index, other)
-            source = ast.unparse(statement)
-            put(parent, field, index, node)
+            source = mutated(statement, Change(parent, field, index, other, node.lineno))
             if source != plain and source not in seen:
                 seen.add(source)
                 changed = before + source + after
@@ -167,14 +166,6 @@ def places(node: ast.AST) -> Iterator[tuple[ast.AST, str, int | None, ast.AST]]:
                 yield node, field, index, child
             if isinstance(child, ast.AST):
                 yield from places(child)
-
-
-def put(parent: ast.AST, field: str, index: int | None, node: ast.AST) -> None:
-    """Put a node into its place."""
-    if index is None:
-        setattr(parent, field, node)
-    else:
-        getattr(parent, field)[index] = node
 
 
 def alternatives(node: ast.AST, names: list[str]) -> Iterator[tuple[str, ast.AST]]:
@@ -260,14 +251,6 @@ def alike(name: str) -> list[str]:
 def near(name: str, names: list[str]) -> list[str]:
     """The next variable of a function, where the name is one."""
     return [names[(names.index(name) + 1) % len(names)]] if name in names and len(names) > 1 else []
-
-
-def like(node: ast.AST, **changed: object) -> ast.AST:
-    """A copy of a node with other fields."""
-    other = copy.copy(node)
-    for field, value in changed.items():
-        setattr(other, field, value)
-    return other
 
 
 # Checking one

@@ -85,7 +85,7 @@ def chosen(root: Path, files: Iterable[str], seed: int) -> Iterator[Mutant]:
             yield Mutant(file, change.line, before, after, source)
 
 
-def mutated(tree: ast.Module, change: Change) -> str:
+def mutated(tree: ast.AST, change: Change) -> str:
     """The source of a tree with one change, which is then taken back."""
     kept = getattr(change.parent, change.field)
     if change.index is None:
