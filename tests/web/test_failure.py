@@ -95,6 +95,7 @@ def assert_read(page, selector):
 
 def test_a_refused_scene_is_the_headline_and_switches_off_what_needs_a_plan(page):
     plan = page.locator("#plan").bounding_box()
+    path = page.locator("#plan .best .casing").get_attribute("d")
     page.locator("#circle-radius").fill("40")
     fail(page, "refused")
     settle(page)
@@ -109,6 +110,8 @@ def test_a_refused_scene_is_the_headline_and_switches_off_what_needs_a_plan(page
     for selector in ("#instruction", "#why"):
         assert_read(page, selector)
     assert page.locator("#plan").bounding_box() == plan
+    assert page.locator("main.stale").count() == 1
+    assert page.locator("#plan .best .casing").get_attribute("d") == path
     page.locator("#circle-radius").fill("90")
     settle(page)
     assert page.locator("#message").inner_text() == ""

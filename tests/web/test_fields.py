@@ -174,6 +174,7 @@ def refused(page):
     ("field", "text", "sentence"),
     [
         ("airspeed", "0", "Airspeed is 0.0: it must be a positive, finite number of metres per second"),
+        ("airspeed", "-18", "Airspeed is -18.0: it must be a positive, finite number of metres per second"),
         ("limit", "95", "Bank limit is 95.0: "),
         (
             "circle-radius",
