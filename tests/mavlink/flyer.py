@@ -74,6 +74,7 @@ class Flyer:
     bank_limit_deg = 50.0
     vehicle_type = 1
     system_status = 4
+    nan_attitude = False
     armed = True
     reports_airspeed = True
     altitude_m, home_m, climb_m_s = 600.0, 500.0, 0.0
@@ -89,7 +90,7 @@ class Flyer:
         self.next = {}
         self.silent = self.muted = False
         self.muted_kinds = set()
-        self.banks, self.asked, self.heard_at = [], [], []
+        self.banks, self.asked, self.heard_at, self.commanded_at = [], [], [], []
         self.modes = []
         self.hold_circle = None
         self.altitude_target_m = self.altitude_m
@@ -155,7 +156,8 @@ class Flyer:
         if number == 30:
             body = a.rate, rate * sin(a.bank), rate * cos(a.bank)
             yaw = remainder(a.heading, 2.0 * pi)
-            self.transmit_safe(mavlink.MAVLink_attitude_message(ms, a.bank, 0.0, yaw, *body))
+            state = [math.nan] * 6 if self.nan_attitude else (a.bank, 0.0, yaw, *body)
+            self.transmit_safe(mavlink.MAVLink_attitude_message(ms, *state))
         elif number == 33:
             lat, lon = FRAME.to_geodetic(a.east + self.shift[0], a.north + self.shift[1])
             place = (
@@ -239,6 +241,10 @@ class Flyer:
         if not self.muted:
             super().acknowledge_command(message, result)
 
+    def note_command(self, message):
+        self.commands.append(message)
+        self.commanded_at.append(self.clock() - self.began)
+
     def change_mode(self, mode):
         self.mode = mode
         self.modes.append((self.clock() - self.began, mode))
@@ -312,7 +318,7 @@ class GuidedPlane(Flyer, Plane):
             self.roll_s, self.roll_at = 2.0 * atan2(x, w), self.clock()
 
     def on_command_int(self, message):
-        self.commands.append(message)
+        self.note_command(message)
         if message.command != 192:
             return self.acknowledge_command(message, 3)
         self.take_circle(message)
@@ -369,7 +375,7 @@ class OffboardPx4(Flyer, Vehicle):
         return self.acknowledge_command(message, 2)
 
     def on_command_int(self, message):
-        self.commands.append(message)
+        self.note_command(message)
         if message.command != 34 or message.frame != 5:
             return self.acknowledge_command(message, 2)
         self.take_circle(message)
@@ -412,6 +418,27 @@ class OffboardPx4(Flyer, Vehicle):
             self.transmit_safe(mavlink.MAVLink_local_position_ned_message(self.boot_ms(now), *place, north, east, 0.0))
         else:
             super().stream(number, now)
+
+
+KINDS = [GuidedPlane, OffboardPx4]
+VEHICLES = {GuidedPlane: "system 1 (ArduPilot)", OffboardPx4: "system 1 (PX4)"}
+
+# The modes into which a pilot changes, with their names; those of a return home.
+PILOTS = {GuidedPlane: (5, "FBWA"), OffboardPx4: (3 << 16, "POSCTL")}
+RETURNS = {GuidedPlane: RTL, OffboardPx4: 4 << 16 | 5 << 24}
+
+# Times after the start: before the first setpoint, while the law joins, and on the circle before the hand-over.
+STARTING_S, JOINING_S, HOLDING_S = 0.2, 5.0, 16.0
+
+
+def sets(**changes):
+    """What happens to a vehicle: attributes get other values."""
+    return lambda vehicle: vars(vehicle).update(changes)
+
+
+def when(at_s, **changes):
+    """An event at a time: attributes of the vehicle get other values."""
+    return at_s, sets(**changes)
 
 
 class FlightPort(Port):

@@ -13,6 +13,7 @@ from mavlink.flyer import (
     FRAME,
     GUIDED,
     HOLD,
+    KINDS,
     OFFBOARD,
     ORBIT,
     Airframe,
@@ -23,7 +24,6 @@ from mavlink.flyer import (
     miss_m,
 )
 
-KINDS = [GuidedPlane, OffboardPx4]
 STARTS = [Pose(-250.0, 60.0, 60.0), Pose(200.0, 150.0, 10.0), Pose(40.0, -30.0, 300.0)]
 
 
@@ -98,9 +98,12 @@ def test_the_direction_is_that_of_the_faster_entry(kind):
     assert outcome.reports[-1].turn == plan(start, ORBIT, Aircraft(18.0, max_bank_deg=49.5)).turn
 
 
-@pytest.mark.parametrize("towards", [1, -1])
-@pytest.mark.parametrize("version", [1 << 24 | 18 << 16 | 255, 1 << 24 | 15 << 16 | 255, 0])
-@pytest.mark.parametrize("start", STARTS)
+# Three versions, each with both signs, from one start each.
+VERSIONS = [1 << 24 | 18 << 16 | 255, 1 << 24 | 15 << 16 | 255, 0]
+SIGNS = [(towards, VERSIONS[i], STARTS[i - (towards < 0)]) for towards in (1, -1) for i in range(3)]
+
+
+@pytest.mark.parametrize(("towards", "version", "start"), SIGNS)
 def test_the_sign_of_px4s_accelerations_is_found_whatever_its_version_says(towards, version, start):
     class Px4(OffboardPx4):
         turns_towards, sw_version = towards, version

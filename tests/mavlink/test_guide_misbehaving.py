@@ -13,26 +13,26 @@ from loiter.mavlink.guiding.measurements import AirspeedSource
 from mavlink.flyer import (
     GUIDED,
     HOLD,
+    HOLDING_S,
+    JOINING_S,
+    KINDS,
     OFFBOARD,
-    RTL,
+    PILOTS,
+    RETURNS,
+    STARTING_S,
+    VEHICLES,
     FlightPort,
     GuidedPlane,
     OffboardPx4,
     guided,
     miss_m,
+    sets,
+    when,
 )
 from mavlink.vehicle import ACCEPTED, mavlink
 
-KINDS = [GuidedPlane, OffboardPx4]
 LIMIT_DEG = 49.5 + 1e-3
-# The modes into which a pilot changes: FBWA, and PX4's position mode.
-PILOTS = {GuidedPlane: 5, OffboardPx4: 3 << 16}
-NAMES = {GuidedPlane: "FBWA", OffboardPx4: "POSCTL"}
-VEHICLES = {GuidedPlane: "system 1 (ArduPilot)", OffboardPx4: "system 1 (PX4)"}
 OWN = {GuidedPlane: GUIDED, OffboardPx4: HOLD}
-
-# Times after the start: before the first setpoint, while the law joins, and on the circle before the hand-over.
-STARTING_S, JOINING_S, HOLDING_S = 0.2, 5.0, 16.0
 
 
 def ended(outcome, reason):
@@ -62,38 +62,17 @@ def is_left_alone(outcome, since_s):
     assert vehicle.commanded_at == [] or vehicle.commanded_at[-1] < since_s + 1.2
 
 
-def commanding(kind):
-    """The kind, with the times at which it was commanded."""
-
-    class Commanded(kind):
-        def set_up(self):
-            self.commanded_at = []
-
-        def on_command_int(self, message):
-            self.commanded_at.append(self.clock() - self.began)
-            super().on_command_int(message)
-
-    return Commanded
-
-
-def with_event(kind, at_s, event, **changes):
-    vehicle = commanding(kind)(events=[(at_s, event)])
-    for name, value in changes.items():
-        setattr(vehicle, name, value)
-    return vehicle
-
-
 # The pilot and failsafes.
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("at_s", [JOINING_S, HOLDING_S])
 def test_the_pilot_takes_over(kind, at_s):
-    mode = PILOTS[kind]
-    outcome = ended(guided(with_event(kind, at_s, lambda v: v.change_mode(mode))), "the pilot or a failsafe changed")
+    mode, name = PILOTS[kind]
+    outcome = ended(guided(kind(events=[(at_s, lambda v: v.change_mode(mode))])), "the pilot or a failsafe changed")
     assert outcome.end == (
-        f"the pilot or a failsafe changed the mode to {NAMES[kind]}: guiding has stopped, nothing more is sent, "
-        f"and {VEHICLES[kind]} flies in {NAMES[kind]}"
+        f"the pilot or a failsafe changed the mode to {name}: guiding has stopped, nothing more is sent, "
+        f"and {VEHICLES[kind]} flies in {name}"
     )
     is_left_alone(outcome, at_s)
     assert outcome.vehicle.mode == mode
@@ -101,67 +80,76 @@ def test_the_pilot_takes_over(kind, at_s):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_pilot_takes_over_while_the_fall_back_circle_is_accepted(kind):
-    class TakenOver(commanding(kind)):
+    mode, _ = PILOTS[kind]
+
+    class TakenOver(kind):
         def on_command_int(self, message):
             super().on_command_int(message)
-            self.events.append((self.clock() - self.began + 0.15, lambda v: v.change_mode(PILOTS[kind])))
+            self.events.append((self.clock() - self.began + 0.15, lambda v: v.change_mode(mode)))
 
     outcome = ended(guided(TakenOver()), "the pilot or a failsafe changed")
-    assert outcome.vehicle.mode == PILOTS[kind]
+    assert outcome.vehicle.mode == mode
     assert outcome.ended_at < 3.0
     assert "nothing more is sent" in outcome.end
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_pilot_takes_over_in_the_hand_over(kind):
-    class TakenOver(commanding(kind)):
+    mode, _ = PILOTS[kind]
+
+    class TakenOver(kind):
         def on_command_int(self, message):
             if self.commanded_at:
                 # Instead of an answer.
-                self.commanded_at.append(self.clock() - self.began)
-                self.change_mode(PILOTS[kind])
+                self.note_command(message)
+                self.change_mode(mode)
             else:
                 super().on_command_int(message)
 
     outcome = ended(guided(TakenOver()), "the pilot or a failsafe changed")
     is_left_alone(outcome, outcome.vehicle.commanded_at[1])
-    assert outcome.vehicle.mode == PILOTS[kind]
+    assert outcome.vehicle.mode == mode
+
+
+def goes_home(vehicle):
+    """A failsafe, of which the vehicle tells why."""
+    vehicle.send(mavlink.MAVLink_statustext_message(2, b"Battery low"))
+    vehicle.change_mode(RETURNS[next(kind for kind in KINDS if isinstance(vehicle, kind))])
+
+
+def mutes(*numbers):
+    """Messages that no longer arrive."""
+    return lambda vehicle: vehicle.muted_kinds.update(numbers)
+
+
+# What happens while the law joins, words of the sentence, and whether the vehicle is left alone.
+EVENTS = [
+    (goes_home, "RTL; it says: Battery low", True),
+    (sets(system_status=5), "the autopilot reports a failsafe", False),
+    (sets(system_status=8), "has terminated the flight", True),
+    (sets(armed=False), "the vehicle is disarmed", True),
+    (sets(landed_state=1), "it is on the ground", True),
+    (sets(boot_offset_s=-1000.0), "the clock of the autopilot went back: it has restarted", False),
+    (mutes(30), "no attitude arrived for 1 s", False),
+    (mutes(33), "no position arrived for 1 s", False),
+    (mutes(*range(1, 300)), "arrived for 1 s", False),
+    (sets(nan_attitude=True), "no attitude arrived for 1 s", False),
+    *[
+        (sets(estimator_flags=flags), "the estimator of the autopilot has lost its position", False)
+        for flags in (0b1111 & ~2, 0b100101111, 128 | 0b11111)
+    ],
+]
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_failsafe_changes_the_mode(kind):
-    mode = {GuidedPlane: RTL, OffboardPx4: 4 << 16 | 5 << 24}[kind]
-
-    def fail(vehicle):
-        vehicle.send(mavlink.MAVLink_statustext_message(2, b"Battery low"))
-        vehicle.change_mode(mode)
-
-    outcome = ended(guided(with_event(kind, JOINING_S, fail)), "RTL")
-    is_left_alone(outcome, JOINING_S)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_failsafe_without_a_change_of_mode(kind):
-    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "system_status", 5)))
-    falls_back(ended(outcome, "the autopilot reports a failsafe"))
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_terminated_flight(kind):
-    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "system_status", 8)))
-    is_left_alone(ended(outcome, "has terminated the flight"), JOINING_S)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_vehicle_that_is_disarmed(kind):
-    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "armed", False)))
-    is_left_alone(ended(outcome, "the vehicle is disarmed"), JOINING_S)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_vehicle_that_lands(kind):
-    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "landed_state", 1)))
-    is_left_alone(ended(outcome, "it is on the ground"), JOINING_S)
+@pytest.mark.parametrize(("event", "words", "alone"), EVENTS)
+def test_what_happens_while_the_law_joins_ends_the_flight(kind, event, words, alone):
+    outcome = ended(guided(kind(events=[(JOINING_S, event)])), words)
+    if alone:
+        is_left_alone(outcome, JOINING_S)
+    else:
+        assert outcome.ended_at < JOINING_S + 3.5
+        falls_back(outcome)
 
 
 def test_a_breached_fence():
@@ -174,7 +162,7 @@ def test_a_breached_fence():
             else:
                 super().stream(number, now)
 
-    outcome = guided(with_event(Fenced, JOINING_S, lambda v: setattr(v, "breach", 1)))
+    outcome = guided(Fenced(events=[when(JOINING_S, breach=1)]))
     falls_back(ended(outcome, "the vehicle is outside its fence"))
 
 
@@ -184,10 +172,7 @@ def test_a_breached_fence():
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("at_s", [STARTING_S, 0.45, JOINING_S, HOLDING_S])
 def test_the_link_is_lost(kind, at_s):
-    def lose(vehicle):
-        vehicle.silent = vehicle.muted = True
-
-    outcome = ended(guided(with_event(kind, at_s, lose)), "nothing was heard from")
+    outcome = ended(guided(kind(events=[when(at_s, silent=True, muted=True)])), "nothing was heard from")
     assert outcome.ended_at < at_s + 3.0
     if at_s == STARTING_S:
         assert outcome.end.endswith("nothing was commanded")
@@ -202,22 +187,9 @@ def test_the_link_is_lost(kind, at_s):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_nothing_is_commanded_to_a_vehicle_that_is_silent_but_hears(kind):
-    outcome = ended(guided(with_event(kind, JOINING_S, lambda v: setattr(v, "muted", True))), "nothing was heard")
+    outcome = ended(guided(kind(events=[when(JOINING_S, muted=True)])), "nothing was heard")
     assert len(outcome.vehicle.commanded_at) == 1
     assert outcome.vehicle.heard_at[-1] < JOINING_S + 2.2
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_vehicle_that_no_longer_hears_us(kind):
-    def deafen(vehicle):
-        vehicle.silent = True
-
-    outcome = guided(with_event(kind, JOINING_S, deafen))
-    assert outcome.end != ""
-    assert outcome.end.count(". ") == 0
-    if kind == OffboardPx4:
-        # Its failsafe has changed the mode.
-        ended(outcome, "changed the mode to AUTO.LOITER")
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -228,7 +200,7 @@ def test_the_connection_is_closed(kind):
                 raise ConnectionResetError("the other end closed the connection")
             return super().recv_match(blocking, timeout)
 
-    vehicle = commanding(kind)()
+    vehicle = kind()
     outcome = ended(guided(vehicle, port=Closing(vehicle.take_time())), "the connection to the vehicle is lost")
     is_left_alone(outcome, JOINING_S)
 
@@ -420,7 +392,7 @@ def test_an_old_vehicle_is_asked_by_request_data_stream():
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("at_s", [JOINING_S, HOLDING_S])
 def test_the_position_jumps(kind, at_s):
-    outcome = guided(with_event(kind, at_s, lambda v: v.shift.__setitem__(0, 200.0)))
+    outcome = guided(kind(events=[(at_s, lambda v: v.shift.__setitem__(0, 200.0))]))
     ended(outcome, "the position jumped by 200 m")
     outcome.vehicle.shift[0] = 0.0
     falls_back(outcome)
@@ -428,29 +400,7 @@ def test_the_position_jumps(kind, at_s):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_small_jump_is_flown_over(kind):
-    assert guided(with_event(kind, JOINING_S, lambda v: v.shift.__setitem__(0, 8.0))).end == ""
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_the_clock_goes_back(kind):
-    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "boot_offset_s", -1000.0)))
-    falls_back(ended(outcome, "the clock of the autopilot went back: it has restarted"))
-
-
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize(
-    ("number", "words"), [(30, "no attitude arrived for 1 s"), (33, "no position arrived for 1 s")]
-)
-def test_stale_data(kind, number, words):
-    outcome = guided(with_event(kind, JOINING_S, lambda v: v.muted_kinds.add(number)))
-    falls_back(ended(outcome, words))
-    assert outcome.ended_at < JOINING_S + 3.5
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_only_heartbeats_arrive(kind):
-    outcome = guided(with_event(kind, JOINING_S, lambda v: v.muted_kinds.update(range(1, 300))))
-    falls_back(ended(outcome, "arrived for 1 s"))
+    assert guided(kind(events=[(JOINING_S, lambda v: v.shift.__setitem__(0, 8.0))])).end == ""
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -458,14 +408,14 @@ def test_streams_that_become_slow_are_requested_again(kind):
     def slow(vehicle):
         vehicle.intervals.update(dict.fromkeys(vehicle.intervals, 0.45))
 
-    outcome = ended(guided(with_event(kind, JOINING_S, slow)), "")
+    outcome = ended(guided(kind(events=[(JOINING_S, slow)])), "")
     assert outcome.end == ""
     assert outcome.reports[-1].rate_hz > 30.0
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_rate_that_stays_low(kind):
-    class Slowing(commanding(kind)):
+    class Slowing(kind):
         slow = False
 
         def streams_of(self):
@@ -474,20 +424,13 @@ def test_a_rate_that_stays_low(kind):
                 self.intervals.update(dict.fromkeys(self.intervals, 0.45))
             return numbers
 
-    outcome = guided(with_event(Slowing, JOINING_S, lambda v: setattr(v, "slow", True)))
+    outcome = guided(Slowing(events=[when(JOINING_S, slow=True)]))
     falls_back(ended(outcome, "measurements a second arrive, and 4 are needed"))
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("flags", [0b1111 & ~2, 0b100101111, 128 | 0b11111])
-def test_the_estimator_loses_the_position(kind, flags):
-    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "estimator_flags", flags)))
-    falls_back(ended(outcome, "the estimator of the autopilot has lost its position"))
-
-
-@pytest.mark.parametrize("kind", KINDS)
 def test_a_missing_airspeed_is_the_declared_one(kind):
-    outcome = guided(with_event(kind, 0.0, lambda v: None, reports_airspeed=False))
+    outcome = guided(kind(events=[when(0.0, reports_airspeed=False)]))
     assert ended(outcome, "").end == ""
     assert outcome.notices[0] == "The vehicle reports no airspeed; the airspeed is declared."
     assert {report.airspeed_source for report in outcome.reports[2:]} == {AirspeedSource.DECLARED}
@@ -496,7 +439,7 @@ def test_a_missing_airspeed_is_the_declared_one(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_airspeed_that_stops_in_flight(kind):
-    outcome = guided(with_event(kind, JOINING_S, lambda v: setattr(v, "reports_airspeed", False)))
+    outcome = guided(kind(events=[when(JOINING_S, reports_airspeed=False)]))
     assert ended(outcome, "").end == ""
     assert outcome.reports[-1].airspeed_source == AirspeedSource.DECLARED
     assert abs(miss_m(outcome.vehicle)) < 5.0
@@ -520,22 +463,6 @@ def test_an_airspeed_of_nan_or_zero(kind):
         assert abs(miss_m(vehicle)) < 5.0
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_attitudes_of_nan(kind):
-    class Broken(commanding(kind)):
-        broken = False
-
-        def stream(self, number, now):
-            if number == 30 and self.broken:
-                nan = math.nan
-                self.transmit_safe(mavlink.MAVLink_attitude_message(self.boot_ms(now), nan, nan, nan, nan, nan, nan))
-            else:
-                super().stream(number, now)
-
-    outcome = guided(with_event(Broken, JOINING_S, lambda v: setattr(v, "broken", True)))
-    falls_back(ended(outcome, "no attitude arrived for 1 s"))
-
-
 # Wind and response.
 
 
@@ -545,6 +472,11 @@ def test_a_told_wind_above_the_airspeed(kind):
     with pytest.raises(WindTooStrong, match=r"can hold no circle"):
         guided(vehicle, wind=Wind(25.0, 90.0))
     assert vehicle.commands == vehicle.asked == []
+
+
+def blows(east_m_s):
+    """A wind that begins to blow towards the east."""
+    return lambda vehicle: setattr(vehicle.airframe, "wind", (east_m_s, 0.0))
 
 
 class Windy:
@@ -563,17 +495,17 @@ class Windy:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_wind_that_grows_above_the_airspeed(kind):
-    class Blown(Windy, commanding(kind)):
+    class Blown(Windy, kind):
         pass
 
-    outcome = guided(with_event(Blown, JOINING_S, lambda v: setattr(v.airframe, "wind", (21.0, 0.0))))
+    outcome = guided(Blown(events=[(JOINING_S, blows(21.0))]))
     ended(outcome, "the circle cannot be held: in a wind of 21")
     assert outcome.end.endswith("flies the fall-back circle")
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_wind_that_grows_too_strong_ends_the_flight_within_five_seconds(kind):
-    outcome = guided(with_event(commanding(kind), JOINING_S, lambda v: setattr(v.airframe, "wind", (16.0, 0.0))))
+    outcome = guided(kind(events=[(JOINING_S, blows(16.0))]))
     ended(outcome, "the circle cannot be held: orbit radius 80 m cannot be held in a wind of")
     assert outcome.ended_at - JOINING_S < 5.0
 
@@ -594,13 +526,13 @@ def test_a_wind_that_the_vehicle_reports_wrongly_is_not_believed():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_vehicle_that_does_not_bank_as_commanded(kind):
-    class Stuck(commanding(kind)):
+    class Stuck(kind):
         stuck = False
 
         def target(self, now):
             return radians(5.0) if self.stuck and self.mode in (GUIDED, OFFBOARD) else super().target(now)
 
-    outcome = guided(with_event(Stuck, 2.5, lambda v: setattr(v, "stuck", True)), Orbit(30.0, -20.0, 60.0))
+    outcome = guided(Stuck(events=[when(2.5, stuck=True)]), Orbit(30.0, -20.0, 60.0))
     ended(outcome, "the vehicle does not follow the commanded bank")
 
 
@@ -610,7 +542,7 @@ def test_a_vehicle_that_does_not_bank_as_commanded(kind):
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("at_s", [JOINING_S, HOLDING_S])
 def test_ctrl_c(kind, at_s):
-    outcome = guided(commanding(kind)(), interrupt=[at_s])
+    outcome = guided(kind(), interrupt=[at_s])
     assert isinstance(outcome.error, KeyboardInterrupt)
     falls_back(ended(outcome, "guiding was interrupted"))
 
@@ -624,7 +556,7 @@ def test_ctrl_c_before_anything_was_commanded():
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_closed_generator(kind):
     """A caller that asks for no more reports has the vehicle commanded back, in silence."""
-    outcome = guided(commanding(kind)(), seconds=JOINING_S)
+    outcome = guided(kind(), seconds=JOINING_S)
     assert outcome.end == ""
     assert outcome.reports[-1].stage == Stage.JOINING
     outcome.end = "flies the fall-back circle"

@@ -1,6 +1,5 @@
 """Items sent and read back: they are unchanged, except for what an autopilot must round."""
 
-from dataclasses import dataclass
 from math import copysign, inf, nan
 from struct import pack, unpack
 
@@ -57,46 +56,16 @@ def test_longitudes_are_counted_from_0_or_from_180(lon):
     assert (sent.y / 1e7 - lon + 180.0) % 360.0 == pytest.approx(180.0, abs=1e-6)
 
 
-@dataclass
-class Kept:
-    """What AP_Mission keeps of a loiter, for aeroplanes: whole metres in 16 or 8 bits, and a bit for the direction."""
-
-    command: int
-
-    def of(self, item):
-        a, b, c, d = item.params
-        whole = {
-            17: (0.0, 0.0, float(int(c)), 0.0),
-            18: (float(min(255, int(a))), 0.0, self.tens(c), float(d > 0.0)),
-            19: (float(int(a)), 0.0, copysign(1.0, c), float(d > 0.0)),
-            31: (0.0, float(int(b)), 0.0, float(d > 0.0)),
-        }
-        return item._replace(
-            params=whole[self.command], z=single(int(single(item.z * 100.0)) * single(0.01)), autocontinue=1
-        )
-
-    @staticmethod
-    def tens(radius):
-        kept = float(int(abs(radius)) if abs(radius) <= 255.0 else 10 * min(255, int(abs(radius) * 0.1)))
-        return copysign(kept, radius)
-
-
-@pytest.mark.parametrize("command", [17, 18, 19, 31])
-@given(radius=st.floats(1.0, 5000.0, width=32), turn=st.sampled_from([Turn.CW, Turn.CCW]), z=altitudes)
-def test_what_ardupilot_cuts_is_expected_and_another_direction_is_not(command, radius, turn, z):
-    params = with_circle(command, (2.5, 0.0, 0.0, 1.0), radius, turn)
-    sent = encode(Mission((MissionItem(command, 0, params, 47.0, 8.0, z),), HOME), PLANE)
-    stored = [sent[0]._replace(x=1, y=2), Kept(command).of(sent[1])]
-    wrong, cut = differences(sent, stored, PLANE)
+@given(z=altitudes)
+def test_an_altitude_that_ardupilot_cuts_to_centimetres_is_expected_and_another_is_not(z):
+    home, sent = encode(Mission((MissionItem(17, 0, (0.0,) * 4, 47.0, 8.0, z),), HOME), PLANE)
+    kept = single(int(single(sent.z * 100.0)) * single(0.01))
+    wrong, cut = differences([home, sent], [home, sent._replace(z=kept)], PLANE)
     assert wrong == []
-    assert all(sentence.startswith("item 1 has ") for sentence in cut)
-    # The same items from a vehicle of another kind are not what was sent.
-    assert differences(sent, stored, Vehicle(1, 1, 0))[0] or not cut
-    flipped = [
-        -value if value and i == (1 if command == 31 else 2) else value for i, value in enumerate(stored[1].params)
-    ]
-    other = [stored[0], stored[1]._replace(params=tuple(flipped))]
-    assert any("for parameter" in sentence for sentence in differences(sent, other, PLANE)[0])
+    assert len(cut) == (kept != sent.z)
+    # The same from a vehicle of another kind is not what was sent.
+    assert bool(differences([home, sent], [home, sent._replace(z=kept)], OTHER)[0]) == bool(cut)
+    assert differences([home, sent], [home, sent._replace(z=kept + 0.25)], PLANE)[0]
 
 
 # What ArduPilot gives back of a NAV_LOITER_TURNS, by the comments of AP_Mission::mavlink_int_to_mission_cmd (pull
@@ -180,3 +149,60 @@ def test_nan_is_nan_and_not_a_number():
     assert differences(sent, sent, OTHER) == ([], [])
     for other in (0.0, inf):
         assert differences(sent, [sent[0]._replace(params=(0.0, 0.0, 0.0, other))], OTHER)[0]
+
+
+# Vehicle, command, parameters sent, parameters kept: AP_Mission's bytes and bits, and what PX4 has a use for.
+KEPT = [
+    (PLANE, MavCommand.NAV_WAYPOINT, (7.5, 30.5, 41.75, 90.0), (0.0, 30.0, 41.0, 0.0)),
+    (PLANE, MavCommand.NAV_WAYPOINT, (7.5, 300.5, 256.0, 90.0), (0.0, 255.0, 255.0, 0.0)),
+    (PLANE, MavCommand.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, 90.0), (0.0, 0.0, -80.0, 0.0)),
+    (PLANE, MavCommand.NAV_LOITER_TURNS, (2.5, 3.5, -80.5, 0.5), (2.0, 0.0, -80.0, 1.0)),
+    (PLANE, MavCommand.NAV_LOITER_TURNS, (300.5, 3.5, 1234.0, -0.5), (255.0, 0.0, 1230.0, 0.0)),
+    (PLANE, MavCommand.NAV_LOITER_TIME, (60.5, 3.5, -80.5, 0.5), (60.0, 0.0, -1.0, 1.0)),
+    (PLANE, MavCommand.NAV_LOITER_TIME, (60.5, 3.5, 0.0, -0.5), (60.0, 0.0, 1.0, 0.0)),
+    (PLANE, MavCommand.NAV_LOITER_TO_ALT, (0.5, -80.5, 3.5, 0.5), (0.0, -80.0, 0.0, 1.0)),
+    (PX4, MavCommand.NAV_WAYPOINT, (7.5, 30.5, 41.75, -90.0), (7.5, 30.5, 0.0, 270.0)),
+    (PX4, MavCommand.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, -90.0), (0.0, 0.0, -80.5, 270.0)),
+    (PX4, MavCommand.NAV_LOITER_TIME, (60.5, 0.5, -80.5, 0.5), (60.5, 1.0, -80.5, 1.0)),
+    (PX4, MavCommand.NAV_LOITER_TIME, (60.5, -0.5, 80.5, -0.5), (60.5, 0.0, 80.5, 0.0)),
+    (PX4, MavCommand.NAV_LOITER_TO_ALT, (0.5, 80.5, 3.5, 0.5), (1.0, 80.5, 0.0, 1.0)),
+    (PX4, MavCommand.NAV_LOITER_TO_ALT, (-0.5, 80.5, 3.5, -0.5), (0.0, 80.5, 0.0, 0.0)),
+]
+
+
+def sent_to(vehicle, command, params, frame=Frame.ABOVE_HOME):
+    return encode(Mission((MissionItem(command, frame, params, 47.0, 8.0, 50.0),), HOME), vehicle)
+
+
+@pytest.mark.parametrize(("vehicle", "command", "params", "kept"), KEPT)
+def test_what_is_kept_is_expected_and_any_other_parameter_is_not(vehicle, command, params, kept):
+    sent = sent_to(vehicle, command, params)
+    back = [*sent[:-1], sent[-1]._replace(params=kept)]
+    cut = [
+        f"item 1 has {now:.9g} for parameter {i}, not {was:.9g}"
+        for i, (was, now) in enumerate(zip(params, kept, strict=True), 1)
+        if was != now
+    ]
+    assert differences(sent, back, vehicle) == ([], cut)
+    for i in range(4):
+        for off in (-0.25, 0.25):
+            other = (*kept[:i], kept[i] + off, *kept[i + 1 :])
+            (wrong,), _ = differences(sent, [*sent[:-1], sent[-1]._replace(params=other)], vehicle)
+            assert wrong == f"item 1 has {other[i]:.9g} for parameter {i + 1}, not {params[i]:.9g}"
+
+
+# MAV_FRAME: GLOBAL, GLOBAL_RELATIVE_ALT, GLOBAL_TERRAIN_ALT, and each with INT.
+@pytest.mark.parametrize(("frame", "twin"), [(0, 5), (3, 6), (10, 11)])
+def test_px4_answers_in_the_frame_whose_name_ends_in_int(frame, twin):
+    sent = sent_to(PX4, MavCommand.NAV_WAYPOINT, (0.0, 0.0, 0.0, 0.0), Frame(frame))
+    back = [sent[0]._replace(frame=twin)]
+    assert differences(sent, back, PX4) == ([], [])
+    (item,) = decode(back, PX4).items
+    assert (item.frame, item.latitude_deg, item.longitude_deg) == (frame, 47.0, 8.0)
+
+
+def test_items_without_a_place_keep_their_parameters_in_px4():
+    sent = sent_to(PX4, MavCommand.NAV_LOITER_UNLIM, (7.5, 3.5, -80.5, -90.0), Frame.NOWHERE)
+    kept = [sent[0]._replace(params=(0.0, 0.0, -80.5, 270.0))]
+    assert len(differences(sent, kept, PX4)[0]) == 3
+    assert differences(sent, sent, PX4) == ([], [])

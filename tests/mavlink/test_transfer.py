@@ -32,8 +32,9 @@ def test_the_new_mission_or_the_old_one_whatever_is_lost_or_doubled(kind, fates)
 
 
 @pytest.mark.parametrize("kind", [Vehicle, Plane])
+# The same seeds each time: all ten requests of a time-out are lost once in 27,000 times (`exchange.TIMEOUT_S`).
 @given(seed=st.integers(0, 10**9))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100, deadline=None, derandomize=True)
 def test_one_packet_of_five_lost_each_way_stops_nothing(kind, seed):
     vehicle, chance = kind(), Random(seed)
     done, seconds = simulated(vehicle, NEW, lambda: int(chance.random() >= 0.2))

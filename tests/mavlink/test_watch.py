@@ -64,29 +64,38 @@ class Flight(Vehicle):
 
     def stream(self, time_s):
         sample = min(round(time_s / STEP_S), self.track.time_s.size - 1)
-        east, north, heading = (float(self.track[i][sample]) for i in (1, 2, 3))
-        lat, lon = (float(value) for value in FRAME.to_geodetic(east, north))
-        heading -= float(FRAME.convergence_deg(lat, lon))
-        track, speed = over_ground(heading, UAV, self.maneuver.wind)
+        east, north, heading_deg = (float(self.track[i][sample]) for i in (1, 2, 3))
+        track_deg, speed = over_ground(heading_deg, UAV, self.maneuver.wind)
+        shown = self.haste if self.moving and self.haste < 10.0 else 0.0
+        self.tell_state((east, north), heading_deg, track_deg, shown * speed, self.rates(sample))
+
+    def tell_state(self, place, heading_deg, track_deg, speed, rates, *, with_heading=True):
+        """The messages of a state in the metres and the directions of the frame, with the rates about pitch and yaw.
+
+        The position has the heading too, if it is to.
+        """
+        lat, lon = (float(value) for value in FRAME.to_geodetic(*place))
+        north_deg = float(FRAME.convergence_deg(lat, lon))
+        heading, track = radians(heading_deg - north_deg), radians(track_deg - north_deg)
         if self.attitude:
-            yaw, rates = radians(heading), self.rates(sample)
-            self.send(mavlink.MAVLink_attitude_message(0, radians(30.0), 0.0, yaw, 0.0, *rates))
+            self.send(mavlink.MAVLink_attitude_message(0, radians(30.0), 0.0, heading, 0.0, *rates))
         if self.position:
-            hdg = round(heading % 360.0 * 100.0) % 36000
-            place = round(lat * 1e7), round(lon * 1e7), 612_500, 100_000
-            self.send(mavlink.MAVLink_global_position_int_message(0, *place, *self.velocity(track, speed), 0, hdg))
-        self.send(mavlink.MAVLink_vfr_hud_message(17.5, speed, 0, 50, 612.5, 0.0))
+            hdg = round(np.degrees(heading) % 360.0 * 100.0) % 36000 if with_heading else 65535
+            where = round(lat * 1e7), round(lon * 1e7), 612_500, 100_000
+            velocity = round(100.0 * speed * cos(track)), round(100.0 * speed * sin(track))
+            self.send(mavlink.MAVLink_global_position_int_message(0, *where, *velocity, 0, hdg))
+        self.send(mavlink.MAVLink_vfr_hud_message(17.5, 18.0, 0, 50, 612.5, 0.0))
 
     def rates(self, sample):
         """How fast it turns about the axes of its body, pitch and yaw, banked by 30 degrees."""
         here = self.moving and sample < self.track.time_s.size - 1
         rate = -self.haste * 18.0 * float(self.track.curvature_per_m[sample]) if here else 0.0
-        return rate * sin(radians(30.0)), rate * cos(radians(30.0))
+        return banked(rate)
 
-    def velocity(self, track_deg, speed):
-        """North and east, centimetres per second, as time passes for those who watch; 0 where that is too much."""
-        speed *= self.haste if self.moving and self.haste < 10.0 else 0.0
-        return round(100.0 * speed * cos(radians(track_deg))), round(100.0 * speed * sin(radians(track_deg)))
+
+def banked(rate):
+    """The rates about pitch and yaw of a turn with a bank of 30 degrees."""
+    return rate * sin(radians(30.0)), rate * cos(radians(30.0))
 
 
 def watched(vehicle, reports, patient=True, **options):
@@ -274,19 +283,16 @@ class Circles(Flight):
 
     def stream(self, time_s):
         azimuth = self.side * 18.0 * time_s / self.radius_m
-        heading = azimuth + self.side * radians(90.0)
-        places = ORBIT.east_m + self.radius_m * sin(azimuth), ORBIT.north_m + self.radius_m * cos(azimuth)
-        lat, lon = (float(value) for value in FRAME.to_geodetic(*places))
-        yaw = heading - radians(float(FRAME.convergence_deg(lat, lon)))
-        velocity = round(1800.0 * cos(yaw)), round(1800.0 * sin(yaw))
-        place = round(lat * 1e7), round(lon * 1e7), 612_500, 100_000
-        self.send(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, yaw, 0.0, 0.0, self.side * 18.0 / self.radius_m))
-        self.send(mavlink.MAVLink_global_position_int_message(0, *place, *velocity, 0, 65535))
-        self.send(mavlink.MAVLink_vfr_hud_message(17.5, 18.0, 0, 50, 612.5, 0.0))
+        heading_deg = np.degrees(azimuth) + self.side * 90.0
+        place = ORBIT.east_m + self.radius_m * sin(azimuth), ORBIT.north_m + self.radius_m * cos(azimuth)
+        rates = banked(self.side * 18.0 / self.radius_m)
+        self.tell_state(place, heading_deg, heading_deg, 18.0, rates, with_heading=False)
 
 
-@pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
-@pytest.mark.parametrize(("asked", "outside"), [(Turn.EITHER, 12.0), (None, 12.0), (None, -9.0), (None, 2.0)])
+@pytest.mark.parametrize(
+    ("turn", "asked", "outside"),
+    [(Turn.CW, Turn.EITHER, 12.0), (Turn.CCW, None, 12.0), (Turn.CW, None, -9.0), (Turn.CCW, None, 2.0)],
+)
 def test_an_aircraft_that_circles_next_to_the_circle_holds_it(turn, asked, outside):
     """Formerly every report 12 m outside the circle said "joins clockwise in 3.5 s"."""
     orbit = replace(ORBIT, turn=asked or turn)
@@ -317,17 +323,12 @@ class RunsIn(Flight):
         self.origin = self.maneuver.segments[1].start
 
     def stream(self, time_s):
-        course = radians(self.origin.heading_deg)
+        course_deg = self.origin.heading_deg
         off_m, off_deg, off_rate = self.noise * self.random.normal(0.0, [[0.5, 0.5], [0.7, 0.7], [0.02, 0.02]])
-        east = self.origin.east_m + 18.0 * time_s * sin(course) + off_m[0]
-        north = self.origin.north_m + 18.0 * time_s * cos(course) + off_m[1]
-        lat, lon = (float(value) for value in FRAME.to_geodetic(east, north))
-        yaw = course + radians(off_deg[0] - float(FRAME.convergence_deg(lat, lon)))
-        velocity = round(1800.0 * cos(course)), round(1800.0 * sin(course))
-        place = round(lat * 1e7), round(lon * 1e7), 612_500, 100_000
-        self.send(mavlink.MAVLink_attitude_message(0, 0.0, 0.0, yaw, 0.0, 0.0, off_rate[0]))
-        self.send(mavlink.MAVLink_global_position_int_message(0, *place, *velocity, 0, 65535))
-        self.send(mavlink.MAVLink_vfr_hud_message(17.5, 18.0, 0, 50, 612.5, 0.0))
+        east = self.origin.east_m + 18.0 * time_s * sin(radians(course_deg)) + off_m[0]
+        north = self.origin.north_m + 18.0 * time_s * cos(radians(course_deg)) + off_m[1]
+        heading_deg, rates = course_deg + off_deg[0], banked(off_rate[0])
+        self.tell_state((east, north), heading_deg, course_deg, 18.0, rates, with_heading=False)
 
 
 def test_a_straight_run_in_is_straight_and_the_peel_off_shows():
