@@ -5,7 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from loiter import Orbit, Wind, plan
-from loiter.plot.wind import AIRCRAFT, CIRCLE_RADIUS, MAP_WIND, SAME_TIME, SPEEDS, START, differences, draw, draw_ties
+from plot.wind_picture import AIRCRAFT, CIRCLE_RADIUS, MAP_WIND, SAME_TIME, SPEEDS, START, differences, draw, draw_ties
 
 
 def artists(axes, gid):

@@ -5,3 +5,8 @@ from loiter.planning.model import Turn
 
 SIDES = {Turn.CW: Side.CW, Turn.CCW: Side.CCW, Turn.EITHER: Side.EITHER}
 TURNS = {side: turn for turn, side in SIDES.items()}
+
+
+def sign_of(turn: Turn) -> int:
+    """The sign of a direction as a plain number, for formulas: +1 clockwise, -1 counter-clockwise, 0 for either."""
+    return int(SIDES[turn])

@@ -21,7 +21,7 @@ from loiter.kernel.words import encode
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS
 from loiter.planning.problem import Problem
-from loiter.planning.sides import SIDES
+from loiter.planning.sides import sign_of
 from loiter.verify.trajectory import (
     FlownPiece,
     InitialAdjoint,
@@ -57,7 +57,7 @@ def trajectory_of(maneuver: Maneuver, problem: Problem) -> Trajectory:
     Raises `InvalidArgument` for a turn that is neither cw nor ccw, letters that are not a word, and durations that
     cannot be flown.
     """
-    start = _start(problem, int(SIDES[held_turn(maneuver)]))
+    start = _start(problem, sign_of(held_turn(maneuver)))
     controls, durations = [CONTROLS[letter] for letter in word_of(maneuver).letters], durations_of(maneuver)
     if not controls:
         return Trajectory(maneuver, problem, start, 1.0, ())

@@ -17,7 +17,7 @@ from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.planning.feasibility import check_held, relative_wind
 from loiter.planning.model import CALM, STANDARD_GRAVITY_M_S2, Aircraft, Orbit, Pose, Turn, Wind
-from loiter.planning.sides import SIDES
+from loiter.planning.sides import sign_of
 from loiter.planning.solve import plan
 
 # In this band these laws report `HOLD`.
@@ -90,7 +90,7 @@ class Follower(ABC):
     @property
     def _side(self) -> int:
         """+1 clockwise, -1 counter-clockwise."""
-        return SIDES[self.turn] + 0
+        return sign_of(self.turn)
 
     def _command(self, demand: Demand) -> Command:
         """The present bank as a command: a coordinated turn at the airspeed of the aircraft."""

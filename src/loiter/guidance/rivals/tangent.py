@@ -30,7 +30,7 @@ from loiter.kernel.words import ABSENT, controls
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import relative_wind
 from loiter.planning.model import Aircraft, Orbit, Turn, Wind
-from loiter.planning.sides import SIDES
+from loiter.planning.sides import sign_of
 
 # Planned arcs are wider than the tightest turn by this share, to leave turn rate for corrections.
 RESERVE = 0.1
@@ -131,7 +131,7 @@ class Tangent(L1):
 
     def _path(self, state: State, turn: Turn) -> Path:
         """Dubins' path to the nearest point of the circle, in planned turn radii."""
-        r, offset, side = self._radius_m, circle_offset(state, self.orbit), SIDES[turn] + 0
+        r, offset, side = self._radius_m, circle_offset(state, self.orbit), sign_of(turn)
         place = offset.distance_m / r * offset.out_east, offset.distance_m / r * offset.out_north
         heading, R = heading_vector(state.heading_deg), self.orbit.radius_m / r
         scene = wind_search.scene_of(WindProblem(*place, *heading, R, side, *self._relative_wind))

@@ -14,7 +14,7 @@ from math import cos, hypot, inf, isfinite, nan, radians, sin, sqrt, tan
 
 from loiter.guidance.vehicle.limits import clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign
-from loiter.mavlink.connection.dead_reckoning import GroundMotion, extrapolated
+from loiter.mavlink.connection.dead_reckoning import GroundMotion, motion_after
 from loiter.mavlink.connection.link import Link, Vehicle, dialect
 from loiter.mavlink.connection.telemetry import Telemetry
 from loiter.planning.model import CALM, STANDARD_GRAVITY_M_S2, Wind
@@ -122,7 +122,7 @@ class AccelerationSteering:
         """Send a setpoint with an acceleration to the right, metres per second squared, for the time of its arrival."""
         p = self._telemetry.last(LOCAL_POSITION)
         old_s = min(now - self._telemetry.arrived(LOCAL_POSITION), LOCAL_POSITION_S) + self._delay_s
-        y, x, east, north = extrapolated(GroundMotion(p.y, p.x, p.vy, p.vx), yaw_rate, old_s)
+        y, x, east, north = motion_after(GroundMotion(p.y, p.x, p.vy, p.vx), yaw_rate, old_s)
         speed = hypot(north, east) or 1.0
         right = -east / speed * acceleration, north / speed * acceleration
         link.send(

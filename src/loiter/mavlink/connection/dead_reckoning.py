@@ -20,7 +20,7 @@ class GroundMotion(NamedTuple):
     velocity_north_m_s: float
 
 
-def extrapolated(here: GroundMotion, yaw_rate: float, time_s: float, wind: Wind = CALM) -> GroundMotion:
+def motion_after(here: GroundMotion, yaw_rate: float, time_s: float, wind: Wind = CALM) -> GroundMotion:
     """The motion after a time, seconds, at a rate of turn through the air, radians per second, positive to the right.
 
     The velocity through the air turns, and the wind adds to it. Without a wind, or where the reported one may be wrong,
@@ -35,14 +35,14 @@ def extrapolated(here: GroundMotion, yaw_rate: float, time_s: float, wind: Wind 
     return GroundMotion(x, y, speed * c + wind_east, speed * s + wind_north)
 
 
-def extrapolated_pose(here: Pose, motion: Motion, airspeed_m_s: float, wind: Wind, time_s: float) -> Pose:
+def pose_after(here: Pose, motion: Motion, airspeed_m_s: float, wind: Wind, time_s: float) -> Pose:
     """The pose `time_s` seconds after the last position, from the velocity there and the rate of turn.
 
     `here` is the last position, in the metres of a frame, with the heading now; `wind` is relative to the frame's
     north. If no velocity was reported, the vehicle is assumed to fly at its airspeed along its heading.
     """
     start = GroundMotion(here.east_m, here.north_m, *_velocity_in_frame(here, motion, airspeed_m_s, wind, time_s))
-    now = extrapolated(start, motion.yaw_rate, time_s, wind)
+    now = motion_after(start, motion.yaw_rate, time_s, wind)
     return Pose(now.east_m, now.north_m, here.heading_deg)
 
 

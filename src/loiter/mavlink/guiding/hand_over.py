@@ -20,7 +20,7 @@ from loiter.mavlink.guiding.settling import MeanPosition
 from loiter.mavlink.missions.flown_radius import loiter_scaling
 from loiter.planning.hold import hold
 from loiter.planning.model import Aircraft, Orbit, wind_from_velocity
-from loiter.planning.sides import SIDES
+from loiter.planning.sides import sign_of
 
 # ArduPlane's parameter for the period of its guidance, seconds.
 PERIOD = "NAVL1_PERIOD"
@@ -61,7 +61,7 @@ def last_bank_deg(
 
     It corrects the mean offset and course as far as a constant bank can.
     """
-    azimuth_deg, side = circle_offset(state, orbit).azimuth_deg, SIDES[orbit.turn] + 0
+    azimuth_deg, side = circle_offset(state, orbit).azimuth_deg, sign_of(orbit.turn)
     speed = hypot(state.velocity_east_m_s, state.velocity_north_m_s)
     turn_rate = speed / orbit.radius_m
     ahead_deg = azimuth_deg + side * degrees(0.5 * KEPT_S * turn_rate)

@@ -15,7 +15,7 @@ from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
 from loiter.geo.frame import is_swapped
 from loiter.guidance.protocol import State
-from loiter.mavlink.connection.dead_reckoning import GroundMotion, extrapolated
+from loiter.mavlink.connection.dead_reckoning import GroundMotion, motion_after
 from loiter.mavlink.connection.telemetry import STATE_KINDS, Telemetry
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.model import Wind
@@ -132,7 +132,7 @@ class Measurements:
         if abs(attitude_s - position_s) > LARGEST_SKEW_S:
             return None
         rate, old_s, convergence_deg = self._telemetry.yaw_rate, time_s - attitude_s, self._place.convergence_deg
-        there = extrapolated(self._ground_motion(p), rate, time_s - position_s)
+        there = motion_after(self._ground_motion(p), rate, time_s - position_s)
         return State(
             time_s,
             there.east_m,

@@ -9,7 +9,7 @@ from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.circle import Band, CircleOffset, circle_offset
 from loiter.guidance.vehicle.turning import rate_at_bank
 from loiter.planning.model import Orbit
-from loiter.planning.sides import SIDES
+from loiter.planning.sides import sign_of
 
 # The band, and how long and how far the vehicle must stay in it, seconds and degrees around the circle.
 BAND, STAY_S, STAY_DEG = Band(), 8.0, 90.0
@@ -42,7 +42,7 @@ class SteadyHoldDetector:
     """
 
     def __init__(self, orbit: Orbit) -> None:
-        self._orbit, self._side = orbit, SIDES[orbit.turn] + 0
+        self._orbit, self._side = orbit, sign_of(orbit.turn)
         self._last: State | None = None
         self._azimuth_deg = nan
         self._near_deg = 0.0

@@ -14,7 +14,7 @@ from loiter.guidance.vehicle.circle import Band, CircleOffset, circle_offset
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
-from loiter.planning.sides import SIDES
+from loiter.planning.sides import sign_of
 
 # Segments shorter than SHORT_S seconds are not advised: banking takes about as long. The current action is advised
 # until less than LEFT_S is left of it, so that noise does not make the advice alternate.
@@ -72,11 +72,11 @@ class HoldDetector:
 
         For the first of `turns`, flying along the circle within the tolerance counts as holding it at once.
         """
-        if self._turn is not None and self._band.has(offset, SIDES[self._turn] + 0, LEAVING):
+        if self._turn is not None and self._band.has(offset, sign_of(self._turn), LEAVING):
             return self._turn
         self._turn = None
         for i, turn in enumerate(turns):
-            if not self._band.has(offset, SIDES[turn] + 0):
+            if not self._band.has(offset, sign_of(turn)):
                 self._along_since.pop(turn, None)
                 continue
             since_s = time_s - self._along_since.setdefault(turn, time_s)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from loiter.errors import InvalidArgument, LoiterError, instance, not_negative, number, positive
 from loiter.geo import LocalFrame
 from loiter.mavlink.connection.command import hold_circle
-from loiter.mavlink.connection.dead_reckoning import extrapolated_pose
+from loiter.mavlink.connection.dead_reckoning import pose_after
 from loiter.mavlink.connection.link import Link, check_connection, dialect, open_link
 from loiter.mavlink.connection.persistent_link import PersistentLink
 from loiter.mavlink.connection.streams import Streams, watch_streams
@@ -298,7 +298,7 @@ class _Planner:
         try:
             here = self.frame.pose(report.latitude_deg, report.longitude_deg, report.heading_deg)
             wind = self._wind_in_frame(report)
-            pose = extrapolated_pose(here, motion, self.aircraft.airspeed_m_s, wind, report.age_s)
+            pose = pose_after(here, motion, self.aircraft.airspeed_m_s, wind, report.age_s)
             best = self._plan(pose, report.time_s, wind)
             offset = plan_offset(best)
             hold_turn = self._hold_detector.turn(offset, self._hold_turns(best.turn), report.time_s)

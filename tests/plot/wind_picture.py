@@ -1,4 +1,7 @@
-"""Wind and the fastest entry; `python -m loiter.plot.wind docs/wind.png` draws the picture of docs/wind.md."""
+"""Wind and the fastest entry: the picture of docs/wind.md.
+
+Run: PYTHONPATH=tests python -m plot.wind_picture docs/wind.png
+"""
 
 from __future__ import annotations
 
