@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from loiter.errors import LinkFailed
-from loiter.mavlink.missions.exchange import TIMEOUT_S
+from loiter.mavlink.connection.link import TIMEOUT_S
 from mavlink.vehicle import OLD, Plane, Vehicle, kept, mission, simulated
 
 NEW = mission("ccw")
@@ -32,7 +32,7 @@ def test_the_new_mission_or_the_old_one_whatever_is_lost_or_doubled(kind, fates)
 
 
 @pytest.mark.parametrize("kind", [Vehicle, Plane])
-# The same seeds each time: all ten requests of a time-out are lost once in 27,000 times (`exchange.TIMEOUT_S`).
+# The same seeds each time: all ten requests of a time-out are lost once in 27,000 times (`link.TIMEOUT_S`).
 @given(seed=st.integers(0, 10**9))
 @settings(max_examples=100, deadline=None, derandomize=True)
 def test_one_packet_of_five_lost_each_way_stops_nothing(kind, seed):

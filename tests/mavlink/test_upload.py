@@ -11,8 +11,8 @@ import pytest
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.io.missions.items import Frame, MavCommand, Mission, MissionItem
 from loiter.mavlink import download, upload
+from loiter.mavlink.connection.link import TIMEOUT_S
 from loiter.mavlink.missions import transfer
-from loiter.mavlink.missions.exchange import TIMEOUT_S
 from mavlink.vehicle import ACCEPTED, CANCELLED, OLD, Plane, Vehicle, flying, item, kept, mavlink, mission, simulated
 
 NEW = mission("ccw")

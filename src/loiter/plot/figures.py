@@ -24,7 +24,7 @@ from loiter.kernel.still_air.switching_curves import last_arc_abscissa, switchin
 from loiter.kernel.still_air.synthesis import optima, ranked
 from loiter.kernel.words import Side, Word, controls
 from loiter.planning.model import CONTROLS
-from loiter.plot.marks import CHORD_RAD
+from loiter.plot.marks import CHORD_RAD, draw_arrow
 from loiter.plot.picture import COLOURS, MARKS
 
 Floats = NDArray[np.float64]
@@ -264,9 +264,7 @@ def _draw_piece(axes: Axes, part: TrajectoryPiece) -> None:
     """Draw a piece in the colour of its control, with an arrow in the middle."""
     colour, i = COLOURS[LETTERS[part.u]], len(part.x) // 2
     axes.plot(part.x, part.y, color=colour, linewidth=2.2, zorder=3, gid=f"piece {LETTERS[part.u]}")
-    arrow = {"arrowstyle": "-|>", "color": colour, "mutation_scale": 15.0, "shrinkA": 0.0, "shrinkB": 0.0}
-    tail, head = (part.x[i - 1], part.y[i - 1]), (part.x[i], part.y[i])
-    axes.annotate("", xy=head, xytext=tail, arrowprops=arrow, zorder=4)
+    draw_arrow(axes, part.x, part.y, i, colour)
 
 
 def _legend(axes: Axes, controls_flown: Sequence[int]) -> None:

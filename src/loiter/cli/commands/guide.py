@@ -27,7 +27,7 @@ from loiter.cli.options import (
 )
 from loiter.cli.status import abandon_output
 from loiter.errors import InvalidArgument, LinkFailed
-from loiter.mavlink.missions.exchange import TIMEOUT_S
+from loiter.mavlink.connection.link import TIMEOUT_S
 from loiter.planning.model import wind_from_velocity
 
 if TYPE_CHECKING:

@@ -35,8 +35,7 @@ from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.io.document import maneuver_values
 from loiter.io.missions.items import Mission
-from loiter.mavlink.connection.link import check_connection
-from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
+from loiter.mavlink.connection.link import TIMEOUT_S, check_target
 from loiter.planning.compass import wrapped
 from loiter.planning.solve import fastest
 from loiter.planning.vocabulary import BRIEF_ACTIONS
@@ -107,8 +106,7 @@ def upload(
 ) -> None:
     """Send the fastest entry to a vehicle as a mission, and read it back, item by item, to verify it."""
     # These checks come before anything is planned or printed.
-    check_connection(connect)
-    check_target(system, 1, timeout)
+    check_target(connect, system, 1, timeout)
     options = (pose, circle, uav, air, waypoints)
     to_send: Mission | Callable[[int], Mission]
     plan: dict[str, object] = {}

@@ -15,7 +15,7 @@ from math import inf
 from time import monotonic
 from typing import Any, NamedTuple
 
-from loiter.errors import InvalidArgument, LinkFailed, MissingPackage
+from loiter.errors import InvalidArgument, LinkFailed, MissingPackage, positive
 from loiter.mavlink.connection.enumerations import autopilot_name
 
 # Our own ids: MAV_COMP_ID_MISSIONPLANNER, of a system that is not 255. ArduPilot takes 255 for its ground station, and
@@ -32,6 +32,10 @@ FIRST_GUIDE, GUIDES = 25, 75
 
 # MAV_TYPE_GCS; MAV_STATE_STANDBY and MAV_STATE_ACTIVE: a program that guides a vehicle is active once it commands.
 GROUND_STATION, STANDBY, ACTIVE = 6, 3, 4
+
+# Seconds without progress after which a vehicle is given up: time to repeat a request ten times. If one packet of five
+# is lost each way, all ten fail once in 27,000 times.
+TIMEOUT_S = 15.0
 
 # Seconds between heartbeats, as usual in MAVLink.
 HEARTBEAT_S = 1.0
@@ -226,6 +230,19 @@ def check_connection(connection: object) -> None:
     network = _NETWORK.fullmatch(connection)
     if network and not 0 < int(network["port"]) < 65536:
         raise InvalidArgument("connection", f"is {connection!r}: ports are numbers from 1 to 65535")
+
+
+def check_target(connection: object, system: object, component: object, timeout_s: object) -> None:
+    """Raise `InvalidArgument` for a connection, ids or a time-out that cannot be used, and `MissingPackage`.
+
+    Ids are whole numbers in MAVLink's range, time-outs are positive.
+    """
+    check_connection(connection)
+    for name, number in (("system", system), ("component", component)):
+        if number is not None and (isinstance(number, bool) or not isinstance(number, int) or not 0 < number < 256):
+            raise InvalidArgument(name, f"is {number!r}: it must be a whole number from 1 to 255")
+    positive("timeout_s", timeout_s, "seconds")
+    dialect()
 
 
 def find_vehicle(

@@ -11,14 +11,13 @@ from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed, file_path, instance, number, positive
 from loiter.geo import LocalFrame
-from loiter.mavlink.connection.link import check_connection, dialect, open_link
+from loiter.mavlink.connection.link import TIMEOUT_S, check_target, open_link
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.flight import Flight, GuidingStopped
 from loiter.mavlink.guiding.monitor import StopReason
 from loiter.mavlink.guiding.preparation import GuideRequest
 from loiter.mavlink.guiding.report import GuideReport
 from loiter.mavlink.guiding.step_log import check_log, step_log
-from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
 from loiter.planning.model import Orbit, Wind
 
 INTERRUPTED = StopReason("guiding was interrupted")
@@ -77,9 +76,7 @@ def guide(
     `InvalidArgument` and `MissingPackage` are raised immediately. A generator that is closed, or in which
     KeyboardInterrupt is raised, commands the fall-back circle first.
     """
-    check_connection(connection)
-    check_target(system, component, timeout_s)
-    dialect()
+    check_target(connection, system, component, timeout_s)
     period_s = positive("period_s", period_s, "seconds")
     if airspeed_m_s is not None:
         airspeed_m_s = positive("airspeed_m_s", airspeed_m_s, "metres per second")

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from math import isnan, nan
 from typing import Any, NamedTuple
 
-from loiter.errors import InvalidArgument, LinkFailed, instance, positive
+from loiter.errors import InvalidArgument, LinkFailed, instance
 from loiter.geo.frame import LocalFrame, degrees_of, is_swapped
 from loiter.io.missions.items import Autopilot, Frame, Mission
 from loiter.mavlink.connection.enumerations import autopilot_name
-from loiter.mavlink.connection.link import Link, Vehicle, open_link
+from loiter.mavlink.connection.link import TIMEOUT_S, Link, Vehicle, check_target, open_link
 from loiter.mavlink.connection.parameters import Parameters
 from loiter.mavlink.connection.status_text import StatusTexts
 from loiter.mavlink.connection.telemetry import NO_FIX, Fix, Telemetry
@@ -29,10 +29,6 @@ from loiter.mavlink.missions.stored_items import (
     keeps_home,
     own_home,
 )
-
-# Seconds without progress after which a transfer is given up: time to repeat a request ten times. If one packet of five
-# is lost each way, all ten fail once in 27,000 times.
-TIMEOUT_S = 15.0
 
 # Called with the phase ("read", "send", "check"), the number of items done in it, and the number of all items.
 ReportProgress = Callable[[str, int, int], None]
@@ -103,7 +99,7 @@ def upload(
     error, and likewise `KeyboardInterrupt`, says which mission the vehicle has. Raises `InvalidArgument` for arguments
     and missions that cannot be sent; `MissingPackage` without pymavlink.
     """
-    check_target(system, component, timeout_s)
+    check_target(connection, system, component, timeout_s)
     if not callable(mission):
         instance("mission", mission, Mission)
     texts, telemetry = StatusTexts(), Telemetry()
@@ -149,7 +145,7 @@ def download(
 
     The home is that of ArduPilot's item 0. Other autopilots do not store it with the mission, so it is nan.
     """
-    check_target(system, component, timeout_s)
+    check_target(connection, system, component, timeout_s)
     with open_link(connection, system, component, timeout_s) as link:
         progress = _in_phase("read", on_progress or _no_progress)
         return decode(transfer.receive(link, timeout_s, progress), link.vehicle)
@@ -272,14 +268,6 @@ def restore(link: Link, old: Sequence[StoredItem], timeout_s: float) -> str:
     except LinkFailed as failure:
         return f"whether it has its old mission is not known: {failure}"
     return "its old mission could not be sent back: check its mission before it flies"
-
-
-def check_target(system: int | None, component: int, timeout_s: float) -> None:
-    """Raise `InvalidArgument` for ids outside MAVLink's range, and for a time-out that is not positive."""
-    for name, number in (("system", system), ("component", component)):
-        if number is not None and (isinstance(number, bool) or not isinstance(number, int) or not 0 < number < 256):
-            raise InvalidArgument(name, f"is {number!r}: it must be a whole number from 1 to 255")
-    positive("timeout_s", timeout_s, "seconds")
 
 
 def _no_progress(phase: str, done: int, total: int) -> None:

@@ -12,11 +12,10 @@ from loiter.errors import InvalidArgument, LoiterError, instance, not_negative, 
 from loiter.geo import LocalFrame
 from loiter.mavlink.connection.command import hold_circle
 from loiter.mavlink.connection.dead_reckoning import pose_after
-from loiter.mavlink.connection.link import Link, check_connection, dialect, open_link
+from loiter.mavlink.connection.link import TIMEOUT_S, Link, check_target, open_link
 from loiter.mavlink.connection.persistent_link import PersistentLink
 from loiter.mavlink.connection.streams import Streams, watch_streams
 from loiter.mavlink.connection.telemetry import Motion, Telemetry, WindSource
-from loiter.mavlink.missions.exchange import TIMEOUT_S, check_target
 from loiter.mavlink.missions.flown_radius import (
     LoiterScaling,
     loiter_scaling,
@@ -63,10 +62,10 @@ class Report:
     age_s: float
     wind: Wind
     wind_source: WindSource
-    plan: Maneuver | None
-    other_costs_s: float | None
-    commanded: bool
-    problem: str
+    plan: Maneuver | None = None
+    other_costs_s: float | None = None
+    commanded: bool = False
+    problem: str = ""
     actions: tuple[Action, ...] = ()
     holding: bool = False
     outside_m: float = nan
@@ -141,9 +140,7 @@ def watch(
     again. Raises `LinkFailed` if the vehicle is not found, is silent for `timeout_s` seconds, or refuses the command;
     `InvalidArgument` and `MissingPackage` immediately.
     """
-    check_connection(connection)
-    check_target(system, component, timeout_s)
-    dialect()
+    check_target(connection, system, component, timeout_s)
     period_s = positive("period_s", period_s, "seconds")
     tolerance_m = not_negative("tolerance_m", tolerance_m, "metres")
     if altitude_m is not None:
@@ -285,10 +282,6 @@ class _Planner:
             age_s=now - known.time,
             wind=wind,
             wind_source=source,
-            plan=None,
-            other_costs_s=None,
-            commanded=False,
-            problem=problem,
         )
         grounded = telemetry.grounded(now, self.aircraft.airspeed_m_s)
         problem = problem or _missing(report) or (f"not flying: {grounded}" if grounded else "")
