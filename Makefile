@@ -3,7 +3,8 @@
 # make test   the same with all tests, and the page in a browser: about twenty minutes on two cores
 # make bench  times of the answers and of other methods: table and plot in benchmarks/results; ROWS=0 skips the tables
 # make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
-# make docs   the documentation site, in build/docs: every warning and every broken link is an error
+# make docs   the documentation site, in build/docs, with the page in try/: every warning and every broken link is an error
+# make site   the page as static files for any address, in build/site; ADDRESS=https://... for the pictures of links
 # make notebooks  run the notebooks of docs/notebooks and write their outputs
 # make generate  translate the kernel and the law from Python to C and JavaScript, for the package, the page and autopilots
 # make pins   rewrite the requirement files from pyproject.toml
@@ -50,7 +51,7 @@ $(BIN)/python:
 /usr/bin/chromium-headless-shell:
 	@requirements/apt-install chromium-headless-shell
 
-.PHONY: demo check test bench verify docs notebooks generate pins lint
+.PHONY: demo check test bench verify docs site notebooks generate pins lint
 demo: .venv/base.stamp
 	$(BIN)/loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 --plot demo.png
 
@@ -75,15 +76,21 @@ verify: .venv/dev.stamp
 	$(BIN)/loiter verify --states 100000
 	$(BIN)/loiter verify --witness wind --states 1000
 
-docs: .venv/docs.stamp
+docs: .venv/docs.stamp site
 	rm -rf build/docs docs/pictures
 	$(BIN)/sphinx-build -q -W --keep-going -b html -d build/doctrees docs build/docs
+	cp -r build/site build/docs/try
 	@echo "open build/docs/index.html"
+
+site: .venv/dev.stamp .venv/node.stamp
+	rm -rf build/site
+	$(BIN)/python -m codegen.site build/site $(ADDRESS)
+	@echo "open build/site/index.html"
 
 notebooks: .venv/dev.stamp
 	cd tests && ../$(BIN)/python -m documents.notebooks
 
-generate: .venv/base.stamp
+generate: .venv/dev.stamp
 	$(BIN)/python -m codegen
 
 pins: .venv/dev.stamp

@@ -1,16 +1,23 @@
 """The files of C and JavaScript, and the functions of the kernel that each of them offers."""
 
+import re
 from pathlib import Path
 
 from codegen.arithmetic import DOUBLE, VECTOR
 from codegen.javascript import PORTABLE, Module
+from codegen.kinds import NotTranslated
+from codegen.library import Library
 from codegen.unit import ROOT, Unit
+from loiter.arrays import partition  # noqa: F401
 from loiter.guidance.entry import law_step
 from loiter.guidance.estimation import identification_step
 from loiter.guidance.estimation.vehicle import fly_as_declared
 from loiter.kernel import adjoint, entry, motion, rounding
 from loiter.kernel.still_air import extremals, switching_curves, synthesis
 from loiter.kernel.wind import hold, wind_search
+from loiter.version import __version__
+from loiter.web import problems  # noqa: F401
+from loiter.web.answers import exports, plans  # noqa: F401
 
 FOLDER = ROOT / "src" / "loiter" / "native"
 PAGE = ROOT / "src" / "loiter" / "web" / "static" / "kernel"
@@ -102,10 +109,86 @@ def law_module() -> str:
     return Module("law.js", arithmetic, STEPS).text()
 
 
+# What the page needs above the kernel, and what it has elsewhere than in Python.
+ABOVE_KERNEL = (
+    ("loiter.web.answers.plans", "plan"),
+    ("loiter.web.answers.plans", "all_candidates"),
+    ("loiter.web.answers.plans", "certificate"),
+    ("loiter.web.answers.exports", "_check_points"),
+    ("loiter.io.files", "FILE_FORMATS"),
+    ("loiter.io.files", "SaveArguments"),
+    ("loiter.io.missions.altitudes", "AltitudeDatum"),
+    ("loiter.io.missions.items", "AUTOPILOTS"),
+    ("loiter.web.problems", "JSON_FIELDS"),
+    ("loiter.planning.model", "Pose"),
+    ("loiter.planning.model", "Orbit"),
+    ("loiter.planning.model", "Aircraft"),
+    ("loiter.planning.model", "Wind"),
+    ("loiter.planning.problem", "Problem"),
+    ("loiter.planning.solve", "all_fastest"),
+    ("loiter.planning.compass", "heading_vector"),
+    ("loiter.planning.maneuver", "Maneuver"),
+    ("loiter.geo.frame", "LocalFrame"),
+    ("loiter.geo.placed", "PlacedProblem"),
+    ("loiter.arrays.partition", "_kind"),
+    ("loiter.arrays.partition", "NARROW"),
+    ("loiter.arrays.partition", "SHARE"),
+    ("loiter.arrays.partition", "JUMP"),
+    ("loiter.arrays.partition", "LARGEST_GAP"),
+    ("loiter.arrays.partition", "VANISHING"),
+)
+ELSEWHERE = {
+    ("loiter.errors", "LoiterError"): "errors.LoiterError",
+    ("loiter.errors", "InvalidArgument"): "errors.InvalidArgument",
+    ("loiter.errors", "RadiusTooSmall"): "errors.RadiusTooSmall",
+    ("loiter.errors", "WindTooStrong"): "errors.WindTooStrong",
+    ("loiter.errors", "NotConverged"): "errors.NotConverged",
+    ("loiter.errors", "OutOfRange"): "errors.OutOfRange",
+    ("loiter.errors", "instance"): "arrays.unchecked",
+    ("loiter.errors", "in_unit"): "arrays.same",
+    ("loiter.errors", "as_float"): "float",
+    ("loiter.errors", "_refuse"): "arrays.refuse",
+    ("loiter.geo.frame", "to_plane"): "geodesic.to_plane",
+    ("loiter.geo.frame", "from_plane"): "geodesic.from_plane",
+    ("loiter.arrays.reduction", "reduce"): "arrays.reduce",
+    ("loiter.planning.flight", "_fly_arrays"): "arrays.fly_arrays",
+    ("loiter.compiled.wind_solver", "fastest"): "kernel.wind_search_fastest",
+    ("loiter.compiled.wind_solver", "ranked"): "kernel.wind_search_ranked",
+    ("loiter.compiled.wind_solver", "optima"): "kernel.wind_search_optima",
+    ("loiter.compiled.still_air_solver", "optimum"): "kernel.optimum",
+    ("loiter.kernel.words", "encode"): "arrays.encode",
+    ("loiter.verify.trajectory", "word_of"): "arrays.word_of",
+}
+LIBRARY_HEAD = """// @ts-nocheck
+// What is between the kernel and the page: problems, maneuvers, their answers, certificates and files.
+// Generated from the Python of loiter {version} by `make generate`; do not edit.
+import * as errors from "./errors.js";
+import * as geodesic from "./geodesic.js";
+import * as kernel from "./kernel.js";
+import * as arrays from "./arrays.js";
+import {{ {names} }} from "./python.js";
+
+"""
+
+
+def library_module(kernel: Module) -> str:
+    """What the page needs above the kernel, as an ES module."""
+    library = Library(ABOVE_KERNEL, kernel.name, ELSEWHERE)
+    text = library.text()
+    python = (PAGE / "python.js").read_text("utf-8")
+    known = set(re.findall(r"^export (?:const|function\*?|class) (\w+)", python, re.MULTILINE)) | {"complex"}
+    used = set(re.findall(r"\b\w+\b", text)) & known
+    if missing := library.builtins - known:
+        raise NotTranslated(f"python.js has no {', '.join(sorted(missing))}")
+    return LIBRARY_HEAD.format(version=__version__, names=", ".join(sorted(used))) + text
+
+
 def files() -> dict[Path, str]:
     """The generated files."""
+    kernel = Module("kernel.js", PORTABLE, PLANNING)
     return {
         FOLDER / "kernel.h": Unit("kernel.h", DOUBLE, SINGLE).text(),
         FOLDER / "still_air_loops.h": Unit("still_air_loops.h", VECTOR, LOOPED).text(),
-        PAGE / "kernel.js": Module("kernel.js", PORTABLE, PLANNING).text(),
+        PAGE / "kernel.js": kernel.text(),
+        PAGE / "library.js": library_module(kernel),
     }

@@ -46,7 +46,6 @@ def test_no_label_covers_another_or_a_control(opened, device):
         assert [label for label in labels if any(overlap(label, other) for other in others)] == []
     for link in links[1:]:
         page.evaluate("link => (location.hash = link)", link)
-        page.wait_for_function("() => { const { asked, drawn } = plan.dataset; return asked === drawn; }")
         settle(page)
         assert pairs_that_overlap(boxes(page, "#plan .marks text")) == []
 

@@ -1,30 +1,17 @@
-"""The page without a plan, refused or not answered: what it says, what it switches off, how it recovers."""
+"""The page without a plan, because the scene is refused: what it says, what it switches off, how it recovers."""
 
-import json
-from contextlib import contextmanager
 from math import ceil
-from subprocess import PIPE, Popen
 
 import pytest
 from playwright.sync_api import expect
 
 import loiter
 from loiter.web.answers.exports import FORMATS
-from web.browsing import PHONE, SCRIPT, assert_shows_the_plan, grave, press, scene, settle, values
+from web.browsing import PHONE, assert_shows_the_plan, grave, scene, settle, values
 
 COPIES = ["copy-command", "copy-python", "copy-link"]
 SAVES = list(FORMATS)
 BUTTONS = [f"#{name}" for name in [*COPIES, "play"]] + [f"[data-format={name}]" for name in SAVES]
-LOST = ("422", "503", "ERR_FAILED", "ERR_CONNECTION_REFUSED", "ERR_EMPTY_RESPONSE", "ERR_CONNECTION_RESET")
-
-
-@pytest.fixture
-def page(opened):
-    page = opened()
-    yield page
-    # The browser tells its console of every request that fails.
-    assert [text for text in page.watched.complaints if not any(lost in text for lost in LOST)] == []
-    page.watched.complaints.clear()
 
 
 def fail(page, name):
@@ -46,7 +33,6 @@ def assert_off(page, reason):
     """Nothing that would use the last plan can be used, and says why."""
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     page.evaluate("navigator.clipboard.writeText('untouched')")
-    asked = len(page.watched.requests)
     for selector in BUTTONS:
         button = page.locator(selector)
         assert button.get_attribute("aria-disabled") == "true", selector
@@ -58,7 +44,6 @@ def assert_off(page, reason):
         assert page.locator("#message").get_attribute("class") == "bad"
         assert page.locator("#message").inner_text() == "This scene has no plan."
     assert clipboard(page) == "untouched"
-    assert [url for url in page.watched.requests[asked:] if "export" in url] == []
     assert page.locator("#play").get_attribute("aria-pressed") == "false"
     assert page.locator("#clock").is_disabled()
     assert page.locator("#command").text_content() == page.locator("#python").text_content() == ""
@@ -90,9 +75,6 @@ def assert_read(page, selector):
     )
 
 
-# Refused
-
-
 def test_a_refused_scene_is_the_headline_and_switches_off_what_needs_a_plan(page):
     plan = page.locator("#plan").bounding_box()
     path = page.locator("#plan .best .casing").get_attribute("d")
@@ -105,7 +87,6 @@ def test_a_refused_scene_is_the_headline_and_switches_off_what_needs_a_plan(page
     assert page.locator("#instruction").inner_text() == "No plan for this scene"
     assert page.locator("#why").inner_text() == sentence
     assert page.locator("#why").get_attribute("role") == "status"
-    assert page.locator("#retry").is_hidden()
     assert_off(page, sentence)
     for selector in ("#instruction", "#why"):
         assert_read(page, selector)
@@ -184,7 +165,6 @@ def test_a_link_to_a_refused_scene_shows_it_with_everything_off(opened):
     settle(page)
     assert_on(page)
     assert_shows_the_plan(page)
-    page.watched.complaints.clear()
 
 
 def test_the_state_of_the_last_plan_is_not_dragged(page):
@@ -220,197 +200,3 @@ def test_axe_finds_nothing_serious_in_a_refusal(opened, scheme, device):
     fail(page, "refused")
     settle(page)
     assert grave(page) == []
-    page.watched.complaints.clear()
-
-
-# On its way
-
-
-def test_a_plan_that_is_on_its_way_is_not_copied_as_the_last_one(page):
-    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
-    page.evaluate("navigator.clipboard.writeText('untouched')")
-    held = []
-    page.route("**/api/plan", lambda route: held.append(route))
-    page.locator("#circle-radius").fill("150")
-    for name in ("copy-command", "copy-python"):
-        page.locator(f"#{name}").click()
-        expect(page.locator("#message")).to_have_text("The plan of this scene is not ready yet.")
-    assert clipboard(page) == "untouched"
-    held[0].continue_()
-    settle(page)
-    page.locator("#copy-command").click()
-    expect(page.locator("#message")).to_have_text("Command copied.")
-    assert "--orbit 0 0 150" in clipboard(page)
-
-
-# Not there
-
-
-@contextmanager
-def service(port=0):
-    with Popen([SCRIPT, "serve", "--port", str(port)], stdout=PIPE, text=True) as process:
-        try:
-            yield process.stdout.readline().strip()
-        finally:
-            process.terminate()
-            process.wait(20)
-
-
-def test_a_service_that_ends_is_missed_and_found_again(browser):
-    context = browser.new_context()
-    page = context.new_page()
-    page.watched = type("Watched", (), {"requests": [], "complaints": []})()
-    with service() as address:
-        page.goto(address)
-        settle(page)
-    page.locator("#circle-radius").fill("90")
-    fail(page, "unreachable")
-    assert page.locator("#instruction").inner_text() == "The service does not answer"
-    assert page.locator("#why").inner_text() == "Is loiter serve still running?"
-    assert "Retrying in" in page.locator("#attempt").inner_text()
-    assert_off(page, "Is loiter serve still running?")
-    with service(address.rstrip("/").rpartition(":")[2]):
-        # Nobody touches the page.
-        fail(page, "")
-        settle(page)
-        assert_on(page)
-        assert scene(page)["orbit"]["radius_m"] == 90.0
-        assert_shows_the_plan(page)
-        assert page.locator("#verdict").inner_text().startswith("All ")
-    context.close()
-
-
-def lost(route):
-    route.abort()
-
-
-def count(page, path):
-    return len([url for url in page.watched.requests if url.endswith(path)])
-
-
-def test_the_service_is_asked_again_a_bounded_number_of_times_ever_more_rarely(page):
-    page.clock.install(time=0)
-    page.clock.pause_at(3_600)
-    page.route("**/api/*", lost)
-    before = count(page, "/api/plan")
-    page.locator("#circle-radius").fill("90")
-    waits = [1, 2, 4, 8, 15, 30, 30, 30]
-    for number, wait in enumerate(waits, start=1):
-        expect(page.locator("#attempt")).to_have_text(f"Retrying in {wait} s, attempt {number} of {len(waits)}.")
-        assert count(page, "/api/plan") - before == number
-        page.clock.run_for(1000 * wait - 100)
-        assert count(page, "/api/plan") - before == number
-        page.clock.run_for(200)
-    expect(page.locator("#attempt")).to_have_text("All attempts have failed.")
-    page.clock.run_for(600_000)
-    assert count(page, "/api/plan") - before == 1 + len(waits)
-    assert page.locator("#again").inner_text() == "Try again"
-    # By hand it is asked at once, and the count begins anew.
-    page.locator("#again").click()
-    expect(page.locator("#attempt")).to_have_text(f"Retrying in 1 s, attempt 1 of {len(waits)}.")
-    page.unroute("**/api/*")
-    page.locator("#again").click()
-    page.clock.resume()
-    settle(page)
-    assert_on(page)
-    assert_shows_the_plan(page)
-
-
-def test_a_change_asks_at_once(page):
-    page.route("**/api/*", lost)
-    page.locator("#circle-radius").fill("90")
-    fail(page, "unreachable")
-    page.unroute("**/api/*")
-    page.locator("#circle-radius").fill("100")
-    fail(page, "")
-    settle(page)
-    assert_on(page)
-    assert_shows_the_plan(page)
-
-
-def test_a_service_that_is_busy_says_when_it_is_asked_again(page):
-    problem = {"type": "about:blank", "title": "Service Unavailable", "status": 503, "detail": "too many requests wait"}
-    page.route(
-        "**/api/plan",
-        lambda route: route.fulfill(
-            status=503,
-            content_type="application/problem+json",
-            headers={"Retry-After": "7"},
-            body=json.dumps(problem),
-        ),
-    )
-    page.locator("#circle-radius").fill("90")
-    fail(page, "unreachable")
-    assert page.locator("#instruction").inner_text() == "The service is busy"
-    assert page.locator("#why").inner_text() == "Too many requests wait"
-    assert page.locator("#attempt").inner_text() == "Retrying in 7 s, attempt 1 of 8."
-    page.unroute("**/api/plan")
-    page.locator("#again").click()
-    fail(page, "")
-    settle(page)
-    assert_on(page)
-
-
-def test_an_answer_that_is_cut_short_is_none(page):
-    page.route("**/api/plan", lambda route: route.fulfill(status=200, content_type="application/json", body='{"dura'))
-    page.locator("#circle-radius").fill("90")
-    fail(page, "unreachable")
-    page.unroute("**/api/plan")
-    fail(page, "")
-    settle(page)
-    assert_on(page)
-
-
-@pytest.mark.parametrize(("path", "where"), [("certificate", "#verdict"), ("synthesis*", "#map-fault")])
-def test_what_is_missing_of_a_plan_is_said_and_asked_for_again(page, path, where):
-    page.route(f"**/api/{path}", lost)
-    press_soon(page, "Paper, example 2")
-    expect(page.locator(where)).to_contain_text("The service does not answer. Retrying in 1 s.")
-    # The plan is there, and can be used.
-    assert_on(page)
-    page.unroute(f"**/api/{path}")
-    expect(page.locator("#verdict")).to_contain_text("conditions hold.")
-    expect(page.locator("#map-title")).to_contain_text("R = 1")
-    settle(page)
-    expect(page.locator("#map-fault")).to_have_text("")
-
-
-def test_what_is_missing_is_not_asked_for_without_end(page):
-    page.clock.install(time=0)
-    page.clock.pause_at(3_600)
-    page.route("**/api/certificate", lost)
-    before = count(page, "/api/certificate")
-    page.locator("#circle-radius").fill("90")
-    for wait in (1, 2, 4, 8, 15, 30, 30, 30):
-        planned(page)
-        page.clock.run_for(150)
-        expect(page.locator("#verdict")).to_have_text(
-            f"Not checked: The service does not answer. Retrying in {wait} s."
-        )
-        page.clock.run_for(1000 * wait)
-    planned(page)
-    page.clock.run_for(150)
-    expect(page.locator("#verdict")).to_have_text("Not checked: The service does not answer.")
-    page.clock.run_for(600_000)
-    assert count(page, "/api/certificate") - before == 9
-    assert_on(page)
-
-
-def planned(page):
-    """Wait, while the page's clock stands still, until the path is that of the scene."""
-    expect(page.locator("#plan")).to_have_attribute("data-drawn", page.locator("#plan").get_attribute("data-asked"))
-
-
-def press_soon(page, name):
-    page.get_by_role("button", name=name, exact=True).click()
-
-
-def test_a_file_that_the_service_cannot_give_is_said_and_the_plan_stays(page):
-    page.route("**/api/export/*", lost)
-    page.locator("[data-format=csv]").click()
-    expect(page.locator("#message")).to_have_text(
-        "Not saved: The service does not answer. Is loiter serve still running?"
-    )
-    assert_on(page)
-    press(page, "Far away")
-    assert_shows_the_plan(page)

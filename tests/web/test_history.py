@@ -1,9 +1,9 @@
-"""Undo, redo and the browser's Back, which return to the state before; a plan that is late looks old."""
+"""Undo, redo and the browser's Back, which return to the state before."""
 
 import pytest
 from playwright.sync_api import expect
 
-from web.browsing import assert_shows_the_plan, drag, fly_at, located, middle, press, scene, settle
+from web.browsing import assert_shows_the_plan, drag, fly_at, located, press, scene, settle
 
 
 def returned(page, expected):
@@ -86,8 +86,6 @@ def test_a_number_that_is_typed_is_one_step_and_so_are_keys_in_a_row(page):
     page.locator("#undo").click()
     returned(page, before)
     # The first digit alone is the radius of a circle that cannot be held.
-    assert all("422" in text for text in page.watched.complaints)
-    page.watched.complaints.clear()
 
 
 def test_a_change_after_an_undo_takes_the_place_of_what_was_undone(page):
@@ -148,52 +146,3 @@ def test_a_scene_without_a_plan_can_be_undone(page):
     page.wait_for_function("() => plan.dataset.failure === 'refused'")
     page.locator("#undo").click()
     returned(page, before)
-    assert all("422" in text for text in page.watched.complaints)
-    page.watched.complaints.clear()
-
-
-# A slow line
-
-
-def test_a_plan_that_is_late_looks_old_until_the_new_one_is_there(page):
-    held = []
-    page.route("**/api/plan", lambda route: held.append(route))
-    late, path = page.locator("#late"), page.locator("#plan .best")
-    assert not late.is_visible()
-    page.locator("#circle-radius").fill("150")
-    expect(late).to_have_text("Waiting for the service. This is the previous plan.")
-    expect(path).to_have_css("opacity", "0.25")
-    expect(page.locator(".facts")).to_have_css("opacity", "0.45")
-    assert "late" in page.locator("#main").get_attribute("class")
-    held[0].continue_()
-    settle(page)
-    assert not late.is_visible()
-    expect(path).to_have_css("opacity", "1")
-    assert_shows_the_plan(page)
-
-
-def test_during_a_drag_the_path_looks_old_only_if_no_answer_arrives_for_a_while(page):
-    page.clock.install(time=0)
-    page.clock.pause_at(3_600)
-    late, held = page.locator("#late"), []
-    page.route("**/api/plan", lambda route: held.append(route))
-    x, y = middle(page, "aircraft")
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + 5, y)
-    for k in range(2, 8):
-        # An answer is always under way, and each is for the move before the last.
-        page.mouse.move(x + 5 * k, y)
-        page.clock.run_for(80)
-        assert not late.is_visible()
-        page.wait_for_function("k => plan.dataset.asked - plan.dataset.drawn === 2 && plan.dataset.asked > k", arg=k)
-        held.pop(0).continue_()
-        page.wait_for_function("() => plan.dataset.asked - plan.dataset.drawn === 1")
-    page.clock.run_for(130)
-    assert late.is_visible()
-    page.unroute("**/api/plan")  # which lets go what is held
-    page.mouse.up()
-    page.clock.resume()
-    settle(page)
-    assert not late.is_visible()
-    assert_shows_the_plan(page)

@@ -171,45 +171,23 @@ def test_the_arrow_keys_move_each_handle(page):
         assert len(set(texts)) == 3
 
 
-def test_many_moves_make_few_requests_and_the_last_one_is_answered(page):
-    x, y = middle(page, "aircraft")
-    page.mouse.move(x, y)
-    page.mouse.down()
-    asked = len(page.watched.requests)
-    page.evaluate(
-        """([x, y]) => { for (let k = 1; k <= 20; k++) document.getElementById("aircraft").dispatchEvent(
-            new PointerEvent("pointermove", { pointerId: 1, bubbles: true, clientX: x - 3 * k, clientY: y + k })); }""",
-        [x, y],
-    )
-    page.mouse.up()
-    settle(page)
-    requests = [url for url in page.watched.requests[asked:] if url.endswith("/api/plan")]
-    assert len(requests) == 2
-    assert_shows_the_plan(page)
-    # Each move knows how long it waited for its path, on the page's clock.
-    waits = page.evaluate("performance.getEntriesByName('move to path').map(measure => measure.duration)")
-    assert len(waits) == 20
-    assert min(waits) > 0.0
-
-
-def test_in_wind_a_drag_shows_every_candidate_too(page):
+def test_in_wind_a_drag_shows_every_candidate_too_and_asks_nobody(page):
     press(page, "In wind")
     asked = len(page.watched.requests)
     x, y = middle(page, "aircraft")
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 30, y + 40, steps=3)
-    page.wait_for_function(
-        "() => { const { asked, drawn } = document.getElementById('plan').dataset; return asked === drawn; }"
-    )
     assert_shows_the_plan(page)
     everyone = loiter.candidates(*values(scene(page)))
     assert page.locator("#candidates .duration").all_inner_texts() == [f"{m.duration_s:.2f} s" for m in everyone]
     assert page.locator("#plan .others .line").count() == len(everyone) - 1
+    # A move knows how long it waited for its path, on the page's clock.
+    (wait,) = page.evaluate("performance.getEntriesByName('move to path').map(measure => measure.duration)")
+    assert wait > 0.0
     page.mouse.up()
     settle(page)
-    asked_for = {url.rpartition("/")[2] for url in page.watched.requests[asked:] if "/api/" in url}
-    assert asked_for <= {"plan", "certificate"}
+    assert page.watched.requests[asked:] == []
 
 
 # Numbers typed, views, units

@@ -79,7 +79,7 @@ def switch_on(page, tiles):
 def document(page):
     """The document that draws the tiles."""
     frame = page.wait_for_selector("#tiles").content_frame()
-    frame.wait_for_url("**/map?*")  # the frame is there before its document
+    frame.wait_for_url("**/map.html?*")  # the frame is there before its document
     return frame
 
 
@@ -142,7 +142,7 @@ def test_the_map_is_off_again_after_a_reload_and_the_server_is_remembered(page, 
 def test_only_the_document_of_the_map_may_load_tiles_and_only_from_their_server(page, tiles, client, address):
     policy = client.get("/").headers["content-security-policy"]
     assert "img-src 'self' data: blob:;" in policy
-    response = client.get("/map", params={"tiles": "https://tiles.example:8443/{z}/{x}/{y}.png"})
+    response = client.get("/map.html", params={"tiles": "https://tiles.example:8443/{z}/{x}/{y}.png"})
     headers = response.headers
     directives = dict(part.split(" ", 1) for part in headers["content-security-policy"].split("; "))
     assert directives["img-src"] == "https://tiles.example:8443"
@@ -188,7 +188,7 @@ def test_only_the_document_of_the_map_may_load_tiles_and_only_from_their_server(
     ],
 )
 def test_the_service_refuses_what_is_no_tile_server(client, template):
-    response = client.get("/map", params={"tiles": template})
+    response = client.get("/map.html", params={"tiles": template})
     assert response.status_code == 422
     assert "it must be a URL with {z}, {x} and {y}" in response.json()["detail"]
 

@@ -23,21 +23,29 @@ ARC_POINTS = 48
 THIN, THICK, MARK, ARROW, AIRCRAFT, TEXT = 1.5, 3.0, 4.5, 6.0, 18.0, 12.0
 
 
-class _View:
-    """Conversion of local metres to pixels: north is up."""
+class _View(NamedTuple):
+    """Conversion of local metres to pixels: north is up. The middle of the picture, its scale and its height."""
 
-    def __init__(self, points: list[tuple[float, float]]) -> None:
-        east, north = zip(*points, strict=True)
-        width, height = max(east) - min(east), max(north) - min(north)
-        margin = MARGIN * max(width, height)
-        self.height = WIDTH * min(max((height + 2 * margin) / (width + 2 * margin), FLATTEST), STEEPEST)
-        self.scale = min(WIDTH / (width + 2 * margin), self.height / (height + 2 * margin))
-        self.east, self.north = 0.5 * (max(east) + min(east)), 0.5 * (max(north) + min(north))
+    east: float
+    north: float
+    scale: float
+    height: float
 
-    def __call__(self, east_m: float, north_m: float) -> str:
+    def pixels(self, east_m: float, north_m: float) -> str:
+        """A place in the picture."""
         x = 0.5 * WIDTH + self.scale * (east_m - self.east)
         y = 0.5 * self.height - self.scale * (north_m - self.north)
         return f"{x:.1f},{y:.1f}"
+
+
+def _view_of(points: list[tuple[float, float]]) -> _View:
+    """The view that shows all points."""
+    east, north = zip(*points, strict=True)
+    width, height = max(east) - min(east), max(north) - min(north)
+    margin = MARGIN * max(width, height)
+    pixels = WIDTH * min(max((height + 2 * margin) / (width + 2 * margin), FLATTEST), STEEPEST)
+    scale = min(WIDTH / (width + 2 * margin), pixels / (height + 2 * margin))
+    return _View(0.5 * (max(east) + min(east)), 0.5 * (max(north) + min(north)), scale, pixels)
 
 
 class Drawing(NamedTuple):
@@ -59,8 +67,8 @@ class Drawing(NamedTuple):
         east, north, radius = circle.east_m, circle.north_m, circle.radius_m
         corners = [(east - radius, north - radius), (east + radius, north + radius)]
         start = (self.start.east_m, self.start.north_m)
-        view = _View([*corners, start, *(point for _, track in tracks for point in track)])
-        centre_x, centre_y = view(east, north).split(",")
+        view = _view_of([*corners, start, *(point for _, track in tracks for point in track)])
+        centre_x, centre_y = view.pixels(east, north).split(",")
         title, height = escape(self.title), f"{view.height:.0f}"
         size = f'width="{WIDTH:.0f}" height="{height}" viewBox="0 0 {WIDTH:.0f} {height}"'
         ring = f'cx="{centre_x}" cy="{centre_y}" r="{view.scale * radius:.1f}"'
@@ -88,7 +96,7 @@ def _direction(view: _View, circle: Orbit, turn: Turn, quarter: int) -> str:
     """An arrow on the circle, in the direction in which it is held, between two of the compass points."""
     azimuth = 45.0 + 90.0 * quarter
     east, north = heading_vector(azimuth)
-    place = view(circle.east_m + circle.radius_m * east, circle.north_m + circle.radius_m * north)
+    place = view.pixels(circle.east_m + circle.radius_m * east, circle.north_m + circle.radius_m * north)
     turned = azimuth + (90.0 if turn == Turn.CW else -90.0)
     outline = f"0,{-ARROW} {0.7 * ARROW},{0.6 * ARROW} {-0.7 * ARROW},{0.6 * ARROW}"
     return f'<polygon points="{outline}" transform="translate({place}) rotate({turned:.1f})" fill="black"/>'
@@ -104,7 +112,7 @@ def _track(segment: Segment, aircraft: Aircraft, wind: Wind) -> list[tuple[float
 
 
 def _line(view: _View, letter: str, track: list[tuple[float, float]]) -> str:
-    points = " ".join(view(*point) for point in track)
+    points = " ".join(view.pixels(*point) for point in track)
     return (
         f'<polyline points="{points}" fill="none" stroke="{COLOURS[letter]}" stroke-width="{THICK}" '
         f'stroke-linejoin="round"/>'
@@ -112,14 +120,14 @@ def _line(view: _View, letter: str, track: list[tuple[float, float]]) -> str:
 
 
 def _dot(view: _View, pose: Pose, fill: str) -> str:
-    x, y = view(pose.east_m, pose.north_m).split(",")
+    x, y = view.pixels(pose.east_m, pose.north_m).split(",")
     return f'<circle cx="{x}" cy="{y}" r="{MARK}" fill="{fill}" stroke="black"/>'
 
 
 def _aircraft(view: _View, pose: Pose) -> str:
     """A dart that points along the heading."""
     turned = degrees(atan2(*heading_vector(pose.heading_deg)))
-    place = view(pose.east_m, pose.north_m)
+    place = view.pixels(pose.east_m, pose.north_m)
     size = 0.5 * AIRCRAFT
     outline = f"0,{-size} {0.6 * size},{0.7 * size} 0,{0.35 * size} {-0.6 * size},{0.7 * size}"
     return f'<polygon points="{outline}" transform="translate({place}) rotate({turned:.1f})" fill="black"/>'

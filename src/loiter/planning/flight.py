@@ -60,16 +60,18 @@ def samples_at(
     """The samples at given times, in seconds from the start, ascending; without segments each is the start."""
     import numpy as np
 
-    columns = np.empty((4, time_s.size))
-    columns[:] = np.array([[start.east_m], [start.north_m], [wrapped(start.heading_deg)], [0.0]])
-    # The piece flown at each time: the last one that has begun.
-    under_way = np.searchsorted([segment.start_s for segment in segments], time_s, side="right") - 1
-    for i, segment in enumerate(segments):
-        here = under_way == i
-        flown_m = (time_s[here] - segment.start_s) * aircraft.airspeed_m_s
-        columns[:3, here] = along(segment, flown_m, aircraft, wind)
-        columns[3, here] = segment.curvature_per_m
-    return Samples(time_s, *columns, *_over_ground(columns[2], columns[3], aircraft, wind))
+    if not segments:
+        held = np.full(time_s.size, 1.0)
+        east, north, heading = (held * value for value in (start.east_m, start.north_m, wrapped(start.heading_deg)))
+        return Samples(time_s, east, north, heading, 0.0 * held, *_over_ground(heading, 0.0 * held, aircraft, wind))
+    # The times of each piece: those from its start to before that of the next one.
+    ends = [*np.searchsorted(time_s, [segment.start_s for segment in segments[1:]]), time_s.size]
+    pieces = [(segment, time_s[a:b]) for segment, a, b in zip(segments, [0, *ends], ends, strict=False)]
+    V = aircraft.airspeed_m_s
+    paths = [along(segment, (times - segment.start_s) * V, aircraft, wind) for segment, times in pieces]
+    east, north, heading = (np.concatenate(parts) for parts in zip(*paths, strict=True))
+    curvature = np.concatenate([np.full(times.size, segment.curvature_per_m) for segment, times in pieces])
+    return Samples(time_s, east, north, heading, curvature, *_over_ground(heading, curvature, aircraft, wind))
 
 
 def _over_ground(

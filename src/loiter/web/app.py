@@ -194,9 +194,9 @@ def _add_page(api: FastAPI) -> None:
     async def page() -> FileResponse:
         return FileResponse(STATIC / "index.html")
 
-    @api.get("/map", include_in_schema=False)
+    @api.get("/map.html", include_in_schema=False)
     async def map_tiles(tiles: str) -> FileResponse:
         """The document behind the plan view that draws map tiles, once the user has switched them on."""
-        return FileResponse(STATIC / "tiles" / "tiles.html", headers=map_headers(tile_origin(tiles)))
+        return FileResponse(STATIC / "map.html", headers=map_headers(tile_origin(tiles)))
 
     api.mount("/static", StaticFiles(directory=STATIC))

@@ -22,12 +22,12 @@ def kml(chart: Chart) -> bytes:
     top = child(outermost, "Document")
     maneuver = chart.maneuver
     child(top, "name", f"{maneuver.word}, {maneuver.turn.described}" if maneuver.word else maneuver.turn.described)
-    child(top, "open", 1)
+    child(top, "open", "1")
     _view(top, chart)
     for name, colour in STYLES.items():
         style = child(child(top, "Style", id=name), "LineStyle")
         child(style, "color", colour)
-        child(style, "width", 3)
+        child(style, "width", "3")
     for line in chart.lines:
         properties = segment_properties(line)
         mark = _placemark(top, properties["does"], line.segment.letter, properties, chart)
@@ -46,9 +46,9 @@ def _view(parent: ET.Element, chart: Chart) -> None:
     view = child(parent, "LookAt")
     child(view, "longitude", format(chart.centre_longitude_deg, DEGREES))
     child(view, "latitude", format(chart.centre_latitude_deg, DEGREES))
-    child(view, "altitude", 0 if chart.altitude_m is None else chart.altitude_m)
-    child(view, "heading", 0)
-    child(view, "tilt", 0)
+    child(view, "altitude", "0" if chart.altitude_m is None else chart.altitude_m)
+    child(view, "heading", "0")
+    child(view, "tilt", "0")
     away_m = max(maneuver.orbit.radius_m, maneuver.orbit_at_join.distance_m(maneuver.start))
     child(view, "range", f"{VIEW_DISTANCE * away_m:.1f}")
     child(view, "altitudeMode", _mode(chart))
@@ -72,7 +72,7 @@ def _placemark(
 
 def _line(mark: ET.Element, chart: Chart, positions: Iterable[tuple[float, float]]) -> None:
     line = child(mark, "LineString")
-    child(line, "tessellate", 1)
+    child(line, "tessellate", "1")
     child(line, "altitudeMode", _mode(chart))
     child(line, "coordinates", " ".join(_position(chart, *position) for position in positions))
 

@@ -41,8 +41,9 @@ def read_wpl(source: Source, text: str) -> Mission:
 
 def _line(number: int, item: MissionItem) -> str:
     numbers = (*item.params, item.latitude_deg, item.longitude_deg, item.altitude_m)
-    fields = [number, int(number == 0), int(item.frame), int(item.command), *(f"{x:.9f}" for x in numbers)]
-    return "\t".join(map(str, [*fields, int(item.autocontinue)]))
+    integers = (number, int(number == 0), int(item.frame), int(item.command))
+    fields = [*(f"{n:d}" for n in integers), *(f"{x:.9f}" for x in numbers)]
+    return "\t".join([*fields, f"{int(item.autocontinue):d}"])
 
 
 def _item(source: Source, where: str, sequence: int, fields: list[str]) -> MissionItem:

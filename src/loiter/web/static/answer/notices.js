@@ -5,8 +5,6 @@
  *
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../requests/requests.js").Requests} Requests
- * @typedef {import("../requests/retry.js").Attempt} Attempt
  */
 import { withOrbit } from "../scene/scene.js";
 import { byId, show } from "../shared/dom.js";
@@ -29,11 +27,8 @@ const REASON_IDS = "no-plan refusal"; // the elements that say why a button is d
 /**
  * @param {Store} store
  * @param {Actions} actions
- * @param {Requests} requests
  */
-export function failureView(store, actions, requests) {
-  const button = byId("again", HTMLButtonElement);
-  button.addEventListener("click", requests.retry);
+export function failureView(store, actions) {
   // Runs before the listeners of the buttons themselves.
   addEventListener("click", (event) => stopDisabled(event) && actions.say("This scene has no plan.", true), {
     capture: true,
@@ -45,9 +40,6 @@ export function failureView(store, actions, requests) {
       show(byId("refusal", HTMLElement), failure !== null);
       setDisabled(failure !== null);
       byId("why", HTMLElement).textContent = failure?.sentence ?? "";
-      show(byId("retry", HTMLElement), failure?.name === "unreachable");
-      byId("attempt", HTMLElement).textContent = attemptText(failure?.attempt ?? null);
-      button.textContent = failure?.attempt ? "Try now" : "Try again";
     },
   );
 }
@@ -112,9 +104,3 @@ function setDisabled(disabled) {
   }
   for (const each of document.querySelectorAll("[data-shows-plan]")) each.toggleAttribute("inert", disabled);
 }
-
-/** @param {Attempt | null} attempt */
-const attemptText = (attempt) =>
-  attempt
-    ? `Retrying in ${attempt.wait_s} s, attempt ${attempt.number} of ${attempt.of}.`
-    : "All attempts have failed.";

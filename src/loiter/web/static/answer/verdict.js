@@ -31,7 +31,7 @@ export function verdictView(store) {
  */
 function verdictOf({ failure, faults, proof, answer, scene }) {
   if (failure) return { kind: "unchecked", text: "–" };
-  if (faults.certificate) return { kind: "unchecked", text: faults.certificate.sentence };
+  if (faults.certificate) return { kind: "unchecked", text: faults.certificate };
   if (!proof || !answer) return { kind: "waiting", text: "…" };
   const { certificate } = proof;
   if (!certificate.valid)

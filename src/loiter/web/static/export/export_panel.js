@@ -9,7 +9,7 @@
  * @typedef {import("./formats.js").Format} Format
  */
 import { refusalOf } from "../fields/field_names.js";
-import { Unreachable, getFile } from "../requests/api.js";
+import { fileOf } from "../requests/api.js";
 import { linkOf } from "../scene/address.js";
 import { byId, html } from "../shared/dom.js";
 import { currentPlan } from "../state/page_state.js";
@@ -36,7 +36,6 @@ export function exportPanel(store, actions, fields) {
 
   /** @param {Error} error */
   function refuse(error) {
-    if (error instanceof Unreachable) return actions.say(`Not saved: ${error.headline}. ${error.message}`, true);
     const refusal = refusalOf(error);
     mark(refusal.fields);
     actions.say(refusal.sentence, true);
@@ -67,8 +66,8 @@ function formatButton({ format, name, use }) {
 async function saveFile({ format, kind }, store, actions) {
   const state = store.get();
   const options = { ...state.scene, ...altitudeFor(kind, state.altitude) };
-  const { content, name = `entry.${format}` } = await getFile(`/api/export/${format}`, options);
-  download(content, name);
+  const name = `entry.${format}`;
+  download(await fileOf(format, options), name);
   actions.say(savedText(name, kind, state));
 }
 

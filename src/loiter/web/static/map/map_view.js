@@ -147,12 +147,10 @@ function pathPoints(state) {
 function drawNotes(store) {
   const box = byId("map", HTMLElement);
   store.watch(
-    ({ wantedMap, faults }) => [wantedMap, faults.map],
-    ({ wantedMap, faults }) => {
+    ({ wantedMap }) => [wantedMap],
+    ({ wantedMap }) => {
       byId("map-title", HTMLElement).textContent = wantedMap?.title ?? "";
-      byId("map-fault", HTMLElement).textContent = faults.map?.sentence ?? "";
       box.classList.toggle("drifts", wantedMap?.drifts === true);
-      box.classList.toggle("missing", faults.map !== null);
     },
   );
 }

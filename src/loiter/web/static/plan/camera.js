@@ -11,6 +11,7 @@
  * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {ReturnType<typeof createCamera>} PlanCamera
  */
+import { byId } from "../shared/dom.js";
 import { contains, fitted, unitVector, zoomed } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
 import { tidy } from "../shared/units.js";
@@ -105,19 +106,20 @@ function allowedScale(wanted, now, state) {
 export const middleOf = ({ width, height }) => [width / 2, height / 2];
 
 /**
- * Show all of the scene after its first answer, then the view of its link.
+ * Show all of the scene after its first answer, then the view of its link. Start last, so that the plan view has its
+ * size beside the new texts.
  *
  * @param {Store} store
  * @param {PlanCamera} camera
  */
 export function showOpenedScenes(store, camera) {
   store.watch(
-    ({ answeredRevision }) => [answeredRevision],
-    ({ opening, answeredRevision, failure }) => {
-      if (!opening || answeredRevision < opening.revision) return;
+    ({ revision }) => [revision],
+    ({ opening, revision }) => {
+      if (!opening || revision < opening.revision) return;
+      const box = byId("plan-box", HTMLElement);
+      camera.resize(box.clientWidth, box.clientHeight);
       camera.fit();
-      // The later answer must also be shown whole.
-      if (failure?.name === "unreachable") return;
       if (opening.span) camera.showSpan(opening.span);
       store.update({ opening: null });
     },

@@ -13,7 +13,7 @@ import { positionToScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
 import { ghostOf, shownTime } from "../state/page_state.js";
 import { drawCircle, drawGrid } from "./background.js";
-import { scaleLimits, showOpenedScenes } from "./camera.js";
+import { scaleLimits } from "./camera.js";
 import { gestures } from "./gestures.js";
 import { createHandles, stageAt } from "./handle_layer.js";
 import { AEROPLANE } from "./handles.js";
@@ -49,7 +49,6 @@ export function planView(store, actions, camera) {
   watchScene(root, layers, store, actions, () => overlays);
   watchHighlight(root, layers.others, callout, store);
   watchGhost(ghost, store);
-  showOpenedScenes(store, camera);
 }
 
 /** @param {Store} store @param {PlanCamera} camera */

@@ -32,7 +32,7 @@ export function tileLayer(store, actions) {
     frame?.remove();
     frame = null;
     if (template === null) return;
-    const src = `/map?${new URLSearchParams({ tiles: template })}`;
+    const src = `map.html?${new URLSearchParams({ tiles: template })}`;
     frame = html("iframe", { id: "tiles", src, title: "Map", tabindex: "-1", "aria-hidden": "true" });
     box.prepend(frame);
   }

@@ -1,80 +1,51 @@
 // @ts-check
 /**
- * The requests that wait until a drag pauses: the certificate of the plan, and the map of the reduced plane.
+ * The answers that wait until a drag pauses: the certificate of the plan, and the map of the reduced plane.
  *
  * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../shared/types.js").Proof} Proof
  * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("./retry.js").Retries} Retries
- * @typedef {import("../state/page_state.js").Fault} Fault
+ * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../state/page_state.js").MapOptions} MapOptions
  * @typedef {import("../shared/types.js").Answer} Answer
- * @typedef {import("../shared/types.js").Synthesis} Synthesis
  */
 import { drifts } from "../scene/scene.js";
-import { get, newestOnly, post } from "./api.js";
-import { faultOf } from "./retry.js";
+import { certificateOf, mapOf } from "./api.js";
 
-/**
- * A function that requests the certificate for the scene. An answer to an earlier scene is dropped.
- *
- * @param {Store} store
- * @param {Retries} retries
- */
-export function certificateRequest(store, retries) {
-  const setStatus = (/** @type {"idle" | "asking" | "failed"} */ certificate) => ({
-    requests: { ...store.get().requests, certificate },
-  });
-  const isCurrent = (/** @type {{revision: number}} */ { revision }) => revision === store.get().revision;
-  const send = newestOnly(
-    (/** @type {{scene: Scene, revision: number}} */ { scene }) => post("/api/certificate", scene),
-    (/** @type {Proof} */ proof, question) => {
-      if (isCurrent(question)) store.update({ proof, ...setStatus("idle") });
-    },
-    (error, question) => {
-      if (!isCurrent(question)) return;
-      const certificate = faultOf(error, retries, "Not checked");
-      store.update({ faults: { ...store.get().faults, certificate }, ...setStatus("failed") });
-    },
-  );
-  return () => {
-    const { scene, revision } = store.get();
-    store.update(setStatus("asking"));
-    send({ scene, revision });
-  };
+/** A function that checks the plan of the scene. @param {Store} store */
+export function certificateRequest(store) {
+  /** @param {PageState} state @returns {Partial<PageState>} */
+  function checked({ scene, faults, requests }) {
+    try {
+      return { proof: certificateOf(scene), requests: { ...requests, certificate: "idle" } };
+    } catch (error) {
+      const certificate = `Not checked: ${/** @type {Error} */ (error).message}`;
+      return { faults: { ...faults, certificate }, requests: { ...requests, certificate: "failed" } };
+    }
+  }
+  return () => store.update(checked(store.get()));
 }
 
 const CELLS = 280; // along a side: 1.5 pixels each; the curves cover the steps between cells
 
 /**
- * A function that requests the map for a plan, unless it is shown already. An answer for a map that is no longer needed
- * is dropped.
+ * A function that draws the map for a plan, unless it is shown already. A map that is no longer needed is dropped.
  *
  * @param {Store} store
- * @param {Retries} retries
  */
-export function mapRequest(store, retries) {
-  /** @param {"idle" | "asking" | "failed"} status @param {Fault | null} fault */
-  const outcome = (status, fault) => {
-    const { requests, faults } = store.get();
-    return { requests: { ...requests, map: status }, faults: { ...faults, map: fault } };
-  };
-  const isWanted = (/** @type {string} */ query) => query === store.get().wantedMap?.query;
-  const send = newestOnly(
-    (/** @type {string} */ query) => get(`/api/synthesis?${query}`),
-    (/** @type {Synthesis} */ synthesis, query) => {
-      if (isWanted(query)) store.update({ synthesis, shownMap: query, ...outcome("idle", null) });
-    },
-    (error, query) => {
-      if (isWanted(query)) store.update(outcome("failed", faultOf(error, retries, "The map does not show this scene")));
-    },
-  );
+export function mapRequest(store) {
+  /** @param {"idle" | "asking"} map */
+  const status = (map) => ({ requests: { ...store.get().requests, map } });
+  /** @param {MapOptions} wanted */
+  async function draw({ query }) {
+    const synthesis = await mapOf(JSON.parse(query));
+    if (query === store.get().wantedMap?.query) store.update({ synthesis, shownMap: query, ...status("idle") });
+  }
   return (/** @type {Answer} */ answer) => {
-    const { scene, shownMap, faults } = store.get();
+    const { scene, shownMap } = store.get();
     const wantedMap = mapOptions(scene, answer);
-    if (wantedMap.query === shownMap) return store.update({ wantedMap, ...outcome("idle", null) });
-    store.update({ wantedMap, ...outcome("asking", faults.map) });
-    send(wantedMap.query);
+    const isShown = wantedMap.query === shownMap;
+    store.update({ wantedMap, ...status(isShown ? "idle" : "asking") });
+    if (!isShown) draw(wantedMap);
   };
 }
 
@@ -89,10 +60,9 @@ function mapOptions(scene, { reduced }) {
   const { turn } = scene.orbit;
   // R of a circle of the turn radius may be below 1 by rounding; the map needs at least 1.
   const radius = Math.max(1, Number(reduced.radius.toFixed(3)));
-  const options = { radius: String(radius), turn, reach: String(reachFor(radius, reduced)), cells: String(CELLS) };
   return {
     title: `R = ${Number(radius.toPrecision(3))}, ${turn === "either" ? "either way" : turn}`,
-    query: new URLSearchParams(options).toString(),
+    query: JSON.stringify({ radius, turn, reach: reachFor(radius, reduced), cells: CELLS }),
     drifts: drifts(scene),
   };
 }

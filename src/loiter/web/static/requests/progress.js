@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * The progress of the requests as data attributes of the plan view, for which tests and measurements wait; and the
+ * The progress of the answers as data attributes of the plan view, for which tests and measurements wait; and the
  * delay from a move of the pointer to the drawing of its path, as entries "move to path" of the browser's performance
  * timeline.
  *
@@ -15,11 +15,10 @@ import { isSettled } from "../state/page_state.js";
 export function publishProgress(store) {
   const { dataset } = byId("plan", SVGSVGElement);
   store.watch(
-    (state) => [state.revision, state.answeredRevision, state.failure, isSettled(state)],
+    (state) => [state.revision, state.failure, isSettled(state)],
     (state) => {
-      dataset.failure = state.failure?.name ?? "";
-      dataset.asked = String(state.revision);
-      dataset.drawn = String(state.answeredRevision);
+      dataset.failure = state.failure ? "refused" : "";
+      dataset.drawn = String(state.revision);
       if (isSettled(state)) dataset.rested = String(state.revision);
     },
   );
@@ -27,22 +26,21 @@ export function publishProgress(store) {
 
 /** @param {Store} store */
 export function createLatency(store) {
-  /** @type {{revision: number, time_ms: number}[]} */
-  let moves = []; // of the pointer, whose path is not drawn yet
+  /** @type {{revision: number, time_ms: number} | null} */
+  let move = null; // of the pointer, whose path is not drawn yet
 
   return {
-    /** @param {number} revision @param {PointerEvent} event */
-    moved: (revision, event) => moves.push({ revision, time_ms: event.timeStamp }),
+    /** @param {PointerEvent} event */
+    moved: (event) => (move = { revision: store.get().revision + 1, time_ms: event.timeStamp }),
 
     /** Start after the plan view, so that the path is drawn when the delay is measured. */
     measure: () =>
       store.watch(
-        ({ answeredRevision }) => [answeredRevision],
-        ({ answeredRevision, failure }) => {
-          const end = performance.now();
-          const drawn = moves.filter(({ revision }) => revision <= answeredRevision);
-          moves = moves.slice(drawn.length);
-          if (!failure) for (const { time_ms } of drawn) performance.measure("move to path", { start: time_ms, end });
+        ({ revision }) => [revision],
+        ({ revision, failure }) => {
+          performance.clearMeasures("move to path");
+          if (move?.revision === revision && !failure)
+            performance.measure("move to path", { start: move.time_ms, end: performance.now() });
         },
       ),
   };

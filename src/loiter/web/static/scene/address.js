@@ -21,7 +21,7 @@ const FIRST = { scene: PRESETS[0].scene, units: "metric", altitude: {}, view: nu
 const fragmentOf = ({ scene, units, altitude, camera }) => toLink({ scene, units, altitude, view: spanOf(camera) });
 
 /** The link to the state. @param {PageState} state */
-export const linkOf = (state) => location.origin + location.pathname + fragmentOf(state);
+export const linkOf = (state) => location.href.replace(/[?#].*/, "") + fragmentOf(state);
 
 /**
  * Open the link in the address: now, whenever the user changes it, and after Back and Forward.
@@ -57,7 +57,8 @@ export function writeAddress(store) {
     /** @type {Entry} */
     const entry = { step, scene, place, altitude, camera };
     // An entry without a state is new: the user has opened the page, or a link on it.
-    if (isEntry(history.state) && step > history.state.step) history.pushState(entry, "", fragmentOf(state));
+    // In a page that embeds this one, Back belongs to that page.
+    if (parent === window && isEntry(history.state) && step > history.state.step) history.pushState(entry, "", fragmentOf(state));
     else history.replaceState(entry, "", fragmentOf(state));
     isWritten = true;
   }

@@ -37,8 +37,8 @@ export function createActions(store, requests, latency) {
      * @param {Partial<PageState>} [more] that changes with it
      */
     changeScene(scene, event, more = {}) {
+      if (event instanceof PointerEvent) latency.moved(event);
       requests.askPlan({ ...more, ...stepOf(event), scene, message: NO_MESSAGE });
-      if (event instanceof PointerEvent) latency.moved(store.get().revision, event);
     },
 
     /**

@@ -1,8 +1,7 @@
 // @ts-check
 /**
- * The state of the page. A plan, its certificate and the map are requested from the service, each in one of four
- * states: `idle` (answered), `stale` (the scene has changed; requested again when the drag pauses), `asking` (a request
- * is under way) and `failed`.
+ * The state of the page. A plan, its certificate and the map are each in one of four states: `idle` (that of the scene),
+ * `stale` (the scene has changed; computed again when the drag pauses), `asking` (being computed) and `failed`.
  *
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Answer} Answer
@@ -12,7 +11,6 @@
  * @typedef {import("../shared/types.js").Origin} Origin
  * @typedef {import("../shared/types.js").Synthesis} Synthesis
  * @typedef {import("../shared/geometry.js").View} View
- * @typedef {import("../requests/retry.js").Attempt} Attempt
  *
  * @typedef {"idle" | "stale" | "asking" | "failed"} Status
  * @typedef {"light" | "dark"} Theme
@@ -28,15 +26,9 @@
  * @property {number[] | null} span  the view in its link: middle east and north, width; metres
  *
  * @typedef {object} Failure  the reason why the scene has no plan
- * @property {"refused" | "unreachable"} name
  * @property {string} headline
  * @property {string} sentence
- * @property {Attempt | null} attempt  the next attempt, if there is one
  * @property {number | null} fittedRadius_m  the least radius that can be held, if the circle is too small
- *
- * @typedef {object} Fault  the reason why a certificate or a map is missing
- * @property {string} sentence
- * @property {boolean} temporary  whether the service may answer later
  *
  * @typedef {object} MapOptions  the map that belongs to a plan
  * @property {string} title
@@ -61,18 +53,16 @@
  * @property {number} timelineWidth  pixels
  * @property {number} radiusBearing_deg  the position on the circle of the handle for its radius
  * @property {Opening | null} opening
- * @property {number} revision  number of the newest request for a plan
- * @property {number} answeredRevision  number of the newest request that was answered or has failed
+ * @property {number} revision  number of the newest scene
  * @property {number} step  number of the step of the user that led here, for undo and the browser's Back
  * @property {number} lastStep  the newest step; larger than `step` after an undo
- * @property {boolean} isLate  whether the answer to the newest request is awaited for longer than a moment
- * @property {number} pausedRevision  number of the newest request after which a drag has paused
+ * @property {number} pausedRevision  number of the newest scene after which a drag has paused
  * @property {Record<"plan" | "certificate" | "map", Status>} requests
  * @property {Answer | null} answer  the newest plan
  * @property {Failure | null} failure
  * @property {Answer | null} announced  the plan of the last pause: its text is read out and can be copied
  * @property {Proof | null} proof  the certificate of the plan
- * @property {Record<"certificate" | "map", Fault | null>} faults
+ * @property {{certificate: string | null}} faults  why the certificate is missing
  * @property {MapOptions | null} wantedMap
  * @property {string} shownMap  query of the map that is shown
  * @property {Synthesis | null} synthesis
@@ -102,17 +92,15 @@ export const INITIAL_STATE = {
   radiusBearing_deg: 150,
   opening: null,
   revision: 0,
-  answeredRevision: 0,
   pausedRevision: 0,
   step: 0,
   lastStep: 0,
-  isLate: false,
   requests: { plan: "idle", certificate: "idle", map: "idle" },
   answer: null,
   failure: null,
   announced: null,
   proof: null,
-  faults: { certificate: null, map: null },
+  faults: { certificate: null },
   wantedMap: null,
   shownMap: "",
   synthesis: null,
@@ -137,7 +125,7 @@ export const shownTime = (state) => Math.min(state.playback.time_s, durationOf(s
  * @param {PageState} state
  */
 export function isSettled({ revision, pausedRevision, failure, requests }) {
-  if (pausedRevision !== revision || requests.plan === "asking") return false;
+  if (pausedRevision !== revision) return false;
   const done = (/** @type {Status} */ status) => status === "idle" || status === "failed";
   return failure !== null || (done(requests.certificate) && done(requests.map));
 }

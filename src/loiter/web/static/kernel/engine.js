@@ -1,0 +1,92 @@
+// @ts-check
+/**
+ * The answers of the library for scenes: what `loiter serve` answers, computed here by the kernel and the library that
+ * are translated from Python.
+ *
+ * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../shared/types.js").Answer} Answer
+ * @typedef {import("../shared/types.js").Proof} Proof
+ * @typedef {Scene & import("../shared/types.js").Altitude} SceneWithAltitude
+ */
+import { LoiterError } from "./errors.js";
+import * as translated from "./library.js";
+import { plain } from "./python.js";
+
+export { synthesis } from "./synthesis.js";
+
+/** @type {any} */
+const library = translated;
+
+/** The plan of a scene and all alternatives. @param {Scene} scene @returns {Answer} */
+export const plan = (scene) => plain(library.plan(placed(scene)));
+
+/** The certificate of the first optimal maneuver. @param {Scene} scene @returns {Proof} */
+export const certificate = (scene) => plain(library.certificate(placed(scene)));
+
+/** Every extremal. @param {Scene} scene */
+export const candidates = (scene) => plain(library.all_candidates(placed(scene)));
+
+const CHORD_ERROR_M = 1; // as in `loiter plan --save`
+
+/**
+ * The plan as a file.
+ *
+ * @param {string} format  "geojson"
+ * @param {SceneWithAltitude} options
+ * @returns {{content: string, type: string}}
+ */
+export function file(format, { altitude_m = undefined, altitude_reference = "msl", home_altitude_m, ...scene }) {
+  const { problem, frame } = placed(scene);
+  const [maneuver] = library.all_fastest(problem);
+  if (format === "svg") return { content: maneuver._drawing().svg(), type: "image/svg+xml" };
+  library._check_points(maneuver, { spacing_m: null, chord_error_m: CHORD_ERROR_M });
+  const datum = library.AltitudeDatum(altitude_reference, home_altitude_m ?? null);
+  const altitude = altitude_m === undefined ? null : datum.checked(altitude_m);
+  const ending = `.${format}`;
+  const { content, media_type } = library.FILE_FORMATS.find((/** @type {{endings: string[]}} */ { endings }) => endings.includes(ending));
+  const autopilot = library.AUTOPILOTS.get("ardupilot");
+  const options = library.SaveArguments(maneuver, frame, altitude, datum, null, CHORD_ERROR_M, autopilot);
+  return { content: content(ending, options), type: media_type };
+}
+
+/** @param {Scene} scene */
+function placed({ pose, orbit, aircraft, wind, tolerance_m = 0, origin }) {
+  const problem = library.Problem(
+    library.Pose(pose.east_m, pose.north_m, pose.heading_deg),
+    library.Orbit(
+      orbit.east_m,
+      orbit.north_m,
+      orbit.radius_m,
+      orbit.turn,
+      orbit.velocity_east_m_s,
+      orbit.velocity_north_m_s,
+    ),
+    library.Aircraft(
+      aircraft.airspeed_m_s,
+      aircraft.max_bank_deg ?? null,
+      aircraft.min_turn_radius_m ?? null,
+      aircraft.max_turn_rate_deg_s ?? null,
+    ),
+    wind ? library.Wind(wind.speed_m_s, wind.from_deg) : undefined,
+    tolerance_m,
+  );
+  const frame = origin ? library.LocalFrame(origin.latitude_deg, origin.longitude_deg) : null;
+  return library.PlacedProblem(problem, frame);
+}
+
+/**
+ * An error of the library as the service describes it: its sentence with the names of the JSON, its kind, and the
+ * fields that it refuses. Other errors are thrown again.
+ *
+ * @param {any} error
+ */
+export function refusal(error) {
+  if (!(error instanceof LoiterError)) throw error;
+  const { kind, argument, problem, fitted_radius_m = null } = /** @type {any} */ (error);
+  if (argument === undefined) return { sentence: error.message, kind, places: [], fitted_radius_m };
+  const { name, path } = library.JSON_FIELDS.get(argument) ?? {
+    name: argument.replaceAll(" ", "."),
+    path: argument.replaceAll(" ", "/"),
+  };
+  return { sentence: `${name} ${problem}`, kind, places: [path], fitted_radius_m };
+}

@@ -1,0 +1,3084 @@
+// @ts-nocheck
+// What is between the kernel and the page: problems, maneuvers, their answers, certificates and files.
+// Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
+import * as errors from "./errors.js";
+import * as geodesic from "./geodesic.js";
+import * as kernel from "./kernel.js";
+import * as arrays from "./arrays.js";
+import { Complex, ElementTree, Tuple, Values, abs, accumulate, add, all, and, any, any_, append_, asdict, bit_and, bit_or, cached, capitalize_, cmath, complex, conjugate_, copy_, csv, dict, div, encode_, enumerate, enumeration, eq, escape, float, format, ge, get_, gt, has, index_, int, io, item, items_, iter, iter_items, join_, json, le, len, letters, list, lower_, lt, map, math, max, min, mod, mul, name_of, ne, neg, next, np, or, pairwise, partial, plain, pop_, pow, range, removesuffix_, replace, replace_, repr, reversed, round, round_, rows, set, set_item, set_of, sliced, sorted, str, struct, sub, sum, tolist_, truth, tuple, values_, with_middle, zip } from "./python.js";
+
+function plan(placed) {
+let _, best, document, entry, first, maneuver, maneuvers, others, start_x, start_y;
+[best, others] = iter(best_and_others(placed.problem));
+const chained1 = [...iter(best), ...iter(others)];
+[first, ..._] = iter(chained1);
+maneuvers = chained1;
+document = answer(best, others, placed.frame);
+for ([entry, maneuver] of rows(zip([document, ...iter(item(document, "alternatives"))], maneuvers))) {
+set_item(entry, "track", track(maneuver));
+}
+[[start_x, ..._], [start_y, ..._]] = iter(list(iter("xy")).map((axis) => item(item(document, "track"), axis)));
+return bit_or(document, new Map([["optimal", len(best)], ["other_turn_later_s", _other_turn_later_s(maneuvers)], ["instruction", instruction(first)], ["command", command(placed.problem)], ["python", python(placed.problem)], ["reduced", new Map([["x", start_x], ["y", start_y], ["radius", placed.problem.radius]])]]));
+}
+
+function all_candidates(placed) {
+let least_s, maneuvers;
+maneuvers = extremals(placed.problem);
+least_s = min(list(iter(maneuvers)).map((m) => m.duration_s));
+return new Map([["candidates", list(iter(maneuvers)).map((m) => bit_or(maneuver_values(m, placed.frame), new Map([["track", track(m)], ["later_s", sub(m.duration_s, least_s)]])))]]);
+}
+
+function certificate(placed) {
+let _, checked, first, instants, series, switches;
+[first, ..._] = iter(all_fastest(placed.problem));
+checked = certify(first, placed.problem.tolerance_m);
+instants = list(iter(checked.history(STEPS))).flatMap((piece) => list(iter(piece)).map((instant) => instant));
+series = new Map(list(iter(Instant._fields)).map((name) => [name, list(iter(instants)).map((instant) => instant[name])]));
+switches = list(iter(checked.switches)).map((switch_) => switch_.time_s);
+return new Map([["certificate", checked.to_dict()], ["series", bit_or(series, new Map([["switches_s", switches]]))]]);
+}
+
+function _check_points(maneuver, options) {
+let count, name;
+count = sum(step_counts(maneuver, options.spacing_m, options.chord_error_m));
+if (gt(count, MAX_POINTS)) {
+name = ((options.spacing_m == null) ? "chord_error_m" : "spacing_m");
+throw errors.InvalidArgument(name, `is ${format(options[name], `g`)}: the file would have ${format(count, `,`)} points; the service writes at most ${format(MAX_POINTS, `,`)}, loiter plan --save writes more`);
+}
+}
+
+const Format = struct(class Format extends Tuple {
+constructor(endings, kind, media_type, name, use, content = null) {
+super();
+this.endings = endings;
+this.kind = kind;
+this.media_type = media_type;
+this.name = name;
+this.use = use;
+this.content = content;
+
+}
+toString() {
+const self = this;
+return `${str(join_(" or ", self.endings))} (${str(self.use)})`;
+}
+}, ["endings", "kind", "media_type", "name", "use", "content"]);
+
+function _map(draw, ending, arguments_, has_ground = false) {
+let above_ground, altitude_m, frame, shown;
+frame = _frame(ending, arguments_);
+above_ground = and(has_ground, () => eq(arguments_.datum.reference, AltitudeReference.GROUND));
+altitude_m = (truth(above_ground) ? arguments_.altitude_m : _above_sea_m(arguments_));
+shown = chart(arguments_.maneuver, frame, altitude_m, arguments_.spacing_m, arguments_.chord_error_m);
+return draw(replace(shown, { above_ground: above_ground }));
+}
+
+function geojson(chart) {
+let feature, features, lines;
+features = [...iter(map(_segment, chart.lines)), ...iter(map(_mark, chart.marks)), _circle(chart)];
+if ((chart.altitude_m != null)) {
+for (feature of iter(features)) {
+set_item(item(feature, "properties"), "altitude_m", chart.altitude_m);
+}
+}
+lines = join_(",\n", list(iter(features)).map((feature) => json.dumps(feature, { allow_nan: false })));
+return encode_(`{"type": "FeatureCollection", "features": [\n${str(lines)}\n]}\n`);
+}
+
+function kml(chart) {
+let colour, line, maneuver, mark, name, outermost, place, properties, style, top;
+outermost = root("kml", "http://www.opengis.net/kml/2.2");
+top = child(outermost, "Document", undefined, new Map([]));
+maneuver = chart.maneuver;
+child(top, "name", (truth(maneuver.word) ? `${str(maneuver.word)}, ${str(Turn_described(maneuver.turn))}` : Turn_described(maneuver.turn)), new Map([]));
+child(top, "open", "1", new Map([]));
+_view(top, chart);
+for ([name, colour] of rows(items_(STYLES))) {
+style = child(child(top, "Style", undefined, new Map([["id", name]])), "LineStyle", undefined, new Map([]));
+child(style, "color", colour, new Map([]));
+child(style, "width", "3", new Map([]));
+}
+for (line of iter(chart.lines)) {
+properties = segment_properties(line);
+mark = _placemark(top, item(properties, "does"), line.segment.letter, properties, chart);
+_line(mark, chart, zip(line.longitude_deg, line.latitude_deg));
+}
+mark = _placemark(top, `hold ${str(Turn_described(maneuver.turn))}`, "circle", circle_properties(chart), chart);
+_line(mark, chart, zip(...iter(reversed(chart.circle))));
+for (place of iter(chart.marks)) {
+mark = _placemark(top, `${str(place.kind)}: ${str(place.action)}`, null, mark_properties(place), chart);
+_point(mark, chart, place.longitude_deg, place.latitude_deg);
+}
+return document(outermost);
+}
+
+function gpx(chart) {
+let centre, here, latitude, location, longitude, maneuver, mark, name, points, top, track;
+location = new Map([["xmlns:xsi", SCHEMA], ["xsi:schemaLocation", `${str(NAMESPACE)} ${str(NAMESPACE)}/gpx.xsd`]]);
+top = root("gpx", NAMESPACE, new Map([...iter_items(location), ["version", "1.1"], ["creator", "loiter"]]));
+maneuver = chart.maneuver;
+name = `${str(or(maneuver.word, () => "on the circle"))}, ${str(Turn_described(maneuver.turn))}`;
+child(child(top, "metadata", undefined, new Map([])), "name", name, new Map([]));
+for (mark of iter(chart.marks)) {
+here = _place(top, "wpt", chart, mark.latitude_deg, mark.longitude_deg);
+child(here, "name", mark.kind, new Map([]));
+child(here, "desc", `${str(mark.action)} at ${format(mark.time_s, `.2f`)} s, heading ${format(mark.heading_deg, `.1f`)} deg`, new Map([]));
+child(here, "type", mark.kind, new Map([]));
+}
+centre = _place(top, "wpt", chart, chart.centre_latitude_deg, chart.centre_longitude_deg);
+child(centre, "name", "centre", new Map([]));
+child(centre, "desc", `hold ${str(Turn_described(maneuver.turn))}, radius ${format(maneuver.orbit.radius_m, `g`)} m`, new Map([]));
+child(centre, "type", "centre", new Map([]));
+track = child(top, "trk", undefined, new Map([]));
+child(track, "name", name, new Map([]));
+points = child(track, "trkseg", undefined, new Map([]));
+for ([latitude, longitude] of rows(_track(chart))) {
+_place(points, "trkpt", chart, latitude, longitude);
+}
+return document(top);
+}
+
+function _table(ending, arguments_) {
+let counts;
+counts = step_counts(arguments_.maneuver, arguments_.spacing_m, arguments_.chord_error_m);
+return table(vertices(arguments_.maneuver, counts), arguments_.frame, _above_sea_m(arguments_));
+}
+
+function _plan(ending, arguments_) {
+let airspeed_m_s, fence;
+fence = ((arguments_.site == null) ? null : arguments_.site.fence_document);
+airspeed_m_s = arguments_.maneuver.aircraft.airspeed_m_s;
+return qgcplan(_mission(ending, arguments_), arguments_.autopilot, airspeed_m_s, fence);
+}
+
+function _waypoints(ending, arguments_) {
+if (((arguments_.frame != null) && eq(arguments_.autopilot, Autopilot.PX4))) {
+throw errors.InvalidArgument("autopilot", `is px4, which would fly to the home line of a ${str(ending)} file as to its first waypoint: write a .plan file for PX4`);
+}
+return wpl(_mission(ending, arguments_));
+}
+
+function _frame(ending, arguments_) {
+if ((arguments_.frame == null)) {
+throw errors.InvalidArgument("frame", `is missing: a ${str(ending)} file needs places on Earth; .csv does not`);
+}
+return arguments_.frame;
+}
+
+const AltitudeReference = enumeration({ MSL: 'msl', HOME: 'home', GROUND: 'ground' });
+
+function _above_sea_m(arguments_) {
+return ((arguments_.altitude_m == null) ? null : arguments_.datum.above_sea_m(arguments_.altitude_m));
+}
+
+function chart(maneuver, frame, altitude_m, spacing_m, chord_error_m) {
+let bend, centre_latitude, centre_longitude, counts, latitude, lines, longitude, marks, orbit, polygon, switches, track;
+orbit = maneuver.orbit_at_join;
+bend = _bend_per_m(maneuver, frame, orbit);
+counts = step_counts(maneuver, spacing_m, chord_error_m, bend);
+track = vertices(maneuver, counts);
+[latitude, longitude] = iter(degrees(frame, track.east_m, track.north_m));
+switches = list(iter(range(add(len(counts), 1)))).map((i) => sum(sliced(counts, null, i, null)));
+lines = list(iter(zip(maneuver.segments, switches, sliced(switches, 1, null, null)))).map((one) => iter(one)).map(([segment, first, last]) => SegmentLine(segment, sliced(latitude, first, add(last, 1), null), sliced(longitude, first, add(last, 1), null)));
+marks = _marks(maneuver, frame, track, switches, latitude, longitude);
+[[centre_latitude], [centre_longitude]] = iter(degrees(frame, [orbit.east_m], [orbit.north_m]));
+polygon = degrees(frame, ...iter(circle_polygon(orbit, chord_error_m, bend)));
+return Chart(maneuver, altitude_m, lines, marks, polygon, centre_latitude, centre_longitude);
+}
+
+function _segment(line) {
+let parts;
+parts = list(iter(cut_line(line.longitude_deg, line.latitude_deg))).map((part) => _coordinates(part));
+return _feature(...iter(_geometry("LineString", parts)), segment_properties(line));
+}
+
+function _mark(mark) {
+let coordinates;
+[coordinates] = iter(_coordinates([Position(mark.longitude_deg, mark.latitude_deg)]));
+return _feature("Point", coordinates, mark_properties(mark));
+}
+
+function _circle(chart) {
+let latitude, longitude, parts;
+[latitude, longitude] = iter(chart.circle);
+parts = list(iter(cut_ring(longitude, latitude))).map((part) => [_coordinates(part)]);
+return _feature(...iter(_geometry("Polygon", parts)), circle_properties(chart));
+}
+
+function root(tag, namespace, attributes = null) {
+return ElementTree.Element(tag, new Map([["xmlns", namespace], ...iter_items(or(attributes, () => new Map([])))]));
+}
+
+function child(parent, tag, text = null, attributes = new Map()) {
+let element;
+element = ElementTree.SubElement(parent, tag, attributes);
+if ((text != null)) {
+element.text = str(text);
+}
+return element;
+}
+
+const Turn = enumeration({ CW: 'cw', CCW: 'ccw', EITHER: 'either' });
+function Turn_other(self) {
+return get_(new Map([[Turn.CW, Turn.CCW], [Turn.CCW, Turn.CW]]), self, self);
+}
+function Turn_described(self) {
+return get_(new Map([[Turn.CW, "clockwise"], [Turn.CCW, "counter-clockwise"]]), self, "either way");
+}
+
+function _view(parent, chart) {
+let away_m, maneuver, view;
+maneuver = chart.maneuver;
+view = child(parent, "LookAt", undefined, new Map([]));
+child(view, "longitude", format(chart.centre_longitude_deg, DEGREES), new Map([]));
+child(view, "latitude", format(chart.centre_latitude_deg, DEGREES), new Map([]));
+child(view, "altitude", ((chart.altitude_m == null) ? "0" : chart.altitude_m), new Map([]));
+child(view, "heading", "0", new Map([]));
+child(view, "tilt", "0", new Map([]));
+away_m = max(maneuver.orbit.radius_m, maneuver.orbit_at_join.distance_m(maneuver.start));
+child(view, "range", `${format(mul(VIEW_DISTANCE, away_m), `.1f`)}`, new Map([]));
+child(view, "altitudeMode", _mode(chart), new Map([]));
+}
+
+function segment_properties(line) {
+let segment;
+segment = line.segment;
+return new Map([["kind", "segment"], ["letter", segment.letter], ["does", item(ACTIONS, segment.letter)], ["start_s", segment.start_s], ["duration_s", segment.duration_s], ["length_m", segment.length_m], ["curvature_per_m", segment.curvature_per_m]]);
+}
+
+function _placemark(parent, title, style, properties, chart) {
+let altitude, data, key, mark, name, value;
+mark = child(parent, "Placemark", undefined, new Map([]));
+child(mark, "name", title, new Map([]));
+if ((style != null)) {
+child(mark, "styleUrl", `#${str(style)}`, new Map([]));
+}
+data = child(mark, "ExtendedData", undefined, new Map([]));
+name = (truth(chart.above_ground) ? "altitude_above_ground_m" : "altitude_m");
+altitude = ((chart.altitude_m == null) ? new Map([]) : new Map([[name, chart.altitude_m]]));
+for ([key, value] of rows(items_(new Map([...iter_items(properties), ...iter_items(altitude)])))) {
+child(child(data, "Data", undefined, new Map([["name", key]])), "value", value, new Map([]));
+}
+return mark;
+}
+
+function _line(mark, chart, positions) {
+let line;
+line = child(mark, "LineString", undefined, new Map([]));
+child(line, "tessellate", "1", new Map([]));
+child(line, "altitudeMode", _mode(chart), new Map([]));
+child(line, "coordinates", join_(" ", list(iter(positions)).map((position) => _position(chart, ...iter(position)))), new Map([]));
+}
+
+function circle_properties(chart) {
+let maneuver;
+maneuver = chart.maneuver;
+return new Map([["kind", "circle"], ["turn", maneuver.turn], ["radius_m", maneuver.orbit.radius_m], ["centre_latitude_deg", round(chart.centre_latitude_deg, DECIMALS)], ["centre_longitude_deg", round(chart.centre_longitude_deg, DECIMALS)], ["word", maneuver.word], ["duration_s", maneuver.duration_s], ["length_m", maneuver.length_m]]);
+}
+
+function mark_properties(mark) {
+return new Map([["kind", mark.kind], ["does", mark.action], ["time_s", mark.time_s], ["heading_deg", mark.heading_deg], ["track_deg", mark.track_deg], ["ground_speed_m_s", mark.ground_speed_m_s]]);
+}
+
+function _point(mark, chart, longitude, latitude) {
+let point;
+point = child(mark, "Point", undefined, new Map([]));
+child(point, "altitudeMode", _mode(chart), new Map([]));
+child(point, "coordinates", _position(chart, longitude, latitude), new Map([]));
+}
+
+function document(element) {
+let text;
+ElementTree.indent(element);
+text = ElementTree.tostring(element, { encoding: "UTF-8", xml_declaration: true });
+return add(text, "\n");
+}
+
+function _place(parent, tag, chart, latitude, longitude) {
+let east, place, west;
+east = `${format(longitude, `${String(DEGREES)}`)}`;
+west = (eq(float(east), 180.0) ? replace_(east, "180.", "-180.") : east);
+place = child(parent, tag, undefined, new Map([["lat", `${format(latitude, `${String(DEGREES)}`)}`], ["lon", west]]));
+if ((chart.altitude_m != null)) {
+child(place, "ele", chart.altitude_m, new Map([]));
+}
+return place;
+}
+
+function _track(chart) {
+let line, track;
+track = list(iter(sliced(chart.marks, null, 1, null))).map((mark) => [mark.latitude_deg, mark.longitude_deg]);
+for (line of iter(chart.lines)) {
+track = add(track, sliced(list(zip(line.latitude_deg, line.longitude_deg)), 1, null, null));
+}
+return track;
+}
+
+function step_counts(maneuver, spacing_m, chord_error_m, bend_per_m = 0.0) {
+let counts, limits;
+if ((spacing_m != null)) {
+spacing_m = positive("spacing_m", spacing_m, "metres");
+}
+chord_error_m = positive("chord_error_m", chord_error_m, "metres");
+counts = list(iter(maneuver.segments)).map((segment) => _least_count(maneuver, segment, spacing_m, chord_error_m, bend_per_m));
+if (gt(sum(counts), MAX_VERTICES)) {
+limits = add(`a chord error of ${format(chord_error_m, `g`)} m`, ((spacing_m == null) ? "" : ` and a spacing of ${format(spacing_m, `g`)} m`));
+throw errors.InvalidArgument("track", `would have more than ${format(MAX_VERTICES, `,`)} points with ${str(limits)}`);
+}
+return tuple(list(iter(counts)).map((count) => max(1, math.ceil(count))));
+}
+
+function table(track, frame, altitude_m) {
+let columns, rows, text;
+columns = _columns(track, frame);
+if ((altitude_m != null)) {
+set_item(columns, "altitude_m", mul([altitude_m], track.time_s.size));
+}
+text = io.StringIO({ newline: "" });
+rows = csv.writer(text, { lineterminator: "\n" });
+rows.writerow(columns);
+rows.writerows(zip(...iter(values_(columns))));
+return encode_(text.getvalue());
+}
+
+function vertices(maneuver, counts) {
+let last, times;
+
+times = list(iter(zip(maneuver.segments, counts))).map((one) => iter(one)).map(([segment, count]) => add(segment.start_s, div(mul(segment.duration_s, np.arange(count)), count)));
+last = (truth(maneuver.segments) ? item(maneuver.segments, -1) : null);
+append_(times, np.array([((last == null) ? 0.0 : add(last.start_s, last.duration_s))]));
+return samples_at(np.concatenate(times), maneuver.start, maneuver.segments, maneuver.aircraft, maneuver.wind);
+}
+
+function qgcplan(mission, autopilot, airspeed_m_s, fence = null) {
+let document;
+document = new Map([["fileType", "Plan"], ["version", 1], ["groundStation", "QGroundControl"], ["geoFence", ((fence == null) ? NO_FENCE : fence)], ["rallyPoints", new Map([["points", []], ["version", 2]])], ["mission", new Map([["version", 2], ["firmwareType", int(autopilot)], ["vehicleType", FIXED_WING], ["cruiseSpeed", airspeed_m_s], ["hoverSpeed", airspeed_m_s], ["globalPlanAltitudeMode", _common_mode(mission)], ["plannedHomePosition", list(mission.home)], ["items", list(iter(enumerate(mission.items, { start: 1 }))).map((one) => iter(one)).map(([number, item]) => _written(number, item))]])]]);
+return add(encode_(json.dumps(document, { indent: 4, allow_nan: false })), "\n");
+}
+
+function _mission(ending, arguments_) {
+let altitude_m, datum, frame, plan;
+[frame, datum, altitude_m] = iter([_frame(ending, arguments_), arguments_.datum, arguments_.altitude_m]);
+if ((eq(arguments_.autopilot, Autopilot.PX4) && eq(datum.reference, AltitudeReference.GROUND))) {
+throw errors.InvalidArgument("altitude_reference", "is ground: PX4 flies no missions with altitudes above the ground");
+}
+if ((altitude_m == null)) {
+throw errors.InvalidArgument("altitude_m", `is missing: a ${str(ending)} file needs ${str(datum.unit)}`);
+}
+plan = mission(arguments_.maneuver, frame, altitude_m, arguments_.spacing_m, arguments_.chord_error_m, datum, arguments_.along_path, arguments_.autopilot);
+return ((arguments_.site == null) ? plan : replace(plan, { home: arguments_.site.home }));
+}
+
+const Autopilot = enumeration({ ARDUPILOT: 3, PX4: 12 });
+function Autopilot_described(self) {
+return item(new Map([[Autopilot.ARDUPILOT, "ArduPilot"], [Autopilot.PX4, "PX4"]]), self);
+}
+
+function wpl(mission) {
+let home, lines;
+home = MissionItem(MavCommand.NAV_WAYPOINT, Frame.ABOVE_SEA, [0.0, 0.0, 0.0, 0.0], ...iter(mission.home));
+lines = list(iter(enumerate([home, ...iter(mission.items)]))).map((one) => iter(one)).map(([number, item]) => wpl__line(number, item));
+return encode_(join_("\n", [HEADER, ...iter(lines), ""]));
+}
+
+function _bend_per_m(maneuver, frame, orbit) {
+let away_m, largest_latitude, places;
+places = [maneuver.start, ...iter(list(iter(maneuver.segments)).map((segment) => segment.end))];
+away_m = add(max(list(iter(places)).map((pose) => math.hypot(pose.east_m, pose.north_m))), mul(4.0, maneuver.aircraft.turn_radius_m));
+away_m = max(away_m, add(math.hypot(orbit.east_m, orbit.north_m), orbit.radius_m));
+largest_latitude = add(math.radians(abs(frame.latitude_deg)), div(away_m, LEAST_EARTH_RADIUS_M));
+return add(div(mul(1.09, math.tan(min(math.radians(LARGEST_LATITUDE_DEG), largest_latitude))), LEAST_EARTH_RADIUS_M), BEND_PER_M);
+}
+
+function degrees(frame, east_m, north_m) {
+let latitude, longitude;
+
+[latitude, longitude] = iter(frame.to_geodetic(east_m, north_m));
+if (truth(any_(np.isnan(latitude)))) {
+throw errors.OutOfRange(`the maneuver goes more than ${format(div(REACH_M, 1000.0), `g`)} km from the frame's origin ${format(frame.latitude_deg, `g`)} ${format(frame.longitude_deg, `g`)}: take the circle's centre as the origin`);
+}
+return [tolist_(round_(latitude, places_DECIMALS)), tolist_(round_(longitude, places_DECIMALS))];
+}
+
+const SegmentLine = struct(class SegmentLine extends Tuple {
+constructor(segment, latitude_deg, longitude_deg) {
+super();
+this.segment = segment;
+this.latitude_deg = latitude_deg;
+this.longitude_deg = longitude_deg;
+
+}
+}, ["segment", "latitude_deg", "longitude_deg"]);
+
+function _marks(maneuver, frame, track, at, latitude, longitude) {
+let actions, headings, lat, lon, rows, tracks;
+[lat, lon] = iter([list(iter(at)).map((i) => item(latitude, i)), list(iter(at)).map((i) => item(longitude, i))]);
+headings = true_headings(frame, item(track.heading_deg, at), lat, lon);
+tracks = true_headings(frame, item(track.track_deg, at), lat, lon);
+actions = list(iter(maneuver.segments)).map((segment) => item(ACTIONS, segment.letter));
+rows = zip(_kinds(len(maneuver.segments)), [...iter(actions), `hold ${str(Turn_described(maneuver.turn))}`], tolist_(item(track.time_s, at)), lat, lon, headings, tracks, tolist_(item(track.ground_speed_m_s, at)));
+return list(iter(rows)).map((row) => Mark(...iter(row)));
+}
+
+function circle_polygon(orbit, chord_error_m, bend_per_m = 0.0) {
+let angle, curvature, sides;
+
+curvature = add(div(1.0, orbit.radius_m), bend_per_m);
+sides = max(LEAST_SIDES, math.ceil(mul(mul(mul(2.0, math.pi), orbit.radius_m), math.sqrt(div(curvature, mul(8.0, chord_error_m))))));
+if (gt(sides, MAX_VERTICES)) {
+throw errors.InvalidArgument("circle", `would have more than ${format(MAX_VERTICES, `,`)} points with a chord error of ${format(chord_error_m, `g`)} m`);
+}
+angle = div(mul(mul(2.0, math.pi), mod(np.arange(add(sides, 1)), sides)), sides);
+return [add(orbit.east_m, mul(orbit.radius_m, np.cos(angle))), add(orbit.north_m, mul(orbit.radius_m, np.sin(angle)))];
+}
+
+const Chart = struct(class Chart extends Tuple {
+constructor(maneuver, altitude_m, lines, marks, circle, centre_latitude_deg, centre_longitude_deg, above_ground = false) {
+super();
+this.maneuver = maneuver;
+this.altitude_m = altitude_m;
+this.lines = lines;
+this.marks = marks;
+this.circle = circle;
+this.centre_latitude_deg = centre_latitude_deg;
+this.centre_longitude_deg = centre_longitude_deg;
+this.above_ground = above_ground;
+
+}
+}, ["maneuver", "altitude_m", "lines", "marks", "circle", "centre_latitude_deg", "centre_longitude_deg", "above_ground"]);
+
+function cut_line(longitude_deg, latitude_deg) {
+let _, a, b, band, band_of_b, crossing, edge, line, part, parts, shifted, start, step;
+line = _unwrapped(longitude_deg, latitude_deg);
+[start, ..._] = iter(line);
+[part, band] = iter([[start], _band(start.longitude)]);
+parts = [[part, band]];
+for ([a, b] of rows(pairwise(line))) {
+while (ne(band, (band_of_b = _band(b.longitude)))) {
+step = (gt(band_of_b, band) ? 1 : -1);
+edge = add(180.0, mul(360.0, (gt(step, 0) ? band : sub(band, 1))));
+crossing = _crossing(a, b, edge);
+append_(part, crossing);
+[part, band] = iter([[crossing], add(band, step)]);
+append_(parts, [part, band]);
+}
+append_(part, b);
+}
+shifted = list(iter(parts)).map((one) => iter(one)).map(([part, band]) => _shifted(part, band));
+return or(list(iter(shifted)).filter((part) => gt(len(set(part)), 1)).map((part) => part), () => sliced(shifted, null, 1, null));
+}
+
+function _coordinates(part) {
+return list(iter(part)).map((one) => iter(one)).map(([longitude, latitude]) => [round(longitude, DECIMALS), round(latitude, DECIMALS)]);
+}
+
+function _feature(kind, coordinates, properties) {
+return new Map([["type", "Feature"], ["geometry", new Map([["type", kind], ["coordinates", coordinates]])], ["properties", properties]]);
+}
+
+function _geometry(kind, parts) {
+let part;
+if (gt(len(parts), 1)) {
+return [`Multi${str(kind)}`, parts];
+}
+[part] = iter(parts);
+return [kind, part];
+}
+
+const Position = struct(class Position extends Tuple {
+constructor(longitude, latitude) {
+super();
+this.longitude = longitude;
+this.latitude = latitude;
+
+}
+}, ["longitude", "latitude"]);
+
+function cut_ring(longitude_deg, latitude_deg) {
+let _, bands, first, last, longitudes, parts, ring;
+ring = _unwrapped(longitude_deg, latitude_deg);
+[first, _, last] = with_middle(ring, 1, 1);
+if (gt(abs(sub(last.longitude, first.longitude)), 180.0)) {
+return [_counter_clockwise(_closed_at_pole(ring))];
+}
+longitudes = list(iter(ring)).map((position) => position.longitude);
+bands = range(_band(min(longitudes)), add(_band(max(longitudes)), 1));
+parts = list(iter(bands)).map((k) => _shifted(_clipped(_clipped(ring, sub(mul(360.0, k), 180.0), 1), add(mul(360.0, k), 180.0), -1), k));
+return or(list(iter(parts)).filter((part) => ne(_area(part), 0.0)).map((part) => _counter_clockwise(part)), () => [_shifted(ring, bands.start)]);
+}
+
+function _mode(chart) {
+if ((chart.altitude_m == null)) {
+return "clampToGround";
+}
+return (truth(chart.above_ground) ? "relativeToGround" : "absolute");
+}
+
+function _position(chart, longitude, latitude) {
+let place;
+place = `${format(longitude, `${String(DEGREES)}`)},${format(latitude, `${String(DEGREES)}`)}`;
+return ((chart.altitude_m == null) ? place : `${str(place)},${str(chart.altitude_m)}`);
+}
+
+function positive(argument, value, unit) {
+let x;
+x = float(arrays.same(value, unit));
+return ((lt(0.0, x) && lt(x, math.inf)) ? x : arrays.refuse(argument, value, `a positive, finite number of ${str(unit)}`));
+}
+
+function _least_count(maneuver, segment, spacing_m, chord_error_m, bend_per_m) {
+let _, by_chord, by_spacing, root, speed, v;
+v = maneuver.aircraft.airspeed_m_s;
+if (eq(segment.curvature_per_m, 0.0)) {
+[_, speed] = iter(maneuver.over_ground(segment.start));
+} else {
+speed = add(v, maneuver.wind.speed_m_s);
+}
+root = math.hypot(mul(v, math.sqrt(abs(segment.curvature_per_m))), mul(speed, math.sqrt(bend_per_m)));
+by_chord = div(root, math.sqrt(mul(8.0, chord_error_m)));
+by_spacing = ((spacing_m == null) ? 0.0 : div(speed, spacing_m));
+return mul(segment.duration_s, max(by_chord, by_spacing));
+}
+
+function _columns(track, frame) {
+let course, heading, latitude, longitude, places, tangents;
+[heading, course] = iter([tolist_(track.heading_deg), tolist_(track.track_deg)]);
+places = new Map([]);
+if ((frame != null)) {
+[latitude, longitude] = iter(degrees(frame, track.east_m, track.north_m));
+places = new Map([["latitude_deg", latitude], ["longitude_deg", longitude]]);
+heading = true_headings(frame, heading, latitude, longitude);
+course = true_headings(frame, course, latitude, longitude);
+}
+tangents = list(iter(course)).map((angle) => heading_vector(angle));
+return new Map([["time_s", tolist_(track.time_s)], ...iter_items(places), ["north_m", tolist_(track.north_m)], ["east_m", tolist_(track.east_m)], ["heading_deg", heading], ["track_deg", course], ["ground_speed_m_s", tolist_(track.ground_speed_m_s)], ["tangent_north", list(iter(tangents)).map((one) => iter(one)).map(([_0, north]) => north)], ["tangent_east", list(iter(tangents)).map((one) => iter(one)).map(([east, _]) => east)], ["curvature_right_per_m", tolist_(sub(0.0, track.ground_curvature_per_m))]]);
+}
+
+function samples_at(time_s, start, segments, aircraft, wind) {
+let V, curvature, east, ends, heading, held, north, paths, pieces;
+
+if (!truth(segments)) {
+held = np.full(time_s.size, 1.0);
+[east, north, heading] = iter(list(iter([start.east_m, start.north_m, wrapped(start.heading_deg)])).map((value) => mul(held, value)));
+return Samples(time_s, east, north, heading, mul(0.0, held), ...iter(_over_ground(heading, mul(0.0, held), aircraft, wind)));
+}
+ends = [...iter(np.searchsorted(time_s, list(iter(sliced(segments, 1, null, null))).map((segment) => segment.start_s))), time_s.size];
+pieces = list(iter(zip(segments, [0, ...iter(ends)], ends))).map((one) => iter(one)).map(([segment, a, b]) => [segment, sliced(time_s, a, b, null)]);
+V = aircraft.airspeed_m_s;
+paths = list(iter(pieces)).map((one) => iter(one)).map(([segment, times]) => along(segment, mul(sub(times, segment.start_s), V), aircraft, wind));
+[east, north, heading] = iter(list(iter(zip(...iter(paths)))).map((parts) => np.concatenate(parts)));
+curvature = np.concatenate(list(iter(pieces)).map((one) => iter(one)).map(([segment, times]) => np.full(times.size, segment.curvature_per_m)));
+return Samples(time_s, east, north, heading, curvature, ...iter(_over_ground(heading, curvature, aircraft, wind)));
+}
+
+function _common_mode(mission) {
+let frames;
+frames = set_of(list(iter(mission.items)).filter((item) => ne(item.frame, Frame.NOWHERE)).map((item) => item.frame));
+return (eq(len(frames), 1) ? item(ALTITUDE_MODES, pop_(frames)) : 0);
+}
+
+function _written(number, item) {
+let place;
+place = [item.latitude_deg, item.longitude_deg, item.altitude_m];
+return new Map([["AMSLAltAboveTerrain", null], ["Altitude", item.altitude_m], ["AltitudeMode", get_(ALTITUDE_MODES, item.frame, 0)], ["autoContinue", item.autocontinue], ["command", int(item.command)], ["doJumpId", number], ["frame", int(item.frame)], ["params", [...iter(list(iter(item.params)).map((value) => (truth(math.isnan(value)) ? null : value))), ...iter(place)]], ["type", "SimpleItem"]]);
+}
+
+function mission(maneuver, frame, altitude_m, spacing_m = null, chord_error_m = 1.0, datum = MEAN_SEA_LEVEL, along_path = false, autopilot = Autopilot.ARDUPILOT) {
+let centre, centre_place, home_m, home_place, items, kind, loiter, name, orbit, params, places, start, value, waypoints;
+for ([name, value, kind] of rows([["maneuver", maneuver, Maneuver], ["frame", frame, LocalFrame]])) {
+arrays.unchecked(name, value, kind);
+}
+arrays.unchecked("datum", datum, AltitudeDatum);
+altitude_m = datum.checked(altitude_m);
+chord_error_m = positive("chord_error_m", chord_error_m, "metres");
+home_m = datum.planned_home_m(altitude_m);
+orbit = _checked_orbit(maneuver.orbit);
+if ((truth(along_path) || (spacing_m != null))) {
+waypoints = path_waypoints(maneuver, spacing_m, chord_error_m);
+} else {
+waypoints = approach_waypoints(maneuver, autopilot);
+}
+params = with_circle(MavCommand.NAV_LOITER_UNLIM, NO_PARAMS, orbit.radius_m, maneuver.turn);
+[start, centre] = iter([Waypoint(maneuver.start.east_m, maneuver.start.north_m), Waypoint(orbit.east_m, orbit.north_m)]);
+[home_place, places, centre_place] = with_middle(_in_degrees(frame, [start, ...iter(waypoints), centre]), 1, 1);
+items = list(iter(zip(waypoints, places))).map((one) => iter(one)).map(([w, place]) => MissionItem(MavCommand.NAV_WAYPOINT, datum.frame, [0.0, w.acceptance_m, 0.0, 0.0], ...iter(place), altitude_m));
+loiter = MissionItem(MavCommand.NAV_LOITER_UNLIM, datum.frame, params, ...iter(centre_place), altitude_m);
+return Mission([...iter(items), loiter], [...iter(home_place), home_m]);
+}
+
+const MissionItem = struct(class MissionItem extends Tuple {
+constructor(command, frame, params, latitude_deg, longitude_deg, altitude_m, autocontinue = true) {
+super();
+this.command = command;
+this.frame = frame;
+this.params = params;
+this.latitude_deg = latitude_deg;
+this.longitude_deg = longitude_deg;
+this.altitude_m = altitude_m;
+this.autocontinue = autocontinue;
+
+}
+}, ["command", "frame", "params", "latitude_deg", "longitude_deg", "altitude_m", "autocontinue"]);
+
+const MavCommand = enumeration({ NAV_WAYPOINT: 16, NAV_LOITER_UNLIM: 17, NAV_LOITER_TURNS: 18, NAV_LOITER_TIME: 19, NAV_LOITER_TO_ALT: 31, DO_ORBIT: 34, DO_REPOSITION: 192 });
+
+const Frame = enumeration({ ABOVE_SEA: 0, NOWHERE: 2, ABOVE_HOME: 3, ABOVE_TERRAIN: 10 });
+
+function wpl__line(number, item) {
+let fields, integers, numbers;
+numbers = [...iter(item.params), item.latitude_deg, item.longitude_deg, item.altitude_m];
+integers = [number, int(eq(number, 0)), int(item.frame), int(item.command)];
+fields = [...iter(list(iter(integers)).map((n) => `${format(n, `d`)}`)), ...iter(list(iter(numbers)).map((x) => `${format(x, `.9f`)}`))];
+return join_("\t", [...iter(fields), `${format(int(item.autocontinue), `d`)}`]);
+}
+
+function true_headings(frame, heading_deg, latitude, longitude) {
+let true_deg;
+
+true_deg = sub(np.asarray(heading_deg, float), frame.convergence_deg(latitude, longitude));
+return list(iter(tolist_(true_deg))).map((heading) => wrapped(heading));
+}
+
+function _kinds(segments) {
+if (eq(segments, 0)) {
+return ["join"];
+}
+return ["start", ...iter(mul(["switch"], sub(segments, 2))), ...iter(mul(["peel-off"], gt(segments, 1))), "join"];
+}
+
+const Mark = struct(class Mark extends Tuple {
+constructor(kind, action, time_s, latitude_deg, longitude_deg, heading_deg, track_deg, ground_speed_m_s) {
+super();
+this.kind = kind;
+this.action = action;
+this.time_s = time_s;
+this.latitude_deg = latitude_deg;
+this.longitude_deg = longitude_deg;
+this.heading_deg = heading_deg;
+this.track_deg = track_deg;
+this.ground_speed_m_s = ground_speed_m_s;
+
+}
+}, ["kind", "action", "time_s", "latitude_deg", "longitude_deg", "heading_deg", "track_deg", "ground_speed_m_s"]);
+
+function _unwrapped(longitude_deg, latitude_deg) {
+let longitudes;
+longitudes = accumulate(longitude_deg, ((before, after) => add(after, mul(360.0, math.floor(add(div(sub(before, after), 360.0), 0.5))))));
+return list(iter(zip(longitudes, latitude_deg))).map((one) => iter(one)).map(([longitude, latitude]) => Position(longitude, latitude));
+}
+
+function _band(longitude) {
+return math.floor(div(add(longitude, 180.0), 360.0));
+}
+
+function _crossing(a, b, longitude) {
+let share;
+share = div(sub(longitude, a.longitude), sub(b.longitude, a.longitude));
+return Position(longitude, add(a.latitude, mul(share, sub(b.latitude, a.latitude))));
+}
+
+function _shifted(part, band) {
+return list(iter(part)).map((one) => iter(one)).map(([longitude, latitude]) => Position(min(180.0, max(-180.0, sub(longitude, mul(360.0, band)))), latitude));
+}
+
+function _counter_clockwise(ring) {
+return (gt(_area(ring), 0.0) ? ring : sliced(ring, null, null, -1));
+}
+
+function _closed_at_pole(ring) {
+let _, east, edge, first, last, line, pole, west;
+line = sorted(list(iter(sliced(ring, null, -1, null))).map((one) => iter(one)).map(([longitude, latitude]) => Position(sub(longitude, mul(360.0, _band(longitude))), latitude)));
+[first, _, last] = with_middle(line, 1, 1);
+[_, edge] = iter(_crossing(last, replace(first, { longitude: add(first.longitude, 360.0) }), 180.0));
+pole = math.copysign(90.0, edge);
+[west, east] = iter([Position(-180.0, edge), Position(180.0, edge)]);
+return [west, ...iter(line), east, Position(180.0, pole), Position(-180.0, pole), west];
+}
+
+function _clipped(ring, edge, side) {
+let a, a_inside, b, b_inside, kept;
+kept = [];
+for ([a, b] of rows(pairwise(ring))) {
+[a_inside, b_inside] = iter([ge(mul(side, sub(a.longitude, edge)), 0.0), ge(mul(side, sub(b.longitude, edge)), 0.0)]);
+if (truth(a_inside)) {
+append_(kept, a);
+}
+if (ne(a_inside, b_inside)) {
+append_(kept, _crossing(a, b, edge));
+}
+}
+return [...iter(kept), ...iter(sliced(kept, null, 1, null))];
+}
+
+function _area(ring) {
+let _, x, y;
+if (!truth(ring)) {
+return 0.0;
+}
+[[x, y], ..._] = iter(ring);
+return sum(list(iter(pairwise(ring))).map((one) => iter(one)).map(([a, b]) => sub(mul(sub(a.longitude, x), sub(b.latitude, y)), mul(sub(b.longitude, x), sub(a.latitude, y)))));
+}
+
+function heading_vector(heading_deg) {
+let c, cq, flip, halves, heading, odd, quarters, rest, s, sq;
+heading = math.fmod(heading_deg, 360.0);
+quarters = math.floor(add(div(heading, 90.0), 0.5));
+rest = math.radians(sub(heading, mul(90.0, quarters)));
+halves = math.floor(mul(0.5, quarters));
+[odd, flip] = iter([sub(quarters, mul(2.0, halves)), sub(halves, mul(2.0, math.floor(mul(0.5, halves))))]);
+[sq, cq] = iter([sub(odd, mul(mul(2.0, odd), flip)), mul(sub(1.0, odd), sub(1.0, mul(2.0, flip)))]);
+[s, c] = iter([math.sin(rest), math.cos(rest)]);
+return [add(mul(sq, c), mul(cq, s)), sub(mul(cq, c), mul(sq, s))];
+}
+
+function wrapped(heading_deg) {
+let heading;
+heading = mod(heading_deg, 360.0);
+return mul(heading, lt(heading, 360.0));
+}
+
+const Samples = struct(class Samples extends Tuple {
+constructor(time_s, east_m, north_m, heading_deg, curvature_per_m, track_deg, ground_speed_m_s, ground_curvature_per_m) {
+super();
+this.time_s = time_s;
+this.east_m = east_m;
+this.north_m = north_m;
+this.heading_deg = heading_deg;
+this.curvature_per_m = curvature_per_m;
+this.track_deg = track_deg;
+this.ground_speed_m_s = ground_speed_m_s;
+this.ground_curvature_per_m = ground_curvature_per_m;
+
+}
+}, ["time_s", "east_m", "north_m", "heading_deg", "curvature_per_m", "track_deg", "ground_speed_m_s", "ground_curvature_per_m"]);
+
+function _over_ground(heading_deg, curvature_per_m, aircraft, wind) {
+let angles, east, ground_curvature, h_east, h_north, north, speed, track_deg, v;
+
+v = aircraft.airspeed_m_s;
+if (eq(wind.speed_m_s, 0.0)) {
+return [copy_(heading_deg), np.full_like(heading_deg, v), copy_(curvature_per_m)];
+}
+angles = np.radians(heading_deg);
+[h_east, h_north] = iter([np.sin(angles), np.cos(angles)]);
+[east, north] = iter(_velocity(h_east, h_north, aircraft, wind));
+track_deg = wrapped(np.degrees(np.arctan2(east, north)));
+speed = np.hypot(east, north);
+ground_curvature = div(mul(mul(mul(v, v), curvature_per_m), add(mul(east, h_east), mul(north, h_north))), pow(speed, 3));
+return [track_deg, speed, ground_curvature];
+}
+
+function along(segment, length_m, aircraft, wind) {
+let u;
+
+u = item(CONTROLS, segment.letter);
+return tuple(np.broadcast_arrays(...iter(_flown(segment.start, u, length_m, aircraft, wind, arrays.fly_arrays()))));
+}
+
+const AltitudeDatum = struct(class AltitudeDatum extends Values {
+constructor(reference = AltitudeReference.MSL, home_altitude_m = null) {
+super();
+this.reference = reference;
+this.home_altitude_m = home_altitude_m;
+this.__post_init__();
+}
+__post_init__() {
+let home_m, known;
+const self = this;
+if (!has(self.reference, tuple(AltitudeReference))) {
+known = join_(", ", AltitudeReference);
+throw errors.InvalidArgument("altitude_reference", `is ${repr(self.reference)}: it must be one of ${str(known)}`);
+}
+(self["reference"] = self.reference);
+if ((self.home_altitude_m != null)) {
+home_m = number("home_altitude_m", self.home_altitude_m, item(UNITS, AltitudeReference.MSL));
+(self["home_altitude_m"] = _check_range("home_altitude_m", home_m));
+}
+}
+get frame() {
+const self = this;
+return item(FRAMES, self.reference);
+}
+get unit() {
+const self = this;
+return item(UNITS, self.reference);
+}
+checked(altitude_m) {
+let check;
+const self = this;
+check = (eq(self.reference, AltitudeReference.GROUND) ? positive : number);
+return _check_range("altitude_m", check("altitude_m", altitude_m, self.unit));
+}
+above_sea_m(altitude_m) {
+const self = this;
+if (eq(self.reference, AltitudeReference.MSL)) {
+return altitude_m;
+}
+if ((eq(self.reference, AltitudeReference.HOME) && (self.home_altitude_m != null))) {
+return add(self.home_altitude_m, altitude_m);
+}
+if (eq(self.reference, AltitudeReference.HOME)) {
+throw errors.InvalidArgument("home_altitude_m", "is missing: altitudes above home cannot be converted without it");
+}
+throw errors.InvalidArgument("altitude_reference", "is ground: how high that is above mean sea level is not known");
+}
+planned_home_m(altitude_m) {
+const self = this;
+if ((self.home_altitude_m != null)) {
+return self.home_altitude_m;
+}
+if (eq(self.reference, AltitudeReference.MSL)) {
+return altitude_m;
+}
+throw errors.InvalidArgument("home_altitude_m", `is missing: a mission in ${str(self.unit)} needs that of home, ${str(item(UNITS, AltitudeReference.MSL))}`);
+}
+}, ["reference", "home_altitude_m"]);
+
+function number(argument, value, unit) {
+let x;
+x = float(arrays.same(value, unit));
+return (truth(math.isfinite(x)) ? x : arrays.refuse(argument, value, `a finite number of ${str(unit)}`));
+}
+
+function _check_range(argument, altitude_m) {
+if (gt(abs(altitude_m), HIGHEST_ITEM_M)) {
+throw errors.InvalidArgument(argument, `is ${format(altitude_m, `g`)}: it must be from ${format(neg(HIGHEST_ITEM_M), `g`)} to ${format(HIGHEST_ITEM_M, `g`)} metres`);
+}
+return altitude_m;
+}
+
+const Maneuver = struct(class Maneuver extends Values {
+constructor(start, orbit, aircraft, turn, segments, miss_m, wind = CALM) {
+super();
+this.start = start;
+this.orbit = orbit;
+this.aircraft = aircraft;
+this.turn = turn;
+this.segments = segments;
+this.miss_m = miss_m;
+this.wind = wind;
+
+}
+get word() {
+const self = this;
+return join_("", list(iter(self.segments)).map((segment) => segment.letter));
+}
+get duration_s() {
+const self = this;
+return sum(list(iter(self.segments)).map((segment) => segment.duration_s));
+}
+get length_m() {
+const self = this;
+return sum(list(iter(self.segments)).map((segment) => segment.length_m));
+}
+get join() {
+const self = this;
+return (truth(self.segments) ? item(self.segments, -1).end : self.start);
+}
+get orbit_at_join() {
+const self = this;
+return self.orbit.after(self.duration_s);
+}
+get hold() {
+const self = this;
+return Hold(self.orbit, self.aircraft, self.wind, self.turn);
+}
+over_ground(pose) {
+const self = this;
+arrays.unchecked("pose", pose, Pose);
+return over_ground(pose.heading_deg, self.aircraft, self.wind);
+}
+toString() {
+let decimals, windy;
+const self = this;
+if (!truth(self.segments)) {
+return `On the circle already, ${str(Turn_described(self.turn))}: nothing to fly.`;
+}
+decimals = decimals_of(self.orbit);
+windy = or(gt(self.wind.speed_m_s, 0.0), () => self.orbit.moves);
+return `${str(self.word)}, ${str(Turn_described(self.turn))}: joins in ${format(self.duration_s, `.${String(decimals)}f`)} s after ${format(self.length_m, `.${String(decimals)}f`)} m${str((truth(windy) ? " through the air" : ""))}`;
+}
+_drawing() {
+const self = this;
+return Drawing(str(self), self.start, self.segments, self.join, self.orbit_at_join, self.turn, self.aircraft, self.wind);
+}
+}, ["start", "orbit", "aircraft", "turn", "segments", "miss_m", "wind"]);
+
+const LocalFrame = struct(class LocalFrame extends Values {
+constructor(latitude_deg, longitude_deg) {
+super();
+this.latitude_deg = latitude_deg;
+this.longitude_deg = longitude_deg;
+this.__post_init__();
+}
+__post_init__() {
+let latitude_deg, longitude_deg;
+const self = this;
+[latitude_deg, longitude_deg] = iter(checked_place("origin", self.latitude_deg, self.longitude_deg));
+(self["latitude_deg"] = latitude_deg);
+(self["longitude_deg"] = longitude_deg);
+}
+to_local(latitude_deg, longitude_deg) {
+let _, east, north;
+const self = this;
+[east, north, _] = iter(geodesic.to_plane(self.latitude_deg, self.longitude_deg, latitude_deg, longitude_deg));
+return [east, north];
+}
+to_geodetic(east_m, north_m) {
+const self = this;
+return geodesic.from_plane(self.latitude_deg, self.longitude_deg, east_m, north_m);
+}
+convergence_deg(latitude_deg, longitude_deg) {
+let _, convergence;
+const self = this;
+[_, _, convergence] = iter(geodesic.to_plane(self.latitude_deg, self.longitude_deg, latitude_deg, longitude_deg));
+return convergence;
+}
+place(pose) {
+let heading, latitude, longitude;
+const self = this;
+arrays.unchecked("pose", pose, Pose);
+[latitude, longitude] = iter(list(iter(self.to_geodetic(pose.east_m, pose.north_m))).map((value) => float(value)));
+if (ne(latitude, latitude)) {
+throw self._too_far(`${format(pose.east_m, `g`)} m east, ${format(pose.north_m, `g`)} m north`);
+}
+heading = sub(wrapped(pose.heading_deg), float(self.convergence_deg(latitude, longitude)));
+return Place(latitude, longitude, wrapped(heading));
+}
+_too_far(where, hint = "") {
+const self = this;
+return errors.OutOfRange(`the place ${str(where)} is more than ${format(div(REACH_M, 1000.0), `g`)} km from the origin ${format(self.latitude_deg, `g`)} ${format(self.longitude_deg, `g`)}: the plane is not a good model of the Earth at that distance${str(hint)}`);
+}
+}, ["latitude_deg", "longitude_deg"]);
+
+function _checked_orbit(orbit) {
+if (truth(orbit.moves)) {
+throw errors.InvalidArgument("orbit", "moves over the ground: the loiter of a mission stays where it is");
+}
+if (!(le(LEAST_RADIUS_M, orbit.radius_m) && le(orbit.radius_m, LARGEST_RADIUS_M))) {
+throw errors.InvalidArgument("orbit radius_m", `is ${format(orbit.radius_m, `g`)}: the loiter of a mission takes ${format(LEAST_RADIUS_M, `g`)} to ${format(LARGEST_RADIUS_M, `g`)} metres`);
+}
+return orbit;
+}
+
+function path_waypoints(maneuver, spacing_m, chord_error_m) {
+let track;
+track = vertices(maneuver, step_counts(maneuver, spacing_m, chord_error_m, BEND_PER_M));
+if (gt(track.time_s.size, MAX_ITEMS)) {
+throw errors.InvalidArgument("mission", add(`would have ${track.time_s.size} items: autopilots hold some ${MAX_ITEMS}; allow a larger chord error than ${format(chord_error_m, `g`)} m`, ((spacing_m == null) ? "" : ` or spacing than ${format(spacing_m, `g`)} m`)));
+}
+return tuple(map(Waypoint, tolist_(sliced(track.east_m, 1, null, null)), tolist_(sliced(track.north_m, 1, null, null))));
+}
+
+function approach_waypoints(maneuver, autopilot) {
+let _, acceptance_m, ground_speed, straight;
+straight = next(list(iter(maneuver.segments)).filter((segment) => eq(segment.letter, "S")).map((segment) => segment), null);
+if ((ne(autopilot, Autopilot.ARDUPILOT) || (straight == null) || lt(straight.duration_s, LEAST_STRAIGHT_S))) {
+return [];
+}
+[_, ground_speed] = iter(maneuver.over_ground(straight.start));
+acceptance_m = float(round(min(mul(TAKE_OVER_S, ground_speed), LARGEST_ACCEPTANCE_M)));
+return [Waypoint(maneuver.join.east_m, maneuver.join.north_m, acceptance_m)];
+}
+
+function with_circle(command, params, radius_m, turn) {
+let first, fourth, new_, numbers, second, signed_m, third;
+[numbers, new_] = iter([_circle_parameters(command), list(iter(params)).map((value) => float(value))]);
+signed_m = signed_radius_m(radius_m, turn);
+set_item(new_, sub(numbers.radius, 1), ((numbers.direction == null) ? signed_m : abs(signed_m)));
+if ((numbers.direction != null)) {
+set_item(new_, sub(numbers.direction, 1), float(lt(signed_m, 0.0)));
+}
+[first, second, third, fourth] = iter(new_);
+return [first, second, third, fourth];
+}
+
+const Waypoint = struct(class Waypoint extends Tuple {
+constructor(east_m, north_m, acceptance_m = 0.0) {
+super();
+this.east_m = east_m;
+this.north_m = north_m;
+this.acceptance_m = acceptance_m;
+
+}
+}, ["east_m", "north_m", "acceptance_m"]);
+
+function _in_degrees(frame, places) {
+return list(zip(...iter(degrees(frame, list(iter(places)).map((p) => p.east_m), list(iter(places)).map((p) => p.north_m)))));
+}
+
+const Mission = struct(class Mission extends Tuple {
+constructor(items, home) {
+super();
+this.items = items;
+this.home = home;
+
+}
+}, ["items", "home"]);
+
+function _velocity(east, north, aircraft, wind) {
+let wind_east, wind_north;
+[wind_east, wind_north] = iter(wind.velocity_m_s);
+return [add(mul(aircraft.airspeed_m_s, east), wind_east), add(mul(aircraft.airspeed_m_s, north), wind_north)];
+}
+
+function _flown(start, u, length_m, aircraft, wind, fly) {
+let _, east, heading, north, r, t, time_s, wind_east, wind_north;
+r = aircraft.turn_radius_m;
+[t, time_s] = iter([div(length_m, r), div(length_m, aircraft.airspeed_m_s)]);
+[east, north, _, _] = iter(fly(0.0, 0.0, ...iter(heading_vector(start.heading_deg)), u, t));
+[wind_east, wind_north] = iter(wind.velocity_m_s);
+heading = heading_after(start.heading_deg, mul(u, t));
+return [position_after(add(start.east_m, mul(r, east)), wind_east, time_s), position_after(add(start.north_m, mul(r, north)), wind_north, time_s), heading];
+}
+
+const Wind = struct(class Wind extends Values {
+constructor(speed_m_s, from_deg) {
+super();
+this.speed_m_s = speed_m_s;
+this.from_deg = from_deg;
+this.__post_init__();
+}
+__post_init__() {
+const self = this;
+_keep(self, new Map([["speed_m_s", not_negative("wind speed_m_s", self.speed_m_s, "metres per second")]]));
+_keep(self, new Map([["from_deg", number("wind from_deg", self.from_deg, "degrees")]]));
+}
+get velocity_m_s() {
+const self = this;
+return wind_velocity(self.speed_m_s, self.from_deg);
+}
+}, ["speed_m_s", "from_deg"]);
+
+function _keep(value, fields = new Map()) {
+let field, name;
+for ([name, field] of rows(items_(fields))) {
+(value[name] = field);
+}
+}
+
+function not_negative(argument, value, unit) {
+let x;
+x = float(arrays.same(value, unit));
+return ((le(0.0, x) && lt(x, math.inf)) ? x : arrays.refuse(argument, value, `zero or a positive, finite number of ${str(unit)}`));
+}
+
+function wind_velocity(speed_m_s, from_deg) {
+let east, north;
+[east, north] = iter(heading_vector(from_deg));
+return [sub(0.0, mul(speed_m_s, east)), sub(0.0, mul(speed_m_s, north))];
+}
+
+const Hold = struct(class Hold extends Values {
+constructor(orbit, aircraft, wind, turn) {
+super();
+this.orbit = orbit;
+this.aircraft = aircraft;
+this.wind = wind;
+this.turn = turn;
+
+}
+get least_bank_deg() {
+const self = this;
+return self._at(UPWIND).bank_deg;
+}
+get largest_bank_deg() {
+const self = this;
+return self._at(DOWNWIND).bank_deg;
+}
+get largest_bank_azimuth_deg() {
+const self = this;
+return self._at(DOWNWIND).azimuth_deg;
+}
+_at(phase) {
+let _, bank_deg, c, heading_deg, r, s, scene, side, speed, track_deg, x, y;
+const self = this;
+[r, side] = iter([self.aircraft.turn_radius_m, item(SIDES, self.turn)]);
+scene = [radius_in_turns(self.orbit, self.aircraft), ...iter(relative_wind(self.orbit, self.aircraft, self.wind))];
+[x, y, c, s, _] = iter(kernel.hold_pose(phase, side, ...iter(scene)));
+heading_deg = wrapped(math.degrees(math.atan2(c, s)));
+[track_deg, speed] = iter(over_ground(heading_deg, self.aircraft, self.wind));
+bank_deg = self.aircraft.bank_deg(div(r, kernel.hold_rate(phase, side, ...iter(scene))));
+return HoldPoint(wrapped(math.degrees(math.atan2(x, y))), heading_deg, track_deg, speed, bank_deg);
+}
+}, ["orbit", "aircraft", "wind", "turn"]);
+
+const Pose = struct(class Pose extends Values {
+constructor(east_m, north_m, heading_deg) {
+super();
+this.east_m = east_m;
+this.north_m = north_m;
+this.heading_deg = heading_deg;
+this.__post_init__();
+}
+__post_init__() {
+let east_m, north_m;
+const self = this;
+[east_m, north_m] = iter([number("pose east_m", self.east_m, "metres"), number("pose north_m", self.north_m, "metres")]);
+_keep(self, new Map([["east_m", east_m], ["north_m", north_m], ["heading_deg", number("pose heading_deg", self.heading_deg, "degrees")]]));
+}
+}, ["east_m", "north_m", "heading_deg"]);
+
+function over_ground(heading_deg, aircraft, wind) {
+let east, north;
+if (eq(wind.speed_m_s, 0.0)) {
+return [wrapped(heading_deg), aircraft.airspeed_m_s];
+}
+[east, north] = iter(_velocity(...iter(heading_vector(heading_deg)), aircraft, wind));
+return [wrapped(math.degrees(math.atan2(east, north))), math.hypot(east, north)];
+}
+
+function decimals_of(orbit) {
+return (ge(orbit.radius_m, 10.0) ? 1 : 3);
+}
+
+const Drawing = struct(class Drawing extends Tuple {
+constructor(title, start, segments, join, circle, turn, aircraft, wind) {
+super();
+this.title = title;
+this.start = start;
+this.segments = segments;
+this.join = join;
+this.circle = circle;
+this.turn = turn;
+this.aircraft = aircraft;
+this.wind = wind;
+
+}
+svg() {
+let centre_x, centre_y, circle, corners, east, height, north, parts, radius, ring, size, start, title, tracks, view;
+const self = this;
+tracks = list(iter(self.segments)).map((segment) => [segment.letter, drawing__track(segment, self.aircraft, self.wind)]);
+circle = self.circle;
+[east, north, radius] = iter([circle.east_m, circle.north_m, circle.radius_m]);
+corners = [[sub(east, radius), sub(north, radius)], [add(east, radius), add(north, radius)]];
+start = [self.start.east_m, self.start.north_m];
+view = _view_of([...iter(corners), start, ...iter(list(iter(tracks)).map((one) => iter(one)).flatMap(([_0, track]) => list(iter(track)).map((point) => point)))]);
+[centre_x, centre_y] = iter(view.pixels(east, north).split(","));
+[title, height] = iter([escape(self.title), `${format(view.height, `.0f`)}`]);
+size = `width="${format(WIDTH, `.0f`)}" height="${str(height)}" viewBox="0 0 ${format(WIDTH, `.0f`)} ${str(height)}"`;
+ring = `cx="${str(centre_x)}" cy="${str(centre_y)}" r="${format(mul(view.scale, radius), `.1f`)}"`;
+parts = [`<svg xmlns="http://www.w3.org/2000/svg" role="img" aria-label="${str(title)}" ${str(size)}>`, `<title>${str(title)}</title>`, "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>", `<circle ${str(ring)} fill="none" stroke="black" stroke-width="${str(THIN)}"/>`, ...iter(list(iter(range(4))).map((quarter) => _direction(view, self.circle, self.turn, quarter))), ...iter(list(iter(tracks)).map((one) => iter(one)).map(([letter, track]) => drawing__line(view, letter, track))), ...iter(list(iter(sliced(self.segments, 1, null, null))).map((segment) => _dot(view, segment.start, "white"))), _dot(view, self.join, "black"), _aircraft(view, self.start), "</svg>"];
+return join_("\n", parts);
+}
+}, ["title", "start", "segments", "join", "circle", "turn", "aircraft", "wind"]);
+
+function checked_place(argument, latitude_deg, longitude_deg) {
+let lat, lon, swapped;
+lat = number(`${str(argument)} latitude_deg`, latitude_deg, "degrees");
+lon = number(`${str(argument)} longitude_deg`, longitude_deg, "degrees");
+if (gt(abs(lat), 90.0)) {
+swapped = (le(abs(lon), 90.0) ? "; are latitude and longitude swapped?" : "");
+throw errors.InvalidArgument(`${str(argument)} latitude_deg`, `is ${str(latitude_deg)}: it must be between -90 and 90 degrees${str(swapped)}`);
+}
+if (gt(abs(lon), 360.0)) {
+throw errors.InvalidArgument(`${str(argument)} longitude_deg`, `is ${str(longitude_deg)}: it must be between -360 and 360 degrees`);
+}
+return [lat, lon];
+}
+
+const Place = struct(class Place extends Tuple {
+constructor(latitude_deg, longitude_deg, heading_deg) {
+super();
+this.latitude_deg = latitude_deg;
+this.longitude_deg = longitude_deg;
+this.heading_deg = heading_deg;
+
+}
+}, ["latitude_deg", "longitude_deg", "heading_deg"]);
+
+function _circle_parameters(command) {
+let known;
+known = next(list(iter(COMMANDS)).filter((known) => eq(known, command)).map((known) => known), null);
+if ((known == null)) {
+throw errors.InvalidArgument("command", `is ${str(command)}: it flies no circle; ${str(join_(", ", list(iter(COMMANDS)).map((c) => c.name)))} do`);
+}
+return item(COMMANDS, known);
+}
+
+function signed_radius_m(radius_m, turn) {
+radius_m = positive("radius_m", radius_m, "metres");
+return (truth(signs__counter_clockwise(turn)) ? neg(radius_m) : radius_m);
+}
+
+function heading_after(heading_deg, turned) {
+return wrapped(sub(wrapped(heading_deg), mul(turned, math.degrees(1.0))));
+}
+
+function position_after(place, velocity, time_s) {
+return add(place, mul(velocity, time_s));
+}
+
+function radius_in_turns(orbit, aircraft) {
+return div(orbit.radius_m, aircraft.turn_radius_m);
+}
+
+function relative_wind(orbit, aircraft, wind) {
+let circle, kind, name, value;
+for ([name, value, kind] of rows([["orbit", orbit, Orbit], ["aircraft", aircraft, Aircraft], ["wind", wind, Wind]])) {
+arrays.unchecked(name, value, kind);
+}
+circle = [orbit.velocity_east_m_s, orbit.velocity_north_m_s];
+return RelativeWind(...iter(relative_velocity(wind.velocity_m_s, circle, aircraft.airspeed_m_s)));
+}
+
+const HoldPoint = struct(class HoldPoint extends Tuple {
+constructor(azimuth_deg, heading_deg, track_deg, ground_speed_m_s, bank_deg) {
+super();
+this.azimuth_deg = azimuth_deg;
+this.heading_deg = heading_deg;
+this.track_deg = track_deg;
+this.ground_speed_m_s = ground_speed_m_s;
+this.bank_deg = bank_deg;
+
+}
+}, ["azimuth_deg", "heading_deg", "track_deg", "ground_speed_m_s", "bank_deg"]);
+
+function drawing__track(segment, aircraft, wind) {
+let _, east, north, points;
+
+points = (eq(segment.letter, "S") ? 2 : ARC_POINTS);
+[east, north, _] = iter(along(segment, np.linspace(0.0, segment.length_m, points), aircraft, wind));
+return list(zip(tolist_(east), tolist_(north)));
+}
+
+function _view_of(points) {
+let east, height, margin, north, pixels, scale, width;
+[east, north] = iter(zip(...iter(points)));
+[width, height] = iter([sub(max(east), min(east)), sub(max(north), min(north))]);
+margin = mul(MARGIN, max(width, height));
+pixels = mul(WIDTH, min(max(div(add(height, mul(2, margin)), add(width, mul(2, margin))), FLATTEST), STEEPEST));
+scale = min(div(WIDTH, add(width, mul(2, margin))), div(pixels, add(height, mul(2, margin))));
+return _View(mul(0.5, add(max(east), min(east))), mul(0.5, add(max(north), min(north))), scale, pixels);
+}
+
+function _direction(view, circle, turn, quarter) {
+let azimuth, east, north, outline, place, turned;
+azimuth = add(45.0, mul(90.0, quarter));
+[east, north] = iter(heading_vector(azimuth));
+place = view.pixels(add(circle.east_m, mul(circle.radius_m, east)), add(circle.north_m, mul(circle.radius_m, north)));
+turned = add(azimuth, (eq(turn, Turn.CW) ? 90.0 : -90.0));
+outline = `0,${str(neg(ARROW))} ${str(mul(0.7, ARROW))},${str(mul(0.6, ARROW))} ${str(mul(-0.7, ARROW))},${str(mul(0.6, ARROW))}`;
+return `<polygon points="${str(outline)}" transform="translate(${str(place)}) rotate(${format(turned, `.1f`)})" fill="black"/>`;
+}
+
+function drawing__line(view, letter, track) {
+let points;
+points = join_(" ", list(iter(track)).map((point) => view.pixels(...iter(point))));
+return `<polyline points="${str(points)}" fill="none" stroke="${str(item(COLOURS, letter))}" stroke-width="${str(THICK)}" stroke-linejoin="round"/>`;
+}
+
+function _dot(view, pose, fill) {
+let x, y;
+[x, y] = iter(view.pixels(pose.east_m, pose.north_m).split(","));
+return `<circle cx="${str(x)}" cy="${str(y)}" r="${str(drawing_MARK)}" fill="${str(fill)}" stroke="black"/>`;
+}
+
+function _aircraft(view, pose) {
+let outline, place, size, turned;
+turned = math.degrees(math.atan2(...iter(heading_vector(pose.heading_deg))));
+place = view.pixels(pose.east_m, pose.north_m);
+size = mul(0.5, AIRCRAFT);
+outline = `0,${str(neg(size))} ${str(mul(0.6, size))},${str(mul(0.7, size))} 0,${str(mul(0.35, size))} ${str(mul(-0.6, size))},${str(mul(0.7, size))}`;
+return `<polygon points="${str(outline)}" transform="translate(${str(place)}) rotate(${format(turned, `.1f`)})" fill="black"/>`;
+}
+
+const CircleParameters = struct(class CircleParameters extends Tuple {
+constructor(radius, direction = null) {
+super();
+this.radius = radius;
+this.direction = direction;
+
+}
+}, ["radius", "direction"]);
+
+function signs__counter_clockwise(turn) {
+if (!has(turn, [Turn.CW, Turn.CCW])) {
+throw errors.InvalidArgument("turn", `is ${repr(str(turn))}: a circle is held cw or ccw`);
+}
+return eq(turn, Turn.CCW);
+}
+
+const Orbit = struct(class Orbit extends Values {
+constructor(east_m, north_m, radius_m, turn = Turn.EITHER, velocity_east_m_s = 0.0, velocity_north_m_s = 0.0) {
+super();
+this.east_m = east_m;
+this.north_m = north_m;
+this.radius_m = radius_m;
+this.turn = turn;
+this.velocity_east_m_s = velocity_east_m_s;
+this.velocity_north_m_s = velocity_north_m_s;
+this.__post_init__();
+}
+__post_init__() {
+let east_m, name, north_m;
+const self = this;
+[east_m, north_m] = iter([number("orbit east_m", self.east_m, "metres"), number("orbit north_m", self.north_m, "metres")]);
+_keep(self, new Map([["east_m", east_m], ["north_m", north_m], ["radius_m", circle_radius_m("orbit radius_m", self.radius_m)]]));
+if (!has(self.turn, tuple(Turn))) {
+throw errors.InvalidArgument("turn", `is ${repr(self.turn)}: it must be cw, ccw or either`);
+}
+_keep(self, new Map([["turn", self.turn]]));
+for (name of iter(["velocity_east_m_s", "velocity_north_m_s"])) {
+_keep(self, new Map([...iter_items(new Map([[name, number(`orbit ${str(name)}`, self[name], "metres per second")]]))]));
+}
+}
+get moves() {
+const self = this;
+return (ne(self.velocity_east_m_s, 0.0) || ne(self.velocity_north_m_s, 0.0));
+}
+after(time_s) {
+let east_m, north_m;
+const self = this;
+if (!truth(self.moves)) {
+return self;
+}
+[east_m, north_m] = iter(self.centre_after(number("time_s", time_s, "seconds")));
+return replace(self, { east_m: east_m, north_m: north_m });
+}
+centre_after(time_s) {
+let velocity_east, velocity_north;
+const self = this;
+[velocity_east, velocity_north] = iter([self.velocity_east_m_s, self.velocity_north_m_s]);
+return [position_after(self.east_m, velocity_east, time_s), position_after(self.north_m, velocity_north, time_s)];
+}
+distance_m(pose) {
+const self = this;
+arrays.unchecked("pose", pose, Pose);
+return math.hypot(sub(pose.east_m, self.east_m), sub(pose.north_m, self.north_m));
+}
+}, ["east_m", "north_m", "radius_m", "turn", "velocity_east_m_s", "velocity_north_m_s"]);
+
+const Aircraft = struct(class Aircraft extends Values {
+constructor(airspeed_m_s, max_bank_deg = null, min_turn_radius_m = null, max_turn_rate_deg_s = null) {
+super();
+this.airspeed_m_s = airspeed_m_s;
+this.max_bank_deg = max_bank_deg;
+this.min_turn_radius_m = min_turn_radius_m;
+this.max_turn_rate_deg_s = max_turn_rate_deg_s;
+this.__post_init__();
+}
+__post_init__() {
+let given, limits, name, value;
+const self = this;
+_keep(self, new Map([["airspeed_m_s", positive("airspeed_m_s", self.airspeed_m_s, "metres per second")]]));
+limits = new Map(list(iter(TURN_LIMITS)).filter((name) => (self[name] != null)).map((name) => [name, self[name]]));
+if (ne(len(limits), 1)) {
+given = (truth(limits) ? `${str(join_(" and ", limits))} were given` : "none was given");
+throw errors.InvalidArgument("turn limit", `is needed exactly once (${str(join_(" or ", TURN_LIMITS))}): ${str(given)}`);
+}
+for ([name, value] of rows(items_(limits))) {
+_keep(self, new Map([...iter_items(new Map([[name, positive(name, value, item(TURN_LIMITS, name))]]))]));
+}
+if (((self.max_bank_deg != null) && ge(float(self.max_bank_deg), 90.0))) {
+throw errors.InvalidArgument("max_bank_deg", `is ${str(self.max_bank_deg)}: it must be between 0 and 90 degrees`);
+}
+positive("turn radius", self.turn_radius_m, "metres; airspeed and turn limit together give it");
+}
+get turn_radius_m() {
+const self = this;
+if ((self.min_turn_radius_m != null)) {
+return self.min_turn_radius_m;
+}
+if ((self.max_turn_rate_deg_s != null)) {
+return radius_at_rate(self.airspeed_m_s, self.max_turn_rate_deg_s);
+}
+
+return radius_at_bank(self.airspeed_m_s, self.max_bank_deg);
+}
+bank_deg(radius_m) {
+const self = this;
+return math.degrees(math.atan2(mul(self.airspeed_m_s, self.airspeed_m_s), mul(STANDARD_GRAVITY_M_S2, radius_m)));
+}
+}, ["airspeed_m_s", "max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s"]);
+
+const RelativeWind = struct(class RelativeWind extends Tuple {
+constructor(x, y) {
+super();
+this.x = x;
+this.y = y;
+
+}
+get still() {
+const self = this;
+return bit_and(eq(self.x, 0.0), eq(self.y, 0.0));
+}
+}, ["x", "y"]);
+
+function relative_velocity(air, circle, airspeed) {
+let passes, wx, wy;
+[wx, wy] = iter([sub(item(air, 0), item(circle, 0)), sub(item(air, 1), item(circle, 1))]);
+passes = gt(math.hypot(wx, wy), mul(ROUNDING, add(math.hypot(...iter(air)), math.hypot(...iter(circle)))));
+return [add(div(mul(wx, passes), airspeed), 0.0), add(div(mul(wy, passes), airspeed), 0.0)];
+}
+
+const _View = struct(class _View extends Tuple {
+constructor(east, north, scale, height) {
+super();
+this.east = east;
+this.north = north;
+this.scale = scale;
+this.height = height;
+
+}
+pixels(east_m, north_m) {
+let x, y;
+const self = this;
+x = add(mul(0.5, WIDTH), mul(self.scale, sub(east_m, self.east)));
+y = sub(mul(0.5, self.height), mul(self.scale, sub(north_m, self.north)));
+return `${format(x, `.1f`)},${format(y, `.1f`)}`;
+}
+}, ["east", "north", "scale", "height"]);
+
+function circle_radius_m(argument, radius_m) {
+if ((lt(neg(math.inf), float(radius_m)) && lt(float(radius_m), 0.0))) {
+throw errors.InvalidArgument(argument, `is ${str(radius_m)}: it must be positive; the turn ccw holds counter-clockwise`);
+}
+return positive(argument, radius_m, "metres");
+}
+
+function radius_at_rate(airspeed_m_s, turn_rate_deg_s) {
+return div(airspeed_m_s, math.radians(turn_rate_deg_s));
+}
+
+function radius_at_bank(airspeed_m_s, bank_deg) {
+return div(mul(airspeed_m_s, airspeed_m_s), mul(STANDARD_GRAVITY_M_S2, math.tan(math.radians(bank_deg))));
+}
+
+const SaveArguments = struct(class SaveArguments extends Tuple {
+constructor(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path = false, site = null) {
+super();
+this.maneuver = maneuver;
+this.frame = frame;
+this.altitude_m = altitude_m;
+this.datum = datum;
+this.spacing_m = spacing_m;
+this.chord_error_m = chord_error_m;
+this.autopilot = autopilot;
+this.along_path = along_path;
+this.site = site;
+
+}
+}, ["maneuver", "frame", "altitude_m", "datum", "spacing_m", "chord_error_m", "autopilot", "along_path", "site"]);
+
+const JsonField = struct(class JsonField extends Tuple {
+constructor(name, path) {
+super();
+this.name = name;
+this.path = path;
+
+}
+}, ["name", "path"]);
+
+const Problem = struct(class Problem extends Values {
+constructor(pose, orbit, aircraft, wind = CALM, tolerance_m = 0.0) {
+super();
+this.pose = pose;
+this.orbit = orbit;
+this.aircraft = aircraft;
+this.wind = wind;
+this.tolerance_m = tolerance_m;
+this.relative_wind = undefined;
+this.__post_init__();
+}
+__post_init__() {
+const self = this;
+arrays.unchecked("pose", self.pose, Pose);
+(self["relative_wind"] = relative_wind(self.orbit, self.aircraft, self.wind));
+(self["tolerance_m"] = not_negative("tolerance_m", self.tolerance_m, "metres"));
+}
+get still() {
+const self = this;
+return self.relative_wind.still;
+}
+get has_closed_form() {
+const self = this;
+return self.still;
+}
+get radius() {
+const self = this;
+return radius_in_turns(self.orbit, self.aircraft);
+}
+get time_unit_s() {
+const self = this;
+return div(self.aircraft.turn_radius_m, self.aircraft.airspeed_m_s);
+}
+with_turn(turn) {
+const self = this;
+return replace(self, { orbit: replace(self.orbit, { turn: turn }) });
+}
+later(time_s) {
+let flown_m, pose;
+const self = this;
+time_s = not_negative("lead_s", time_s, "seconds");
+flown_m = mul(time_s, self.aircraft.airspeed_m_s);
+pose = flown_from(self.pose, 0, flown_m, self.aircraft, self.wind);
+return replace(self, { pose: pose, orbit: self.orbit.after(time_s) });
+}
+reduced() {
+let orbit, r, reduced, status, x, y;
+const self = this;
+[orbit, r] = iter([self.orbit, self.aircraft.turn_radius_m]);
+[x, y] = iter(kernel.reduce(...iter(self._relative_state())));
+reduced = ReducedProblem(x, y, kernel.rounded_radius(self.radius), item(SIDES, orbit.turn), div(self.tolerance_m, r));
+status = kernel.synthesis_status_of(reduced.x, reduced.y, reduced.R, reduced.tolerance);
+if (eq(status, kernel.Status.RADIUS_TOO_SMALL)) {
+throw errors.RadiusTooSmall(too_tight(orbit, self.aircraft), r);
+}
+if ((ne(status, kernel.Status.OK) || !truth(self._has_finite_results()))) {
+throw self._too_large();
+}
+return reduced;
+}
+in_wind() {
+let c, found, s, tolerance, wx, wy, x, y;
+const self = this;
+check_held(self.orbit, self.aircraft, self.relative_wind, self.wind);
+[x, y, c, s] = iter(self._relative_state());
+[wx, wy] = iter(self.relative_wind);
+tolerance = div(self.tolerance_m, self.aircraft.turn_radius_m);
+found = WindProblem(x, y, c, s, self.radius, item(SIDES, self.orbit.turn), wx, wy, tolerance);
+if ((ne(kernel.wind_search_status_of(found), kernel.Status.OK) || !truth(self._has_finite_results()))) {
+throw self._too_large();
+}
+return found;
+}
+_relative_state() {
+let c, orbit, pose, r, s;
+const self = this;
+r = self.aircraft.turn_radius_m;
+[pose, orbit] = iter([self.pose, self.orbit]);
+[c, s] = iter(heading_vector(pose.heading_deg));
+return [div(sub(pose.east_m, orbit.east_m), r), div(sub(pose.north_m, orbit.north_m), r), c, s];
+}
+_has_finite_results() {
+const self = this;
+return ((lt(0.0, mul(REACH, self.time_unit_s)) && lt(mul(REACH, self.time_unit_s), math.inf)) && lt(mul(REACH, self.aircraft.turn_radius_m), math.inf));
+}
+_too_large() {
+const self = this;
+return errors.OutOfRange(`the scene is too large for double precision: ${format(self.orbit.distance_m(self.pose), `g`)} m from the centre of a circle of ${format(self.orbit.radius_m, `g`)} m, with a turn radius of ${format(self.aircraft.turn_radius_m, `.4g`)} m at an airspeed of ${format(self.aircraft.airspeed_m_s, `.4g`)} m/s; distances must stay below 2**52 turn radii`);
+}
+}, ["pose", "orbit", "aircraft", "wind", "tolerance_m"]);
+
+function all_fastest(problem) {
+return maneuvers(solve_problem(problem, kernel.synthesis_optima, kernel.wind_search_optima));
+}
+
+const PlacedProblem = struct(class PlacedProblem extends Tuple {
+constructor(problem, frame) {
+super();
+this.problem = problem;
+this.frame = frame;
+
+}
+}, ["problem", "frame"]);
+
+function _kind(word, other, vanishes) {
+if (truth(vanishes)) {
+return ((has("S", sliced(word, null, 2, null)) && has("S", sliced(other, null, 2, null))) ? "straight" : "switch");
+}
+return (eq(sliced(word, null, 1, null), sliced(other, null, 1, null)) ? "same" : "tie");
+}
+
+function best_and_others(problem) {
+let best, known, others;
+known = solve_problem(problem.with_turn(Turn.EITHER), kernel.synthesis_ranked, kernel.wind_search_ranked);
+best = (truth(problem.has_closed_form) ? all_fastest(problem) : _tied(known, problem));
+others = maneuvers(known);
+return [best, tuple(list(iter(others)).filter((m) => !truth(any(list(iter(best)).map((b) => (eq(m.turn, b.turn) && eq(m.segments, b.segments)))))).map((m) => m))];
+}
+
+function answer(best, others, frame = null) {
+let alternatives, first, rest;
+[first, ...rest] = iter(best);
+alternatives = list(iter([...iter(rest), ...iter(others)])).map((m) => bit_or(maneuver_values(m, frame), new Map([["later_s", sub(m.duration_s, first.duration_s)]])));
+return bit_or(maneuver_values(first, frame), new Map([["alternatives", alternatives]]));
+}
+
+function track(maneuver) {
+let centre_east, centre_north, east, flown, north, orbit, time, x, y;
+flown = vertices(maneuver, step_counts(maneuver, null, mul(CHORD_ERROR, maneuver.aircraft.turn_radius_m)));
+[orbit, time] = iter([maneuver.orbit, flown.time_s]);
+[centre_east, centre_north] = iter(orbit.centre_after(time));
+[east, north] = iter([sub(flown.east_m, centre_east), sub(flown.north_m, centre_north)]);
+[x, y] = iter(arrays.reduce(east, north, flown.heading_deg, replace(orbit, { east_m: 0.0, north_m: 0.0 }), maneuver.aircraft));
+return new Map([["time_s", tolist_(time)], ["east_m", tolist_(flown.east_m)], ["north_m", tolist_(flown.north_m)], ["heading_deg", tolist_(flown.heading_deg)], ["x", tolist_(x)], ["y", tolist_(y)]]);
+}
+
+function _other_turn_later_s(maneuvers) {
+let first, other, others;
+[first, ...others] = iter(maneuvers);
+other = next(list(iter(others)).filter((m) => ne(m.turn, first.turn)).map((m) => m), null);
+return ((other == null) ? null : sub(other.duration_s, first.duration_s));
+}
+
+function instruction(maneuver) {
+let decimals, first, hold, later, next_action, now;
+hold = `hold ${str(Turn_described(maneuver.turn))}`;
+if (!truth(maneuver.segments)) {
+return `${str(capitalize_(hold))}: you are on the circle.`;
+}
+[first, ...later] = iter(maneuver.segments);
+decimals = (ge(maneuver.orbit.radius_m, 10.0) ? 2 : 3);
+next_action = (truth(later) ? item(ACTIONS, item(later, 0).letter) : hold);
+now = `${str(capitalize_(item(ACTIONS, first.letter)))} now, then ${str(next_action)} in ${format(first.duration_s, `.${String(decimals)}f`)} s.`;
+return (truth(later) ? `${str(now)} ${str(capitalize_(hold))} from ${format(maneuver.duration_s, `.${String(decimals)}f`)} s.` : now);
+}
+
+function command(problem) {
+let limit, orbit, pose, velocity, wind, words;
+[pose, orbit, wind] = iter([problem.pose, problem.orbit, problem.wind]);
+limit = _given_limit(problem.aircraft);
+words = ["loiter plan", _option("pose", pose.east_m, pose.north_m, pose.heading_deg), _option("orbit", orbit.east_m, orbit.north_m, orbit.radius_m)];
+words = add(words, (ne(orbit.turn, Turn.EITHER) ? [`${str(item(OPTIONS, "turn"))} ${str(orbit.turn)}`] : []));
+append_(words, _option("airspeed_m_s", problem.aircraft.airspeed_m_s));
+append_(words, _option(limit, problem.aircraft[limit]));
+words = add(words, (ne(wind, CALM) ? [_option("wind", wind.speed_m_s, wind.from_deg)] : []));
+velocity = [orbit.velocity_east_m_s, orbit.velocity_north_m_s];
+words = add(words, (truth(orbit.moves) ? [_option("orbit_velocity_m_s", ...iter(velocity))] : []));
+words = add(words, (truth(problem.tolerance_m) ? [_option("tolerance_m", problem.tolerance_m)] : []));
+return join_(" ", words);
+}
+
+function python(problem) {
+let limit, names, tolerance, uav, wind;
+wind = (ne(problem.wind, CALM) ? `, ${repr(problem.wind)}` : "");
+tolerance = (truth(problem.tolerance_m) ? `, tolerance_m=${repr(problem.tolerance_m)}` : "");
+[uav, limit] = iter([problem.aircraft, _given_limit(problem.aircraft)]);
+names = join_(", ", ["Aircraft", "Orbit", "Pose", ...iter((truth(wind) ? ["Wind"] : [])), "plan_all"]);
+return join_("\n", [`from loiter import ${str(names)}`, "", `pose = ${repr(problem.pose)}`, `orbit = ${str(_orbit(problem.orbit))}`, `uav = Aircraft(airspeed_m_s=${repr(uav.airspeed_m_s)}, ${str(limit)}=${repr(uav[limit])})`, `m, *as_fast = plan_all(pose, orbit, uav${str(wind)}${str(tolerance)})`, "print(m.word, m.turn.value, m.duration_s)"]);
+}
+
+function extremals(problem) {
+return maneuvers(solve_problem(problem, kernel.synthesis_ranked, kernel.wind_search_ranked));
+}
+
+function maneuver_values(maneuver, frame = null) {
+return maneuver_maneuver_values(maneuver, ((frame != null) ? partial(_placed_values, frame) : pose_values));
+}
+
+function certify(maneuver, tolerance_m = 0.0) {
+let accuracy, formulation, lam, others, problem, psi, start, trajectory;
+arrays.unchecked("maneuver", maneuver, Maneuver);
+problem = problem_of(maneuver, tolerance_m);
+others = _others(maneuver, problem);
+trajectory = trajectory_of(maneuver, problem);
+accuracy = accuracy_of(trajectory, others);
+formulation = (truth(problem.still) ? IN_STILL_AIR : IN_WIND);
+lam = null;
+psi = null;
+if (truth(trajectory.pieces)) {
+start = trajectory.first.start;
+[lam, psi] = iter([trajectory.lam, [start.psi1, start.psi2]]);
+}
+return Certificate(maneuver, lam, psi, _choice(trajectory), tuple(_switches(trajectory)), tuple(residuals(formulation, trajectory, accuracy, others)), others, trajectory.pieces, mul(accuracy.tie, problem.time_unit_s), and(problem.has_closed_form, () => eq(tolerance_m, 0.0)));
+}
+
+const Instant = struct(class Instant extends Tuple {
+constructor(time_s, u, phi, psi1, psi2) {
+super();
+this.time_s = time_s;
+this.u = u;
+this.phi = phi;
+this.psi1 = psi1;
+this.psi2 = psi2;
+
+}
+}, ["time_s", "u", "phi", "psi1", "psi2"]);
+
+function flown_from(start, u, length_m, aircraft, wind) {
+return Pose(...iter(_flown(start, u, length_m, aircraft, wind, kernel.fly)));
+}
+
+const ReducedProblem = struct(class ReducedProblem extends Tuple {
+constructor(x, y, R, side, tolerance) {
+super();
+this.x = x;
+this.y = y;
+this.R = R;
+this.side = side;
+this.tolerance = tolerance;
+
+}
+}, ["x", "y", "R", "side", "tolerance"]);
+
+function too_tight(orbit, aircraft) {
+let V, limit, need, needed, r, rate;
+[r, V, needed] = iter([aircraft.turn_radius_m, aircraft.airspeed_m_s, aircraft.bank_deg(orbit.radius_m)]);
+if ((aircraft.max_bank_deg != null)) {
+[limit, need] = iter([` and ${format(aircraft.max_bank_deg, `.4g`)} deg of bank`, `${format(needed, `.4g`)} deg`]);
+} else {
+if ((aircraft.max_turn_rate_deg_s != null)) {
+rate = div(mul(aircraft.max_turn_rate_deg_s, r), orbit.radius_m);
+[limit, need] = iter([` and ${format(aircraft.max_turn_rate_deg_s, `.4g`)} deg/s`, `${format(rate, `.4g`)} deg/s (${format(needed, `.4g`)} deg of bank)`]);
+} else {
+[limit, need] = iter(["", `${format(needed, `.4g`)} deg of bank`]);
+}
+}
+return `orbit radius ${format(orbit.radius_m, `g`)} m is tighter than the aircraft can turn: ${format(r, `.4g`)} m at ${format(V, `.4g`)} m/s${str(limit)}; it needs ${str(need)}`;
+}
+
+function check_held(orbit, aircraft, air, wind = null) {
+let V, sentence, speed, status, tightest;
+status = _status(orbit, aircraft, air);
+if (eq(status, kernel.Status.WIND_TOO_STRONG)) {
+[V, speed] = iter([aircraft.airspeed_m_s, mul(math.hypot(...iter(air)), aircraft.airspeed_m_s)]);
+throw errors.WindTooStrong(`in ${str(_air(orbit, speed))} an aircraft of ${format(V, `.4g`)} m/s can hold no circle: its airspeed must be above ${format(speed, `.4g`)} m/s${str(_swapped_hint(orbit, aircraft, wind))}`);
+}
+if (has(status, [kernel.Status.NOT_HELD, kernel.Status.RADIUS_TOO_SMALL])) {
+tightest = kernel.tightest_radius(...iter(air));
+sentence = (truth(air.still) ? too_tight(orbit, aircraft) : _not_held(orbit, aircraft, air, tightest));
+throw errors.RadiusTooSmall(sentence, mul(tightest, aircraft.turn_radius_m));
+}
+}
+
+const WindProblem = struct(class WindProblem extends Tuple {
+constructor(x, y, c, s, R, side, wx, wy, tolerance = 0.0) {
+super();
+this.x = x;
+this.y = y;
+this.c = c;
+this.s = s;
+this.R = R;
+this.side = side;
+this.wx = wx;
+this.wy = wy;
+this.tolerance = tolerance;
+
+}
+}, ["x", "y", "c", "s", "R", "side", "wx", "wy", "tolerance"]);
+
+function maneuvers(found) {
+return tuple(list(iter(found)).map((candidate) => candidate.maneuver));
+}
+
+function solve_problem(problem, in_still_air, in_wind) {
+let R, _, found, reduced, x, y;
+if (truth(problem.has_closed_form)) {
+reduced = problem.reduced();
+[x, y, R, _, _] = iter(reduced);
+return tuple(list(iter(in_still_air(...iter(reduced)))).map((entry) => Solved(maneuver(problem, entry, kernel.miss(x, y, R, entry)), kernel.entry_duration(entry))));
+}
+found = in_wind(problem.in_wind());
+if ((!truth(found) || ne(item(found, 0).status, kernel.Status.OK))) {
+throw _not_converged(problem);
+}
+return tuple(list(iter(found)).map((entry) => Solved(maneuver(problem, kernel.entry_of(entry), entry.miss), kernel.time_of(entry))));
+}
+
+function _tied(known, problem) {
+let R, allowed, least, turn;
+[turn, R] = iter([problem.orbit.turn, problem.radius]);
+allowed = list(iter(known)).filter((one) => has(turn, [Turn.EITHER, one.maneuver.turn])).map((one) => _with_orbit(one, problem.orbit));
+least = min(list(iter(allowed)).map((candidate) => candidate.time));
+return maneuvers(list(iter(allowed)).filter((candidate) => truth(kernel.is_tie_in_wind(candidate.time, least, R))).map((candidate) => candidate));
+}
+
+function _given_limit(aircraft) {
+return next(list(iter(TURN_LIMITS)).filter((name) => (aircraft[name] != null)).map((name) => name));
+}
+
+function _option(argument, ...numbers) {
+return join_(" ", [item(OPTIONS, argument), ...iter(list(iter(numbers)).map((number) => removesuffix_(repr(number), ".0")))]);
+}
+
+function _orbit(orbit) {
+let text;
+text = `east_m=${repr(orbit.east_m)}, north_m=${repr(orbit.north_m)}, radius_m=${repr(orbit.radius_m)}, turn="${str(orbit.turn)}"`;
+if (truth(orbit.moves)) {
+text = add(text, `, velocity_east_m_s=${repr(orbit.velocity_east_m_s)}, velocity_north_m_s=${repr(orbit.velocity_north_m_s)}`);
+}
+return `Orbit(${str(text)})`;
+}
+
+function maneuver_maneuver_values(maneuver, pose = pose_values) {
+return new Map([["duration_s", maneuver.duration_s], ["length_m", maneuver.length_m], ["word", maneuver.word], ["turn", maneuver.turn], ["join", pose(maneuver.join)], ["wind", new Map([["speed_m_s", maneuver.wind.speed_m_s], ["from_deg", maneuver.wind.from_deg]])], ["join_over_ground", _join_over_ground(maneuver)], ["hold", new Map([["least_bank_deg", maneuver.hold.least_bank_deg], ["largest_bank_deg", maneuver.hold.largest_bank_deg], ["largest_bank_azimuth_deg", maneuver.hold.largest_bank_azimuth_deg]])], ["miss_m", maneuver.miss_m], ["segments", list(iter(maneuver.segments)).map((segment) => maneuver__segment(segment, pose))], ["aircraft", new Map([["airspeed_m_s", maneuver.aircraft.airspeed_m_s], ["turn_radius_m", maneuver.aircraft.turn_radius_m]])]]);
+}
+
+function _placed_values(frame, pose) {
+let place;
+place = frame.place(pose);
+return bit_or(pose_values(pose), new Map([["latitude_deg", round(place.latitude_deg, places_DECIMALS)], ["longitude_deg", round(place.longitude_deg, places_DECIMALS)], ["true_heading_deg", place.heading_deg]]));
+}
+
+function pose_values(pose) {
+return new Map([["east_m", pose.east_m], ["north_m", pose.north_m], ["heading_deg", pose.heading_deg]]);
+}
+
+function problem_of(maneuver, tolerance_m = 0.0) {
+return Problem(maneuver.start, maneuver.orbit, maneuver.aircraft, maneuver.wind, tolerance_m);
+}
+
+function _others(maneuver, problem) {
+return tuple(list(iter(extremals(problem))).filter((other) => ne([other.turn, other.segments], [maneuver.turn, maneuver.segments])).map((other) => Candidate(other.word, other.turn, other.duration_s, sub(other.duration_s, maneuver.duration_s))));
+}
+
+function trajectory_of(maneuver, problem) {
+let controls, durations, flown, plans, start;
+start = _start(problem, int(item(SIDES, held_turn(maneuver))));
+[controls, durations] = iter([list(iter(letters(arrays.word_of(maneuver)))).map((letter) => item(CONTROLS, letter)), durations_of(maneuver)]);
+if (!truth(controls)) {
+return Trajectory(maneuver, problem, start, 1.0, []);
+}
+plans = (truth(problem.has_closed_form) ? _in_still_air : _in_wind)(start, controls, durations);
+flown = list(iter(plans)).map((plan) => Trajectory(maneuver, problem, plan.start, plan.adjoint.lam, tuple(flown_pieces(...iter(plan)))));
+return min(flown, { key: ((trajectory) => trajectory.worst_violation) });
+}
+
+function accuracy_of(trajectory, others) {
+return (truth(trajectory.problem.has_closed_form) ? accuracy__in_still_air(trajectory, others) : accuracy__in_wind(trajectory));
+}
+
+const Formulation = struct(class Formulation extends Tuple {
+constructor(arrival, motion, maximum_principle, further, gradient) {
+super();
+this.arrival = arrival;
+this.motion = motion;
+this.maximum_principle = maximum_principle;
+this.further = further;
+this.gradient = gradient;
+
+}
+}, ["arrival", "motion", "maximum_principle", "further", "gradient"]);
+
+const Condition = struct(class Condition extends Tuple {
+constructor(name, equation, violation) {
+super();
+this.name = name;
+this.equation = equation;
+this.violation = violation;
+
+}
+}, ["name", "equation", "violation"]);
+
+function target(trajectory, accuracy) {
+return Violation(trajectory.miss, accuracy.end);
+}
+
+function join(trajectory, accuracy) {
+let last, start;
+[last, start] = iter([trajectory.reduced_join, trajectory.start]);
+return Violation(math.hypot(last.x, sub(last.y, mul(start.side, start.R))), accuracy.join);
+}
+
+function turn(trajectory, accuracy) {
+let maneuver;
+maneuver = trajectory.maneuver;
+return Violation(float(!has(maneuver.orbit.turn, [maneuver.turn, Turn.EITHER])), 0.0);
+}
+
+const EquationOfMotion = struct(class EquationOfMotion extends Tuple {
+constructor(name, equation, quantity, rate) {
+super();
+this.name = name;
+this.equation = equation;
+this.quantity = quantity;
+this.rate = rate;
+
+}
+}, ["name", "equation", "quantity", "rate"]);
+
+function switch_(trajectory, accuracy) {
+let off, starts;
+starts = list(iter(trajectory.opposed)).map((piece) => piece.start);
+off = max(list(iter(starts)).map((start) => math.hypot(start.phi, sub(start.psi1, trajectory.lam))), { default: null });
+return ((off == null) ? null : Violation(off, accuracy.angle));
+}
+
+function middle_arc(trajectory, accuracy) {
+let last, lasts, middle;
+if (ne(len(trajectory.opposed), 2)) {
+return null;
+}
+[middle, last] = iter(trajectory.opposed);
+lasts = mul(2.0, sub(math.pi, math.atan2(abs(last.start.psi2), last.start.psi1)));
+return Violation(max(abs(sub(middle.t, lasts)), sub(math.pi, middle.t)), mul(2.0, accuracy.angle));
+}
+
+function slopes(trajectory, accuracy) {
+let a, b, ra, rb;
+if (ne(len(trajectory.opposed), 2)) {
+return null;
+}
+[a, b] = iter(list(iter(trajectory.opposed)).map((piece) => piece.start));
+[ra, rb] = iter([abs(a.reduced), abs(b.reduced)]);
+return Violation(abs(add(mul(a.x, b.y), mul(b.x, a.y))), add(mul(accuracy.end, add(ra, rb)), mul(mul(accuracy.angle, ra), rb)));
+}
+
+function line(trajectory, accuracy) {
+let off;
+off = max(list(iter(trajectory.pieces)).filter((piece) => eq(piece.u, 0)).map((piece) => abs(piece.start.y)), { default: null });
+return ((off == null) ? null : Violation(off, accuracy.end));
+}
+
+function axis(trajectory, accuracy) {
+let arcs;
+if (ne(trajectory.problem.orbit.turn, Turn.EITHER)) {
+return null;
+}
+arcs = list(iter(trajectory.pieces)).filter((piece) => truth(piece.u)).map((piece) => piece);
+return Violation(max(list(iter(arcs)).flatMap((arc) => list(iter(_crossings(arc))).map((lost) => lost)), { default: 0.0 }), accuracy.maximum_principle.sign);
+}
+
+function last_arc(trajectory, accuracy, tight) {
+let R, _, early, free, last, longest, side;
+[last, [_, _, _, R, side]] = iter([trajectory.last, trajectory.start]);
+free = (eq(trajectory.problem.orbit.turn, Turn.EITHER) && eq(tight, eq(R, 1.0)));
+if ((!truth(free) || eq(len(trajectory.pieces), 1) || ne(last.u, side))) {
+return null;
+}
+longest = math.atan2(math.sqrt(mul(R, add(R, 2.0))), 1.0);
+early = math.sqrt(mul(2.0, pow(accuracy.length, div(2.0, 3.0))));
+return Violation(max(0.0, sub(last.t, longest)), add(accuracy.end, early));
+}
+
+const GradientEquations = struct(class GradientEquations extends Tuple {
+constructor(gradient, bellman) {
+super();
+this.gradient = gradient;
+this.bellman = bellman;
+
+}
+}, ["gradient", "bellman"]);
+
+const Violation = struct(class Violation extends Tuple {
+constructor(value, bound) {
+super();
+this.value = value;
+this.bound = bound;
+
+}
+}, ["value", "bound"]);
+
+function* _crossings(arc) {
+let after, before, bounds, crossings, ends, heights, s;
+crossings = list(iter([-1.0, 1.0])).map((end) => kernel.onto_axis(arc.start.x, mul(arc.u, arc.start.y), end, 0.0));
+ends = sorted(list(iter(crossings)).map((one) => iter(one)).filter(([rotated, c]) => ge(c, 0.0)).map(([rotated, c]) => kernel.angle(rotated)));
+bounds = [0.0, ...iter(list(iter(ends)).filter((s) => lt(s, arc.t)).map((s) => s)), arc.t];
+heights = list(iter(pairwise(bounds))).map((one) => iter(one)).map(([a, b]) => abs(arc.at(mul(0.5, add(a, b))).y));
+for ([s, [before, after]] of rows(zip(sliced(bounds, 1, null, null), pairwise(heights)))) {
+yield mul(abs(arc.at(s).psi2), min(before, after));
+}
+}
+
+function distance_from_circle(trajectory, accuracy) {
+let _, q;
+[q, _] = iter(trajectory.end);
+return Violation(abs(sub(abs(q), trajectory.start.R)), accuracy.end);
+}
+
+function course(trajectory, accuracy) {
+let e, q;
+[q, e] = iter(trajectory.end);
+return Violation(div(abs(inner(q, add(e, trajectory.start.w))), max(abs(q), accuracy.end)), mul(2.0, accuracy.end));
+}
+
+function conditions_join(trajectory, accuracy) {
+let _, circle, from_centre, pose, q;
+[pose, circle] = iter([trajectory.maneuver.join, trajectory.maneuver.orbit_at_join]);
+from_centre = complex(sub(pose.east_m, circle.east_m), sub(pose.north_m, circle.north_m));
+[q, _] = iter(trajectory.end);
+return Violation(abs(sub(div(from_centre, trajectory.problem.aircraft.turn_radius_m), q)), accuracy.join);
+}
+
+function turn_as_flown(trajectory, accuracy) {
+let _, bound, e, excluded, opposite, q, side, w;
+[[q, e], [_, _, w, _, side]] = iter([trajectory.end, trajectory.start]);
+opposite = gt(mul(inner(mul(new Complex(0.0, 1.0), q), add(e, w)), side), 0.0);
+[excluded, bound] = iter(turn(trajectory, accuracy));
+return Violation(max(excluded, float(opposite)), bound);
+}
+
+function inner(a, b) {
+return mul(conjugate_(a), b).real;
+}
+
+const Certificate = struct(class Certificate extends Values {
+constructor(maneuver, lam, psi, choice, switches, residuals, others, pieces, tie_s, complete) {
+super();
+this.maneuver = maneuver;
+this.lam = lam;
+this.psi = psi;
+this.choice = choice;
+this.switches = switches;
+this.residuals = residuals;
+this.others = others;
+this.pieces = pieces;
+this.tie_s = tie_s;
+this.complete = complete;
+
+}
+get proved_optimal() {
+const self = this;
+return and(self.complete, () => self.valid);
+}
+get basis() {
+const self = this;
+if (!truth(self.valid)) {
+return BASIS_VIOLATED;
+}
+return (truth(self.proved_optimal) ? BASIS_THEOREM : BASIS_NECESSARY);
+}
+get valid() {
+const self = this;
+return !truth(self.failed);
+}
+get failed() {
+const self = this;
+return tuple(list(iter(self.residuals)).filter((residual) => truth(residual.failed)).map((residual) => residual));
+}
+get ties() {
+const self = this;
+return tuple(list(iter(self.others)).filter((other) => le(abs(other.later_s), self.tie_s)).map((other) => other));
+}
+get runner_up() {
+const self = this;
+if (truth(any(list(iter(self.others)).map((other) => lt(other.later_s, neg(self.tie_s)))))) {
+return null;
+}
+return next(list(iter(self.others)).filter((other) => gt(other.later_s, self.tie_s)).map((other) => other), null);
+}
+get margin_s() {
+const self = this;
+return ((self.runner_up == null) ? null : self.runner_up.later_s);
+}
+*history(steps = 100) {
+let began, piece, times, unit_s;
+const self = this;
+unit_s = problem_of(self.maneuver).time_unit_s;
+began = 0.0;
+for (piece of iter(self.pieces)) {
+times = list(iter(range(add(steps, 1)))).map((i) => div(mul(piece.t, i), steps));
+yield list(iter(times)).map((s) => _instant(piece, began, s, unit_s));
+began = add(began, piece.t);
+}
+}
+to_dict() {
+const self = this;
+return new Map([["valid", self.valid], ["proved_optimal", self.proved_optimal], ["basis", self.basis], ["word", self.maneuver.word], ["turn", self.maneuver.turn], ["duration_s", self.maneuver.duration_s], ["lambda", self.lam], ["psi", self.psi], ["choice", self.choice], ["switches", list(iter(self.switches)).map((switch_) => asdict(switch_))], ["residuals", list(iter(self.residuals)).map((residual) => _plain(residual))], ["candidates", list(iter(self.others)).map((other) => bit_or(asdict(other), new Map([["turn", other.turn]])))], ["runner_up", ((self.runner_up == null) ? null : self.runner_up.word)], ["margin_s", self.margin_s]]);
+}
+}, ["maneuver", "lam", "psi", "choice", "switches", "residuals", "others", "pieces", "tie_s", "complete"]);
+
+function _choice(trajectory) {
+let arc, single;
+if (!truth(trajectory.pieces)) {
+return ON_THE_CIRCLE;
+}
+single = eq(len(trajectory.pieces), 1);
+if (!truth(trajectory.problem.still)) {
+return (truth(single) ? ARC_IN_WIND : UNIQUE_IN_WIND);
+}
+if (!truth(single)) {
+return UNIQUE;
+}
+arc = (eq(len(trajectory.maneuver.segments), 1) ? "a single arc" : ARC_BY_ROUNDING);
+return `${str(arc)} has many psi: this is ${str((eq(trajectory.lam, 1.0) ? STRAIGHT_ENTRY : SWITCH_AT_START))}`;
+}
+
+function* _switches(trajectory) {
+let after, before, letters, there, time;
+time = 0.0;
+for ([before, after] of rows(pairwise(trajectory.pieces))) {
+time = add(time, before.t);
+there = after.start;
+letters = add(item(LETTERS, before.u), item(LETTERS, after.u));
+yield Switch(mul(time, trajectory.problem.time_unit_s), letters, there.x, there.y, there.psi1, there.psi2);
+}
+}
+
+function* residuals(formulation, trajectory, accuracy, others) {
+let bound, equation, name, off;
+yield* iter(_check(formulation.arrival, trajectory, accuracy));
+if (truth(trajectory.pieces)) {
+yield* iter(_motions(formulation.motion, trajectory, accuracy));
+for ([name, equation] of rows(items_(formulation.maximum_principle))) {
+[off, bound] = iter([trajectory.violations[name], accuracy.maximum_principle[name]]);
+yield Residual(name, equation, off, bound);
+}
+yield* iter(_check(formulation.further, trajectory, accuracy));
+yield* iter(gradient_residuals(formulation.gradient, trajectory, accuracy));
+}
+yield _comparison(trajectory, accuracy, others);
+}
+
+function _status(orbit, aircraft, air) {
+let R;
+R = radius_in_turns(orbit, aircraft);
+return kernel.wind_search_status_of(WindProblem(0.0, 0.0, 1.0, 0.0, R, kernel.Side.EITHER, ...iter(air)));
+}
+
+function _air(orbit, speed) {
+return (truth(orbit.moves) ? `air that passes the circle at ${format(speed, `.4g`)} m/s` : `a wind of ${format(speed, `.4g`)} m/s`);
+}
+
+function _swapped_hint(orbit, aircraft, wind) {
+let from_deg, size, speed, unit;
+if (((wind == null) || !(lt(0.0, wind.from_deg) && lt(wind.from_deg, wind.speed_m_s) && le(wind.speed_m_s, 360.0)))) {
+return "";
+}
+[speed, from_deg] = iter([wind.from_deg, wind.speed_m_s]);
+for ([unit, size] of rows(items_(new Map([["m/s", 1.0], ["knots", KNOT]])))) {
+if (lt(math.hypot(...iter(relative_wind(orbit, aircraft, Wind(mul(speed, size), from_deg)))), 1.0)) {
+return `; for a wind of ${format(speed, `.4g`)} ${str(unit)} from ${format(from_deg, `g`)} degrees the speed comes first (weather reports have the direction first, and knots)`;
+}
+}
+return "";
+}
+
+function _not_held(orbit, aircraft, air, tightest) {
+let V, bank, limit, need, r, rate;
+[r, V] = iter([aircraft.turn_radius_m, aircraft.airspeed_m_s]);
+bank = `${format(aircraft.bank_deg(div(orbit.radius_m, tightest)), `.4g`)} deg`;
+if ((aircraft.max_bank_deg != null)) {
+[limit, need] = iter([`${format(aircraft.max_bank_deg, `.4g`)} deg of bank`, bank]);
+} else {
+if ((aircraft.max_turn_rate_deg_s != null)) {
+rate = div(mul(mul(aircraft.max_turn_rate_deg_s, r), tightest), orbit.radius_m);
+[limit, need] = iter([`${format(aircraft.max_turn_rate_deg_s, `.4g`)} deg/s`, `${format(rate, `.4g`)} deg/s (${str(bank)} of bank)`]);
+} else {
+[limit, need] = iter([`a turn radius of ${format(r, `.4g`)} m`, `a turn radius of ${format(div(orbit.radius_m, tightest), `.4g`)} m`]);
+}
+}
+return `orbit radius ${format(orbit.radius_m, `g`)} m cannot be held in ${str(_air(orbit, mul(math.hypot(...iter(air)), V)))} at ${format(V, `.4g`)} m/s and ${str(limit)}: it needs ${format(mul(tightest, r), `.4g`)} m, or ${str(need)}`;
+}
+
+const Solved = struct(class Solved extends Tuple {
+constructor(maneuver, time) {
+super();
+this.maneuver = maneuver;
+this.time = time;
+
+}
+}, ["maneuver", "time"]);
+
+function maneuver(problem, entry, miss) {
+let aircraft, here, letter, miss_m, now, segment, segments, t, wind;
+[aircraft, wind] = iter([problem.aircraft, problem.wind]);
+segments = [];
+[here, now] = iter([problem.pose, 0.0]);
+for ([letter, t] of rows(zip(letters(entry.word), sliced(entry, 2, null, null)))) {
+segment = scaling__segment(here, now, letter, t, aircraft, wind);
+append_(segments, segment);
+[here, now] = iter([segment.end, add(now, segment.duration_s)]);
+}
+miss_m = mul(miss, aircraft.turn_radius_m);
+return Maneuver(problem.pose, problem.orbit, aircraft, item(TURNS, entry.side), tuple(segments), miss_m, wind);
+}
+
+function _not_converged(problem) {
+let pose, wind;
+[pose, wind] = iter([problem.pose, problem.wind]);
+return errors.NotConverged(`${str(item(_MESSAGES, kernel.Status.NOT_CONVERGED))}: pose ${format(pose.east_m, `g`)} ${format(pose.north_m, `g`)} ${format(pose.heading_deg, `g`)}, wind ${format(wind.speed_m_s, `.4g`)} m/s from ${format(wind.from_deg, `g`)}; try a pose moved by a millimetre`);
+}
+
+function _with_orbit(candidate, orbit) {
+return replace(candidate, { maneuver: replace(candidate.maneuver, { orbit: orbit }) });
+}
+
+function _join_over_ground(maneuver) {
+let centre, speed, track_deg;
+[track_deg, speed] = iter(maneuver.over_ground(maneuver.join));
+centre = maneuver.orbit_at_join;
+return new Map([["track_deg", track_deg], ["ground_speed_m_s", speed], ["centre_east_m", centre.east_m], ["centre_north_m", centre.north_m]]);
+}
+
+function maneuver__segment(segment, pose) {
+return new Map([["letter", segment.letter], ["start_s", segment.start_s], ["duration_s", segment.duration_s], ["length_m", segment.length_m], ["curvature_per_m", segment.curvature_per_m], ["start", pose(segment.start)], ["end", pose(segment.end)]]);
+}
+
+const Candidate = struct(class Candidate extends Values {
+constructor(word, turn, duration_s, later_s) {
+super();
+this.word = word;
+this.turn = turn;
+this.duration_s = duration_s;
+this.later_s = later_s;
+
+}
+}, ["word", "turn", "duration_s", "later_s"]);
+
+function _start(problem, side) {
+let R, _, c, s, wx, wy, x, y;
+if (truth(problem.has_closed_form)) {
+[x, y, R, _, _] = iter(problem.reduced());
+return RelativeStart(complex(x, y), add(1.0, new Complex(0.0, 0.0)), new Complex(0.0, 0.0), R, side);
+}
+[x, y, c, s, R, _, wx, wy, _] = iter(problem.in_wind());
+return RelativeStart(complex(x, y), complex(c, s), complex(wx, wy), R, side);
+}
+
+function held_turn(maneuver) {
+if (!has(maneuver.turn, [Turn.CW, Turn.CCW])) {
+throw errors.InvalidArgument("maneuver", `holds the circle ${repr(str(maneuver.turn))}: it must be cw or ccw`);
+}
+return maneuver.turn;
+}
+
+function durations_of(maneuver) {
+let durations, seconds;
+seconds = list(iter(maneuver.segments)).map((segment) => segment.duration_s);
+durations = list(iter(seconds)).map((t) => div(mul(float(t), maneuver.aircraft.airspeed_m_s), maneuver.aircraft.turn_radius_m));
+if (!truth(all(list(iter(durations)).map((t) => (le(0.0, t) && le(t, mul(8.0, REACH))))))) {
+throw errors.InvalidArgument("maneuver", `has durations ${str(seconds)}: they must be zero or positive, finite seconds`);
+}
+return durations;
+}
+
+const Trajectory = struct(class Trajectory extends Values {
+constructor(maneuver, problem, start, lam, pieces) {
+super();
+this.maneuver = maneuver;
+this.problem = problem;
+this.start = start;
+this.lam = lam;
+this.pieces = pieces;
+
+}
+get first() {
+const self = this;
+return item(self.pieces, 0);
+}
+get last() {
+const self = this;
+return item(self.pieces, -1);
+}
+get end() {
+let end;
+const self = this;
+if (!truth(self.pieces)) {
+return [self.start.q, self.start.e];
+}
+end = self.last.end;
+return [end.q, end.e];
+}
+get miss() {
+let e, q;
+const self = this;
+[q, e] = iter(self.end);
+return abs(sub(mul(q, conjugate_(e)), mul(mul(new Complex(0.0, 1.0), self.start.side), self.start.R)));
+}
+get beside() {
+let e, q;
+const self = this;
+[q, e] = iter(self.end);
+return max(abs(sub(abs(q), self.start.R)), div(abs(inner(q, add(e, self.start.w))), or(abs(q), () => 1.0)));
+}
+get opposed() {
+const self = this;
+return list(iter(pairwise(self.pieces))).map((one) => iter(one)).filter(([before, after]) => lt(mul(before.u, after.u), 0)).map(([before, after]) => after);
+}
+get duration() {
+const self = this;
+return sum(list(iter(self.pieces)).map((piece) => piece.t));
+}
+get reduced_join() { return cached(this, "reduced_join", () => {
+let join, maneuver, problem;
+const self = this;
+[maneuver, problem] = iter([self.maneuver, self.problem]);
+join = Problem(maneuver.join, maneuver.orbit_at_join, maneuver.aircraft, undefined, problem.tolerance_m);
+return join.reduced();
+}); }
+get violations() { return cached(this, "violations", () => {
+let e, hamiltonian, lam, last, norm, now, off, piece, psi1, q, sign;
+const self = this;
+[lam, norm, sign, hamiltonian, psi1] = iter([self.lam, 0.0, 0.0, 0.0, 0.0]);
+for (piece of iter(self.pieces)) {
+for (now of iter(map((...given) => piece.at(...given), piece.instants))) {
+norm = max(norm, abs(sub(abs(now.psi), 1.0)));
+sign = max(sign, (truth(piece.u) ? mul(neg(piece.u), now.phi) : abs(now.phi)));
+hamiltonian = max(hamiltonian, abs(sub(add(abs(now.phi), now.psi1), lam)));
+psi1 = max(psi1, sub(now.psi1, lam));
+}
+}
+[last, [q, e]] = iter([self.last, self.end]);
+off = add(inner(last.p, add(e, last.w)), mul(end_rate(self.start, q, e, last.u), sub(lam, inner(last.p, e))));
+off = mul(off, (truth(self.problem.still) ? self.start.R : 1.0));
+return MaximumPrinciple(norm, max(0.0, sub(neg(lam), inner(last.p, last.w))), sign, hamiltonian, psi1, abs(off));
+}); }
+get worst_violation() {
+let off;
+const self = this;
+off = self.violations;
+return max(off.multiplier, off.sign, off.hamiltonian, off.transversality);
+}
+}, ["maneuver", "problem", "start", "lam", "pieces"]);
+
+function _in_still_air(start, controls, durations) {
+let plan;
+plan = _with_closed_form(start, controls, durations);
+if ((ne(len(controls), 2) || has(0, controls))) {
+return [plan];
+}
+return [or(_one_arc(plan), () => plan), ...iter(_switch_at_centre(plan))];
+}
+
+function _in_wind(start, controls, durations) {
+let adjoints;
+adjoints = _adjoints_in_wind(start, controls, durations);
+return list(iter(adjoints)).map((adjoint) => FlightPlan(start, controls, durations, adjoint));
+}
+
+function* flown_pieces(start, controls, durations, adjoint) {
+let _, e, phi, piece, q, t, u;
+[q, e, phi] = iter([start.q, start.e, adjoint.phi]);
+for ([u, t] of rows(zip(controls, durations))) {
+piece = FlownPiece(u, t, q, e, phi, adjoint.p, start.w);
+yield piece;
+[q, e, _, phi] = iter(piece.end);
+}
+}
+
+function accuracy__in_still_air(trajectory, others) {
+let angle, central, choice, end, far, length, maneuver, pieces, problem, reduced, tie, tied;
+[pieces, problem, reduced] = iter([trajectory.pieces, trajectory.problem, trajectory.problem.reduced()]);
+length = kernel.rounding(reduced.x, reduced.y, reduced.R);
+end = add(max(reduced.tolerance, length), length);
+central = _of_switch_at_centre(trajectory, length);
+angle = add(_angle_of_psi(trajectory, end, length), central);
+tie = mul(2.0, length);
+tied = any(list(iter(others)).map((other) => le(abs(other.later_s), mul(tie, problem.time_unit_s))));
+choice = ((eq(len(pieces), 1) || truth(tied)) ? math.sqrt(length) : pow(length, div(2.0, 3.0)));
+maneuver = trajectory.maneuver;
+far = add(div(maneuver.length_m, maneuver.aircraft.turn_radius_m), reduced.R);
+return Accuracy(end, length, angle, (lt(mul(2.0, length), trajectory.miss) && le(trajectory.miss, end)), add(add(add(end, length), mul(_heading_rounding(maneuver), far)), _ground_rounding(maneuver)), [_of_difference(max(list(iter(pieces)).map((piece) => piece.radius), { default: 0.0 }), length), _of_difference(1.0, ROUNDING), _of_difference(1.0, length)], MaximumPrinciple(ROUNDING, angle, add(angle, choice), add(angle, mul(2.0, choice)), add(angle, choice), (eq(len(pieces), 1) ? angle : add(length, central))), add(angle, _turned_by_last_switch(trajectory, end, length)), tie);
+}
+
+function accuracy__in_wind(trajectory) {
+let T, angle, beside, choice, end, join, length, maneuver, start, tolerance, turning;
+[start, maneuver, T] = iter([trajectory.start, trajectory.maneuver, trajectory.duration]);
+length = kernel.rounding(start.q.real, start.q.imag, start.R);
+end = add(mul(3.0, length), mul(mul(2.0, ROUNDING), T));
+tolerance = trajectory.problem.in_wind().tolerance;
+beside = (lt(end, trajectory.beside) && le(trajectory.beside, add(end, tolerance)));
+end = add(end, (truth(beside) ? tolerance : 0.0));
+turning = add(1.0, div(1.0, max(_length_of_direction(trajectory), end)));
+angle = mul(end, turning);
+choice = add(angle, math.sqrt(mul(mul(4.0, end), turning)));
+join = add(add(end, mul(_heading_rounding(maneuver), add(1.0, T))), _ground_rounding(maneuver));
+return Accuracy(end, length, angle, beside, join, mul([_of_difference(1.0, length)], 3), MaximumPrinciple(ROUNDING, choice, choice, mul(2.0, choice), choice, choice), choice, add(mul(WIND_TIE_TOLERANCE, add(add(1.0, start.R), T)), mul(2.0, _time_of_rounding(trajectory, length))));
+}
+
+function _instant(piece, began, s, unit_s) {
+let now;
+now = piece.at(s);
+return Instant(mul(add(began, s), unit_s), piece.u, now.phi, now.psi1, now.psi2);
+}
+
+function _plain(residual) {
+let value;
+value = (((residual.value != null) && truth(math.isfinite(residual.value))) ? residual.value : null);
+return bit_or(asdict(residual), new Map([["value", value], ["verdict", residual.verdict]]));
+}
+
+const Switch = struct(class Switch extends Values {
+constructor(time_s, letters, x, y, psi1, psi2) {
+super();
+this.time_s = time_s;
+this.letters = letters;
+this.x = x;
+this.y = y;
+this.psi1 = psi1;
+this.psi2 = psi2;
+
+}
+}, ["time_s", "letters", "x", "y", "psi1", "psi2"]);
+
+function* _check(conditions, trajectory, accuracy) {
+let condition, violation;
+for (condition of iter(conditions)) {
+violation = condition.violation(trajectory, accuracy);
+if ((violation != null)) {
+yield Residual(condition.name, condition.equation, ...iter(violation));
+}
+}
+}
+
+function* _motions(motions, trajectory, accuracy) {
+let bound, motion, off, piece, rise, s;
+for ([motion, bound] of rows(zip(motions, accuracy.motion))) {
+off = 0.0;
+for (piece of iter(trajectory.pieces)) {
+for (s of iter(piece.instants)) {
+rise = sub(motion.quantity(piece.at(add(s, STEP))), motion.quantity(piece.at(sub(s, STEP))));
+off = max(off, abs(sub(div(rise, mul(2.0, STEP)), motion.rate(piece, piece.at(s)))));
+}
+}
+yield Residual(motion.name, motion.equation, off, bound);
+}
+}
+
+const Residual = struct(class Residual extends Values {
+constructor(name, equation, value, bound, note = "") {
+super();
+this.name = name;
+this.equation = equation;
+this.value = value;
+this.bound = bound;
+this.note = note;
+
+}
+get skipped() {
+const self = this;
+return (self.value == null);
+}
+get failed() {
+const self = this;
+return and(and((self.value != null), () => (self.bound != null)), () => !le(self.value, self.bound));
+}
+get verdict() {
+const self = this;
+return (truth(self.skipped) ? "skipped" : (truth(self.failed) ? "FAILED" : "holds"));
+}
+}, ["name", "equation", "value", "bound", "note"]);
+
+function* gradient_residuals(equations, trajectory, accuracy) {
+let _, adjoint, by_east, by_motion, by_north, c, corner, gradient, note, off, skipped, slopes, start, times;
+times = least_times(trajectory);
+gradient = (truth(accuracy.beside) ? null : gradient_of(times));
+if ((gradient == null)) {
+corner = (truth(accuracy.beside) ? [] : tuple(corner_residuals(equations, trajectory, accuracy, times)));
+note = (truth(accuracy.beside) ? BESIDE_LAST_ARC : times.not_smooth());
+skipped = list(iter(items_(equations._asdict()))).map((one) => iter(one)).map(([name, equation]) => Residual(name, equation, null, null, note));
+yield* iter(or(corner, () => skipped));
+return;
+}
+[start, slopes] = iter([trajectory.first, gradient.slopes]);
+c = add(trajectory.lam, inner(start.p, start.w));
+adjoint = [start.p.real, start.p.imag, start.phi];
+off = math.hypot(...iter(list(iter(zip(slopes, adjoint))).map((one) => iter(one)).map(([slope, along]) => add(mul(c, slope), along))));
+yield Residual("gradient", equations.gradient, off, add(mul(abs(c), gradient.bound), accuracy.gradient));
+[by_east, by_north, ..._] = iter(slopes);
+by_motion = inner(complex(by_east, by_north), add(start.e, start.w));
+off = abs(sub(add(1.0, by_motion), abs(times.by_heading(slopes))));
+yield Residual("bellman", equations.bellman, off, mul(times.motion_size, gradient.bound));
+}
+
+function _comparison(trajectory, accuracy, others) {
+let note, other, sooner;
+[sooner, note] = iter([0.0, ""]);
+for (other of iter(others)) {
+if (gt(div(neg(other.later_s), trajectory.problem.time_unit_s), sooner)) {
+sooner = div(neg(other.later_s), trajectory.problem.time_unit_s);
+note = (gt(sooner, accuracy.tie) ? `${str(other.word)} ${str(other.turn)} is faster` : "");
+}
+}
+return Residual("fastest", "T is the least of all candidates", sooner, accuracy.tie, note);
+}
+
+function scaling__segment(start, start_s, letter, t, aircraft, wind) {
+let end, length, r, u;
+[r, u] = iter([aircraft.turn_radius_m, item(CONTROLS, letter)]);
+length = mul(t, r);
+end = flown_from(start, u, length, aircraft, wind);
+return Segment(letter, start_s, div(length, aircraft.airspeed_m_s), length, div(u, r), start, end);
+}
+
+const RelativeStart = struct(class RelativeStart extends Tuple {
+constructor(q, e, w, R, side) {
+super();
+this.q = q;
+this.e = e;
+this.w = w;
+this.R = R;
+this.side = side;
+
+}
+}, ["q", "e", "w", "R", "side"]);
+
+function end_rate(start, q, e, u) {
+let g, over_ground, radius;
+radius = (eq(start.w, 0.0) ? start.R : or(abs(q), () => start.R));
+over_ground = add(e, start.w);
+g = abs(over_ground);
+return div(mul(mul(neg(start.side), u), pow(g, 3)), mul(radius, inner(e, over_ground)));
+}
+
+const MaximumPrinciple = struct(class MaximumPrinciple extends Tuple {
+constructor(norm, multiplier, sign, hamiltonian, psi1, transversality) {
+super();
+this.norm = norm;
+this.multiplier = multiplier;
+this.sign = sign;
+this.hamiltonian = hamiltonian;
+this.psi1 = psi1;
+this.transversality = transversality;
+
+}
+}, ["norm", "multiplier", "sign", "hamiltonian", "psi1", "transversality"]);
+
+function _with_closed_form(start, controls, durations) {
+let lam, psi1, psi2, t1, t2, t3, x, y;
+[x, y] = iter([start.q.real, start.q.imag]);
+[t1, t2, t3] = iter(sliced([...iter(durations), 0.0, 0.0], null, 3, null));
+[lam, psi1, psi2] = iter(kernel.adjoint(x, y, start.R, Entry(start.side, arrays.encode(...iter(controls)), t1, t2, t3)));
+return FlightPlan(start, controls, durations, InitialAdjoint(complex(psi1, psi2), lam, kernel.switching_function(x, y, psi1, psi2)));
+}
+
+function _one_arc(plan) {
+let _, end_x, end_y, first, last, late, size, start, u, v, x, y;
+[start, [u, v], [first, last], _] = iter(plan);
+[x, y] = iter([start.q.real, start.q.imag]);
+size = kernel.rounding(x, y, start.R);
+late = _with_closed_form(replace(start, { q: complex(...iter(kernel.flow(x, y, u, first))) }), [v], [last]);
+if (le(mul(add(abs(late.adjoint.phi), first), first), mul(late.adjoint.lam, size))) {
+return late;
+}
+[end_x, end_y] = iter(kernel.flow(x, y, u, add(first, last)));
+if (le(math.hypot(end_x, sub(end_y, mul(start.side, start.R))), size)) {
+return _with_closed_form(start, [u], [add(first, last)]);
+}
+return null;
+}
+
+function* _switch_at_centre(plan) {
+let _, first, psi1, psi2, start, u, x, y;
+[start, [u, _], [first, _], _] = iter(plan);
+[x, y] = iter([start.q.real, start.q.imag]);
+if (le(math.hypot(...iter(kernel.flow(x, y, u, first))), math.sqrt(kernel.rounding(x, y, start.R)))) {
+[psi1, psi2] = iter(kernel.turn_adjoint(1.0, 0.0, u, neg(first)));
+yield replace(plan, { adjoint: InitialAdjoint(complex(psi1, psi2), 1.0, kernel.switching_function(x, y, psi1, psi2)) });
+}
+}
+
+function* _adjoints_in_wind(start, controls, durations) {
+let _, before, middle, p, piece, pieces;
+pieces = list(flown_pieces(start, controls, durations, InitialAdjoint(add(1.0, new Complex(0.0, 0.0)), 1.0, 0.0)));
+before = null;
+for (piece of iter(pieces)) {
+if (eq(piece.u, 0)) {
+yield _vanishing_at(start, pieces, piece, piece.e, 1.0);
+} else {
+if (((before != null) && (ne(before.u, 0) || le(before.t, SHORT)))) {
+yield* iter(_transversal(start, pieces, piece));
+}
+}
+before = piece;
+}
+if (eq(len(pieces), 3)) {
+[_, middle, _] = iter(pieces);
+if (truth(middle.u)) {
+p = mul(neg(middle.e), cmath.exp(mul(mul(new Complex(0.0, 0.5), middle.u), middle.t)));
+yield _vanishing_at(start, pieces, middle, p, neg(math.cos(mul(0.5, middle.t))));
+}
+}
+if (le(sum(list(iter(pieces)).map((piece) => gt(piece.t, SHORT))), 1)) {
+yield* iter(_of_single_arc(start, pieces));
+}
+}
+
+const FlightPlan = struct(class FlightPlan extends Tuple {
+constructor(start, controls, durations, adjoint) {
+super();
+this.start = start;
+this.controls = controls;
+this.durations = durations;
+this.adjoint = adjoint;
+
+}
+}, ["start", "controls", "durations", "adjoint"]);
+
+const FlownPiece = struct(class FlownPiece extends Tuple {
+constructor(u, t, q, e, phi, p, w) {
+super();
+this.u = u;
+this.t = t;
+this.q = q;
+this.e = e;
+this.phi = phi;
+this.p = p;
+this.w = w;
+
+}
+at(s) {
+let chord, e, half, phi, through_air;
+const self = this;
+half = cmath.exp(mul(mul(new Complex(0.0, 0.5), self.u), s));
+chord = (truth(self.u) ? mul(2.0, math.sin(mul(0.5, s))) : s);
+[through_air, e] = iter([mul(mul(chord, self.e), half), mul(mul(self.e, half), half)]);
+phi = sub(self.phi, inner(self.p, mul(new Complex(0.0, 1.0), through_air)));
+return PieceState(add(add(self.q, through_air), mul(self.w, s)), e, mul(self.p, conjugate_(e)), phi);
+}
+get start() {
+const self = this;
+return self.at(0.0);
+}
+get end() {
+const self = this;
+return self.at(self.t);
+}
+get instants() {
+let even, extreme, psi;
+const self = this;
+even = list(iter(range(SAMPLES))).map((i) => div(mul(self.t, i), sub(SAMPLES, 1)));
+psi = self.start.psi;
+extreme = mod(mul(self.u, math.atan2(psi.imag, psi.real)), math.pi);
+return add(even, list(iter([extreme, add(extreme, math.pi)])).filter((s) => (truth(self.u) && lt(s, self.t))).map((s) => s));
+}
+get radius() {
+const self = this;
+return abs(add(self.start.reduced, mul(new Complex(0.0, 1.0), self.u)));
+}
+}, ["u", "t", "q", "e", "phi", "p", "w"]);
+
+function _of_switch_at_centre(trajectory, length) {
+let distance;
+if ((ne(len(trajectory.pieces), 2) || !truth(trajectory.opposed))) {
+return 0.0;
+}
+distance = abs(trajectory.last.q);
+return (le(distance, math.sqrt(length)) ? mul(4.0, distance) : 0.0);
+}
+
+function _angle_of_psi(trajectory, end, length) {
+let _, middle, pieces, reduced, second;
+[pieces, reduced] = iter([trajectory.pieces, trajectory.problem.reduced()]);
+if (eq(len(pieces), 1)) {
+return mul(end, add(1.0, div(add(1.0, reduced.R), max(math.hypot(reduced.x, reduced.y), length))));
+}
+middle = 1.0;
+if (eq(len(pieces), 3)) {
+[_, second, _] = iter(pieces);
+middle = (truth(second.u) ? second.radius : 1.0);
+}
+return mul(end, add(1.0, div(1.0, max(middle, length))));
+}
+
+const Accuracy = struct(class Accuracy extends Tuple {
+constructor(end, length, angle, beside, join, motion, maximum_principle, gradient, tie) {
+super();
+this.end = end;
+this.length = length;
+this.angle = angle;
+this.beside = beside;
+this.join = join;
+this.motion = motion;
+this.maximum_principle = maximum_principle;
+this.gradient = gradient;
+this.tie = tie;
+
+}
+}, ["end", "length", "angle", "beside", "join", "motion", "maximum_principle", "gradient", "tie"]);
+
+function _heading_rounding(maneuver) {
+return mul(mul(6.0, pow(2.0, -52)), math.radians(add(abs(maneuver.start.heading_deg), 720.0)));
+}
+
+function _ground_rounding(maneuver) {
+let centre, coordinates, metres, speeds, start;
+[start, centre] = iter([maneuver.start, maneuver.orbit]);
+coordinates = sum(map(abs, [start.east_m, start.north_m, centre.east_m, centre.north_m]));
+speeds = add(maneuver.wind.speed_m_s, math.hypot(centre.velocity_east_m_s, centre.velocity_north_m_s));
+metres = add(add(coordinates, maneuver.length_m), mul(speeds, maneuver.duration_s));
+return div(mul(ROUNDING, metres), maneuver.aircraft.turn_radius_m);
+}
+
+function _of_difference(third_derivative, rounding) {
+return add(mul(div(mul(STEP, STEP), 6.0), third_derivative), div(rounding, STEP));
+}
+
+function _turned_by_last_switch(trajectory, end, length) {
+let _, last, moved, radii, x, y;
+if (!truth(trajectory.opposed)) {
+return 0.0;
+}
+[_, last] = with_middle(trajectory.opposed, 0, 1);
+[x, y] = iter([last.start.x, last.start.y]);
+radii = mul(math.hypot(x, add(y, 1.0)), math.hypot(x, sub(y, 1.0)));
+moved = min(div(mul(end, radii), max(mul(2.0, abs(x)), length)), math.sqrt(mul(end, radii)));
+return div(moved, max(math.hypot(x, y), length));
+}
+
+function _length_of_direction(trajectory) {
+let _, middle, pieces;
+pieces = trajectory.pieces;
+if (eq(trajectory.lam, 1.0)) {
+return min(1.0, max(list(iter(pieces)).filter((piece) => eq(piece.u, 0)).map((piece) => piece.t), { default: 1.0 }));
+}
+if (lt(len(pieces), 3)) {
+return 1.0;
+}
+[_, middle, _] = iter(pieces);
+return min(1.0, mul(2.0, abs(math.sin(mul(0.5, middle.t)))));
+}
+
+function _time_of_rounding(trajectory, length) {
+let first, steep;
+if (!truth(trajectory.pieces)) {
+return length;
+}
+first = trajectory.first;
+steep = add(trajectory.lam, inner(first.p, first.w));
+return max(length, min(div(length, max(steep, length)), math.sqrt(length)));
+}
+
+function least_times(trajectory) {
+return (truth(trajectory.problem.has_closed_form) ? least_times__in_still_air(trajectory) : least_times__in_wind(trajectory));
+}
+
+function gradient_of(times) {
+let T, bend, best, bound, cancelled, coarse, coarse_bend, corner, error, fine, h, sides, truncation;
+best = null;
+coarse = null;
+[T, coarse_bend, corner] = iter([times.time(0, 0.0), math.inf, false]);
+for (h of iter(times.steps)) {
+if (((best != null) && gt(div(times.error(T, 0.0), h), best.bound))) {
+break;
+}
+sides = list(iter(range(times.axes))).map((axis) => [sub(times.time(axis, h), T), sub(times.time(axis, neg(h)), T)]);
+fine = tuple(list(iter(sides)).map((one) => iter(one)).map(([after, before]) => div(sub(after, before), mul(2.0, h))));
+bend = div(math.hypot(...iter(list(iter(sides)).map((one) => iter(one)).map(([after, before]) => add(after, before)))), h);
+if ((coarse != null)) {
+truncation = math.hypot(...iter(list(iter(zip(fine, coarse))).map((one) => iter(one)).map(([a, b]) => sub(a, b))));
+error = div(times.error(T, math.hypot(...iter(fine))), h);
+bound = add(add(truncation, bend), error);
+cancelled = ((best != null) && gt(bend, add(best.bound, mul(2.0, error))));
+if (((best == null) || truth(cancelled) || lt(bound, best.bound))) {
+[best, corner] = iter([Gradient(fine, bound), (gt(bend, mul(STRAIGHTENS, coarse_bend)) && gt(bend, mul(4.0, error)))]);
+}
+}
+[coarse, coarse_bend] = iter([fine, bend]);
+}
+return (((best != null) && !truth(corner) && le(best.bound, mul(RESOLVED, math.hypot(...iter(best.slopes))))) ? best : null);
+}
+
+function* corner_residuals(equations, trajectory, accuracy, times) {
+let adjoint, after, ahead, along, before, behind, bound, c, least, motions, off, slopes, start;
+after = list(iter(range(times.axes))).map((axis) => one_sided(times, partial(times.time, axis)));
+before = list(iter(range(times.axes))).map((axis) => one_sided(times, partial(_time_before, times, axis)));
+motions = list(iter([-1, 0, 1])).map((u) => one_sided(times, partial(times.after, u)));
+slopes = list(iter([...iter(after), ...iter(before), ...iter(motions)])).filter((slope) => (slope != null)).map((slope) => slope);
+if (lt(len(slopes), add(mul(2, times.axes), 3))) {
+return;
+}
+bound = max(list(iter(slopes)).map((slope) => slope.bound));
+[start, c] = iter([trajectory.first, add(trajectory.lam, inner(trajectory.first.p, trajectory.first.w))]);
+[adjoint, off] = iter([[start.p.real, start.p.imag, start.phi], 0.0]);
+for ([along, ahead, behind] of rows(zip(sliced(adjoint, null, times.axes, null), slopes, sliced(slopes, times.axes, null, null)))) {
+if (gt(add(ahead.value, behind.value), mul(2.0, bound))) {
+return;
+}
+off = max(off, add(mul(c, ahead.value), along), sub(mul(c, behind.value), along));
+}
+if (eq(len(trajectory.pieces), 1)) {
+yield Residual("gradient", equations.gradient, null, null, times.not_smooth());
+} else {
+yield Residual("gradient", equations.gradient, off, add(mul(abs(c), bound), accuracy.gradient), AT_CORNER);
+}
+least = min(list(iter(sliced(slopes, mul(2, times.axes), null, null))).map((slope) => slope.value));
+yield Residual("bellman", equations.bellman, abs(add(1.0, least)), bound, AT_CORNER);
+}
+
+const Segment = struct(class Segment extends Values {
+constructor(letter, start_s, duration_s, length_m, curvature_per_m, start, end) {
+super();
+this.letter = letter;
+this.start_s = start_s;
+this.duration_s = duration_s;
+this.length_m = length_m;
+this.curvature_per_m = curvature_per_m;
+this.start = start;
+this.end = end;
+
+}
+}, ["letter", "start_s", "duration_s", "length_m", "curvature_per_m", "start", "end"]);
+
+const Entry = struct(class Entry extends Tuple {
+constructor(side, word, t1, t2, t3) {
+super();
+this.side = side;
+this.word = word;
+this.t1 = t1;
+this.t2 = t2;
+this.t3 = t3;
+
+}
+}, ["side", "word", "t1", "t2", "t3"]);
+
+const InitialAdjoint = struct(class InitialAdjoint extends Tuple {
+constructor(p, lam, phi) {
+super();
+this.p = p;
+this.lam = lam;
+this.phi = phi;
+
+}
+}, ["p", "lam", "phi"]);
+
+function _vanishing_at(start, pieces, piece, p, lam) {
+let elapsed;
+elapsed = sum(list(iter(sliced(pieces, null, index_(pieces, piece), null))).map((before) => before.t));
+return InitialAdjoint(p, lam, inner(p, mul(new Complex(0.0, 1.0), sub(sub(piece.q, start.q), mul(start.w, elapsed)))));
+}
+
+function* _transversal(start, pieces, switched) {
+let across, along, angle, e, k, turned;
+[turned, [e, k]] = iter([switched.e, _end(start, pieces)]);
+across = sub(inner(mul(new Complex(0.0, 1.0), turned), add(e, start.w)), mul(k, inner(mul(new Complex(0.0, 1.0), turned), e)));
+along = add(inner(turned, add(e, start.w)), mul(k, sub(1.0, inner(turned, e))));
+for (angle of iter([math.atan2(neg(along), across), math.atan2(along, neg(across))])) {
+yield _vanishing_at(start, pieces, switched, mul(turned, cmath.exp(mul(new Complex(0.0, 1.0), angle))), math.cos(angle));
+}
+}
+
+function* _of_single_arc(start, pieces) {
+let e, i, k, lam, longest, p;
+[longest, [e, k]] = iter([max(pieces, { key: ((piece) => piece.t) }), _end(start, pieces)]);
+for (i of iter(range(SCANNED_DIRECTIONS))) {
+p = cmath.exp(div(mul(mul(new Complex(0.0, 2.0), math.pi), i), SCANNED_DIRECTIONS));
+lam = sub(inner(p, e), div(inner(p, add(e, start.w)), k));
+yield InitialAdjoint(p, lam, mul(longest.u, sub(lam, inner(p, start.e))));
+}
+}
+
+const PieceState = struct(class PieceState extends Tuple {
+constructor(q, e, psi, phi) {
+super();
+this.q = q;
+this.e = e;
+this.psi = psi;
+this.phi = phi;
+
+}
+get reduced() {
+const self = this;
+return mul(self.q, conjugate_(self.e));
+}
+get x() {
+const self = this;
+return self.reduced.real;
+}
+get y() {
+const self = this;
+return self.reduced.imag;
+}
+get psi1() {
+const self = this;
+return self.psi.real;
+}
+get psi2() {
+const self = this;
+return self.psi.imag;
+}
+}, ["q", "e", "psi", "phi"]);
+
+function least_times__in_still_air(trajectory) {
+let R, by_heading, fastest, not_smooth, problem, rounded, side, tolerance, x, y;
+problem = trajectory.problem.reduced();
+[x, y, R, side, tolerance] = iter(problem);
+rounded = max(kernel.rounding(x, y, R), replace(trajectory.problem, { tolerance_m: 0.0 }).reduced().tolerance);
+fastest = function (axis, step) {
+return kernel.optimum(add(x, mul(step, eq(axis, 0))), add(y, mul(step, eq(axis, 1))), R, side, tolerance);
+};
+by_heading = function (slopes) {
+let by_x, by_y;
+[by_x, by_y] = iter(slopes);
+return sub(mul(by_x, y), mul(by_y, x));
+};
+not_smooth = function () {
+let around, h, words;
+h = min(STEPS_IN_STILL_AIR);
+around = list(iter([[0, 0.0], [0, h], [0, neg(h)], [1, h], [1, neg(h)]])).map((one) => iter(one)).map(([axis, step]) => fastest(axis, step));
+words = dict.fromkeys(list(iter(around)).map((m) => `${str(letters(m.word))} ${str(lower_(name_of(kernel.Side, m.side)))}`));
+return `T has a corner or a jump here, or bends too sharply: ${str(join_(", ", words))}`;
+};
+return LeastTimes(2, list(iter(STEPS_IN_STILL_AIR)).filter((h) => le(h, _widest_step(trajectory, problem))).map((h) => h), ((axis, step) => kernel.entry_duration(fastest(axis, step))), ((u, step) => kernel.entry_duration(kernel.optimum(...iter(kernel.flow(x, y, u, step)), R, side, tolerance))), ((T, slope) => mul(mul(2.0, rounded), add(1.0, slope))), by_heading, add(1.0, math.hypot(x, y)), not_smooth);
+}
+
+function least_times__in_wind(trajectory) {
+let after, by_heading, problem, time, w;
+problem = replace(trajectory.problem.in_wind(), { tolerance: 0.0 });
+w = complex(problem.wx, problem.wy);
+time = function (axis, step) {
+let e, x, y;
+e = mul(complex(problem.c, problem.s), (eq(axis, 2) ? cmath.exp(mul(new Complex(0.0, 1.0), step)) : 1.0));
+[x, y] = iter([add(problem.x, mul(step, eq(axis, 0))), add(problem.y, mul(step, eq(axis, 1)))]);
+return kernel.time_of(kernel.wind_search_fastest(replace(problem, { x: x, y: y, c: e.real, s: e.imag })));
+};
+after = function (u, step) {
+let _, e, piece, q;
+piece = FlownPiece(u, step, complex(problem.x, problem.y), complex(problem.c, problem.s), 0.0, add(1.0, new Complex(0.0, 0.0)), w);
+[q, e, _, _] = iter(piece.end);
+return kernel.time_of(kernel.wind_search_fastest(replace(problem, { x: q.real, y: q.imag, c: e.real, s: e.imag })));
+};
+by_heading = function (slopes) {
+let _, slope;
+[_, _, slope] = iter(slopes);
+return slope;
+};
+return LeastTimes(3, STEPS_IN_WIND, time, after, ((T, slope) => mul(mul(2.0, WIND_TIE_TOLERANCE), add(add(1.0, problem.R), T))), by_heading, 4.0, (() => "T has a corner here, or bends too sharply"));
+}
+
+const Gradient = struct(class Gradient extends Tuple {
+constructor(slopes, bound) {
+super();
+this.slopes = slopes;
+this.bound = bound;
+
+}
+}, ["slopes", "bound"]);
+
+function one_sided(times, later) {
+let T, best, bound, coarse, h, value;
+[best, coarse, T] = iter([null, math.inf, times.time(0, 0.0)]);
+for (h of iter(times.steps)) {
+value = div(sub(later(h), T), h);
+bound = add(mul(2.42, abs(sub(value, coarse))), div(times.error(T, abs(value)), h));
+if (((best != null) && gt(div(times.error(T, 0.0), h), best.bound))) {
+break;
+}
+best = (((best == null) || lt(bound, best.bound)) ? Slope(value, bound) : best);
+coarse = value;
+}
+return (((best != null) && le(best.bound, mul(RESOLVED, max(1.0, abs(best.value))))) ? best : null);
+}
+
+function _time_before(times, axis, h) {
+return times.time(axis, neg(h));
+}
+
+function _end(start, pieces) {
+let _, last;
+[_, last] = with_middle(pieces, 0, 1);
+return [last.end.e, end_rate(start, last.end.q, last.end.e, last.u)];
+}
+
+const LeastTimes = struct(class LeastTimes extends Tuple {
+constructor(axes, steps, time, after, error, by_heading, motion_size, not_smooth) {
+super();
+this.axes = axes;
+this.steps = steps;
+this.time = time;
+this.after = after;
+this.error = error;
+this.by_heading = by_heading;
+this.motion_size = motion_size;
+this.not_smooth = not_smooth;
+
+}
+}, ["axes", "steps", "time", "after", "error", "by_heading", "motion_size", "not_smooth"]);
+
+function _widest_step(trajectory, problem) {
+let _, parallel, turning;
+turning = math.inf;
+if ((truth(trajectory.opposed) || eq(len(trajectory.pieces), 1))) {
+[_, parallel] = with_middle(or(trajectory.opposed, () => trajectory.pieces), 0, 1);
+turning = abs(parallel.q);
+}
+return mul(0.25, min(turning, clearance(problem)));
+}
+
+const Slope = struct(class Slope extends Tuple {
+constructor(value, bound) {
+super();
+this.value = value;
+this.bound = bound;
+
+}
+}, ["value", "bound"]);
+
+function clearance(problem) {
+let R, _, distances, ordinate, rm, rp, squares, x, y;
+[x, y, R, _, _] = iter(problem);
+distances = [abs(y)];
+for (ordinate of iter([y, neg(y)])) {
+[rp, rm] = iter([math.hypot(x, add(ordinate, 1.0)), math.hypot(x, sub(ordinate, 1.0))]);
+squares = [[kernel.beyond(x, ordinate, R, 2.0), add(add(rp, R), 1.0)], [kernel.beyond(x, ordinate, neg(R), 2.0), add(rp, abs(sub(R, 1.0)))], [kernel.beyond(x, ordinate, sub(2.0, R), 2.0), add(rp, abs(sub(R, 3.0)))], [kernel.beyond(x, ordinate, R, -2.0), add(rm, abs(sub(R, 1.0)))], [kernel.beyond(x, ordinate, neg(R), -2.0), add(add(rm, R), 1.0)]];
+distances = add(distances, list(iter(squares)).map((one) => iter(one)).filter(([square, total]) => gt(total, 0.0)).map(([square, total]) => div(abs(square), total)));
+}
+return min(list(iter(distances)).filter((distance) => gt(distance, kernel.rounding(x, y, R))).map((distance) => distance), { default: math.inf });
+}
+
+const STYLES = new Map([["L", "ff739e00"], ["S", "ffb27200"], ["R", "ff005ed5"], ["circle", "ff000000"]]);
+const SCHEMA = "http://www.w3.org/2001/XMLSchema-instance";
+const NAMESPACE = "http://www.topografix.com/GPX/1/1";
+const DEGREES = ".9f";
+const VIEW_DISTANCE = 3.0;
+const ACTIONS = new Map([["L", "turn left"], ["S", "fly straight"], ["R", "turn right"]]);
+const DECIMALS = 9;
+const MAX_VERTICES = 1000000;
+const NO_FENCE = new Map([["circles", []], ["polygons", []], ["version", 2]]);
+const FIXED_WING = 1;
+const MARK = "QGC WPL";
+const HEADER = `${str(MARK)} 110`;
+const LEAST_EARTH_RADIUS_M = 6335439.0;
+const LARGEST_LATITUDE_DEG = 89.99;
+const REACH_M = 100000.0;
+const BEND_PER_M = div(mul(div(2.0, 3.0), REACH_M), pow(LEAST_EARTH_RADIUS_M, 2));
+const places_DECIMALS = 12;
+const LEAST_SIDES = 72;
+const ALTITUDE_MODES = new Map([[Frame.ABOVE_SEA, 2], [Frame.ABOVE_HOME, 1], [Frame.ABOVE_TERRAIN, 4]]);
+const UNITS = new Map([[AltitudeReference.MSL, "metres above mean sea level"], [AltitudeReference.HOME, "metres above home"], [AltitudeReference.GROUND, "metres above the ground"]]);
+const FRAMES = new Map([[AltitudeReference.MSL, Frame.ABOVE_SEA], [AltitudeReference.HOME, Frame.ABOVE_HOME], [AltitudeReference.GROUND, Frame.ABOVE_TERRAIN]]);
+const HIGHEST_ITEM_M = 83000.0;
+const MEAN_SEA_LEVEL = AltitudeDatum();
+const NO_PARAMS = [0.0, 0.0, 0.0, 0.0];
+const CONTROLS = new Map([["L", 1], ["S", 0], ["R", -1]]);
+const CALM = Wind(0.0, 0.0);
+const LEAST_RADIUS_M = 1.0;
+const LARGEST_RADIUS_M = 65535.0;
+const MAX_ITEMS = 700;
+const LEAST_STRAIGHT_S = 2.0;
+const TAKE_OVER_S = 3.5;
+const LARGEST_ACCEPTANCE_M = 255.0;
+const UPWIND = 0.0;
+const DOWNWIND = math.pi;
+const SIDES = new Map([[Turn.CW, kernel.Side.CW], [Turn.CCW, kernel.Side.CCW], [Turn.EITHER, kernel.Side.EITHER]]);
+const WIDTH = 480.0;
+const THIN = 1.5;
+const COMMANDS = new Map([[MavCommand.NAV_LOITER_UNLIM, CircleParameters(3)], [MavCommand.NAV_LOITER_TURNS, CircleParameters(3)], [MavCommand.NAV_LOITER_TIME, CircleParameters(3)], [MavCommand.NAV_LOITER_TO_ALT, CircleParameters(2)], [MavCommand.DO_ORBIT, CircleParameters(1)], [MavCommand.DO_REPOSITION, CircleParameters(3, 4)]]);
+const ARC_POINTS = 48;
+const MARGIN = 0.08;
+const FLATTEST = 0.35;
+const STEEPEST = 1.0;
+const ARROW = 6.0;
+const COLOURS = new Map([["L", "#009E73"], ["S", "#0072B2"], ["R", "#D55E00"]]);
+const THICK = 3.0;
+const drawing_MARK = 4.5;
+const AIRCRAFT = 18.0;
+const TURN_LIMITS = new Map([["max_bank_deg", "degrees"], ["min_turn_radius_m", "metres"], ["max_turn_rate_deg_s", "degrees per second"]]);
+const STANDARD_GRAVITY_M_S2 = 9.80665;
+const ROUNDING = mul(64.0, pow(2.0, -52));
+const FILE_FORMATS = [Format([".geojson"], "map", "application/geo+json", "GeoJSON", "for maps", partial(_map, geojson)), Format([".kml"], "map", "application/vnd.google-earth.kml+xml", "KML", "for Google Earth", partial(_map, kml, { has_ground: true })), Format([".gpx"], "map", "application/gpx+xml", "GPX", "for GPS receivers", partial(_map, gpx)), Format([".csv"], "table", "text/csv; charset=utf-8", "CSV", "samples along the track", _table), Format([".plan"], "mission", "application/json", "Plan", "mission for QGroundControl", _plan), Format([".waypoints", ".txt"], "mission", "text/plain; charset=utf-8", "WPL", "waypoints for Mission Planner", _waypoints)];
+const AUTOPILOTS = new Map([["ardupilot", Autopilot.ARDUPILOT], ["px4", Autopilot.PX4]]);
+const JSON_FIELDS = bit_or(new Map(list(iter(["airspeed_m_s", ...iter(TURN_LIMITS)])).map((name) => [name, JsonField(`aircraft.${str(name)}`, `aircraft/${str(name)}`)])), new Map([["turn", JsonField("orbit.turn", "orbit/turn")], ["turn limit", JsonField("the turn limit of the aircraft", "aircraft")], ["turn radius", JsonField("the turn radius of the aircraft", "aircraft")], ["frame", JsonField("origin", "origin")]]));
+const NARROW = 1e-06;
+const SHARE = 0.437;
+const JUMP = 0.001;
+const LARGEST_GAP = 3.0;
+const VANISHING = 0.001;
+const STEPS = 100;
+const MAX_POINTS = 20000;
+const REACH = pow(2.0, 52);
+const CHORD_ERROR = 0.002;
+const OPTIONS = new Map([["pose", "--pose"], ["orbit", "--orbit"], ["turn", "--turn"], ["airspeed_m_s", "--airspeed"], ["max_bank_deg", "--bank"], ["min_turn_radius_m", "--turn-radius"], ["max_turn_rate_deg_s", "--turn-rate"], ["wind", "--wind"], ["orbit_velocity_m_s", "--orbit-velocity"], ["tolerance_m", "--tolerance"]]);
+const IN_STILL_AIR = Formulation([Condition("target", "x(T) = 0, y(T) = R or -R (8)-(10)", target), Condition("join", "the last pose, reduced by (2), is the target", join), Condition("turn", "the circle is held as asked for", turn)], [EquationOfMotion("motion", "x' = 1 + u y, y' = -u x (7)", ((now) => now.reduced), ((piece, now) => sub(1.0, mul(mul(new Complex(0.0, 1.0), piece.u), now.reduced)))), EquationOfMotion("adjoint", "psi1' = u psi2, psi2' = -u psi1 (12)", ((now) => now.psi), ((piece, now) => mul(mul(-new Complex(0.0, 1.0), piece.u), now.psi))), EquationOfMotion("slope", "phi' = -psi2 (17)", ((now) => now.phi), ((piece, now) => neg(now.psi2)))], new Map([["norm", "|psi| = 1 (18)"], ["multiplier", "lambda >= 0"], ["sign", "u = sign phi, u = 0 only where phi = 0 (13)"], ["hamiltonian", "|phi| + psi1 = lambda (14)"], ["psi1", "psi1 <= lambda (16)"], ["transversality", "psi1(T) (1 + u side R) = lambda"]]), [Condition("switch", "phi = 0, psi1 = lambda at each switch", switch_), Condition("middle arc", "lasts 2 pi - 2 acos lambda, more than pi", middle_arc), Condition("slopes", "x1/y1 = -x/y (19)", slopes), Condition("line", "y = 0 while u = 0: a line through the centre", line), Condition("axis", "|psi2| times the |y| reached beyond = 0 where y changes sign", axis), Condition("last arc", "lasts pi/3 at most", partial(last_arc, { tight: true })), Condition("last arc", "lasts acos(1/(1 + R)) at most", partial(last_arc, { tight: false }))], GradientEquations("lambda grad T = -psi", "1 + min grad T . f = 0"));
+const IN_WIND = Formulation([Condition("target", "|q(T)| = R", distance_from_circle), Condition("course", "q.(e + w) = 0 at T: along the circle (1)", course), Condition("join", "the last pose over the ground is where the circle is then", conditions_join), Condition("turn", "the circle is held as asked for", turn_as_flown)], [EquationOfMotion("motion", "q' = e + w", ((now) => now.q), ((piece, now) => add(now.e, piece.w))), EquationOfMotion("turning", "e' = u J e", ((now) => now.e), ((piece, now) => mul(mul(new Complex(0.0, 1.0), piece.u), now.e))), EquationOfMotion("slope", "f' = -p.Je", ((now) => now.phi), ((piece, now) => neg(now.psi2)))], new Map([["norm", "|p| = 1"], ["multiplier", "lambda + p.w >= 0 (4)"], ["sign", "u = sign f, u = 0 only where f = 0 (4)"], ["hamiltonian", "|f| + p.e = lambda (4)"], ["transversality", "p.(e + w) + u h k (lambda - p.e) = 0 at T (5)"]]), [], GradientEquations("(lambda + p.w) grad T = -(p, f)", "1 + min grad T . (e + w, u) = 0"));
+const BASIS_VIOLATED = "a condition is violated";
+const BASIS_THEOREM = "docs/proof.md, theorem 1, up to rounding";
+const BASIS_NECESSARY = "necessary conditions only";
+const ON_THE_CIRCLE = "the start is on the circle: there is nothing to decide, and the target is all there is to check";
+const ARC_IN_WIND = "a single arc has many adjoints: this is the one that violates the conditions least";
+const UNIQUE_IN_WIND = "the adjoint is unique: the pieces and the condition at the circle determine it";
+const UNIQUE = "the adjoint psi is unique: the condition phi = 0 at a switch determines it";
+const ARC_BY_ROUNDING = "a single arc (the other is there by rounding alone)";
+const STRAIGHT_ENTRY = "that of a straight entry that ends in it, (1, 0) on the axis";
+const SWITCH_AT_START = "that of a switch at its start, parallel to the state there";
+const LETTERS = new Map(list(iter(items_(CONTROLS))).map((one) => iter(one)).map(([letter, u]) => [u, letter]));
+const KNOT = div(1852.0, 3600.0);
+const TURNS = new Map(list(iter(items_(SIDES))).map((one) => iter(one)).map(([turn, side]) => [side, turn]));
+const _MESSAGES = new Map([[kernel.Status.OK, "solved"], [kernel.Status.NOT_FINITE, "the state, the radius or the wind is nan or infinite"], [kernel.Status.RADIUS_TOO_SMALL, "the circle is tighter than the minimum turn radius"], [kernel.Status.OUT_OF_RANGE, "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn, or a place on Earth is more than 100 km away"], [kernel.Status.BAD_TOLERANCE, "the tolerance must be zero or positive, and below 2**52 turn radii"], [kernel.Status.BAD_AIRCRAFT, "airspeed and turn limit must be positive, finite numbers, and a bank below 90 degrees"], [kernel.Status.BAD_ORBIT, "the circle needs a finite centre and velocity, and a positive, finite radius"], [kernel.Status.BAD_TURN, "the turn must be cw, ccw or either"], [kernel.Status.BAD_POSE, "the position and the heading must be finite numbers, and latitudes within 90 degrees"], [kernel.Status.MALFORMED, "the line has more or fewer fields than the header, an open quote, is too long, or is not UTF-8"], [kernel.Status.WIND_TOO_STRONG, "the wind relative to the circle is as fast as the aircraft: |w| must be below 1"], [kernel.Status.NOT_HELD, "the circle is too tight to be held in this wind"], [kernel.Status.NOT_CONVERGED, "no maneuver was found that ends on the circle when flown"], [kernel.Status.BAD_WIND, "the wind needs a finite speed, zero or positive, and a finite direction"]]);
+const WIND_TIE_TOLERANCE = 1e-12;
+const STEP = pow(2.0, -15);
+const BESIDE_LAST_ARC = "the tolerance counts the start as on the last arc, but T without a tolerance does not";
+const fits_SHORT = 0.0001;
+const SHORT = fits_SHORT;
+const SAMPLES = 9;
+const STRAIGHTENS = 0.85;
+const RESOLVED = 0.001;
+const AT_CORNER = "T has a corner: its one-sided derivatives";
+const SCANNED_DIRECTIONS = 720;
+const STEPS_IN_STILL_AIR = tuple(list(iter(range(4, 34))).map((k) => pow(2.0, neg(k))));
+const STEPS_IN_WIND = [pow(2.0, -6), pow(2.0, -9), pow(2.0, -12), pow(2.0, -15)];
+
+export { plan, all_candidates, certificate, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, all_fastest, heading_vector, Maneuver, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };

@@ -1,0 +1,443 @@
+// @ts-nocheck
+// What Python's values do, for code that is translated from it without types (`codegen/library.py`): numbers, complex
+// numbers, one-dimensional arrays and text under its operators and formats, and what that code calls of its library and
+// of NumPy.
+
+import { Word } from "./kernel.js";
+
+// Values
+
+/** A complex number. */
+export class Complex {
+  constructor(real, imag) {
+    this.real = real;
+    this.imag = imag;
+  }
+}
+
+/** A one-dimensional array of numbers, on which operators work element by element. */
+export class Vector extends Float64Array {
+  get size() {
+    return this.length;
+  }
+}
+const isList = (a) => Array.isArray(a) || a instanceof Vector;
+/** An array of the values of a function of the indices. */
+function vector(length, value) {
+  const found = new Vector(length);
+  for (let i = 0; i < length; i++) found[i] = value(i);
+  return found;
+}
+
+/** A frozen dataclass. */
+export class Values {
+  __post_init__() {}
+}
+
+/** A named tuple: its elements are its fields. */
+export class Tuple {
+  __post_init__() {}
+  [Symbol.iterator]() {
+    return Object.values(this)[Symbol.iterator]();
+  }
+  _asdict() {
+    return asdict(this);
+  }
+}
+
+/** A function that makes values of a class, as Python's classes do; it has the names of their fields. */
+export function struct(kind, fields) {
+  kind.fields = fields;
+  return Object.assign((...given) => new kind(...given), { _fields: fields });
+}
+
+/** The members of an enumeration; their values stand for them. */
+export const enumeration = (members) => ({
+  ...members,
+  [Symbol.iterator]: () => Object.values(members)[Symbol.iterator](),
+});
+
+/** A value with other fields. */
+export function replace(value, changes) {
+  const fields = { ...value, ...changes };
+  const { constructor } = value;
+  return constructor.fields ? new constructor(...constructor.fields.map((name) => fields[name])) : fields;
+}
+
+const CACHE = new WeakMap();
+
+/** A property that is computed once. */
+export function cached(owner, name, compute) {
+  if (!CACHE.has(owner)) CACHE.set(owner, {});
+  return (CACHE.get(owner)[name] ??= compute());
+}
+
+export const asdict = (value) => new Map(Object.entries(value));
+
+/** Python's values as plain ones of JavaScript. */
+export function plain(value) {
+  if (value instanceof Map) return Object.fromEntries([...value].map(([key, one]) => [key, plain(one)]));
+  if (value instanceof Tuple) return Array.from(value, plain);
+  if (!isList(value)) return value;
+  return typeof value[0] === "number" ? Array.from(value) : Array.from(value, plain);
+}
+
+// Operators
+
+const number = (a) => (typeof a === "boolean" ? Number(a) : a);
+const complex = (a) => (a instanceof Complex ? a : new Complex(number(a), 0));
+
+/** An operator of numbers that takes arrays and complex numbers too. */
+function operator(ofNumbers, ofComplex) {
+  return function apply(a, b) {
+    if (typeof a === "number" && typeof b === "number") return ofNumbers(a, b);
+    if (a instanceof Vector) return vector(a.length, b instanceof Vector ? (i) => ofNumbers(a[i], b[i]) : (i) => ofNumbers(a[i], number(b)));
+    if (b instanceof Vector) return vector(b.length, (i) => ofNumbers(number(a), b[i]));
+    if (a instanceof Complex || b instanceof Complex) return ofComplex(complex(a), complex(b));
+    return ofNumbers(number(a), number(b));
+  };
+}
+
+const addNumbers = operator(
+  (a, b) => a + b,
+  (a, b) => new Complex(a.real + b.real, a.imag + b.imag),
+);
+export function add(a, b) {
+  if (typeof a === "string") return a + b;
+  return Array.isArray(a) ? [...a, ...iter(b)] : addNumbers(a, b);
+}
+export const sub = operator(
+  (a, b) => a - b,
+  (a, b) => new Complex(a.real - b.real, a.imag - b.imag),
+);
+const mulNumbers = operator(
+  (a, b) => a * b,
+  (a, b) => new Complex(a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real),
+);
+export function mul(a, b) {
+  return Array.isArray(a) ? Array(Math.max(0, number(b))).fill(a).flat() : mulNumbers(a, b);
+}
+export const div = operator(
+  (a, b) => a / b,
+  (a, b) => {
+    const size = b.real * b.real + b.imag * b.imag;
+    return new Complex((a.real * b.real + a.imag * b.imag) / size, (a.imag * b.real - a.real * b.imag) / size);
+  },
+);
+/** The remainder, with the sign of the divisor. */
+export const mod = operator((a, b) => {
+  const rest = a % b;
+  if (rest === 0) return b < 0 ? -0 : 0;
+  return rest < 0 !== b < 0 ? rest + b : rest;
+});
+export const pow = operator((a, b) => a ** b);
+export const floordiv = operator((a, b) => Math.floor(a / b));
+export const bit_and = operator((a, b) => a & b);
+export const bit_or = (a, b) => (a instanceof Map ? new Map([...a, ...b]) : a | b);
+export const neg = (a) => (a instanceof Complex ? new Complex(-a.real, -a.imag) : typeof a === "number" ? -a : mul(a, -1));
+
+const order = (compare) =>
+  function (a, b) {
+    if (a instanceof Vector) return vector(a.length, (i) => number(compare(a[i], b)));
+    return compare(a, b);
+  };
+export const lt = order((a, b) => a < b);
+export const le = order((a, b) => a <= b);
+export const gt = order((a, b) => a > b);
+export const ge = order((a, b) => a >= b);
+
+/** Whether two values are equal, element by element. */
+export function eq(a, b) {
+  if (a === b || (a == null && b == null)) return true;
+  if (a instanceof Complex || b instanceof Complex) return complex(a).real === complex(b).real && complex(a).imag === complex(b).imag;
+  if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return false;
+  const [ones, others] = [Object.values(a), Object.values(b)];
+  return ones.length === others.length && ones.every((one, i) => eq(one, others[i]));
+}
+export const ne = (a, b) => !eq(a, b);
+export const has = (a, all) => (all instanceof Map ? all.has(a) : typeof all === "string" ? all.includes(a) : iter(all).some((one) => eq(a, one)));
+
+export function truth(a) {
+  if (a instanceof Map) return a.size > 0;
+  return isList(a) ? a.length > 0 : Boolean(a);
+}
+export const and = (a, b) => (truth(a) ? b() : a);
+export const or = (a, b) => (truth(a) ? a : b());
+
+// Sequences
+
+/** The elements of anything that Python iterates over, as an array. */
+export function iter(all) {
+  if (isList(all)) return all;
+  if (all instanceof Map) return [...all.keys()];
+  return all[Symbol.iterator] ? [...all] : Object.values(all);
+}
+export const list = (all = []) => Array.from(iter(all));
+export const tuple = list;
+/** The elements, each of which is a sequence, as arrays. */
+export const rows = (all) => iter(all).map((one) => iter(one));
+export const dict = { fromkeys: (all) => new Map(iter(all).map((key) => [key, null])) };
+export const iter_items = (map) => [...map];
+/** The elements of a sequence, those of its middle as one array. */
+export function with_middle(all, before, after) {
+  const found = iter(all);
+  const end = found.length - after;
+  return [...found.slice(0, before), found.slice(before, end), ...found.slice(end)];
+}
+export function item(all, key) {
+  if (all instanceof Map) return all.get(key);
+  if (Array.isArray(key)) return vector(key.length, (i) => all[key[i]]);
+  const found = typeof all === "string" ? all : iter(all);
+  return found[key < 0 ? found.length + key : key];
+}
+export const set_item = (all, key, value) => (all instanceof Map ? all.set(key, value) : (all[key] = value));
+export function sliced(all, start, end, step) {
+  const found = typeof all === "string" ? all : iter(all);
+  const part = found.slice(start ?? 0, end ?? undefined);
+  return step === -1 ? [...part].reverse() : part;
+}
+export const set_of = (all) => [...new Set(iter(all))];
+export const set = set_of;
+export const len = (all) => (all instanceof Map ? all.size : typeof all === "string" ? all.length : iter(all).length);
+export const range = (first, end) =>
+  Array.from({ length: Math.max(0, end === undefined ? first : end - first) }, (_, i) => (end === undefined ? i : first + i));
+export const zip = (...all) => {
+  const columns = all.map(iter);
+  return Array.from({ length: Math.min(...columns.map((one) => one.length)) }, (_, i) => columns.map((one) => one[i]));
+};
+export const enumerate = (all, { start = 0 } = {}) => iter(all).map((one, i) => [start + i, one]);
+export const map = (change, ...all) => zip(...all).map((each) => change(...each));
+export const reversed = (all) => list(all).reverse();
+export const pairwise = (all) => iter(all).slice(1).map((one, i) => [iter(all)[i], one]);
+export function accumulate(all, change) {
+  const found = [];
+  for (const one of iter(all)) found.push(found.length ? change(found[found.length - 1], one) : one);
+  return found;
+}
+export const next = (all, otherwise) => (iter(all).length > 0 ? iter(all)[0] : otherwise);
+export const any = (all) => iter(all).some(truth);
+export const all = (every) => iter(every).every(truth);
+export const sum = (all) => iter(all).reduce((total, one) => add(total, one), 0);
+
+/** Which of two values comes first: numbers, text, or sequences of them. */
+function compare(a, b) {
+  if (isList(a) || a instanceof Tuple) {
+    const [ones, others] = [iter(a), iter(b)];
+    return ones.map((one, i) => compare(one, others[i])).find((sign) => sign !== 0) ?? 0;
+  }
+  return a < b ? -1 : Number(a > b);
+}
+export const sorted = (all) => list(all).sort(compare);
+const extreme = (sign) =>
+  function (...given) {
+    const last = given[given.length - 1];
+    const options = given.length > 1 && last?.constructor === Object ? given.pop() : {};
+    const found = given.length > 1 ? given : iter(given[0]);
+    if (found.length === 0) return options.default;
+    const key = options.key ?? ((one) => one);
+    return found.reduce((best, one) => (sign * compare(key(one), key(best)) > 0 ? one : best));
+  };
+export const min = extreme(-1);
+export const max = extreme(1);
+export const partial =
+  (change, ...given) =>
+  (...rest) => {
+    const options = given[given.length - 1]?.constructor === Object ? given.slice(-1) : [];
+    return change(...given.slice(0, given.length - options.length), ...rest, ...options.flatMap(Object.values));
+  };
+
+// Methods
+
+export const join_ = (text, all) => iter(all).join(text);
+export const removesuffix_ = (text, end) => (text.endsWith(end) ? text.slice(0, -end.length) : text);
+export const removeprefix_ = (text, start) => (text.startsWith(start) ? text.slice(start.length) : text);
+export const capitalize_ = (text) => text.charAt(0).toUpperCase() + text.slice(1).toLowerCase();
+export const lower_ = (text) => text.toLowerCase();
+export const replace_ = (text, old, other) => text.replaceAll(old, other);
+export const encode_ = (text) => text;
+export const items_ = (map) => [...map];
+export const values_ = (map) => [...map.values()];
+export const get_ = (map, key, otherwise = null) => (map.has(key) ? map.get(key) : otherwise);
+export const append_ = (all, one) => all.push(one);
+export const pop_ = (all) => all.pop();
+export const tolist_ = (all) => Array.from(all);
+export const round_ = (all, digits) => all.map((one) => round(one, digits));
+export const any_ = (all) => all.some(truth);
+export const copy_ = (all) => all.slice();
+export const conjugate_ = (z) => new Complex(complex(z).real, -complex(z).imag);
+export const index_ = (all, one) => all.findIndex((other) => eq(one, other));
+
+// Functions
+
+export const abs = (a) => (a instanceof Complex ? Math.hypot(a.real, a.imag) : Math.abs(a));
+export const float = Number;
+export const int = (a) => Math.trunc(number(a));
+export { makeComplex as complex };
+const makeComplex = (real, imag) => new Complex(real, imag);
+const DEGREE = Math.PI / 180;
+export const math = {
+  ...Object.fromEntries(["sin", "cos", "tan", "atan2", "sqrt", "hypot", "floor", "ceil", "trunc"].map((name) => [name, Math[name]])),
+  pi: Math.PI,
+  inf: Infinity,
+  nan: NaN,
+  isfinite: Number.isFinite,
+  isnan: Number.isNaN,
+  fmod: (a, b) => a % b,
+  pow: (a, b) => a ** b,
+  radians: (a) => a * DEGREE,
+  degrees: (a) => a * (180 / Math.PI),
+  copysign: (a, b) => (b < 0 || Object.is(b, -0) ? -Math.abs(a) : Math.abs(a)),
+};
+export const cmath = {
+  exp(z) {
+    const { real, imag } = complex(z);
+    return new Complex(Math.exp(real) * Math.cos(imag), Math.exp(real) * Math.sin(imag));
+  },
+};
+/** A function of numbers for each element of arrays, and for numbers. */
+const each =
+  (change) =>
+  (...given) => {
+    const length = given.find(isList)?.length;
+    if (length === undefined) return change(...given);
+    return vector(length, (i) => change(...given.map((one) => (isList(one) ? one[i] : one))));
+  };
+/** The same for a function that gives several numbers: an array of each. */
+export const elementwise =
+  (change) =>
+  (...given) => {
+    const length = given.find(isList)?.length;
+    if (length === undefined) return change(...given);
+    const found = Array.from({ length }, (_, i) => change(...given.map((one) => (isList(one) ? one[i] : one))));
+    return found[0].map((_, column) => vector(length, (i) => found[i][column]));
+  };
+export const np = {
+  ...Object.fromEntries(["sin", "cos", "hypot", "radians", "degrees"].map((name) => [name, each(math[name])])),
+  arctan2: each(Math.atan2),
+  isnan: each((a) => Number(Number.isNaN(a))),
+  array: (all) => Vector.from(all),
+  asarray: (all) => (isList(all) ? Vector.from(all) : all),
+  arange: (count) => vector(count, (i) => i),
+  full: (count, value) => vector(count, () => value),
+  full_like: (all, value) => vector(all.length, () => value),
+  searchsorted: (all, found) => found.map((one) => all.filter((other) => other < one).length),
+  broadcast_arrays: (...all) => all,
+  linspace: (start, end, count) => vector(count, (i) => (i === count - 1 ? end : start + (i * (end - start)) / (count - 1))),
+  concatenate: (all) => Vector.from(all.flatMap((one) => Array.from(one))),
+};
+
+// Words and statuses of the kernel, which are numbers there
+
+/** The letters of a word. */
+export const letters = (word) => name_of(Word, word).replace("EMPTY", "");
+export const name_of = (members, value) => Object.keys(members).find((name) => members[name] === value);
+
+// Text
+
+/** The digits of a number with some decimals, ties to even as in C. */
+function fixed(x, digits) {
+  const text = Math.abs(x) < 1e21 ? x.toFixed(digits) : BigInt(x).toString() + (digits ? `.${"0".repeat(digits)}` : "");
+  const exact = Math.abs(x) < 1e21 ? Math.abs(x).toFixed(Math.min(100, digits + 60)) : "";
+  const rest = exact.split(".")[1]?.slice(digits) ?? "";
+  if (!/^50*$/.test(rest)) return text;
+  const down = exact.slice(0, exact.length - rest.length).replace(/\.$/, "");
+  return "02468".includes(down.charAt(down.length - 1)) ? (x < 0 ? "-" : "") + down : text;
+}
+
+export function round(x, digits = 0) {
+  return Number.isFinite(x) && digits < 100 ? Number(fixed(x, digits)) : x;
+}
+
+const exponent = (text) => text.replace(/e([+-])(\d)$/, "e$10$2");
+
+/** A number with some significant digits and without trailing zeros, as %g writes it. */
+function general(x, precision) {
+  if (x === 0) return Object.is(x, -0) ? "-0" : "0";
+  const scientific = x.toExponential(precision - 1);
+  const power = Number(scientific.slice(scientific.indexOf("e") + 1));
+  if (power >= -4 && power < precision) {
+    const text = fixed(x, precision - 1 - power);
+    return text.includes(".") ? text.replace(/\.?0+$/, "") : text;
+  }
+  return exponent(scientific.replace(/\.?0+e/, "e"));
+}
+
+/** A value in a format of Python. */
+export function format(value, spec) {
+  const [, align, width, comma, precision, kind] = /^([<>]?)(\d*)(,?)(?:\.(\d+))?([a-z]?)$/.exec(spec);
+  let text = typeof value === "string" ? value : formatted(value, kind, precision === undefined ? 6 : Number(precision));
+  if (comma) text = text.replace(/\B(?=(\d{3})+(?!\d))/g, ",");
+  const wide = Number(width);
+  return align === "<" || (typeof value === "string" && align !== ">") ? text.padEnd(wide) : text.padStart(wide);
+}
+function formatted(x, kind, precision) {
+  if (!Number.isFinite(x)) return Number.isNaN(x) ? "nan" : x < 0 ? "-inf" : "inf";
+  if (kind === "f") return fixed(x, precision);
+  if (kind === "e") return exponent(x.toExponential(precision));
+  return kind === "g" ? general(x, precision || 1) : String(x);
+}
+
+/** A value as Python's `str` gives it; numbers are those with decimals. */
+export function str(value) {
+  if (typeof value !== "number") return value == null ? "None" : String(value);
+  if (!Number.isFinite(value)) return formatted(value);
+  const text = String(value);
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-4 || size >= 1e16)) return exponent(value.toExponential());
+  return Number.isInteger(value) ? `${Object.is(value, -0) ? "-0" : text}.0` : text;
+}
+
+export function repr(value) {
+  if (typeof value === "string") return value.includes("'") && !value.includes('"') ? `"${value}"` : `'${value.replaceAll("'", "\\'")}'`;
+  if (value instanceof Values || value instanceof Tuple) {
+    const fields = value.constructor.fields.map((name) => `${name}=${repr(value[name])}`);
+    return `${value.constructor.name}(${fields.join(", ")})`;
+  }
+  return str(value);
+}
+export const escape = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;").replaceAll('"', "&quot;").replaceAll("'", "&#x27;");
+
+// Files
+
+export const json = {
+  dumps: (value, { indent = 0 } = {}) => written(plain(value), indent, "\n"),
+};
+/** A value as Python's json writes it; whole numbers have no decimals. */
+function written(value, indent, line) {
+  if (typeof value === "number") return str(value).replace(/\.0$/, "");
+  if (value === null || typeof value !== "object") return JSON.stringify(value);
+  const inner = indent ? line + " ".repeat(indent) : "";
+  const parts = Array.isArray(value)
+    ? value.map((one) => written(one, indent, inner))
+    : Object.entries(value).map(([key, one]) => `${JSON.stringify(key)}: ${written(one, indent, inner)}`);
+  const [open, close] = Array.isArray(value) ? "[]" : "{}";
+  return parts.length === 0 ? open + close : open + inner + parts.join(indent ? `,${inner}` : ", ") + (indent ? line : "") + close;
+}
+
+export const io = { StringIO: () => ({ parts: [], getvalue() { return this.parts.join(""); } }) };
+export const csv = {
+  writer: (text) => ({
+    writerow: (row) => text.parts.push(`${iter(row).map(str).join(",")}\n`),
+    writerows: (all) => text.parts.push(...iter(all).map((row) => `${row.map(str).join(",")}\n`)),
+  }),
+};
+
+/** Elements of XML. */
+export const ElementTree = {
+  Element: (tag, attributes) => ({ tag, attributes, text: null, children: [] }),
+  SubElement(parent, tag, attributes) {
+    const element = ElementTree.Element(tag, attributes);
+    parent.children.push(element);
+    return element;
+  },
+  indent() {},
+  tostring: (element) => `<?xml version='1.0' encoding='UTF-8'?>\n${markup(element, "\n")}`,
+};
+const escaped = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
+function markup({ tag, attributes, text, children }, line) {
+  const written_ = [...attributes].map(([name, value]) => ` ${name}="${escaped(value).replaceAll('"', "&quot;")}"`).join("");
+  if (text !== null && text !== "") return `<${tag}${written_}>${escaped(text)}</${tag}>`;
+  if (children.length === 0) return `<${tag}${written_} />`;
+  const inner = `${line}  `;
+  return `<${tag}${written_}>${children.map((child) => inner + markup(child, inner)).join("")}${line}</${tag}>`;
+}

@@ -1,0 +1,204 @@
+"""The page's engine beside the library: the same scenes answered by both, and in what the answers differ.
+
+`PYTHONPATH=src:tests:. python -m web.engine 10000` compares that many scenes and counts the differences.
+"""
+
+import json
+import random
+import re
+import subprocess
+import sys
+from collections import Counter
+from math import isclose
+from pathlib import Path
+
+from benchmarks.browsing import NODE
+
+from loiter.errors import LoiterError, RadiusTooSmall
+from loiter.plot.files import PICTURE_FORMATS
+from loiter.web import models
+from loiter.web.answers import exports, plans
+from loiter.web.problems import PROBLEM_TYPES, sentence_and_path
+
+STATIC = Path(models.__file__).with_name("static")
+ENGINE, ASKED = STATIC / "kernel" / "engine.js", Path(__file__).with_name("engine.js")
+FORMATS = [name for name, known in exports.FORMATS.items() if known not in PICTURE_FORMATS]
+
+# Times agree to this share of 1 s and themselves. In wind T is as flat at its minimum as a parabola, so the place of
+# joining is known to the square root of its rounding: this share of the coordinates.
+CLOSE, FLAT = 1e-9, 1e-6
+NUMBER = re.compile(r"-?\d+\.?\d*(?:[eE][-+]?\d+)?")
+
+LIMITS = {"max_bank_deg": 35.0, "min_turn_radius_m": 45.0, "max_turn_rate_deg_s": 20.0}
+
+
+def drawn(count, seed):
+    """Scenes of every kind, each with the altitude of a mission: a dict of JSON."""
+    chance = random.Random(seed)
+    return [_scene(chance, ("still", "wind", "moving", "infeasible", "tie", "spoilt")[i % 6]) for i in range(count)]
+
+
+def _scene(chance, kind):
+    limit = chance.choice(list(LIMITS))
+    away = 10.0 ** chance.uniform(0.5, 3.3)
+    scene = {
+        "pose": {
+            "east_m": round(chance.uniform(-away, away), 3),
+            "north_m": round(chance.uniform(-away, away), 3),
+            "heading_deg": round(chance.uniform(-360.0, 720.0), 2),
+        },
+        "orbit": {
+            "east_m": 0.0,
+            "north_m": 0.0,
+            "radius_m": round(chance.uniform(110.0, 400.0), 2),
+            "turn": chance.choice(["either", "cw", "ccw"]),
+            "velocity_east_m_s": 0.0,
+            "velocity_north_m_s": 0.0,
+        },
+        "aircraft": {"airspeed_m_s": 18.0, limit: LIMITS[limit]},
+        "wind": None,
+        "tolerance_m": chance.choice([0.0, 0.0, 1.0]),
+        "origin": {
+            "latitude_deg": round(chance.uniform(-80.0, 80.0), 4),
+            "longitude_deg": chance.choice([8.23, 179.999]),
+        },
+        "altitude_m": 600.0,
+        "altitude_reference": chance.choice(["msl", "home", "ground"]),
+        "home_altitude_m": chance.choice([None, 450.0]),
+    }
+    if kind in ("wind", "infeasible"):
+        scene["wind"] = {
+            "speed_m_s": round(chance.uniform(0.5, 7.0), 2),
+            "from_deg": round(chance.uniform(0.0, 360.0), 1),
+        }
+    if kind == "moving":
+        scene["orbit"] |= {"velocity_east_m_s": round(chance.uniform(-5.0, 5.0), 2), "velocity_north_m_s": 2.5}
+    if kind == "infeasible":
+        scene["orbit"]["radius_m"] = round(chance.uniform(5.0, 60.0), 1)
+        scene["wind"]["speed_m_s"] = round(chance.uniform(0.0, 40.0), 1)
+    if kind == "tie":
+        scene["pose"] |= {"north_m": 0.0, "heading_deg": chance.choice([90.0, 270.0])}
+        scene["orbit"]["turn"] = "either"
+    if kind == "spoilt":
+        part, name = chance.choice(
+            [
+                ("pose", "east_m"),
+                ("orbit", "radius_m"),
+                ("aircraft", "airspeed_m_s"),
+                ("aircraft", limit),
+                ("origin", "latitude_deg"),
+            ]
+        )
+        scene[part][name] = chance.choice([0.0, -3.5, 95.0, 1e17, 123456.789])
+    return scene
+
+
+def of_the_page(scenes):
+    """The answers of the page's engine, in Node."""
+    asked = json.dumps([[scene, FORMATS] for scene in scenes])
+    done = subprocess.run([NODE, ASKED, ENGINE], input=asked, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def of_the_library(scene):
+    """The answers of the service to a scene, without HTTP."""
+    options = models.ExportOptions.model_validate(scene)
+    return {
+        "plan": _answered(lambda: plans.plan(options.placed())),
+        "certificate": _answered(lambda: plans.certificate(options.placed())),
+        "files": {
+            name: _answered(lambda name=name: exports.export(exports.ExportRequest(name, options)).decode())
+            for name in FORMATS
+        },
+    }
+
+
+def _answered(answer):
+    try:
+        found = answer()
+    except LoiterError as error:
+        sentence, path = sentence_and_path(error)
+        kind = next(PROBLEM_TYPES[cls].name for cls in type(error).__mro__ if cls in PROBLEM_TYPES)
+        radius = error.fitted_radius_m if isinstance(error, RadiusTooSmall) else None
+        return {
+            "refusal": {"sentence": sentence, "kind": kind, "places": [path] if path else [], "fitted_radius_m": radius}
+        }
+    return found if isinstance(found, str) else json.loads(json.dumps(found))
+
+
+def difference(page, library, close, size=1.0):
+    """Where two JSON values differ, numbers by more than a share of themselves or of `size`; None if nowhere."""
+    if isinstance(library, bool) or library is None or isinstance(library, str):
+        return None if page == library else f"{page!r} instead of {library!r}"
+    if isinstance(library, int | float):
+        alike = page is not None and isclose(page, library, rel_tol=close, abs_tol=close * size)
+        return None if alike else f"{page} instead of {library}"
+    keys = library if isinstance(library, dict) else range(len(library))
+    if len(page) != len(library):
+        return f"{len(page)} instead of {len(library)} parts"
+    found = ((key, difference(page[key], library[key], close, size)) for key in keys)
+    return next((f"{key}: {what}" for key, what in found if what is not None), None)
+
+
+def difference_of_files(page, library, size):
+    """How the text of a file differs: "" if nowhere, "digits" in the last digits of numbers, else in what."""
+    if not isinstance(library, str) or not isinstance(page, str):
+        return difference(page, library, CLOSE) or ""
+    whole = re.sub(r"(\d)\.0\b", r"\1", library)
+    if page in (library, whole):
+        return ""
+    if NUMBER.sub("#", page) != NUMBER.sub("#", library):
+        return "text"
+    pairs = zip(map(float, NUMBER.findall(page)), map(float, NUMBER.findall(library)), strict=True)
+    return "digits" if all(isclose(a, b, rel_tol=FLAT, abs_tol=FLAT * size) for a, b in pairs) else "numbers"
+
+
+def verdicts(proof):
+    """What a certificate says, without its residuals, which are rounding."""
+    certificate = proof["certificate"]
+    names = ("valid", "proved_optimal", "basis", "word", "turn", "choice", "runner_up")
+    return {name: certificate[name] for name in names} | {
+        "verdicts": [one["verdict"] for one in certificate["residuals"]]
+    }
+
+
+def differences(scene, page):
+    """All differences of an answer of the page from the library's, by name."""
+    library = of_the_library(scene)
+    found = Counter()
+    a, b = page["plan"], library["plan"]
+    size = max(abs(scene["pose"]["east_m"]), abs(scene["pose"]["north_m"]), scene["orbit"]["radius_m"], 1.0)
+    if "refusal" in a or "refusal" in b:
+        what = difference(a, b, CLOSE)
+        return Counter({f"refusal: {what}": 1} if what else {})
+    if abs(a["duration_s"] - b["duration_s"]) > CLOSE * (1.0 + b["duration_s"]):
+        found[f"time: {a['duration_s']} instead of {b['duration_s']}"] += 1
+    if (a["word"], a["turn"]) != (b["word"], b["turn"]):
+        # Words that tie: the other one is among the optimal ones of both.
+        found["a tie, in another order"] += 1
+        return found
+    if what := difference(a, b, FLAT, size):
+        found["plan: " + what.partition(" instead")[0][:60]] += 1
+    if what := difference(verdicts(page["certificate"]), verdicts(library["certificate"]), CLOSE):
+        found["certificate: " + what[:90]] += 1
+    for name in FORMATS:
+        if what := difference_of_files(page["files"][name], library["files"][name], size):
+            found[f"{name}: {what[:80]}"] += 1
+    return found
+
+
+def main(count):
+    """Compare `count` scenes, some hundred at a time, and print what differs how often."""
+    found = Counter()
+    for start in range(0, count, 200):
+        scenes = drawn(min(200, count - start), seed=start)
+        for scene, page in zip(scenes, of_the_page(scenes), strict=True):
+            found += differences(scene, page)
+    print(f"{count} scenes")
+    for what, times in found.most_common():
+        print(f"{times:6} {what}")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

@@ -1,0 +1,106 @@
+"""The page as static files: it asks for nothing else, works from a folder and without a network, and embeds."""
+
+import gzip
+import threading
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+
+import pytest
+from codegen.site import build
+
+from web.browsing import DESK, PHONE, assert_shows_the_plan, grave, located, press, settle
+
+WINDY = "#pose=-400,120,90&orbit=0,0,120&turn=either&airspeed=18&bank=35&wind=8,250"
+
+
+class Quiet(SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("site") / "a" / "folder"
+    build(folder)
+    return folder
+
+
+@pytest.fixture
+def served(folder):
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=folder.parent))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}/folder/", server
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture
+def visit(browser):
+    """A function that opens an address; afterwards nothing was asked elsewhere, and nobody complained."""
+    contexts, asked, complaints = [], [], []
+
+    def open_page(address, **options):
+        contexts.append(browser.new_context(**({"viewport": DESK} | options)))
+        page = contexts[-1].new_page()
+        page.on("request", lambda request: asked.append(request.url))
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on("console", lambda message: complaints.append(message.text))
+        page.goto(address)
+        settle(page)
+        page.asked = asked
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    assert complaints == []
+    assert [url for url in asked if not url.startswith(("http://127.0.0.1:", "file:", "data:", "blob:"))] == []
+
+
+def test_the_page_is_one_small_file(visit, served, folder):
+    address, _ = served
+    page = visit(address)
+    page.evaluate("navigator.serviceWorker.ready")
+    names = {url.removeprefix(address) for url in page.asked}
+    assert names <= {"", "icon.svg", "worker.js", "map.html"}
+    assert len(gzip.compress((folder / "index.html").read_bytes())) < 120_000
+    for preset in ("Beside the circle", "In wind", "Paper, example 2"):
+        press(page, preset)
+        assert_shows_the_plan(page)
+
+
+def test_it_works_without_a_network_after_the_first_visit(visit, served):
+    address, server = served
+    page = visit(address)
+    page.evaluate("navigator.serviceWorker.ready")
+    page.reload()
+    server.shutdown()
+    server.server_close()
+    page.goto(address + WINDY)
+    page.reload()
+    settle(page)
+    assert_shows_the_plan(page)
+    located(page)
+    with page.expect_download() as download:
+        page.locator("[data-format=kml]").click()
+    assert download.value.path().read_bytes().startswith(b"<?xml")
+
+
+def test_it_opens_from_a_folder(visit, folder):
+    page = visit(f"file://{folder}/index.html{WINDY}")
+    assert_shows_the_plan(page)
+    page.locator("#copy-link").scroll_into_view_if_needed()
+    assert page.evaluate("location.hash").startswith("#pose=-400,120,90&orbit=0,0,120")
+
+
+@pytest.mark.parametrize("device", [{}, PHONE], ids=["desk", "phone"])
+def test_embedded_it_is_the_plan_alone_with_a_link_to_the_page(visit, served, device):
+    address, _ = served
+    page = visit(f"{address}?embed{WINDY}", **device)
+    assert_shows_the_plan(page)
+    for hidden in ("header", "#presets", ".column", ".side"):
+        assert not page.locator(hidden).first.is_visible()
+    link = page.locator("#open-page")
+    assert link.get_attribute("href").startswith(f"{address}#pose=-400,120,90")
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    assert grave(page) == []
