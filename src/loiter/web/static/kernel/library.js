@@ -1816,7 +1816,7 @@ return tuple(list(iter(extremals(problem))).filter((other) => ne([other.turn, ot
 
 function trajectory_of(maneuver, problem) {
 let controls, durations, flown, plans, start;
-start = _start(problem, int(item(SIDES, held_turn(maneuver))));
+start = _start(problem, sign_of(held_turn(maneuver)));
 [controls, durations] = iter([list(iter(letters(arrays.word_of(maneuver)))).map((letter) => item(CONTROLS, letter)), durations_of(maneuver)]);
 if (!truth(controls)) {
 return Trajectory(maneuver, problem, start, 1.0, []);
@@ -2206,6 +2206,10 @@ return RelativeStart(complex(x, y), add(1.0, new Complex(0.0, 0.0)), new Complex
 }
 [x, y, c, s, R, _, wx, wy, _] = iter(problem.in_wind());
 return RelativeStart(complex(x, y), complex(c, s), complex(wx, wy), R, side);
+}
+
+function sign_of(turn) {
+return int(item(SIDES, turn));
 }
 
 function held_turn(maneuver) {
