@@ -55,6 +55,20 @@ def test_the_mission_is_the_one_that_the_autopilot_flies_best(shown, vehicle, co
     assert "Waypoints all along the path" not in text
 
 
+@pytest.mark.parametrize(
+    ("vehicle", "start", "said"),
+    [
+        (Plane([]), "47.1102 8.2301 200", True),
+        (Vehicle([]), "47.1102 8.2301 200", False),
+        (Plane([]), "47.1 8.2 90", False),
+    ],
+)
+def test_an_entry_that_no_mission_of_arduplane_flies_is_told_with_what_flies_it(shown, vehicle, start, said):
+    with flying(vehicle):
+        text = shown(f"upload --connect {vehicle.connection} {PLACED.replace('47.1 8.2 90', start)}")
+    assert ("loiter guide flies the entry" in " ".join(text.split())) == said
+
+
 @pytest.mark.parametrize("options", ["--path", "--spacing 50", "--path --chord-error 0.1"])
 def test_waypoints_all_along_the_path_are_sent_if_they_are_requested_and_what_they_cost_is_reported(shown, options):
     with flying(Vehicle([])) as vehicle:

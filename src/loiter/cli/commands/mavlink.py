@@ -34,7 +34,8 @@ from loiter.cli.scenes import fence_check, fit_proposed, read_options
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.io.document import maneuver_values
-from loiter.io.missions.items import Mission
+from loiter.io.missions.items import Autopilot, Mission
+from loiter.io.missions.mission import own_loiter_remark
 from loiter.mavlink.connection.link import TIMEOUT_S, check_target
 from loiter.planning.compass import wrapped
 from loiter.planning.solve import fastest
@@ -110,8 +111,10 @@ def upload(
     options = (pose, circle, uav, air, waypoints)
     to_send: Mission | Callable[[int], Mission]
     plan: dict[str, object] = {}
+    own_loiter = ""
     if mission is None:
         planned = _plan_mission(*options, fit=fit)
+        own_loiter = "" if waypoints.along_path else own_loiter_remark(planned.maneuver)
         to_send, plan = planned.to_mission, {"plan": maneuver_values(planned.maneuver, planned.frame)}
         if not json:
             report.write(*planned.lines)
@@ -139,6 +142,7 @@ def upload(
         f"It replaced a mission of {summary.replaced} items." if summary.replaced else "It had none before.",
     ]
     lines += ["It flies the mission."] if summary.started else []
+    lines += [own_loiter] if own_loiter and summary.autopilot == Autopilot.ARDUPILOT.described else []
     report.write(*lines, *summary.cut, *summary.remarks)
 
 

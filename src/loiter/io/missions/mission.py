@@ -127,6 +127,16 @@ def stored_radius_remark(radius_m: float, altitude_m: float | None) -> str:
     return " ".join(sentences)
 
 
+def own_loiter_remark(maneuver: Maneuver) -> str:
+    """A sentence where ArduPlane gets the loiter alone, so that it joins later than the entry; otherwise empty."""
+    if approach_waypoints(maneuver, Autopilot.ARDUPILOT) or maneuver.duration_s < LEAST_STRAIGHT_S:
+        return ""
+    return (
+        "This entry has turns only, which no mission of ArduPlane flies: it joins as its own loiter does, and later "
+        "than planned; loiter guide flies the entry."
+    )
+
+
 def approach_waypoints(maneuver: Maneuver, autopilot: int) -> tuple[Waypoint, ...]:
     """The waypoint, or none, with which the autopilot's loiter joins the circle soonest.
 
