@@ -46,7 +46,8 @@ from mavlink.flyer import (
                 "was 100 m above home meant? That is 600"
             ),
         ),
-        (529.0, "altitude_m is 529: 29 m above home"),
+        (460.0, "40 m below home, which is 500 m above mean sea level; the lowest circle is 30 m above home, at 530"),
+        (529.0, "29 m above home, which is 500 m above mean sea level; the lowest circle is 30 m above home, at 530"),
     ],
 )
 def test_a_circle_near_or_below_home_is_refused(kind, altitude_m, words):

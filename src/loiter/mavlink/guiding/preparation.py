@@ -186,8 +186,8 @@ def _circle_altitude_m(contact: Contact, request: GuideRequest) -> float:
         return altitude_m
     side, off_m = ("above" if altitude_m >= home_m else "below"), abs(altitude_m - home_m)
     problem = f"is {altitude_m:g}: {off_m:.0f} m {side} home, which is {home_m:.0f} m above mean sea level"
-    # A number that would be high enough as a height above home is probably meant as one.
-    if altitude_m >= LEAST_HEIGHT_M:
+    # A number that is nearer to the present height above home than to the present altitude is probably meant as one.
+    if altitude_m >= LEAST_HEIGHT_M and abs(altitude_m - height_m) < abs(altitude_m - present_m):
         proposal = f"was {altitude_m:g} m above home meant? That is {altitude_m + home_m:.0f}"
     else:
         proposal = f"the lowest circle is {LEAST_HEIGHT_M:g} m above home, at {LEAST_HEIGHT_M + home_m:.0f}"
