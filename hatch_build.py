@@ -23,6 +23,7 @@ NO_COMPILER = (
 
 # Kinds of x86 processors for which the loops are compiled, besides any processor.
 LEVELS = ("v2", "v3", "v4")
+LEVELLED = {"loops.c", "tight_loop.c"}
 
 GNU = ["-std=c11", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fvisibility=hidden", "-g0"]
 MICROSOFT = ["/std:c11", "/O2", "/fp:precise"]
@@ -64,9 +65,9 @@ def build(root: Path) -> list[Path]:
             flags = GNU if is_gnu else MICROSOFT
             levels = LEVELS if is_x86 and is_gnu else ()
             macros = [("LOITER_SOURCES", digest(root)), *([("LOITER_X86_LEVELS", "1")] if levels else [])]
-            jobs = [Job(name, ext.name, macros) for name in ext.sources if name != "loops.c"]
-            if "loops.c" in ext.sources:
-                jobs += [Job("loops.c", level, [("LOITER_LEVEL", level)]) for level in ("any", *levels)]
+            jobs = [Job(name, ext.name, macros) for name in ext.sources if name not in LEVELLED]
+            for name in LEVELLED & set(ext.sources):
+                jobs += [Job(name, level, [("LOITER_LEVEL", level)]) for level in ("any", *levels)]
 
             def compiled(job: Job) -> list[str]:
                 return self.compiler.compile(
@@ -85,7 +86,7 @@ def build(root: Path) -> list[Path]:
 
     modules = [
         Extension("loiter.compiled.single", ["single.c", "loiter.c"]),
-        Extension("loiter.compiled.loops", ["ufuncs.c", "wind_loops.c", "loiter.c", "loops.c"]),
+        Extension("loiter.compiled.loops", ["ufuncs.c", "wind_loops.c", "loiter.c", "loops.c", "tight_loop.c"]),
     ]
     distribution = Distribution({"name": "loiter", "ext_modules": modules, "package_dir": {"": str(root / "src")}})
     command = Build(distribution)

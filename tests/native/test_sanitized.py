@@ -14,7 +14,7 @@ from native.library import COMPILER, needs_compiler
 pytestmark = needs_compiler
 
 SANITIZERS = "address,undefined,float-cast-overflow"
-SOURCES = [FOLDER / name for name in ("loiter.c", "loops.c", "wind_loops.c")]
+SOURCES = [FOLDER / name for name in ("loiter.c", "loops.c", "tight_loop.c", "wind_loops.c")]
 
 
 def test_no_number_makes_the_c_do_what_c_does_not_define(tmp_path):

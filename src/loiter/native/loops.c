@@ -116,15 +116,6 @@ static int exact_count(const StateBlock *states, int count) {
     return exact;
 }
 
-/* T for R = 1, *either*, no tolerance: the compiler precomputes whatever depends only on these. */
-static NOINLINE void tight_times(const StateBlock *restrict states, double *restrict time, int count) {
-    for (int i = 0; i < count; i++) {
-        const double x = states->x[i], y = states->y[i];
-        const double T = least_time(x, fabs(y), 1.0, SIDE_CW, 0.0);
-        time[i] = is_solvable(x, y, 1.0, 0.0) ? T : NAN;
-    }
-}
-
 static inline LOITER_ALWAYS_INLINE void all_times(const StateBlock *restrict states, const int32_t *restrict chosen, double *restrict time,
                                                   bool exact, int count) {
     for (int i = 0; i < count; i++) {
@@ -157,7 +148,7 @@ void LOITER_NAMED(min_time)(char **args, const ptrdiff_t *dimensions, const ptrd
         if (tight) {
             load(states.x, args, steps, X, start, count);
             load(states.y, args, steps, Y, start, count);
-            tight_times(&states, time, count);
+            LOITER_NAMED(tight_times)(states.x, states.y, time, count);
         } else {
             load_states(&states, args, steps, start, count);
             choose_sides(&states, chosen, false, count);
