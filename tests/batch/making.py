@@ -1,6 +1,9 @@
 """Tables to plan, how to read what came of them, and jobs that are disturbed."""
 
 import os
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
@@ -9,6 +12,7 @@ import pyarrow.parquet as pq
 
 from loiter import Aircraft, Orbit
 from loiter.batch.jobs import parts
+from loiter.batch.tables import files, outputs
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 ORBIT = Orbit(0.0, 0.0, 80.0)
@@ -74,6 +78,20 @@ def read(path):
     return pyarrow.csv.read_csv(
         path, convert_options=types, parse_options=pyarrow.csv.ParseOptions(newlines_in_values=True)
     ).to_pylist()
+
+
+def small_parts(monkeypatch, part_rows=100, group_rows=60, batch_rows=40):
+    """Make parts, row groups and batches so small that a table of some hundred rows has many."""
+    monkeypatch.setattr(files, "PART_ROWS", part_rows)
+    monkeypatch.setattr(outputs, "ROW_GROUP_ROWS", group_rows)
+    monkeypatch.setattr(files, "BATCH_ROWS", batch_rows)
+
+
+def killing(*arguments):
+    """Run killing.py; a failure shows its output, and the seed among its arguments."""
+    command = [sys.executable, Path(__file__).with_name("killing.py"), *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, (command, done.stdout, done.stderr)
 
 
 def stop_after(monkeypatch, count, error):

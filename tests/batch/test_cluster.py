@@ -13,9 +13,8 @@ from pathlib import Path
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, poses, write
+from batch.making import OPTIONS, ORBIT, UAV, poses, small_parts, write
 from loiter.batch.jobs import cluster, folder
-from loiter.batch.tables import files, outputs
 
 HERE = Path(__file__).parent
 ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])}
@@ -110,12 +109,7 @@ def wait_for_parts(process, at, count):
 
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
-    for module, name, value in [
-        (files, "PART_ROWS", 500),
-        (outputs, "ROW_GROUP_ROWS", 500),
-        (files, "BATCH_ROWS", 100),
-    ]:
-        monkeypatch.setattr(module, name, value)
+    small_parts(monkeypatch, 500, 500, 100)
 
 
 def test_without_a_scheduler_one_sentence_says_so(tmp_path):

@@ -3,10 +3,7 @@
 import gzip
 import json
 import os
-import subprocess
-import sys
 from pathlib import Path
-from random import SystemRandom
 
 import dask.dataframe as dd
 import duckdb
@@ -17,9 +14,8 @@ import pyarrow.parquet as pq
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, change_after_each_part, poses, read, stop_after, write
+from batch.making import OPTIONS, ORBIT, UAV, change_after_each_part, poses, read, small_parts, stop_after, write
 from loiter.batch.jobs import folder, parts
-from loiter.batch.tables import files, outputs
 from loiter.batch.tables.sources import SUCCESS
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, Unfinished
@@ -33,8 +29,7 @@ GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 
 @pytest.fixture(autouse=True)
 def _small_parts(tmp_path, monkeypatch):
-    for module, name, value in [(files, "PART_ROWS", 100), (outputs, "ROW_GROUP_ROWS", 60), (files, "BATCH_ROWS", 40)]:
-        monkeypatch.setattr(module, name, value)
+    small_parts(monkeypatch)
     monkeypatch.chdir(tmp_path)
 
 
@@ -71,12 +66,6 @@ def test_a_dataset_has_the_rows_of_a_file(expected):
     assert success == SUCCESS
     assert [name[:10] for name in found] == [f"part-{i:05}" for i in range(10)]
     assert names(".") == ["expected.parquet", "in.parquet", "out"]
-
-
-def test_the_same_rows_give_the_same_bytes(expected):
-    run(workers=1)
-    run(target="again/", workers=3)
-    assert contents() == contents("again")
 
 
 def numbers(table):
@@ -416,11 +405,13 @@ def test_a_table_without_rows_becomes_a_part_without_rows():
     assert pl.read_parquet("out").shape[0] == 0
 
 
-def test_an_input_that_changes_meanwhile_is_reported(expected, monkeypatch):
+@pytest.mark.parametrize("target", ["out/", "out.parquet"])
+def test_an_input_that_changes_meanwhile_is_reported(expected, monkeypatch, target):
     change_after_each_part(monkeypatch, "in.parquet")
     with pytest.raises(InvalidArgument, match="it changed while it was read"):
-        run()
-    assert SUCCESS not in names()
+        run(target=target)
+    assert not Path("out", SUCCESS).exists()
+    assert not Path("out.parquet").exists()
 
 
 def test_what_is_called_finished_is_on_the_disk(expected, monkeypatch):
@@ -449,24 +440,6 @@ def test_names_sort_in_the_order_of_the_rows():
     names = [folder.part_name(number, 123_456, "0123456789") for number in (7, 99_999, 100_000)]
     assert names == sorted(names)
     assert folder.part_name(7, 10, "0123456789") == "part-00007-01234567.parquet"
-
-
-def script(*arguments):
-    """Run killing.py; a failure shows its output, and the seed among its arguments."""
-    command = [sys.executable, HERE / "killing.py", *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, (command, done.stdout, done.stderr)
-
-
-@pytest.mark.parametrize(("source", "times"), [("in.parquet", 20), ("in.csv", 4)])
-def test_killed_at_any_moment_it_resumes_to_the_same_bytes(source, times):
-    write(poses(10_000), Path(source), 250)
-    script("kill", source, "out/", SystemRandom().randrange(10**6), times, *OPTIONS)
-
-
-def test_processes_that_race_for_one_dataset_do_not_damage_it():
-    write(poses(5000), Path("in.parquet"), 250)
-    script("race", "in.parquet", "out/", 0, 8, *OPTIONS)
 
 
 def test_the_description_lists_all_files(monkeypatch):

@@ -6,7 +6,6 @@ import sys
 
 import pytest
 
-import loiter
 from batch.making import scenes, write
 
 HEAVY = {"pyarrow", "dask", "distributed", "pandas"}
@@ -34,10 +33,3 @@ def test_a_parquet_file_needs_neither_dask_nor_pandas(tmp_path):
     source = write(scenes(20), tmp_path / "in.parquet")
     code = f"import loiter\nloiter.batch.run({str(source)!r}, {str(tmp_path / 'out.parquet')!r})"
     assert loaded_by(code) == {"pyarrow"}
-
-
-def test_the_room_is_there_and_documented():
-    for name in loiter.batch.__all__:
-        assert getattr(loiter.batch, name).__doc__
-    with pytest.raises(AttributeError, match="no attribute 'fly'"):
-        loiter.batch.fly  # noqa: B018

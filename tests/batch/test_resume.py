@@ -4,7 +4,6 @@ import errno
 import json
 import os
 import re
-import resource
 import signal
 import subprocess
 import sys
@@ -15,14 +14,13 @@ from random import SystemRandom
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, change_after_each_part, poses, stop_after, write
+from batch.making import OPTIONS, ORBIT, UAV, killing, poses, small_parts, stop_after, write
 from loiter.batch.jobs import folder, parts
 from loiter.batch.jobs import job as jobs
 from loiter.batch.jobs import request as requests
-from loiter.batch.tables import files, outputs
 from loiter.batch.tables.columns import shared_values
 from loiter.cli.app import main
-from loiter.errors import InvalidArgument, Unfinished
+from loiter.errors import Unfinished
 
 HERE = Path(__file__).parent
 ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])}
@@ -31,8 +29,7 @@ GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
-    for module, name, value in [(files, "PART_ROWS", 100), (outputs, "ROW_GROUP_ROWS", 100), (files, "BATCH_ROWS", 40)]:
-        monkeypatch.setattr(module, name, value)
+    small_parts(monkeypatch)
 
 
 @pytest.fixture
@@ -48,25 +45,19 @@ def names(path):
     return sorted(p.name for p in Path(path).iterdir())
 
 
-def script(*arguments):
-    """Runs killing.py; a failure shows what it said, the seed among its arguments."""
-    command = [sys.executable, HERE / "killing.py", *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, (command, done.stdout, done.stderr)
-
-
 @pytest.mark.parametrize(
     ("source", "target", "times"),
-    [("in.parquet", "out.parquet", 20), ("in.csv", "out.csv.gz", 4)],
+    [("in.parquet", "out.parquet", 20), ("in.parquet", "out/", 20), ("in.csv", "out.csv.gz", 4)],
 )
 def test_killed_at_any_moment_it_resumes_to_the_same_bytes(tmp_path, source, target, times):
     write(poses(10_000), tmp_path / source, 250)
-    script("kill", tmp_path / source, tmp_path / target, SystemRandom().randrange(10**6), times, *OPTIONS)
+    killing("kill", tmp_path / source, f"{tmp_path}/{target}", SystemRandom().randrange(10**6), times, *OPTIONS)
 
 
-def test_processes_that_race_for_one_output_do_not_damage_it(tmp_path):
+@pytest.mark.parametrize("target", ["out.parquet", "out/"])
+def test_processes_that_race_for_one_output_do_not_damage_it(tmp_path, target):
     write(poses(5000), tmp_path / "in.parquet", 250)
-    script("race", tmp_path / "in.parquet", tmp_path / "out.parquet", 0, 8, *OPTIONS)
+    killing("race", tmp_path / "in.parquet", f"{tmp_path}/{target}", 0, 4, *OPTIONS)
 
 
 def test_a_second_process_is_refused(job, capsys):
@@ -248,13 +239,6 @@ def test_a_part_that_lost_its_end_is_done_again(job, monkeypatch):
     assert Path("out.parquet").read_bytes() == expected
 
 
-def test_an_input_that_changes_meanwhile_is_reported(job, monkeypatch):
-    change_after_each_part(monkeypatch, "in.parquet")
-    with pytest.raises(InvalidArgument, match="it changed while it was read"):
-        loiter.batch.run("in.parquet", "out.parquet", **GIVEN)
-    assert not Path("out.parquet").exists()
-
-
 def test_files_of_others_in_the_folder_are_left_alone(job):
     arguments, expected = job
     Path("out.parquet.parts").mkdir()
@@ -272,10 +256,6 @@ def test_a_worker_that_outlives_its_job_writes_nothing(job):
         assert folder.resume(request.target, description) is None
         parts.solve_part(late, part)
         assert names("out.parquet.parts") == ["job.json", *[late.name(part)] * written]
-
-
-def test_limits_of_this_process_are_as_they_were():
-    assert resource.getrlimit(resource.RLIMIT_FSIZE)[0] == resource.RLIM_INFINITY
 
 
 def test_a_table_that_is_damaged_further_on_is_reported(job, capsys):

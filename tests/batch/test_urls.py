@@ -18,9 +18,9 @@ import pyarrow.parquet as pq
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, poses, read, stop_after, write
+from batch.making import OPTIONS, ORBIT, UAV, poses, read, small_parts, stop_after, write
 from loiter.batch.jobs import parts
-from loiter.batch.tables import files, outputs, storage
+from loiter.batch.tables import storage
 from loiter.batch.tables.sources import SUCCESS
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, MissingPackage, Unfinished
@@ -31,8 +31,7 @@ S3 = os.environ.get("LOITER_TEST_S3")
 
 @pytest.fixture(autouse=True)
 def _small_parts(tmp_path, monkeypatch):
-    for module, name, value in [(files, "PART_ROWS", 100), (outputs, "ROW_GROUP_ROWS", 60), (files, "BATCH_ROWS", 40)]:
-        monkeypatch.setattr(module, name, value)
+    small_parts(monkeypatch)
     monkeypatch.chdir(tmp_path)
 
 

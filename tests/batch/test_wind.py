@@ -182,29 +182,15 @@ def test_a_frame_takes_wind_and_velocity():
 @pytest.mark.parametrize(
     ("columns", "given", "why"),
     [
-        (WIND, {"wind": BREEZE}, "^wind is given, and by the table's column wind_speed_m_s too"),
-        (
-            VELOCITY,
-            {"orbit_velocity_m_s": (0.0, 0.0)},
-            "^orbit_velocity_m_s is given, and by the table's column orbit_v",
-        ),
         (VELOCITY, {"orbit": Orbit(0, 0, 150, "cw", 1.0)}, "^orbit_velocity_m_s is given, and by the table's column"),
         ((), {"orbit": Orbit(0, 0, 150, "cw", 1.0), "orbit_velocity_m_s": (1, 0)}, "is given, and by the orbit too"),
         ((), {"orbit_velocity_m_s": (1.0, float("nan"))}, "^orbit velocity_north_m_s is nan"),
-        (WIND[:1], {}, "^frame has a column wind_speed_m_s but no wind_from_deg"),
-        (VELOCITY[1:], {}, "^frame has a column orbit_velocity_north_m_s but no orbit_velocity_east_m_s"),
     ],
 )
 def test_what_does_not_fit_is_refused(columns, given, why):
     frame = poses(3).to_pandas().assign(**dict.fromkeys(columns, 1.0))
     with pytest.raises(InvalidArgument, match=why):
         loiter.batch.plan(frame, **{"orbit": ORBIT, "aircraft": UAV} | given)
-
-
-def test_columns_of_wind_must_hold_numbers():
-    frame = poses(3).to_pandas().assign(wind_speed_m_s=5.0, wind_from_deg="west")
-    with pytest.raises(InvalidArgument, match=r"frame has a column wind_from_deg of .*: it must hold numbers"):
-        loiter.batch.plan(frame, orbit=ORBIT, aircraft=UAV)
 
 
 @pytest.fixture

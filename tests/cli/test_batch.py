@@ -279,15 +279,6 @@ def test_wind_and_velocity_are_those_of_loiter_plan(capsys, tmp_path):
         assert row["duration_s"] == pytest.approx(planned["duration_s"])
 
 
-def test_an_older_output_is_replaced(capsys, tmp_path):
-    (tmp_path / "out.csv").write_text("older")
-    write(poses(5), tmp_path / "in.parquet")
-    assert main(["batch", str(tmp_path / "in.parquet"), str(tmp_path / "out.csv"), *OPTIONS, "--turn", "ccw"]) == 0
-    assert {row["turn"] for row in read(tmp_path / "out.csv")} == {"ccw"}
-    note, _ = capsys.readouterr().err.splitlines()
-    assert note == f"{tmp_path / 'out.csv'} exists: it will be replaced once all rows are solved"
-
-
 def test_a_complete_dataset_is_not_solved_again(capsys, tmp_path):
     write(poses(5), tmp_path / "in.parquet")
     job = ["batch", str(tmp_path / "in.parquet"), f"{tmp_path / 'out'}/", *OPTIONS]
@@ -328,22 +319,3 @@ sys.exit(main())
 """
     done = subprocess.run([sys.executable, "-c", code, "plan"], capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "loiter: interrupted\n")
-
-
-def test_help_names_every_column_and_option(capsys):
-    assert main(["batch", "--help"]) == 0
-    text = " ".join(capsys.readouterr().out.split())
-    names = ["east_m", "orbit_radius_m", "max_turn_rate_deg_s", "join_heading_deg", "duration_3_s", "OUT.parts"]
-    options = ["--orbit", "--turn", "--airspeed", "--bank", "--turn-radius", "--turn-rate", "--tolerance", "--workers"]
-    names += ["wind_speed_m_s", "wind_from_deg", "orbit_velocity_east_m_s", "orbit_velocity_north_m_s"]
-    options += ["--wind SPEED FROM", "--orbit-velocity EAST NORTH"]
-    assert [word for word in [*names, *options, "--scheduler", "IN", "OUT"] if word not in text] == []
-
-
-def test_the_installed_program_solves_a_table(tmp_path):
-    write(poses(5), tmp_path / "in.csv")
-    command = [SCRIPT, "batch", "in.csv", "out.csv", *OPTIONS]
-    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
-    assert (done.returncode, done.stdout) == (0, "")
-    assert done.stderr.startswith("5 rows in ")
-    assert len(read(tmp_path / "out.csv")) == 5

@@ -66,13 +66,6 @@ def test_the_program_shows_how_to_begin(examples):
     assert {understood(example) for example in examples()} == {"plan", "completion"}
 
 
-@pytest.mark.parametrize("example", range(2))
-def test_the_first_examples_can_be_run(examples, example, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    assert main(shlex.split(examples("plan")[example])[1:]) == 0
-    assert "joins in" in capsys.readouterr().out
-
-
 @pytest.mark.parametrize("command", COMMANDS)
 def test_flags_have_no_default(command, capsys):
     assert main([command, "--help"]) == 0

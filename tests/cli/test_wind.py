@@ -44,15 +44,6 @@ def test_json_tells_where_the_circle_is_joined_over_the_ground(planned, options)
         assert over["track_deg"] == pytest.approx(degrees(atan2(east, north)) % 360.0, abs=1e-9)
 
 
-@each_scene
-def test_json_is_one_path_over_the_ground(planned, options):
-    answer = planned(options)
-    pose = [float(value) for value in re.search(r"--pose (\S+) (\S+) (\S+)", options).groups()]
-    starts = [list(segment["start"].values()) for segment in answer["segments"]]
-    ends = [list(segment["end"].values()) for segment in answer["segments"]]
-    assert [*starts, list(answer["join"].values())] == [pose, *ends]
-
-
 def test_json_holds_wind_and_bank(planned):
     answer = planned(FIXED)
     circle = loiter.hold(loiter.Orbit(0.0, 0.0, 120.0, "cw"), loiter.Aircraft(18.0, 35.0), loiter.Wind(8.0, 250.0))
