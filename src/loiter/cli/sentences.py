@@ -1,5 +1,6 @@
 """Errors as one sentence for the user, with the names of options in place of arguments."""
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -16,93 +17,55 @@ from loiter.cli.numbers import typed, values_given
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TURN_LIMITS
 
-# The option for each argument of the library. "pose east_m" is the east_m of the argument pose.
-OPTIONS = {
-    "airspeed_m_s": "--airspeed",
-    "indicated_airspeed_m_s": "--indicated-airspeed",
-    "altitude_m": "--altitude",
-    "altitude_reference": "--altitude-reference",
-    "home_altitude_m": "--home-altitude",
-    "temperature_c": "--temperature",
+# The arguments of the library that have an option of their name, without its unit: `chord_error_m` has --chord-error.
+_NAMED = """
+accept_fly_away airframe airspeed_m_s altitude_m altitude_reference autopilot cases cells chord_error_m cors
+declination_deg dpi gust home_altitude_m host indicated_airspeed_m_s lead_s log orbit orbit_from orbit_lla
+orbit_velocity_m_s out plot port pose pose_lla radius reach rejects replay reports runs save scheduler seed send
+show sim size_mm spacing_m states system temperature_c timeout_s tolerance_m true_radius turn wind workers yes
+"""
+NAMED = frozenset(_NAMED.split())
+# Those of several values, each of which may be the argument of an error.
+SEVERAL = ("pose", "orbit", "origin", "wind", "size_mm")
+# Those whose option has another name.
+RENAMED = {
     "max_bank_deg": "--bank",
     "min_turn_radius_m": "--turn-radius",
     "max_turn_rate_deg_s": "--turn-rate",
-    "aircraft airspeed_m_s": "--airspeed",
-    "aircraft max_bank_deg": "--bank",
-    "aircraft min_turn_radius_m": "--turn-radius",
-    "aircraft max_turn_rate_deg_s": "--turn-rate",
-    "tolerance_m": "--tolerance",
-    "lead_s": "--lead",
-    "turn": "--turn",
-    "plot": "--plot",
-    "size_mm": "--size",
-    "size_mm width": "--size WIDTH",
-    "size_mm height": "--size HEIGHT",
-    "dpi": "--dpi",
-    "states": "--states",
-    "cases": "--cases",
-    "radius": "--radius",
-    "reach": "--reach",
-    "cells": "--cells",
-    "save": "--save",
-    "show": "--show",
-    "out": "--out",
     "source": "IN",
     "target": "OUT",
-    "rejects": "--rejects",
     "columns": "--map",
     "origin": "--orbit-lla",
-    "pose": "--pose",
-    "pose_lla": "--pose-lla",
-    "orbit": "--orbit",
-    "orbit_lla": "--orbit-lla",
-    "orbit_from": "--orbit-from",
-    "spacing_m": "--spacing",
-    "chord_error_m": "--chord-error",
-    "host": "--host",
-    "port": "--port",
-    "cors": "--cors",
-    "parameters": "--params",
     "frame": "--orbit-lla",
-    "workers": "--workers",
+    "parameters": "--params",
     "connection": "--connect",
-    "system": "--system",
-    "timeout_s": "--timeout",
     "period_s": "--every",
-    "yes": "--yes",
-    "accept_fly_away": "--accept-fly-away",
-    "reports": "--reports",
-    "send": "--send",
-    "log": "--log",
-    "replay": "--replay",
-    "true_radius": "--true-radius",
-    "runs": "--runs",
-    "sim": "--sim",
-    "gust": "--gust",
-    "airframe": "--airframe",
-    "seed": "--seed",
-    "scheduler": "--scheduler",
-    "wind": "--wind",
-    "declination_deg": "--declination",
-    "autopilot": "--autopilot",
-    "orbit_velocity_m_s": "--orbit-velocity",
-    "pose east_m": "--pose EAST",
-    "pose north_m": "--pose NORTH",
-    "pose heading_deg": "--pose HEADING",
     "pose latitude_deg": "--pose-lla LAT",
     "pose longitude_deg": "--pose-lla LON",
     "pose true heading_deg": "--pose-lla HEADING",
     "origin latitude_deg": "--orbit-lla LAT",
     "origin longitude_deg": "--orbit-lla LON",
-    "origin radius_m": "--orbit-lla RADIUS",
-    "orbit east_m": "--orbit EAST",
-    "orbit north_m": "--orbit NORTH",
-    "orbit radius_m": "--orbit RADIUS",
     "orbit velocity_east_m_s": "--orbit-velocity EAST",
     "orbit velocity_north_m_s": "--orbit-velocity NORTH",
-    "wind speed_m_s": "--wind SPEED",
-    "wind from_deg": "--wind FROM",
 }
+
+_UNIT = re.compile(r"_(m_s|mm|m|deg|s|c)$")
+
+
+def option(argument: str) -> str:
+    """The option for an argument of the library, or the argument itself; "pose east_m" is the east_m of `pose`.
+
+    >>> option("chord_error_m"), option("pose east_m"), option("aircraft max_bank_deg"), option("maneuver")
+    ('--chord-error', '--pose EAST', '--bank', 'maneuver')
+    """
+    whole, _, part = argument.partition(" ")
+    if argument in RENAMED:
+        return RENAMED[argument]
+    if whole == "aircraft" and part:
+        return option(part)
+    if part and whole in SEVERAL:
+        return f"{option(whole)} {_UNIT.sub('', part).upper()}"
+    return f"--{_UNIT.sub('', argument).replace('_', '-')}" if argument in NAMED else argument
 
 
 @contextmanager
@@ -119,7 +82,7 @@ def argument_names(**names: str) -> Iterator[None]:
 def sentence(error: Exception) -> str:
     """The error message, in one line."""
     if isinstance(error, InvalidArgument):
-        text = f"{OPTIONS.get(error.argument, error.argument)} {_problem(error)}"
+        text = f"{option(error.argument)} {_problem(error)}"
     elif isinstance(error, CycloptsError):
         text = _usage_sentence(error)
     elif isinstance(error, OSError):
@@ -139,7 +102,7 @@ def _problem(error: InvalidArgument) -> str:
         return error.problem
     problem = error.problem
     for name in TURN_LIMITS:
-        problem = problem.replace(name, OPTIONS[name])
+        problem = problem.replace(name, option(name))
     return problem
 
 
