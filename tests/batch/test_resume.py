@@ -219,6 +219,7 @@ def test_the_description_says_what_the_parts_depend_on(job, monkeypatch):
         "orbit_radius_m": 80.0,
         "airspeed_m_s": 18.0,
         "max_bank_deg": 35.0,
+        "tolerance_m": 0.0,
         "wind_speed_m_s": 0.0,
         "wind_from_deg": 0.0,
         "orbit_velocity_east_m_s": 0.0,
@@ -249,7 +250,7 @@ def test_files_of_others_in_the_folder_are_left_alone(job):
 
 
 def test_a_worker_that_outlives_its_job_writes_nothing(job):
-    request = requests.check_request("in.parquet", "out.parquet", shared_values(ORBIT, None, UAV), 0.0)
+    request = requests.check_request("in.parquet", "out.parquet", shared_values(ORBIT, None, UAV))
     late, [part, *_] = jobs._divide(request, folder.digest(requests.describe(request)), None)
     Path("out.parquet.parts").mkdir()
     for description, written in [({"of": "another job"}, 0), (requests.describe(request), 1)]:

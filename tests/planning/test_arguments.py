@@ -1,4 +1,4 @@
-"""Arguments of another kind: tuples for poses, quantities with units; and words as text."""
+"""Quantities with units as arguments; and words as text."""
 
 import numpy as np
 import pytest
@@ -9,28 +9,6 @@ from loiter.errors import InvalidArgument
 from loiter.kernel.words import Word
 
 POSE, ORBIT, UAV = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0)
-
-
-@pytest.mark.parametrize("function", [loiter.plan, loiter.plan_all, loiter.candidates])
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (((-400.0, 120.0, 90.0), ORBIT, UAV), "pose is (-400.0, 120.0, 90.0): it must be a loiter.Pose"),
-        ((POSE, (0.0, 0.0, 80.0), UAV), "orbit is (0.0, 0.0, 80.0): it must be a loiter.Orbit"),
-        ((POSE, ORBIT, 18.0), "aircraft is 18.0: it must be a loiter.Aircraft"),
-        ((POSE, ORBIT, UAV, 8.0), "wind is 8.0: it must be a loiter.Wind"),
-        ((ORBIT, POSE, UAV), f"pose is {ORBIT!r}: it must be a loiter.Pose"),
-    ],
-)
-def test_what_is_of_another_class_is_named(function, arguments, sentence):
-    with pytest.raises(InvalidArgument) as refused:
-        function(*arguments)
-    assert str(refused.value) == sentence
-
-
-def test_so_is_it_for_arrays():
-    with pytest.raises(InvalidArgument, match=r"orbit is \(0, 0, 80\): it must be a loiter.Orbit"):
-        loiter.reduce([1.0], [2.0], [3.0], (0, 0, 80), UAV)
 
 
 # Words

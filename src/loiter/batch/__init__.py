@@ -77,10 +77,10 @@ def run(
 
     count, given = (
         _workers(workers, scheduler),
-        shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns),
+        shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns, tolerance_m),
     )
     kept = None if rejects is None else Path(file_path("rejects", rejects))
-    request = check_request(file_path("source", source), file_path("target", target), given, tolerance_m, kept)
+    request = check_request(file_path("source", source), file_path("target", target), given, kept)
     return job.run_request(request, count, scheduler, progress)
 
 
@@ -110,8 +110,8 @@ def plan(
     from loiter.batch.frames import plan_frame
     from loiter.batch.tables.columns import shared_values
 
-    options = shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns)
-    planned: AnyFrame = plan_frame(frame, options, tolerance_m)
+    options = shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns, tolerance_m)
+    planned: AnyFrame = plan_frame(frame, options)
     return planned
 
 

@@ -11,7 +11,7 @@ import pyarrow.compute as pc
 
 from loiter.arrays.entries import UNKNOWN, States, entries
 from loiter.batch.tables import views
-from loiter.batch.tables.columns import STATUSES, TURN_NAMES, WORDS, Columns, carried_columns, number_columns
+from loiter.batch.tables.columns import STATUSES, TOLERANCE, TURN_NAMES, WORDS, Columns, carried_columns, number_columns
 from loiter.batch.tables.mapping import AIRSPEED, HEADING, ORBIT, ORBIT_PLACE, PLACE, POSE, TURN, VELOCITY, WIND
 from loiter.batch.tables.types import convert
 from loiter.geo.frame import from_plane, to_plane
@@ -88,11 +88,10 @@ def _states(batch: pa.RecordBatch, columns: Columns, numbers: dict[str, Any]) ->
     if side is None:
         side = _sides(batch.column(columns.mapped[TURN].name))
     return States(
-        **{name: numbers[name] for name in (*POSE, *ORBIT, AIRSPEED, *WIND, *VELOCITY)},
+        **{name: numbers[name] for name in (*POSE, *ORBIT, AIRSPEED, *WIND, *VELOCITY, TOLERANCE)},
         side=side,
         turn_limit=numbers[columns.limit],
         limit=columns.limit,
-        tolerance_m=columns.tolerance_m,
     )
 
 

@@ -15,19 +15,19 @@ from loiter.errors import InvalidArgument
 BATCH_ROWS = 1 << 20
 
 
-def plan_frame(frame: Any, options: SharedValues, tolerance_m: float) -> Any:
+def plan_frame(frame: Any, options: SharedValues) -> Any:
     """A data frame of the same kind with the added columns."""
     if hasattr(frame, "map_partitions") and _is_pandas(frame._meta):
         # The empty frame of Dask's metadata gives the columns and types of the result.
-        meta = _plan_pandas(frame._meta, options, tolerance_m)
-        return frame.map_partitions(_plan_pandas, options, tolerance_m, meta=meta)
+        meta = _plan_pandas(frame._meta, options)
+        return frame.map_partitions(_plan_pandas, options, meta=meta)
     if _is_pandas(frame):
-        return _plan_pandas(frame, options, tolerance_m)
+        return _plan_pandas(frame, options)
     if isinstance(frame, pa.RecordBatch):
-        [batch] = _plan_arrow(pa.Table.from_batches([frame]), options, tolerance_m).combine_chunks().to_batches()
+        [batch] = _plan_arrow(pa.Table.from_batches([frame]), options).combine_chunks().to_batches()
         return batch
     if all(hasattr(type(frame), name) for name in ("columns", "__arrow_c_stream__")):
-        planned = _plan_arrow(pa.table(frame), options, tolerance_m)
+        planned = _plan_arrow(pa.table(frame), options)
         return planned if isinstance(frame, pa.Table) else type(frame)(planned)
     needed = "it must be a data frame of pandas, Dask, Polars or Arrow; loiter.batch.run takes files"
     if hasattr(type(frame), "collect"):
@@ -40,14 +40,14 @@ def _is_pandas(frame: Any) -> bool:
     return all(hasattr(type(frame), name) for name in ("columns", "assign", "drop"))
 
 
-def _plan_pandas(frame: Any, options: SharedValues, tolerance_m: float) -> Any:
+def _plan_pandas(frame: Any, options: SharedValues) -> Any:
     if not frame.columns.is_unique:
         raise InvalidArgument("frame", "has two columns with the same name")
     batch = _known_columns(frame, options)
     # Only the names of the other columns matter.
     known = {field.name: field for field in batch.schema}
     fields = [known.get(name, pa.field(str(name), pa.null())) for name in frame.columns]
-    meaning = columns("frame", pa.schema(fields), options, tolerance_m)
+    meaning = columns("frame", pa.schema(fields), options)
     added = zip(meaning.added.names, added_columns(batch, meaning), strict=True)
     kept = frame.drop(columns=[TURN], errors="ignore")
     # Arrays, unlike series, are not aligned with the frame's index.
@@ -63,8 +63,8 @@ def _known_columns(frame: Any, options: SharedValues) -> pa.RecordBatch:
         raise InvalidArgument("frame", f"has a column of mixed types: {error}") from error
 
 
-def _plan_arrow(table: pa.Table, options: SharedValues, tolerance_m: float) -> pa.Table:
-    meaning = columns("frame", table.schema, options, tolerance_m)
+def _plan_arrow(table: pa.Table, options: SharedValues) -> pa.Table:
+    meaning = columns("frame", table.schema, options)
     kept = table.select(carried_columns(table.column_names))
     return pa.table([*kept.columns, *_added_chunks(table, meaning)], [*kept.column_names, *meaning.added.names])
 

@@ -34,9 +34,7 @@ class JobRequest(NamedTuple):
     rejects: Path | None = None
 
 
-def check_request(
-    source: str, target: str, options: SharedValues, tolerance_m: float, rejects: Path | None = None
-) -> JobRequest:
+def check_request(source: str, target: str, options: SharedValues, rejects: Path | None = None) -> JobRequest:
     """The job to do, checked as far as possible before any work; raises `InvalidArgument`."""
     found, output = find_source("source", source), folder.find_target("target", target)
     versions, sizes = versions_of(found), []
@@ -51,7 +49,7 @@ def check_request(
         footers = files.read_footers("source", found.files, found.shown)
         schema = files.common_schema("source", found.files, [footer.schema for footer in footers])
         sizes = [footer.sizes for footer in footers]
-    meaning = columns("source", schema, options, tolerance_m, text=is_text)
+    meaning = columns("source", schema, options, text=is_text)
     outputs.check_columns(output.kind, outputs.output_schema(schema, meaning))
     _check_apart(found, output)
     if rejects is not None:

@@ -39,6 +39,8 @@ LISTED = 8
 
 _NUMBER = pa.float64()
 
+TOLERANCE = "tolerance_m"
+
 # The point of joining in the plane, or on Earth.
 _JOIN, _JOIN_PLACE = ("join_east_m", "join_north_m"), ("join_latitude_deg", "join_longitude_deg")
 
@@ -51,8 +53,8 @@ STATUSES = tuple(status.name.lower() for status in Status)
 class SharedValues(NamedTuple):
     """The values that all rows share, and the columns of the others.
 
-    `numbers` are by the names of the columns that they replace; `origin` is that of positions in degrees; `mapped` has
-    the names of columns by the quantities that they hold, as `mapped_columns` takes them.
+    `numbers` are by the names of the columns that they replace, and the tolerance; `origin` is that of positions in
+    degrees; `mapped` has the names of columns by the quantities that they hold, as `mapped_columns` takes them.
     """
 
     numbers: Mapping[str, float]
@@ -76,7 +78,6 @@ class Columns:
     turn: Turn | None
     is_placed: bool
     origin: LocalFrame | None
-    tolerance_m: float
     text: bool
 
     @property
@@ -110,6 +111,7 @@ def shared_values(
     orbit_velocity_m_s: tuple[float, float] | None = None,
     origin: LocalFrame | None = None,
     mapped: Mapping[str, str] | None = None,
+    tolerance_m: float = 0.0,
 ) -> SharedValues:
     """The values of the options, checked. `aircraft` may be incomplete, with the names of `Aircraft`."""
     for name, value, kind in (("orbit", orbit, Orbit), ("wind", wind, Wind), ("origin", origin, LocalFrame)):
@@ -128,7 +130,7 @@ def shared_values(
         turn = turn if turn is not None or orbit.turn is Turn.EITHER else orbit.turn
     if turn is not None and turn not in tuple(Turn):
         raise InvalidArgument("turn", f"is {turn!r}: it must be cw, ccw or either")
-    numbers |= _aircraft_numbers(aircraft)
+    numbers |= _aircraft_numbers(aircraft) | {TOLERANCE: not_negative(TOLERANCE, tolerance_m, "metres")}
     return SharedValues(numbers, None if turn is None else Turn(turn), origin, dict(mapped or {}))
 
 
@@ -164,9 +166,7 @@ def _aircraft_numbers(aircraft: Aircraft | Mapping[str, float] | None) -> dict[s
     return {name: float(value) for name, value in given.items()}
 
 
-def columns(
-    argument: str, schema: pa.Schema, options: SharedValues, tolerance_m: float, *, text: bool = False
-) -> Columns:
+def columns(argument: str, schema: pa.Schema, options: SharedValues, *, text: bool = False) -> Columns:
     """The source of each quantity, for a table with a schema; `argument` is the name of the table in errors.
 
     Raises `InvalidArgument` if a quantity is given twice or not at all, and if a column has the wrong type or would be
@@ -198,7 +198,6 @@ def columns(
         turn=turn,
         is_placed=is_placed,
         origin=options.origin,
-        tolerance_m=not_negative("tolerance_m", tolerance_m, "metres"),
         text=text,
     )
     _check_names(argument, names, meaning)
