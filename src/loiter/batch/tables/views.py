@@ -15,16 +15,10 @@ import pyarrow.compute as pc
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_TYPES = {pa.float64(): np.float64, pa.int8(): np.int8, pa.int32(): np.int32}
-
 
 def to_numpy(column: pa.Array) -> NDArray[Any]:
     """The numbers of a column without nulls, not copied."""
-    type_ = np.dtype(_TYPES[column.type])
-    if not len(column):
-        return np.empty(0, type_)
-    _, values = column.buffers()
-    return np.frombuffer(values, type_, len(column), column.offset * type_.itemsize)
+    return np.from_dlpack(column)
 
 
 def from_numpy(values: NDArray[Any]) -> pa.Array:
@@ -43,4 +37,4 @@ def fill_nulls(column: pa.Array, value: float) -> NDArray[Any]:
     """The numbers of a column, with `value` for null."""
     if not column.null_count:
         return to_numpy(column)
-    return to_numpy(pc.coalesce(column, from_numpy(np.full(len(column), value, _TYPES[column.type]))))
+    return to_numpy(pc.coalesce(column, from_numpy(np.full(len(column), value, column.type.to_pandas_dtype()))))
