@@ -68,7 +68,7 @@ def described(i: int, trial: VariedTrial, share: float) -> str:
         f"{m.orbit.radius_m / uav.turn_radius_m:.2f} turn radii, "
         f"roll {roll.time_s:.2f} s, {roll.rate_deg_s:.0f} deg/s, {order}, bias {noise.heading_bias_deg:+.1f} "
         f"{noise.bank_bias_deg:+.1f} deg, noise {noise.position_m:.1f} m, age {noise.delay_s:.2f} s, "
-        f"{trial.telemetry.rate_hz:.0f} Hz, outage {trial.telemetry.outage_s:.0f} s, "
+        f"{trial.downlink.rate_hz:.0f} Hz, outage {trial.downlink.outage_s:.0f} s, "
         f"wind {m.wind.speed_m_s / uav.airspeed_m_s:.2f}"
     )
 

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from loiter.guidance.simulators.downlink import Downlink
 from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.simulators.telemetry import Telemetry
 from loiter.guidance.trials.campaign import random_trials
 from loiter.guidance.trials.varied import VariedTrial
 from loiter.guidance.vehicle.rolling import Roll
@@ -66,7 +66,7 @@ def _biased_trial(random: Generator) -> VariedTrial:
         declared=aircraft,
         response=_roll(random),
         turn_ratio=1.0,
-        telemetry=Telemetry(_log_uniform(random, *RATE_HZ), JITTER, LOSS, outage_s),
+        downlink=Downlink(_log_uniform(random, *RATE_HZ), JITTER, LOSS, outage_s),
         noise=_noise(random),
         start_bank_deg=0.0,
     )

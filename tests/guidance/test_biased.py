@@ -9,9 +9,9 @@ from guidance.biased import ratio
 from guidance.biased_trials import biased_trials
 from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.guidance.entry.loiter_entry import LoiterEntry
+from loiter.guidance.simulators.downlink import Downlink, WithDownlink
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.simulators.telemetry import Telemetry, WithTelemetry
 from loiter.guidance.trials.flight import fly
 from loiter.guidance.vehicle.rolling import Roll
 
@@ -33,7 +33,7 @@ def test_a_slow_roll_biases_and_an_unknown_wind_do_not_keep_an_aircraft_off_its_
     """Plans of 4.8 to 5 seconds, which took 85 seconds to for ever before the biases were identified."""
     uav, orbit, wind = Aircraft(11.5, max_bank_deg=bank_deg), Orbit(0.0, 0.0, 22.0), Wind(1.265, wind_from_deg)
     mass = PointMass(start, uav, wind, seed=seed, roll=SLOW_ROLL, gust=0.0, noise=BIASED)
-    aircraft = WithTelemetry(mass, Telemetry(rate_hz), seed)
+    aircraft = WithDownlink(mass, Downlink(rate_hz), seed)
     flown = fly(LoiterEntry(orbit, uav), aircraft, orbit, limit_s=100.0)
     assert flown.settled_s < 6.0 * plan(start, orbit, uav, wind).duration_s
 

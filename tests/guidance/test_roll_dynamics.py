@@ -6,10 +6,10 @@ import pytest
 from loiter import Aircraft, Pose
 from loiter.errors import InvalidArgument
 from loiter.guidance.protocol import Command, Phase
+from loiter.guidance.simulators.downlink import Downlink, WithDownlink
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import FirstOrderRoll, RollResponse, SecondOrderRoll
-from loiter.guidance.simulators.telemetry import Telemetry, WithTelemetry
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.planning.model import Turn
 
@@ -75,7 +75,7 @@ def test_an_aircraft_turns_by_its_ratio_from_its_bank_at_the_start():
 
 
 def test_telemetry_arrives_at_its_rate_and_repeats_the_last_measurement():
-    vehicle = WithTelemetry(Kinematic(Pose(0.0, 0.0, 0.0), UAV), Telemetry(10.0, jitter=0.3, loss=0.1), seed=3)
+    vehicle = WithDownlink(Kinematic(Pose(0.0, 0.0, 0.0), UAV), Downlink(10.0, jitter=0.3, loss=0.1), seed=3)
     command, stamps = Command(0.0, 0.0, Phase.STRAIGHT, 0.0, Turn.CW, Phase.HOLD, 0.0), []
     for _ in range(5000):
         stamps.append(vehicle.measured_state().time_s)
@@ -92,11 +92,11 @@ def test_telemetry_arrives_at_its_rate_and_repeats_the_last_measurement():
 @pytest.mark.parametrize(("values", "sentence"), [({"rate_hz": 0.0}, "rate_hz is 0.0"), ({"loss": 1.0}, "loss is 1.0")])
 def test_telemetry_that_cannot_be(values, sentence):
     with pytest.raises(InvalidArgument, match=sentence):
-        Telemetry(**values)
+        Downlink(**values)
 
 
 def test_telemetry_has_an_outage_in_each_period():
-    vehicle = WithTelemetry(Kinematic(Pose(0.0, 0.0, 0.0), UAV), Telemetry(50.0, outage_s=3.0), seed=3)
+    vehicle = WithDownlink(Kinematic(Pose(0.0, 0.0, 0.0), UAV), Downlink(50.0, outage_s=3.0), seed=3)
     command, stamps = Command(0.0, 0.0, Phase.STRAIGHT, 0.0, Turn.CW, Phase.HOLD, 0.0), []
     for _ in range(10000):
         stamps.append(vehicle.measured_state().time_s)

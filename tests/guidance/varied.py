@@ -85,7 +85,7 @@ def described(trial: VariedTrial, flown: Result) -> str:
         f"offset {100 * flown.offset:+.2f} %: {uav.airspeed_m_s:.0f} m/s, "
         f"R {orbit.radius_m / trial.ideal.aircraft.turn_radius_m:.1f}, roll {roll.time_s:.2f} s, dead time "
         f"{roll.dead_time_s:.2f} s, overshoot {roll.overshoot:.2f}, {roll.rate_deg_s:.0f} deg/s, ratio "
-        f"{trial.turn_ratio:.2f}, age {trial.noise.delay_s:.2f} s, {trial.telemetry.rate_hz:.0f} Hz, wind "
+        f"{trial.turn_ratio:.2f}, age {trial.noise.delay_s:.2f} s, {trial.downlink.rate_hz:.0f} Hz, wind "
         f"{trial.ideal.wind.speed_m_s / uav.airspeed_m_s:.2f}"
     )
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from loiter.guidance.protocol import Simulator
+from loiter.guidance.simulators.downlink import Downlink, WithDownlink
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.simulators.telemetry import Telemetry, WithTelemetry
 from loiter.guidance.trials.campaign import Trial, random_entry, random_trials
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.planning.model import CALM, Aircraft, Wind
@@ -25,7 +25,7 @@ AIRSPEED_M_S, BANK_DEG = (12.0, 28.0), (30.0, 50.0)
 ROLL_TIME_S, DEAD_TIME_S, OVERSHOOT, ROLL_RATE_DEG_S = (0.1, 1.0), (0.0, 0.4), (0.0, 0.25), (40.0, 150.0)
 TURN_RATIO = 0.7, 1.1
 
-# Those of its telemetry: the age of measurements, their rate, and the shares of jitter and loss.
+# Those of its downlink: the age of measurements, their rate, and the shares of jitter and loss.
 AGE_S, RATE_HZ, JITTER, LOSS = (0.0, 0.5), (5.0, 50.0), 0.3, 0.02
 
 # The share of trials in wind, and the largest wind as a share of the airspeed.
@@ -47,7 +47,7 @@ class VariedTrial(Trial):
     declared: Aircraft
     response: Roll | RollResponse
     turn_ratio: float
-    telemetry: Telemetry
+    downlink: Downlink
     noise: Noise
     start_bank_deg: float
 
@@ -90,14 +90,14 @@ def _varied_trial(random: Generator) -> VariedTrial:
         declared,
         response,
         turn_ratio,
-        Telemetry(rate_hz, JITTER, LOSS),
+        Downlink(rate_hz, JITTER, LOSS),
         Noise(delay_s=random.uniform(*AGE_S)),
         declared.bank_deg(declared.turn_radius_m) * random.uniform(-1.0, 1.0),
     )
 
 
 def varied_point_mass(trial: VariedTrial, gust: float = 0.05) -> Simulator:
-    """The aircraft of a trial with its telemetry."""
+    """The aircraft of a trial with its downlink."""
     m = trial.ideal
     aircraft = PointMass(
         m.start,
@@ -110,4 +110,4 @@ def varied_point_mass(trial: VariedTrial, gust: float = 0.05) -> Simulator:
         turn_ratio=trial.turn_ratio,
         start_bank_deg=trial.start_bank_deg,
     )
-    return WithTelemetry(aircraft, trial.telemetry, trial.seed)
+    return WithDownlink(aircraft, trial.downlink, trial.seed)

@@ -62,7 +62,7 @@ class GuidingStopped(Exception):
         self.stop = stop
 
 
-class Flight:
+class GuidedFlight:
     """A guided flight; `stages` flies it, `stop` ends it early.
 
     `record` is called with a report for every step. The times of reports count from `began`. `resumed` is whether an

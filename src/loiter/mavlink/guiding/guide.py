@@ -13,7 +13,7 @@ from loiter.errors import InvalidArgument, LinkFailed, file_path, instance, numb
 from loiter.geo import LocalFrame
 from loiter.mavlink.connection.link import TIMEOUT_S, check_target, open_link
 from loiter.mavlink.guiding.contact import Contact
-from loiter.mavlink.guiding.flight import Flight, GuidingStopped
+from loiter.mavlink.guiding.flight import GuidedFlight, GuidingStopped
 from loiter.mavlink.guiding.monitor import StopReason
 from loiter.mavlink.guiding.preparation import GuideRequest
 from loiter.mavlink.guiding.report import GuideReport
@@ -113,7 +113,7 @@ def _guide(
 ) -> Generator[GuideReport, None, None]:
     with open_link(*target, listen_s=0.0) as link:
         began = monotonic()
-        flight = Flight(Contact(link, target.connection, request.frame), request, period_s, began)
+        flight = GuidedFlight(Contact(link, target.connection, request.frame), request, period_s, began)
         with step_log(log, lambda: flight.orbit) as flight.record, _without_garbage_collection():
             try:
                 while True:
@@ -125,7 +125,7 @@ def _guide(
                             raise
                     contact = Contact(link, target.connection, request.frame)
                     again, record = flight.request_again(), flight.record
-                    flight = Flight(contact, again, period_s, began)
+                    flight = GuidedFlight(contact, again, period_s, began)
                     flight.record, flight.resumed = record, True
             except GuidingStopped as stopped:
                 raise LinkFailed(flight.stop(stopped.stop)) from None

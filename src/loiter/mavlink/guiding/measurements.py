@@ -46,7 +46,7 @@ class AirspeedSource(StrEnum):
     DECLARED = "declared"
 
 
-class Place(NamedTuple):
+class LocalPlace(NamedTuple):
     """The last position in the local metres of a frame, and the convergence there, degrees; nan without one."""
 
     east_m: float
@@ -64,7 +64,7 @@ class Measurements:
     def __init__(self, telemetry: Telemetry, frame: LocalFrame) -> None:
         self._telemetry, self._frame = telemetry, frame
         self._position: Any = None
-        self._place = Place(nan, nan, nan)
+        self._place = LocalPlace(nan, nan, nan)
         self._unused: set[str] = set()
         self._fastest, self._fastest_at = inf, 0.0
         self.jump_m = 0.0
@@ -174,7 +174,7 @@ class Measurements:
             if off_m > JUMP_M + JUMP_SHARE * hypot(flown_east, flown_north):
                 self.jump_m = max(self.jump_m, off_m)
         convergence_deg = float(self._frame.convergence_deg(latitude_deg, longitude_deg))
-        self._place, self._position = Place(east_m, north_m, convergence_deg), message
+        self._place, self._position = LocalPlace(east_m, north_m, convergence_deg), message
 
 
 def _roll_rate(attitude: Any) -> float:

@@ -1,4 +1,4 @@
-"""Telemetry of a simulated aircraft: a low rate with jitter, losses and outages."""
+"""The downlink of a simulated aircraft: measurements at a low rate with jitter, losses and outages."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from loiter.guidance.protocol import Command, Simulator, State
 
 
 @dataclass(frozen=True)
-class Telemetry:
+class Downlink:
     """How measurements reach a law: `rate_hz` a second, at intervals that vary by the share `jitter`, `loss` are lost.
 
     In each period of `outage_period_s` seconds there is an outage of up to `outage_s` seconds, in which all are lost.
@@ -33,14 +33,14 @@ class Telemetry:
                 raise InvalidArgument(name, f"is {getattr(self, name)}: it must be at least 0 and below 1")
 
 
-class WithTelemetry:
-    """A simulator whose measurements arrive by `Telemetry`; between two of them the last one is repeated.
+class WithDownlink:
+    """A simulator whose measurements arrive by `Downlink`; between two of them the last one is repeated.
 
     The same seed gives the same intervals and losses.
     """
 
-    def __init__(self, simulator: Simulator, telemetry: Telemetry, seed: int) -> None:
-        self._simulator, self._telemetry = simulator, telemetry
+    def __init__(self, simulator: Simulator, downlink: Downlink, seed: int) -> None:
+        self._simulator, self._downlink = simulator, downlink
         self._random = np.random.default_rng(seed)
         self._latest = simulator.measured_state()
         self._start_s = simulator.true_state().time_s
@@ -66,18 +66,18 @@ class WithTelemetry:
             return
         while self._next_s <= now_s + 1e-9:
             self._next_s += self._interval_s()
-        lost = self._random.random() < self._telemetry.loss
+        lost = self._random.random() < self._downlink.loss
         if not (lost or self._is_outage(now_s)):
             self._latest = self._simulator.measured_state()
 
     def _is_outage(self, now_s: float) -> bool:
-        period_s, random = self._telemetry.outage_period_s, self._outage_random
+        period_s, random = self._downlink.outage_period_s, self._outage_random
         while self._period < int((now_s - self._start_s) / period_s):
             self._period += 1
             begin_s = self._start_s + (self._period + random.random()) * period_s
-            self._outage_from_s, self._outage_to_s = begin_s, begin_s + self._telemetry.outage_s * random.random()
+            self._outage_from_s, self._outage_to_s = begin_s, begin_s + self._downlink.outage_s * random.random()
         return self._outage_from_s <= now_s < self._outage_to_s
 
     def _interval_s(self) -> float:
-        jitter = self._telemetry.jitter
-        return (1.0 + self._random.uniform(-jitter, jitter)) / self._telemetry.rate_hz
+        jitter = self._downlink.jitter
+        return (1.0 + self._random.uniform(-jitter, jitter)) / self._downlink.rate_hz
