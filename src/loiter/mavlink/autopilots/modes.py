@@ -106,6 +106,7 @@ class ModeWatch:
     def __init__(self, autopilot: int) -> None:
         self._autopilot = autopilot
         self.mode: int | None = None
+        self._first: int | None = None
         self._target: int | None = None
         self._former: set[int] = set()
         self._deadline = inf
@@ -116,6 +117,13 @@ class ModeWatch:
         return "unknown" if self.mode is None else mode_name(self._autopilot, self.mode)
 
     @property
+    def change(self) -> str:
+        """How the mode differs from the first one that was heard, in words; "" where it does not."""
+        if self._first is None or self.mode == self._first:
+            return ""
+        return f"the mode changed from {mode_name(self._autopilot, self._first)} to {self.name}"
+
+    @property
     def confirmed(self) -> bool:
         """Whether the last heartbeat shows the mode that was expected."""
         return self._target is not None and self.mode == self._target
@@ -123,6 +131,7 @@ class ModeWatch:
     def update(self, message: Any) -> None:
         """Take the mode from a heartbeat."""
         self.mode = message.custom_mode
+        self._first = self.mode if self._first is None else self._first
         if self.confirmed:
             self._former = set()
 

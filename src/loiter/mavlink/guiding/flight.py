@@ -114,8 +114,9 @@ class GuidedFlight:
         self._contact.steering = self._new_steering()
 
     def _await_confirmation(self) -> Generator[GuideReport, None, None]:
-        """Show the summary, wait until it is confirmed, and check that the mode is still the one that it names."""
-        contact, mode, confirm = self._contact, self._modes.name, self._request.confirm
+        """Show the summary, wait until it is confirmed, and check that the mode is still the first that was heard."""
+        contact, confirm = self._contact, self._request.confirm
+        self._check_mode()
         self._notices += self._summary
         self._stage = Stage.READY
         yield self._take_report(monotonic())
@@ -123,10 +124,7 @@ class GuidedFlight:
         while contact.telemetry.arrived("HEARTBEAT") <= confirmed_at:
             now = contact.listen()
             self._check(now)
-            if self._modes.name != mode:
-                raise GuidingStopped(
-                    StopReason(f"the mode changed from {mode} to {self._modes.name} before the first command")
-                )
+            self._check_mode()
             if confirmed_at == inf:
                 confirmed_at = now if confirm is None or confirm() else inf
             elif now > confirmed_at + FIRST_HEARTBEAT_S:
@@ -138,6 +136,11 @@ class GuidedFlight:
         self._begin(choose(contact, request, self._setup.settings)._replace(notices=()))
         self._stage = Stage.FALL_BACK
         self._plan_report(monotonic())
+
+    def _check_mode(self) -> None:
+        """Stop where the mode has changed since the vehicle was first heard: the pilot has taken over."""
+        if change := self._modes.change:
+            raise GuidingStopped(StopReason(f"{change} before the first command"))
 
     @property
     def _summary(self) -> tuple[str, ...]:
