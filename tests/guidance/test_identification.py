@@ -24,6 +24,7 @@ from loiter.guidance.estimation.roll_response import (
     start_models,
 )
 from loiter.guidance.estimation.turn_fits import (
+    EXPECTED_TURN_RATIO,
     NO_PAIRS,
     NO_TURNS,
     add_course,
@@ -197,7 +198,8 @@ def test_the_wind_is_found(told):
 @pytest.mark.parametrize("heading_deg", [60.0, 200.0])
 def test_the_first_promise_knows_the_bank_at_the_start(bank_deg, heading_deg):
     start = Pose(-400.0, 120.0, heading_deg)
-    mass = PointMass(start, UAV, seed=1, gust=0.0, noise=EXACT, start_bank_deg=bank_deg)
+    expected = {"turn_ratio": EXPECTED_TURN_RATIO, "start_bank_deg": bank_deg}
+    mass = PointMass(start, UAV, seed=1, gust=0.0, noise=EXACT, **expected)
     # Without a reserve, which makes the promise later than the flight.
     law, joins_s = LoiterEntry(ORBIT, UAV, delay_s=0.0, reserve=0.0), []
     for _ in range(500):

@@ -349,8 +349,9 @@ def test_in_wind_it_is_as_close_to_the_optimum_as_in_still_air(start, wind):
     mass = PointMass(start, UAV, wind, seed=6, gust=0.0, noise=EXACT)
     flight = fly(LoiterEntry(ORBIT, UAV, wind, delay_s=0.0), mass, ORBIT, limit_s=150.0)
     first = flight.phases.index(Phase.STRAIGHT)
-    # The bias of the bank, which is 0, is estimated from turns over finite steps, to 5e-5 degrees.
-    assert np.abs(flight.track.commanded_bank_deg[:first]) == pytest.approx(35.0, abs=1e-4)
+    # The bias of the bank, which is 0, is estimated to 0.003 degrees where the turn ratio, which is 1, is expected to
+    # be 0.95: the same turns show both. A command goes beyond its target by 1.5 times what the bank lacks to it.
+    assert np.abs(flight.track.commanded_bank_deg[:first]) == pytest.approx(35.0, abs=1.5 * 0.003)
     assert flight.settled_s < ideal.duration_s + 1.6
 
 

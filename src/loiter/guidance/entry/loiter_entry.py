@@ -16,6 +16,7 @@ from loiter.guidance.entry.law_step import (
 )
 from loiter.guidance.estimation import identification_step
 from loiter.guidance.estimation.bank_history import COVERED_S
+from loiter.guidance.estimation.turn_fits import EXPECTED_TURN_RATIO
 from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, fly_as_declared
 from loiter.guidance.estimation.wind_fit import DECLARED_WIND_S
 from loiter.guidance.protocol import PHASES, Command, Phase, State
@@ -91,11 +92,12 @@ class LoiterEntry:
             negligible_wind=NEGLIGIBLE_WIND if identify else 0.0,
             covered_s=max(COVERED_S, delay_s),
         )
+        turn_ratio = EXPECTED_TURN_RATIO if identify else 1.0
         declared = VehicleEstimates(
             roll=RollValues(roll.time_s, roll.rate_deg_s),
             delay_s=delay_s,
-            turn_ratio=1.0,
-            quick_turn_ratio=1.0,
+            turn_ratio=turn_ratio,
+            quick_turn_ratio=turn_ratio,
             course_lead_s=0.0,
             wind_east_m_s=wind_east_m_s,
             wind_north_m_s=wind_north_m_s,

@@ -21,9 +21,13 @@ LEAD_FILTER_S, LEAD_MEMORY_S, LEAD_SPREAD_S, DIRECTION_ERROR, LARGEST_LEAD_S = 1
 # Turn ratio and bank bias are fitted to angles that are high-pass filtered and forgotten over these times, seconds.
 TURN_FILTER_S, TURN_MEMORY_S = 3.0, 60.0
 
-# What is declared of them counts as if it had been measured with these standard deviations, from headings with errors
+# Before it is measured the ratio is expected to be this: more aircraft slip than turn too tightly, and to plan too wide
+# a turn costs less than to miss the circle by one that is too tight.
+EXPECTED_TURN_RATIO = 0.95
+
+# What is expected of them counts as if it had been measured with these standard deviations, from headings with errors
 # of the third, degrees, that are correlated over the filter time. The bias stays within the last, degrees.
-TURN_RATIO_SPREAD, BANK_BIAS_SPREAD_DEG, TURN_ERROR_DEG, LARGEST_BANK_BIAS_DEG = 0.1, 1.5, 1.7, 6.0
+TURN_RATIO_SPREAD, BANK_BIAS_SPREAD_DEG, TURN_ERROR_DEG, LARGEST_BANK_BIAS_DEG = 0.15, 1.5, 0.7, 6.0
 
 # The ratio of quick turns is fitted to angles that are high-pass filtered over the first time, seconds. From these
 # their means over the second time are subtracted, which a steady turn leaves. They are forgotten over the third.
