@@ -114,6 +114,7 @@ ABOVE_KERNEL = (
     ("loiter.web.answers.plans", "plan"),
     ("loiter.web.answers.plans", "all_candidates"),
     ("loiter.web.answers.plans", "certificate"),
+    ("loiter.web.answers.tracks", "lap"),
     ("loiter.web.answers.exports", "_check_points"),
     ("loiter.io.files", "FILE_FORMATS"),
     ("loiter.io.files", "SaveArguments"),

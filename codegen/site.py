@@ -32,6 +32,21 @@ PREVIEW = """
 """
 
 
+# The headline of the first scene, to be read before the script has arrived; a link has another scene.
+HEADLINE = '<p id="instruction">{text}</p><script>{script}</script>'
+NO_HEADLINE = 'if(location.hash.length>1)document.getElementById("instruction").textContent=""'
+
+
+def first_headline() -> str:
+    """What the pilot does in the first scene of the page."""
+    from loiter import Aircraft, Orbit, Pose, plan
+    from loiter.web.answers.texts import instruction
+
+    text = instruction(plan(Pose(90.0, 60.0, 100.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0)))
+    now, _, hold = text.replace(" s", "\u00a0s").partition("\u00a0s. Hold")
+    return f'{now}\u00a0s. <span class="hold">Hold{hold}</span>'
+
+
 def bundle(entry: Path) -> str:
     """A module and all that it imports, or a style sheet, minified."""
     options = ["--bundle", "--minify", "--format=iife", "--target=es2022", "--log-level=warning"]
@@ -49,9 +64,11 @@ def whole(document: str, entry: str, policy: str, head: str = "") -> str:
     sheets = re.findall(r'<link rel="stylesheet" href="static/(.+?)">\n', text)
     text = re.sub(r'<link rel="stylesheet".+?>\n|<script.+?</script>\n', "", text).replace('"static/', '"')
     style, script = "".join(bundle(STATIC / sheet) for sheet in sheets), bundle(STATIC / entry)
-    allowed = policy.format(script=source(script), style=source(style))
+    allowed = policy.format(script=f"{source(script)} {source(NO_HEADLINE)}", style=source(style))
     head = f'<meta http-equiv="Content-Security-Policy" content="{allowed}">{head}\n<style>{style}</style>'
     text = text.replace('<meta charset="utf-8">', f'<meta charset="utf-8">\n{head}')
+    headline = HEADLINE.format(text=first_headline(), script=NO_HEADLINE)
+    text = text.replace('<p id="instruction"></p>', headline)
     return text.replace("</body>", f"<script>{script}</script>\n</body>")
 
 

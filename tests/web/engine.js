@@ -1,7 +1,7 @@
 // Answers of the page's engine to scenes: reads [[scene, formats], ...] as JSON, writes a list of answers.
 import { readFileSync } from "node:fs";
 
-const { certificate, file, plan, refusal } = await import(process.argv[2]);
+const { certificate, file, lap, plan, refusal } = await import(process.argv[2]);
 
 function answer(compute) {
   try {
@@ -13,6 +13,7 @@ function answer(compute) {
 const answers = JSON.parse(readFileSync(0, "utf-8")).map(([scene, formats]) => ({
   plan: answer(() => plan(scene)),
   certificate: answer(() => certificate(scene)),
+  lap: answer(() => lap(scene)),
   files: Object.fromEntries(formats.map((format) => [format, answer(() => file(format, scene).content)])),
 }));
 process.stdout.write(JSON.stringify(answers));

@@ -15,9 +15,11 @@ from pathlib import Path
 from benchmarks.browsing import NODE
 
 from loiter.errors import LoiterError, RadiusTooSmall
+from loiter.planning.solve import all_fastest
 from loiter.plot.files import PICTURE_FORMATS
 from loiter.web import models
 from loiter.web.answers import exports, plans
+from loiter.web.answers.tracks import lap
 from loiter.web.problems import PROBLEM_TYPES, sentence_and_path
 
 STATIC = Path(models.__file__).with_name("static")
@@ -107,6 +109,7 @@ def of_the_library(scene):
     return {
         "plan": _answered(lambda: plans.plan(options.placed())),
         "certificate": _answered(lambda: plans.certificate(options.placed())),
+        "lap": _answered(lambda: lap(all_fastest(options.placed().problem)[0])),
         "files": {
             name: _answered(lambda name=name: exports.export(exports.ExportRequest(name, options)).decode())
             for name in FORMATS
@@ -182,6 +185,8 @@ def differences(scene, page):
         found["plan: " + what.partition(" instead")[0][:60]] += 1
     if what := difference(verdicts(page["certificate"]), verdicts(library["certificate"]), CLOSE):
         found["certificate: " + what[:90]] += 1
+    if what := difference(page["lap"], library["lap"], FLAT, size):
+        found["lap: " + what[:60]] += 1
     for name in FORMATS:
         if what := difference_of_files(page["files"][name], library["files"][name], size):
             found[f"{name}: {what[:80]}"] += 1

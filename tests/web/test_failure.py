@@ -165,6 +165,10 @@ def test_a_link_to_a_refused_scene_shows_it_with_everything_off(opened):
     settle(page)
     assert_on(page)
     assert_shows_the_plan(page)
+    # Opened from another scene, nothing of that stays.
+    page.evaluate("location.hash = '#pose=0,900,100&orbit=100,900,40&turn=either&airspeed=18&bank=35'")
+    fail(page, "refused")
+    assert page.locator("#candidates li").count() == page.locator("#plan .best .line").count() == 0
 
 
 def test_the_state_of_the_last_plan_is_not_dragged(page):

@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 import loiter
 from golden.paper import EXAMPLES
@@ -190,6 +191,23 @@ def test_in_wind_a_drag_shows_every_candidate_too_and_asks_nobody(page):
     assert page.watched.requests[asked:] == []
 
 
+def test_the_ghost_flies_a_lap_after_joining_and_the_circle_moves(opened):
+    page = opened("#pose=-400,120,90&orbit=0,0,120&orbit-velocity=3,0&airspeed=18&bank=35")
+    page.locator("#speed").select_option("20")
+    page.locator("#play").click()
+    instruction = page.locator("#instruction")
+    expect(instruction).to_contain_text("Turn right, then fly straight in")
+    expect(instruction).to_have_text("Hold clockwise.")
+    assert page.locator("#plan .moving").is_visible()
+    start, orbit = float(page.locator("#plan .moving").get_attribute("cx")), scene(page)["orbit"]
+    ghost = page.locator("#plan .ghost")
+    first = ghost.get_attribute("transform")
+    expect(ghost).not_to_have_attribute("transform", first)
+    expect(page.locator("#plan .moving")).not_to_have_attribute("cx", str(start))
+    assert orbit["east_m"] == 0
+    page.locator("#play").click()
+
+
 # Numbers typed, views, units
 
 
@@ -206,7 +224,7 @@ def test_numbers_typed_are_asked_for(page):
     settle(page)
     asked = scene(page)
     assert asked["aircraft"] == {"airspeed_m_s": 22, "max_bank_deg": 40}
-    assert (asked["pose"]["heading_deg"], asked["orbit"]["radius_m"], asked["orbit"]["turn"]) == (-30, 130, "ccw")
+    assert (asked["pose"]["heading_deg"], asked["orbit"]["radius_m"], asked["orbit"]["turn"]) == (330, 130, "ccw")
     assert asked["wind"] == {"speed_m_s": 5, "from_deg": 270}
     assert assert_shows_the_plan(page).turn == "ccw"
 

@@ -69,6 +69,27 @@ def test_the_page_is_one_small_file(visit, served, folder):
         assert_shows_the_plan(page)
 
 
+@pytest.mark.parametrize("fragment", ["", WINDY], ids=["first scene", "link"])
+def test_the_headline_is_there_before_the_script(browser, served, fragment):
+    address, _ = served
+    context = browser.new_context()
+    page = context.new_page()
+    page.add_init_script(
+        """(function look() {
+             const found = document.querySelector("#instruction:has(+ script)");
+             if (found) window.early ??= found.innerText;
+             requestAnimationFrame(look);
+           })()"""
+    )
+    page.goto(address + fragment)
+    settle(page)
+    final = page.locator("#instruction").inner_text()
+    # Of another scene than that of the link nothing is shown.
+    assert page.evaluate("early") in ({final} if fragment == "" else {final, ""})
+    assert (fragment == "") == (page.evaluate("fetch(location.pathname).then((r) => r.text())").find(final[:30]) > 0)
+    context.close()
+
+
 def test_it_works_without_a_network_after_the_first_visit(visit, served):
     address, server = served
     page = visit(address)

@@ -15,7 +15,7 @@ const TIE_S = 1e-9; // durations closer than this count as ties
 
 /** @param {Store} store */
 export function factsView(store) {
-  store.watch(({ answer, failure }) => [answer, failure], drawHeadline);
+  store.watch((state) => [state.answer, state.failure, countdownOf(state)], drawHeadline);
   store.watch(({ answer, units }) => [answer, units], drawFacts);
   // For screen readers, only when a drag pauses.
   store.watch(
@@ -24,10 +24,29 @@ export function factsView(store) {
   );
 }
 
+const DOING = { L: "Turn left", S: "Fly straight", R: "Turn right" };
+
+/**
+ * What the ghost does and until when, while the plan is played or its time is moved; nothing at its start.
+ *
+ * @param {PageState} state
+ */
+function countdownOf({ answer, playback: { playing, time_s } }) {
+  if (!answer || !(playing || time_s > 0)) return "";
+  const hold = `hold ${DIRECTIONS[answer.turn]}`;
+  const i = answer.segments.findIndex(({ start_s, duration_s }) => time_s < start_s + duration_s);
+  if (i < 0) return `Hold ${DIRECTIONS[answer.turn]}.`;
+  const { letter, start_s, duration_s } = answer.segments[i];
+  const next = answer.segments[i + 1];
+  const left = fixed(start_s + duration_s - time_s, 1);
+  return `${DOING[letter]}, then ${next ? DOING[next.letter].toLowerCase() : hold} in ${left} s.`;
+}
+
 /** @param {PageState} state */
-function drawHeadline({ answer, failure }) {
+function drawHeadline(state) {
+  const { answer, failure } = state;
   const headline = byId("instruction", HTMLElement);
-  const text = failure?.headline ?? answer?.instruction ?? "";
+  const text = failure?.headline ?? (countdownOf(state) || (answer?.instruction ?? ""));
   // What to do, then how to hold, each on lines of its own; a unit stays beside its number.
   const parts = text.replaceAll(/(\d) s\b/g, "$1\u00a0s").split(/(?<=\.) (?=Hold )/);
   const hold = (/** @type {string} */ part) => html("span", { class: "hold" }, [part + (failure ? "" : tieText(answer))]);

@@ -95,7 +95,11 @@ export function originFields(store, actions) {
     takeAll(text, event) {
       const pair = isOneNumber(text) ? null : parsePair(text);
       if (!pair || pairProblem(pair)) return false;
-      actions.changeScene({ ...store.get().scene, origin: pair }, event, { place: pair });
+      // Neither field of the pair is wrong any more, nor missing in a file.
+      const { scene, fieldErrors } = store.get();
+      const { latitude, longitude, ...file } = fieldErrors.file;
+      actions.changeScene({ ...scene, origin: pair }, event, { place: pair, fieldErrors: { ...fieldErrors, file } });
+      for (const field of Object.values(fields)) field.redraw?.();
       return true;
     },
     set(value, event) {

@@ -20,6 +20,7 @@
  * @property {() => void} draw  show the present number
  * @property {(sentence: string | null) => void} refuse  mark the number as wrong, or remove the mark
  * @property {() => string} typo  the error in the text, or nothing
+ * @property {() => void} [redraw]  show the present number in place of the text
  */
 import { html } from "../shared/dom.js";
 import { sixDigits, unitOf } from "../shared/units.js";

@@ -20,6 +20,7 @@ import { LIMITS, limitOf, withOrbit, withPose, withWind } from "../scene/scene.j
 import { byId } from "../shared/dom.js";
 import { tidy } from "../shared/units.js";
 import { numberField } from "./input_fields.js";
+import { parseNumber } from "./number_text.js";
 import { limitFor, turnRadiusOf } from "../shared/turning.js";
 
 const CALM = "Calm air: set a speed first."; // why the direction of the wind is disabled
@@ -106,6 +107,9 @@ export function sceneFields(store, change) {
   return fields;
 }
 
+/** A direction in [0, 360). @param {number} degrees */
+const wrapped = (degrees) => degrees - 360 * Math.floor(degrees / 360);
+
 /**
  * The number of the scene that a field shows and sets.
  *
@@ -120,6 +124,11 @@ function sourceOf(id, store, change) {
     quantity: () => part().quantity,
     units: () => store.get().units,
     get: () => part().get(store.get().scene),
+    parse(text) {
+      const { quantity } = part();
+      const entry = parseNumber(text, quantity, store.get().units);
+      return quantity === "direction" && "value" in entry ? { value: wrapped(entry.value ?? 0) } : entry;
+    },
     set(value, event) {
       if (value !== undefined) change(part().set(store.get().scene, value), event);
     },

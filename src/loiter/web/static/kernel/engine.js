@@ -6,6 +6,7 @@
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Answer} Answer
  * @typedef {import("../shared/types.js").Proof} Proof
+ * @typedef {import("../shared/types.js").Track} Track
  * @typedef {Scene & import("../shared/types.js").Altitude} SceneWithAltitude
  */
 import { LoiterError } from "./errors.js";
@@ -22,6 +23,9 @@ export const plan = (scene) => plain(library.plan(placed(scene)));
 
 /** The certificate of the first optimal maneuver. @param {Scene} scene @returns {Proof} */
 export const certificate = (scene) => plain(library.certificate(placed(scene)));
+
+/** A round of the circle after the first optimal maneuver. @param {Scene} scene @returns {Track} */
+export const lap = (scene) => plain(library.lap(library.all_fastest(placed(scene).problem)[0]));
 
 /** Every extremal. @param {Scene} scene */
 export const candidates = (scene) => plain(library.all_candidates(placed(scene)));

@@ -38,6 +38,25 @@ switches = list(iter(checked.switches)).map((switch_) => switch_.time_s);
 return new Map([["certificate", checked.to_dict()], ["series", bit_or(series, new Map([["switches_s", switches]]))]]);
 }
 
+function lap(maneuver) {
+let R, V, aircraft, c, centre, east, first, g, i, join, names, north, orbit, r, rows, s, side, speed, step, time, wx, wy, x, y;
+[aircraft, orbit, side] = iter([maneuver.aircraft, maneuver.orbit, item(SIDES, maneuver.turn)]);
+[r, V, centre] = iter([aircraft.turn_radius_m, aircraft.airspeed_m_s, maneuver.orbit_at_join]);
+[R, [wx, wy]] = iter([radius_in_turns(orbit, aircraft), relative_wind(orbit, aircraft, maneuver.wind)]);
+[join, step] = iter([maneuver.join, div(mul(2.0, math.pi), LAP_STEPS)]);
+first = kernel.phase_of(div(sub(join.east_m, centre.east_m), r), div(sub(join.north_m, centre.north_m), r), side, wx, wy);
+[time, speed, rows] = iter([maneuver.duration_s, null, []]);
+for (i of iter(range(add(LAP_STEPS, 1)))) {
+[x, y, c, s, g] = iter(kernel.hold_pose(add(first, mul(i, step)), side, R, wx, wy));
+time = ((speed == null) ? time : add(time, div(mul(mul(step, R), r), mul(mul(0.5, add(speed, g)), V))));
+[east, north] = iter(orbit.centre_after(time));
+append_(rows, [time, add(east, mul(r, x)), add(north, mul(r, y)), wrapped(math.degrees(math.atan2(c, s))), 0.0, mul(side, R)]);
+speed = g;
+}
+names = ["time_s", "east_m", "north_m", "heading_deg", "x", "y"];
+return new Map(list(iter(zip(names, zip(...iter(rows))))).map((one) => iter(one)).map(([name, column]) => [name, list(column)]));
+}
+
 function _check_points(maneuver, options) {
 let count, name;
 count = sum(step_counts(maneuver, options.spacing_m, options.chord_error_m));
@@ -3052,6 +3071,7 @@ const JUMP = 0.001;
 const LARGEST_GAP = 3.0;
 const VANISHING = 0.001;
 const STEPS = 100;
+const LAP_STEPS = 120;
 const MAX_POINTS = 20000;
 const REACH = pow(2.0, 52);
 const CHORD_ERROR = 0.002;
@@ -3085,4 +3105,4 @@ const SCANNED_DIRECTIONS = 720;
 const STEPS_IN_STILL_AIR = tuple(list(iter(range(4, 34))).map((k) => pow(2.0, neg(k))));
 const STEPS_IN_WIND = [pow(2.0, -6), pow(2.0, -9), pow(2.0, -12), pow(2.0, -15)];
 
-export { plan, all_candidates, certificate, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, all_fastest, heading_vector, Maneuver, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };
+export { plan, all_candidates, certificate, lap, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, all_fastest, heading_vector, Maneuver, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };

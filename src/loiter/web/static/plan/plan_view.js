@@ -9,9 +9,10 @@
  * @typedef {import("./camera.js").PlanCamera} PlanCamera
  */
 import { boxWithin, byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
-import { positionToScreen } from "../shared/geometry.js";
+import { orbitMoves } from "../scene/scene.js";
+import { positionToScreen, toScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
-import { ghostOf, shownTime } from "../state/page_state.js";
+import { ghostOf } from "../state/page_state.js";
 import { drawCircle, drawGrid } from "./background.js";
 import { scaleLimits } from "./camera.js";
 import { gestures } from "./gestures.js";
@@ -31,8 +32,9 @@ export function planView(store, actions, camera) {
   const layers = svgLayers("grid", "circle", "others", "best", "marks", "wind", "handles");
   const { handles, ...below } = layers;
   const ghost = svg("g", { class: "ghost" }, [svg("path", { d: AEROPLANE })]);
+  const moving = svg("circle", { class: "moving" });
   const callout = svg("text", { class: "halo callout" });
-  root.append(...Object.values(below), ghost, callout, handles);
+  root.append(...Object.values(below), moving, ghost, callout, handles);
 
   const box = byId("plan-box", HTMLElement);
   /** @type {Box[]} */
@@ -48,7 +50,7 @@ export function planView(store, actions, camera) {
   createHandles(root, handles, store, actions);
   watchScene(root, layers, store, actions, () => overlays);
   watchHighlight(root, layers.others, callout, store);
-  watchGhost(ghost, store);
+  watchGhost(ghost, moving, store);
 }
 
 /** @param {Store} store @param {PlanCamera} camera */
@@ -108,7 +110,7 @@ function drawPaths(layers, state, highlight, overlays) {
     scene,
     answer,
   } = state;
-  if (!answer) return;
+  if (!answer) return [layers.best, layers.others, layers.marks].forEach((layer) => layer.replaceChildren());
   const { best, others } = splitAnswer(answer);
   layers.best.replaceChildren(...best.flatMap((maneuver) => drawBest(view, maneuver)));
   layers.others.replaceChildren(...others.map((other, i) => drawOther(view, other, i, scene, highlight)));
@@ -137,19 +139,26 @@ function watchHighlight(root, others, callout, store) {
 }
 
 /**
- * Move the ghost along the path.
+ * Move the ghost along the path and round the circle, and a circle that moves.
  *
  * @param {SVGGElement} ghost
+ * @param {SVGCircleElement} moving
  * @param {Store} store
  */
-function watchGhost(ghost, store) {
+function watchGhost(ghost, moving, store) {
   store.watch(
-    (state) => [shownTime(state), state.playback.playing, state.answer, state.camera],
+    (state) => [state.playback.time_s, state.playback.playing, state.answer, state.camera],
     (state) => {
       const { camera } = state;
       const instant = ghostOf(state);
+      const { orbit } = state.scene;
       show(ghost, instant !== null);
+      show(moving, instant !== null && orbitMoves(state.scene));
       if (!instant) return;
+      const { time_s } = state.playback;
+      const [east, north] = [orbit.velocity_east_m_s * time_s, orbit.velocity_north_m_s * time_s];
+      const [cx, cy] = toScreen(camera.view, orbit.east_m + east, orbit.north_m + north);
+      setAttributes(moving, { cx, cy, r: orbit.radius_m * camera.view.scale });
       const [x, y] = positionToScreen(camera.view, instant);
       const turned = `rotate(${instant.heading_deg.toFixed(2)})`;
       ghost.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) ${turned}`);

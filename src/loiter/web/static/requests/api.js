@@ -36,6 +36,9 @@ function answer(compute) {
 /** The plan of a scene, with every other candidate. @param {Scene} scene */
 export const planOf = (scene) => answer(() => engine.plan(scene));
 
+/** A round of the circle after the plan: a track. @param {Scene} scene */
+export const lapOf = (scene) => answer(() => engine.lap(scene));
+
 /** The certificate of the plan. @param {Scene} scene */
 export const certificateOf = (scene) => answer(() => engine.certificate(scene));
 

@@ -27,6 +27,7 @@ function outcome(state) {
   try {
     return {
       answer: planOf(state.scene),
+      lap: null,
       failure: null,
       proof: null,
       faults: { ...state.faults, certificate: null },
@@ -48,6 +49,7 @@ function failed({ playback, fieldErrors, failure, message }, error) {
   const fittedRadius_m = error instanceof Problem ? error.fittedRadius_m : null;
   return {
     failure: { headline: "No plan for this scene", sentence, fittedRadius_m },
+    lap: null,
     announced: null,
     message: failure ? message : NO_MESSAGE,
     playback: { ...playback, playing: false },

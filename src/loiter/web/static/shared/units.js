@@ -147,8 +147,11 @@ export function timeDifference(seconds, scene) {
   return size < least / 2 ? `< ${least} s` : timeText(size, scene);
 }
 
-/** A difference of times with its sign: "+4.91 s". @param {number} seconds @param {Scene} scene */
-export const signedTimeDifference = (seconds, scene) => `${seconds < 0 ? "−" : "+"}${timeDifference(seconds, scene)}`;
+/** A difference of times with its sign: "+4.91 s"; one that would read as none has no sign. @param {number} seconds @param {Scene} scene */
+export function signedTimeDifference(seconds, scene) {
+  const size = timeDifference(seconds, scene);
+  return size.startsWith("<") ? size : `${seconds < 0 ? "−" : "+"}${size}`;
+}
 
 /**
  * The value with the fewest decimals that is at most `resolution` away. Drags use it to keep links and commands short.

@@ -9,7 +9,8 @@
  * @typedef {import("../requests/progress.js").Latency} Latency
  * @typedef {ReturnType<typeof createActions>} Actions
  */
-import { NO_MESSAGE, durationOf } from "./page_state.js";
+import { lapOf } from "../requests/api.js";
+import { NO_MESSAGE, durationOf, endOf } from "./page_state.js";
 import { createStepper } from "./steps.js";
 
 /**
@@ -52,6 +53,7 @@ export function createActions(store, requests, latency) {
       requests.askPlan({
         ...stepOf(),
         ...changes,
+        answer: null, // of another scene
         message: NO_MESSAGE,
         opening: { revision: revision + 1, span },
         playback: { ...playback, playing: false, time_s: 0 },
@@ -84,7 +86,9 @@ export function createActions(store, requests, latency) {
     /** @param {boolean} playing */
     play(playing) {
       const { time_s } = store.get().playback;
-      setPlayback({ playing, time_s: playing && time_s >= durationOf(store.get()) ? 0 : time_s });
+      const { scene, lap } = store.get();
+      if (playing && !lap) store.update({ lap: lapOf(scene) });
+      setPlayback({ playing, time_s: playing && time_s >= endOf(store.get()) ? 0 : time_s });
     },
     /** @param {number} time_s */
     seek: (time_s) => setPlayback({ time_s: Math.min(durationOf(store.get()), Math.max(0, time_s)) }),

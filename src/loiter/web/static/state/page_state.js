@@ -59,6 +59,7 @@
  * @property {number} pausedRevision  number of the newest scene after which a drag has paused
  * @property {Record<"plan" | "certificate" | "map", Status>} requests
  * @property {Answer | null} answer  the newest plan
+ * @property {import("../shared/types.js").Track | null} lap  a round of the circle after joining, once it is played
  * @property {Failure | null} failure
  * @property {Answer | null} announced  the plan of the last pause: its text is read out and can be copied
  * @property {Proof | null} proof  the certificate of the plan
@@ -97,6 +98,7 @@ export const INITIAL_STATE = {
   lastStep: 0,
   requests: { plan: "idle", certificate: "idle", map: "idle" },
   answer: null,
+  lap: null,
   failure: null,
   announced: null,
   proof: null,
@@ -130,10 +132,14 @@ export function isSettled({ revision, pausedRevision, failure, requests }) {
   return failure !== null || (done(requests.certificate) && done(requests.map));
 }
 
+/** The time at which the playback ends, seconds: after a lap of the circle. @param {PageState} state */
+export const endOf = (state) => state.lap?.time_s.at(-1) ?? durationOf(state);
+
 /** The state of the ghost (the moving copy of the aircraft); null while it is at the start. @param {PageState} state */
 export function ghostOf(state) {
-  const { answer, playback } = state;
-  const time = shownTime(state);
-  if (!answer || answer.segments.length === 0 || !(playback.playing || time > 0)) return null;
-  return stateAt(answer.track, time);
+  const { answer, playback, lap } = state;
+  const { playing, time_s } = playback;
+  if (!answer || !(playing || time_s > 0)) return null;
+  if (lap && time_s > durationOf(state)) return stateAt(lap, time_s);
+  return answer.segments.length > 0 ? stateAt(answer.track, shownTime(state)) : null;
 }

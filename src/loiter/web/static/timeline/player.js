@@ -6,7 +6,7 @@
  * @typedef {import("../state/actions.js").Actions} Actions
  */
 import { byId, html } from "../shared/dom.js";
-import { durationOf, shownTime } from "../state/page_state.js";
+import { durationOf, endOf, shownTime } from "../state/page_state.js";
 
 /** Playing speeds, times real time. */
 export const SPEEDS = [1, 2, 5, 10, 20, 50, 100];
@@ -35,7 +35,7 @@ export function runClock(store) {
     const passed_s = Math.min(LONGEST_FRAME_S, (now_ms - last_ms) / 1000);
     last_ms = now_ms;
     const { playback } = store.get();
-    const end_s = durationOf(store.get());
+    const end_s = endOf(store.get());
     const isAtEnd = playback.time_s >= end_s;
     rested_s = isAtEnd ? rested_s + passed_s : 0;
     const next_s = isAtEnd && rested_s >= REST_S ? 0 : playback.time_s + playback.speed * passed_s;
