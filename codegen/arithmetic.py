@@ -19,8 +19,9 @@ class Arithmetic(NamedTuple):
     other functions of Python. `faster` has bodies in C for processors with a fused multiply-add.
 
     A number stands between `prefix` and `suffix`, and `made` is how a structure is made. Where C is for two arithmetics
-    of which a macro chooses one, `single` is the other one. `in_place` says that rings are changed where they are, and
-    that large structures are passed by address.
+    of which a macro chooses one, `single` is the other one. `in_place` says that rings are changed where they are.
+    Structures of at least `large` numbers are passed by address; with 0 none is. A function whose first parameter and
+    whose result are one kind of at least `UPDATED` numbers then changes it where it is.
     """
 
     real: str
@@ -36,7 +37,10 @@ class Arithmetic(NamedTuple):
     made: str = "({})"
     single: Any = None
     in_place: bool = False
+    large: int = 0
 
+
+UPDATED = 32
 
 FUNCTIONS = (
     *("sqrt", "atan2", "sin", "cos", "tan", "acos", "atan", "exp", "log"),
@@ -67,6 +71,7 @@ ONBOARD = DOUBLE._replace(
     made="MAKE({})",
     single=DOUBLE._replace(real="float", integer="int32_t", digits=24, exponents=126),
     in_place=True,
+    large=6,
 )
 
 

@@ -59,7 +59,10 @@ class Expression(NamedTuple):
 
 
 class Names(NamedTuple):
-    """What an expression may refer to: functions and constants, which the unit provides, and local variables."""
+    """What an expression may refer to: functions and constants, which the unit provides, and local variables.
+
+    Those of `by_address` are pointers; `changed` is the parameter that a function changes where it is.
+    """
 
     arithmetic: Arithmetic
     globals: dict[str, Any]
@@ -68,6 +71,7 @@ class Names(NamedTuple):
     function: Callable[[FunctionType], tuple[str, dict[str, Kind], Kind]]
     constant: Callable[[str, Any], Expression]
     by_address: frozenset[str] = frozenset()
+    changed: str = ""
 
 
 class Expressions:
@@ -130,15 +134,15 @@ class Expressions:
         """An expression as a value of a kind."""
         return self.as_real(found) if kind == REAL else found
 
-    def temporary(self, found: Expression, stem: str) -> str:
-        """The name of a new constant with this value."""
+    def temporary(self, found: Expression, stem: str, is_constant: bool = True) -> str:
+        """The name of a new constant, or of a variable, with this value."""
         if self.is_lazy:
             raise NotTranslated(
                 f"{self.file}: a structure is taken apart where it may not be computed, in {found.text!r}"
             )
         self.temporaries += 1
         name = f"{stem}_{self.temporaries}"
-        self.before.append(f"{self.declared(found.kind, True)} {name} = {found.text};")
+        self.before.append(f"{self.declared(found.kind, is_constant)} {name} = {found.text};")
         return name
 
     def declared(self, kind: Kind, is_constant: bool) -> str:
@@ -372,7 +376,24 @@ class Expressions:
         a, b = self.of_kind(kind, a), self.of_kind(kind, b)
         return Expression(f"{test.within(CHOICE + 1)} ? {a.within(CHOICE + 1)} : {b.within(CHOICE)}", kind, CHOICE)
 
+    def _changed(self, node: ast.Call, structure: ast.expr) -> Expression:
+        """A structure with other values of some fields: `structure._replace(field=value)`."""
+        found, values = self.translate(structure), {}
+        for name, value in ((safe(str(keyword.arg)), keyword.value) for keyword in node.keywords):
+            if name not in dict(found.kind.fields):
+                raise self.refused(node, f"the field {name!r} in {ast.unparse(node)!r}")
+            values[name] = self.of_kind(dict(found.kind.fields)[name], self.translate(value))
+        return self.changed(found, values)
+
+    def changed(self, found: Expression, values: dict[str, Expression]) -> Expression:
+        """A structure with other values of some fields."""
+        name = self.temporary(found, "changed", is_constant=False)
+        self.before += [f"{name}.{field} = {value.text};" for field, value in values.items()]
+        return Expression(name, found.kind)
+
     def _Call(self, node: ast.Call) -> Expression:
+        if isinstance(node.func, ast.Attribute) and node.func.attr == "_replace":
+            return self._changed(node, node.func.value)
         if not isinstance(node.func, ast.Name) or node.func.id in self.names.local:
             raise self.refused(node, f"the call {ast.unparse(node)!r}")
         name = node.func.id
@@ -384,11 +405,14 @@ class Expressions:
         if isinstance(called, type) and issubclass(called, tuple):
             return self._constructed(node, called, arguments)
         if isinstance(called, FunctionType):
-            title, parameters, result = self.names.function(called)
-            if RINGS in parameters:
-                arguments.insert(0, Expression(RINGS, parameters[RINGS]))
-            arguments += self._defaults(node, called, list(parameters), len(arguments))
-            return self._called(title, list(parameters.values()), arguments, result)
+            title, kinds, arguments, result = self._with_all(node, called, arguments)
+            if kinds and kinds[0].is_changed:
+                is_fresh = re.fullmatch(r"changed_\d+", arguments[0].text)
+                name = arguments[0].text if is_fresh else self.temporary(arguments[0], "changed", is_constant=False)
+                arguments[0] = Expression(name, result)
+                self.before.append(f"{title}({', '.join(self._texts(title, kinds, arguments))});")
+                return arguments[0]
+            return Expression(f"{title}({', '.join(self._texts(title, kinds, arguments))})", result)
         if called is not None and getattr(math, name, None) is called:
             return self._of_math(node, name, arguments)
         raise self.refused(node, f"the call {ast.unparse(node)!r}")
@@ -408,16 +432,35 @@ class Expressions:
             values.append(keywords[name] if name in keywords else Expression(str(defaults[name]), INTEGER, UNARY))
         return values
 
-    def _called(self, title: str, kinds: list[Kind], arguments: list[Expression], result: Kind) -> Expression:
+    def _with_all(
+        self, node: ast.Call, called: FunctionType, arguments: list[Expression]
+    ) -> tuple[str, list[Kind], list[Expression], Kind]:
+        """The name of a function, the kinds of its parameters, all arguments, and the kind of its result."""
+        title, parameters, result = self.names.function(called)
+        if RINGS in parameters:
+            arguments.insert(0, Expression(RINGS, parameters[RINGS]))
+        arguments += self._defaults(node, called, list(parameters), len(arguments))
+        return title, list(parameters.values()), arguments, result
+
+    def _texts(self, title: str, kinds: list[Kind], arguments: list[Expression]) -> list[str]:
+        """The arguments of a call."""
         pairs = list(zip(kinds, arguments, strict=True))
         for kind, argument in pairs:
-            if kind._replace(by_address=False) != argument.kind and (kind, argument.kind) not in (
-                (REAL, INTEGER),
-                (INTEGER, TRUTH),
-            ):
+            if kind.value != argument.kind and (kind, argument.kind) not in ((REAL, INTEGER), (INTEGER, TRUTH)):
                 raise NotTranslated(f"{self.file}: {title} is called with {argument.text!r}, which is no {kind.name}")
-        texts = [self.address(one) if kind.by_address else self.of_kind(kind, one).text for kind, one in pairs]
-        return Expression(f"{title}({', '.join(texts)})", result)
+        return [self.address(one) if kind.by_address else self.of_kind(kind, one).text for kind, one in pairs]
+
+    def change(self, node: ast.Call) -> str:
+        """The call of a function that changes its first argument, a variable, where it is; empty for another call."""
+        name = node.func.id if isinstance(node.func, ast.Name) else ""
+        called = self.names.replaced.get(name, self.names.globals.get(name))
+        if not isinstance(called, FunctionType) or not any(
+            k.is_changed for k in self.names.function(called)[1].values()
+        ):
+            return ""
+        arguments = [value for one in node.args for value in self._argument(one)]
+        title, kinds, arguments, _ = self._with_all(node, called, arguments)
+        return f"{title}({', '.join(self._texts(title, kinds, arguments))});"
 
     def address(self, found: Expression) -> str:
         """The address of a structure, which is stored first unless it is already."""

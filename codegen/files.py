@@ -38,6 +38,9 @@ SINGLE = (
     wind_search.entry_near_sample,
 )
 
+# The state of a search, which would take longer to copy than a step of the search, is passed by address.
+LARGE = 32
+
 LOOPED = (
     motion.reduce,
     synthesis.side_or_near,
@@ -188,7 +191,7 @@ def files() -> dict[Path, str]:
     """The generated files."""
     kernel = Module("kernel.js", PORTABLE, PLANNING)
     return {
-        FOLDER / "kernel.h": Unit("kernel.h", DOUBLE, SINGLE).text(),
+        FOLDER / "kernel.h": Unit("kernel.h", DOUBLE._replace(large=LARGE), SINGLE).text(),
         FOLDER / "still_air_loops.h": Unit("still_air_loops.h", VECTOR, LOOPED).text(),
         PAGE / "kernel.js": kernel.text(),
         PAGE / "library.js": library_module(kernel),

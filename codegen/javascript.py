@@ -63,7 +63,7 @@ class JavaScriptExpressions(Expressions):
         types = f"/** @type {{{type_of(kind)}}} */ " if kind == TRUTH or kind.is_tuple else ""
         return types + ("const" if is_constant else "let")
 
-    def temporary(self, found: Expression, stem: str) -> str:
+    def temporary(self, found: Expression, stem: str, is_constant: bool = True) -> str:
         """The name of a new constant with this value."""
         name = super().temporary(found, stem)
         self.before[-1] = f"const {name} = {found.text};"
@@ -168,6 +168,11 @@ class JavaScriptExpressions(Expressions):
     def _ListComp(self, node: ast.ListComp) -> Expression:
         return self._of_each(node, "map")
 
+    def changed(self, found: Expression, values: dict[str, Expression]) -> Expression:
+        """An object with other values of some fields."""
+        texts = ", ".join(f"{field}: {value.text}" for field, value in values.items())
+        return Expression(f"{{ ...{found.within(PRIMARY)}, {texts} }}", found.kind)
+
     def _Call(self, node: ast.Call) -> Expression:
         match node:
             case ast.Call(func=ast.Name(id="any" | "all" as name), args=[ast.GeneratorExp() as tests]):
@@ -178,10 +183,6 @@ class JavaScriptExpressions(Expressions):
                 func=ast.Name(id="min"), args=[ast.Call(func=ast.Name(id="map"), args=[of, values])], keywords=[_]
             ):
                 return Expression(f"Math.min(...{self.elements(values).text}.map({self._named(of)}))", REAL)
-            case ast.Call(func=ast.Attribute(value=value, attr="_replace"), keywords=changes):
-                found = self.translate(value)
-                fields = ", ".join(f"{one.arg}: {self.translate(one.value).text}" for one in changes)
-                return found._replace(text=f"{{ ...{found.text}, {fields} }}")
             case ast.Call(func=ast.Attribute(value=value, attr="append"), args=[one]):
                 return Expression(f"{self.translate(value).text}.push({self.translate(one).text})", NOTHING)
         return super()._Call(node)

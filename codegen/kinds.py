@@ -15,7 +15,7 @@ class Kind(NamedTuple):
     """A kind of value: its name in C, and the fields where it is a structure.
 
     `length` is that of a ring, -1 for a list, otherwise 0. With `by_address` it is that of a parameter: a pointer to
-    the value.
+    the value; with `is_changed` the function changes the value there, in place of a result.
     """
 
     name: str
@@ -23,6 +23,12 @@ class Kind(NamedTuple):
     is_tuple: bool = False
     length: int = 0
     by_address: bool = False
+    is_changed: bool = False
+
+    @property
+    def value(self) -> Kind:
+        """The kind of the value itself."""
+        return self._replace(by_address=False, is_changed=False)
 
     @property
     def size(self) -> int:

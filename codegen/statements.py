@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from textwrap import wrap
 from typing import NamedTuple
 
-from codegen.expressions import Expression, Expressions, Names
+from codegen.expressions import PRIMARY, Expression, Expressions, Names
 from codegen.kinds import INTEGER, REAL, REALS, Kind, NotTranslated, safe
 
 WIDTH = 116
@@ -186,9 +186,40 @@ class Function:
             self._before(indent)
             self._write(indent, f"{place.text} = {self.expressions.of_kind(place.kind, value).text};")
             return
+        if isinstance(target, ast.Name) and self._changes(target.id, node.value, indent):
+            return
         pairs = list(self._pairs(target, node.value))
         self._before(indent)
         self._assign(pairs, node, indent)
+
+    def _changes(self, name: str, value: ast.expr, indent: str) -> bool:
+        """Change a large structure where it is, `one = one._replace(...)` or `one = f(one, ...)`, if this is that."""
+        if not self.names.arithmetic.large:
+            return False
+        match value:
+            case ast.Call(func=ast.Attribute(value=ast.Name(id=source), attr="_replace")) if source == name:
+                self._set_fields(value, indent)
+                return True
+            case ast.Call(func=ast.Name(), args=[ast.Name(id=source), *_]) if source == name:
+                if change := self.expressions.change(value):
+                    self._before(indent)
+                    self._write(indent, change)
+                    return True
+        return False
+
+    def _set_fields(self, call: ast.Call, indent: str) -> None:
+        """Set fields of a variable where it is; values that read it are computed before."""
+        name = ast.unparse(call.func.value)  # type: ignore[attr-defined]
+        values = []
+        for keyword in call.keywords:
+            value = self.expressions.translate(keyword.value)
+            if len(call.keywords) > 1 and name in names_in(keyword.value):
+                value = value._replace(text=self.expressions.temporary(value, "new"), level=PRIMARY)
+            values.append((str(keyword.arg), value))
+        self._before(indent)
+        for field, value in values:
+            place = self.expressions.translate(ast.Attribute(ast.Name(name), field))
+            self._write(indent, f"{place.text} = {self.expressions.of_kind(place.kind, value).text};")
 
     def _pairs(self, target: ast.expr, value: ast.expr) -> Iterator[tuple[str, Expression]]:
         """Names and the values that they are set to."""
@@ -282,6 +313,14 @@ class Function:
         if node.value is None:
             self._write(indent, "return;")
             return
+        if self.names.changed:
+            self._return_changed(self.names.changed, node.value, indent)
+            return
+        # A variable that is returned is changed where it is.
+        for name in self.declared:
+            if self._changes(name, node.value, indent):
+                self._write(indent, f"return {safe(name)};")
+                return
         value = self.expressions.translate(node.value)
         if value.kind != self.result and (self.result, value.kind) != (REAL, INTEGER):
             same = [kind for _, kind in value.kind.fields] == [kind for _, kind in self.result.fields]
@@ -293,6 +332,23 @@ class Function:
             value = self.expressions.as_result(node.value, value, self.result)
         self._before(indent)
         self._write(indent, f"return {self.expressions.of_kind(self.result, value).text};")
+
+    def _return_changed(self, name: str, value: ast.expr, indent: str) -> None:
+        """Return from a function that changes a parameter where it is."""
+        if isinstance(value, ast.IfExp):
+            test = self.expressions.condition(value.test)
+            self._before(indent)
+            self._write(indent, f"if ({test.text}) {{")
+            self._return_changed(name, value.body, indent + STEP)
+            self._write(indent, "}")
+            self._return_changed(name, value.orelse, indent)
+            return
+        is_same = isinstance(value, ast.Name) and value.id == name
+        if not is_same and not self._changes(name, value, indent):
+            found = self.expressions.translate(value)
+            self._before(indent)
+            self._write(indent, f"*{safe(name)} = {found.text};")
+        self._write(indent, "return;")
 
     def _If(self, node: ast.If, indent: str) -> None:
         test = self.expressions.condition(node.test)

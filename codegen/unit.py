@@ -17,9 +17,9 @@ from sys import modules
 from types import FunctionType, ModuleType
 from typing import Any
 
-from codegen.arithmetic import CONSTANTS, Arithmetic
+from codegen.arithmetic import CONSTANTS, UPDATED, Arithmetic
 from codegen.expressions import PRIMARY, RINGS, Expression, Names, constant_value
-from codegen.kinds import Kind, NotTranslated, kind_of_value, safe, signature
+from codegen.kinds import NOTHING, Kind, NotTranslated, kind_of_value, safe, signature
 from codegen.statements import STEP, Function, comment, occurrences, wrapped
 from loiter.kernel.rebinding import names_used
 from loiter.version import __version__
@@ -50,9 +50,6 @@ static inline {ring} {ring}_appended({ring} ring, {element} last) {{
     ring.at[{last}] = last;
     return ring;
 }}"""
-
-# Structures of so many numbers are passed by address where rings are in place.
-LARGE = 6
 
 # Names of the C library, and of POSIX, that functions of the kernel have too.
 TAKEN = frozenset({"atan2", "acos", "sin", "cos", "hypot", "select", "l", "r"})
@@ -140,7 +137,7 @@ class Unit:
         """The kind of a parameter: large structures are passed by address, unless the function sets them."""
         body = syntax(modules[function.__module__])[function.__name__].body
         is_set = any(one == name and place.is_set for one, place in occurrences(body, ()))
-        return kind._replace(by_address=kind.size >= LARGE and not is_set)
+        return kind._replace(by_address=kind.size >= self.arithmetic.large and not is_set)
 
     def _replaced(self, function: FunctionType) -> dict[str, Any]:
         """What stands in for the globals of a function; replacements are themselves as they are written."""
@@ -160,12 +157,16 @@ class Unit:
         parameters, result = signature(function, place)
         if self.arithmetic.in_place and self._fills(function):
             parameters = {RINGS: Kind("Rings *"), **parameters}
-        if self.arithmetic.in_place:
+        if self.arithmetic.large:
+            first, *_ = [*parameters, ""]
+            is_changed = parameters.get(first) == result and result.size >= UPDATED
             parameters = {name: self._passed(function, name, kind) for name, kind in parameters.items()}
+            if is_changed:
+                parameters[first] = result._replace(by_address=True, is_changed=True)
         for kind in (*parameters.values(), result):
             if kind.length < 0 and not self.has_lists:
                 raise NotTranslated(f"{place}: {function.__name__} has a list, {kind.name}, which only JavaScript has")
-            self._structure(kind._replace(by_address=False))
+            self._structure(kind.value)
         title = self.name(function)
         if function in self.open:
             raise NotTranslated(f"{place}: {function.__name__} calls itself, which a kernel function must not")
@@ -185,11 +186,12 @@ class Unit:
         names = Names(
             self.arithmetic,
             function.__globals__,
-            {name: kind._replace(by_address=False) for name, kind in parameters.items()},
+            {name: kind.value for name, kind in parameters.items()},
             self._replaced(function),
             self._add,
             self._constant,
             frozenset(name for name, kind in parameters.items() if kind.by_address),
+            "".join(name for name, kind in parameters.items() if kind.is_changed),
         )
         body = self.translator(node, names, result, place, comments_of(module)).body()
         body = [re.sub(r"\(\*(\w+)\)\.", r"\1->", line) for line in body]
@@ -205,7 +207,8 @@ class Unit:
         if node.name in self.arithmetic.faster:
             body = ["#ifdef FP_FAST_FMA", STEP + self.arithmetic.faster[node.name], "#else", *body, "#endif"]
         doc = ast.get_docstring(node)
-        head = f"{self.arithmetic.storage} {result.name} {self.name(function)}({listed}) {{"
+        kind = NOTHING if any(one.is_changed for one in parameters.values()) else result
+        head = f"{self.arithmetic.storage} {kind.name} {self.name(function)}({listed}) {{"
         return [*(comment(doc) if doc else ()), *wrapped(head), *body, "}", ""]
 
     def _structure(self, kind: Kind) -> None:
@@ -341,7 +344,7 @@ class Unit:
 
 def _declaration(kind: Kind, name: str) -> str:
     if kind.by_address:
-        return f"const {kind.name} *{name}"
+        return f"{'' if kind.is_changed else 'const '}{kind.name} *{name}"
     return f"{kind.name}{'' if kind.name.endswith('*') else ' '}{name}"
 
 

@@ -36,7 +36,8 @@ ROOTS = (
     rounded_radius,
     synthesis.optimum,
     wind_search.status_of,
-    wind_search.fastest,
+    wind_search.begin_search,
+    wind_search.advance_search,
     wind_search.entry_of,
     model.radius_at_bank,
     fly_as_declared,
@@ -120,7 +121,7 @@ class OnboardUnit(Unit):
     """The generated part of loiter.c, whose structures of the law's state the header declares."""
 
     def __init__(self) -> None:
-        of_state = [kind_of_type(one, "") for one in (Settings, VehicleModel, Memory)]
+        of_state = [kind_of_type(one, "") for one in (wind_search.WindSearch, Settings, VehicleModel, Memory)]
         self.exported = list(dict.fromkeys(one for kind in of_state for one in kinds_within(kind)))
         self.rings = [kind for kind in self.exported if kind.length]
         fields = [inner for kind in self.exported for _, inner in kind.fields if inner.length]
@@ -142,10 +143,12 @@ class OnboardUnit(Unit):
         literal = Expressions(Names(self.arithmetic, {}, {}, {}, self._add, self._constant), "").literal
         roll = rolling.Roll()
         rings = " ".join(f"loiter_{ring.name} {ring.name};" for ring in self.rings)
-        declarations = [line for kind in self.exported for line in declared(kind)]
+        search = list(kinds_within(kind_of_type(wind_search.WindSearch, "")))
+        of_law = [line for kind in self.exported if kind not in search for line in declared(kind)]
         return {
             "STATUSES": "\n".join(f"    LOITER_{status.name} = {int(status)}," for status in Status),
-            "STRUCTURES": "\n".join([*declarations, f"typedef struct {{ {rings} }} loiter_Rings;"]),
+            "SEARCH": "\n".join(line for kind in dict.fromkeys(search) for line in declared(kind)),
+            "STRUCTURES": "\n".join([*of_law, f"typedef struct {{ {rings} }} loiter_Rings;"]),
             "FLOAT_FUNCTIONS": "\n".join(f"#define real_{name} {name}f" for name in FUNCTIONS),
             "DOUBLE_FUNCTIONS": "\n".join(f"#define real_{name} {name}" for name in FUNCTIONS),
             "TYPEDEFS": "typedef loiter_Rings Rings;",

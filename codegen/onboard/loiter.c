@@ -46,30 +46,55 @@ static int exported(Entry found, loiter_entry *entry) {
 
 static int status_of_side(int side) { return side >= -1 && side <= 1 ? LOITER_OK : LOITER_BAD_TURN; }
 
-int loiter_fastest(const loiter_problem *p, loiter_entry *entry) {
+static int end_with(loiter_search *search, int status) {
+    search->state.entry.status = status;
+    search->state.stage = ENDED;
+    return status;
+}
+
+int loiter_search_begin(loiter_search *search, const loiter_problem *p) {
     const real size = length(p->c, p->s);
-    WindProblem problem;
+    search->state = NO_SEARCH;
     if (status_of_side(p->side) != LOITER_OK) {
-        return LOITER_BAD_TURN;
+        return end_with(search, LOITER_BAD_TURN);
     }
     if (!(real_fabs(size - REAL(1.0)) <= REAL(1e-3))) {
-        return LOITER_BAD_POSE;
+        return end_with(search, LOITER_BAD_POSE);
     }
-    problem = MAKE(WindProblem){p->x,    p->y,         p->c / size, p->s / size, rounded_radius(p->radius),
-                                p->side, p->wx, p->wy, p->tolerance};
+    const WindProblem problem = {p->x,    p->y,  p->c / size, p->s / size, rounded_radius(p->radius),
+                                 p->side, p->wx, p->wy,       p->tolerance};
     const integer status = status_of(&problem);
     if (status != STATUS_OK) {
-        return (int)status;
+        return end_with(search, (int)status);
     }
     if (p->wx == REAL(0.0) && p->wy == REAL(0.0)) {
         const real_2 at = reduce(problem.x, problem.y, problem.c, problem.s);
-        return exported(optimum(at.a0, at.a1, problem.R, problem.side, problem.tolerance), entry);
+        const Entry found = optimum(at.a0, at.a1, problem.R, problem.side, problem.tolerance);
+        WindEntry *const entry = &search->state.entry;
+        entry->side = found.side;
+        entry->word = found.word;
+        entry->t1 = found.t1;
+        entry->t2 = found.t2;
+        entry->t3 = found.t3;
+        return end_with(search, LOITER_OK);
     }
-    const WindEntry found = wind_search_fastest(&problem);
-    if (found.status != STATUS_OK) {
-        return (int)found.status;
+    search->state = begin_search(&problem);
+    return LOITER_OK;
+}
+
+int loiter_search_step(loiter_search *search, int steps, loiter_entry *entry) {
+    advance_search(&search->state, steps);
+    if (search->state.stage != ENDED) {
+        return LOITER_SEARCHING;
     }
-    return exported(entry_of(&found), entry);
+    return search->state.entry.status == STATUS_OK ? exported(entry_of(&search->state.entry), entry)
+                                                   : (int)search->state.entry.status;
+}
+
+int loiter_fastest(const loiter_problem *problem, loiter_entry *entry) {
+    loiter_search search;
+    const int status = loiter_search_begin(&search, problem);
+    return status == LOITER_OK ? loiter_search_step(&search, UNLIMITED, entry) : status;
 }
 
 loiter_law_config loiter_law_defaults(loiter_real airspeed_m_s, loiter_real bank_limit_deg, loiter_real radius_m,
@@ -190,7 +215,7 @@ static void follow_clock(loiter_law *law, uint32_t time_us) {
     clock->latest_s -= past_s;
     sensing->observer.estimate.time_s -= past_s;
     sensing->present.time_s -= past_s;
-    law->memory.plan = plan_by_clock(&law->memory.plan, -past_s);
+    plan_by_clock(&law->memory.plan, -past_s);
     BankEntry *entries = law->rings.BankEntry_ring_128.at;
     const BankEntry last = entries[ENTRIES - 1];
     for (int i = 0; i < ENTRIES; i++) {

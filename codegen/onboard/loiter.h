@@ -27,7 +27,9 @@ enum {
     /* `dt_s` of a step is not a positive, finite number. */
     LOITER_BAD_STEP = 14,
     /* Roll response, delay, reserve, smoothing or gain is what no aircraft has. */
-    LOITER_BAD_RESPONSE = 15
+    LOITER_BAD_RESPONSE = 15,
+    /* A search is not complete yet. */
+    LOITER_SEARCHING = 16
 };
 
 /* The direction in which the circle is flown, seen from above. */
@@ -60,6 +62,20 @@ typedef struct {
 /* The fastest entry; its status. In still air it takes the same few thousand instructions for every start, in wind a
  * search whose length depends on the start: docs/onboard.md has counts. */
 int loiter_fastest(const loiter_problem *problem, loiter_entry *entry);
+
+/* A search, which may be spread over several calls; it contains no pointers, so that it may be copied and moved. */
+@SEARCH@
+
+typedef struct {
+    loiter_WindSearch state;
+} loiter_search;
+
+/* Begin a search; LOITER_OK, or why there is nothing to search. A search in still air is complete at once. */
+int loiter_search_begin(loiter_search *search, const loiter_problem *problem);
+
+/* Continue a search by at most `steps` steps: LOITER_SEARCHING while it is not complete, and then status and entry of
+ * `loiter_fastest`, to the last bit. docs/onboard.md says how long a step takes, and how many a search may need. */
+int loiter_search_step(loiter_search *search, int steps, loiter_entry *entry);
 
 /* ---- The guidance law ------------------------------------------------------------------------------------------- */
 

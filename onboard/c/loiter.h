@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 8fa77353552252c85ed885d9dab806bde23c1a77ebdb6fb19d0e44e6d48c347f
+ * SHA-256 of the source: 9b357b4a7334c9fed8a8b5d8dba11bed9d0c5d592b8652f72ff88e83e11bedf8
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
@@ -49,7 +49,9 @@ enum {
     /* `dt_s` of a step is not a positive, finite number. */
     LOITER_BAD_STEP = 14,
     /* Roll response, delay, reserve, smoothing or gain is what no aircraft has. */
-    LOITER_BAD_RESPONSE = 15
+    LOITER_BAD_RESPONSE = 15,
+    /* A search is not complete yet. */
+    LOITER_SEARCHING = 16
 };
 
 /* The direction in which the circle is flown, seen from above. */
@@ -82,6 +84,37 @@ typedef struct {
 /* The fastest entry; its status. In still air it takes the same few thousand instructions for every start, in wind a
  * search whose length depends on the start: docs/onboard.md has counts. */
 int loiter_fastest(const loiter_problem *problem, loiter_entry *entry);
+
+/* A search, which may be spread over several calls; it contains no pointers, so that it may be copied and moved. */
+typedef struct { loiter_real x, y, c, s, R, wx, wy, arc_tolerance; } loiter_WindScene;
+typedef struct { loiter_real time; loiter_integer word; loiter_real t1, t2, t3, lam, p1, p2; } loiter_Path;
+typedef struct { loiter_real phase; loiter_integer side; loiter_Path path; } loiter_WindCandidate;
+typedef struct { loiter_integer side, word; loiter_real t1, t2, t3; } loiter_Entry;
+typedef struct { loiter_Entry entry; loiter_real phase, miss; } loiter_EntryBeside;
+typedef struct { loiter_integer number, level, words; } loiter_CellVisit;
+typedef struct { loiter_real phase; loiter_Path path; loiter_real slope; } loiter_JoinPoint;
+typedef struct { loiter_integer number; loiter_JoinPoint point; } loiter_LeafEnd;
+typedef struct { loiter_integer first, second, third, fourth; } loiter_Leaves;
+typedef struct { loiter_real phase; loiter_integer u; loiter_real t1, t2; } loiter_Corner;
+typedef struct { loiter_integer stage, side; loiter_real width; loiter_JoinPoint here, other, last; loiter_integer
+        words; bool bisect; loiter_integer steps, enclosures; } loiter_Refinement;
+typedef struct { loiter_integer words; loiter_real earliest, tolerance; } loiter_OpenCell;
+typedef struct { loiter_integer status, side, word; loiter_real t1, t2, t3, azimuth, miss; } loiter_WindEntry;
+typedef struct { loiter_integer stage, sides, one; loiter_WindScene scene; loiter_WindCandidate best;
+        loiter_EntryBeside beside; loiter_CellVisit visit; loiter_LeafEnd before; loiter_Leaves leaves, others;
+        loiter_Corner corner; loiter_real compared; loiter_integer visits; loiter_Refinement refinement;
+        loiter_OpenCell cell; loiter_integer left; loiter_WindEntry entry; } loiter_WindSearch;
+
+typedef struct {
+    loiter_WindSearch state;
+} loiter_search;
+
+/* Begin a search; LOITER_OK, or why there is nothing to search. A search in still air is complete at once. */
+int loiter_search_begin(loiter_search *search, const loiter_problem *problem);
+
+/* Continue a search by at most `steps` steps: LOITER_SEARCHING while it is not complete, and then status and entry of
+ * `loiter_fastest`, to the last bit. docs/onboard.md says how long a step takes, and how many a search may need. */
+int loiter_search_step(loiter_search *search, int steps, loiter_entry *entry);
 
 /* ---- The guidance law ------------------------------------------------------------------------------------------- */
 

@@ -42,6 +42,16 @@ void test_optima(int count, const double *rows, double *found) {
     }
 }
 void test_fastest(const WindProblem *problem, WindEntry *entry) { *entry = wind_search_fastest(problem); }
+int test_search(const WindProblem *problem, int steps, int most, WindEntry *entry) {
+    WindSearch search = begin_search(problem);
+    int calls = 0;
+    while (search.stage != ENDED && calls < most) {
+        advance_search(&search, steps);
+        calls++;
+    }
+    *entry = search.entry;
+    return calls;
+}
 loiter_law *test_law(void) { return (loiter_law *)malloc(sizeof(loiter_law)); }
 void test_limit(loiter_law *law, double limit_deg) { law->settings.command_limit_deg = (real)limit_deg; }
 void test_begin(loiter_law *law, const Settings *settings, const VehicleModel *vehicle) {
@@ -123,6 +133,12 @@ class OnboardLibrary:
         found = self.types.of[WindEntry]()
         self.c.test_fastest(byref(self.types.in_c(problem)), byref(found))
         return WindEntry(*(getattr(found, name) for name in WindEntry._fields))
+
+    def searched(self, problem, steps, most=100_000):
+        """The answer of a search in calls of so many steps each, and the number of calls, `most` at most."""
+        found = self.types.of[WindEntry]()
+        calls = self.c.test_search(byref(self.types.in_c(problem)), steps, most, byref(found))
+        return WindEntry(*(getattr(found, name) for name in WindEntry._fields)), calls
 
 
 def build(folder, single, flags=()):

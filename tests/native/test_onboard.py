@@ -79,6 +79,18 @@ def test_the_search_in_wind_has_the_same_bits():
         assert text(library(False).fastest(problem)) == text(expected), problem
 
 
+@pytest.mark.parametrize("single", [False, True])
+@pytest.mark.parametrize("steps", [1, 7])
+def test_a_search_spread_over_many_calls_gives_the_same_bits(single, steps):
+    onboard = library(single)
+    for problem in [*drawn(60, 4), *drawn(20, 6, 0.95), *BAD, *(one for one, _ in CORNERS[:2])]:
+        problem = problem._replace(tolerance=0.01) if problem.side == 1 else problem
+        found, calls = onboard.searched(problem, steps)
+        _, whole = onboard.searched(problem, 1)
+        assert text(found) == text(onboard.fastest(problem)), problem
+        assert calls == -(-whole // steps)
+
+
 FLIGHTS = (0, 3, 5, 6, 8, 9, 17)
 
 

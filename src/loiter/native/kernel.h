@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: acb3d3ddebe3ca4fad2e78781b9015ca7a5b9544b51501d8f881cbeb9d322c20
+ * SHA-256 of the source: 1dfda3c74ea1ab6087c8d3ffb2b6d4d2a62f14115350157bf2cd1bc518a3ab74
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -117,28 +117,8 @@ typedef struct { real time; integer word; real t1, t2, t3, lam, p1, p2; } Path;
 /* A path and where it joins: the phase of the point (`hold`), and the side on which the circle is held. */
 typedef struct { real phase; integer side; Path path; } WindCandidate;
 
-typedef struct { real a0, a1, a2, a3; } real_4;
-
-typedef struct { real a0, a1, a2, a3, a4; } real_5;
-
-/* The data common to all words: the headings (c0, s0) at the start and (c, s) at the pose, and the wind.
- *
- * `arc_tolerance` is the arc length by which a rotation may fall short of a full turn and count as none
- * (`angles.snap_full_turn`).
- */
-typedef struct { real c0, s0, c, s, wx, wy, arc_tolerance; } Ends;
-
-/* A point of joining: its phase, the first path to it, and the slope of the time there, `join_slope`. */
-typedef struct { real phase; Path path; real slope; } JoinPoint;
-
-typedef struct { JoinPoint a0, a1; } JoinPoint_2;
-
-typedef struct { Entry a0; real a1; } Entry_real;
-
-/* A set of cells of the level `LEAF`: a bit for each, for each quarter of the circle. */
-typedef struct { integer first, second, third, fourth; } Leaves;
-
-typedef struct { WindCandidate a0; Leaves a1; } WindCandidate_Leaves;
+/* A maneuver that ends beside the circle by `miss`, at the point of joining with this phase. */
+typedef struct { Entry entry; real phase, miss; } EntryBeside;
 
 /* A cell, one of `FIRST_CELLS` << `level` equal arcs of the circle, by its number; and words, six bits a level.
  *
@@ -146,6 +126,64 @@ typedef struct { WindCandidate a0; Leaves a1; } WindCandidate_Leaves;
  * cells none is below the level `NARROWED`.
  */
 typedef struct { integer number, level, words; } CellVisit;
+
+/* A point of joining: its phase, the first path to it, and the slope of the time there, `join_slope`. */
+typedef struct { real phase; Path path; real slope; } JoinPoint;
+
+/* The end of a cell of the level `LEAF`, by the number of the cell. */
+typedef struct { integer number; JoinPoint point; } LeafEnd;
+
+/* A set of cells of the level `LEAF`: a bit for each, for each quarter of the circle. */
+typedef struct { integer first, second, third, fourth; } Leaves;
+
+/* Two arcs that end on the circle: the phase of their end, the control of the first, and their durations. */
+typedef struct { real phase; integer u; real t1, t2; } Corner;
+
+/* The search for the local minimum of the time next to a candidate, which `refine` continues step by step.
+ *
+ * From the best point so far, `here`, the time falls towards the point `other`. Once the minimum is enclosed, the
+ * time there is higher, or it falls in the opposite direction: so there is a local minimum between them. `last` is
+ * the point tried last, with one of a set of words; `bisect` says that the next point is that in the middle.
+ * `steps` counts those of the stage, and `enclosures` the minima that were not yet the last one.
+ */
+typedef struct { integer stage, side; real width; JoinPoint here, other, last; integer words; bool bisect; integer
+        steps, enclosures; } Refinement;
+
+/* A cell whose end has a path faster than the best one: the words that may join inside it before the best time.
+ *
+ * No path into the cell is faster than `earliest`. Without one that is faster than the best by `tolerance` it is
+ * done.
+ */
+typedef struct { integer words; real earliest, tolerance; } OpenCell;
+
+/* A search for the fastest entry, which `advance_search` continues: its stage, and what is known so far.
+ *
+ * The sides of the circle that are asked for are `sides`, that which is searched now is `one`. `best` is the
+ * fastest path found, `beside` the entry beside the circle that counts, too. `visit` is the next cell; `before` the
+ * end of the leaf before it, `leaves` those that are left on this side, and `others` on the other one. `corner` is
+ * that of the best path, which took the time `compared`, and `visits` the number of cells so far. While there is a
+ * refinement, it is continued first; `cell` is the cell that waits for it. `left` is the number of steps that may
+ * follow at once, and `entry` the result once the stage is ENDED.
+ */
+typedef struct { integer stage, sides, one; WindScene scene; WindCandidate best; EntryBeside beside; CellVisit
+        visit; LeafEnd before; Leaves leaves, others; Corner corner; real compared; integer visits; Refinement
+        refinement; OpenCell cell; integer left; WindEntry entry; } WindSearch;
+
+typedef struct { real a0, a1, a2, a3, a4; } real_5;
+
+typedef struct { real a0, a1, a2, a3; } real_4;
+
+typedef struct { Entry a0; real a1; } Entry_real;
+
+/* An arc that ends with the heading of a point of joining: its duration, and how far along the hold it is short. */
+typedef struct { real t, short_; } ArcEnd;
+
+/* The data common to all words: the headings (c0, s0) at the start and (c, s) at the pose, and the wind.
+ *
+ * `arc_tolerance` is the arc length by which a rotation may fall short of a full turn and count as none
+ * (`angles.snap_full_turn`).
+ */
+typedef struct { real c0, s0, c, s, wx, wy, arc_tolerance; } Ends;
 
 /* An arc of the circle, and what all words share: derivatives are with respect to the phase.
  *
@@ -164,21 +202,11 @@ typedef struct { real half, px, py, c, s, tx, ty, nx, ny, turning, turned_more, 
  */
 typedef struct { real x, y, dx, dy, ddx, ddy, change, fastest; } Centres;
 
-/* The end of a cell of the level `LEAF`, by the number of the cell. */
-typedef struct { integer number; JoinPoint point; } LeafEnd;
+typedef struct { integer a0; LeafEnd a1; JoinPoint a2; } integer_LeafEnd_JoinPoint;
 
-typedef struct { integer a0; LeafEnd a1; WindCandidate a2; } integer_LeafEnd_WindCandidate;
+typedef struct { Path a0; real a1; } Path_real;
 
-/* Two arcs that end on the circle: the phase of their end, the control of the first, and their durations. */
-typedef struct { real phase; integer u; real t1, t2; } Corner;
-
-typedef struct { integer a0; WindCandidate a1; } integer_WindCandidate;
-
-/* A maneuver that ends beside the circle by `miss`, at the point of joining with this phase. */
-typedef struct { Entry entry; real phase, miss; } EntryBeside;
-
-/* An arc that ends with the heading of a point of joining: its duration, and how far along the hold it is short. */
-typedef struct { real t, short_; } ArcEnd;
+typedef struct { real a0; WindCandidate a1; } real_WindCandidate;
 
 
 /* Beyond this many turn radii neighbouring doubles are a turn radius apart. */
@@ -207,17 +235,43 @@ static const real_2 NO_ROTATION = {0.0, 1.0};
 
 /* The control of a piece that the word does not have. */
 #define ABSENT (-2)
+static const WindSearch NO_SEARCH = {0, 0, 1, {0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0}, {0.0, 0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}}, {{0, 0, INFINITY, 0.0, 0.0}, 0.0, INFINITY}, {0, 0, 63}, {-2, {0.0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}, 0.0}}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.0, 0, 0.0, 0.0}, INFINITY, 0, {0, 0, 0.0, {0.0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}, 0.0}, {0.0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}, 0.0}, {0.0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}, 0.0}, 0, false, 0, 0}, {0, 0.0, 0.0}, 0, {12, 0, 0, NAN, NAN, NAN, NAN, NAN}};
+
+/* The stages of a search: on each side, first some points, then cells down to the leaves, then the leaves that are
+ * left.
+ */
+#define ENDED 5
 
 /* A slower wind displaces no point within REACH by as much as rounding, and its square would be subnormal. */
 #define NEGLIGIBLE_WIND 3.8725919148493183e-121 /* 2.0 ** (-400) */
-static const Path NO_PATH = {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0};
+static const EntryBeside NO_ENTRY_BESIDE = {{0, 0, INFINITY, 0.0, 0.0}, 0.0, INFINITY};
 
-/* Points of joining on each side that are tried first. */
-#define JOINS 8
+/* Newton's method reduces an error of 1e-4 to rounding in three steps. */
+#define ARC_STEPS 8
+
+/* Points of joining around the circle between which single arcs are looked for. */
+#define ARC_SAMPLES 32
+
+/* The path found next to two arcs may be too early by this many times its miss: both vary with the adjoint, whose
+ * length over lambda + p . w stays below 10 where lambda = 1 and |w| < 0.9.
+ */
+#define TOO_EARLY 10.0
+
+/* Where two arcs are the fastest, the search ends on a word with a short third piece that is due to rounding: a
+ * straight piece of up to the square root of 4e-14 where the phase is accurate to 1e-14.
+ */
+#define SHORT 0.0001
+
+/* More steps than any search takes. */
+#define UNLIMITED 2147483647 /* 2 ** 31 - 1 */
+
+/* The stages of a refinement; there is none, or it has ended, where it is REFINED. */
+#define REFINED 0
+#define BRACKETING 1
 
 /* Sets of the six words of three pieces, a bit for each: all, and those with a straight piece. */
-#define WITH_STRAIGHT 15
 #define ALL_WORDS 63
+static const Path NO_PATH = {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0};
 
 /* An arc that comes this close to a whole turn, or to zero, may pass it. */
 #define ALMOST 1e-06
@@ -232,22 +286,13 @@ static const Path NO_PATH = {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0};
  */
 #define NO_STEP 3.469446951953614e-18 /* 2.0 ** (-58) */
 
-/* Refinements after which no path to the point, or to a point beside it, is faster; the second is rarely needed. */
-#define REFINEMENTS 4
-
 /* Steps, each twice as long as the last, that together go round the circle from a leaf of `wind_search`. */
 #define BRACKETING_STEPS 7
-
-/* At worst every other step of `enclosed_minimum` bisects, so 106 steps exhaust the digits of a double; 14 are in
- * reserve.
- */
-#define REFINING_STEPS 120
+#define ENCLOSING 2
 
 /* The search ends where another step is worth less than the time over this. */
 #define WORTH 9007199254740992.0 /* 2.0 ** 53 */
-
-/* Newton's method reduces an error of 1e-4 to rounding in three steps. */
-#define ARC_STEPS 8
+#define COMPARING 3
 
 /* A point of two arcs is a local minimum unless the time falls away from it this far before or after it, in
  * radians. The phase of such a point is known to some 1e-15, and the time changes by no more than a few times this
@@ -255,31 +300,48 @@ static const Path NO_PATH = {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0};
  */
 #define AT_CORNER 1e-12
 
+/* At worst every other step of `enclose` bisects, so 106 steps exhaust the digits of a double; 14 are in reserve. */
+#define REFINING_STEPS 120
+
 /* A faster path is sought this far before and after a local minimum, in radians; this is multiplied by the time
  * where that is below 1.
  */
 #define BESIDE 1e-07
-static const Leaves NO_LEAVES = {0, 0, 0, 0};
+static const Refinement NO_REFINEMENT = {0, 0, 0.0, {0.0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}, 0.0}, {0.0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}, 0.0}, {0.0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}, 0.0}, 0, false, 0, 0};
+
+/* Refinements after which no path to the point, or to a point beside it, is faster; the second is rarely needed. */
+#define REFINEMENTS 4
+#define JOINING 0
+static const CellVisit FIRST_CELL = {0, 0, 63};
+#define COARSE_OTHER 2
 
 /* Cells at first. Those that may hold a faster path than the best are halved to 2 pi/128, where local minima are
  * found, and then until none may hold a path that is faster by more than `time_tolerance`: the hold through a cell
  * of the level `LAST` takes less than that. The bound by the hold, which takes a path, is used from 2 pi/32 on.
  */
 #define FIRST_CELLS 8
-
-/* Tangents to h that `has_no_middle` tries. */
-#define TANGENTS 8
-#define COARSE 2
 #define LEAF 4
-
-/* A quarter of the cells of the level `LEAF`: as many as there are bits in the integers of JavaScript. */
-#define LEAVES 32 /* FIRST_CELLS << LEAF - 2 */
+static const LeafEnd NO_LEAF_END = {-2, {0.0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}, 0.0}};
+static const Corner NO_CORNER = {0.0, 0, 0.0, 0.0};
+#define LAST 44
 
 /* The last level to which a cell hands on its words: five sets of six bits, from the first level or from `LEAF` on,
  * fit into the integers of JavaScript.
  */
 #define NARROWED 8
-static const Corner NO_CORNER = {0.0, 0, 0.0, 0.0};
+
+/* Points of joining on each side that are tried first. */
+#define JOINS 8
+#define WITH_STRAIGHT 15
+static const JoinPoint NO_POINT = {0.0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}, 0.0};
+
+/* Tangents to h that `has_no_middle` tries. */
+#define TANGENTS 8
+#define COARSE 2
+
+/* A quarter of the cells of the level `LEAF`: as many as there are bits in the integers of JavaScript. */
+#define LEAVES 32 /* FIRST_CELLS << LEAF - 2 */
+static const WindCandidate NO_CANDIDATE = {0.0, 0, {INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}};
 
 /* After so many cells of the level `LEAF` and below, the tolerance is `hold_tolerance`. More are needed only in
  * degenerate scenes, some of those in still air with R = 1 or 2; the slowest others found take some 2,500.
@@ -290,11 +352,6 @@ static const Corner NO_CORNER = {0.0, 0, 0.0, 0.0};
  * section 6.
  */
 #define WIND_TIE_TOLERANCE 1e-12
-
-/* Where two arcs are the fastest, the search ends on a word with a short third piece that is due to rounding: a
- * straight piece of up to the square root of 4e-14 where the phase is accurate to 1e-14.
- */
-#define SHORT 0.0001
 
 /* In cells within this many half widths of the end of the best path, bounds around that end are tried too. */
 #define NEAR_BEST 8.0
@@ -307,15 +364,6 @@ static const Corner NO_CORNER = {0.0, 0, 0.0, 0.0};
 
 /* The angle by which the other arc may change while one vanishes. */
 #define SWING 1.5707963267948966 /* 0.5 * pi */
-#define LAST 44
-
-/* The path found next to two arcs may be too early by this many times its miss: both vary with the adjoint, whose
- * length over lambda + p . w stays below 10 where lambda = 1 and |w| < 0.9.
- */
-#define TOO_EARLY 10.0
-
-/* Points of joining around the circle between which single arcs are looked for. */
-#define ARC_SAMPLES 32
 
 /* Points of joining around the circle between which `ranked` looks for local minima. */
 #define SAMPLES 128
@@ -979,10 +1027,23 @@ static inline real phase_of(real x, real y, integer side, real wx, real wy) {
     return angle(arc_rotation(-side, -dx, -dy, (real)side * y, (real)-side * x));
 }
 
-/* The candidate without pieces, which joins at the point of the circle that is nearest to the start. */
-static inline WindCandidate start_on_circle(integer side, WindScene scene) {
-    const real phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy);
-    return (WindCandidate){phase, side, (Path){0.0, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}};
+/* The pose on the circle at a phase, (1) and (2): heading and wind add up to a velocity along the circle. */
+static inline real_5 hold_pose(real phase, integer side, real R, real wx, real wy) {
+    const real_2 downwind_1 = downwind(wx, wy);
+    const real dx = downwind_1.a0, dy = downwind_1.a1;
+    const real a = -cos(phase), b = (real)side * sin(phase);
+    const real tx = a * dx - b * dy, ty = a * dy + b * dx;
+    const real nx = (real)-side * ty, ny = (real)side * tx;
+    const real out = wx * nx + wy * ny;
+    const real crab = sqrt((1.0 - out) * (1.0 + out));
+    return (real_5){R * nx, R * ny, crab * tx - out * nx, crab * ty - out * ny, crab + wx * tx + wy * ty};
+}
+
+/* The distance of the start from a point of joining, where an angle between the headings counts R times. */
+static inline real hold_miss(real phase, integer side, WindScene scene) {
+    const real_5 hold_pose_1 = hold_pose(phase, side, scene.R, scene.wx, scene.wy);
+    const real px = hold_pose_1.a0, py = hold_pose_1.a1, ce = hold_pose_1.a2, se = hold_pose_1.a3;
+    return length(length(px - scene.x, py - scene.y), scene.R * length(ce - scene.c, se - scene.s));
 }
 
 /* Position (x, y) and unit velocity (c, s) after a time t with control u: the exact flow of (1).
@@ -996,18 +1057,6 @@ static inline real_4 fly(real x, real y, real c, real s, integer u, real t) {
     const real chord = u != 0 ? 2.0 * sin(0.5 * t) : t;
     const real ce = cos((real)u * t), se = sin((real)u * t);
     return (real_4){x + chord * (c * ch - s * sh), y + chord * (s * ch + c * sh), c * ce - s * se, s * ce + c * se};
-}
-
-/* The pose on the circle at a phase, (1) and (2): heading and wind add up to a velocity along the circle. */
-static inline real_5 hold_pose(real phase, integer side, real R, real wx, real wy) {
-    const real_2 downwind_1 = downwind(wx, wy);
-    const real dx = downwind_1.a0, dy = downwind_1.a1;
-    const real a = -cos(phase), b = (real)side * sin(phase);
-    const real tx = a * dx - b * dy, ty = a * dy + b * dx;
-    const real nx = (real)-side * ty, ny = (real)side * tx;
-    const real out = wx * nx + wy * ny;
-    const real crab = sqrt((1.0 - out) * (1.0 + out));
-    return (real_5){R * nx, R * ny, crab * tx - out * nx, crab * ty - out * ny, crab + wx * tx + wy * ty};
 }
 
 /* The distance of the end of a maneuver, flown exactly, from a point of joining: position and heading together. */
@@ -1037,11 +1086,333 @@ static inline real end_miss(Entry entry, real phase, WindScene scene) {
     return length(length(px - x, py - y), length(ce - c, se - s));
 }
 
+/* The maneuver that takes less time; a where b ends too far from the circle. */
+static inline EntryBeside faster_beside(EntryBeside a, EntryBeside b, real tolerance) {
+    return b.miss <= tolerance && (0.0 <= b.entry.t1 && b.entry.t1 < min_real(a.entry.t1, TWO_PI)) ? b : a;
+}
+
+/* The size of the rate of turn that holds the circle at a phase: g^2 / (R cos(crab)), (3). */
+static inline real hold_rate(real phase, integer side, real R, real wx, real wy) {
+    const real_5 hold_pose_1 = hold_pose(phase, side, R, wx, wy);
+    const real c = hold_pose_1.a2, s = hold_pose_1.a3, g = hold_pose_1.a4;
+    return g * g / (R * (g - (wx * (c + wx) + wy * (s + wy)) / g));
+}
+
+/* One arc that ends on the circle, and its phase, from an approximation, by Newton's method.
+ *
+ * It can end on the circle and along it only where the start is on it by rounding. The end and the point of joining
+ * move in the same direction, so the distance between them along it determines the duration of the arc less the
+ * time s by which it joins later, and then the heading determines s.
+ */
+static inline Entry_real fit_one_arc(Entry arc, real phase, WindScene scene) {
+    const real x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy,
+            arc_tolerance = scene.arc_tolerance;
+    const integer side = arc.side, word = arc.word;
+    real t = arc.t1;
+    const integer_3 controls_1 = controls(word);
+    const integer u = controls_1.a0;
+    for (integer pass_1 = 0; pass_1 < ARC_STEPS; pass_1++) {
+        const real_4 fly_2 = fly(x, y, c, s, u, t);
+        const real x1 = fly_2.a0, y1 = fly_2.a1, c1 = fly_2.a2, s1 = fly_2.a3;
+        const real_5 hold_pose_3 = hold_pose(phase, side, R, wx, wy);
+        const real px = hold_pose_3.a0, py = hold_pose_3.a1, ce = hold_pose_3.a2, se = hold_pose_3.a3, g =
+                hold_pose_3.a4;
+        const real rx = px - x1 - wx * t, ry = py - y1 - wy * t, vx = ce + wx, vy = se + wy;
+        const real longer = (rx * vx + ry * vy) / (g * g), bend = (real)u + (real)side * hold_rate(phase, side, R,
+                wx, wy);
+        if (bend == 0.0) {
+            break;
+        }
+        const real later = (atan2(c1 * se - s1 * ce, c1 * ce + s1 * se) - (real)u * longer) / bend;
+        t = t + longer + later;
+        phase = phase + later * g / R;
+        if (fabs(longer) + fabs(later) <= arc_tolerance) {
+            break;
+        }
+    }
+    return (Entry_real){(Entry){side, word, t, 0.0, 0.0}, phase};
+}
+
+/* The arc of control u next to an approximation that ends abreast of the circle, with the heading of the hold. */
+static inline EntryBeside arc_beside(integer u, real t, real phase, integer side, WindScene scene) {
+    const Entry_real fit_one_arc_1 = fit_one_arc((Entry){side, encode(u, -2, -2), t, 0.0, 0.0}, phase, scene);
+    const Entry entry = fit_one_arc_1.a0;
+    phase = fit_one_arc_1.a1;
+    return (EntryBeside){entry, phase, end_miss(entry, phase, scene)};
+}
+
+/* The end of the arc of control u that ends with the heading of a point of joining. */
+static inline ArcEnd arc_end(integer u, real phase, integer side, WindScene scene) {
+    const real x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy;
+    const real_5 hold_pose_1 = hold_pose(phase, side, R, wx, wy);
+    const real px = hold_pose_1.a0, py = hold_pose_1.a1, ce = hold_pose_1.a2, se = hold_pose_1.a3, g =
+            hold_pose_1.a4;
+    const real t = angle(arc_rotation(u, c, s, ce, se));
+    const real_4 fly_2 = fly(x, y, c, s, u, t);
+    const real x1 = fly_2.a0, y1 = fly_2.a1;
+    const real rx = px - x1 - wx * t, ry = py - y1 - wy * t;
+    return (ArcEnd){t, (rx * (ce + wx) + ry * (se + wy)) / g};
+}
+
+/* The faster of `best` and the arcs of the control u between `ARC_SAMPLES` points of joining. */
+static inline EntryBeside fastest_arc_beside(EntryBeside best, integer u, integer side, real tolerance, WindScene
+        scene) {
+    ArcEnd before = arc_end(u, 0.0, side, scene);
+    const integer last_1 = ARC_SAMPLES + 1;
+    for (integer i = 1; i < last_1; i++) {
+        const real phase = TWO_PI / (real)ARC_SAMPLES * (real)i;
+        const ArcEnd after = arc_end(u, phase, side, scene);
+        /* Where the heading of the start lies between those of two points, one of the two arcs is almost a whole turn. */
+        if ((before.short_ <= 0.0 && 0.0 <= after.short_) && fabs(after.t - before.t) < 3.141592653589793) {
+            best = faster_beside(best, arc_beside(u, after.t, phase, side, scene), tolerance);
+        }
+        before = after;
+    }
+    return best;
+}
+
+/* The fastest maneuver of no piece or of one arc that ends within `tolerance` of the circle; T is inf for none.
+ *
+ * `sides` is a `words.Side`. An arc ends with the heading of its point of joining, so that its miss is the distance
+ * from that point.
+ */
+static inline EntryBeside entry_beside(integer sides, real tolerance, WindScene scene) {
+    EntryBeside best = NO_ENTRY_BESIDE;
+    const integer each_side_1[2] = {1, -1};
+    for (int i_1 = 0; i_1 < 2; i_1++) {
+        const integer side = each_side_1[i_1];
+        if (sides != -side) {
+            const real phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy);
+            const Entry nothing = (Entry){side, 0, 0.0, 0.0, 0.0};
+            if (hold_miss(phase, side, scene) <= tolerance && best.entry.t1 > 0.0) {
+                best = (EntryBeside){nothing, phase, end_miss(nothing, phase, scene)};
+            }
+            const integer each_u_2[2] = {1, -1};
+            for (int i_2 = 0; i_2 < 2; i_2++) {
+                const integer u = each_u_2[i_2];
+                best = faster_beside(best, arc_beside(u, 0.0, phase, side, scene), tolerance);
+                best = fastest_arc_beside(best, u, side, tolerance, scene);
+            }
+        }
+    }
+    return best;
+}
+
+/* The result for a maneuver that joins at a phase. */
+static inline WindEntry entry_at(Entry entry, real phase, real miss, WindScene scene) {
+    const real_5 hold_pose_1 = hold_pose(phase, entry.side, scene.R, scene.wx, scene.wy);
+    const real px = hold_pose_1.a0, py = hold_pose_1.a1;
+    return (WindEntry){STATUS_OK + 0, entry.side, entry.word, entry.t1, entry.t2, entry.t3, atan2(py, px), miss};
+}
+
+/* The candidate without pieces, which joins at the point of the circle that is nearest to the start. */
+static inline WindCandidate start_on_circle(integer side, WindScene scene) {
+    const real phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy);
+    return (WindCandidate){phase, side, (Path){0.0, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0}};
+}
+
 /* Whether the start is on the circle and moves along it, up to rounding. */
 static inline bool is_on_circle(integer side, WindScene scene) {
     const Entry nothing = (Entry){side, 0, 0.0, 0.0, 0.0};
     const real phase = start_on_circle(side, scene).phase;
     return end_miss(nothing, phase, scene) <= 3.0 * scene.arc_tolerance;
+}
+
+/* The arc left of a word whose other pieces together last `SHORT` or less; the empty word where there is none. */
+static inline Entry one_arc_entry(WindCandidate found) {
+    const integer side = found.side;
+    const Path path = found.path;
+    const integer_3 controls_1 = controls(path.word);
+    const integer first = controls_1.a0, middle = controls_1.a1, last = controls_1.a2;
+    if (first == last && path.t2 <= SHORT) {
+        return (Entry){side, encode(first, -2, -2), path.t1 + path.t3, 0.0, 0.0};
+    }
+    if (middle != 0 && path.t1 + path.t3 <= SHORT) {
+        return (Entry){side, encode(middle, -2, -2), path.t2, 0.0, 0.0};
+    }
+    if (path.t2 + path.t3 <= SHORT) {
+        return (Entry){side, encode(first, -2, -2), path.t1, 0.0, 0.0};
+    }
+    if (path.t1 + path.t2 <= SHORT) {
+        return (Entry){side, encode(last, -2, -2), path.t3, 0.0, 0.0};
+    }
+    return (Entry){side, 0, 0.0, 0.0, 0.0};
+}
+
+/* The two arcs left of a word whose third piece lasts `short` or less; the empty word where there are none. */
+static inline Entry two_arc_entry(WindCandidate found, real short_) {
+    const integer side = found.side;
+    const Path path = found.path;
+    const integer_3 controls_1 = controls(path.word);
+    const integer first = controls_1.a0, middle = controls_1.a1, last = controls_1.a2;
+    if (middle == 0) {
+        if (path.t2 <= short_ && first != last) {
+            return (Entry){side, encode(first, last, -2), path.t1, path.t3, 0.0};
+        }
+    } else if (path.t1 <= min_real(short_, path.t3)) {
+        return (Entry){side, encode(middle, last, -2), path.t2, path.t3, 0.0};
+    } else if (path.t3 <= short_) {
+        return (Entry){side, encode(first, middle, -2), path.t1, path.t2, 0.0};
+    }
+    return (Entry){side, 0, 0.0, 0.0, 0.0};
+}
+
+/* Whether one or two arcs end on the circle, and no later than `latest`, up to rounding. */
+static inline bool is_close(Entry arcs, real phase, real latest, WindScene scene) {
+    const bool both_flown = min_real(arcs.t1, arcs.t2) >= 0.0;
+    const real late = entry_duration(arcs) - latest;
+    return both_flown && max_real(late, end_miss(arcs, phase, scene)) <= 3.0 * scene.arc_tolerance;
+}
+
+/* Two arcs that end on the circle, and their phase, from an approximation, by Newton's method.
+ *
+ * Where the headings agree, joining later by s along the circle moves the point of joining just as flying the
+ * second arc for s longer moves the end of the path. So the position determines t1 and t2 - s, and then the heading
+ * determines s.
+ */
+static inline Entry_real fit_two_arcs(Entry arcs, real phase, WindScene scene) {
+    const real x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy,
+            arc_tolerance = scene.arc_tolerance;
+    const integer side = arcs.side, word = arcs.word;
+    real t1 = arcs.t1, t2 = arcs.t2;
+    const integer_3 controls_1 = controls(word);
+    const integer first = controls_1.a0, second = controls_1.a1;
+    for (integer pass_1 = 0; pass_1 < ARC_STEPS; pass_1++) {
+        const real_4 fly_2 = fly(x, y, c, s, first, t1);
+        const real x1 = fly_2.a0, y1 = fly_2.a1, c1 = fly_2.a2, s1 = fly_2.a3;
+        const real_4 fly_3 = fly(x1, y1, c1, s1, second, t2);
+        const real x2 = fly_3.a0, y2 = fly_3.a1, c2 = fly_3.a2, s2 = fly_3.a3;
+        const real_5 hold_pose_4 = hold_pose(phase, side, R, wx, wy);
+        const real px = hold_pose_4.a0, py = hold_pose_4.a1, ce = hold_pose_4.a2, se = hold_pose_4.a3, g =
+                hold_pose_4.a4;
+        const real rx = px - x2 - wx * (t1 + t2), ry = py - y2 - wy * (t1 + t2);
+        /* How the end moves with t1, which turns the second arc about its start, and with t2. */
+        const real ax = c1 + wx - (real)first * (y2 - y1), ay = s1 + wy + (real)first * (x2 - x1);
+        const real bx = c2 + wx, by = s2 + wy;
+        const real across = ax * by - ay * bx, bend = (real)second + (real)side * hold_rate(phase, side, R, wx, wy);
+        if (across == 0.0 || bend == 0.0) {
+            break;
+        }
+        const real d1 = (rx * by - ry * bx) / across, d2 = (ax * ry - ay * rx) / across;
+        const real later = (atan2(c2 * se - s2 * ce, c2 * ce + s2 * se) - (real)first * d1 - (real)second * d2) /
+                bend;
+        t1 = t1 + d1;
+        t2 = t2 + d2 + later;
+        phase = phase + later * g / R;
+        if (fabs(d1) + fabs(d2) + fabs(later) <= arc_tolerance) {
+            break;
+        }
+    }
+    return (Entry_real){(Entry){side, word, t1, t2, 0.0}, phase};
+}
+
+/* The maneuver and phase of a candidate, or those of one or two of its arcs alone if close and no slower. */
+static inline Entry_real polish(WindCandidate found, WindScene scene) {
+    const real phase = found.phase;
+    const integer side = found.side;
+    const Path path = found.path;
+    const Entry entry = (Entry){side, path.word, path.t1, path.t2, path.t3};
+    const real latest = path.time + TOO_EARLY * end_miss(entry, phase, scene);
+    Entry arc = one_arc_entry(found), arcs = two_arc_entry(found, SHORT);
+    if (arc.word != 0) {
+        const Entry_real fit_one_arc_1 = fit_one_arc(arc, phase, scene);
+        arc = fit_one_arc_1.a0;
+        const real arc_phase = fit_one_arc_1.a1;
+        if (is_close(arc, arc_phase, latest, scene)) {
+            return (Entry_real){arc, arc_phase};
+        }
+    }
+    if (arcs.word != 0) {
+        const Entry_real fit_two_arcs_2 = fit_two_arcs(arcs, phase, scene);
+        arcs = fit_two_arcs_2.a0;
+        const real arcs_phase = fit_two_arcs_2.a1;
+        if (is_close(arcs, arcs_phase, latest, scene)) {
+            return (Entry_real){arcs, arcs_phase};
+        }
+    }
+    return (Entry_real){entry, phase};
+}
+
+/* A candidate as the maneuver flown; `Status.NOT_CONVERGED` where it does not end on the circle. */
+static inline WindEntry wind_entry(WindCandidate found, WindScene scene) {
+    const real length_tolerance = rounding(scene.x, scene.y, scene.R);
+    const Entry_real polish_1 = polish(found, scene);
+    const integer side = polish_1.a0.side;
+    integer word = polish_1.a0.word;
+    real t1 = polish_1.a0.t1, t2 = polish_1.a0.t2, t3 = polish_1.a0.t3;
+    const real phase = polish_1.a1;
+    const integer_real_3 drop_short_pieces_2 = drop_short_pieces(word, t1, t2, t3, length_tolerance, ROUNDING);
+    word = drop_short_pieces_2.a0;
+    t1 = drop_short_pieces_2.a1;
+    t2 = drop_short_pieces_2.a2;
+    t3 = drop_short_pieces_2.a3;
+    const real miss = end_miss((Entry){side, word, t1, t2, t3}, phase, scene);
+    /* Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The negated */
+    /* comparison also rejects a miss that is nan. */
+    if (!(miss <= 2.0 * length_tolerance + ROUNDING * (t1 + t2 + t3))) {
+        return no_entry(STATUS_NOT_CONVERGED + 0);
+    }
+    return entry_at((Entry){side, word, t1, t2, t3}, phase, miss, scene);
+}
+
+/* The side, word and durations of a maneuver, as for still air. */
+static inline Entry entry_of(WindEntry maneuver) {
+    return (Entry){maneuver.side, maneuver.word, maneuver.t1, maneuver.t2, maneuver.t3};
+}
+
+/* T, the whole time of a maneuver. */
+static inline real time_of(WindEntry maneuver) {
+    return entry_duration(entry_of(maneuver));
+}
+
+/* The search with its result: the maneuver onto the circle, or that beside it if it is faster. */
+static inline void end_search(WindSearch *search) {
+    const WindScene scene = search->scene;
+    const EntryBeside beside = search->beside;
+    WindEntry entry = wind_entry(search->best, scene);
+    /* The negated comparison is also true where there is no maneuver onto the circle: its times are nan. */
+    if (beside.entry.t1 < INFINITY && !(time_of(entry) <= beside.entry.t1)) {
+        entry = entry_at(beside.entry, beside.phase, beside.miss, scene);
+    }
+    search->stage = ENDED;
+    search->entry = entry;
+    return;
+}
+
+/* The search for the fastest maneuver, before its first step; it has ended where the answer is known at once. */
+static inline WindSearch begin_search(WindProblem problem) {
+    WindSearch search = NO_SEARCH;
+    const integer status = wind_search_status_of(problem);
+    if (status != 0) {
+        search.stage = ENDED;
+        search.entry = no_entry(status);
+        return search;
+    }
+    const WindScene scene = scene_of(problem);
+    search.sides = problem.side;
+    search.scene = scene;
+    if (problem.tolerance > 0.0) {
+        search.beside = entry_beside(problem.side, problem.tolerance, scene);
+        const Entry entry = search.beside.entry;
+        const real phase = search.beside.phase, miss = search.beside.miss;
+        if (entry.t1 == 0.0) {
+            search.stage = ENDED;
+            search.entry = entry_at(entry, phase, miss, scene);
+            return search;
+        }
+    }
+    const integer each_one_1[2] = {1, -1};
+    for (int i_1 = 0; i_1 < 2; i_1++) {
+        const integer one = each_one_1[i_1];
+        if (problem.side != -one && is_on_circle(one, scene)) {
+            search.best = start_on_circle(one, scene);
+        }
+    }
+    if (search.best.side != 0) {
+        end_search(&search);
+        return search;
+    }
+    return search;
 }
 
 /* The time at which a straight flight at speed 1 meets a point that starts at d and moves with -w: t = |d - w t|.
@@ -1364,26 +1735,6 @@ static inline Path first_path_of(integer words, real phase, integer side, WindSc
     return best;
 }
 
-/* The fastest of `best` and the paths to `JOINS` points around the circle, where possible with a straight piece. */
-static inline WindCandidate best_of_joins(integer side, WindScene scene, WindCandidate best) {
-    for (integer i = 0; i < JOINS; i++) {
-        const real phase = TWO_PI / (real)JOINS * ((real)i + 0.5);
-        const integer words = best.path.time < INFINITY ? WITH_STRAIGHT : ALL_WORDS;
-        const Path path = first_path_of(words, phase, side, scene, best.path.time);
-        if (path.time < best.path.time) {
-            best = (WindCandidate){phase, side, path};
-        }
-    }
-    return best;
-}
-
-/* The size of the rate of turn that holds the circle at a phase: g^2 / (R cos(crab)), (3). */
-static inline real hold_rate(real phase, integer side, real R, real wx, real wy) {
-    const real_5 hold_pose_1 = hold_pose(phase, side, R, wx, wy);
-    const real c = hold_pose_1.a2, s = hold_pose_1.a3, g = hold_pose_1.a4;
-    return g * g / (R * (g - (wx * (c + wx) + wy * (s + wy)) / g));
-}
-
 /* The derivative of the time of the path with respect to the point of joining, in units of hold time, (6).
  *
  * It is zero where the adjoint is transversal to the circle, and it never exceeds 1.
@@ -1404,24 +1755,35 @@ static inline JoinPoint join_point(integer words, real phase, integer side, Wind
     return (JoinPoint){phase, path, join_slope(path, phase, side, scene)};
 }
 
-/* Two points with a local minimum between them, the better one first, from a point next to it. */
-static inline JoinPoint_2 bracketed_minimum(JoinPoint here, real width, integer side, WindScene scene) {
-    JoinPoint other = here;
-    for (integer pass_1 = 0; pass_1 < BRACKETING_STEPS; pass_1++) {
-        other = join_point(ALL_WORDS, here.phase + (here.slope < 0.0 ? width : -width), side, scene);
-        if (other.path.time > here.path.time) {
-            break;
-        }
+/* The refinement after a step towards where the time falls, twice as long as the last one. */
+static inline void bracket(Refinement *refinement, WindScene scene) {
+    JoinPoint here = refinement->here;
+    const integer steps = refinement->steps;
+    const real step = refinement->width * (real)shift_left(1, steps);
+    JoinPoint other = join_point(ALL_WORDS, here.phase + (here.slope < 0.0 ? step : -step), refinement->side,
+            scene);
+    bool is_enclosed = other.path.time > here.path.time;
+    if (!is_enclosed) {
         const JoinPoint new_here = other;
         const JoinPoint new_other = here;
         here = new_here;
         other = new_other;
-        if (here.slope * other.slope <= 0.0) {
-            break;
-        }
-        width *= 2.0;
+        is_enclosed = here.slope * other.slope <= 0.0;
     }
-    return (JoinPoint_2){here, other};
+    if (!is_enclosed && steps + 1 < BRACKETING_STEPS) {
+        refinement->here = here;
+        refinement->steps = steps + 1;
+        return;
+    }
+    const integer words = (set_of(here.path.word) | set_of(other.path.word));
+    refinement->stage = ENCLOSING;
+    refinement->here = here;
+    refinement->other = other;
+    refinement->last = other;
+    refinement->words = words;
+    refinement->bisect = false;
+    refinement->steps = 0;
+    return;
 }
 
 /* Whether two paths are of different words, or an arc has lost or gained a whole turn between them. */
@@ -1444,66 +1806,6 @@ static inline real secant_phase(JoinPoint a, JoinPoint b) {
 static inline bool is_worthless(JoinPoint here, real there, WindScene scene) {
     const real slowest = 1.0 - length(scene.wx, scene.wy);
     return fabs(there - here.phase) * fabs(here.slope) * scene.R * WORTH <= here.path.time * slowest;
-}
-
-/* The two arcs left of a word whose third piece lasts `short` or less; the empty word where there are none. */
-static inline Entry two_arc_entry(WindCandidate found, real short_) {
-    const integer side = found.side;
-    const Path path = found.path;
-    const integer_3 controls_1 = controls(path.word);
-    const integer first = controls_1.a0, middle = controls_1.a1, last = controls_1.a2;
-    if (middle == 0) {
-        if (path.t2 <= short_ && first != last) {
-            return (Entry){side, encode(first, last, -2), path.t1, path.t3, 0.0};
-        }
-    } else if (path.t1 <= min_real(short_, path.t3)) {
-        return (Entry){side, encode(middle, last, -2), path.t2, path.t3, 0.0};
-    } else if (path.t3 <= short_) {
-        return (Entry){side, encode(first, middle, -2), path.t1, path.t2, 0.0};
-    }
-    return (Entry){side, 0, 0.0, 0.0, 0.0};
-}
-
-/* Two arcs that end on the circle, and their phase, from an approximation, by Newton's method.
- *
- * Where the headings agree, joining later by s along the circle moves the point of joining just as flying the
- * second arc for s longer moves the end of the path. So the position determines t1 and t2 - s, and then the heading
- * determines s.
- */
-static inline Entry_real fit_two_arcs(Entry arcs, real phase, WindScene scene) {
-    const real x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy,
-            arc_tolerance = scene.arc_tolerance;
-    const integer side = arcs.side, word = arcs.word;
-    real t1 = arcs.t1, t2 = arcs.t2;
-    const integer_3 controls_1 = controls(word);
-    const integer first = controls_1.a0, second = controls_1.a1;
-    for (integer pass_1 = 0; pass_1 < ARC_STEPS; pass_1++) {
-        const real_4 fly_2 = fly(x, y, c, s, first, t1);
-        const real x1 = fly_2.a0, y1 = fly_2.a1, c1 = fly_2.a2, s1 = fly_2.a3;
-        const real_4 fly_3 = fly(x1, y1, c1, s1, second, t2);
-        const real x2 = fly_3.a0, y2 = fly_3.a1, c2 = fly_3.a2, s2 = fly_3.a3;
-        const real_5 hold_pose_4 = hold_pose(phase, side, R, wx, wy);
-        const real px = hold_pose_4.a0, py = hold_pose_4.a1, ce = hold_pose_4.a2, se = hold_pose_4.a3, g =
-                hold_pose_4.a4;
-        const real rx = px - x2 - wx * (t1 + t2), ry = py - y2 - wy * (t1 + t2);
-        /* How the end moves with t1, which turns the second arc about its start, and with t2. */
-        const real ax = c1 + wx - (real)first * (y2 - y1), ay = s1 + wy + (real)first * (x2 - x1);
-        const real bx = c2 + wx, by = s2 + wy;
-        const real across = ax * by - ay * bx, bend = (real)second + (real)side * hold_rate(phase, side, R, wx, wy);
-        if (across == 0.0 || bend == 0.0) {
-            break;
-        }
-        const real d1 = (rx * by - ry * bx) / across, d2 = (ax * ry - ay * rx) / across;
-        const real later = (atan2(c2 * se - s2 * ce, c2 * ce + s2 * se) - (real)first * d1 - (real)second * d2) /
-                bend;
-        t1 = t1 + d1;
-        t2 = t2 + d2 + later;
-        phase = phase + later * g / R;
-        if (fabs(d1) + fabs(d2) + fabs(later) <= arc_tolerance) {
-            break;
-        }
-    }
-    return (Entry_real){(Entry){side, word, t1, t2, 0.0}, phase};
 }
 
 /* Whether a phase lies between those of two points. */
@@ -1547,63 +1849,71 @@ static inline JoinPoint falling_beside(JoinPoint corner, integer side, WindScene
     return (JoinPoint){corner.phase, NO_PATH, 0.0};
 }
 
-/* The local minimum of the time next to a candidate, of the words of the two points that enclose it at first.
- *
- * From the best point so far, `here`, the time falls towards the point `other`. There the time is higher, or it
- * falls in the opposite direction. So there is a local minimum between them.
- */
-static inline WindCandidate enclosed_minimum(WindCandidate found, real width, WindScene scene) {
-    const integer side = found.side;
-    const JoinPoint start = (JoinPoint){found.phase, found.path, join_slope(found.path, found.phase, side, scene)};
-    const JoinPoint_2 bracketed_minimum_1 = bracketed_minimum(start, width, side, scene);
-    JoinPoint here = bracketed_minimum_1.a0, other = bracketed_minimum_1.a1;
-    integer words = (set_of(here.path.word) | set_of(other.path.word));
-    JoinPoint last = other;
-    bool bisect = false;
-    for (integer step = 0; step < REFINING_STEPS; step++) {
-        const real secant = secant_phase(here, last);
-        /* Across a corner the secant does not show how far the minimum is. */
-        if (is_worthless(here, has_changed(here.path, last.path) ? other.phase : secant, scene)) {
-            break;
-        }
-        const real corner = integer_modulo(step, 4) == 1 ? corner_phase(here, other, side, scene) : INFINITY;
-        real there = is_between(corner, here, other) ? corner : 0.5 * (here.phase + other.phase);
-        const bool use_secant = there != corner && !bisect && is_between(secant, here, other);
-        if (use_secant) {
-            there = secant;
-        }
-        if (there == here.phase || there == other.phase) {
-            break;
-        }
-        const real flattest = min_real(fabs(here.slope), fabs(last.slope));
-        last = join_point(words, there, side, scene);
-        if (last.path.time > here.path.time && has_changed(here.path, last.path)) {
-            last = join_point(ALL_WORDS, there, side, scene);
-            words |= set_of(last.path.word);
-        }
-        /* A secant that helps little is followed by a bisection. */
-        bisect = use_secant && fabs(last.slope) > 0.5 * flattest;
-        if (last.path.time > here.path.time + scene.arc_tolerance) {
-            other = last;
-        } else if (there == corner) {
-            const JoinPoint beside = falling_beside(last, side, scene);
-            if (beside.path.time == INFINITY) {
-                here = last;
-                break;
-            }
-            other = is_between(beside.phase, last, other) ? other : here;
-            here = beside;
-        } else {
-            if (here.slope * last.slope < 0.0) {
-                other = here;
-            }
-            const JoinPoint new_here = last;
-            const JoinPoint new_last = here;
-            here = new_here;
-            last = new_last;
-        }
+/* The refinement after another point between those that enclose the minimum. */
+static inline void enclose(Refinement *refinement, WindScene scene) {
+    const integer side = refinement->side;
+    JoinPoint here = refinement->here, other = refinement->other, last = refinement->last;
+    integer words = refinement->words;
+    bool bisect = refinement->bisect;
+    const integer steps = refinement->steps;
+    const real secant = secant_phase(here, last);
+    /* Across a corner the secant does not show how far the minimum is. */
+    if (is_worthless(here, has_changed(here.path, last.path) ? other.phase : secant, scene)) {
+        refinement->stage = COMPARING;
+        return;
     }
-    return (WindCandidate){here.phase, side, here.path};
+    const real corner = integer_modulo(steps, 4) == 1 ? corner_phase(here, other, side, scene) : INFINITY;
+    real there = is_between(corner, here, other) ? corner : 0.5 * (here.phase + other.phase);
+    const bool use_secant = there != corner && !bisect && is_between(secant, here, other);
+    if (use_secant) {
+        there = secant;
+    }
+    if (there == here.phase || there == other.phase) {
+        refinement->stage = COMPARING;
+        return;
+    }
+    const real flattest = min_real(fabs(here.slope), fabs(last.slope));
+    last = join_point(words, there, side, scene);
+    if (last.path.time > here.path.time && has_changed(here.path, last.path)) {
+        last = join_point(ALL_WORDS, there, side, scene);
+        words |= set_of(last.path.word);
+    }
+    /* A secant that helps little is followed by a bisection. */
+    bisect = use_secant && fabs(last.slope) > 0.5 * flattest;
+    if (last.path.time > here.path.time + scene.arc_tolerance) {
+        other = last;
+    } else if (there == corner) {
+        const JoinPoint beside = falling_beside(last, side, scene);
+        if (beside.path.time == INFINITY) {
+            refinement->stage = COMPARING;
+            refinement->here = last;
+            return;
+        }
+        other = is_between(beside.phase, last, other) ? other : here;
+        here = beside;
+    } else {
+        if (here.slope * last.slope < 0.0) {
+            other = here;
+        }
+        const JoinPoint new_here = last;
+        const JoinPoint new_last = here;
+        here = new_here;
+        last = new_last;
+    }
+    const integer stage = steps + 1 < REFINING_STEPS ? ENCLOSING : COMPARING;
+    refinement->stage = stage;
+    refinement->here = here;
+    refinement->other = other;
+    refinement->last = last;
+    refinement->words = words;
+    refinement->bisect = bisect;
+    refinement->steps = steps + 1;
+    return;
+}
+
+/* The local minimum at which a refinement has ended. */
+static inline WindCandidate minimum_of(const Refinement *refinement) {
+    return (WindCandidate){refinement->here.phase, refinement->side, refinement->here.path};
 }
 
 /* The first path to a point of joining, the best of the six words; `NO_PATH` where it takes longer than `until`. */
@@ -1626,20 +1936,183 @@ static inline WindCandidate faster_nearby(WindCandidate found, WindScene scene) 
     return (WindCandidate){found.phase, found.side, NO_PATH};
 }
 
-/* The local minimum of the time next to a candidate, where the slope changes its sign or the time jumps.
- *
- * Only the words of the two points that enclose the minimum are tried, until all are at the end.
- */
-static inline WindCandidate refined_minimum(WindCandidate found, real width, WindScene scene) {
-    for (integer pass_1 = 0; pass_1 < REFINEMENTS; pass_1++) {
-        found = enclosed_minimum(found, width, scene);
-        const WindCandidate faster = faster_nearby(found, scene);
-        if (faster.path.time == INFINITY) {
-            break;
-        }
-        found = faster;
+/* The refinement that begins at a point; its first step is as wide as `width`, radians. */
+static inline Refinement refinement_from(JoinPoint start, integer side, real width) {
+    Refinement changed_1 = NO_REFINEMENT;
+    changed_1.stage = BRACKETING;
+    changed_1.side = side;
+    changed_1.width = width;
+    changed_1.here = start;
+    return changed_1;
+}
+
+/* The refinement of a candidate. */
+static inline Refinement begin_refinement(WindCandidate found, real width, WindScene scene) {
+    const real slope = join_slope(found.path, found.phase, found.side, scene);
+    return refinement_from((JoinPoint){found.phase, found.path, slope}, found.side, width);
+}
+
+/* The refinement of a faster path, of any word, to its minimum or to a point beside it, if there is one. */
+static inline void compare_nearby(Refinement *refinement, WindScene scene) {
+    const WindCandidate faster = faster_nearby(minimum_of(refinement), scene);
+    if (faster.path.time == INFINITY) {
+        refinement->stage = REFINED;
+        return;
     }
-    return found;
+    const Refinement again = begin_refinement(faster, refinement->width, scene);
+    const integer enclosures = refinement->enclosures + 1;
+    Refinement changed_1 = again;
+    changed_1.stage = enclosures < REFINEMENTS ? BRACKETING : REFINED;
+    changed_1.enclosures = enclosures;
+    *refinement = changed_1;
+    return;
+}
+
+/* The refinement after another step, which tries a point, or a few; it has not ended yet. */
+static inline void refine(Refinement *refinement, WindScene scene) {
+    if (refinement->stage == BRACKETING) {
+        bracket(refinement, scene);
+        return;
+    }
+    if (refinement->stage == ENCLOSING) {
+        enclose(refinement, scene);
+        return;
+    }
+    compare_nearby(refinement, scene);
+    return;
+}
+
+/* The leaf after one, by its number. */
+static inline CellVisit next_leaf(integer leaf) {
+    return (CellVisit){leaf + 1, LEAF, ALL_WORDS};
+}
+
+/* The search at the beginning of its next stage, on the other side; the result after the last one. */
+static inline void next_stage(WindSearch *search) {
+    const integer stage = search->stage + 1, one = -search->one;
+    if (stage == ENDED) {
+        end_search(search);
+        return;
+    }
+    CellVisit visit = FIRST_CELL;
+    if (stage > COARSE_OTHER || search->sides == -one) {
+        const integer first = search->others.first, second = search->others.second, third =
+                search->others.third, fourth = search->others.fourth;
+        visit = next_leaf((((first | second) | third) | fourth) != 0 ? -1 : shift_left(FIRST_CELLS, LEAF));
+    }
+    const Leaves new_1 = search->others;
+    const Leaves new_2 = search->leaves;
+    search->stage = stage;
+    search->one = one;
+    search->visit = visit;
+    search->before = NO_LEAF_END;
+    search->leaves = new_1;
+    search->others = new_2;
+    search->corner = NO_CORNER;
+    search->compared = INFINITY;
+    search->visits = 0;
+    return;
+}
+
+/* Whether a cell needs not be halved further. */
+static inline bool is_done(CellVisit visit, OpenCell cell, WindCandidate best) {
+    return visit.level == LAST || cell.earliest >= best.path.time - cell.tolerance;
+}
+
+/* The first half of a cell inside which a set of words may join. */
+static inline CellVisit first_half(CellVisit visit, integer possible) {
+    const integer words = visit.level < NARROWED ? (shift_left(visit.words, 6) | possible) : visit.words;
+    return (CellVisit){2 * visit.number, visit.level + 1, words};
+}
+
+/* The cell after one that needs not be halved: the largest that begins there and is not yet visited. */
+static inline CellVisit next_cell(CellVisit visit) {
+    integer number = visit.number + 1, level = visit.level, words = visit.words;
+    while (level > 0 && integer_modulo(number, 2) == 0) {
+        const integer new_number = integer_quotient(number, 2);
+        const integer new_level = level - 1;
+        const integer new_words = level <= NARROWED ? (words >> 6) : words;
+        number = new_number;
+        level = new_level;
+        words = new_words;
+    }
+    return (CellVisit){number, level, words};
+}
+
+/* The cell after one of a leaf in which a set of words may join: its first half, the next one, or the next leaf. */
+static inline CellVisit next_in_leaves(CellVisit visit, integer words) {
+    const integer leaf = (visit.number >> (visit.level - LEAF));
+    visit = words != 0 ? first_half(visit, words) : next_cell(visit);
+    return visit.level >= LEAF && (visit.number >> (visit.level - LEAF)) == leaf ? visit : next_leaf(leaf);
+}
+
+/* The search with a refinement continued until it ends, and with its result then. */
+static inline void refine_path(WindSearch *search) {
+    Refinement refinement = search->refinement;
+    integer left = search->left;
+    const WindScene scene = search->scene;
+    while (refinement.stage != REFINED && left > 0) {
+        Refinement changed_1 = refinement;
+        refine(&changed_1, scene);
+        refinement = changed_1;
+        left = left - 1;
+    }
+    search->refinement = refinement;
+    search->left = left;
+    if (refinement.stage != REFINED) {
+        return;
+    }
+    const WindCandidate found = minimum_of(&refinement), best = search->best;
+    if (search->stage == JOINING) {
+        /* The better side is searched first, which shortens the search on the other side. */
+        search->best = found;
+        search->one = found.side != 0 ? -found.side : -1;
+        if (found.path.time > 0.0) {
+            next_stage(search);
+            return;
+        }
+        end_search(search);
+        return;
+    }
+    if (search->stage <= COARSE_OTHER) {
+        search->best = found.path.time < best.path.time ? found : best;
+        return;
+    }
+    const integer words = is_done(search->visit, search->cell, found) ? 0 : search->cell.words;
+    const CellVisit new_2 = next_in_leaves(search->visit, words);
+    search->best = found;
+    search->visit = new_2;
+    return;
+}
+
+/* The fastest of `best` and the paths to `JOINS` points around the circle, where possible with a straight piece. */
+static inline WindCandidate best_of_joins(integer side, WindScene scene, WindCandidate best) {
+    for (integer i = 0; i < JOINS; i++) {
+        const real phase = TWO_PI / (real)JOINS * ((real)i + 0.5);
+        const integer words = best.path.time < INFINITY ? WITH_STRAIGHT : ALL_WORDS;
+        const Path path = first_path_of(words, phase, side, scene, best.path.time);
+        if (path.time < best.path.time) {
+            best = (WindCandidate){phase, side, path};
+        }
+    }
+    return best;
+}
+
+/* The search with the points of joining on one side tried; then the best path is refined. */
+static inline void join_one_side(WindSearch *search) {
+    WindCandidate best = search->best;
+    const WindScene scene = search->scene;
+    const integer one = search->one;
+    if (search->sides != -one) {
+        best = best_of_joins(one, scene, best);
+    }
+    const Refinement refinement = one == 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / (real)JOINS, scene);
+    const integer new_1 = search->left - 1;
+    search->best = best;
+    search->one = -one;
+    search->left = new_1;
+    search->refinement = refinement;
+    return;
 }
 
 /* The phase in the middle of a cell, and half its width. */
@@ -2107,6 +2580,17 @@ static inline real hold_time(real phase, real width, integer side, real R, real 
     return R * width / min_real(speed_before, speed_after);
 }
 
+/* The first path to the end of a cell, and the time to hold the circle through the cell.
+ *
+ * `NO_PATH` where that path is later than the best one by more than this time.
+ */
+static inline Path_real path_to_end(CellVisit visit, integer side, WindScene scene, WindCandidate best) {
+    const real_2 middle_of_1 = middle_of(visit);
+    const real middle = middle_of_1.a0, half = middle_of_1.a1;
+    const real within = hold_time(middle + half, 2.0 * half, side, scene.R, scene.wx, scene.wy);
+    return (Path_real){first_path(middle + half, side, scene, best.path.time + within), within};
+}
+
 /* Whether the time has a local minimum in the leaf that ends at `after`; `before` is the end of an earlier leaf. */
 static inline bool has_minimum(LeafEnd before, LeafEnd after) {
     const bool rises = after.point.slope > 0.0, later = after.point.path.time > before.point.path.time;
@@ -2116,46 +2600,35 @@ static inline bool has_minimum(LeafEnd before, LeafEnd after) {
     return (before.point.slope < 0.0 && (rises || later)) || (rises && !later);
 }
 
-/* The faster of `best` and the local minimum in a leaf. */
-static inline WindCandidate refine_if_better(LeafEnd before, LeafEnd after, integer side, WindScene scene,
-        WindCandidate best) {
-    const bool adjoins = before.number == after.number - 1;
-    const JoinPoint parts_1 = adjoins && before.point.path.time < after.point.path.time ? before.point :
-            after.point;
-    const real phase = parts_1.phase;
-    const Path path = parts_1.path;
-    const WindCandidate found = refined_minimum((WindCandidate){phase, side, path}, TWO_PI /
-            (real)shift_left(FIRST_CELLS, LEAF), scene);
-    return found.path.time < best.path.time ? found : best;
-}
-
-/* The words that may still join inside a cell early enough; the last leaf's end; the faster of `best` and others.
+/* The words that may still join inside a cell early enough; the last leaf's end; the point to refine, or none.
  *
  * A path that joins inside the cell can follow the circle to the cell's end. So no path into the cell is faster
  * than the first path to its end less the time to hold the circle through the cell.
  */
-static inline integer_LeafEnd_WindCandidate examine_cell(CellVisit visit, integer possible, integer side, WindScene
-        scene, LeafEnd before, WindCandidate best) {
+static inline integer_LeafEnd_JoinPoint examine_cell(CellVisit visit, integer words, integer side, WindScene scene,
+        LeafEnd before, WindCandidate best) {
     const real_2 middle_of_1 = middle_of(visit);
     const real middle = middle_of_1.a0, half = middle_of_1.a1;
-    const real end = middle + half;
     const bool holds_best = side == best.side && fabs(wrap(best.phase - middle)) <= half;
     if (visit.level < LEAF && holds_best) {
-        return (integer_LeafEnd_WindCandidate){possible, before, best};
+        return (integer_LeafEnd_JoinPoint){words, before, NO_POINT};
     }
-    const real within = hold_time(end, 2.0 * half, side, scene.R, scene.wx, scene.wy);
-    const Path path = first_path(end, side, scene, best.path.time + within);
+    const Path_real path_to_end_2 = path_to_end(visit, side, scene, best);
+    const Path path = path_to_end_2.a0;
     if (path.time == INFINITY) {
-        return (integer_LeafEnd_WindCandidate){0, before, best};
+        return (integer_LeafEnd_JoinPoint){0, before, NO_POINT};
     }
-    if (visit.level == LEAF) {
-        const LeafEnd after = (LeafEnd){visit.number, (JoinPoint){end, path, join_slope(path, end, side, scene)}};
-        if (!holds_best && has_minimum(before, after)) {
-            best = refine_if_better(before, after, side, scene, best);
-        }
-        before = after;
+    if (visit.level < LEAF) {
+        return (integer_LeafEnd_JoinPoint){words, before, NO_POINT};
     }
-    return (integer_LeafEnd_WindCandidate){possible, before, best};
+    const LeafEnd after = (LeafEnd){visit.number, (JoinPoint){middle + half, path, join_slope(path, middle + half,
+            side, scene)}};
+    if (holds_best || !has_minimum(before, after)) {
+        return (integer_LeafEnd_JoinPoint){words, after, NO_POINT};
+    }
+    const bool adjoins = before.number == after.number - 1;
+    return (integer_LeafEnd_JoinPoint){words, after, adjoins && before.point.path.time < path.time ? before.point :
+            after.point};
 }
 
 /* A set of leaves and one more, by its number. */
@@ -2174,52 +2647,49 @@ static inline Leaves with_leaf(Leaves leaves, integer number) {
     return (Leaves){first, second, third, (fourth | leaf)};
 }
 
-/* The first half of a cell inside which a set of words may join. */
-static inline CellVisit first_half(CellVisit visit, integer possible) {
-    const integer words = visit.level < NARROWED ? (shift_left(visit.words, 6) | possible) : visit.words;
-    return (CellVisit){2 * visit.number, visit.level + 1, words};
-}
-
-/* The cell after one that needs not be halved: the largest that begins there and is not yet visited. */
-static inline CellVisit next_cell(CellVisit visit) {
-    integer number = visit.number + 1, level = visit.level, words = visit.words;
-    while (level > 0 && integer_modulo(number, 2) == 0) {
-        const integer new_number = integer_quotient(number, 2);
-        const integer new_level = level - 1;
-        const integer new_words = level <= NARROWED ? (words >> 6) : words;
-        number = new_number;
-        level = new_level;
-        words = new_words;
-    }
-    return (CellVisit){number, level, words};
-}
-
-/* The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `search`.
+/* The search after cells of one side, until a path has to be refined; some of their leaves are left to search.
  *
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  */
-static inline WindCandidate_Leaves coarse_search(integer side, WindScene scene, WindCandidate best) {
-    CellVisit visit = (CellVisit){0, 0, ALL_WORDS};
-    LeafEnd before = (LeafEnd){-2, (JoinPoint){0.0, NO_PATH, 0.0}};
-    Leaves leaves = NO_LEAVES;
-    while (visit.number < shift_left(FIRST_CELLS, visit.level)) {
+static inline void coarse_search(WindSearch *search) {
+    const integer one = search->one;
+    const WindScene scene = search->scene;
+    const WindCandidate best = search->best;
+    CellVisit visit = search->visit;
+    LeafEnd before = search->before;
+    Leaves leaves = search->leaves;
+    integer left = search->left;
+    JoinPoint start = NO_POINT;
+    while (left > 0 && start.path.time == INFINITY && visit.number < shift_left(FIRST_CELLS, visit.level)) {
+        left -= 1;
         const real_2 middle_of_1 = middle_of(visit);
-        integer possible = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, scene,
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, scene,
                 best.path.time);
-        if (possible != 0 && visit.level >= COARSE) {
-            const integer_LeafEnd_WindCandidate examine_cell_2 = examine_cell(visit, possible, side, scene, before,
-                    best);
-            possible = examine_cell_2.a0;
+        if (words != 0 && visit.level >= COARSE) {
+            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, one, scene, before, best);
+            words = examine_cell_2.a0;
             before = examine_cell_2.a1;
-            best = examine_cell_2.a2;
-            if (possible != 0 && visit.level == LEAF) {
+            start = examine_cell_2.a2;
+            if (words != 0 && visit.level == LEAF) {
                 leaves = with_leaf(leaves, visit.number);
-                possible = 0;
+                words = 0;
             }
         }
-        visit = possible != 0 ? first_half(visit, possible) : next_cell(visit);
+        visit = words != 0 ? first_half(visit, words) : next_cell(visit);
     }
-    return (WindCandidate_Leaves){best, leaves};
+    search->visit = visit;
+    search->before = before;
+    search->leaves = leaves;
+    search->left = left;
+    if (start.path.time < INFINITY) {
+        search->refinement = refinement_from(start, one, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
+        return;
+    }
+    if (visit.number < shift_left(FIRST_CELLS, visit.level)) {
+        return;
+    }
+    next_stage(search);
+    return;
 }
 
 /* Whether a set of leaves contains the one with a number. */
@@ -2238,13 +2708,6 @@ static inline real time_tolerance(WindCandidate best, WindScene scene) {
 /* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096. */
 static inline real hold_tolerance(WindScene scene) {
     return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / 4096.0);
-}
-
-/* Whether one or two arcs end on the circle, and no later than `latest`, up to rounding. */
-static inline bool is_close(Entry arcs, real phase, real latest, WindScene scene) {
-    const bool both_flown = min_real(arcs.t1, arcs.t2) >= 0.0;
-    const real late = entry_duration(arcs) - latest;
-    return both_flown && max_real(late, end_miss(arcs, phase, scene)) <= 3.0 * scene.arc_tolerance;
 }
 
 /* The two arcs of which the best path consists, up to rounding; `NO_CORNER` for another path. */
@@ -2431,299 +2894,95 @@ static inline integer words_beside_best(CellVisit visit, integer words, WindScen
     return words;
 }
 
-/* The words that may still join in a cell early enough, as in `examine_cell`; the faster of `best` and others. */
-static inline integer_WindCandidate compare_at_end(CellVisit visit, integer possible, integer side, WindScene scene,
-        WindCandidate best, real tolerance) {
+/* The time before which no path joins in a cell, as in `examine_cell`; the path to its end if it is faster. */
+static inline real_WindCandidate compare_at_end(CellVisit visit, integer side, WindScene scene, WindCandidate best)
+        {
     const real_2 middle_of_1 = middle_of(visit);
     const real middle = middle_of_1.a0, half = middle_of_1.a1;
-    const real end = middle + half;
-    const real within = hold_time(end, 2.0 * half, side, scene.R, scene.wx, scene.wy);
-    const Path path = first_path(end, side, scene, best.path.time + within);
-    if (path.time < best.path.time) {
-        best = refined_minimum((WindCandidate){end, side, path}, 2.0 * half, scene);
-    }
-    const bool done = visit.level == LAST || path.time - within >= best.path.time - tolerance;
-    return (integer_WindCandidate){done ? 0 : possible, best};
+    const Path_real path_to_end_2 = path_to_end(visit, side, scene, best);
+    const Path path = path_to_end_2.a0;
+    const real within = path_to_end_2.a1;
+    return (real_WindCandidate){path.time - within, (WindCandidate){middle + half, path.time < best.path.time ? side
+            : 0, path}};
 }
 
-/* The fastest path onto the circle held on one side, if it joins inside one of the leaves; otherwise `best`. */
-static inline WindCandidate search(integer side, WindScene scene, WindCandidate best, Leaves leaves) {
-    Corner corner = NO_CORNER;
-    real compared = INFINITY;
-    integer visits = 0;
-    const integer last_1 = shift_left(FIRST_CELLS, LEAF);
-    for (integer number = 0; number < last_1; number++) {
-        if (has_leaf(leaves, number)) {
-            CellVisit visit = (CellVisit){number, LEAF, ALL_WORDS};
-            while (visit.level >= LEAF && (visit.number >> (visit.level - LEAF)) == number) {
-                visits += 1;
-                const real tolerance = visits <= MOST_VISITS ? time_tolerance(best, scene) : hold_tolerance(scene);
-                const real sooner = best.path.time - tolerance;
-                const real_2 middle_of_1 = middle_of(visit);
-                integer possible = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side,
-                        scene, sooner);
-                if (possible != 0 && side == best.side) {
-                    if (best.path.time < compared) {
-                        corner = corner_of(best, scene);
-                        compared = best.path.time;
-                    }
-                    possible = words_beside_best(visit, possible, scene, best, corner, sooner);
-                }
-                if (possible != 0 && integer_modulo(LAST - visit.level, 2) == 0 && visit.level > LEAF) {
-                    const integer_WindCandidate compare_at_end_2 = compare_at_end(visit, possible, side, scene,
-                            best, tolerance);
-                    possible = compare_at_end_2.a0;
-                    best = compare_at_end_2.a1;
-                }
-                visit = possible != 0 ? first_half(visit, possible) : next_cell(visit);
+/* The search after cells inside the leaves of one side that are left, until a path has to be refined. */
+static inline void fine_search(WindSearch *search) {
+    const integer one = search->one;
+    const WindScene scene = search->scene;
+    const WindCandidate best = search->best;
+    const Leaves leaves = search->leaves;
+    CellVisit visit = search->visit;
+    Corner corner = search->corner;
+    real compared = search->compared;
+    integer visits = search->visits, left = search->left;
+    WindCandidate start = NO_CANDIDATE;
+    OpenCell cell = search->cell;
+    while (left > 0 && start.side == 0 && visit.number < shift_left(FIRST_CELLS, visit.level)) {
+        if (visit.level == LEAF && !has_leaf(leaves, visit.number)) {
+            visit = next_leaf(visit.number);
+            continue;
+        }
+        left = left - 1;
+        visits = visits + 1;
+        const real tolerance = visits <= MOST_VISITS ? time_tolerance(best, scene) : hold_tolerance(scene);
+        const real sooner = best.path.time - tolerance;
+        const real_2 middle_of_1 = middle_of(visit);
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, scene, sooner);
+        if (words != 0 && one == best.side) {
+            if (best.path.time < compared) {
+                corner = corner_of(best, scene);
+                compared = best.path.time;
+            }
+            words = words_beside_best(visit, words, scene, best, corner, sooner);
+        }
+        if (words != 0 && integer_modulo(LAST - visit.level, 2) == 0 && visit.level > LEAF) {
+            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, one, scene, best);
+            const real earliest = compare_at_end_2.a0;
+            start = compare_at_end_2.a1;
+            cell = (OpenCell){words, earliest, tolerance};
+            if (start.side == 0 && is_done(visit, cell, best)) {
+                words = 0;
             }
         }
-    }
-    return best;
-}
-
-/* The faster of `best` and the fastest path onto the circle, by branch and bound. */
-static inline WindCandidate fastest_of_sides(integer side, WindScene scene, WindCandidate best) {
-    /* The better side is searched first, which shortens the search on the other side. */
-    const integer first = best.side != 0 ? best.side : 1;
-    Leaves leaves = NO_LEAVES, others = NO_LEAVES;
-    if (side != -first) {
-        const WindCandidate_Leaves coarse_search_1 = coarse_search(first, scene, best);
-        best = coarse_search_1.a0;
-        leaves = coarse_search_1.a1;
-    }
-    if (side != first) {
-        const WindCandidate_Leaves coarse_search_2 = coarse_search(-first, scene, best);
-        best = coarse_search_2.a0;
-        others = coarse_search_2.a1;
-    }
-    best = search(first, scene, best, leaves);
-    return search(-first, scene, best, others);
-}
-
-/* The arc left of a word whose other pieces together last `SHORT` or less; the empty word where there is none. */
-static inline Entry one_arc_entry(WindCandidate found) {
-    const integer side = found.side;
-    const Path path = found.path;
-    const integer_3 controls_1 = controls(path.word);
-    const integer first = controls_1.a0, middle = controls_1.a1, last = controls_1.a2;
-    if (first == last && path.t2 <= SHORT) {
-        return (Entry){side, encode(first, -2, -2), path.t1 + path.t3, 0.0, 0.0};
-    }
-    if (middle != 0 && path.t1 + path.t3 <= SHORT) {
-        return (Entry){side, encode(middle, -2, -2), path.t2, 0.0, 0.0};
-    }
-    if (path.t2 + path.t3 <= SHORT) {
-        return (Entry){side, encode(first, -2, -2), path.t1, 0.0, 0.0};
-    }
-    if (path.t1 + path.t2 <= SHORT) {
-        return (Entry){side, encode(last, -2, -2), path.t3, 0.0, 0.0};
-    }
-    return (Entry){side, 0, 0.0, 0.0, 0.0};
-}
-
-/* One arc that ends on the circle, and its phase, from an approximation, by Newton's method.
- *
- * It can end on the circle and along it only where the start is on it by rounding. The end and the point of joining
- * move in the same direction, so the distance between them along it determines the duration of the arc less the
- * time s by which it joins later, and then the heading determines s.
- */
-static inline Entry_real fit_one_arc(Entry arc, real phase, WindScene scene) {
-    const real x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy,
-            arc_tolerance = scene.arc_tolerance;
-    const integer side = arc.side, word = arc.word;
-    real t = arc.t1;
-    const integer_3 controls_1 = controls(word);
-    const integer u = controls_1.a0;
-    for (integer pass_1 = 0; pass_1 < ARC_STEPS; pass_1++) {
-        const real_4 fly_2 = fly(x, y, c, s, u, t);
-        const real x1 = fly_2.a0, y1 = fly_2.a1, c1 = fly_2.a2, s1 = fly_2.a3;
-        const real_5 hold_pose_3 = hold_pose(phase, side, R, wx, wy);
-        const real px = hold_pose_3.a0, py = hold_pose_3.a1, ce = hold_pose_3.a2, se = hold_pose_3.a3, g =
-                hold_pose_3.a4;
-        const real rx = px - x1 - wx * t, ry = py - y1 - wy * t, vx = ce + wx, vy = se + wy;
-        const real longer = (rx * vx + ry * vy) / (g * g), bend = (real)u + (real)side * hold_rate(phase, side, R,
-                wx, wy);
-        if (bend == 0.0) {
-            break;
-        }
-        const real later = (atan2(c1 * se - s1 * ce, c1 * ce + s1 * se) - (real)u * longer) / bend;
-        t = t + longer + later;
-        phase = phase + later * g / R;
-        if (fabs(longer) + fabs(later) <= arc_tolerance) {
-            break;
+        if (start.side == 0) {
+            visit = next_in_leaves(visit, words);
         }
     }
-    return (Entry_real){(Entry){side, word, t, 0.0, 0.0}, phase};
+    search->visit = visit;
+    search->corner = corner;
+    search->compared = compared;
+    search->visits = visits;
+    search->left = left;
+    search->cell = cell;
+    if (start.side != 0) {
+        const real_2 middle_of_3 = middle_of(visit);
+        const real half = middle_of_3.a1;
+        search->refinement = begin_refinement(start, 2.0 * half, scene);
+        return;
+    }
+    if (visit.number < shift_left(FIRST_CELLS, visit.level)) {
+        return;
+    }
+    next_stage(search);
+    return;
 }
 
-/* The maneuver and phase of a candidate, or those of one or two of its arcs alone if close and no slower. */
-static inline Entry_real polish(WindCandidate found, WindScene scene) {
-    const real phase = found.phase;
-    const integer side = found.side;
-    const Path path = found.path;
-    const Entry entry = (Entry){side, path.word, path.t1, path.t2, path.t3};
-    const real latest = path.time + TOO_EARLY * end_miss(entry, phase, scene);
-    Entry arc = one_arc_entry(found), arcs = two_arc_entry(found, SHORT);
-    if (arc.word != 0) {
-        const Entry_real fit_one_arc_1 = fit_one_arc(arc, phase, scene);
-        arc = fit_one_arc_1.a0;
-        const real arc_phase = fit_one_arc_1.a1;
-        if (is_close(arc, arc_phase, latest, scene)) {
-            return (Entry_real){arc, arc_phase};
+/* The search after at most `steps` more steps, each of which takes about as long as trying one point of joining. */
+static inline void advance_search(WindSearch *search, integer steps) {
+    search->left = steps;
+    while (search->stage != ENDED && search->left > 0) {
+        if (search->refinement.stage != REFINED) {
+            refine_path(search);
+        } else if (search->stage == JOINING) {
+            join_one_side(search);
+        } else if (search->stage <= COARSE_OTHER) {
+            coarse_search(search);
+        } else {
+            fine_search(search);
         }
     }
-    if (arcs.word != 0) {
-        const Entry_real fit_two_arcs_2 = fit_two_arcs(arcs, phase, scene);
-        arcs = fit_two_arcs_2.a0;
-        const real arcs_phase = fit_two_arcs_2.a1;
-        if (is_close(arcs, arcs_phase, latest, scene)) {
-            return (Entry_real){arcs, arcs_phase};
-        }
-    }
-    return (Entry_real){entry, phase};
-}
-
-/* The result for a maneuver that joins at a phase. */
-static inline WindEntry entry_at(Entry entry, real phase, real miss, WindScene scene) {
-    const real_5 hold_pose_1 = hold_pose(phase, entry.side, scene.R, scene.wx, scene.wy);
-    const real px = hold_pose_1.a0, py = hold_pose_1.a1;
-    return (WindEntry){STATUS_OK + 0, entry.side, entry.word, entry.t1, entry.t2, entry.t3, atan2(py, px), miss};
-}
-
-/* A candidate as the maneuver flown; `Status.NOT_CONVERGED` where it does not end on the circle. */
-static inline WindEntry wind_entry(WindCandidate found, WindScene scene) {
-    const real length_tolerance = rounding(scene.x, scene.y, scene.R);
-    const Entry_real polish_1 = polish(found, scene);
-    const integer side = polish_1.a0.side;
-    integer word = polish_1.a0.word;
-    real t1 = polish_1.a0.t1, t2 = polish_1.a0.t2, t3 = polish_1.a0.t3;
-    const real phase = polish_1.a1;
-    const integer_real_3 drop_short_pieces_2 = drop_short_pieces(word, t1, t2, t3, length_tolerance, ROUNDING);
-    word = drop_short_pieces_2.a0;
-    t1 = drop_short_pieces_2.a1;
-    t2 = drop_short_pieces_2.a2;
-    t3 = drop_short_pieces_2.a3;
-    const real miss = end_miss((Entry){side, word, t1, t2, t3}, phase, scene);
-    /* Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The negated */
-    /* comparison also rejects a miss that is nan. */
-    if (!(miss <= 2.0 * length_tolerance + ROUNDING * (t1 + t2 + t3))) {
-        return no_entry(STATUS_NOT_CONVERGED + 0);
-    }
-    return entry_at((Entry){side, word, t1, t2, t3}, phase, miss, scene);
-}
-
-/* The fastest maneuver that ends on the circle. */
-static inline WindEntry fastest_onto(integer side, WindScene scene) {
-    WindCandidate best = (WindCandidate){0.0, 0, NO_PATH};
-    const integer each_one_1[2] = {1, -1};
-    for (int i_1 = 0; i_1 < 2; i_1++) {
-        const integer one = each_one_1[i_1];
-        if (side != -one && is_on_circle(one, scene)) {
-            best = start_on_circle(one, scene);
-        }
-    }
-    if (best.side == 0) {
-        const integer each_one_2[2] = {1, -1};
-        for (int i_2 = 0; i_2 < 2; i_2++) {
-            const integer one = each_one_2[i_2];
-            if (side != -one) {
-                best = best_of_joins(one, scene, best);
-            }
-        }
-        best = refined_minimum(best, TWO_PI / (real)JOINS, scene);
-    }
-    if (best.path.time > 0.0) {
-        best = fastest_of_sides(side, scene, best);
-    }
-    return wind_entry(best, scene);
-}
-
-/* The distance of the start from a point of joining, where an angle between the headings counts R times. */
-static inline real hold_miss(real phase, integer side, WindScene scene) {
-    const real_5 hold_pose_1 = hold_pose(phase, side, scene.R, scene.wx, scene.wy);
-    const real px = hold_pose_1.a0, py = hold_pose_1.a1, ce = hold_pose_1.a2, se = hold_pose_1.a3;
-    return length(length(px - scene.x, py - scene.y), scene.R * length(ce - scene.c, se - scene.s));
-}
-
-/* The arc of control u next to an approximation that ends abreast of the circle, with the heading of the hold. */
-static inline EntryBeside arc_beside(integer u, real t, real phase, integer side, WindScene scene) {
-    const Entry_real fit_one_arc_1 = fit_one_arc((Entry){side, encode(u, -2, -2), t, 0.0, 0.0}, phase, scene);
-    const Entry entry = fit_one_arc_1.a0;
-    phase = fit_one_arc_1.a1;
-    return (EntryBeside){entry, phase, end_miss(entry, phase, scene)};
-}
-
-/* The maneuver that takes less time; a where b ends too far from the circle. */
-static inline EntryBeside faster_beside(EntryBeside a, EntryBeside b, real tolerance) {
-    return b.miss <= tolerance && (0.0 <= b.entry.t1 && b.entry.t1 < min_real(a.entry.t1, TWO_PI)) ? b : a;
-}
-
-/* The end of the arc of control u that ends with the heading of a point of joining. */
-static inline ArcEnd arc_end(integer u, real phase, integer side, WindScene scene) {
-    const real x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy;
-    const real_5 hold_pose_1 = hold_pose(phase, side, R, wx, wy);
-    const real px = hold_pose_1.a0, py = hold_pose_1.a1, ce = hold_pose_1.a2, se = hold_pose_1.a3, g =
-            hold_pose_1.a4;
-    const real t = angle(arc_rotation(u, c, s, ce, se));
-    const real_4 fly_2 = fly(x, y, c, s, u, t);
-    const real x1 = fly_2.a0, y1 = fly_2.a1;
-    const real rx = px - x1 - wx * t, ry = py - y1 - wy * t;
-    return (ArcEnd){t, (rx * (ce + wx) + ry * (se + wy)) / g};
-}
-
-/* The faster of `best` and the arcs of the control u between `ARC_SAMPLES` points of joining. */
-static inline EntryBeside fastest_arc_beside(EntryBeside best, integer u, integer side, real tolerance, WindScene
-        scene) {
-    ArcEnd before = arc_end(u, 0.0, side, scene);
-    const integer last_1 = ARC_SAMPLES + 1;
-    for (integer i = 1; i < last_1; i++) {
-        const real phase = TWO_PI / (real)ARC_SAMPLES * (real)i;
-        const ArcEnd after = arc_end(u, phase, side, scene);
-        /* Where the heading of the start lies between those of two points, one of the two arcs is almost a whole turn. */
-        if ((before.short_ <= 0.0 && 0.0 <= after.short_) && fabs(after.t - before.t) < 3.141592653589793) {
-            best = faster_beside(best, arc_beside(u, after.t, phase, side, scene), tolerance);
-        }
-        before = after;
-    }
-    return best;
-}
-
-/* The fastest maneuver of no piece or of one arc that ends within `tolerance` of the circle; T is inf for none.
- *
- * `sides` is a `words.Side`. An arc ends with the heading of its point of joining, so that its miss is the distance
- * from that point.
- */
-static inline EntryBeside entry_beside(integer sides, real tolerance, WindScene scene) {
-    EntryBeside best = (EntryBeside){(Entry){0, 0, INFINITY, 0.0, 0.0}, 0.0, INFINITY};
-    const integer each_side_1[2] = {1, -1};
-    for (int i_1 = 0; i_1 < 2; i_1++) {
-        const integer side = each_side_1[i_1];
-        if (sides != -side) {
-            const real phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy);
-            const Entry nothing = (Entry){side, 0, 0.0, 0.0, 0.0};
-            if (hold_miss(phase, side, scene) <= tolerance && best.entry.t1 > 0.0) {
-                best = (EntryBeside){nothing, phase, end_miss(nothing, phase, scene)};
-            }
-            const integer each_u_2[2] = {1, -1};
-            for (int i_2 = 0; i_2 < 2; i_2++) {
-                const integer u = each_u_2[i_2];
-                best = faster_beside(best, arc_beside(u, 0.0, phase, side, scene), tolerance);
-                best = fastest_arc_beside(best, u, side, tolerance, scene);
-            }
-        }
-    }
-    return best;
-}
-
-/* The side, word and durations of a maneuver, as for still air. */
-static inline Entry entry_of(WindEntry maneuver) {
-    return (Entry){maneuver.side, maneuver.word, maneuver.t1, maneuver.t2, maneuver.t3};
-}
-
-/* T, the whole time of a maneuver. */
-static inline real time_of(WindEntry maneuver) {
-    return entry_duration(entry_of(maneuver));
+    return;
 }
 
 /* The fastest maneuver onto the circle, or beside it within the tolerance; nan, with a status, where there is none.
@@ -2732,24 +2991,9 @@ static inline real time_of(WindEntry maneuver) {
  * and checked. The status is `Status.NOT_CONVERGED` where the maneuver, flown exactly, does not end on the circle.
  */
 static inline WindEntry wind_search_fastest(WindProblem problem) {
-    const integer status = wind_search_status_of(problem);
-    if (status != 0) {
-        return no_entry(status);
-    }
-    const WindScene scene = scene_of(problem);
-    if (problem.tolerance == 0.0) {
-        return fastest_onto(problem.side, scene);
-    }
-    const EntryBeside beside = entry_beside(problem.side, problem.tolerance, scene);
-    if (beside.entry.t1 == 0.0) {
-        return entry_at(beside.entry, beside.phase, beside.miss, scene);
-    }
-    const WindEntry onto = fastest_onto(problem.side, scene);
-    /* The negated comparison is also true where there is no maneuver onto the circle: its times are nan. */
-    if (beside.entry.t1 < INFINITY && !(time_of(onto) <= beside.entry.t1)) {
-        return entry_at(beside.entry, beside.phase, beside.miss, scene);
-    }
-    return onto;
+    WindSearch changed_1 = begin_search(problem);
+    advance_search(&changed_1, UNLIMITED);
+    return changed_1.entry;
 }
 
 /* Write the times of the first paths to `SAMPLES` points around the circle. */
@@ -2763,6 +3007,18 @@ static inline void sampled_times(integer side, WindScene scene, real *times) {
 static inline bool is_local_minimum(real *times, integer i) {
     return times[i] < INFINITY && times[i] <= min_real(times[integer_modulo(i - 1, SAMPLES)], times[integer_modulo(i
             + 1, SAMPLES)]);
+}
+
+/* The local minimum of the time next to a candidate, where the slope changes its sign or the time jumps.
+ *
+ * Only the words of the two points that enclose the minimum are tried, until all are at the end.
+ */
+static inline WindCandidate refined_minimum(WindCandidate found, real width, WindScene scene) {
+    Refinement refinement = begin_refinement(found, width, scene);
+    while (refinement.stage != REFINED) {
+        refine(&refinement, scene);
+    }
+    return minimum_of(&refinement);
 }
 
 /* The maneuver at the local minimum next to sample i. */

@@ -1,6 +1,7 @@
 """Local minima of the time over the point of joining, by secant steps with bisection, and where two arcs are left."""
 
 from math import inf, pi
+from typing import NamedTuple
 
 from loiter.kernel.angles import length
 from loiter.kernel.wind.fits import end_miss, fit_two_arcs, two_arc_entry
@@ -14,8 +15,7 @@ REFINEMENTS = 4
 # Steps, each twice as long as the last, that together go round the circle from a leaf of `wind_search`.
 BRACKETING_STEPS = 7
 
-# At worst every other step of `enclosed_minimum` bisects, so 106 steps exhaust the digits of a double; 14 are in
-# reserve.
+# At worst every other step of `enclose` bisects, so 106 steps exhaust the digits of a double; 14 are in reserve.
 REFINING_STEPS = 120
 
 # The search ends where another step is worth less than the time over this.
@@ -30,18 +30,88 @@ BESIDE = 1e-7
 AT_CORNER = 1e-12
 
 
+class Refinement(NamedTuple):
+    """The search for the local minimum of the time next to a candidate, which `refine` continues step by step.
+
+    From the best point so far, `here`, the time falls towards the point `other`. Once the minimum is enclosed, the time
+    there is higher, or it falls in the opposite direction: so there is a local minimum between them. `last` is the
+    point tried last, with one of a set of words; `bisect` says that the next point is that in the middle. `steps`
+    counts those of the stage, and `enclosures` the minima that were not yet the last one.
+    """
+
+    stage: int
+    side: int
+    width: float
+    here: JoinPoint
+    other: JoinPoint
+    last: JoinPoint
+    words: int
+    bisect: bool
+    steps: int
+    enclosures: int
+
+
+# The stages of a refinement; there is none, or it has ended, where it is REFINED.
+REFINED, BRACKETING, ENCLOSING, COMPARING = 0, 1, 2, 3
+
+NO_POINT = JoinPoint(0.0, NO_PATH, 0.0)
+NO_REFINEMENT = Refinement(
+    stage=REFINED,
+    side=0,
+    width=0.0,
+    here=NO_POINT,
+    other=NO_POINT,
+    last=NO_POINT,
+    words=0,
+    bisect=False,
+    steps=0,
+    enclosures=0,
+)
+
+
+def begin_refinement(found: WindCandidate, width: float, scene: WindScene) -> Refinement:
+    """The refinement of a candidate."""
+    slope = join_slope(found.path, found.phase, found.side, scene)
+    return refinement_from(JoinPoint(found.phase, found.path, slope), found.side, width)
+
+
+def refinement_from(start: JoinPoint, side: int, width: float) -> Refinement:
+    """The refinement that begins at a point; its first step is as wide as `width`, radians."""
+    return NO_REFINEMENT._replace(stage=BRACKETING, side=side, width=width, here=start)
+
+
+def refine(refinement: Refinement, scene: WindScene) -> Refinement:
+    """The refinement after another step, which tries a point, or a few; it has not ended yet."""
+    if refinement.stage == BRACKETING:
+        return bracket(refinement, scene)
+    if refinement.stage == ENCLOSING:
+        return enclose(refinement, scene)
+    return compare_nearby(refinement, scene)
+
+
+def minimum_of(refinement: Refinement) -> WindCandidate:
+    """The local minimum at which a refinement has ended."""
+    return WindCandidate(refinement.here.phase, refinement.side, refinement.here.path)
+
+
 def refined_minimum(found: WindCandidate, width: float, scene: WindScene) -> WindCandidate:
     """The local minimum of the time next to a candidate, where the slope changes its sign or the time jumps.
 
     Only the words of the two points that enclose the minimum are tried, until all are at the end.
     """
-    for _ in range(REFINEMENTS):
-        found = enclosed_minimum(found, width, scene)
-        faster = faster_nearby(found, scene)
-        if faster.path.time == inf:
-            break
-        found = faster
-    return found
+    refinement = begin_refinement(found, width, scene)
+    while refinement.stage != REFINED:
+        refinement = refine(refinement, scene)
+    return minimum_of(refinement)
+
+
+def compare_nearby(refinement: Refinement, scene: WindScene) -> Refinement:
+    """The refinement of a faster path, of any word, to its minimum or to a point beside it, if there is one."""
+    faster = faster_nearby(minimum_of(refinement), scene)
+    if faster.path.time == inf:
+        return refinement._replace(stage=REFINED)
+    again, enclosures = begin_refinement(faster, refinement.width, scene), refinement.enclosures + 1
+    return again._replace(stage=BRACKETING if enclosures < REFINEMENTS else REFINED, enclosures=enclosures)
 
 
 def faster_nearby(found: WindCandidate, scene: WindScene) -> WindCandidate:
@@ -55,49 +125,57 @@ def faster_nearby(found: WindCandidate, scene: WindScene) -> WindCandidate:
     return WindCandidate(found.phase, found.side, NO_PATH)
 
 
-def enclosed_minimum(found: WindCandidate, width: float, scene: WindScene) -> WindCandidate:
-    """The local minimum of the time next to a candidate, of the words of the two points that enclose it at first.
-
-    From the best point so far, `here`, the time falls towards the point `other`. There the time is higher, or it falls
-    in the opposite direction. So there is a local minimum between them.
-    """
-    side = found.side
-    start = JoinPoint(found.phase, found.path, join_slope(found.path, found.phase, side, scene))
-    here, other = bracketed_minimum(start, width, side, scene)
+def bracket(refinement: Refinement, scene: WindScene) -> Refinement:
+    """The refinement after a step towards where the time falls, twice as long as the last one."""
+    here, steps = refinement.here, refinement.steps
+    step = refinement.width * (1 << steps)
+    other = join_point(ALL_WORDS, here.phase + (step if here.slope < 0.0 else -step), refinement.side, scene)
+    is_enclosed = other.path.time > here.path.time
+    if not is_enclosed:
+        here, other = other, here
+        is_enclosed = here.slope * other.slope <= 0.0
+    if not is_enclosed and steps + 1 < BRACKETING_STEPS:
+        return refinement._replace(here=here, steps=steps + 1)
     words = set_of(here.path.word) | set_of(other.path.word)
-    last, bisect = other, False
-    for step in range(REFINING_STEPS):
-        secant = secant_phase(here, last)
-        # Across a corner the secant does not show how far the minimum is.
-        if is_worthless(here, other.phase if has_changed(here.path, last.path) else secant, scene):
-            break
-        corner = corner_phase(here, other, side, scene) if step % 4 == 1 else inf
-        there = corner if is_between(corner, here, other) else 0.5 * (here.phase + other.phase)
-        use_secant = there != corner and not bisect and is_between(secant, here, other)
-        if use_secant:
-            there = secant
-        if there in (here.phase, other.phase):
-            break
-        flattest, last = min(abs(here.slope), abs(last.slope)), join_point(words, there, side, scene)
-        if last.path.time > here.path.time and has_changed(here.path, last.path):
-            last = join_point(ALL_WORDS, there, side, scene)
-            words |= set_of(last.path.word)
-        # A secant that helps little is followed by a bisection.
-        bisect = use_secant and abs(last.slope) > 0.5 * flattest
-        if last.path.time > here.path.time + scene.arc_tolerance:
-            other = last
-        elif there == corner:
-            beside = falling_beside(last, side, scene)
-            if beside.path.time == inf:
-                here = last
-                break
-            other = other if is_between(beside.phase, last, other) else here
-            here = beside
-        else:
-            if here.slope * last.slope < 0.0:
-                other = here
-            here, last = last, here
-    return WindCandidate(here.phase, side, here.path)
+    return refinement._replace(stage=ENCLOSING, here=here, other=other, last=other, words=words, bisect=False, steps=0)
+
+
+def enclose(refinement: Refinement, scene: WindScene) -> Refinement:
+    """The refinement after another point between those that enclose the minimum."""
+    _, side, _, here, other, last, words, bisect, steps, _ = refinement
+    secant = secant_phase(here, last)
+    # Across a corner the secant does not show how far the minimum is.
+    if is_worthless(here, other.phase if has_changed(here.path, last.path) else secant, scene):
+        return refinement._replace(stage=COMPARING)
+    corner = corner_phase(here, other, side, scene) if steps % 4 == 1 else inf
+    there = corner if is_between(corner, here, other) else 0.5 * (here.phase + other.phase)
+    use_secant = there != corner and not bisect and is_between(secant, here, other)
+    if use_secant:
+        there = secant
+    if there in (here.phase, other.phase):
+        return refinement._replace(stage=COMPARING)
+    flattest, last = min(abs(here.slope), abs(last.slope)), join_point(words, there, side, scene)
+    if last.path.time > here.path.time and has_changed(here.path, last.path):
+        last = join_point(ALL_WORDS, there, side, scene)
+        words |= set_of(last.path.word)
+    # A secant that helps little is followed by a bisection.
+    bisect = use_secant and abs(last.slope) > 0.5 * flattest
+    if last.path.time > here.path.time + scene.arc_tolerance:
+        other = last
+    elif there == corner:
+        beside = falling_beside(last, side, scene)
+        if beside.path.time == inf:
+            return refinement._replace(stage=COMPARING, here=last)
+        other = other if is_between(beside.phase, last, other) else here
+        here = beside
+    else:
+        if here.slope * last.slope < 0.0:
+            other = here
+        here, last = last, here
+    stage = ENCLOSING if steps + 1 < REFINING_STEPS else COMPARING
+    return refinement._replace(
+        stage=stage, here=here, other=other, last=last, words=words, bisect=bisect, steps=steps + 1
+    )
 
 
 def is_between(phase: float, a: JoinPoint, b: JoinPoint) -> bool:
@@ -124,20 +202,6 @@ def secant_phase(a: JoinPoint, b: JoinPoint) -> float:
     if a.slope == b.slope or (a.slope * b.slope > 0.0 and has_changed(a.path, b.path)):
         return inf
     return a.phase + (b.phase - a.phase) * (a.slope / (a.slope - b.slope))
-
-
-def bracketed_minimum(here: JoinPoint, width: float, side: int, scene: WindScene) -> tuple[JoinPoint, JoinPoint]:
-    """Two points with a local minimum between them, the better one first, from a point next to it."""
-    other = here
-    for _ in range(BRACKETING_STEPS):
-        other = join_point(ALL_WORDS, here.phase + (width if here.slope < 0.0 else -width), side, scene)
-        if other.path.time > here.path.time:
-            break
-        here, other = other, here
-        if here.slope * other.slope <= 0.0:
-            break
-        width *= 2.0
-    return here, other
 
 
 def corner_phase(here: JoinPoint, other: JoinPoint, side: int, scene: WindScene) -> float:

@@ -20,6 +20,9 @@ class EntryBeside(NamedTuple):
     miss: float
 
 
+NO_ENTRY_BESIDE = EntryBeside(Entry(0, 0, inf, 0.0, 0.0), 0.0, inf)
+
+
 class ArcEnd(NamedTuple):
     """An arc that ends with the heading of a point of joining: its duration, and how far along the hold it is short."""
 
@@ -37,7 +40,7 @@ def entry_beside(sides: int, tolerance: float, scene: WindScene) -> EntryBeside:
     `sides` is a `words.Side`. An arc ends with the heading of its point of joining, so that its miss is the distance
     from that point.
     """
-    best = EntryBeside(Entry(0, 0, inf, 0.0, 0.0), 0.0, inf)
+    best = NO_ENTRY_BESIDE
     for side in (1, -1):
         if sides != -side:
             phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy)

@@ -3,7 +3,8 @@
 Everything is relative to the circle: the vehicle is at (x, y) from its centre, heads along the unit vector (c, s) and
 moves with (c, s) + w, |w| < 1. The point of joining is parametrised by its phase (`hold`). For each phase `wind.paths`
 gives the first path to it, and the fastest of these paths is found by branch and bound, with the bounds of
-`wind.cell_bounds`.
+`wind.cell_bounds`. The search is a `WindSearch`, which `advance_search` continues by as many steps as there is time
+for.
 """
 
 from math import atan2, cbrt, inf, isfinite, nan, pi
@@ -17,10 +18,20 @@ from loiter.kernel.wind.cell_bounds import words_inside
 from loiter.kernel.wind.corner_bounds import NO_CORNER, Corner, words_beside
 from loiter.kernel.wind.fits import SHORT, end_miss, fit_two_arcs, is_close, polish, two_arc_entry
 from loiter.kernel.wind.hold import NEGLIGIBLE_WIND, hold_pose, hold_time, phase_of, tightest_radius
-from loiter.kernel.wind.minimum import refined_minimum
+from loiter.kernel.wind.minimum import (
+    NO_POINT,
+    NO_REFINEMENT,
+    REFINED,
+    Refinement,
+    begin_refinement,
+    minimum_of,
+    refine,
+    refined_minimum,
+    refinement_from,
+)
 from loiter.kernel.wind.moving_target import NO_PATH, Path
 from loiter.kernel.wind.paths import JoinPoint, WindCandidate, WindScene, first_path, first_path_of, join_slope
-from loiter.kernel.wind.tolerance import entry_beside
+from loiter.kernel.wind.tolerance import NO_ENTRY_BESIDE, EntryBeside, entry_beside
 from loiter.kernel.words import ALL_WORDS, WITH_STRAIGHT, controls
 
 
@@ -87,6 +98,76 @@ class Leaves(NamedTuple):
 
 
 NO_LEAVES = Leaves(0, 0, 0, 0)
+
+
+class OpenCell(NamedTuple):
+    """A cell whose end has a path faster than the best one: the words that may join inside it before the best time.
+
+    No path into the cell is faster than `earliest`. Without one that is faster than the best by `tolerance` it is done.
+    """
+
+    words: int
+    earliest: float
+    tolerance: float
+
+
+class WindSearch(NamedTuple):
+    """A search for the fastest entry, which `advance_search` continues: its stage, and what is known so far.
+
+    The sides of the circle that are asked for are `sides`, that which is searched now is `one`. `best` is the fastest
+    path found, `beside` the entry beside the circle that counts, too. `visit` is the next cell; `before` the end of the
+    leaf before it, `leaves` those that are left on this side, and `others` on the other one. `corner` is that of the
+    best path, which took the time `compared`, and `visits` the number of cells so far. While there is a refinement, it
+    is continued first; `cell` is the cell that waits for it. `left` is the number of steps that may follow at once, and
+    `entry` the result once the stage is ENDED.
+    """
+
+    stage: int
+    sides: int
+    one: int
+    scene: WindScene
+    best: WindCandidate
+    beside: EntryBeside
+    visit: CellVisit
+    before: LeafEnd
+    leaves: Leaves
+    others: Leaves
+    corner: Corner
+    compared: float
+    visits: int
+    refinement: Refinement
+    cell: OpenCell
+    left: int
+    entry: WindEntry
+
+
+# The stages of a search: on each side, first some points, then cells down to the leaves, then the leaves that are left.
+JOINING, COARSE_ONE, COARSE_OTHER, FINE_ONE, FINE_OTHER, ENDED = 0, 1, 2, 3, 4, 5
+
+NO_CANDIDATE = WindCandidate(0.0, 0, NO_PATH)
+FIRST_CELL, NO_LEAF_END = CellVisit(0, 0, ALL_WORDS), LeafEnd(-2, NO_POINT)
+NO_SEARCH = WindSearch(
+    stage=JOINING,
+    sides=0,
+    one=1,
+    scene=WindScene(0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0),
+    best=NO_CANDIDATE,
+    beside=NO_ENTRY_BESIDE,
+    visit=FIRST_CELL,
+    before=NO_LEAF_END,
+    leaves=NO_LEAVES,
+    others=NO_LEAVES,
+    corner=NO_CORNER,
+    compared=inf,
+    visits=0,
+    refinement=NO_REFINEMENT,
+    cell=OpenCell(0, 0.0, 0.0),
+    left=0,
+    entry=WindEntry(Status.NOT_CONVERGED + 0, 0, 0, nan, nan, nan, nan, nan),
+)
+
+# More steps than any search takes.
+UNLIMITED = 2**31 - 1
 
 # Points of joining on each side that are tried first.
 JOINS = 8
@@ -161,42 +242,151 @@ def has_leaf(leaves: Leaves, number: int) -> bool:
     return members >> number % LEAVES & 1 != 0
 
 
-def coarse_search(side: int, scene: WindScene, best: WindCandidate) -> tuple[WindCandidate, Leaves]:
-    """The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `search`.
+def begin_search(problem: WindProblem) -> WindSearch:
+    """The search for the fastest maneuver, before its first step; it has ended where the answer is known at once."""
+    search, status = NO_SEARCH, status_of(problem)
+    if status != 0:
+        return search._replace(stage=ENDED, entry=no_entry(status))
+    scene = scene_of(problem)
+    search = search._replace(sides=problem.side, scene=scene)
+    if problem.tolerance > 0.0:
+        search = search._replace(beside=entry_beside(problem.side, problem.tolerance, scene))
+        entry, phase, miss = search.beside
+        if entry.t1 == 0.0:
+            return search._replace(stage=ENDED, entry=entry_at(entry, phase, miss, scene))
+    for one in (1, -1):
+        if problem.side != -one and is_on_circle(one, scene):
+            search = search._replace(best=start_on_circle(one, scene))
+    if search.best.side != 0:
+        return end_search(search)
+    return search
+
+
+def advance_search(search: WindSearch, steps: int) -> WindSearch:
+    """The search after at most `steps` more steps, each of which takes about as long as trying one point of joining."""
+    search = search._replace(left=steps)
+    while search.stage != ENDED and search.left > 0:
+        if search.refinement.stage != REFINED:
+            search = refine_path(search)
+        elif search.stage == JOINING:
+            search = join_one_side(search)
+        elif search.stage <= COARSE_OTHER:
+            search = coarse_search(search)
+        else:
+            search = fine_search(search)
+    return search
+
+
+def join_one_side(search: WindSearch) -> WindSearch:
+    """The search with the points of joining on one side tried; then the best path is refined."""
+    best, scene, one = search.best, search.scene, search.one
+    if search.sides != -one:
+        best = best_of_joins(one, scene, best)
+    refinement = NO_REFINEMENT if one == 1 else begin_refinement(best, TWO_PI / JOINS, scene)
+    return search._replace(best=best, one=-one, left=search.left - 1, refinement=refinement)
+
+
+def refine_path(search: WindSearch) -> WindSearch:
+    """The search with a refinement continued until it ends, and with its result then."""
+    refinement, left, scene = search.refinement, search.left, search.scene
+    while refinement.stage != REFINED and left > 0:
+        refinement, left = refine(refinement, scene), left - 1
+    search = search._replace(refinement=refinement, left=left)
+    if refinement.stage != REFINED:
+        return search
+    found, best = minimum_of(refinement), search.best
+    if search.stage == JOINING:
+        # The better side is searched first, which shortens the search on the other side.
+        search = search._replace(best=found, one=-found.side if found.side != 0 else -1)
+        return next_stage(search) if found.path.time > 0.0 else end_search(search)
+    if search.stage <= COARSE_OTHER:
+        return search._replace(best=found if found.path.time < best.path.time else best)
+    words = 0 if is_done(search.visit, search.cell, found) else search.cell.words
+    return search._replace(best=found, visit=next_in_leaves(search.visit, words))
+
+
+def next_stage(search: WindSearch) -> WindSearch:
+    """The search at the beginning of its next stage, on the other side; the result after the last one."""
+    stage, one = search.stage + 1, -search.one
+    if stage == ENDED:
+        return end_search(search)
+    visit = FIRST_CELL
+    if stage > COARSE_OTHER or search.sides == -one:
+        first, second, third, fourth = search.others
+        visit = next_leaf(-1 if first | second | third | fourth != 0 else FIRST_CELLS << LEAF)
+    return search._replace(
+        stage=stage,
+        one=one,
+        visit=visit,
+        before=NO_LEAF_END,
+        leaves=search.others,
+        others=search.leaves,
+        corner=NO_CORNER,
+        compared=inf,
+        visits=0,
+    )
+
+
+def end_search(search: WindSearch) -> WindSearch:
+    """The search with its result: the maneuver onto the circle, or that beside it if it is faster."""
+    scene, beside = search.scene, search.beside
+    entry = wind_entry(search.best, scene)
+    # The negated comparison is also true where there is no maneuver onto the circle: its times are nan.
+    if beside.entry.t1 < inf and not time_of(entry) <= beside.entry.t1:
+        entry = entry_at(beside.entry, beside.phase, beside.miss, scene)
+    return search._replace(stage=ENDED, entry=entry)
+
+
+def coarse_search(search: WindSearch) -> WindSearch:
+    """The search after cells of one side, until a path has to be refined; some of their leaves are left to search.
 
     Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
     """
-    visit, before = CellVisit(0, 0, ALL_WORDS), LeafEnd(-2, JoinPoint(0.0, NO_PATH, 0.0))
-    leaves = NO_LEAVES
-    while visit.number < FIRST_CELLS << visit.level:
-        possible = words_inside(*middle_of(visit), visit.words & ALL_WORDS, side, scene, best.path.time)
-        if possible != 0 and visit.level >= COARSE:
-            possible, before, best = examine_cell(visit, possible, side, scene, before, best)
-            if possible != 0 and visit.level == LEAF:
-                leaves, possible = with_leaf(leaves, visit.number), 0
-        visit = first_half(visit, possible) if possible != 0 else next_cell(visit)
-    return best, leaves
+    one, scene, best, visit, before = search.one, search.scene, search.best, search.visit, search.before
+    leaves, left, start = search.leaves, search.left, NO_POINT
+    while left > 0 and start.path.time == inf and visit.number < FIRST_CELLS << visit.level:
+        left -= 1
+        words = words_inside(*middle_of(visit), visit.words & ALL_WORDS, one, scene, best.path.time)
+        if words != 0 and visit.level >= COARSE:
+            words, before, start = examine_cell(visit, words, one, scene, before, best)
+            if words != 0 and visit.level == LEAF:
+                leaves, words = with_leaf(leaves, visit.number), 0
+        visit = first_half(visit, words) if words != 0 else next_cell(visit)
+    search = search._replace(visit=visit, before=before, leaves=leaves, left=left)
+    if start.path.time < inf:
+        return search._replace(refinement=refinement_from(start, one, TWO_PI / (FIRST_CELLS << LEAF)))
+    return search if visit.number < FIRST_CELLS << visit.level else next_stage(search)
 
 
-def search(side: int, scene: WindScene, best: WindCandidate, leaves: Leaves) -> WindCandidate:
-    """The fastest path onto the circle held on one side, if it joins inside one of the leaves; otherwise `best`."""
-    corner, compared, visits = NO_CORNER, inf, 0
-    for number in range(FIRST_CELLS << LEAF):
-        if has_leaf(leaves, number):
-            visit = CellVisit(number, LEAF, ALL_WORDS)
-            while visit.level >= LEAF and visit.number >> (visit.level - LEAF) == number:
-                visits += 1
-                tolerance = time_tolerance(best, scene) if visits <= MOST_VISITS else hold_tolerance(scene)
-                sooner = best.path.time - tolerance
-                possible = words_inside(*middle_of(visit), visit.words & ALL_WORDS, side, scene, sooner)
-                if possible != 0 and side == best.side:
-                    if best.path.time < compared:
-                        corner, compared = corner_of(best, scene), best.path.time
-                    possible = words_beside_best(visit, possible, scene, best, corner, sooner)
-                if possible != 0 and (LAST - visit.level) % 2 == 0 and visit.level > LEAF:
-                    possible, best = compare_at_end(visit, possible, side, scene, best, tolerance)
-                visit = first_half(visit, possible) if possible != 0 else next_cell(visit)
-    return best
+def fine_search(search: WindSearch) -> WindSearch:
+    """The search after cells inside the leaves of one side that are left, until a path has to be refined."""
+    one, scene, best, leaves, visit = search.one, search.scene, search.best, search.leaves, search.visit
+    corner, compared, visits, left = search.corner, search.compared, search.visits, search.left
+    start, cell = NO_CANDIDATE, search.cell
+    while left > 0 and start.side == 0 and visit.number < FIRST_CELLS << visit.level:
+        if visit.level == LEAF and not has_leaf(leaves, visit.number):
+            visit = next_leaf(visit.number)
+            continue
+        left, visits = left - 1, visits + 1
+        tolerance = time_tolerance(best, scene) if visits <= MOST_VISITS else hold_tolerance(scene)
+        sooner = best.path.time - tolerance
+        words = words_inside(*middle_of(visit), visit.words & ALL_WORDS, one, scene, sooner)
+        if words != 0 and one == best.side:
+            if best.path.time < compared:
+                corner, compared = corner_of(best, scene), best.path.time
+            words = words_beside_best(visit, words, scene, best, corner, sooner)
+        if words != 0 and (LAST - visit.level) % 2 == 0 and visit.level > LEAF:
+            earliest, start = compare_at_end(visit, one, scene, best)
+            cell = OpenCell(words, earliest, tolerance)
+            if start.side == 0 and is_done(visit, cell, best):
+                words = 0
+        if start.side == 0:
+            visit = next_in_leaves(visit, words)
+    search = search._replace(visit=visit, corner=corner, compared=compared, visits=visits, left=left, cell=cell)
+    if start.side != 0:
+        _, half = middle_of(visit)
+        return search._replace(refinement=begin_refinement(start, 2.0 * half, scene))
+    return search if visit.number < FIRST_CELLS << visit.level else next_stage(search)
 
 
 def words_beside_best(
@@ -229,42 +419,49 @@ def corner_of(best: WindCandidate, scene: WindScene) -> Corner:
 
 
 def examine_cell(
-    visit: CellVisit, possible: int, side: int, scene: WindScene, before: LeafEnd, best: WindCandidate
-) -> tuple[int, LeafEnd, WindCandidate]:
-    """The words that may still join inside a cell early enough; the last leaf's end; the faster of `best` and others.
+    visit: CellVisit, words: int, side: int, scene: WindScene, before: LeafEnd, best: WindCandidate
+) -> tuple[int, LeafEnd, JoinPoint]:
+    """The words that may still join inside a cell early enough; the last leaf's end; the point to refine, or none.
 
     A path that joins inside the cell can follow the circle to the cell's end. So no path into the cell is faster than
     the first path to its end less the time to hold the circle through the cell.
     """
     middle, half = middle_of(visit)
-    end = middle + half
     holds_best = side == best.side and abs(wrap(best.phase - middle)) <= half
     if visit.level < LEAF and holds_best:
-        return possible, before, best
-    within = hold_time(end, 2.0 * half, side, scene.R, scene.wx, scene.wy)
-    path = first_path(end, side, scene, best.path.time + within)
+        return words, before, NO_POINT
+    path, _ = path_to_end(visit, side, scene, best)
     if path.time == inf:
-        return 0, before, best
-    if visit.level == LEAF:
-        after = LeafEnd(visit.number, JoinPoint(end, path, join_slope(path, end, side, scene)))
-        if not holds_best and has_minimum(before, after):
-            best = refine_if_better(before, after, side, scene, best)
-        before = after
-    return possible, before, best
+        return 0, before, NO_POINT
+    if visit.level < LEAF:
+        return words, before, NO_POINT
+    after = LeafEnd(visit.number, JoinPoint(middle + half, path, join_slope(path, middle + half, side, scene)))
+    if holds_best or not has_minimum(before, after):
+        return words, after, NO_POINT
+    adjoins = before.number == after.number - 1
+    return words, after, before.point if adjoins and before.point.path.time < path.time else after.point
 
 
-def compare_at_end(
-    visit: CellVisit, possible: int, side: int, scene: WindScene, best: WindCandidate, tolerance: float
-) -> tuple[int, WindCandidate]:
-    """The words that may still join in a cell early enough, as in `examine_cell`; the faster of `best` and others."""
+def path_to_end(visit: CellVisit, side: int, scene: WindScene, best: WindCandidate) -> tuple[Path, float]:
+    """The first path to the end of a cell, and the time to hold the circle through the cell.
+
+    `NO_PATH` where that path is later than the best one by more than this time.
+    """
     middle, half = middle_of(visit)
-    end = middle + half
-    within = hold_time(end, 2.0 * half, side, scene.R, scene.wx, scene.wy)
-    path = first_path(end, side, scene, best.path.time + within)
-    if path.time < best.path.time:
-        best = refined_minimum(WindCandidate(end, side, path), 2.0 * half, scene)
-    done = visit.level == LAST or path.time - within >= best.path.time - tolerance
-    return (0 if done else possible), best
+    within = hold_time(middle + half, 2.0 * half, side, scene.R, scene.wx, scene.wy)
+    return first_path(middle + half, side, scene, best.path.time + within), within
+
+
+def compare_at_end(visit: CellVisit, side: int, scene: WindScene, best: WindCandidate) -> tuple[float, WindCandidate]:
+    """The time before which no path joins in a cell, as in `examine_cell`; the path to its end if it is faster."""
+    middle, half = middle_of(visit)
+    path, within = path_to_end(visit, side, scene, best)
+    return path.time - within, WindCandidate(middle + half, side if path.time < best.path.time else 0, path)
+
+
+def is_done(visit: CellVisit, cell: OpenCell, best: WindCandidate) -> bool:
+    """Whether a cell needs not be halved further."""
+    return visit.level == LAST or cell.earliest >= best.path.time - cell.tolerance
 
 
 def has_minimum(before: LeafEnd, after: LeafEnd) -> bool:
@@ -273,16 +470,6 @@ def has_minimum(before: LeafEnd, after: LeafEnd) -> bool:
     if before.number != after.number - 1:
         return rises
     return (before.point.slope < 0.0 and (rises or later)) or (rises and not later)
-
-
-def refine_if_better(
-    before: LeafEnd, after: LeafEnd, side: int, scene: WindScene, best: WindCandidate
-) -> WindCandidate:
-    """The faster of `best` and the local minimum in a leaf."""
-    adjoins = before.number == after.number - 1
-    phase, path, _ = before.point if adjoins and before.point.path.time < after.point.path.time else after.point
-    found = refined_minimum(WindCandidate(phase, side, path), TWO_PI / (FIRST_CELLS << LEAF), scene)
-    return found if found.path.time < best.path.time else best
 
 
 def middle_of(visit: CellVisit) -> tuple[float, float]:
@@ -303,6 +490,18 @@ def next_cell(visit: CellVisit) -> CellVisit:
     while level > 0 and number % 2 == 0:
         number, level, words = number // 2, level - 1, words >> 6 if level <= NARROWED else words
     return CellVisit(number, level, words)
+
+
+def next_in_leaves(visit: CellVisit, words: int) -> CellVisit:
+    """The cell after one of a leaf in which a set of words may join: its first half, the next one, or the next leaf."""
+    leaf = visit.number >> (visit.level - LEAF)
+    visit = first_half(visit, words) if words != 0 else next_cell(visit)
+    return visit if visit.level >= LEAF and visit.number >> (visit.level - LEAF) == leaf else next_leaf(leaf)
+
+
+def next_leaf(leaf: int) -> CellVisit:
+    """The leaf after one, by its number."""
+    return CellVisit(leaf + 1, LEAF, ALL_WORDS)
 
 
 def time_tolerance(best: WindCandidate, scene: WindScene) -> float:
@@ -346,20 +545,7 @@ def fastest(problem: WindProblem) -> WindEntry:
     docs/wind.md, section 5, bounds by how much another maneuver could be faster, and says how the answer is found and
     checked. The status is `Status.NOT_CONVERGED` where the maneuver, flown exactly, does not end on the circle.
     """
-    status = status_of(problem)
-    if status != 0:
-        return no_entry(status)
-    scene = scene_of(problem)
-    if problem.tolerance == 0.0:
-        return fastest_onto(problem.side, scene)
-    beside = entry_beside(problem.side, problem.tolerance, scene)
-    if beside.entry.t1 == 0.0:
-        return entry_at(beside.entry, beside.phase, beside.miss, scene)
-    onto = fastest_onto(problem.side, scene)
-    # The negated comparison is also true where there is no maneuver onto the circle: its times are nan.
-    if beside.entry.t1 < inf and not time_of(onto) <= beside.entry.t1:
-        return entry_at(beside.entry, beside.phase, beside.miss, scene)
-    return onto
+    return advance_search(begin_search(problem), UNLIMITED).entry
 
 
 def no_entry(status: int) -> WindEntry:
@@ -371,35 +557,6 @@ def entry_at(entry: Entry, phase: float, miss: float, scene: WindScene) -> WindE
     """The result for a maneuver that joins at a phase."""
     px, py, _, _, _ = hold_pose(phase, entry.side, scene.R, scene.wx, scene.wy)
     return WindEntry(Status.OK + 0, entry.side, entry.word, entry.t1, entry.t2, entry.t3, atan2(py, px), miss)
-
-
-def fastest_onto(side: int, scene: WindScene) -> WindEntry:
-    """The fastest maneuver that ends on the circle."""
-    best = WindCandidate(0.0, 0, NO_PATH)
-    for one in (1, -1):
-        if side != -one and is_on_circle(one, scene):
-            best = start_on_circle(one, scene)
-    if best.side == 0:
-        for one in (1, -1):
-            if side != -one:
-                best = best_of_joins(one, scene, best)
-        best = refined_minimum(best, TWO_PI / JOINS, scene)
-    if best.path.time > 0.0:
-        best = fastest_of_sides(side, scene, best)
-    return wind_entry(best, scene)
-
-
-def fastest_of_sides(side: int, scene: WindScene, best: WindCandidate) -> WindCandidate:
-    """The faster of `best` and the fastest path onto the circle, by branch and bound."""
-    # The better side is searched first, which shortens the search on the other side.
-    first = best.side if best.side != 0 else 1
-    leaves, others = NO_LEAVES, NO_LEAVES
-    if side != -first:
-        best, leaves = coarse_search(first, scene, best)
-    if side != first:
-        best, others = coarse_search(-first, scene, best)
-    best = search(first, scene, best, leaves)
-    return search(-first, scene, best, others)
 
 
 def wind_entry(found: WindCandidate, scene: WindScene) -> WindEntry:

@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 3ab755cee9a9f012ff347c5ebddda46dde20dccbae09186f32310f8b17620319
+ * SHA-256 of the source: 6a70cea1e48d9263f31691b32322d2c6080a85f8280997fccb4a283ab0a1d333
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -143,24 +143,9 @@ export const Word = { EMPTY: 0, R: 1, L: 3, SR: 6, SL: 14, RL: 13, LR: 7, RSR: 2
  */
 
 /**
- * The data common to all words: the headings (c0, s0) at the start and (c, s) at the pose, and the wind.
+ * A maneuver that ends beside the circle by `miss`, at the point of joining with this phase.
  *
- * `arc_tolerance` is the arc length by which a rotation may fall short of a full turn and count as none
- * (`angles.snap_full_turn`).
- *
- * @typedef {{c0: number, s0: number, c: number, s: number, wx: number, wy: number, arc_tolerance: number}} Ends
- */
-
-/**
- * A point of joining: its phase, the first path to it, and the slope of the time there, `join_slope`.
- *
- * @typedef {{phase: number, path: Path, slope: number}} JoinPoint
- */
-
-/**
- * A set of cells of the level `LEAF`: a bit for each, for each quarter of the circle.
- *
- * @typedef {{first: number, second: number, third: number, fourth: number}} Leaves
+ * @typedef {{entry: Entry, phase: number, miss: number}} EntryBeside
  */
 
 /**
@@ -170,6 +155,81 @@ export const Word = { EMPTY: 0, R: 1, L: 3, SR: 6, SL: 14, RL: 13, LR: 7, RSR: 2
  * cells none is below the level `NARROWED`.
  *
  * @typedef {{number: number, level: number, words: number}} CellVisit
+ */
+
+/**
+ * A point of joining: its phase, the first path to it, and the slope of the time there, `join_slope`.
+ *
+ * @typedef {{phase: number, path: Path, slope: number}} JoinPoint
+ */
+
+/**
+ * The end of a cell of the level `LEAF`, by the number of the cell.
+ *
+ * @typedef {{number: number, point: JoinPoint}} LeafEnd
+ */
+
+/**
+ * A set of cells of the level `LEAF`: a bit for each, for each quarter of the circle.
+ *
+ * @typedef {{first: number, second: number, third: number, fourth: number}} Leaves
+ */
+
+/**
+ * Two arcs that end on the circle: the phase of their end, the control of the first, and their durations.
+ *
+ * @typedef {{phase: number, u: number, t1: number, t2: number}} Corner
+ */
+
+/**
+ * The search for the local minimum of the time next to a candidate, which `refine` continues step by step.
+ *
+ * From the best point so far, `here`, the time falls towards the point `other`. Once the minimum is enclosed, the
+ * time there is higher, or it falls in the opposite direction: so there is a local minimum between them. `last` is
+ * the point tried last, with one of a set of words; `bisect` says that the next point is that in the middle.
+ * `steps` counts those of the stage, and `enclosures` the minima that were not yet the last one.
+ *
+ * @typedef {{stage: number, side: number, width: number, here: JoinPoint, other: JoinPoint, last: JoinPoint,
+ *         words: number, bisect: boolean, steps: number, enclosures: number}} Refinement
+ */
+
+/**
+ * A cell whose end has a path faster than the best one: the words that may join inside it before the best time.
+ *
+ * No path into the cell is faster than `earliest`. Without one that is faster than the best by `tolerance` it is
+ * done.
+ *
+ * @typedef {{words: number, earliest: number, tolerance: number}} OpenCell
+ */
+
+/**
+ * A search for the fastest entry, which `advance_search` continues: its stage, and what is known so far.
+ *
+ * The sides of the circle that are asked for are `sides`, that which is searched now is `one`. `best` is the
+ * fastest path found, `beside` the entry beside the circle that counts, too. `visit` is the next cell; `before` the
+ * end of the leaf before it, `leaves` those that are left on this side, and `others` on the other one. `corner` is
+ * that of the best path, which took the time `compared`, and `visits` the number of cells so far. While there is a
+ * refinement, it is continued first; `cell` is the cell that waits for it. `left` is the number of steps that may
+ * follow at once, and `entry` the result once the stage is ENDED.
+ *
+ * @typedef {{stage: number, sides: number, one: number, scene: WindScene, best: WindCandidate, beside: EntryBeside,
+ *         visit: CellVisit, before: LeafEnd, leaves: Leaves, others: Leaves, corner: Corner, compared: number,
+ *         visits: number, refinement: Refinement, cell: OpenCell, left: number, entry: WindEntry}} WindSearch
+ */
+
+/**
+ * An arc that ends with the heading of a point of joining: its duration, and how far along the hold it is short.
+ *
+ * @typedef {{t: number, short_: number}} ArcEnd
+ */
+
+/**
+ * The data common to all words: the headings (c0, s0) at the start and (c, s) at the pose, and the wind.
+ *
+ * `arc_tolerance` is the arc length by which a rotation may fall short of a full turn and count as none
+ * (`angles.snap_full_turn`).
+ *
+ * @typedef {{c0: number, s0: number, c: number, s: number, wx: number, wy: number, arc_tolerance: number}} Ends
  */
 
 /**
@@ -193,30 +253,6 @@ export const Word = { EMPTY: 0, R: 1, L: 3, SR: 6, SL: 14, RL: 13, LR: 7, RSR: 2
  *
  * @typedef {{x: number, y: number, dx: number, dy: number, ddx: number, ddy: number, change: number, fastest: number}}
  *         Centres
- */
-
-/**
- * The end of a cell of the level `LEAF`, by the number of the cell.
- *
- * @typedef {{number: number, point: JoinPoint}} LeafEnd
- */
-
-/**
- * Two arcs that end on the circle: the phase of their end, the control of the first, and their durations.
- *
- * @typedef {{phase: number, u: number, t1: number, t2: number}} Corner
- */
-
-/**
- * A maneuver that ends beside the circle by `miss`, at the point of joining with this phase.
- *
- * @typedef {{entry: Entry, phase: number, miss: number}} EntryBeside
- */
-
-/**
- * An arc that ends with the heading of a point of joining: its duration, and how far along the hold it is short.
- *
- * @typedef {{t: number, short_: number}} ArcEnd
  */
 
 
@@ -261,15 +297,43 @@ export const WIND_TIE_TOLERANCE = 1e-12;
 
 /* A slower wind displaces no point within REACH by as much as rounding, and its square would be subnormal. */
 export const NEGLIGIBLE_WIND = 3.8725919148493183e-121; /* 2.0 ** (-400) */
-/** @type {Path} */
-export const NO_PATH = { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 };
+/** @type {WindSearch} */
+export const NO_SEARCH = { stage: 0, sides: 0, one: 1, scene: { x: 0.0, y: 0.0, c: 1.0, s: 0.0, R: 1.0, wx: 0.0, wy: 0.0, arc_tolerance: 0.0 }, best: { phase: 0.0, side: 0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 } }, beside: { entry: { side: 0, word: 0, t1: Infinity, t2: 0.0, t3: 0.0 }, phase: 0.0, miss: Infinity }, visit: { number: 0, level: 0, words: 63 }, before: { number: -2, point: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 } }, leaves: { first: 0, second: 0, third: 0, fourth: 0 }, others: { first: 0, second: 0, third: 0, fourth: 0 }, corner: { phase: 0.0, u: 0, t1: 0.0, t2: 0.0 }, compared: Infinity, visits: 0, refinement: { stage: 0, side: 0, width: 0.0, here: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, other: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, last: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, words: 0, bisect: false, steps: 0, enclosures: 0 }, cell: { words: 0, earliest: 0.0, tolerance: 0.0 }, left: 0, entry: { status: 12, side: 0, word: 0, t1: NaN, t2: NaN, t3: NaN, azimuth: NaN, miss: NaN } };
 
-/* Points of joining on each side that are tried first. */
-export const JOINS = 8;
+/* The stages of a search: on each side, first some points, then cells down to the leaves, then the leaves that are
+ * left.
+ */
+export const ENDED = 5;
+/** @type {EntryBeside} */
+export const NO_ENTRY_BESIDE = { entry: { side: 0, word: 0, t1: Infinity, t2: 0.0, t3: 0.0 }, phase: 0.0, miss: Infinity };
+
+/* Newton's method reduces an error of 1e-4 to rounding in three steps. */
+export const ARC_STEPS = 8;
+
+/* Points of joining around the circle between which single arcs are looked for. */
+export const ARC_SAMPLES = 32;
+
+/* The path found next to two arcs may be too early by this many times its miss: both vary with the adjoint, whose
+ * length over lambda + p . w stays below 10 where lambda = 1 and |w| < 0.9.
+ */
+export const TOO_EARLY = 10.0;
+
+/* Where two arcs are the fastest, the search ends on a word with a short third piece that is due to rounding: a
+ * straight piece of up to the square root of 4e-14 where the phase is accurate to 1e-14.
+ */
+export const SHORT = 0.0001;
+
+/* More steps than any search takes. */
+export const UNLIMITED = 2147483647; /* 2 ** 31 - 1 */
+
+/* The stages of a refinement; there is none, or it has ended, where it is REFINED. */
+export const REFINED = 0;
+export const BRACKETING = 1;
 
 /* Sets of the six words of three pieces, a bit for each: all, and those with a straight piece. */
-export const WITH_STRAIGHT = 15;
 export const ALL_WORDS = 63;
+/** @type {Path} */
+export const NO_PATH = { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 };
 
 /* An arc that comes this close to a whole turn, or to zero, may pass it. */
 export const ALMOST = 1e-06;
@@ -284,22 +348,13 @@ export const NEWTON_STEPS = 60;
  */
 export const NO_STEP = 3.469446951953614e-18; /* 2.0 ** (-58) */
 
-/* Refinements after which no path to the point, or to a point beside it, is faster; the second is rarely needed. */
-export const REFINEMENTS = 4;
-
 /* Steps, each twice as long as the last, that together go round the circle from a leaf of `wind_search`. */
 export const BRACKETING_STEPS = 7;
-
-/* At worst every other step of `enclosed_minimum` bisects, so 106 steps exhaust the digits of a double; 14 are in
- * reserve.
- */
-export const REFINING_STEPS = 120;
+export const ENCLOSING = 2;
 
 /* The search ends where another step is worth less than the time over this. */
 export const WORTH = 9007199254740992.0; /* 2.0 ** 53 */
-
-/* Newton's method reduces an error of 1e-4 to rounding in three steps. */
-export const ARC_STEPS = 8;
+export const COMPARING = 3;
 
 /* A point of two arcs is a local minimum unless the time falls away from it this far before or after it, in
  * radians. The phase of such a point is known to some 1e-15, and the time changes by no more than a few times this
@@ -307,43 +362,59 @@ export const ARC_STEPS = 8;
  */
 export const AT_CORNER = 1e-12;
 
+/* At worst every other step of `enclose` bisects, so 106 steps exhaust the digits of a double; 14 are in reserve. */
+export const REFINING_STEPS = 120;
+
 /* A faster path is sought this far before and after a local minimum, in radians; this is multiplied by the time
  * where that is below 1.
  */
 export const BESIDE = 1e-07;
-/** @type {Leaves} */
-export const NO_LEAVES = { first: 0, second: 0, third: 0, fourth: 0 };
+/** @type {Refinement} */
+export const NO_REFINEMENT = { stage: 0, side: 0, width: 0.0, here: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, other: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, last: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, words: 0, bisect: false, steps: 0, enclosures: 0 };
+
+/* Refinements after which no path to the point, or to a point beside it, is faster; the second is rarely needed. */
+export const REFINEMENTS = 4;
+export const JOINING = 0;
+/** @type {CellVisit} */
+export const FIRST_CELL = { number: 0, level: 0, words: 63 };
+export const COARSE_OTHER = 2;
 
 /* Cells at first. Those that may hold a faster path than the best are halved to 2 pi/128, where local minima are
  * found, and then until none may hold a path that is faster by more than `time_tolerance`: the hold through a cell
  * of the level `LAST` takes less than that. The bound by the hold, which takes a path, is used from 2 pi/32 on.
  */
 export const FIRST_CELLS = 8;
-
-/* Tangents to h that `has_no_middle` tries. */
-export const TANGENTS = 8;
-export const COARSE = 2;
 export const LEAF = 4;
-
-/* A quarter of the cells of the level `LEAF`: as many as there are bits in the integers of JavaScript. */
-export const LEAVES = 32; /* FIRST_CELLS << LEAF - 2 */
+/** @type {LeafEnd} */
+export const NO_LEAF_END = { number: -2, point: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 } };
+/** @type {Corner} */
+export const NO_CORNER = { phase: 0.0, u: 0, t1: 0.0, t2: 0.0 };
+export const LAST = 44;
 
 /* The last level to which a cell hands on its words: five sets of six bits, from the first level or from `LEAF` on,
  * fit into the integers of JavaScript.
  */
 export const NARROWED = 8;
-/** @type {Corner} */
-export const NO_CORNER = { phase: 0.0, u: 0, t1: 0.0, t2: 0.0 };
+
+/* Points of joining on each side that are tried first. */
+export const JOINS = 8;
+export const WITH_STRAIGHT = 15;
+/** @type {JoinPoint} */
+export const NO_POINT = { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 };
+
+/* Tangents to h that `has_no_middle` tries. */
+export const TANGENTS = 8;
+export const COARSE = 2;
+
+/* A quarter of the cells of the level `LEAF`: as many as there are bits in the integers of JavaScript. */
+export const LEAVES = 32; /* FIRST_CELLS << LEAF - 2 */
+/** @type {WindCandidate} */
+export const NO_CANDIDATE = { phase: 0.0, side: 0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 } };
 
 /* After so many cells of the level `LEAF` and below, the tolerance is `hold_tolerance`. More are needed only in
  * degenerate scenes, some of those in still air with R = 1 or 2; the slowest others found take some 2,500.
  */
 export const MOST_VISITS = 4096;
-
-/* Where two arcs are the fastest, the search ends on a word with a short third piece that is due to rounding: a
- * straight piece of up to the square root of 4e-14 where the phase is accurate to 1e-14.
- */
-export const SHORT = 0.0001;
 
 /* In cells within this many half widths of the end of the best path, bounds around that end are tried too. */
 export const NEAR_BEST = 8.0;
@@ -356,15 +427,6 @@ export const TURNS = 1.2;
 
 /* The angle by which the other arc may change while one vanishes. */
 export const SWING = 1.5707963267948966; /* 0.5 * pi */
-export const LAST = 44;
-
-/* The path found next to two arcs may be too early by this many times its miss: both vary with the adjoint, whose
- * length over lambda + p . w stays below 10 where lambda = 1 and |w| < 0.9.
- */
-export const TOO_EARLY = 10.0;
-
-/* Points of joining around the circle between which single arcs are looked for. */
-export const ARC_SAMPLES = 32;
 
 /* Points of joining around the circle between which `ranked` looks for local minima. */
 export const SAMPLES = 128;
@@ -1756,13 +1818,14 @@ export function scene_of(problem) {
 }
 
 /**
- * The candidate without pieces, which joins at the point of the circle that is nearest to the start.
+ * The distance of the start from a point of joining, where an angle between the headings counts R times.
  *
- * @type {(side: number, scene: WindScene) => WindCandidate}
+ * @type {(phase: number, side: number, scene: WindScene) => number}
  */
-export function start_on_circle(side, scene) {
-    const phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy);
-    return { phase, side, path: { time: 0.0, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 } };
+export function hold_miss(phase, side, scene) {
+    const hold_pose_1 = hold_pose(phase, side, scene.R, scene.wx, scene.wy);
+    const px = hold_pose_1[0], py = hold_pose_1[1], ce = hold_pose_1[2], se = hold_pose_1[3];
+    return length(length(px - scene.x, py - scene.y), scene.R * length(ce - scene.c, se - scene.s));
 }
 
 /**
@@ -1793,6 +1856,148 @@ export function end_miss(entry, phase, scene) {
 }
 
 /**
+ * One arc that ends on the circle, and its phase, from an approximation, by Newton's method.
+ *
+ * It can end on the circle and along it only where the start is on it by rounding. The end and the point of joining
+ * move in the same direction, so the distance between them along it determines the duration of the arc less the
+ * time s by which it joins later, and then the heading determines s.
+ *
+ * @type {(arc: Entry, phase: number, scene: WindScene) => [Entry, number]}
+ */
+export function fit_one_arc(arc, phase, scene) {
+    const x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy,
+            arc_tolerance = scene.arc_tolerance;
+    const side = arc.side, word = arc.word;
+    let t = arc.t1;
+    const controls_1 = controls(word);
+    const u = controls_1[0];
+    for (let pass_1 = 0; pass_1 < ARC_STEPS; pass_1++) {
+        const fly_2 = fly(x, y, c, s, u, t);
+        const x1 = fly_2[0], y1 = fly_2[1], c1 = fly_2[2], s1 = fly_2[3];
+        const hold_pose_3 = hold_pose(phase, side, R, wx, wy);
+        const px = hold_pose_3[0], py = hold_pose_3[1], ce = hold_pose_3[2], se = hold_pose_3[3], g =
+                hold_pose_3[4];
+        const rx = px - x1 - wx * t, ry = py - y1 - wy * t, vx = ce + wx, vy = se + wy;
+        const longer = (rx * vx + ry * vy) / (g * g), bend = u + side * hold_rate(phase, side, R, wx, wy);
+        if (bend === 0.0) {
+            break;
+        }
+        const later = (atan2(c1 * se - s1 * ce, c1 * ce + s1 * se) - u * longer) / bend;
+        t = t + longer + later;
+        phase = phase + later * g / R;
+        if (Math.abs(longer) + Math.abs(later) <= arc_tolerance) {
+            break;
+        }
+    }
+    return [{ side, word, t1: t, t2: 0.0, t3: 0.0 }, phase];
+}
+
+/**
+ * The arc of control u next to an approximation that ends abreast of the circle, with the heading of the hold.
+ *
+ * @type {(u: number, t: number, phase: number, side: number, scene: WindScene) => EntryBeside}
+ */
+export function arc_beside(u, t, phase, side, scene) {
+    const fit_one_arc_1 = fit_one_arc({ side, word: encode(u, -2, -2), t1: t, t2: 0.0, t3: 0.0 }, phase, scene);
+    const entry = fit_one_arc_1[0];
+    phase = fit_one_arc_1[1];
+    return { entry, phase, miss: end_miss(entry, phase, scene) };
+}
+
+/**
+ * The maneuver that takes less time; a where b ends too far from the circle.
+ *
+ * @type {(a: EntryBeside, b: EntryBeside, tolerance: number) => EntryBeside}
+ */
+export function faster_beside(a, b, tolerance) {
+    return b.miss <= tolerance && (0.0 <= b.entry.t1 && b.entry.t1 < min_real(a.entry.t1, TWO_PI)) ? b : a;
+}
+
+/**
+ * The end of the arc of control u that ends with the heading of a point of joining.
+ *
+ * @type {(u: number, phase: number, side: number, scene: WindScene) => ArcEnd}
+ */
+export function arc_end(u, phase, side, scene) {
+    const x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy;
+    const hold_pose_1 = hold_pose(phase, side, R, wx, wy);
+    const px = hold_pose_1[0], py = hold_pose_1[1], ce = hold_pose_1[2], se = hold_pose_1[3], g = hold_pose_1[4];
+    const t = angle(arc_rotation(u, c, s, ce, se));
+    const fly_2 = fly(x, y, c, s, u, t);
+    const x1 = fly_2[0], y1 = fly_2[1];
+    const rx = px - x1 - wx * t, ry = py - y1 - wy * t;
+    return { t, short_: (rx * (ce + wx) + ry * (se + wy)) / g };
+}
+
+/**
+ * The faster of `best` and the arcs of the control u between `ARC_SAMPLES` points of joining.
+ *
+ * @type {(best: EntryBeside, u: number, side: number, tolerance: number, scene: WindScene) => EntryBeside}
+ */
+export function fastest_arc_beside(best, u, side, tolerance, scene) {
+    let before = arc_end(u, 0.0, side, scene);
+    const last_1 = ARC_SAMPLES + 1;
+    for (let i = 1; i < last_1; i++) {
+        const phase = TWO_PI / ARC_SAMPLES * i;
+        const after = arc_end(u, phase, side, scene);
+        // Where the heading of the start lies between those of two points, one of the two arcs is almost a whole turn.
+        if ((before.short_ <= 0.0 && 0.0 <= after.short_) && Math.abs(after.t - before.t) < 3.141592653589793) {
+            best = faster_beside(best, arc_beside(u, after.t, phase, side, scene), tolerance);
+        }
+        before = after;
+    }
+    return best;
+}
+
+/**
+ * The fastest maneuver of no piece or of one arc that ends within `tolerance` of the circle; T is inf for none.
+ *
+ * `sides` is a `words.Side`. An arc ends with the heading of its point of joining, so that its miss is the distance
+ * from that point.
+ *
+ * @type {(sides: number, tolerance: number, scene: WindScene) => EntryBeside}
+ */
+export function entry_beside(sides, tolerance, scene) {
+    let best = NO_ENTRY_BESIDE;
+    for (const side of [1, -1]) {
+        if (sides !== 0 - side) {
+            const phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy);
+            const nothing = { side, word: 0, t1: 0.0, t2: 0.0, t3: 0.0 };
+            if (hold_miss(phase, side, scene) <= tolerance && best.entry.t1 > 0.0) {
+                best = { entry: nothing, phase, miss: end_miss(nothing, phase, scene) };
+            }
+            for (const u of [1, -1]) {
+                best = faster_beside(best, arc_beside(u, 0.0, phase, side, scene), tolerance);
+                best = fastest_arc_beside(best, u, side, tolerance, scene);
+            }
+        }
+    }
+    return best;
+}
+
+/**
+ * The result for a maneuver that joins at a phase.
+ *
+ * @type {(entry: Entry, phase: number, miss: number, scene: WindScene) => WindEntry}
+ */
+export function entry_at(entry, phase, miss, scene) {
+    const hold_pose_1 = hold_pose(phase, entry.side, scene.R, scene.wx, scene.wy);
+    const px = hold_pose_1[0], py = hold_pose_1[1];
+    return { status: Status.OK + 0, side: entry.side, word: entry.word, t1: entry.t1, t2: entry.t2, t3: entry.t3,
+            azimuth: atan2(py, px), miss };
+}
+
+/**
+ * The candidate without pieces, which joins at the point of the circle that is nearest to the start.
+ *
+ * @type {(side: number, scene: WindScene) => WindCandidate}
+ */
+export function start_on_circle(side, scene) {
+    const phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy);
+    return { phase, side, path: { time: 0.0, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 } };
+}
+
+/**
  * Whether the start is on the circle and moves along it, up to rounding.
  *
  * @type {(side: number, scene: WindScene) => boolean}
@@ -1800,6 +2005,224 @@ export function end_miss(entry, phase, scene) {
 export function is_on_circle(side, scene) {
     const nothing = { side, word: 0, t1: 0.0, t2: 0.0, t3: 0.0 }, phase = start_on_circle(side, scene).phase;
     return end_miss(nothing, phase, scene) <= 3.0 * scene.arc_tolerance;
+}
+
+/**
+ * The arc left of a word whose other pieces together last `SHORT` or less; the empty word where there is none.
+ *
+ * @type {(found: WindCandidate) => Entry}
+ */
+export function one_arc_entry(found) {
+    const side = found.side, path = found.path;
+    const controls_1 = controls(path.word);
+    const first = controls_1[0], middle = controls_1[1], last = controls_1[2];
+    if (first === last && path.t2 <= SHORT) {
+        return { side, word: encode(first, -2, -2), t1: path.t1 + path.t3, t2: 0.0, t3: 0.0 };
+    }
+    if (middle !== 0 && path.t1 + path.t3 <= SHORT) {
+        return { side, word: encode(middle, -2, -2), t1: path.t2, t2: 0.0, t3: 0.0 };
+    }
+    if (path.t2 + path.t3 <= SHORT) {
+        return { side, word: encode(first, -2, -2), t1: path.t1, t2: 0.0, t3: 0.0 };
+    }
+    if (path.t1 + path.t2 <= SHORT) {
+        return { side, word: encode(last, -2, -2), t1: path.t3, t2: 0.0, t3: 0.0 };
+    }
+    return { side, word: 0, t1: 0.0, t2: 0.0, t3: 0.0 };
+}
+
+/**
+ * The two arcs left of a word whose third piece lasts `short` or less; the empty word where there are none.
+ *
+ * @type {(found: WindCandidate, short_: number) => Entry}
+ */
+export function two_arc_entry(found, short_) {
+    const side = found.side, path = found.path;
+    const controls_1 = controls(path.word);
+    const first = controls_1[0], middle = controls_1[1], last = controls_1[2];
+    if (middle === 0) {
+        if (path.t2 <= short_ && first !== last) {
+            return { side, word: encode(first, last, -2), t1: path.t1, t2: path.t3, t3: 0.0 };
+        }
+    } else if (path.t1 <= min_real(short_, path.t3)) {
+        return { side, word: encode(middle, last, -2), t1: path.t2, t2: path.t3, t3: 0.0 };
+    } else if (path.t3 <= short_) {
+        return { side, word: encode(first, middle, -2), t1: path.t1, t2: path.t2, t3: 0.0 };
+    }
+    return { side, word: 0, t1: 0.0, t2: 0.0, t3: 0.0 };
+}
+
+/**
+ * Whether one or two arcs end on the circle, and no later than `latest`, up to rounding.
+ *
+ * @type {(arcs: Entry, phase: number, latest: number, scene: WindScene) => boolean}
+ */
+export function is_close(arcs, phase, latest, scene) {
+    /** @type {boolean} */ const both_flown = min_real(arcs.t1, arcs.t2) >= 0.0;
+    const late = entry_duration(arcs) - latest;
+    return both_flown && max_real(late, end_miss(arcs, phase, scene)) <= 3.0 * scene.arc_tolerance;
+}
+
+/**
+ * Two arcs that end on the circle, and their phase, from an approximation, by Newton's method.
+ *
+ * Where the headings agree, joining later by s along the circle moves the point of joining just as flying the
+ * second arc for s longer moves the end of the path. So the position determines t1 and t2 - s, and then the heading
+ * determines s.
+ *
+ * @type {(arcs: Entry, phase: number, scene: WindScene) => [Entry, number]}
+ */
+export function fit_two_arcs(arcs, phase, scene) {
+    const x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy,
+            arc_tolerance = scene.arc_tolerance;
+    const side = arcs.side, word = arcs.word;
+    let t1 = arcs.t1, t2 = arcs.t2;
+    const controls_1 = controls(word);
+    const first = controls_1[0], second = controls_1[1];
+    for (let pass_1 = 0; pass_1 < ARC_STEPS; pass_1++) {
+        const fly_2 = fly(x, y, c, s, first, t1);
+        const x1 = fly_2[0], y1 = fly_2[1], c1 = fly_2[2], s1 = fly_2[3];
+        const fly_3 = fly(x1, y1, c1, s1, second, t2);
+        const x2 = fly_3[0], y2 = fly_3[1], c2 = fly_3[2], s2 = fly_3[3];
+        const hold_pose_4 = hold_pose(phase, side, R, wx, wy);
+        const px = hold_pose_4[0], py = hold_pose_4[1], ce = hold_pose_4[2], se = hold_pose_4[3], g =
+                hold_pose_4[4];
+        const rx = px - x2 - wx * (t1 + t2), ry = py - y2 - wy * (t1 + t2);
+        // How the end moves with t1, which turns the second arc about its start, and with t2.
+        const ax = c1 + wx - first * (y2 - y1), ay = s1 + wy + first * (x2 - x1);
+        const bx = c2 + wx, by = s2 + wy;
+        const across = ax * by - ay * bx, bend = second + side * hold_rate(phase, side, R, wx, wy);
+        if (across === 0.0 || bend === 0.0) {
+            break;
+        }
+        const d1 = (rx * by - ry * bx) / across, d2 = (ax * ry - ay * rx) / across;
+        const later = (atan2(c2 * se - s2 * ce, c2 * ce + s2 * se) - first * d1 - second * d2) / bend;
+        t1 = t1 + d1;
+        t2 = t2 + d2 + later;
+        phase = phase + later * g / R;
+        if (Math.abs(d1) + Math.abs(d2) + Math.abs(later) <= arc_tolerance) {
+            break;
+        }
+    }
+    return [{ side, word, t1, t2, t3: 0.0 }, phase];
+}
+
+/**
+ * The maneuver and phase of a candidate, or those of one or two of its arcs alone if close and no slower.
+ *
+ * @type {(found: WindCandidate, scene: WindScene) => [Entry, number]}
+ */
+export function polish(found, scene) {
+    const phase = found.phase, side = found.side, path = found.path;
+    const entry = { side, word: path.word, t1: path.t1, t2: path.t2, t3: path.t3 };
+    const latest = path.time + TOO_EARLY * end_miss(entry, phase, scene);
+    let arc = one_arc_entry(found), arcs = two_arc_entry(found, SHORT);
+    if (arc.word !== 0) {
+        const fit_one_arc_1 = fit_one_arc(arc, phase, scene);
+        arc = fit_one_arc_1[0];
+        const arc_phase = fit_one_arc_1[1];
+        if (is_close(arc, arc_phase, latest, scene)) {
+            return [arc, arc_phase];
+        }
+    }
+    if (arcs.word !== 0) {
+        const fit_two_arcs_2 = fit_two_arcs(arcs, phase, scene);
+        arcs = fit_two_arcs_2[0];
+        const arcs_phase = fit_two_arcs_2[1];
+        if (is_close(arcs, arcs_phase, latest, scene)) {
+            return [arcs, arcs_phase];
+        }
+    }
+    return [entry, phase];
+}
+
+/**
+ * A candidate as the maneuver flown; `Status.NOT_CONVERGED` where it does not end on the circle.
+ *
+ * @type {(found: WindCandidate, scene: WindScene) => WindEntry}
+ */
+export function wind_entry(found, scene) {
+    const length_tolerance = rounding(scene.x, scene.y, scene.R);
+    const polish_1 = polish(found, scene);
+    const side = polish_1[0].side;
+    let word = polish_1[0].word, t1 = polish_1[0].t1, t2 = polish_1[0].t2, t3 = polish_1[0].t3;
+    const phase = polish_1[1];
+    const drop_short_pieces_2 = drop_short_pieces(word, t1, t2, t3, length_tolerance, ROUNDING);
+    word = drop_short_pieces_2[0];
+    t1 = drop_short_pieces_2[1];
+    t2 = drop_short_pieces_2[2];
+    t3 = drop_short_pieces_2[3];
+    const miss = end_miss({ side, word, t1, t2, t3 }, phase, scene);
+    // Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The negated
+    // comparison also rejects a miss that is nan.
+    if (!(miss <= 2.0 * length_tolerance + ROUNDING * (t1 + t2 + t3))) {
+        return no_entry(Status.NOT_CONVERGED + 0);
+    }
+    return entry_at({ side, word, t1, t2, t3 }, phase, miss, scene);
+}
+
+/**
+ * The side, word and durations of a maneuver, as for still air.
+ *
+ * @type {(maneuver: WindEntry) => Entry}
+ */
+export function entry_of(maneuver) {
+    return { side: maneuver.side, word: maneuver.word, t1: maneuver.t1, t2: maneuver.t2, t3: maneuver.t3 };
+}
+
+/**
+ * T, the whole time of a maneuver.
+ *
+ * @type {(maneuver: WindEntry) => number}
+ */
+export function time_of(maneuver) {
+    return entry_duration(entry_of(maneuver));
+}
+
+/**
+ * The search with its result: the maneuver onto the circle, or that beside it if it is faster.
+ *
+ * @type {(search: WindSearch) => WindSearch}
+ */
+export function end_search(search) {
+    const scene = search.scene, beside = search.beside;
+    let entry = wind_entry(search.best, scene);
+    // The negated comparison is also true where there is no maneuver onto the circle: its times are nan.
+    if (beside.entry.t1 < Infinity && !(time_of(entry) <= beside.entry.t1)) {
+        entry = entry_at(beside.entry, beside.phase, beside.miss, scene);
+    }
+    return { ...search, stage: ENDED, entry: entry };
+}
+
+/**
+ * The search for the fastest maneuver, before its first step; it has ended where the answer is known at once.
+ *
+ * @type {(problem: WindProblem) => WindSearch}
+ */
+export function begin_search(problem) {
+    let search = NO_SEARCH;
+    const status = wind_search_status_of(problem);
+    if (status !== 0) {
+        return { ...search, stage: ENDED, entry: no_entry(status) };
+    }
+    const scene = scene_of(problem);
+    search = { ...search, sides: problem.side, scene: scene };
+    if (problem.tolerance > 0.0) {
+        search = { ...search, beside: entry_beside(problem.side, problem.tolerance, scene) };
+        const entry = search.beside.entry, phase = search.beside.phase, miss = search.beside.miss;
+        if (entry.t1 === 0.0) {
+            return { ...search, stage: ENDED, entry: entry_at(entry, phase, miss, scene) };
+        }
+    }
+    for (const one of [1, -1]) {
+        if (problem.side !== 0 - one && is_on_circle(one, scene)) {
+            search = { ...search, best: start_on_circle(one, scene) };
+        }
+    }
+    if (search.best.side !== 0) {
+        return end_search(search);
+    }
+    return search;
 }
 
 /**
@@ -2179,23 +2602,6 @@ export function first_path_of(words, phase, side, scene, until) {
 }
 
 /**
- * The fastest of `best` and the paths to `JOINS` points around the circle, where possible with a straight piece.
- *
- * @type {(side: number, scene: WindScene, best: WindCandidate) => WindCandidate}
- */
-export function best_of_joins(side, scene, best) {
-    for (let i = 0; i < JOINS; i++) {
-        const phase = TWO_PI / JOINS * (i + 0.5);
-        const words = best.path.time < Infinity ? WITH_STRAIGHT : ALL_WORDS;
-        const path = first_path_of(words, phase, side, scene, best.path.time);
-        if (path.time < best.path.time) {
-            best = { phase, side, path };
-        }
-    }
-    return best;
-}
-
-/**
  * The derivative of the time of the path with respect to the point of joining, in units of hold time, (6).
  *
  * It is zero where the adjoint is transversal to the circle, and it never exceeds 1.
@@ -2223,27 +2629,29 @@ export function join_point(words, phase, side, scene) {
 }
 
 /**
- * Two points with a local minimum between them, the better one first, from a point next to it.
+ * The refinement after a step towards where the time falls, twice as long as the last one.
  *
- * @type {(here: JoinPoint, width: number, side: number, scene: WindScene) => [JoinPoint, JoinPoint]}
+ * @type {(refinement: Refinement, scene: WindScene) => Refinement}
  */
-export function bracketed_minimum(here, width, side, scene) {
-    let other = here;
-    for (let pass_1 = 0; pass_1 < BRACKETING_STEPS; pass_1++) {
-        other = join_point(ALL_WORDS, here.phase + (here.slope < 0.0 ? width : -width), side, scene);
-        if (other.path.time > here.path.time) {
-            break;
-        }
+export function bracket(refinement, scene) {
+    let here = refinement.here;
+    const steps = refinement.steps;
+    const step = refinement.width * shift_left(1, steps);
+    let other = join_point(ALL_WORDS, here.phase + (here.slope < 0.0 ? step : -step), refinement.side, scene);
+    /** @type {boolean} */ let is_enclosed = other.path.time > here.path.time;
+    if (!is_enclosed) {
         const new_here = other;
         const new_other = here;
         here = new_here;
         other = new_other;
-        if (here.slope * other.slope <= 0.0) {
-            break;
-        }
-        width *= 2.0;
+        is_enclosed = here.slope * other.slope <= 0.0;
     }
-    return [here, other];
+    if (!is_enclosed && steps + 1 < BRACKETING_STEPS) {
+        return { ...refinement, here: here, steps: steps + 1 };
+    }
+    const words = (set_of(here.path.word) | set_of(other.path.word));
+    return { ...refinement, stage: ENCLOSING, here: here, other: other, last: other, words: words, bisect: false,
+            steps: 0 };
 }
 
 /**
@@ -2277,71 +2685,6 @@ export function secant_phase(a, b) {
 export function is_worthless(here, there, scene) {
     const slowest = 1.0 - length(scene.wx, scene.wy);
     return Math.abs(there - here.phase) * Math.abs(here.slope) * scene.R * WORTH <= here.path.time * slowest;
-}
-
-/**
- * The two arcs left of a word whose third piece lasts `short` or less; the empty word where there are none.
- *
- * @type {(found: WindCandidate, short_: number) => Entry}
- */
-export function two_arc_entry(found, short_) {
-    const side = found.side, path = found.path;
-    const controls_1 = controls(path.word);
-    const first = controls_1[0], middle = controls_1[1], last = controls_1[2];
-    if (middle === 0) {
-        if (path.t2 <= short_ && first !== last) {
-            return { side, word: encode(first, last, -2), t1: path.t1, t2: path.t3, t3: 0.0 };
-        }
-    } else if (path.t1 <= min_real(short_, path.t3)) {
-        return { side, word: encode(middle, last, -2), t1: path.t2, t2: path.t3, t3: 0.0 };
-    } else if (path.t3 <= short_) {
-        return { side, word: encode(first, middle, -2), t1: path.t1, t2: path.t2, t3: 0.0 };
-    }
-    return { side, word: 0, t1: 0.0, t2: 0.0, t3: 0.0 };
-}
-
-/**
- * Two arcs that end on the circle, and their phase, from an approximation, by Newton's method.
- *
- * Where the headings agree, joining later by s along the circle moves the point of joining just as flying the
- * second arc for s longer moves the end of the path. So the position determines t1 and t2 - s, and then the heading
- * determines s.
- *
- * @type {(arcs: Entry, phase: number, scene: WindScene) => [Entry, number]}
- */
-export function fit_two_arcs(arcs, phase, scene) {
-    const x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy,
-            arc_tolerance = scene.arc_tolerance;
-    const side = arcs.side, word = arcs.word;
-    let t1 = arcs.t1, t2 = arcs.t2;
-    const controls_1 = controls(word);
-    const first = controls_1[0], second = controls_1[1];
-    for (let pass_1 = 0; pass_1 < ARC_STEPS; pass_1++) {
-        const fly_2 = fly(x, y, c, s, first, t1);
-        const x1 = fly_2[0], y1 = fly_2[1], c1 = fly_2[2], s1 = fly_2[3];
-        const fly_3 = fly(x1, y1, c1, s1, second, t2);
-        const x2 = fly_3[0], y2 = fly_3[1], c2 = fly_3[2], s2 = fly_3[3];
-        const hold_pose_4 = hold_pose(phase, side, R, wx, wy);
-        const px = hold_pose_4[0], py = hold_pose_4[1], ce = hold_pose_4[2], se = hold_pose_4[3], g =
-                hold_pose_4[4];
-        const rx = px - x2 - wx * (t1 + t2), ry = py - y2 - wy * (t1 + t2);
-        // How the end moves with t1, which turns the second arc about its start, and with t2.
-        const ax = c1 + wx - first * (y2 - y1), ay = s1 + wy + first * (x2 - x1);
-        const bx = c2 + wx, by = s2 + wy;
-        const across = ax * by - ay * bx, bend = second + side * hold_rate(phase, side, R, wx, wy);
-        if (across === 0.0 || bend === 0.0) {
-            break;
-        }
-        const d1 = (rx * by - ry * bx) / across, d2 = (ax * ry - ay * rx) / across;
-        const later = (atan2(c2 * se - s2 * ce, c2 * ce + s2 * se) - first * d1 - second * d2) / bend;
-        t1 = t1 + d1;
-        t2 = t2 + d2 + later;
-        phase = phase + later * g / R;
-        if (Math.abs(d1) + Math.abs(d2) + Math.abs(later) <= arc_tolerance) {
-            break;
-        }
-    }
-    return [{ side, word, t1, t2, t3: 0.0 }, phase];
 }
 
 /**
@@ -2394,65 +2737,67 @@ export function falling_beside(corner, side, scene) {
 }
 
 /**
- * The local minimum of the time next to a candidate, of the words of the two points that enclose it at first.
+ * The refinement after another point between those that enclose the minimum.
  *
- * From the best point so far, `here`, the time falls towards the point `other`. There the time is higher, or it
- * falls in the opposite direction. So there is a local minimum between them.
- *
- * @type {(found: WindCandidate, width: number, scene: WindScene) => WindCandidate}
+ * @type {(refinement: Refinement, scene: WindScene) => Refinement}
  */
-export function enclosed_minimum(found, width, scene) {
-    const side = found.side;
-    const start = { phase: found.phase, path: found.path, slope: join_slope(found.path, found.phase, side, scene) };
-    const bracketed_minimum_1 = bracketed_minimum(start, width, side, scene);
-    let here = bracketed_minimum_1[0], other = bracketed_minimum_1[1];
-    let words = (set_of(here.path.word) | set_of(other.path.word));
-    let last = other;
-    /** @type {boolean} */ let bisect = false;
-    for (let step = 0; step < REFINING_STEPS; step++) {
-        const secant = secant_phase(here, last);
-        // Across a corner the secant does not show how far the minimum is.
-        if (is_worthless(here, has_changed(here.path, last.path) ? other.phase : secant, scene)) {
-            break;
-        }
-        const corner = integer_modulo(step, 4) === 1 ? corner_phase(here, other, side, scene) : Infinity;
-        let there = is_between(corner, here, other) ? corner : 0.5 * (here.phase + other.phase);
-        /** @type {boolean} */ const use_secant = there !== corner && !bisect && is_between(secant, here, other);
-        if (use_secant) {
-            there = secant;
-        }
-        if (there === here.phase || there === other.phase) {
-            break;
-        }
-        const flattest = min_real(Math.abs(here.slope), Math.abs(last.slope));
-        last = join_point(words, there, side, scene);
-        if (last.path.time > here.path.time && has_changed(here.path, last.path)) {
-            last = join_point(ALL_WORDS, there, side, scene);
-            words |= set_of(last.path.word);
-        }
-        // A secant that helps little is followed by a bisection.
-        bisect = use_secant && Math.abs(last.slope) > 0.5 * flattest;
-        if (last.path.time > here.path.time + scene.arc_tolerance) {
-            other = last;
-        } else if (there === corner) {
-            const beside = falling_beside(last, side, scene);
-            if (beside.path.time === Infinity) {
-                here = last;
-                break;
-            }
-            other = is_between(beside.phase, last, other) ? other : here;
-            here = beside;
-        } else {
-            if (here.slope * last.slope < 0.0) {
-                other = here;
-            }
-            const new_here = last;
-            const new_last = here;
-            here = new_here;
-            last = new_last;
-        }
+export function enclose(refinement, scene) {
+    const side = refinement.side;
+    let here = refinement.here, other = refinement.other, last = refinement.last, words = refinement.words;
+    /** @type {boolean} */ let bisect = refinement.bisect;
+    const steps = refinement.steps;
+    const secant = secant_phase(here, last);
+    // Across a corner the secant does not show how far the minimum is.
+    if (is_worthless(here, has_changed(here.path, last.path) ? other.phase : secant, scene)) {
+        return { ...refinement, stage: COMPARING };
     }
-    return { phase: here.phase, side, path: here.path };
+    const corner = integer_modulo(steps, 4) === 1 ? corner_phase(here, other, side, scene) : Infinity;
+    let there = is_between(corner, here, other) ? corner : 0.5 * (here.phase + other.phase);
+    /** @type {boolean} */ const use_secant = there !== corner && !bisect && is_between(secant, here, other);
+    if (use_secant) {
+        there = secant;
+    }
+    if (there === here.phase || there === other.phase) {
+        return { ...refinement, stage: COMPARING };
+    }
+    const flattest = min_real(Math.abs(here.slope), Math.abs(last.slope));
+    last = join_point(words, there, side, scene);
+    if (last.path.time > here.path.time && has_changed(here.path, last.path)) {
+        last = join_point(ALL_WORDS, there, side, scene);
+        words |= set_of(last.path.word);
+    }
+    // A secant that helps little is followed by a bisection.
+    bisect = use_secant && Math.abs(last.slope) > 0.5 * flattest;
+    if (last.path.time > here.path.time + scene.arc_tolerance) {
+        other = last;
+    } else if (there === corner) {
+        const beside = falling_beside(last, side, scene);
+        if (beside.path.time === Infinity) {
+            return { ...refinement, stage: COMPARING, here: last };
+        }
+        other = is_between(beside.phase, last, other) ? other : here;
+        here = beside;
+    } else {
+        if (here.slope * last.slope < 0.0) {
+            other = here;
+        }
+        const new_here = last;
+        const new_last = here;
+        here = new_here;
+        last = new_last;
+    }
+    const stage = steps + 1 < REFINING_STEPS ? ENCLOSING : COMPARING;
+    return { ...refinement, stage: stage, here: here, other: other, last: last, words: words, bisect: bisect, steps:
+            steps + 1 };
+}
+
+/**
+ * The local minimum at which a refinement has ended.
+ *
+ * @type {(refinement: Refinement) => WindCandidate}
+ */
+export function minimum_of(refinement) {
+    return { phase: refinement.here.phase, side: refinement.side, path: refinement.here.path };
 }
 
 /**
@@ -2482,22 +2827,189 @@ export function faster_nearby(found, scene) {
 }
 
 /**
- * The local minimum of the time next to a candidate, where the slope changes its sign or the time jumps.
+ * The refinement that begins at a point; its first step is as wide as `width`, radians.
  *
- * Only the words of the two points that enclose the minimum are tried, until all are at the end.
- *
- * @type {(found: WindCandidate, width: number, scene: WindScene) => WindCandidate}
+ * @type {(start: JoinPoint, side: number, width: number) => Refinement}
  */
-export function refined_minimum(found, width, scene) {
-    for (let pass_1 = 0; pass_1 < REFINEMENTS; pass_1++) {
-        found = enclosed_minimum(found, width, scene);
-        const faster = faster_nearby(found, scene);
-        if (faster.path.time === Infinity) {
-            break;
-        }
-        found = faster;
+export function refinement_from(start, side, width) {
+    return { ...NO_REFINEMENT, stage: BRACKETING, side: side, width: width, here: start };
+}
+
+/**
+ * The refinement of a candidate.
+ *
+ * @type {(found: WindCandidate, width: number, scene: WindScene) => Refinement}
+ */
+export function begin_refinement(found, width, scene) {
+    const slope = join_slope(found.path, found.phase, found.side, scene);
+    return refinement_from({ phase: found.phase, path: found.path, slope }, found.side, width);
+}
+
+/**
+ * The refinement of a faster path, of any word, to its minimum or to a point beside it, if there is one.
+ *
+ * @type {(refinement: Refinement, scene: WindScene) => Refinement}
+ */
+export function compare_nearby(refinement, scene) {
+    const faster = faster_nearby(minimum_of(refinement), scene);
+    if (faster.path.time === Infinity) {
+        return { ...refinement, stage: REFINED };
     }
-    return found;
+    const again = begin_refinement(faster, refinement.width, scene), enclosures = refinement.enclosures + 1;
+    return { ...again, stage: enclosures < REFINEMENTS ? BRACKETING : REFINED, enclosures: enclosures };
+}
+
+/**
+ * The refinement after another step, which tries a point, or a few; it has not ended yet.
+ *
+ * @type {(refinement: Refinement, scene: WindScene) => Refinement}
+ */
+export function refine(refinement, scene) {
+    if (refinement.stage === BRACKETING) {
+        return bracket(refinement, scene);
+    }
+    if (refinement.stage === ENCLOSING) {
+        return enclose(refinement, scene);
+    }
+    return compare_nearby(refinement, scene);
+}
+
+/**
+ * The leaf after one, by its number.
+ *
+ * @type {(leaf: number) => CellVisit}
+ */
+export function next_leaf(leaf) {
+    return { number: leaf + 1, level: LEAF, words: ALL_WORDS };
+}
+
+/**
+ * The search at the beginning of its next stage, on the other side; the result after the last one.
+ *
+ * @type {(search: WindSearch) => WindSearch}
+ */
+export function next_stage(search) {
+    const stage = search.stage + 1, one = 0 - search.one;
+    if (stage === ENDED) {
+        return end_search(search);
+    }
+    let visit = FIRST_CELL;
+    if (stage > COARSE_OTHER || search.sides === 0 - one) {
+        const first = search.others.first, second = search.others.second, third = search.others.third, fourth =
+                search.others.fourth;
+        visit = next_leaf((((first | second) | third) | fourth) !== 0 ? -1 : shift_left(FIRST_CELLS, LEAF));
+    }
+    return { ...search, stage: stage, one: one, visit: visit, before: NO_LEAF_END, leaves: search.others, others:
+            search.leaves, corner: NO_CORNER, compared: Infinity, visits: 0 };
+}
+
+/**
+ * Whether a cell needs not be halved further.
+ *
+ * @type {(visit: CellVisit, cell: OpenCell, best: WindCandidate) => boolean}
+ */
+export function is_done(visit, cell, best) {
+    return visit.level === LAST || cell.earliest >= best.path.time - cell.tolerance;
+}
+
+/**
+ * The first half of a cell inside which a set of words may join.
+ *
+ * @type {(visit: CellVisit, possible: number) => CellVisit}
+ */
+export function first_half(visit, possible) {
+    const words = visit.level < NARROWED ? (shift_left(visit.words, 6) | possible) : visit.words;
+    return { number: 2 * visit.number, level: visit.level + 1, words };
+}
+
+/**
+ * The cell after one that needs not be halved: the largest that begins there and is not yet visited.
+ *
+ * @type {(visit: CellVisit) => CellVisit}
+ */
+export function next_cell(visit) {
+    let number = visit.number + 1, level = visit.level, words = visit.words;
+    while (level > 0 && integer_modulo(number, 2) === 0) {
+        const new_number = integer_quotient(number, 2);
+        const new_level = level - 1;
+        const new_words = level <= NARROWED ? (words >> 6) : words;
+        number = new_number;
+        level = new_level;
+        words = new_words;
+    }
+    return { number, level, words };
+}
+
+/**
+ * The cell after one of a leaf in which a set of words may join: its first half, the next one, or the next leaf.
+ *
+ * @type {(visit: CellVisit, words: number) => CellVisit}
+ */
+export function next_in_leaves(visit, words) {
+    const leaf = shift_right(visit.number, visit.level - LEAF);
+    visit = words !== 0 ? first_half(visit, words) : next_cell(visit);
+    return visit.level >= LEAF && shift_right(visit.number, visit.level - LEAF) === leaf ? visit : next_leaf(leaf);
+}
+
+/**
+ * The search with a refinement continued until it ends, and with its result then.
+ *
+ * @type {(search: WindSearch) => WindSearch}
+ */
+export function refine_path(search) {
+    let refinement = search.refinement, left = search.left;
+    const scene = search.scene;
+    while (refinement.stage !== REFINED && left > 0) {
+        refinement = refine(refinement, scene);
+        left = left - 1;
+    }
+    search = { ...search, refinement: refinement, left: left };
+    if (refinement.stage !== REFINED) {
+        return search;
+    }
+    const found = minimum_of(refinement), best = search.best;
+    if (search.stage === JOINING) {
+        // The better side is searched first, which shortens the search on the other side.
+        search = { ...search, best: found, one: found.side !== 0 ? 0 - found.side : -1 };
+        return found.path.time > 0.0 ? next_stage(search) : end_search(search);
+    }
+    if (search.stage <= COARSE_OTHER) {
+        return { ...search, best: found.path.time < best.path.time ? found : best };
+    }
+    const words = is_done(search.visit, search.cell, found) ? 0 : search.cell.words;
+    return { ...search, best: found, visit: next_in_leaves(search.visit, words) };
+}
+
+/**
+ * The fastest of `best` and the paths to `JOINS` points around the circle, where possible with a straight piece.
+ *
+ * @type {(side: number, scene: WindScene, best: WindCandidate) => WindCandidate}
+ */
+export function best_of_joins(side, scene, best) {
+    for (let i = 0; i < JOINS; i++) {
+        const phase = TWO_PI / JOINS * (i + 0.5);
+        const words = best.path.time < Infinity ? WITH_STRAIGHT : ALL_WORDS;
+        const path = first_path_of(words, phase, side, scene, best.path.time);
+        if (path.time < best.path.time) {
+            best = { phase, side, path };
+        }
+    }
+    return best;
+}
+
+/**
+ * The search with the points of joining on one side tried; then the best path is refined.
+ *
+ * @type {(search: WindSearch) => WindSearch}
+ */
+export function join_one_side(search) {
+    let best = search.best;
+    const scene = search.scene, one = search.one;
+    if (search.sides !== 0 - one) {
+        best = best_of_joins(one, scene, best);
+    }
+    const refinement = one === 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / JOINS, scene);
+    return { ...search, best: best, one: 0 - one, left: search.left - 1, refinement: refinement };
 }
 
 /**
@@ -3043,6 +3555,20 @@ export function hold_time(phase, width, side, R, wx, wy) {
 }
 
 /**
+ * The first path to the end of a cell, and the time to hold the circle through the cell.
+ *
+ * `NO_PATH` where that path is later than the best one by more than this time.
+ *
+ * @type {(visit: CellVisit, side: number, scene: WindScene, best: WindCandidate) => [Path, number]}
+ */
+export function path_to_end(visit, side, scene, best) {
+    const middle_of_1 = middle_of(visit);
+    const middle = middle_of_1[0], half = middle_of_1[1];
+    const within = hold_time(middle + half, 2.0 * half, side, scene.R, scene.wx, scene.wy);
+    return [first_path(middle + half, side, scene, best.path.time + within), within];
+}
+
+/**
  * Whether the time has a local minimum in the leaf that ends at `after`; `before` is the end of an earlier leaf.
  *
  * @type {(before: LeafEnd, after: LeafEnd) => boolean}
@@ -3057,49 +3583,36 @@ export function has_minimum(before, after) {
 }
 
 /**
- * The faster of `best` and the local minimum in a leaf.
- *
- * @type {(before: LeafEnd, after: LeafEnd, side: number, scene: WindScene, best: WindCandidate) => WindCandidate}
- */
-export function refine_if_better(before, after, side, scene, best) {
-    /** @type {boolean} */ const adjoins = before.number === after.number - 1;
-    const parts_1 = adjoins && before.point.path.time < after.point.path.time ? before.point : after.point;
-    const phase = parts_1.phase, path = parts_1.path;
-    const found = refined_minimum({ phase, side, path }, TWO_PI / shift_left(FIRST_CELLS, LEAF), scene);
-    return found.path.time < best.path.time ? found : best;
-}
-
-/**
- * The words that may still join inside a cell early enough; the last leaf's end; the faster of `best` and others.
+ * The words that may still join inside a cell early enough; the last leaf's end; the point to refine, or none.
  *
  * A path that joins inside the cell can follow the circle to the cell's end. So no path into the cell is faster
  * than the first path to its end less the time to hold the circle through the cell.
  *
- * @type {(visit: CellVisit, possible: number, side: number, scene: WindScene, before: LeafEnd, best: WindCandidate) =>
- *         [number, LeafEnd, WindCandidate]}
+ * @type {(visit: CellVisit, words: number, side: number, scene: WindScene, before: LeafEnd, best: WindCandidate) =>
+ *         [number, LeafEnd, JoinPoint]}
  */
-export function examine_cell(visit, possible, side, scene, before, best) {
+export function examine_cell(visit, words, side, scene, before, best) {
     const middle_of_1 = middle_of(visit);
     const middle = middle_of_1[0], half = middle_of_1[1];
-    const end = middle + half;
     /** @type {boolean} */ const holds_best = side === best.side && Math.abs(wrap(best.phase - middle)) <= half;
     if (visit.level < LEAF && holds_best) {
-        return [possible, before, best];
+        return [words, before, NO_POINT];
     }
-    const within = hold_time(end, 2.0 * half, side, scene.R, scene.wx, scene.wy);
-    const path = first_path(end, side, scene, best.path.time + within);
+    const path_to_end_2 = path_to_end(visit, side, scene, best);
+    const path = path_to_end_2[0];
     if (path.time === Infinity) {
-        return [0, before, best];
+        return [0, before, NO_POINT];
     }
-    if (visit.level === LEAF) {
-        const after = { number: visit.number, point: { phase: end, path, slope: join_slope(path, end, side, scene) }
-                };
-        if (!holds_best && has_minimum(before, after)) {
-            best = refine_if_better(before, after, side, scene, best);
-        }
-        before = after;
+    if (visit.level < LEAF) {
+        return [words, before, NO_POINT];
     }
-    return [possible, before, best];
+    const after = { number: visit.number, point: { phase: middle + half, path, slope: join_slope(path, middle +
+            half, side, scene) } };
+    if (holds_best || !has_minimum(before, after)) {
+        return [words, after, NO_POINT];
+    }
+    /** @type {boolean} */ const adjoins = before.number === after.number - 1;
+    return [words, after, adjoins && before.point.path.time < path.time ? before.point : after.point];
 }
 
 /**
@@ -3123,61 +3636,38 @@ export function with_leaf(leaves, number) {
 }
 
 /**
- * The first half of a cell inside which a set of words may join.
- *
- * @type {(visit: CellVisit, possible: number) => CellVisit}
- */
-export function first_half(visit, possible) {
-    const words = visit.level < NARROWED ? (shift_left(visit.words, 6) | possible) : visit.words;
-    return { number: 2 * visit.number, level: visit.level + 1, words };
-}
-
-/**
- * The cell after one that needs not be halved: the largest that begins there and is not yet visited.
- *
- * @type {(visit: CellVisit) => CellVisit}
- */
-export function next_cell(visit) {
-    let number = visit.number + 1, level = visit.level, words = visit.words;
-    while (level > 0 && integer_modulo(number, 2) === 0) {
-        const new_number = integer_quotient(number, 2);
-        const new_level = level - 1;
-        const new_words = level <= NARROWED ? (words >> 6) : words;
-        number = new_number;
-        level = new_level;
-        words = new_words;
-    }
-    return { number, level, words };
-}
-
-/**
- * The faster of `best` and the paths found onto the circle held on one side, and the leaves left to `search`.
+ * The search after cells of one side, until a path has to be refined; some of their leaves are left to search.
  *
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  *
- * @type {(side: number, scene: WindScene, best: WindCandidate) => [WindCandidate, Leaves]}
+ * @type {(search: WindSearch) => WindSearch}
  */
-export function coarse_search(side, scene, best) {
-    let visit = { number: 0, level: 0, words: ALL_WORDS }, before = { number: -2, point: { phase: 0.0, path:
-            NO_PATH, slope: 0.0 } };
-    let leaves = NO_LEAVES;
-    while (visit.number < shift_left(FIRST_CELLS, visit.level)) {
+export function coarse_search(search) {
+    const one = search.one, scene = search.scene, best = search.best;
+    let visit = search.visit, before = search.before;
+    let leaves = search.leaves, left = search.left, start = NO_POINT;
+    while (left > 0 && start.path.time === Infinity && visit.number < shift_left(FIRST_CELLS, visit.level)) {
+        left -= 1;
         const middle_of_1 = middle_of(visit);
-        let possible = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), side, scene,
+        let words = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), one, scene,
                 best.path.time);
-        if (possible !== 0 && visit.level >= COARSE) {
-            const examine_cell_2 = examine_cell(visit, possible, side, scene, before, best);
-            possible = examine_cell_2[0];
+        if (words !== 0 && visit.level >= COARSE) {
+            const examine_cell_2 = examine_cell(visit, words, one, scene, before, best);
+            words = examine_cell_2[0];
             before = examine_cell_2[1];
-            best = examine_cell_2[2];
-            if (possible !== 0 && visit.level === LEAF) {
+            start = examine_cell_2[2];
+            if (words !== 0 && visit.level === LEAF) {
                 leaves = with_leaf(leaves, visit.number);
-                possible = 0;
+                words = 0;
             }
         }
-        visit = possible !== 0 ? first_half(visit, possible) : next_cell(visit);
+        visit = words !== 0 ? first_half(visit, words) : next_cell(visit);
     }
-    return [best, leaves];
+    search = { ...search, visit: visit, before: before, leaves: leaves, left: left };
+    if (start.path.time < Infinity) {
+        return { ...search, refinement: refinement_from(start, one, TWO_PI / shift_left(FIRST_CELLS, LEAF)) };
+    }
+    return visit.number < shift_left(FIRST_CELLS, visit.level) ? search : next_stage(search);
 }
 
 /**
@@ -3208,17 +3698,6 @@ export function time_tolerance(best, scene) {
  */
 export function hold_tolerance(scene) {
     return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / 4096.0);
-}
-
-/**
- * Whether one or two arcs end on the circle, and no later than `latest`, up to rounding.
- *
- * @type {(arcs: Entry, phase: number, latest: number, scene: WindScene) => boolean}
- */
-export function is_close(arcs, phase, latest, scene) {
-    /** @type {boolean} */ const both_flown = min_real(arcs.t1, arcs.t2) >= 0.0;
-    const late = entry_duration(arcs) - latest;
-    return both_flown && max_real(late, end_miss(arcs, phase, scene)) <= 3.0 * scene.arc_tolerance;
 }
 
 /**
@@ -3422,347 +3901,88 @@ export function words_beside_best(visit, words, scene, best, corner, sooner) {
 }
 
 /**
- * The words that may still join in a cell early enough, as in `examine_cell`; the faster of `best` and others.
+ * The time before which no path joins in a cell, as in `examine_cell`; the path to its end if it is faster.
  *
- * @type {(visit: CellVisit, possible: number, side: number, scene: WindScene, best: WindCandidate, tolerance: number)
- *         => [number, WindCandidate]}
+ * @type {(visit: CellVisit, side: number, scene: WindScene, best: WindCandidate) => [number, WindCandidate]}
  */
-export function compare_at_end(visit, possible, side, scene, best, tolerance) {
+export function compare_at_end(visit, side, scene, best) {
     const middle_of_1 = middle_of(visit);
     const middle = middle_of_1[0], half = middle_of_1[1];
-    const end = middle + half;
-    const within = hold_time(end, 2.0 * half, side, scene.R, scene.wx, scene.wy);
-    const path = first_path(end, side, scene, best.path.time + within);
-    if (path.time < best.path.time) {
-        best = refined_minimum({ phase: end, side, path }, 2.0 * half, scene);
-    }
-    /** @type {boolean} */ const done = visit.level === LAST || path.time - within >= best.path.time - tolerance;
-    return [done ? 0 : possible, best];
+    const path_to_end_2 = path_to_end(visit, side, scene, best);
+    const path = path_to_end_2[0], within = path_to_end_2[1];
+    return [path.time - within, { phase: middle + half, side: path.time < best.path.time ? side : 0, path }];
 }
 
 /**
- * The fastest path onto the circle held on one side, if it joins inside one of the leaves; otherwise `best`.
+ * The search after cells inside the leaves of one side that are left, until a path has to be refined.
  *
- * @type {(side: number, scene: WindScene, best: WindCandidate, leaves: Leaves) => WindCandidate}
+ * @type {(search: WindSearch) => WindSearch}
  */
-export function search(side, scene, best, leaves) {
-    let corner = NO_CORNER, compared = Infinity, visits = 0;
-    const last_1 = shift_left(FIRST_CELLS, LEAF);
-    for (let number = 0; number < last_1; number++) {
-        if (has_leaf(leaves, number)) {
-            let visit = { number, level: LEAF, words: ALL_WORDS };
-            while (visit.level >= LEAF && shift_right(visit.number, visit.level - LEAF) === number) {
-                visits += 1;
-                const tolerance = visits <= MOST_VISITS ? time_tolerance(best, scene) : hold_tolerance(scene);
-                const sooner = best.path.time - tolerance;
-                const middle_of_1 = middle_of(visit);
-                let possible = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), side, scene,
-                        sooner);
-                if (possible !== 0 && side === best.side) {
-                    if (best.path.time < compared) {
-                        corner = corner_of(best, scene);
-                        compared = best.path.time;
-                    }
-                    possible = words_beside_best(visit, possible, scene, best, corner, sooner);
-                }
-                if (possible !== 0 && integer_modulo(LAST - visit.level, 2) === 0 && visit.level > LEAF) {
-                    const compare_at_end_2 = compare_at_end(visit, possible, side, scene, best, tolerance);
-                    possible = compare_at_end_2[0];
-                    best = compare_at_end_2[1];
-                }
-                visit = possible !== 0 ? first_half(visit, possible) : next_cell(visit);
+export function fine_search(search) {
+    const one = search.one, scene = search.scene, best = search.best, leaves = search.leaves;
+    let visit = search.visit;
+    let corner = search.corner, compared = search.compared, visits = search.visits, left = search.left;
+    let start = NO_CANDIDATE, cell = search.cell;
+    while (left > 0 && start.side === 0 && visit.number < shift_left(FIRST_CELLS, visit.level)) {
+        if (visit.level === LEAF && !has_leaf(leaves, visit.number)) {
+            visit = next_leaf(visit.number);
+            continue;
+        }
+        left = left - 1;
+        visits = visits + 1;
+        const tolerance = visits <= MOST_VISITS ? time_tolerance(best, scene) : hold_tolerance(scene);
+        const sooner = best.path.time - tolerance;
+        const middle_of_1 = middle_of(visit);
+        let words = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), one, scene, sooner);
+        if (words !== 0 && one === best.side) {
+            if (best.path.time < compared) {
+                corner = corner_of(best, scene);
+                compared = best.path.time;
+            }
+            words = words_beside_best(visit, words, scene, best, corner, sooner);
+        }
+        if (words !== 0 && integer_modulo(LAST - visit.level, 2) === 0 && visit.level > LEAF) {
+            const compare_at_end_2 = compare_at_end(visit, one, scene, best);
+            const earliest = compare_at_end_2[0];
+            start = compare_at_end_2[1];
+            cell = { words, earliest, tolerance };
+            if (start.side === 0 && is_done(visit, cell, best)) {
+                words = 0;
             }
         }
-    }
-    return best;
-}
-
-/**
- * The faster of `best` and the fastest path onto the circle, by branch and bound.
- *
- * @type {(side: number, scene: WindScene, best: WindCandidate) => WindCandidate}
- */
-export function fastest_of_sides(side, scene, best) {
-    // The better side is searched first, which shortens the search on the other side.
-    const first = best.side !== 0 ? best.side : 1;
-    let leaves = NO_LEAVES, others = NO_LEAVES;
-    if (side !== 0 - first) {
-        const coarse_search_1 = coarse_search(first, scene, best);
-        best = coarse_search_1[0];
-        leaves = coarse_search_1[1];
-    }
-    if (side !== first) {
-        const coarse_search_2 = coarse_search(0 - first, scene, best);
-        best = coarse_search_2[0];
-        others = coarse_search_2[1];
-    }
-    best = search(first, scene, best, leaves);
-    return search(0 - first, scene, best, others);
-}
-
-/**
- * The arc left of a word whose other pieces together last `SHORT` or less; the empty word where there is none.
- *
- * @type {(found: WindCandidate) => Entry}
- */
-export function one_arc_entry(found) {
-    const side = found.side, path = found.path;
-    const controls_1 = controls(path.word);
-    const first = controls_1[0], middle = controls_1[1], last = controls_1[2];
-    if (first === last && path.t2 <= SHORT) {
-        return { side, word: encode(first, -2, -2), t1: path.t1 + path.t3, t2: 0.0, t3: 0.0 };
-    }
-    if (middle !== 0 && path.t1 + path.t3 <= SHORT) {
-        return { side, word: encode(middle, -2, -2), t1: path.t2, t2: 0.0, t3: 0.0 };
-    }
-    if (path.t2 + path.t3 <= SHORT) {
-        return { side, word: encode(first, -2, -2), t1: path.t1, t2: 0.0, t3: 0.0 };
-    }
-    if (path.t1 + path.t2 <= SHORT) {
-        return { side, word: encode(last, -2, -2), t1: path.t3, t2: 0.0, t3: 0.0 };
-    }
-    return { side, word: 0, t1: 0.0, t2: 0.0, t3: 0.0 };
-}
-
-/**
- * One arc that ends on the circle, and its phase, from an approximation, by Newton's method.
- *
- * It can end on the circle and along it only where the start is on it by rounding. The end and the point of joining
- * move in the same direction, so the distance between them along it determines the duration of the arc less the
- * time s by which it joins later, and then the heading determines s.
- *
- * @type {(arc: Entry, phase: number, scene: WindScene) => [Entry, number]}
- */
-export function fit_one_arc(arc, phase, scene) {
-    const x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy,
-            arc_tolerance = scene.arc_tolerance;
-    const side = arc.side, word = arc.word;
-    let t = arc.t1;
-    const controls_1 = controls(word);
-    const u = controls_1[0];
-    for (let pass_1 = 0; pass_1 < ARC_STEPS; pass_1++) {
-        const fly_2 = fly(x, y, c, s, u, t);
-        const x1 = fly_2[0], y1 = fly_2[1], c1 = fly_2[2], s1 = fly_2[3];
-        const hold_pose_3 = hold_pose(phase, side, R, wx, wy);
-        const px = hold_pose_3[0], py = hold_pose_3[1], ce = hold_pose_3[2], se = hold_pose_3[3], g =
-                hold_pose_3[4];
-        const rx = px - x1 - wx * t, ry = py - y1 - wy * t, vx = ce + wx, vy = se + wy;
-        const longer = (rx * vx + ry * vy) / (g * g), bend = u + side * hold_rate(phase, side, R, wx, wy);
-        if (bend === 0.0) {
-            break;
-        }
-        const later = (atan2(c1 * se - s1 * ce, c1 * ce + s1 * se) - u * longer) / bend;
-        t = t + longer + later;
-        phase = phase + later * g / R;
-        if (Math.abs(longer) + Math.abs(later) <= arc_tolerance) {
-            break;
+        if (start.side === 0) {
+            visit = next_in_leaves(visit, words);
         }
     }
-    return [{ side, word, t1: t, t2: 0.0, t3: 0.0 }, phase];
+    search = { ...search, visit: visit, corner: corner, compared: compared, visits: visits, left: left, cell: cell
+            };
+    if (start.side !== 0) {
+        const middle_of_3 = middle_of(visit);
+        const half = middle_of_3[1];
+        return { ...search, refinement: begin_refinement(start, 2.0 * half, scene) };
+    }
+    return visit.number < shift_left(FIRST_CELLS, visit.level) ? search : next_stage(search);
 }
 
 /**
- * The maneuver and phase of a candidate, or those of one or two of its arcs alone if close and no slower.
+ * The search after at most `steps` more steps, each of which takes about as long as trying one point of joining.
  *
- * @type {(found: WindCandidate, scene: WindScene) => [Entry, number]}
+ * @type {(search: WindSearch, steps: number) => WindSearch}
  */
-export function polish(found, scene) {
-    const phase = found.phase, side = found.side, path = found.path;
-    const entry = { side, word: path.word, t1: path.t1, t2: path.t2, t3: path.t3 };
-    const latest = path.time + TOO_EARLY * end_miss(entry, phase, scene);
-    let arc = one_arc_entry(found), arcs = two_arc_entry(found, SHORT);
-    if (arc.word !== 0) {
-        const fit_one_arc_1 = fit_one_arc(arc, phase, scene);
-        arc = fit_one_arc_1[0];
-        const arc_phase = fit_one_arc_1[1];
-        if (is_close(arc, arc_phase, latest, scene)) {
-            return [arc, arc_phase];
+export function advance_search(search, steps) {
+    search = { ...search, left: steps };
+    while (search.stage !== ENDED && search.left > 0) {
+        if (search.refinement.stage !== REFINED) {
+            search = refine_path(search);
+        } else if (search.stage === JOINING) {
+            search = join_one_side(search);
+        } else if (search.stage <= COARSE_OTHER) {
+            search = coarse_search(search);
+        } else {
+            search = fine_search(search);
         }
     }
-    if (arcs.word !== 0) {
-        const fit_two_arcs_2 = fit_two_arcs(arcs, phase, scene);
-        arcs = fit_two_arcs_2[0];
-        const arcs_phase = fit_two_arcs_2[1];
-        if (is_close(arcs, arcs_phase, latest, scene)) {
-            return [arcs, arcs_phase];
-        }
-    }
-    return [entry, phase];
-}
-
-/**
- * The result for a maneuver that joins at a phase.
- *
- * @type {(entry: Entry, phase: number, miss: number, scene: WindScene) => WindEntry}
- */
-export function entry_at(entry, phase, miss, scene) {
-    const hold_pose_1 = hold_pose(phase, entry.side, scene.R, scene.wx, scene.wy);
-    const px = hold_pose_1[0], py = hold_pose_1[1];
-    return { status: Status.OK + 0, side: entry.side, word: entry.word, t1: entry.t1, t2: entry.t2, t3: entry.t3,
-            azimuth: atan2(py, px), miss };
-}
-
-/**
- * A candidate as the maneuver flown; `Status.NOT_CONVERGED` where it does not end on the circle.
- *
- * @type {(found: WindCandidate, scene: WindScene) => WindEntry}
- */
-export function wind_entry(found, scene) {
-    const length_tolerance = rounding(scene.x, scene.y, scene.R);
-    const polish_1 = polish(found, scene);
-    const side = polish_1[0].side;
-    let word = polish_1[0].word, t1 = polish_1[0].t1, t2 = polish_1[0].t2, t3 = polish_1[0].t3;
-    const phase = polish_1[1];
-    const drop_short_pieces_2 = drop_short_pieces(word, t1, t2, t3, length_tolerance, ROUNDING);
-    word = drop_short_pieces_2[0];
-    t1 = drop_short_pieces_2[1];
-    t2 = drop_short_pieces_2[2];
-    t3 = drop_short_pieces_2[3];
-    const miss = end_miss({ side, word, t1, t2, t3 }, phase, scene);
-    // Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The negated
-    // comparison also rejects a miss that is nan.
-    if (!(miss <= 2.0 * length_tolerance + ROUNDING * (t1 + t2 + t3))) {
-        return no_entry(Status.NOT_CONVERGED + 0);
-    }
-    return entry_at({ side, word, t1, t2, t3 }, phase, miss, scene);
-}
-
-/**
- * The fastest maneuver that ends on the circle.
- *
- * @type {(side: number, scene: WindScene) => WindEntry}
- */
-export function fastest_onto(side, scene) {
-    let best = { phase: 0.0, side: 0, path: NO_PATH };
-    for (const one of [1, -1]) {
-        if (side !== 0 - one && is_on_circle(one, scene)) {
-            best = start_on_circle(one, scene);
-        }
-    }
-    if (best.side === 0) {
-        for (const one of [1, -1]) {
-            if (side !== 0 - one) {
-                best = best_of_joins(one, scene, best);
-            }
-        }
-        best = refined_minimum(best, TWO_PI / JOINS, scene);
-    }
-    if (best.path.time > 0.0) {
-        best = fastest_of_sides(side, scene, best);
-    }
-    return wind_entry(best, scene);
-}
-
-/**
- * The distance of the start from a point of joining, where an angle between the headings counts R times.
- *
- * @type {(phase: number, side: number, scene: WindScene) => number}
- */
-export function hold_miss(phase, side, scene) {
-    const hold_pose_1 = hold_pose(phase, side, scene.R, scene.wx, scene.wy);
-    const px = hold_pose_1[0], py = hold_pose_1[1], ce = hold_pose_1[2], se = hold_pose_1[3];
-    return length(length(px - scene.x, py - scene.y), scene.R * length(ce - scene.c, se - scene.s));
-}
-
-/**
- * The arc of control u next to an approximation that ends abreast of the circle, with the heading of the hold.
- *
- * @type {(u: number, t: number, phase: number, side: number, scene: WindScene) => EntryBeside}
- */
-export function arc_beside(u, t, phase, side, scene) {
-    const fit_one_arc_1 = fit_one_arc({ side, word: encode(u, -2, -2), t1: t, t2: 0.0, t3: 0.0 }, phase, scene);
-    const entry = fit_one_arc_1[0];
-    phase = fit_one_arc_1[1];
-    return { entry, phase, miss: end_miss(entry, phase, scene) };
-}
-
-/**
- * The maneuver that takes less time; a where b ends too far from the circle.
- *
- * @type {(a: EntryBeside, b: EntryBeside, tolerance: number) => EntryBeside}
- */
-export function faster_beside(a, b, tolerance) {
-    return b.miss <= tolerance && (0.0 <= b.entry.t1 && b.entry.t1 < min_real(a.entry.t1, TWO_PI)) ? b : a;
-}
-
-/**
- * The end of the arc of control u that ends with the heading of a point of joining.
- *
- * @type {(u: number, phase: number, side: number, scene: WindScene) => ArcEnd}
- */
-export function arc_end(u, phase, side, scene) {
-    const x = scene.x, y = scene.y, c = scene.c, s = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy;
-    const hold_pose_1 = hold_pose(phase, side, R, wx, wy);
-    const px = hold_pose_1[0], py = hold_pose_1[1], ce = hold_pose_1[2], se = hold_pose_1[3], g = hold_pose_1[4];
-    const t = angle(arc_rotation(u, c, s, ce, se));
-    const fly_2 = fly(x, y, c, s, u, t);
-    const x1 = fly_2[0], y1 = fly_2[1];
-    const rx = px - x1 - wx * t, ry = py - y1 - wy * t;
-    return { t, short_: (rx * (ce + wx) + ry * (se + wy)) / g };
-}
-
-/**
- * The faster of `best` and the arcs of the control u between `ARC_SAMPLES` points of joining.
- *
- * @type {(best: EntryBeside, u: number, side: number, tolerance: number, scene: WindScene) => EntryBeside}
- */
-export function fastest_arc_beside(best, u, side, tolerance, scene) {
-    let before = arc_end(u, 0.0, side, scene);
-    const last_1 = ARC_SAMPLES + 1;
-    for (let i = 1; i < last_1; i++) {
-        const phase = TWO_PI / ARC_SAMPLES * i;
-        const after = arc_end(u, phase, side, scene);
-        // Where the heading of the start lies between those of two points, one of the two arcs is almost a whole turn.
-        if ((before.short_ <= 0.0 && 0.0 <= after.short_) && Math.abs(after.t - before.t) < 3.141592653589793) {
-            best = faster_beside(best, arc_beside(u, after.t, phase, side, scene), tolerance);
-        }
-        before = after;
-    }
-    return best;
-}
-
-/**
- * The fastest maneuver of no piece or of one arc that ends within `tolerance` of the circle; T is inf for none.
- *
- * `sides` is a `words.Side`. An arc ends with the heading of its point of joining, so that its miss is the distance
- * from that point.
- *
- * @type {(sides: number, tolerance: number, scene: WindScene) => EntryBeside}
- */
-export function entry_beside(sides, tolerance, scene) {
-    let best = { entry: { side: 0, word: 0, t1: Infinity, t2: 0.0, t3: 0.0 }, phase: 0.0, miss: Infinity };
-    for (const side of [1, -1]) {
-        if (sides !== 0 - side) {
-            const phase = phase_of(scene.x, scene.y, side, scene.wx, scene.wy);
-            const nothing = { side, word: 0, t1: 0.0, t2: 0.0, t3: 0.0 };
-            if (hold_miss(phase, side, scene) <= tolerance && best.entry.t1 > 0.0) {
-                best = { entry: nothing, phase, miss: end_miss(nothing, phase, scene) };
-            }
-            for (const u of [1, -1]) {
-                best = faster_beside(best, arc_beside(u, 0.0, phase, side, scene), tolerance);
-                best = fastest_arc_beside(best, u, side, tolerance, scene);
-            }
-        }
-    }
-    return best;
-}
-
-/**
- * The side, word and durations of a maneuver, as for still air.
- *
- * @type {(maneuver: WindEntry) => Entry}
- */
-export function entry_of(maneuver) {
-    return { side: maneuver.side, word: maneuver.word, t1: maneuver.t1, t2: maneuver.t2, t3: maneuver.t3 };
-}
-
-/**
- * T, the whole time of a maneuver.
- *
- * @type {(maneuver: WindEntry) => number}
- */
-export function time_of(maneuver) {
-    return entry_duration(entry_of(maneuver));
+    return search;
 }
 
 /**
@@ -3774,24 +3994,7 @@ export function time_of(maneuver) {
  * @type {(problem: WindProblem) => WindEntry}
  */
 export function wind_search_fastest(problem) {
-    const status = wind_search_status_of(problem);
-    if (status !== 0) {
-        return no_entry(status);
-    }
-    const scene = scene_of(problem);
-    if (problem.tolerance === 0.0) {
-        return fastest_onto(problem.side, scene);
-    }
-    const beside = entry_beside(problem.side, problem.tolerance, scene);
-    if (beside.entry.t1 === 0.0) {
-        return entry_at(beside.entry, beside.phase, beside.miss, scene);
-    }
-    const onto = fastest_onto(problem.side, scene);
-    // The negated comparison is also true where there is no maneuver onto the circle: its times are nan.
-    if (beside.entry.t1 < Infinity && !(time_of(onto) <= beside.entry.t1)) {
-        return entry_at(beside.entry, beside.phase, beside.miss, scene);
-    }
-    return onto;
+    return advance_search(begin_search(problem), UNLIMITED).entry;
 }
 
 /**
@@ -3813,6 +4016,21 @@ export function sampled_times(side, scene, times) {
 export function is_local_minimum(times, i) {
     return times[i] < Infinity && times[i] <= min_real(times[integer_modulo(i - 1, SAMPLES)], times[integer_modulo(i
             + 1, SAMPLES)]);
+}
+
+/**
+ * The local minimum of the time next to a candidate, where the slope changes its sign or the time jumps.
+ *
+ * Only the words of the two points that enclose the minimum are tried, until all are at the end.
+ *
+ * @type {(found: WindCandidate, width: number, scene: WindScene) => WindCandidate}
+ */
+export function refined_minimum(found, width, scene) {
+    let refinement = begin_refinement(found, width, scene);
+    while (refinement.stage !== REFINED) {
+        refinement = refine(refinement, scene);
+    }
+    return minimum_of(refinement);
 }
 
 /**
