@@ -89,9 +89,10 @@ def test_a_state_in_still_air_has_the_same_bits(library, rows):
 
 
 def scenes():
-    """Problems in wind: drawn, bad, slow, and some with a tolerance, also beside a last arc."""
+    """Problems in wind: drawn, bad, slow, and some with a tolerance, also beside a last arc; and some on a last arc."""
     random = Random(3)
     beside = [beside_last_arc(random, 0.01, random.uniform(-0.9, 0.9))[0] for _ in range(20)]
+    beside += [beside_last_arc(random, 0.0, 0.0)[0] for _ in range(20)]
     some = [*drawn(160, 1), *drawn(80, 2, 0.95)]
     tolerant = [problem._replace(tolerance=10.0 ** (-1.0 - i % 6)) for i, problem in enumerate(drawn(40, 5))]
     return [*some, *BAD, *SLOW, *(problem for problem, _ in (*VALLEYS, *CORNERS)), *tolerant, *beside]
