@@ -112,7 +112,7 @@ def test_every_public_function_with_such_arguments_is_tested():
         ),
         (lambda: io.save(MANEUVER, 5), "path is 5: it must be the path of a file, as text or a pathlib.Path"),
         (lambda: io.save("m", "x.kml"), "maneuver is 'm': it must be a loiter.Maneuver"),
-        (lambda: mavlink.upload(LINK, "x.plan"), f"mission is {LINK!r}: it must be a loiter.io.Mission"),
+        (lambda: mavlink.upload(LINK, LINK), f"mission is {LINK!r}: it must be a loiter.io.Mission"),
     ],
 )
 def test_sentences(call, sentence):
