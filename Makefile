@@ -6,7 +6,7 @@
 # make docs   the documentation site, in build/docs, with the page in try/: every warning and every broken link is an error
 # make site   the page as static files for any address, in build/site; ADDRESS=https://... for the pictures of links
 # make notebooks  run the notebooks of docs/notebooks and write their outputs
-# make generate  translate the kernel and the law from Python to C and JavaScript, for the package, the page and autopilots
+# make generate  translate the kernel and the law from Python to C, JavaScript and Lua, for package, page and autopilots
 # make pins   rewrite the requirement files from pyproject.toml
 PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin

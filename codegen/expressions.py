@@ -78,6 +78,7 @@ class Expressions:
     """The translation of expressions within one function to C; another language overrides what it writes otherwise."""
 
     compared = COMPARED
+    both, either, inverse = " && ", " || ", "!"
 
     def __init__(self, names: Names, file: str) -> None:
         self.names = names
@@ -184,12 +185,16 @@ class Expressions:
     def _chosen_parts(self, node: ast.IfExp) -> list[Expression]:
         """The elements of a choice between two tuples, each chosen by itself."""
         test = self.condition(node.test)
-        chosen = test.within(CHOICE + 1)
         if not isinstance(node.test, ast.Name):
-            chosen = self.temporary(Expression(test.text, TRUTH), "chosen")
+            test = Expression(self.temporary(Expression(test.text, TRUTH), "chosen"), TRUTH)
         with self.lazily():
             pairs = list(zip(self.parts(node.body), self.parts(node.orelse), strict=True))
-        return [Expression(f"{chosen} ? {a.within(CHOICE + 1)} : {b.within(CHOICE)}", a.kind, CHOICE) for a, b in pairs]
+        return [self.choice(test, a, b) for a, b in pairs]
+
+    def choice(self, test: Expression, a: Expression, b: Expression) -> Expression:
+        """The first of two values of one kind where a condition holds, otherwise the second."""
+        text = f"{test.within(CHOICE + 1)} ? {a.within(CHOICE + 1)} : {b.within(CHOICE)}"
+        return Expression(text, a.kind, CHOICE)
 
     @contextmanager
     def lazily(self) -> Iterator[None]:
@@ -293,7 +298,7 @@ class Expressions:
 
     def _UnaryOp(self, node: ast.UnaryOp) -> Expression:
         if isinstance(node.op, ast.Not):
-            return Expression(f"!{self.condition(node.operand).within(UNARY)}", TRUTH, UNARY)
+            return Expression(f"{self.inverse}{self.condition(node.operand).within(UNARY)}", TRUTH, UNARY)
         found = self.translate(node.operand)
         if isinstance(node.op, ast.USub) and found.kind in (REAL, INTEGER):
             operand = found.within(UNARY)
@@ -326,12 +331,12 @@ class Expressions:
         raise self.refused(node, f"{ast.unparse(node)!r}")
 
     def _BoolOp(self, node: ast.BoolOp) -> Expression:
-        sign, level = ("&&", AND) if isinstance(node.op, ast.And) else ("||", OR)
+        sign, level = (self.both, AND) if isinstance(node.op, ast.And) else (self.either, OR)
         first, *others = node.values
         texts = [self.condition(first).within(EQUALITY)]
         with self.lazily():
             texts += [self.condition(one).within(EQUALITY) for one in others]
-        return Expression(f" {sign} ".join(texts), TRUTH, level)
+        return Expression(sign.join(texts), TRUTH, level)
 
     def _Compare(self, node: ast.Compare) -> Expression:
         operands = [node.left, *node.comparators]
@@ -348,8 +353,8 @@ class Expressions:
             if REAL in (a.kind, b.kind):
                 a, b = self.as_real(a), self.as_real(b)
             texts.append(f"{a.within(level + 1)} {sign} {b.within(level + 1)}")
-        level = COMPARED[type(node.ops[0])][1] if len(texts) == 1 else AND
-        return Expression(" && ".join(texts), TRUTH, level)
+        level = self.compared[type(node.ops[0])][1] if len(texts) == 1 else AND
+        return Expression(self.both.join(texts), TRUTH, level)
 
     def _member(self, node: ast.Compare) -> Expression:
         """Whether a value is one of a few: `x in (a, b)`."""
@@ -359,7 +364,7 @@ class Expressions:
         value = self.translate(node.left)
         sign, level = self.compared[ast.Eq]
         texts = [f"{value.text} {sign} {self.translate(one).within(level + 1)}" for one in choices.elts]
-        return Expression(" || ".join(texts), TRUTH, OR)
+        return Expression(self.either.join(texts), TRUTH, OR)
 
     def _IfExp(self, node: ast.IfExp) -> Expression:
         if isinstance(node.body, ast.Tuple):
@@ -374,7 +379,7 @@ class Expressions:
         if kind != a.kind and kind != b.kind:
             raise self.refused(node, f"the choice {ast.unparse(node)!r} between two kinds")
         a, b = self.of_kind(kind, a), self.of_kind(kind, b)
-        return Expression(f"{test.within(CHOICE + 1)} ? {a.within(CHOICE + 1)} : {b.within(CHOICE)}", kind, CHOICE)
+        return self.choice(test, a, b)._replace(kind=kind)
 
     def _changed(self, node: ast.Call, structure: ast.expr) -> Expression:
         """A structure with other values of some fields: `structure._replace(field=value)`."""

@@ -104,11 +104,12 @@ def signature(function: FunctionType, place: str) -> tuple[dict[str, Kind], Kind
     return {name: kind_of_type(hints[name], place) for name in names}, result
 
 
-# Words of C or of JavaScript that are names in Python.
+# Words of C, of JavaScript or of Lua that are names in Python.
 RESERVED = {"short", "long", "double", "float", "int", "register", "union", "auto", "const", "restrict", "default"}
 RESERVED |= {"new", "var", "let", "function", "this", "delete", "void", "typeof", "switch", "case", "arguments"}
+RESERVED |= {"end", "repeat", "until", "local", "then", "elseif", "nil", "goto"}
 
 
 def safe(name: str) -> str:
-    """A name that is no word of C or JavaScript."""
+    """A name that is no word of C, JavaScript or Lua."""
     return f"{name}_" if name in RESERVED else name

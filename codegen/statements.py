@@ -112,6 +112,8 @@ class Function:
 
     translator = Expressions
     remark = "/* {} */"
+    stop = ";"
+    if_, elif_, else_, while_, end = "if ({}) {{", "}} else if ({}) {{", "} else {", "while ({}) {{", "}"
 
     def __init__(self, node: ast.FunctionDef, names: Names, result: Kind, file: str, comments: dict[int, str]) -> None:
         self.node, self.result, self.file, self.comments = node, result, file, comments
@@ -353,27 +355,27 @@ class Function:
     def _If(self, node: ast.If, indent: str) -> None:
         test = self.expressions.condition(node.test)
         self._before(indent)
-        self._write(indent, f"if ({test.text}) {{")
+        self._write(indent, self.if_.format(test.text))
         self._block(node.body, indent + STEP)
         while len(node.orelse) == 1 and isinstance(node.orelse[0], ast.If):
             node = node.orelse[0]
             test = self.expressions.condition(node.test)
             if self.expressions.before:
                 raise self.expressions.refused(node, "a structure taken apart in an elif")
-            self._write(indent, f"}} else if ({test.text}) {{")
+            self._write(indent, self.elif_.format(test.text))
             self._block(node.body, indent + STEP)
         if node.orelse:
-            self._write(indent, "} else {")
+            self._write(indent, self.else_)
             self._block(node.orelse, indent + STEP)
-        self._write(indent, "}")
+        self._write(indent, self.end)
 
     def _While(self, node: ast.While, indent: str) -> None:
         test = self.expressions.condition(node.test)
         if self.expressions.before or node.orelse:
             raise self.expressions.refused(node, f"the condition {ast.unparse(node.test)!r} of a loop")
-        self._write(indent, f"while ({test.text}) {{")
+        self._write(indent, self.while_.format(test.text))
         self._block(node.body, indent + STEP)
-        self._write(indent, "}")
+        self._write(indent, self.end)
 
     def _For(self, node: ast.For, indent: str) -> None:
         if node.orelse:
@@ -405,7 +407,7 @@ class Function:
         head = self.expressions.declared(INTEGER, False)
         self._write(indent, f"for ({head} {name} = {first}; {name} < {last}; {name}++) {{")
         self._block(node.body, indent + STEP)
-        self._write(indent, "}")
+        self._write(indent, self.end)
         self._disown(node)
 
     def _own(self, name: str, node: ast.For, kind: Kind) -> None:
@@ -445,7 +447,7 @@ class Function:
         for line in inside:
             self._write(indent + STEP, line)
         self._block(node.body, indent + STEP)
-        self._write(indent, "}")
+        self._write(indent, self.end)
         self._disown(node)
 
     def _Break(self, node: ast.Break, indent: str) -> None:

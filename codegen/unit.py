@@ -9,7 +9,7 @@ import io
 import re
 import tokenize
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import EnumType
 from functools import cache
 from pathlib import Path
@@ -93,6 +93,7 @@ class Unit:
     translator = Function
     taken = TAKEN
     has_lists = False
+    note, aside = staticmethod(comment), " /* {} */"
 
     def __init__(self, title: str, arithmetic: Arithmetic, roots: Sequence[Any]) -> None:
         self.title, self.arithmetic = title, arithmetic
@@ -233,13 +234,13 @@ class Unit:
             names_here = Names(self.arithmetic, {}, {}, {}, self._add, self._constant)
             found = constant_value(value, owner.__name__, self.translator.translator(names_here, ""))
             source = ast.unparse(assigned(owner)[name])
-            shown = "" if kind.fields or source in (found.text, repr(value)) else f" /* {source} */"
+            shown = "" if kind.fields or source in (found.text, repr(value)) else self.aside.format(source)
             lines = [self._definition(name, found) + shown]
             if self.arithmetic.single and key in CONSTANTS:
                 translator = self.translator.translator(names_here, "")
                 single = constant_value(CONSTANTS[key](self.arithmetic.single), owner.__name__, translator)
                 lines = ["#ifdef LOITER_FLOAT", self._definition(name, single), "#else", *lines, "#endif"]
-            above = list(comment_above(owner, name))
+            above = list(comment_above(owner, name, self.note))
             known = any(above and above == lines[: len(above)] for lines in self.constants.values())
             if name in {other for _, other in self.constants}:
                 raise NotTranslated(f"{owner.__name__}: another module has a constant {name} too: rename one of them")
@@ -348,15 +349,15 @@ def _declaration(kind: Kind, name: str) -> str:
     return f"{kind.name}{'' if kind.name.endswith('*') else ' '}{name}"
 
 
-def comment_above(module: ModuleType, name: str) -> Iterator[str]:
-    """The comment above a constant."""
+def comment_above(module: ModuleType, name: str, note: Callable[[str], Iterable[str]]) -> Iterator[str]:
+    """The comment above a constant, in another language."""
     comments, line = comments_of(module), assigned(module)[name].lineno - 1
     block: list[str] = []
     while line in comments:
         block.insert(0, comments[line])
         line -= 1
     if block:
-        yield from ["", *comment(" ".join(block))]
+        yield from ["", *note(" ".join(block))]
 
 
 def digest(files: list[Path]) -> str:

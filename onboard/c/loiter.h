@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 9b357b4a7334c9fed8a8b5d8dba11bed9d0c5d592b8652f72ff88e83e11bedf8
+ * SHA-256 of the source: e1f3adc67096dd5281ca1cfaa3d579eb7f289d1fb77a14bf26de94cee4896cef
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

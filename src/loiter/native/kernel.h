@@ -494,15 +494,15 @@ static inline real_2 snap_full_turn(real_2 rotated, real radius2, real arc_toler
  * -y. The cross product is end (c y + c - end x); where end x > 0, c - end x = y (y + 2) / (c + end x), so the
  * rotation has exactly the sign of y.
  */
-static inline real_2_real onto_axis(real x, real y, real end, real arc_tolerance) {
+static inline real_2_real onto_axis(real x, real y, real end_, real arc_tolerance) {
     const real rise = y * (y + 2.0);
     const real c2 = x * x + rise;
     const real c = sqrt(max_real(c2, 0.0));
-    const real along = end * x;
+    const real along = end_ * x;
     /* Both products are multiplied by c + along where that is safe, which saves a division. */
     const real scale = along > SMALLEST_SCALE ? c + along : 1.0;
     const real gap = along > SMALLEST_SCALE ? rise : c - along;
-    const real_2 products = (real_2){end * (c * y * scale + gap), (c * along + y + 1.0) * scale};
+    const real_2 products = (real_2){end_ * (c * y * scale + gap), (c * along + y + 1.0) * scale};
     return (real_2_real){snap_full_turn(products, c2 + 1.0, arc_tolerance), c2 >= 0.0 ? c : -1.0};
 }
 
@@ -1445,7 +1445,7 @@ static inline real arc_time(real_2 rotation, real radius, real arc_tolerance) {
  *
  * t1 + t3 is the rotation from start to pose, or a turn more, and t2 an interception.
  */
-static inline Path lsl_rsr(integer u, real dx, real dy, Ends ends, real until) {
+static inline Path lsl_rsr(integer u, real dx, real dy, Ends ends, real until_) {
     const real c0 = ends.c0, s0 = ends.s0, c = ends.c, s = ends.s, wx = ends.wx, wy = ends.wy, arc_tolerance =
             ends.arc_tolerance;
     const real rotation = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, arc_tolerance);
@@ -1454,7 +1454,7 @@ static inline Path lsl_rsr(integer u, real dx, real dy, Ends ends, real until) {
         const real arcs = each_arcs_1[i_1];
         const real ax = dx - wx * arcs, ay = dy - wy * arcs;
         const real straight = interception(ax, ay, wx, wy);
-        if (arcs + straight > until + ALMOST) {
+        if (arcs + straight > until_ + ALMOST) {
             break;
         }
         const real ex = ax - wx * straight, ey = ay - wy * straight;
@@ -1472,8 +1472,8 @@ static inline Path lsl_rsr(integer u, real dx, real dy, Ends ends, real until) {
 }
 
 /* The path that takes less time: a where they tie, or where b takes longer than `until`. */
-static inline Path faster_path(Path a, Path b, real until) {
-    return b.time < a.time && b.time <= until ? b : a;
+static inline Path faster_path(Path a, Path b, real until_) {
+    return b.time < a.time && b.time <= until_ ? b : a;
 }
 
 /* The interval of times t >= 0 in which |d - w t| < limit; both ends are `inf` where there is none. */
@@ -1503,13 +1503,13 @@ static inline real_3 tangent(integer u, real dx, real dy) {
 
 /* By how much each arc of LSR (u = +1) or RSL grows in an interval, continued beyond whole turns. */
 static inline real arc_growth(integer u, real dx, real dy, Ends ends, real_2 interval) {
-    const real begin = interval.a0, end = interval.a1;
+    const real begin = interval.a0, end_ = interval.a1;
     const real_3 tangent_1 = tangent(u, dx - ends.wx * begin, dy - ends.wy * begin);
     const real e1 = tangent_1.a1, e2 = tangent_1.a2;
     /* In the end the straight piece points against the wind. */
     real p1 = -ends.wx, p2 = -ends.wy;
-    if (end < INFINITY) {
-        const real_3 tangent_2 = tangent(u, dx - ends.wx * end, dy - ends.wy * end);
+    if (end_ < INFINITY) {
+        const real_3 tangent_2 = tangent(u, dx - ends.wx * end_, dy - ends.wy * end_);
         p1 = tangent_2.a1;
         p2 = tangent_2.a2;
     }
@@ -1528,7 +1528,7 @@ static inline integer passes(real arc, real limit) {
  */
 static inline real lsr_rsl_root(integer u, real dx, real dy, Ends ends, real arcs, real_2 interval) {
     const real wx = ends.wx, wy = ends.wy;
-    const real begin = interval.a0, end = interval.a1;
+    const real begin = interval.a0, end_ = interval.a1;
     const real_3 tangent_1 = tangent(u, dx - wx * begin, dy - wy * begin);
     real straight = tangent_1.a0;
     const real e1 = tangent_1.a1, e2 = tangent_1.a2;
@@ -1539,7 +1539,7 @@ static inline real lsr_rsl_root(integer u, real dx, real dy, Ends ends, real arc
         time = time + step;
         const real across = (wx * p2 - wy * p1) * step;
         /* The next step would be `across`^2 / (2 straight (1 + w . p)). */
-        if (time <= before || time > end || across * across <= NO_STEP * straight * time) {
+        if (time <= before || time > end_ || across * across <= NO_STEP * straight * time) {
             break;
         }
         const real_3 tangent_2 = tangent(u, dx - wx * time, dy - wy * time);
@@ -1561,7 +1561,7 @@ static inline real lsr_rsl_root(integer u, real dx, real dy, Ends ends, real arc
 static inline Path first_lsr_rsl(integer u, real dx, real dy, Ends ends, real_2 interval) {
     const real c0 = ends.c0, s0 = ends.s0, c = ends.c, s = ends.s, wx = ends.wx, wy = ends.wy, arc_tolerance =
             ends.arc_tolerance;
-    const real begin = interval.a0, end = interval.a1;
+    const real begin = interval.a0, end_ = interval.a1;
     const real_3 tangent_1 = tangent(u, dx - wx * begin, dy - wy * begin);
     real straight = tangent_1.a0;
     const real e1 = tangent_1.a1, e2 = tangent_1.a2;
@@ -1575,7 +1575,7 @@ static inline Path first_lsr_rsl(integer u, real dx, real dy, Ends ends, real_2 
     const integer last_1 = gained + 1;
     for (integer turns = fewest; turns < last_1; turns++) {
         const real time = lsr_rsl_root(u, dx, dy, ends, arcs + TWO_PI * (real)turns, interval);
-        if (time > end) {
+        if (time > end_) {
             break;
         }
         const real_3 tangent_2 = tangent(u, dx - wx * time, dy - wy * time);
@@ -1591,16 +1591,16 @@ static inline Path first_lsr_rsl(integer u, real dx, real dy, Ends ends, real_2 
 }
 
 /* The first LSR (u = +1) or RSL whose time is at most `until`; the centres must be at least two radii apart. */
-static inline Path lsr_rsl(integer u, real dx, real dy, Ends ends, real until) {
+static inline Path lsr_rsl(integer u, real dx, real dy, Ends ends, real until_) {
     /* Circles that overlap by rounding count as touching: two arcs without a straight piece. */
     const real_2 time_within_1 = time_within(dx, dy, ends.wx, ends.wy, 2.0 - ends.arc_tolerance);
     const real enter = time_within_1.a0, leave = time_within_1.a1;
     Path path = NO_PATH;
     if (enter > 0.0) {
-        path = first_lsr_rsl(u, dx, dy, ends, (real_2){0.0, min_real(enter, until)});
+        path = first_lsr_rsl(u, dx, dy, ends, (real_2){0.0, min_real(enter, until_)});
     }
-    if (path.time == INFINITY && leave < until) {
-        path = first_lsr_rsl(u, dx, dy, ends, (real_2){leave, until});
+    if (path.time == INFINITY && leave < until_) {
+        path = first_lsr_rsl(u, dx, dy, ends, (real_2){leave, until_});
     }
     return path;
 }
@@ -1664,19 +1664,19 @@ static inline Path three_arcs(integer u, real middle, real dx, real dy, Ends end
  * Only a path with p . w + lambda >= 0 can be the first; for each number of whole turns there is at most one such
  * path.
  */
-static inline Path lrl_rlr(integer u, real dx, real dy, Ends ends, real until) {
+static inline Path lrl_rlr(integer u, real dx, real dy, Ends ends, real until_) {
     const real c0 = ends.c0, s0 = ends.s0, c = ends.c, s = ends.s, wx = ends.wx, wy = ends.wy, arc_tolerance =
             ends.arc_tolerance;
     const real_2 time_within_1 = time_within(dx, dy, wx, wy, 4.0);
     const real enter = time_within_1.a0, leave = time_within_1.a1;
     Path best = NO_PATH;
-    if (enter <= until) {
+    if (enter <= until_) {
         const real rotation = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, arc_tolerance);
         const real each_turns_1[3] = {-1.0, 0.0, 1.0};
         for (int i_1 = 0; i_1 < 3; i_1++) {
             const real turns = each_turns_1[i_1];
             const real outside = rotation + TWO_PI * turns;
-            const real limit = min_real(min_real(leave + arc_tolerance, until), best.time);
+            const real limit = min_real(min_real(leave + arc_tolerance, until_), best.time);
             const real_2 within = (real_2){0.5 * (enter - outside) - ALMOST, 0.5 * (limit - outside) + ALMOST};
             const real middle = middle_arc(dx - wx * outside, dy - wy * outside, wx, wy, within);
             const real time = outside + 2.0 * middle;
@@ -1692,14 +1692,14 @@ static inline Path lrl_rlr(integer u, real dx, real dy, Ends ends, real until) {
 }
 
 /* The first path to a point of joining of a set of words; `NO_PATH` where it takes longer than `until`. */
-static inline Path first_path_of(integer words, real phase, integer side, WindScene scene, real until) {
+static inline Path first_path_of(integer words, real phase, integer side, WindScene scene, real until_) {
     const real x = scene.x, y = scene.y, c0 = scene.c, s0 = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy,
             arc_tolerance = scene.arc_tolerance;
     const real_5 hold_pose_1 = hold_pose(phase, side, R, wx, wy);
     const real px = hold_pose_1.a0, py = hold_pose_1.a1, c = hold_pose_1.a2, s = hold_pose_1.a3;
     const real dx = px - x, dy = py - y;
     Path best = NO_PATH;
-    if (interception(dx, dy, wx, wy) <= until + arc_tolerance) {
+    if (interception(dx, dy, wx, wy) <= until_ + arc_tolerance) {
         const Ends ends = (Ends){c0, s0, c, s, wx, wy, arc_tolerance};
         /* The vectors are those from the centre of the first arc to that of the last. The words that take least to find */
         /* are tried first. */
@@ -1708,27 +1708,27 @@ static inline Path first_path_of(integer words, real phase, integer side, WindSc
         for (int i_1 = 0; i_1 < 2; i_1++) {
             const integer u = each_u_1[i_1];
             if ((words & set_of(encode(u, 0, u))) != 0) {
-                path = lsl_rsr(u, dx - (real)u * (s - s0), dy + (real)u * (c - c0), ends, min_real(until,
+                path = lsl_rsr(u, dx - (real)u * (s - s0), dy + (real)u * (c - c0), ends, min_real(until_,
                         best.time));
-                best = faster_path(best, path, until);
+                best = faster_path(best, path, until_);
             }
         }
         const integer each_u_2[2] = {1, -1};
         for (int i_2 = 0; i_2 < 2; i_2++) {
             const integer u = each_u_2[i_2];
             if ((words & set_of(encode(u, 0, -u))) != 0) {
-                path = lsr_rsl(u, dx + (real)u * (s + s0), dy - (real)u * (c + c0), ends, min_real(until,
+                path = lsr_rsl(u, dx + (real)u * (s + s0), dy - (real)u * (c + c0), ends, min_real(until_,
                         best.time));
-                best = faster_path(best, path, until);
+                best = faster_path(best, path, until_);
             }
         }
         const integer each_u_3[2] = {1, -1};
         for (int i_3 = 0; i_3 < 2; i_3++) {
             const integer u = each_u_3[i_3];
             if ((words & set_of(encode(u, -u, u))) != 0) {
-                path = lrl_rlr(u, dx - (real)u * (s - s0), dy + (real)u * (c - c0), ends, min_real(until,
+                path = lrl_rlr(u, dx - (real)u * (s - s0), dy + (real)u * (c - c0), ends, min_real(until_,
                         best.time));
-                best = faster_path(best, path, until);
+                best = faster_path(best, path, until_);
             }
         }
     }
@@ -1917,18 +1917,18 @@ static inline WindCandidate minimum_of(const Refinement *refinement) {
 }
 
 /* The first path to a point of joining, the best of the six words; `NO_PATH` where it takes longer than `until`. */
-static inline Path first_path(real phase, integer side, WindScene scene, real until) {
-    return first_path_of(ALL_WORDS, phase, side, scene, until);
+static inline Path first_path(real phase, integer side, WindScene scene, real until_) {
+    return first_path_of(ALL_WORDS, phase, side, scene, until_);
 }
 
 /* A faster path, of any word, to the point of a candidate or a little before or after it; otherwise `NO_PATH`. */
 static inline WindCandidate faster_nearby(WindCandidate found, WindScene scene) {
-    const real until = found.path.time - scene.arc_tolerance;
+    const real until_ = found.path.time - scene.arc_tolerance;
     const real beside = BESIDE * min_real(found.path.time, 1.0);
     const real each_shift_1[3] = {0.0, -beside, beside};
     for (int i_1 = 0; i_1 < 3; i_1++) {
         const real shift = each_shift_1[i_1];
-        const Path path = first_path(found.phase + shift, found.side, scene, until);
+        const Path path = first_path(found.phase + shift, found.side, scene, until_);
         if (path.time < INFINITY) {
             return (WindCandidate){found.phase + shift, found.side, path};
         }
@@ -2272,7 +2272,7 @@ static inline real most_turned(real touching, Centres between, Cell cell) {
  */
 static inline bool lsr_rsl_needs_turn(integer u, Centres between, Cell cell, real arcs, real_2 interval, real
         before) {
-    const real begin = interval.a0, end = interval.a1;
+    const real begin = interval.a0, end_ = interval.a1;
     const real turned = cell.fastest_turning * cell.half;
     const real_3 tangent_1 = tangent(u, between.x - cell.wx * begin, between.y - cell.wy * begin);
     real straight = tangent_1.a0;
@@ -2281,7 +2281,7 @@ static inline bool lsr_rsl_needs_turn(integer u, Centres between, Cell cell, rea
     }
     const Ends ends = (Ends){cell.c0, cell.s0, cell.c, cell.s, cell.wx, cell.wy, 0.0};
     const real time = lsr_rsl_root(u, between.x, between.y, ends, arcs, interval);
-    if (!(begin < time && time < end)) {
+    if (!(begin < time && time < end_)) {
         return false;
     }
     const real x = between.x - cell.wx * time, y = between.y - cell.wy * time;

@@ -256,15 +256,15 @@ static inline LOITER_ALWAYS_INLINE real_2 snap_full_turn(real_2 rotated, real ra
  * -y. The cross product is end (c y + c - end x); where end x > 0, c - end x = y (y + 2) / (c + end x), so the
  * rotation has exactly the sign of y.
  */
-static inline LOITER_ALWAYS_INLINE real_2_real onto_axis(real x, real y, real end, real arc_tolerance) {
+static inline LOITER_ALWAYS_INLINE real_2_real onto_axis(real x, real y, real end_, real arc_tolerance) {
     const real rise = y * (y + 2.0);
     const real c2 = x * x + rise;
     const real c = sqrt(max_real(c2, 0.0));
-    const real along = end * x;
+    const real along = end_ * x;
     /* Both products are multiplied by c + along where that is safe, which saves a division. */
     const real scale = along > SMALLEST_SCALE ? c + along : 1.0;
     const real gap = along > SMALLEST_SCALE ? rise : c - along;
-    const real_2 products = (real_2){end * (c * y * scale + gap), (c * along + y + 1.0) * scale};
+    const real_2 products = (real_2){end_ * (c * y * scale + gap), (c * along + y + 1.0) * scale};
     return (real_2_real){snap_full_turn(products, c2 + 1.0, arc_tolerance), c2 >= 0.0 ? c : -1.0};
 }
 

@@ -99,7 +99,7 @@ def fastest_entry(
     else:
         scale, R = 1.0, rounded_radius(radius_m / r)
         problem = WindProblem(state.x / r, state.y / r, c, s, R, side, east_m_s / V, north_m_s / V, 0.0)
-        entry = _entry_in_wind(problem)
+        entry = solve_in_wind(problem)
     unit_s = r / V
     t1_s, t2_s, t3_s = entry.t1 * unit_s, entry.t2 * unit_s, entry.t3 * unit_s
     return PlannedEntry(entry.side, entry.word, t1_s, t2_s, t3_s, scale * r, scale * V, east_m_s, north_m_s)
@@ -122,6 +122,7 @@ def entry_in_still_air(x: float, y: float, R: float, side: int, tolerance: float
     return NONE if found is None else found
 
 
-def _entry_in_wind(problem: WindProblem) -> Entry:
+def solve_in_wind(problem: WindProblem) -> Entry:
+    """The kernel's answer in wind; `NONE` where it has none."""
     found = fastest_in_wind(problem)
     return entry_of(found) if found.status == Status.OK else NONE

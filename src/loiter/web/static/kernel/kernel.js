@@ -706,17 +706,17 @@ export function snap_full_turn(rotated, radius2, arc_tolerance) {
  * -y. The cross product is end (c y + c - end x); where end x > 0, c - end x = y (y + 2) / (c + end x), so the
  * rotation has exactly the sign of y.
  *
- * @type {(x: number, y: number, end: number, arc_tolerance: number) => [[number, number], number]}
+ * @type {(x: number, y: number, end_: number, arc_tolerance: number) => [[number, number], number]}
  */
-export function onto_axis(x, y, end, arc_tolerance) {
+export function onto_axis(x, y, end_, arc_tolerance) {
     const rise = y * (y + 2.0);
     const c2 = x * x + rise;
     const c = Math.sqrt(max_real(c2, 0.0));
-    const along = end * x;
+    const along = end_ * x;
     // Both products are multiplied by c + along where that is safe, which saves a division.
     const scale = along > SMALLEST_SCALE ? c + along : 1.0;
     const gap = along > SMALLEST_SCALE ? rise : c - along;
-    /** @type {[number, number]} */ const products = [end * (c * y * scale + gap), (c * along + y + 1.0) * scale];
+    /** @type {[number, number]} */ const products = [end_ * (c * y * scale + gap), (c * along + y + 1.0) * scale];
     return [snap_full_turn(products, c2 + 1.0, arc_tolerance), c2 >= 0.0 ? c : -1.0];
 }
 
@@ -1385,10 +1385,10 @@ export function piece_ends(maneuver) {
  * @type {(maneuver: Entry, t: number) => number}
  */
 export function control_at(maneuver, t) {
-    const each_u_1 = controls(maneuver.word), each_end_1 = piece_ends(maneuver);
+    const each_u_1 = controls(maneuver.word), each_end__1 = piece_ends(maneuver);
     for (let i_1 = 0; i_1 < each_u_1.length; i_1++) {
-        const u = each_u_1[i_1], end = each_end_1[i_1];
-        if (t < end) {
+        const u = each_u_1[i_1], end_ = each_end__1[i_1];
+        if (t < end_) {
             return u;
         }
     }
@@ -1404,12 +1404,12 @@ export function time_apart(a, b) {
     let apart = 0.0, begin = 0.0;
     const piece_ends_1 = piece_ends(a);
     const piece_ends_2 = piece_ends(b);
-    for (const end of sorted([piece_ends_1[0], piece_ends_1[1], piece_ends_1[2], piece_ends_2[0], piece_ends_2[1],
+    for (const end_ of sorted([piece_ends_1[0], piece_ends_1[1], piece_ends_1[2], piece_ends_2[0], piece_ends_2[1],
             piece_ends_2[2]], Number)) {
         if (control_at(a, begin) !== control_at(b, begin)) {
-            apart += end - begin;
+            apart += end_ - begin;
         }
-        begin = end;
+        begin = end_;
     }
     return apart;
 }
@@ -2267,16 +2267,16 @@ export function arc_time(rotation, radius, arc_tolerance) {
  *
  * t1 + t3 is the rotation from start to pose, or a turn more, and t2 an interception.
  *
- * @type {(u: number, dx: number, dy: number, ends: Ends, until: number) => Path}
+ * @type {(u: number, dx: number, dy: number, ends: Ends, until_: number) => Path}
  */
-export function lsl_rsr(u, dx, dy, ends, until) {
+export function lsl_rsr(u, dx, dy, ends, until_) {
     const c0 = ends.c0, s0 = ends.s0, c = ends.c, s = ends.s, wx = ends.wx, wy = ends.wy, arc_tolerance =
             ends.arc_tolerance;
     const rotation = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, arc_tolerance);
     for (const arcs of [rotation, rotation + TWO_PI]) {
         const ax = dx - wx * arcs, ay = dy - wy * arcs;
         const straight = interception(ax, ay, wx, wy);
-        if (arcs + straight > until + ALMOST) {
+        if (arcs + straight > until_ + ALMOST) {
             break;
         }
         const ex = ax - wx * straight, ey = ay - wy * straight;
@@ -2297,10 +2297,10 @@ export function lsl_rsr(u, dx, dy, ends, until) {
 /**
  * The path that takes less time: a where they tie, or where b takes longer than `until`.
  *
- * @type {(a: Path, b: Path, until: number) => Path}
+ * @type {(a: Path, b: Path, until_: number) => Path}
  */
-export function faster_path(a, b, until) {
-    return b.time < a.time && b.time <= until ? b : a;
+export function faster_path(a, b, until_) {
+    return b.time < a.time && b.time <= until_ ? b : a;
 }
 
 /**
@@ -2341,13 +2341,13 @@ export function tangent(u, dx, dy) {
  * @type {(u: number, dx: number, dy: number, ends: Ends, interval: [number, number]) => number}
  */
 export function arc_growth(u, dx, dy, ends, interval) {
-    const begin = interval[0], end = interval[1];
+    const begin = interval[0], end_ = interval[1];
     const tangent_1 = tangent(u, dx - ends.wx * begin, dy - ends.wy * begin);
     const e1 = tangent_1[1], e2 = tangent_1[2];
     // In the end the straight piece points against the wind.
     let p1 = -ends.wx, p2 = -ends.wy;
-    if (end < Infinity) {
-        const tangent_2 = tangent(u, dx - ends.wx * end, dy - ends.wy * end);
+    if (end_ < Infinity) {
+        const tangent_2 = tangent(u, dx - ends.wx * end_, dy - ends.wy * end_);
         p1 = tangent_2[1];
         p2 = tangent_2[2];
     }
@@ -2373,7 +2373,7 @@ export function passes(arc, limit) {
  */
 export function lsr_rsl_root(u, dx, dy, ends, arcs, interval) {
     const wx = ends.wx, wy = ends.wy;
-    const begin = interval[0], end = interval[1];
+    const begin = interval[0], end_ = interval[1];
     const tangent_1 = tangent(u, dx - wx * begin, dy - wy * begin);
     let straight = tangent_1[0];
     const e1 = tangent_1[1], e2 = tangent_1[2];
@@ -2384,7 +2384,7 @@ export function lsr_rsl_root(u, dx, dy, ends, arcs, interval) {
         time = time + step;
         const across = (wx * p2 - wy * p1) * step;
         // The next step would be `across`^2 / (2 straight (1 + w . p)).
-        if (time <= before || time > end || across * across <= NO_STEP * straight * time) {
+        if (time <= before || time > end_ || across * across <= NO_STEP * straight * time) {
             break;
         }
         const tangent_2 = tangent(u, dx - wx * time, dy - wy * time);
@@ -2409,7 +2409,7 @@ export function lsr_rsl_root(u, dx, dy, ends, arcs, interval) {
 export function first_lsr_rsl(u, dx, dy, ends, interval) {
     const c0 = ends.c0, s0 = ends.s0, c = ends.c, s = ends.s, wx = ends.wx, wy = ends.wy, arc_tolerance =
             ends.arc_tolerance;
-    const begin = interval[0], end = interval[1];
+    const begin = interval[0], end_ = interval[1];
     const tangent_1 = tangent(u, dx - wx * begin, dy - wy * begin);
     let straight = tangent_1[0];
     const e1 = tangent_1[1], e2 = tangent_1[2];
@@ -2423,7 +2423,7 @@ export function first_lsr_rsl(u, dx, dy, ends, interval) {
     const last_1 = gained + 1;
     for (let turns = fewest; turns < last_1; turns++) {
         const time = lsr_rsl_root(u, dx, dy, ends, arcs + TWO_PI * turns, interval);
-        if (time > end) {
+        if (time > end_) {
             break;
         }
         const tangent_2 = tangent(u, dx - wx * time, dy - wy * time);
@@ -2442,18 +2442,18 @@ export function first_lsr_rsl(u, dx, dy, ends, interval) {
 /**
  * The first LSR (u = +1) or RSL whose time is at most `until`; the centres must be at least two radii apart.
  *
- * @type {(u: number, dx: number, dy: number, ends: Ends, until: number) => Path}
+ * @type {(u: number, dx: number, dy: number, ends: Ends, until_: number) => Path}
  */
-export function lsr_rsl(u, dx, dy, ends, until) {
+export function lsr_rsl(u, dx, dy, ends, until_) {
     // Circles that overlap by rounding count as touching: two arcs without a straight piece.
     const time_within_1 = time_within(dx, dy, ends.wx, ends.wy, 2.0 - ends.arc_tolerance);
     const enter = time_within_1[0], leave = time_within_1[1];
     let path = NO_PATH;
     if (enter > 0.0) {
-        path = first_lsr_rsl(u, dx, dy, ends, [0.0, min_real(enter, until)]);
+        path = first_lsr_rsl(u, dx, dy, ends, [0.0, min_real(enter, until_)]);
     }
-    if (path.time === Infinity && leave < until) {
-        path = first_lsr_rsl(u, dx, dy, ends, [leave, until]);
+    if (path.time === Infinity && leave < until_) {
+        path = first_lsr_rsl(u, dx, dy, ends, [leave, until_]);
     }
     return path;
 }
@@ -2534,19 +2534,19 @@ export function three_arcs(u, middle, dx, dy, ends) {
  * Only a path with p . w + lambda >= 0 can be the first; for each number of whole turns there is at most one such
  * path.
  *
- * @type {(u: number, dx: number, dy: number, ends: Ends, until: number) => Path}
+ * @type {(u: number, dx: number, dy: number, ends: Ends, until_: number) => Path}
  */
-export function lrl_rlr(u, dx, dy, ends, until) {
+export function lrl_rlr(u, dx, dy, ends, until_) {
     const c0 = ends.c0, s0 = ends.s0, c = ends.c, s = ends.s, wx = ends.wx, wy = ends.wy, arc_tolerance =
             ends.arc_tolerance;
     const time_within_1 = time_within(dx, dy, wx, wy, 4.0);
     const enter = time_within_1[0], leave = time_within_1[1];
     let best = NO_PATH;
-    if (enter <= until) {
+    if (enter <= until_) {
         const rotation = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, arc_tolerance);
         for (const turns of [-1.0, 0.0, 1.0]) {
             const outside = rotation + TWO_PI * turns;
-            const limit = min_real(min_real(leave + arc_tolerance, until), best.time);
+            const limit = min_real(min_real(leave + arc_tolerance, until_), best.time);
             /** @type {[number, number]} */ const within = [0.5 * (enter - outside) - ALMOST, 0.5 * (limit -
                     outside) + ALMOST];
             const middle = middle_arc(dx - wx * outside, dy - wy * outside, wx, wy, within);
@@ -2565,36 +2565,36 @@ export function lrl_rlr(u, dx, dy, ends, until) {
 /**
  * The first path to a point of joining of a set of words; `NO_PATH` where it takes longer than `until`.
  *
- * @type {(words: number, phase: number, side: number, scene: WindScene, until: number) => Path}
+ * @type {(words: number, phase: number, side: number, scene: WindScene, until_: number) => Path}
  */
-export function first_path_of(words, phase, side, scene, until) {
+export function first_path_of(words, phase, side, scene, until_) {
     const x = scene.x, y = scene.y, c0 = scene.c, s0 = scene.s, R = scene.R, wx = scene.wx, wy = scene.wy,
             arc_tolerance = scene.arc_tolerance;
     const hold_pose_1 = hold_pose(phase, side, R, wx, wy);
     const px = hold_pose_1[0], py = hold_pose_1[1], c = hold_pose_1[2], s = hold_pose_1[3];
     const dx = px - x, dy = py - y;
     let best = NO_PATH;
-    if (interception(dx, dy, wx, wy) <= until + arc_tolerance) {
+    if (interception(dx, dy, wx, wy) <= until_ + arc_tolerance) {
         const ends = { c0, s0, c, s, wx, wy, arc_tolerance };
         // The vectors are those from the centre of the first arc to that of the last. The words that take least to find
         // are tried first.
         let path;
         for (const u of [1, -1]) {
             if ((words & set_of(encode(u, 0, u))) !== 0) {
-                path = lsl_rsr(u, dx - u * (s - s0), dy + u * (c - c0), ends, min_real(until, best.time));
-                best = faster_path(best, path, until);
+                path = lsl_rsr(u, dx - u * (s - s0), dy + u * (c - c0), ends, min_real(until_, best.time));
+                best = faster_path(best, path, until_);
             }
         }
         for (const u of [1, -1]) {
             if ((words & set_of(encode(u, 0, 0 - u))) !== 0) {
-                path = lsr_rsl(u, dx + u * (s + s0), dy - u * (c + c0), ends, min_real(until, best.time));
-                best = faster_path(best, path, until);
+                path = lsr_rsl(u, dx + u * (s + s0), dy - u * (c + c0), ends, min_real(until_, best.time));
+                best = faster_path(best, path, until_);
             }
         }
         for (const u of [1, -1]) {
             if ((words & set_of(encode(u, 0 - u, u))) !== 0) {
-                path = lrl_rlr(u, dx - u * (s - s0), dy + u * (c - c0), ends, min_real(until, best.time));
-                best = faster_path(best, path, until);
+                path = lrl_rlr(u, dx - u * (s - s0), dy + u * (c - c0), ends, min_real(until_, best.time));
+                best = faster_path(best, path, until_);
             }
         }
     }
@@ -2803,10 +2803,10 @@ export function minimum_of(refinement) {
 /**
  * The first path to a point of joining, the best of the six words; `NO_PATH` where it takes longer than `until`.
  *
- * @type {(phase: number, side: number, scene: WindScene, until: number) => Path}
+ * @type {(phase: number, side: number, scene: WindScene, until_: number) => Path}
  */
-export function first_path(phase, side, scene, until) {
-    return first_path_of(ALL_WORDS, phase, side, scene, until);
+export function first_path(phase, side, scene, until_) {
+    return first_path_of(ALL_WORDS, phase, side, scene, until_);
 }
 
 /**
@@ -2815,10 +2815,10 @@ export function first_path(phase, side, scene, until) {
  * @type {(found: WindCandidate, scene: WindScene) => WindCandidate}
  */
 export function faster_nearby(found, scene) {
-    const until = found.path.time - scene.arc_tolerance;
+    const until_ = found.path.time - scene.arc_tolerance;
     const beside = BESIDE * min_real(found.path.time, 1.0);
     for (const shift of [0.0, -beside, beside]) {
-        const path = first_path(found.phase + shift, found.side, scene, until);
+        const path = first_path(found.phase + shift, found.side, scene, until_);
         if (path.time < Infinity) {
             return { phase: found.phase + shift, side: found.side, path };
         }
@@ -3217,7 +3217,7 @@ export function most_turned(touching, between, cell) {
  *         boolean}
  */
 export function lsr_rsl_needs_turn(u, between, cell, arcs, interval, before) {
-    const begin = interval[0], end = interval[1];
+    const begin = interval[0], end_ = interval[1];
     const turned = cell.fastest_turning * cell.half;
     const tangent_1 = tangent(u, between.x - cell.wx * begin, between.y - cell.wy * begin);
     let straight = tangent_1[0];
@@ -3226,7 +3226,7 @@ export function lsr_rsl_needs_turn(u, between, cell, arcs, interval, before) {
     }
     const ends = { c0: cell.c0, s0: cell.s0, c: cell.c, s: cell.s, wx: cell.wx, wy: cell.wy, arc_tolerance: 0.0 };
     const time = lsr_rsl_root(u, between.x, between.y, ends, arcs, interval);
-    if (!(begin < time && time < end)) {
+    if (!(begin < time && time < end_)) {
         return false;
     }
     const x = between.x - cell.wx * time, y = between.y - cell.wy * time;

@@ -1,0 +1,535 @@
+@HEAD@
+--
+-- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
+-- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
+-- heading is 90 degrees ahead, so that the limit of lateral acceleration is what is flown.
+
+-- luacheck: ignore 581 ("not (x < y)" holds for nan, and "x >= y" does not)
+
+local SEVERITY = {CRITICAL = 2, WARNING = 4, NOTICE = 5}
+local GUIDED, DO_REPOSITION, GUIDED_CHANGE_HEADING, ACCEPTED = 15, 192, 43002, 0
+local FRAME_GLOBAL, ABSOLUTE = 0, 0
+local GRAVITY = 9.80665
+
+-- The time between callbacks, milliseconds.
+local PERIOD_MS = 50
+
+-- What GUIDED_CHANGE_HEADING does with a bank: a delay, seconds, then a quick response with a limited rate of roll.
+local DELAY_S, ROLL_TIME_S, ROLL_RATE_DEG_S = 0.2, 0.1, 90.0
+
+-- The largest bank ever commanded, and how far below the limit of the autopilot it stays, degrees.
+local LARGEST_BANK_DEG, BELOW_LIMIT_DEG = 60.0, 0.5
+
+-- A flight ends where the altitude is off by this much more than at its beginning, metres; where the bank differs from
+-- the command by this many degrees, or the pilot moves the stick of roll or pitch by this share, for as many
+-- milliseconds.
+local ALTITUDE_OFF_M, BANK_OFF_DEG, BANK_OFF_MS, STICK, STICK_MS = 25.0, 25.0, 3000, 0.5, 300
+
+-- The circle is held once the plane has been within this share of the radius and this many degrees of the tangent for
+-- so many milliseconds and degrees of the circle. A flight takes this many milliseconds at most.
+local BAND, BAND_DEG, HELD_MS, HELD_DEG, LONGEST_MS = 0.05, 5.0, 8000, 90.0, 300000
+
+-- A wind that changes by more than this, metres per second, is planned with.
+local WIND_CHANGED_M_S = 1.0
+
+-- The turn rate over that of a coordinated turn is measured in turns with at least this bank, degrees, over this time,
+-- seconds; a measurement counts this much, and one outside of these bounds not at all.
+local TURNING_DEG, TURNING_S, TURNING_SHARE, LEAST_RATIO, MOST_RATIO = 15.0, 1.0, 0.3, 0.5, 1.3
+
+local PARAM_TABLE_KEY = 141
+assert(param:add_table(PARAM_TABLE_KEY, "LENT_", 6), "loiter_entry: no room for parameters")
+
+-- A parameter of this script.
+local function own_parameter(number, name, default)
+    assert(param:add_param(PARAM_TABLE_KEY, number, name, default), "loiter_entry: no parameter " .. name)
+    return Parameter("LENT_" .. name)
+end
+
+--[[
+  // @Param: LENT_ENABLE
+  // @DisplayName: Fastest entry: enable
+  // @Description: Whether the switch begins an entry. Change it to 0 to have an entry end at once
+  // @Values: 0:Disabled,1:Enabled
+  // @User: Standard
+--]]
+local ENABLE = own_parameter(1, "ENABLE", 1)
+
+--[[
+  // @Param: LENT_FUNC
+  // @DisplayName: Fastest entry: function of the switch
+  // @Description: RCx_OPTION of the switch that begins an entry when it is moved to its high position, and ends it otherwise
+  // @Values: 300:Scripting1,301:Scripting2,302:Scripting3,303:Scripting4,304:Scripting5,305:Scripting6,306:Scripting7,307:Scripting8
+  // @User: Standard
+--]]
+local FUNC = own_parameter(2, "FUNC", 300)
+
+--[[
+  // @Param: LENT_RADIUS
+  // @DisplayName: Fastest entry: radius of the circle
+  // @Description: Radius of the circle. With 0 it is that of WP_LOITER_RAD
+  // @Units: m
+  // @Range: 0 2000
+  // @User: Standard
+--]]
+local RADIUS = own_parameter(3, "RADIUS", 0)
+
+--[[
+  // @Param: LENT_SIDE
+  // @DisplayName: Fastest entry: direction of the circle
+  // @Description: Direction in which the circle is flown, seen from above. With 0 it is the one that is faster
+  // @Values: -1:CounterClockwise,0:Either,1:Clockwise
+  // @User: Standard
+--]]
+local SIDE = own_parameter(4, "SIDE", 0)
+
+--[[
+  // @Param: LENT_BANK
+  // @DisplayName: Fastest entry: largest bank
+  // @Description: Largest bank of the entry. With 0 it is half a degree less than ROLL_LIMIT_DEG. It is never more than that, nor than 60 degrees
+  // @Units: deg
+  // @Range: 0 60
+  // @User: Standard
+--]]
+local BANK = own_parameter(5, "BANK", 0)
+
+--[[
+  // @Param: LENT_BEAT
+  // @DisplayName: Fastest entry: sign of life
+  // @Description: Changes twenty times a second while an entry is flown, and is 0 otherwise: for loiter_entry_watchdog.lua. It is positive where the circle is flown clockwise. Not to be set by a user
+  // @User: Advanced
+  // @ReadOnly: True
+--]]
+local BEAT = own_parameter(6, "BEAT", 0)
+
+local law = {}
+
+-- The solvers that the law calls.
+local solve_in_still_air, solve_in_wind
+
+-- The guidance law.
+do
+@LAW@
+end
+
+-- The instructions of a callback are limited (SCR_VM_I_COUNT), and a step of the law may need more than one search for an entry. So one
+-- search is made in a callback. Where a step needs another one it is given up with the error `LATER`, and repeated in
+-- the next callback with the same arguments and the answers that are known.
+local LATER = {}
+local answers, asked, is_allowed = {}, 0, false
+
+local function solve_once(solve, ...)
+    asked = asked + 1
+    if answers[asked] == nil then
+        if not is_allowed then
+            error(LATER, 0)
+        end
+        is_allowed = false
+        answers[asked] = solve(...)
+    end
+    return answers[asked]
+end
+
+-- A call that may be given up: whether it was not, and its results.
+local function attempt(call, ...)
+    asked, is_allowed = 0, true
+    local results = table.pack(pcall(call, ...))
+    if results[1] then
+        answers = {}
+    elseif results[2] ~= LATER then
+        error(results[2], 0)
+    end
+    return table.unpack(results, 1, results.n)
+end
+
+solve_in_still_air = function(x, y, R, side, tolerance)
+    return solve_once(law.optimum, x, y, R, side, tolerance)
+end
+
+-- In wind the point of joining is remembered.
+local NO_JOIN = {side = 0, phase = 0.0, words = 0, shift = @FIRST_SHIFT@, calls = 0}
+local known_join = NO_JOIN
+
+local function track_join(problem)
+    local entry
+    known_join, entry = law.track(known_join, problem)
+    return entry
+end
+
+solve_in_wind = function(problem)
+    return solve_once(track_join, problem)
+end
+
+-- The flight that is prepared or flown; and whether the switch must be moved before the next one.
+local flight, is_latched = nil, true
+
+-- The turn rate over that of a coordinated turn, and what is measured of it at present.
+local turn_ratio = 1.0
+local turning = {time_s = 0.0, turned = 0.0, expected = 0.0}
+
+local function say(severity, text)
+    gcs:send_text(severity, "Entry: " .. text)
+end
+
+local function wrap_180(angle_deg)
+    return (angle_deg + 180.0) % 360.0 - 180.0
+end
+
+local function bearing_deg(north, east)
+    return math.deg(math.atan(east, north))
+end
+
+-- The present state; nil where something is missing.
+local function measure()
+    local place, velocity, wind = ahrs:get_location(), ahrs:get_velocity_NED(), ahrs:wind_estimate()
+    local equivalent, ratio = ahrs:airspeed_EAS(), ahrs:get_EAS2TAS()
+    if not ahrs:healthy() or not place or not velocity or not wind or not equivalent or not ratio then
+        return nil
+    end
+    return {
+        now_ms = millis(), place = place, east_m_s = velocity:y(), north_m_s = velocity:x(),
+        wind_east_m_s = wind:y(), wind_north_m_s = wind:x(), ratio = ratio, airspeed_m_s = equivalent * ratio,
+        heading_deg = math.deg(ahrs:get_yaw_rad()) % 360.0, bank_deg = math.deg(ahrs:get_roll_rad()),
+    }
+end
+
+-- What the law is given: metres from the centre of the circle, seconds since the flight was prepared.
+local function relative(now)
+    local offset = flight.centre:get_distance_NE(now.place)
+    return {
+        time_s = (now.now_ms - flight.since_ms):tofloat() * 0.001, east_m = offset:y(), north_m = offset:x(),
+        heading_deg = now.heading_deg, bank_deg = now.bank_deg, velocity_east_m_s = now.east_m_s,
+        velocity_north_m_s = now.north_m_s, airspeed_m_s = now.airspeed_m_s,
+    }
+end
+
+-- Measure how fast the plane turns.
+local function measure_turning(now)
+    local last_deg = turning.heading_deg
+    turning.heading_deg = now.heading_deg
+    if last_deg == nil or math.abs(now.bank_deg) < TURNING_DEG or now.bank_deg * (turning.bank_deg or 0.0) <= 0.0 then
+        turning.bank_deg, turning.time_s, turning.turned, turning.expected = now.bank_deg, 0.0, 0.0, 0.0
+        return
+    end
+    local dt = PERIOD_MS * 0.001
+    turning.bank_deg, turning.time_s = now.bank_deg, turning.time_s + dt
+    turning.turned = turning.turned + math.rad(wrap_180(now.heading_deg - last_deg))
+    turning.expected = turning.expected + GRAVITY * math.tan(math.rad(now.bank_deg)) / now.airspeed_m_s * dt
+    if turning.time_s >= TURNING_S then
+        local measured = turning.turned / turning.expected
+        if measured > LEAST_RATIO and measured < MOST_RATIO then
+            turn_ratio = turn_ratio + TURNING_SHARE * (measured - turn_ratio)
+        end
+        turning.time_s, turning.turned, turning.expected = 0.0, 0.0, 0.0
+    end
+end
+
+-- What is believed of the plane, where something has changed.
+local function vehicle_with(now, vehicle)
+    local known = vehicle.estimates
+    local changed = math.abs(known.turn_ratio - turn_ratio) > 0.02
+    local east, north = now.wind_east_m_s - known.wind_east_m_s, now.wind_north_m_s - known.wind_north_m_s
+    if not changed and east * east + north * north <= WIND_CHANGED_M_S * WIND_CHANGED_M_S then
+        return vehicle
+    end
+    local estimates = {}
+    for name, value in pairs(known) do
+        estimates[name] = value
+    end
+    estimates.turn_ratio, estimates.quick_turn_ratio = turn_ratio, turn_ratio
+    estimates.wind_east_m_s, estimates.wind_north_m_s = now.wind_east_m_s, now.wind_north_m_s
+    return {revision = vehicle.revision + 1, bank_deg = vehicle.bank_deg, estimates = estimates}
+end
+
+-- The target of the present mode, at an altitude above the sea; nil where there is none.
+local function present_target()
+    local target = vehicle:get_target_location()
+    if target and target:change_alt_frame(ABSOLUTE) then
+        return target
+    end
+    return nil
+end
+
+local function is_at(target, centre)
+    return target ~= nil and target:lat() == centre:lat() and target:lng() == centre:lng()
+end
+
+-- Radius and largest bank, and nil where the circle cannot be held.
+local function circle()
+    local radius_m = RADIUS:get()
+    if radius_m == 0 then
+        radius_m = math.abs(param:get("WP_LOITER_RAD") or 0.0)
+    end
+    local bank_deg = math.min((param:get("ROLL_LIMIT_DEG") or 0.0) - BELOW_LIMIT_DEG, LARGEST_BANK_DEG)
+    if BANK:get() > 0 then
+        bank_deg = math.min(bank_deg, BANK:get())
+    end
+    return radius_m, bank_deg
+end
+
+-- Prepare a flight onto the circle around the present target; nil where there is none.
+local function prepare(now)
+    local target, cruise_m_s = present_target(), param:get("AIRSPEED_CRUISE")
+    local radius_m, bank_deg = circle()
+    if not target or not cruise_m_s or cruise_m_s <= 0.0 or bank_deg <= 5.0 then
+        return nil
+    end
+    local airspeed_m_s = cruise_m_s * now.ratio
+    local tightest_m = law.radius_at_bank(airspeed_m_s, bank_deg) / turn_ratio
+    local east, north = now.wind_east_m_s / airspeed_m_s, now.wind_north_m_s / airspeed_m_s
+    if east * east + north * north >= 0.9 or tightest_m * law.tightest_radius(east, north) > radius_m then
+        return nil
+    end
+    local settings = {
+        east_m = 0.0, north_m = 0.0, radius_m = radius_m, side = math.floor(SIDE:get()), velocity_east_m_s = 0.0,
+        velocity_north_m_s = 0.0, wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s,
+        limit_deg = bank_deg, command_limit_deg = bank_deg, gain = @GAIN@, reserve = @RESERVE@,
+        smoothing_s = @SMOOTHING@, negligible_wind = @NEGLIGIBLE_WIND@, covered_s = @COVERED@,
+    }
+    local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
+    local estimates = {
+        roll = {time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S},
+        delay_s = DELAY_S, turn_ratio = turn_ratio, quick_turn_ratio = turn_ratio, course_lead_s = 0.0,
+        wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s, airspeed_m_s = airspeed_m_s,
+        turn_airspeed_m_s = airspeed_m_s, overshoot_deg = 0.0, turns_unknown = 0.0, heading_bias_deg = 0.0,
+        bank_bias_deg = 0.0,
+    }
+    known_join = NO_JOIN
+    local model = {revision = 0, bank_deg = now.bank_deg, estimates = estimates}
+    return {
+        centre = target, settings = settings, model = model, memory = law.first_memory(settings, model),
+        since_ms = now.now_ms, airspeed_m_s = airspeed_m_s, radius_m = radius_m,
+    }
+end
+
+-- Whether a prepared flight is still the one that would be prepared.
+local function is_current(now)
+    local radius_m, bank_deg = circle()
+    local settings, known = flight.settings, flight.model.estimates
+    local east, north = now.wind_east_m_s - known.wind_east_m_s, now.wind_north_m_s - known.wind_north_m_s
+    return is_at(vehicle:get_target_location(), flight.centre) and settings.radius_m == radius_m
+        and settings.limit_deg == bank_deg and settings.side == SIDE:get()
+        and east * east + north * north <= WIND_CHANGED_M_S * WIND_CHANGED_M_S
+        and math.abs(known.turn_ratio - turn_ratio) <= 0.02
+end
+
+-- Improve the known point of joining, so that it is the best one when the switch is moved.
+local function improve(now)
+    local limits = flight.memory.sensing.limits
+    if limits.wind_east_m_s == 0.0 and limits.wind_north_m_s == 0.0 then
+        return
+    end
+    local state = relative(now)
+    local heading = math.rad(state.heading_deg)
+    local hx, hy = state.airspeed_m_s * math.sin(heading), state.airspeed_m_s * math.cos(heading)
+    answers = {}
+    attempt(law.entry_from, flight.settings, limits, {
+        time_s = state.time_s, x = state.east_m, y = state.north_m, vx = state.velocity_east_m_s,
+        vy = state.velocity_north_m_s, hx = hx, hy = hy,
+    }, true)
+    answers = {}
+end
+
+-- Command the circle by ArduPlane's own guidance, which ends a command of heading; the result.
+local function reposition()
+    local centre, radius_m = flight.centre, flight.radius_m
+    if (param:get("NAVL1_LIM_BANK") or 0.0) <= 0.0 then
+        -- ArduPlane then multiplies the radius by the square of this ratio.
+        radius_m = radius_m / (flight.ratio * flight.ratio)
+    end
+    local is_clockwise = flight.side > 0
+    return gcs:run_command_int(DO_REPOSITION, {
+        p1 = -1, p2 = 1, p3 = math.floor(radius_m + 0.5), p4 = is_clockwise and 0 or 1, frame = FRAME_GLOBAL,
+        x = centre:lat(), y = centre:lng(), z = centre:alt() * 0.01,
+    })
+end
+
+-- End a flight. With `is_ours` the mode is still ours, and the circle is left to ArduPlane.
+local function finish(severity, text, is_ours)
+    if is_ours and reposition() ~= ACCEPTED then
+        text = text .. ", fall-back circle refused"
+    end
+    BEAT:set(0)
+    flight, is_latched = nil, true
+    say(severity, text)
+end
+
+-- Command a bank, degrees; whether that was accepted.
+local function command_bank(now, bank_deg)
+    local ahead_deg = bank_deg < 0.0 and -90.0 or 90.0
+    local acceleration = GRAVITY * math.tan(math.rad(math.abs(bank_deg)))
+    -- Below the least limit that ArduPlane takes, wings level is the present heading.
+    if acceleration < 0.05 then
+        ahead_deg, acceleration = 0.0, 0.05
+    end
+    return gcs:run_command_int(GUIDED_CHANGE_HEADING, {
+        p1 = 1, p2 = (now.heading_deg + ahead_deg) % 360.0, p3 = acceleration, frame = FRAME_GLOBAL,
+    }) == ACCEPTED
+end
+
+-- Whether something has been so for a time, milliseconds; `name` remembers since when.
+local function lasts(name, is_so, now_ms, time_ms)
+    if not is_so then
+        flight[name] = nil
+        return false
+    end
+    flight[name] = flight[name] or now_ms
+    return (now_ms - flight[name]):toint() >= time_ms
+end
+
+-- How far a stick is from its middle: 0 to 1, 0 where there is none.
+local function stick(map)
+    local channel = rc:get_channel(math.floor(param:get(map) or 0))
+    return channel and math.abs(channel:norm_input_dz()) or 0.0
+end
+
+-- Why a flight must end, and whether the mode is still ours then; nil where it goes on.
+local function reason_to_end(now, mode)
+    if mode ~= GUIDED then
+        return "pilot or failsafe took over", false
+    elseif not arming:is_armed() or not vehicle:get_likely_flying() then
+        return "not in flight", false
+    elseif not is_at(vehicle:get_target_location(), flight.centre) then
+        return "another target was given", false
+    elseif vehicle:has_ekf_failsafed() or battery:has_failsafed() then
+        return "failsafe", true
+    elseif fence and fence:get_breaches() ~= 0 then
+        return "fence", true
+    elseif now == nil then
+        return "no data", true
+    elseif ENABLE:get() == 0 or rc:get_aux_cached(FUNC:get()) ~= 2 then
+        return "ended by switch", true
+    end
+    local now_ms = now.now_ms
+    if rc:has_valid_input() then
+        local moved = math.max(stick("RCMAP_ROLL"), stick("RCMAP_PITCH"))
+        if lasts("stick_ms", moved > STICK, now_ms, STICK_MS) then
+            return "stick moved", true
+        end
+    end
+    local off_m = math.abs(now.place:alt() - flight.centre:alt()) * 0.01
+    flight.least_off_m = math.min(flight.least_off_m or off_m, off_m)
+    if off_m > flight.least_off_m + ALTITUDE_OFF_M then
+        return "altitude", true
+    elseif lasts("bank_ms", math.abs(now.bank_deg - flight.command_deg) > BANK_OFF_DEG, now_ms, BANK_OFF_MS) then
+        return "bank not flown", true
+    elseif (now_ms - flight.begun_ms):toint() > LONGEST_MS then
+        return "circle not held in time", true
+    end
+    return nil
+end
+
+-- Whether the circle has been held for so long that ArduPlane can go on.
+local function is_held(now, state)
+    local distance_m = math.sqrt(state.east_m * state.east_m + state.north_m * state.north_m)
+    local azimuth_deg = bearing_deg(state.north_m, state.east_m)
+    local tangent_deg = azimuth_deg + 90.0 * flight.side
+    local course_deg = bearing_deg(now.north_m_s, now.east_m_s)
+    local is_within = math.abs(distance_m - flight.radius_m) <= BAND * flight.radius_m
+        and math.abs(wrap_180(course_deg - tangent_deg)) <= BAND_DEG
+    local last_deg = flight.azimuth_deg or azimuth_deg
+    flight.azimuth_deg = azimuth_deg
+    flight.around_deg = is_within and (flight.around_deg or 0.0) + math.abs(wrap_180(azimuth_deg - last_deg)) or 0.0
+    return lasts("held_ms", is_within, now.now_ms, HELD_MS) and flight.around_deg >= HELD_DEG
+end
+
+-- Begin the prepared flight, with the circle by ArduPlane's own guidance as what is flown if this script dies.
+local function begin(now)
+    local _, state = nil, relative(now)
+    flight.ratio, flight.begun_ms, flight.command_deg = now.ratio, now.now_ms, now.bank_deg
+    -- The nearer side, until the law has a plan.
+    local cross = state.east_m * now.north_m_s - state.north_m * now.east_m_s
+    flight.side = flight.settings.side ~= 0 and flight.settings.side or cross < 0.0 and 1 or -1
+    if reposition() ~= ACCEPTED then
+        finish(SEVERITY.WARNING, "circle refused", false)
+        return
+    end
+    flight.is_flown = true
+    say(SEVERITY.NOTICE, "begins")
+end
+
+-- A callback in flight: one step of the law, or a part of it.
+local function guide(now)
+    local reason, is_ours = reason_to_end(now, vehicle:get_mode())
+    if reason then
+        finish(SEVERITY.WARNING, reason, is_ours)
+        return
+    end
+    if not flight.pending then
+        local elapsed_s = flight.stepped_ms and (now.now_ms - flight.stepped_ms):tofloat() * 0.001 or 0.0
+        flight.stepped_ms, flight.pending = now.now_ms, relative(now)
+        flight.memory.step_s = elapsed_s
+        flight.model = law.fly_as_declared(vehicle_with(now, flight.model), flight.command_deg, elapsed_s)
+    end
+    local is_done, memory, command =
+        attempt(law.step, flight.settings, flight.memory, flight.model, flight.pending, PERIOD_MS * 0.001)
+    if is_done then
+        local state = flight.pending
+        flight.memory, flight.pending, flight.side = memory, nil, command.side ~= 0 and command.side or flight.side
+        flight.command_deg = command.bank_deg
+        if is_held(now, state) then
+            finish(SEVERITY.NOTICE, "circle held, left to ArduPlane", true)
+            return
+        end
+    end
+    if (is_done or flight.is_commanded) and not command_bank(now, flight.command_deg) then
+        finish(SEVERITY.WARNING, "bank refused", false)
+        return
+    end
+    flight.is_commanded = flight.is_commanded or is_done
+    flight.beat = (flight.beat or 0) % 1000 + 1
+    BEAT:set(flight.side * flight.beat)
+end
+
+-- A callback without a flight: prepare one, and begin it where the switch is moved.
+local function wait(now)
+    local is_high = ENABLE:get() ~= 0 and rc:get_aux_cached(FUNC:get()) == 2
+    if not is_high then
+        is_latched = false
+    end
+    if now == nil or not arming:is_armed() or not vehicle:get_likely_flying() then
+        flight = nil
+        return
+    end
+    if flight and is_current(now) then
+        if is_high and not is_latched then
+            begin(now)
+        else
+            improve(now)
+        end
+        return
+    end
+    flight = prepare(now)
+    if flight == nil and is_high and not is_latched then
+        is_latched = true
+        say(SEVERITY.WARNING, "no circle that can be held")
+    end
+end
+
+local function update()
+    local now = measure()
+    if now then
+        measure_turning(now)
+    end
+    if flight and flight.is_flown then
+        guide(now)
+    else
+        wait(now)
+    end
+end
+
+-- An error, for instance of memory, ends a flight.
+local function protected_update()
+    local is_done, problem = pcall(update)
+    if not is_done then
+        if flight and flight.is_flown then
+            pcall(finish, SEVERITY.CRITICAL, "script error", vehicle:get_mode() == GUIDED)
+        end
+        flight, is_latched = nil, true
+        say(SEVERITY.CRITICAL, tostring(problem))
+        return protected_update, 1000
+    end
+    return protected_update, PERIOD_MS
+end
+
+say(SEVERITY.NOTICE, "loiter_entry @VERSION@ ready")
+return protected_update()

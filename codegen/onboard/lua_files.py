@@ -1,0 +1,76 @@
+"""The applet for ArduPilot: onboard/ardupilot/loiter_entry.lua.
+
+`loiter_entry.lua` beside this file is what is written by hand; `@NAME@` in it is what is generated.
+"""
+
+from pathlib import Path
+from typing import Any
+
+from codegen.arithmetic import Arithmetic
+from codegen.lua import LUA_32BITS, Chunk, note
+from codegen.unit import ROOT, digest
+from loiter.guidance.entry import entry_planner, join_tracking, law_step
+from loiter.guidance.estimation import bank_history
+from loiter.guidance.estimation.vehicle import fly_as_declared
+from loiter.kernel.still_air import synthesis
+from loiter.kernel.wind.hold import tightest_radius
+from loiter.planning.model import radius_at_bank
+from loiter.version import __version__
+
+FOLDER = ROOT / "onboard" / "ardupilot"
+
+APPLET = "loiter_entry.lua"
+
+ROOTS: tuple[Any, ...] = (
+    law_step.first_memory,
+    law_step.step,
+    law_step.entry_from,
+    fly_as_declared,
+    radius_at_bank,
+    tightest_radius,
+    synthesis.optimum,
+    join_tracking.track,
+)
+
+# The functions that the applet has by hand, with these names: they spread searches over callbacks.
+BY_HAND: dict[Any, str] = {
+    entry_planner.entry_in_still_air: "solve_in_still_air",
+    entry_planner.solve_in_wind: "solve_in_wind",
+}
+
+HEAD = """The fastest entry onto a holding circle, for ArduPlane.
+
+Generated from the Python of loiter {version} by `make generate`; do not edit.
+
+SHA-256 of the source: {digest}"""
+
+
+def law(arithmetic: Arithmetic) -> Chunk:
+    """The law and the solvers, for an arithmetic."""
+    return Chunk(APPLET, arithmetic, ROOTS, BY_HAND)
+
+
+def applet(arithmetic: Arithmetic) -> str:
+    """The applet, for an arithmetic."""
+    chunk = law(arithmetic)
+    head = HEAD.format(version=__version__, digest=digest(chunk.sources()))
+    parts = {
+        "HEAD": "\n".join(note(head)),
+        "LAW": chunk.body(),
+        "VERSION": __version__,
+        "FIRST_SHIFT": join_tracking.FIRST_SHIFT,
+        "GAIN": law_step.GAIN,
+        "RESERVE": law_step.RESERVE,
+        "SMOOTHING": law_step.SMOOTHING_S,
+        "NEGLIGIBLE_WIND": law_step.NEGLIGIBLE_WIND,
+        "COVERED": bank_history.COVERED_S,
+    }
+    text = Path(__file__).with_name(APPLET).read_text("utf-8")
+    for key, value in parts.items():
+        text = text.replace(f"@{key}@", str(value))
+    return text
+
+
+def applet_files() -> dict[Path, str]:
+    """The generated files, by place."""
+    return {FOLDER / APPLET: applet(LUA_32BITS)}

@@ -1,0 +1,246 @@
+"""The applet for ArduPilot: current, clean, within its limits, and flown over a mock of ArduPilot's bindings."""
+
+import re
+import shutil
+import subprocess
+from random import Random
+
+import numpy as np
+import pytest
+from codegen.arithmetic import CONSTANTS
+from codegen.lua import LUA
+from codegen.onboard.lua_files import APPLET, BY_HAND, FOLDER, applet_files, law
+from lupa.lua53 import LuaRuntime
+
+from guidance.test_law_in_c import START, UAV, same
+from loiter import Orbit, Wind
+from loiter.guidance.entry import entry_planner, join_tracking
+from loiter.guidance.entry.loiter_entry import LoiterEntry
+from loiter.guidance.simulators.point_mass import PointMass
+from loiter.kernel.still_air import synthesis
+from loiter.kernel.wind.wind_search import WindProblem, fastest, time_of
+from native import states
+from native.applet import (
+    AIRCRAFT,
+    HELD,
+    MOST_INSTRUCTIONS,
+    PERIOD_S,
+    WAITING,
+    Applet,
+    World,
+    bindings,
+    flown,
+    least_s,
+    point_mass,
+    scene,
+)
+
+# Methods of Lua's own values and of the generated tables, which are no bindings.
+OWN = {"concat"}
+
+# The applets fly for at least so many starts in each run of the tests; `python -m native.applet 100` flies more.
+# Start 17 has the callback with the most instructions of 100 starts.
+STARTS = (0, 1, 2, 17)
+
+SOLVERS = """
+solve_in_still_air = function(...) return law.optimum(...) end
+local known = {side = 0, phase = 0.0, words = 0, shift = 0.2, calls = 0}
+solve_in_wind = function(problem)
+    local entry
+    known, entry = law.track(known, problem)
+    return entry
+end
+return law
+"""
+
+
+@pytest.fixture(scope="module")
+def flights():
+    return [flown(i) for i in STARTS]
+
+
+@pytest.fixture(scope="module")
+def lua():
+    """The law and the solvers in double precision."""
+    runtime = LuaRuntime(unpack_returned_tuples=True)
+    text = f"local law, solve_in_still_air, solve_in_wind = {{}}\n{law(LUA).body()}\n{SOLVERS}"
+    return runtime, runtime.execute(text)
+
+
+def in_lua(runtime, value):
+    """A named tuple as a table, a tuple as an array."""
+    if hasattr(value, "_fields"):
+        return runtime.table_from({name: in_lua(runtime, one) for name, one in zip(value._fields, value, strict=True)})
+    return runtime.table_from([in_lua(runtime, one) for one in value]) if isinstance(value, tuple) else value
+
+
+def test_make_generate_was_run_after_the_last_change():
+    for path, text in applet_files().items():
+        assert path.read_text("utf-8") == text, f"{path.name}: run make generate"
+
+
+def test_the_applet_has_the_constants_of_single_precision():
+    text = (FOLDER / APPLET).read_text("utf-8")
+    assert "-- ROUNDING = 7.62939453125e-06" in text
+    assert ("rounding", "ROUNDING") in CONSTANTS
+
+
+def test_luacheck_has_nothing_to_say(tmp_path):
+    """With the settings of ArduPilot's repository; Debian's lua-check."""
+    if shutil.which("luacheck") is None:
+        pytest.skip("luacheck is not installed: requirements/apt-install lua-check")
+    roots = sorted({name.partition(":")[0] for name in bindings()} | {"millis", "Parameter"})
+    globals_ = ", ".join(f'"{one}"' for one in roots)
+    settings = f'std = "lua53"\nread_globals = {{{globals_}}}\nignore = {{"212/_.*", "631", "611", "612", "614"}}\n'
+    (tmp_path / "luacheckrc").write_text(settings, "utf-8")
+    files = sorted(FOLDER.glob("*.lua"))
+    command = ["luacheck", "--no-color", "--config", tmp_path / "luacheckrc", *files]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.lua")), ids=lambda path: path.name)
+def test_every_binding_is_one_of_ardupilot(path):
+    """By name; the mock counts the arguments of the calls that the flights make."""
+    text = re.sub(r"--.*|\"[^\"]*\"", "", path.read_text("utf-8"))
+    known = {name.partition(":")[2] for name in bindings()}
+    assert set(re.findall(r":(\w+)\(", text)) <= known | OWN
+
+
+def test_every_start_settles(flights):
+    assert all(HELD in one.world.said for one in flights)
+    assert np.median([one.entered_s - least_s(i) for i, one in zip(STARTS, flights, strict=True)]) < 4.0
+
+
+def test_no_callback_takes_more_instructions_than_the_manual_asks_for(flights):
+    assert max(max(one.applet.counts) for one in flights) <= MOST_INSTRUCTIONS
+
+
+def test_times_in_still_air_are_those_of_python(lua):
+    _, functions = lua
+    for x, y, R, side, tolerance in states.drawn(2_000, 0):
+        if synthesis.status_of(x, y, R, tolerance) == 0:
+            found = functions.optimum(x, y, R, side, tolerance)
+            wanted = synthesis.optimum(x, y, R, side, tolerance)
+            assert (found.side, found.word) == (wanted.side, wanted.word)
+            assert all(abs(found[name] - getattr(wanted, name)) <= 1e-12 for name in ("t1", "t2", "t3"))
+
+
+def test_the_law_gives_the_commands_of_python(lua):
+    runtime, functions = lua
+    law_, dt = LoiterEntry(Orbit(0.0, 0.0, 80.0), UAV, identify=False), 0.02
+    mass = PointMass(START, UAV, seed=3)
+    settings, model = in_lua(runtime, law_._settings), in_lua(runtime, law_._vehicle)
+    memory = functions.first_memory(settings, model)
+    for _ in range(1500):
+        state = mass.measured_state()
+        model = functions.fly_as_declared(model, memory.command_deg, memory.step_s)
+        memory, found = functions.step(settings, memory, model, in_lua(runtime, state), dt)
+        wanted = law_.step(state, dt)
+        assert same(found.bank_deg, wanted.bank_deg)
+        mass.advance(wanted, dt)
+
+
+def test_a_tracked_point_of_joining_becomes_the_fastest():
+    """From half of the states within two seconds of calls, 20 a second, which is the waiting before a flight here."""
+    random, late = Random(2), []
+    for _ in range(60):
+        speed, towards, azimuth, heading = random.uniform(0.05, 0.35), *(random.uniform(0.0, 6.28) for _ in range(3))
+        distance = random.uniform(0.5, 10.0)
+        problem = WindProblem(
+            distance * np.cos(azimuth),
+            distance * np.sin(azimuth),
+            np.cos(heading),
+            np.sin(heading),
+            2.5,
+            0,
+            speed * np.cos(towards),
+            speed * np.sin(towards),
+        )
+        known = join_tracking.NO_JOIN
+        for _ in range(40):
+            known, entry = join_tracking.track(known, problem)
+        late.append(entry.t1 + entry.t2 + entry.t3 - time_of(fastest(problem)))
+    # A path is never faster than the fastest one, up to the arc tolerance.
+    assert min(late) > -1e-9
+    # Half of `LEAST_SHIFT` off the minimum costs some 1e-5 times the second derivative; the rest is still being sought.
+    assert np.median(late) < 0.01
+
+
+def begun(i=0):
+    """A world and an applet, two seconds into a flight."""
+    _, radius_m, wind = scene(i)
+    world = World(point_mass(i), radius_m, wind, AIRCRAFT)
+    applet = Applet(world)
+    for step in range(2 * WAITING):
+        if step == WAITING:
+            world.states.add("switch")
+        applet.callback()
+        world.advance(PERIOD_S)
+    assert world.commands[-1][0] == 43002
+    return world, applet
+
+
+def end_mode(world):
+    world.now_mode = 12
+
+
+def end_target(world):
+    world.centre = (5, 5)
+
+
+def end_data(world):
+    world.healthy = False
+
+
+ENDS = {
+    "pilot or failsafe took over": (end_mode, False),
+    "another target was given": (end_target, False),
+    "no data": (end_data, True),
+    "fence": (lambda world: world.states.add("fence"), True),
+    "failsafe": (lambda world: world.states.add("battery"), True),
+    "ended by switch": (lambda world: world.states.discard("switch"), True),
+    "not in flight": (lambda world: world.states.discard("armed"), False),
+}
+
+
+@pytest.mark.parametrize("reason", ENDS)
+def test_a_flight_ends_at_once(reason):
+    """With the circle by ArduPlane's own guidance where the mode is ours, and with no command otherwise."""
+    change, is_ours = ENDS[reason]
+    world, applet = begun()
+    change(world)
+    before = len(world.commands)
+    for _ in range(10):
+        applet.callback()
+    assert world.said[-1] == f"Entry: {reason}"
+    assert [command for command, *_ in world.commands[before:]] == ([192] if is_ours else [])
+
+
+def test_a_flight_that_has_ended_begins_again_only_when_the_switch_is_moved():
+    world, applet = begun()
+    world.now_mode = 12
+    applet.callback()
+    world.now_mode = 15
+    before = len(world.commands)
+    for _ in range(20):
+        applet.callback()
+    assert len(world.commands) == before
+    world.states.discard("switch")
+    applet.callback()
+    world.states.add("switch")
+    for _ in range(5):
+        applet.callback()
+    assert world.commands[before][0] == 192
+
+
+def test_the_solvers_by_hand_are_those_of_the_planner():
+    assert set(BY_HAND) == {entry_planner.entry_in_still_air, entry_planner.solve_in_wind}
+
+
+def test_the_mock_refuses_what_is_no_binding():
+    applet = Applet(World(point_mass(0), 100.0, Wind(1.0, 0.0), AIRCRAFT))
+    with pytest.raises(Exception, match="is no binding"):
+        applet.lua.execute("ahrs:get_nothing()")
+    with pytest.raises(Exception, match="takes 0 arguments"):
+        applet.lua.execute("ahrs:get_location(1)")
