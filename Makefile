@@ -36,7 +36,7 @@ $(BIN)/python:
 	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/dev.txt
 	@touch $@
 
-# What the site needs, a small part of what the tests need.
+# What the documentation needs; the page in it is built with what the tests need.
 .venv/docs.stamp: .venv/base.stamp requirements/docs.txt
 	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/docs.txt
 	@touch $@
