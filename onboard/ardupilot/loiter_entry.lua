@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 4954790eac0b5379d0bc6eea74f2547d5ae2ea1aeec15277283d8a93620bb5a7
+-- SHA-256 of the source: 00c80e25cb86478ef85f9f412a9521103205b55bc4dc2b5d75d21a6055581056
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -1659,6 +1659,11 @@ function law.fly_as_declared(vehicle, command_deg, dt)
     return {revision = revision, bank_deg = bank_deg, estimates = known}
 end
 
+-- The plain number of a member of `Word`, `Side` or `Status`, which Python answers in as compiled code does.
+function law.code(member)
+    return member + 0
+end
+
 -- The side that is never slower: T_either(x, y) = T_cw(x, |y|) (paper, section 5); clockwise on y = 0.
 function law.near_side(y)
     return y < 0.0 and -1 or 1
@@ -1666,7 +1671,7 @@ end
 
 -- The side itself; for *either*, the near side.
 function law.side_or_near(y, side)
-    return side ~= 0--[[Side.EITHER]] and side + 0 or law.near_side(y)
+    return side ~= 0--[[Side.EITHER]] and law.code(side) or law.near_side(y)
 end
 
 -- The length tolerance: the rounding error of lengths for a state and a circle of this size.
@@ -2064,7 +2069,7 @@ end
 function law.flown_entry(extremal, length_tolerance, side)
     local t1, t2, t3 = law.durations(extremal)
     local word
-    word, t1, t2, t3 = law.drop_short_pieces(extremal.word + 0, t1, t2, t3, length_tolerance / 3.0,
+    word, t1, t2, t3 = law.drop_short_pieces(law.code(extremal.word), t1, t2, t3, length_tolerance / 3.0,
             7.62939453125e-06--[[ROUNDING]] / 3.0)
     return {side = side, word = side < 0 and law.mirrored(word) or word, t1 = t1, t2 = t2, t3 = t3}
 end
@@ -2480,7 +2485,7 @@ function law.track(known, problem)
     calls = (calls + 1) % 1024--[[ROUND]]
     if best.time == huge then
         return {side = 0, phase = 0.0, words = 0, shift = 0.2--[[FIRST_SHIFT]], calls = calls}, {side = 0, word =
-                0--[[Word.EMPTY]] + 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
+                law.code(0--[[Word.EMPTY]]), t1 = 0.0, t2 = 0.0, t3 = 0.0}
     end
     local _, _, last = law.controls(best.word)
     words = last > 0 and 25--[[ENDS_WITH_L]] or 38--[[ENDS_WITH_R]]

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e1f3adc67096dd5281ca1cfaa3d579eb7f289d1fb77a14bf26de94cee4896cef
+ * SHA-256 of the source: 761a627d9953e7746d84fcdfff0a92566ac1ea9e66e18e41bbf047ce5826244a
  */
 #include "loiter.h"
 
@@ -793,6 +793,11 @@ static inline real rounded_radius(real R) {
     return REAL(1.0) - ROUNDING <= R && R < REAL(1.0) ? REAL(1.0) : R;
 }
 
+/* The plain number of a member of `Word`, `Side` or `Status`, which Python answers in as compiled code does. */
+static inline integer code(integer member) {
+    return member + 0;
+}
+
 /* The side that is never slower: T_either(x, y) = T_cw(x, |y|) (paper, section 5); clockwise on y = 0. */
 static inline integer near_side(real y) {
     return y < REAL(0.0) ? -1 : 1;
@@ -800,7 +805,7 @@ static inline integer near_side(real y) {
 
 /* The side itself; for *either*, the near side. */
 static inline integer side_or_near(real y, integer side) {
-    return side != SIDE_EITHER ? side + 0 : near_side(y);
+    return side != SIDE_EITHER ? code(side) : near_side(y);
 }
 
 /* The length tolerance: the rounding error of lengths for a state and a circle of this size. */
@@ -1291,8 +1296,8 @@ static inline integer mirrored(integer word) {
 static inline Entry flown_entry(const Extremal *extremal, real length_tolerance, integer side) {
     const real_3 durations_1 = durations(extremal);
     real t1 = durations_1.a0, t2 = durations_1.a1, t3 = durations_1.a2;
-    const integer_real_3 drop_short_pieces_2 = drop_short_pieces(extremal->word + 0, t1, t2, t3, length_tolerance
-            / REAL(3.0), ROUNDING / REAL(3.0));
+    const integer_real_3 drop_short_pieces_2 = drop_short_pieces(code(extremal->word), t1, t2, t3,
+            length_tolerance / REAL(3.0), ROUNDING / REAL(3.0));
     const integer word = drop_short_pieces_2.a0;
     t1 = drop_short_pieces_2.a1;
     t2 = drop_short_pieces_2.a2;
@@ -1350,18 +1355,18 @@ static inline integer status_of(const WindProblem *problem) {
     const real x = problem->x, y = problem->y, c = problem->c, s = problem->s, R = problem->R, wx =
             problem->wx, wy = problem->wy, tolerance = problem->tolerance;
     if (!(isfinite(x + y) && isfinite(c + s) && isfinite(R) && isfinite(wx + wy))) {
-        return STATUS_NOT_FINITE + 0;
+        return code(STATUS_NOT_FINITE);
     }
     if (length(wx, wy) >= REAL(1.0)) {
-        return STATUS_WIND_TOO_STRONG + 0;
+        return code(STATUS_WIND_TOO_STRONG);
     }
     if (tightest_radius(wx, wy) * (REAL(1.0) - ROUNDING) > R) {
-        return (R >= REAL(1.0) ? STATUS_NOT_HELD : STATUS_RADIUS_TOO_SMALL) + 0;
+        return code(R >= REAL(1.0) ? STATUS_NOT_HELD : STATUS_RADIUS_TOO_SMALL);
     }
     if (real_fabs(x) > REACH || real_fabs(y) > REACH || R > REACH) {
-        return STATUS_OUT_OF_RANGE + 0;
+        return code(STATUS_OUT_OF_RANGE);
     }
-    return (REAL(0.0) <= tolerance && tolerance <= REACH ? STATUS_OK : STATUS_BAD_TOLERANCE) + 0;
+    return code(REAL(0.0) <= tolerance && tolerance <= REACH ? STATUS_OK : STATUS_BAD_TOLERANCE);
 }
 
 /* The result where there is no maneuver. */
@@ -1583,8 +1588,8 @@ static inline EntryBeside entry_beside(integer sides, real tolerance, const Wind
 static inline WindEntry entry_at(Entry entry, real phase, real miss, const WindScene *scene) {
     const real_5 hold_pose_1 = hold_pose(phase, entry.side, scene->R, scene->wx, scene->wy);
     const real px = hold_pose_1.a0, py = hold_pose_1.a1;
-    return MAKE(WindEntry){STATUS_OK + 0, entry.side, entry.word, entry.t1, entry.t2, entry.t3, real_atan2(py, px),
-            miss};
+    return MAKE(WindEntry){code(STATUS_OK), entry.side, entry.word, entry.t1, entry.t2, entry.t3, real_atan2(py,
+            px), miss};
 }
 
 /* The candidate without pieces, which joins at the point of the circle that is nearest to the start. */
@@ -1733,7 +1738,7 @@ static inline WindEntry wind_entry(const WindCandidate *found, const WindScene *
     /* Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The negated */
     /* comparison also rejects a miss that is nan. */
     if (!(miss <= REAL(2.0) * length_tolerance + ROUNDING * (t1 + t2 + t3))) {
-        return no_entry(STATUS_NOT_CONVERGED + 0);
+        return no_entry(code(STATUS_NOT_CONVERGED));
     }
     return entry_at(MAKE(Entry){side, word, t1, t2, t3}, phase, miss, scene);
 }

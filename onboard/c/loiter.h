@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e1f3adc67096dd5281ca1cfaa3d579eb7f289d1fb77a14bf26de94cee4896cef
+ * SHA-256 of the source: 761a627d9953e7746d84fcdfff0a92566ac1ea9e66e18e41bbf047ce5826244a
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

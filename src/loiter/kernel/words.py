@@ -36,6 +36,11 @@ def opposite(u: int) -> int:
     return u if u == ABSENT else -u
 
 
+def code(member: int) -> int:
+    """The plain number of a member of `Word`, `Side` or `Status`, which Python answers in as compiled code does."""
+    return member + 0
+
+
 # Sets of the six words of three pieces, a bit for each: all, and those with a straight piece.
 ALL_WORDS, WITH_STRAIGHT = 63, 15
 

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 1dfda3c74ea1ab6087c8d3ffb2b6d4d2a62f14115350157bf2cd1bc518a3ab74
+ * SHA-256 of the source: 490fe032d0b8155e08728e9eb49e1eb53af49a7417fab4fe4c552366be5e09e4
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -105,7 +105,7 @@ typedef struct { real x, y, c, s, R; integer side; real wx, wy, tolerance; } Win
  */
 typedef struct { integer status, side, word; real t1, t2, t3, azimuth, miss; } WindEntry;
 
-/* Start, heading as a unit vector, radius, wind, and the arc tolerance of `moving_target.Ends`. */
+/* Start, heading as a unit vector, radius, wind, and `arc_tolerance` as in `moving_target.Ends`. */
 typedef struct { real x, y, c, s, R, wx, wy, arc_tolerance; } WindScene;
 
 /* A path to the pose: its time, word and three durations, and its adjoint, lambda and the unit vector p.
@@ -401,6 +401,11 @@ static inline integer synthesis_status_of(real x, real y, real R, real tolerance
     return STATUS_BAD_TOLERANCE;
 }
 
+/* The plain number of a member of `Word`, `Side` or `Status`, which Python answers in as compiled code does. */
+static inline integer code(integer member) {
+    return member + 0;
+}
+
 /* The side that is never slower: T_either(x, y) = T_cw(x, |y|) (paper, section 5); clockwise on y = 0. */
 static inline integer near_side(real y) {
     return y < 0.0 ? -1 : 1;
@@ -408,7 +413,7 @@ static inline integer near_side(real y) {
 
 /* The side itself; for *either*, the near side. */
 static inline integer side_or_near(real y, integer side) {
-    return side != SIDE_EITHER ? side + 0 : near_side(y);
+    return side != SIDE_EITHER ? code(side) : near_side(y);
 }
 
 /* The length tolerance: the rounding error of lengths for a state and a circle of this size. */
@@ -873,7 +878,7 @@ static inline integer mirrored(integer word) {
 static inline Entry flown_entry(Extremal extremal, real length_tolerance, integer side) {
     const real_3 durations_1 = durations(extremal);
     real t1 = durations_1.a0, t2 = durations_1.a1, t3 = durations_1.a2;
-    const integer_real_3 drop_short_pieces_2 = drop_short_pieces(extremal.word + 0, t1, t2, t3, length_tolerance /
+    const integer_real_3 drop_short_pieces_2 = drop_short_pieces(code(extremal.word), t1, t2, t3, length_tolerance /
             3.0, ROUNDING / 3.0);
     const integer word = drop_short_pieces_2.a0;
     t1 = drop_short_pieces_2.a1;
@@ -976,18 +981,18 @@ static inline integer wind_search_status_of(WindProblem problem) {
     const real x = problem.x, y = problem.y, c = problem.c, s = problem.s, R = problem.R, wx = problem.wx, wy =
             problem.wy, tolerance = problem.tolerance;
     if (!(isfinite(x + y) && isfinite(c + s) && isfinite(R) && isfinite(wx + wy))) {
-        return STATUS_NOT_FINITE + 0;
+        return code(STATUS_NOT_FINITE);
     }
     if (length(wx, wy) >= 1.0) {
-        return STATUS_WIND_TOO_STRONG + 0;
+        return code(STATUS_WIND_TOO_STRONG);
     }
     if (tightest_radius(wx, wy) * (1.0 - ROUNDING) > R) {
-        return (R >= 1.0 ? STATUS_NOT_HELD : STATUS_RADIUS_TOO_SMALL) + 0;
+        return code(R >= 1.0 ? STATUS_NOT_HELD : STATUS_RADIUS_TOO_SMALL);
     }
     if (fabs(x) > REACH || fabs(y) > REACH || R > REACH) {
-        return STATUS_OUT_OF_RANGE + 0;
+        return code(STATUS_OUT_OF_RANGE);
     }
-    return (0.0 <= tolerance && tolerance <= REACH ? STATUS_OK : STATUS_BAD_TOLERANCE) + 0;
+    return code(0.0 <= tolerance && tolerance <= REACH ? STATUS_OK : STATUS_BAD_TOLERANCE);
 }
 
 /* The result where there is no maneuver. */
@@ -1202,7 +1207,7 @@ static inline EntryBeside entry_beside(integer sides, real tolerance, WindScene 
 static inline WindEntry entry_at(Entry entry, real phase, real miss, WindScene scene) {
     const real_5 hold_pose_1 = hold_pose(phase, entry.side, scene.R, scene.wx, scene.wy);
     const real px = hold_pose_1.a0, py = hold_pose_1.a1;
-    return (WindEntry){STATUS_OK + 0, entry.side, entry.word, entry.t1, entry.t2, entry.t3, atan2(py, px), miss};
+    return (WindEntry){code(STATUS_OK), entry.side, entry.word, entry.t1, entry.t2, entry.t3, atan2(py, px), miss};
 }
 
 /* The candidate without pieces, which joins at the point of the circle that is nearest to the start. */
@@ -1350,7 +1355,7 @@ static inline WindEntry wind_entry(WindCandidate found, WindScene scene) {
     /* Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The negated */
     /* comparison also rejects a miss that is nan. */
     if (!(miss <= 2.0 * length_tolerance + ROUNDING * (t1 + t2 + t3))) {
-        return no_entry(STATUS_NOT_CONVERGED + 0);
+        return no_entry(code(STATUS_NOT_CONVERGED));
     }
     return entry_at((Entry){side, word, t1, t2, t3}, phase, miss, scene);
 }

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 12379a80fc83fe3b64143b947faf994b42c880bf455792fd5038b0cb3f849ddc
+ * SHA-256 of the source: 146f9efc57ebe50227589bd5858f8c1fad609e5fdc2a0fb47b3c77a5d307207a
  */
 #ifndef LOITER_STILL_AIR_LOOPS_H
 #define LOITER_STILL_AIR_LOOPS_H
@@ -131,6 +131,11 @@ static inline LOITER_ALWAYS_INLINE real_2 reduce(real x, real y, real c, real s)
     return (real_2){x * c + y * s, y * c - x * s};
 }
 
+/* The plain number of a member of `Word`, `Side` or `Status`, which Python answers in as compiled code does. */
+static inline LOITER_ALWAYS_INLINE integer code(integer member) {
+    return member + 0;
+}
+
 /* The side that is never slower: T_either(x, y) = T_cw(x, |y|) (paper, section 5); clockwise on y = 0. */
 static inline LOITER_ALWAYS_INLINE integer near_side(real y) {
     return y < 0.0 ? -1 : 1;
@@ -138,7 +143,7 @@ static inline LOITER_ALWAYS_INLINE integer near_side(real y) {
 
 /* The side itself; for *either*, the near side. */
 static inline LOITER_ALWAYS_INLINE integer side_or_near(real y, integer side) {
-    return side != SIDE_EITHER ? side + 0 : near_side(y);
+    return side != SIDE_EITHER ? code(side) : near_side(y);
 }
 
 /* Whether `status_of` is OK: state and circle are within REACH, and the circle can be held. */
@@ -682,7 +687,7 @@ static inline LOITER_ALWAYS_INLINE integer mirrored(integer word) {
 static inline LOITER_ALWAYS_INLINE Entry flown_entry(Extremal extremal, real length_tolerance, integer side) {
     const real_3 durations_1 = durations(extremal);
     real t1 = durations_1.a0, t2 = durations_1.a1, t3 = durations_1.a2;
-    const integer_real_3 drop_short_pieces_2 = drop_short_pieces(extremal.word + 0, t1, t2, t3, length_tolerance /
+    const integer_real_3 drop_short_pieces_2 = drop_short_pieces(code(extremal.word), t1, t2, t3, length_tolerance /
             3.0, ROUNDING / 3.0);
     const integer word = drop_short_pieces_2.a0;
     t1 = drop_short_pieces_2.a1;

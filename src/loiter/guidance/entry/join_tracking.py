@@ -18,7 +18,7 @@ from loiter.kernel.rounding import ROUNDING
 from loiter.kernel.wind.moving_target import NO_PATH
 from loiter.kernel.wind.paths import first_path_of, join_point
 from loiter.kernel.wind.wind_search import WindProblem, scene_of
-from loiter.kernel.words import ALL_WORDS, Word, controls, set_of
+from loiter.kernel.words import ALL_WORDS, Word, code, controls, set_of
 
 # Words that end with L or with R, as sets.
 ENDS_WITH_L = set_of(Word.LSL) | set_of(Word.RSL) | set_of(Word.LRL)
@@ -71,7 +71,7 @@ def track(known: TrackedJoin, problem: WindProblem) -> tuple[TrackedJoin, Entry]
             side, phase, shift, best = one, anywhere, FIRST_SHIFT, path
     calls = (calls + 1) % ROUND
     if best.time == inf:
-        return TrackedJoin(0, 0.0, 0, FIRST_SHIFT, calls), Entry(0, Word.EMPTY + 0, 0.0, 0.0, 0.0)
+        return TrackedJoin(0, 0.0, 0, FIRST_SHIFT, calls), Entry(0, code(Word.EMPTY), 0.0, 0.0, 0.0)
     _, _, last = controls(best.word)
     words = ENDS_WITH_L if last > 0 else ENDS_WITH_R
     word, t1, t2, t3 = drop_short_pieces(best.word, best.t1, best.t2, best.t3, scene.arc_tolerance, ROUNDING)

@@ -6,7 +6,7 @@ from loiter.kernel.entry import Entry, drop_short_pieces, duration, is_faster, i
 from loiter.kernel.rounding import REACH, ROUNDING, arc_tolerance_of, rounded_radius, rounding
 from loiter.kernel.statuses import Status
 from loiter.kernel.still_air.extremals import Extremal, durations, extremals, fastest
-from loiter.kernel.words import Side, mirrored
+from loiter.kernel.words import Side, code, mirrored
 
 
 def is_solvable(x: float, y: float, R: float, tolerance: float) -> bool:
@@ -36,7 +36,7 @@ def flown_entry(extremal: Extremal, length_tolerance: float, side: int) -> Entry
     `length_tolerance`.
     """
     t1, t2, t3 = durations(extremal)
-    word, t1, t2, t3 = drop_short_pieces(extremal.word + 0, t1, t2, t3, length_tolerance / 3.0, ROUNDING / 3.0)
+    word, t1, t2, t3 = drop_short_pieces(code(extremal.word), t1, t2, t3, length_tolerance / 3.0, ROUNDING / 3.0)
     return Entry(side, mirrored(word) if side < 0 else word, t1, t2, t3)
 
 
@@ -59,7 +59,7 @@ def optimum(x: float, y: float, R: float, side: int, tolerance: float) -> Entry:
 
 def side_or_near(y: float, side: int) -> int:
     """The side itself; for *either*, the near side."""
-    return side + 0 if side != Side.EITHER else near_side(y)
+    return code(side) if side != Side.EITHER else near_side(y)
 
 
 def optimum_on_side(x: float, y: float, R: float, side: int, tolerance: float) -> Entry:

@@ -9,7 +9,7 @@ from loiter.kernel.words import ALL_WORDS, controls, encode, set_of
 
 
 class WindScene(NamedTuple):
-    """Start, heading as a unit vector, radius, wind, and the arc tolerance of `moving_target.Ends`."""
+    """Start, heading as a unit vector, radius, wind, and `arc_tolerance` as in `moving_target.Ends`."""
 
     x: float
     y: float

@@ -32,7 +32,7 @@ from loiter.kernel.wind.minimum import (
 from loiter.kernel.wind.moving_target import NO_PATH, Path
 from loiter.kernel.wind.paths import JoinPoint, WindCandidate, WindScene, first_path, first_path_of, join_slope
 from loiter.kernel.wind.tolerance import NO_ENTRY_BESIDE, EntryBeside, entry_beside
-from loiter.kernel.words import ALL_WORDS, WITH_STRAIGHT, controls
+from loiter.kernel.words import ALL_WORDS, WITH_STRAIGHT, code, controls
 
 
 class WindProblem(NamedTuple):
@@ -163,7 +163,7 @@ NO_SEARCH = WindSearch(
     refinement=NO_REFINEMENT,
     cell=OpenCell(0, 0.0, 0.0),
     left=0,
-    entry=WindEntry(Status.NOT_CONVERGED + 0, 0, 0, nan, nan, nan, nan, nan),
+    entry=WindEntry(code(Status.NOT_CONVERGED), 0, 0, nan, nan, nan, nan, nan),
 )
 
 # More steps than any search takes.
@@ -200,14 +200,14 @@ def status_of(problem: WindProblem) -> int:
     """`Status.OK`, or why there is nothing to solve."""
     x, y, c, s, R, _, wx, wy, tolerance = problem
     if not (isfinite(x + y) and isfinite(c + s) and isfinite(R) and isfinite(wx + wy)):
-        return Status.NOT_FINITE + 0
+        return code(Status.NOT_FINITE)
     if length(wx, wy) >= 1.0:
-        return Status.WIND_TOO_STRONG + 0
+        return code(Status.WIND_TOO_STRONG)
     if tightest_radius(wx, wy) * (1.0 - ROUNDING) > R:
-        return (Status.NOT_HELD if R >= 1.0 else Status.RADIUS_TOO_SMALL) + 0
+        return code(Status.NOT_HELD if R >= 1.0 else Status.RADIUS_TOO_SMALL)
     if abs(x) > REACH or abs(y) > REACH or R > REACH:
-        return Status.OUT_OF_RANGE + 0
-    return (Status.OK if 0.0 <= tolerance <= REACH else Status.BAD_TOLERANCE) + 0
+        return code(Status.OUT_OF_RANGE)
+    return code(Status.OK if 0.0 <= tolerance <= REACH else Status.BAD_TOLERANCE)
 
 
 def best_of_joins(side: int, scene: WindScene, best: WindCandidate) -> WindCandidate:
@@ -556,7 +556,7 @@ def no_entry(status: int) -> WindEntry:
 def entry_at(entry: Entry, phase: float, miss: float, scene: WindScene) -> WindEntry:
     """The result for a maneuver that joins at a phase."""
     px, py, _, _, _ = hold_pose(phase, entry.side, scene.R, scene.wx, scene.wy)
-    return WindEntry(Status.OK + 0, entry.side, entry.word, entry.t1, entry.t2, entry.t3, atan2(py, px), miss)
+    return WindEntry(code(Status.OK), entry.side, entry.word, entry.t1, entry.t2, entry.t3, atan2(py, px), miss)
 
 
 def wind_entry(found: WindCandidate, scene: WindScene) -> WindEntry:
@@ -568,7 +568,7 @@ def wind_entry(found: WindCandidate, scene: WindScene) -> WindEntry:
     # Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The negated
     # comparison also rejects a miss that is nan.
     if not miss <= 2.0 * length_tolerance + ROUNDING * (t1 + t2 + t3):
-        return no_entry(Status.NOT_CONVERGED + 0)
+        return no_entry(code(Status.NOT_CONVERGED))
     return entry_at(Entry(side, word, t1, t2, t3), phase, miss, scene)
 
 

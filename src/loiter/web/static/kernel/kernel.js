@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 6a70cea1e48d9263f31691b32322d2c6080a85f8280997fccb4a283ab0a1d333
+ * SHA-256 of the source: 3a85e1cdd051d82f1afe599b2a2e3c40ef8c81a2b9e9cc7acb056b42e131f9c1
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -121,7 +121,7 @@ export const Word = { EMPTY: 0, R: 1, L: 3, SR: 6, SL: 14, RL: 13, LR: 7, RSR: 2
  */
 
 /**
- * Start, heading as a unit vector, radius, wind, and the arc tolerance of `moving_target.Ends`.
+ * Start, heading as a unit vector, radius, wind, and `arc_tolerance` as in `moving_target.Ends`.
  *
  * @typedef {{x: number, y: number, c: number, s: number, R: number, wx: number, wy: number, arc_tolerance: number}}
  *         WindScene
@@ -575,6 +575,15 @@ export function synthesis_status_of(x, y, R, tolerance) {
 }
 
 /**
+ * The plain number of a member of `Word`, `Side` or `Status`, which Python answers in as compiled code does.
+ *
+ * @type {(member: number) => number}
+ */
+export function code(member) {
+    return member + 0;
+}
+
+/**
  * The side that is never slower: T_either(x, y) = T_cw(x, |y|) (paper, section 5); clockwise on y = 0.
  *
  * @type {(y: number) => number}
@@ -589,7 +598,7 @@ export function near_side(y) {
  * @type {(y: number, side: number) => number}
  */
 export function side_or_near(y, side) {
-    return side !== Side.EITHER ? side + 0 : near_side(y);
+    return side !== Side.EITHER ? code(side) : near_side(y);
 }
 
 /**
@@ -1256,8 +1265,8 @@ export function mirrored(word) {
 export function flown_entry(extremal, length_tolerance, side) {
     const durations_1 = durations(extremal);
     let t1 = durations_1[0], t2 = durations_1[1], t3 = durations_1[2];
-    const drop_short_pieces_2 = drop_short_pieces(extremal.word + 0, t1, t2, t3, length_tolerance / 3.0, ROUNDING /
-            3.0);
+    const drop_short_pieces_2 = drop_short_pieces(code(extremal.word), t1, t2, t3, length_tolerance / 3.0, ROUNDING
+            / 3.0);
     const word = drop_short_pieces_2[0];
     t1 = drop_short_pieces_2[1];
     t2 = drop_short_pieces_2[2];
@@ -1779,18 +1788,18 @@ export function wind_search_status_of(problem) {
     const x = problem.x, y = problem.y, c = problem.c, s = problem.s, R = problem.R, wx = problem.wx, wy =
             problem.wy, tolerance = problem.tolerance;
     if (!(isfinite(x + y) && isfinite(c + s) && isfinite(R) && isfinite(wx + wy))) {
-        return Status.NOT_FINITE + 0;
+        return code(Status.NOT_FINITE);
     }
     if (length(wx, wy) >= 1.0) {
-        return Status.WIND_TOO_STRONG + 0;
+        return code(Status.WIND_TOO_STRONG);
     }
     if (tightest_radius(wx, wy) * (1.0 - ROUNDING) > R) {
-        return (R >= 1.0 ? Status.NOT_HELD : Status.RADIUS_TOO_SMALL) + 0;
+        return code(R >= 1.0 ? Status.NOT_HELD : Status.RADIUS_TOO_SMALL);
     }
     if (Math.abs(x) > REACH || Math.abs(y) > REACH || R > REACH) {
-        return Status.OUT_OF_RANGE + 0;
+        return code(Status.OUT_OF_RANGE);
     }
-    return (0.0 <= tolerance && tolerance <= REACH ? Status.OK : Status.BAD_TOLERANCE) + 0;
+    return code(0.0 <= tolerance && tolerance <= REACH ? Status.OK : Status.BAD_TOLERANCE);
 }
 
 /**
@@ -1983,7 +1992,7 @@ export function entry_beside(sides, tolerance, scene) {
 export function entry_at(entry, phase, miss, scene) {
     const hold_pose_1 = hold_pose(phase, entry.side, scene.R, scene.wx, scene.wy);
     const px = hold_pose_1[0], py = hold_pose_1[1];
-    return { status: Status.OK + 0, side: entry.side, word: entry.word, t1: entry.t1, t2: entry.t2, t3: entry.t3,
+    return { status: code(Status.OK), side: entry.side, word: entry.word, t1: entry.t1, t2: entry.t2, t3: entry.t3,
             azimuth: atan2(py, px), miss };
 }
 
@@ -2156,7 +2165,7 @@ export function wind_entry(found, scene) {
     // Each piece has its arc tolerance, which the wind may double, and the rounding of its duration. The negated
     // comparison also rejects a miss that is nan.
     if (!(miss <= 2.0 * length_tolerance + ROUNDING * (t1 + t2 + t3))) {
-        return no_entry(Status.NOT_CONVERGED + 0);
+        return no_entry(code(Status.NOT_CONVERGED));
     }
     return entry_at({ side, word, t1, t2, t3 }, phase, miss, scene);
 }
