@@ -94,6 +94,13 @@ def not_negative(argument: str, value: object, unit: str) -> float:
     return x if 0.0 <= x < inf else _refuse(argument, value, f"zero or a positive, finite number of {unit}")
 
 
+def share(argument: str, value: float) -> float:
+    """`value` where it is a share that is at least 0 and below 1."""
+    if not 0.0 <= value < 1.0:
+        raise InvalidArgument(argument, f"is {value}: it must be at least 0 and below 1")
+    return value
+
+
 def in_unit(value: Any, unit: str) -> Any:
     """The magnitude in `unit` of a quantity of pint, a number or an array; any other value as it is.
 

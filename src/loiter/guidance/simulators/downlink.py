@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from loiter.errors import InvalidArgument, not_negative, positive
+from loiter.errors import not_negative, positive, share
 from loiter.guidance.protocol import Command, Simulator, State
 
 
@@ -28,9 +28,8 @@ class Downlink:
         positive("rate_hz", self.rate_hz, "measurements per second")
         not_negative("outage_s", self.outage_s, "seconds")
         positive("outage_period_s", self.outage_period_s, "seconds")
-        for name in ("jitter", "loss"):
-            if not 0.0 <= getattr(self, name) < 1.0:
-                raise InvalidArgument(name, f"is {getattr(self, name)}: it must be at least 0 and below 1")
+        share("jitter", self.jitter)
+        share("loss", self.loss)
 
 
 class WithDownlink:

@@ -11,7 +11,7 @@ from functools import lru_cache
 from math import cos, exp, hypot, log, pi, sin, sqrt
 from typing import Protocol
 
-from loiter.errors import InvalidArgument, not_negative, positive
+from loiter.errors import not_negative, positive, share
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import Roll
 
@@ -62,8 +62,7 @@ class RollResponse:
         positive("time_s", self.time_s, "seconds")
         not_negative("dead_time_s", self.dead_time_s, "seconds")
         positive("rate_deg_s", self.rate_deg_s, "degrees per second")
-        if not 0.0 <= self.overshoot < 1.0:
-            raise InvalidArgument("overshoot", f"is {self.overshoot}: it must be at least 0 and below 1")
+        share("overshoot", self.overshoot)
 
 
 class SecondOrderRoll:
