@@ -196,11 +196,11 @@ def _centre_after(s: States, time_s: Any) -> tuple[Any, Any]:
     return east_m, position_after(s.orbit_north_m, s.orbit_velocity_north_m_s, time_s)
 
 
-def _kernel(x: Any, y: Any, R: Any, side: Any, tolerance: Any) -> tuple[Any, ...]:
+def _kernel(*columns: Any) -> tuple[Any, ...]:
     """Time, word, durations, status, side, miss. The only place where the kernel is called for still air."""
     from loiter.compiled import ufuncs
 
-    result: tuple[Any, ...] = ufuncs.solve(x, y, R, side, tolerance, np.empty(3))
+    result: tuple[Any, ...] = ufuncs.solve(*columns, np.empty(3))
     return result
 
 

@@ -9,7 +9,7 @@ from loiter.planning.model import Turn
 
 @dataclass(frozen=True)
 class Residual:
-    """One condition: name, equation, violation, and the largest violation that rounding and tolerance explain.
+    """One condition: name, equation, violation, and the largest violation of a correct maneuver.
 
     `value` and `bound` are None where the condition could not be checked; `note` then says why.
     """

@@ -10,7 +10,7 @@ from math import atan2, cos, hypot, inf, pi, radians, remainder, sin, sqrt
 from typing import Any, NamedTuple
 
 # OMPL treats arcs within 1e-6 of a full turn as zero (`DUBINS_EPS` in its DubinsStateSpace.cpp), so its path may miss
-# the pose by a few 1e-6 turn radii. A path that misses by more is an error of OMPL, not a tolerance.
+# the pose by a few 1e-6 turn radii. A path that misses by more is an error of OMPL.
 OMPL_MISS = 1e-5
 
 # Evaluations of a golden-section search that shrink a bracket to 1e-15 of its width: 0.618^72.
@@ -88,7 +88,7 @@ class Search:
         """The start from which OMPL's path ends exactly on the circle, and its distance from `start`.
 
         OMPL's path is moved as a whole until its end is the point of joining. Raises `ArithmeticError` where the
-        distance is more than OMPL's own tolerance.
+        distance is more than `OMPL_MISS`.
         """
         goal = circle.join(found.azimuth)
         last = self.space.allocState()

@@ -115,7 +115,7 @@ def oracle_difference(problem: CheckProblem) -> OracleDifference:
     earlier = (found.length - planned) / (r + planned)
     later = 0.0
     if found.length < planned:
-        # OMPL's tolerance may shorten its path: compare from the start from which the path ends exactly on the circle,
+        # OMPL's path may be shorter as it misses a little: compare from the start from which the path ends exactly on the circle,
         # with the centre at the origin, where no offset rounds the distance from the circle.
         exact, _ = search.exact_start(start, circle, found)
         pose = Pose(exact.east, exact.north, 90.0 - degrees(exact.angle))

@@ -61,7 +61,7 @@ class RoundingError:
 def precision(states: int, seed: int) -> Iterator[RoundingError]:
     """Measure the rounding error of T at `states` random states, most of them next to a boundary of the synthesis.
 
-    States within rounding of a last circle are left out: there the tolerance deliberately decides on which side of a
+    States within rounding of a last circle are left out: there the kernel decides deliberately on which side of a
     jump they count (docs/theory.md, section 6).
 
     Raises at the call, not at the first result: `InvalidArgument` for fewer than one state, `MissingPackage` where
@@ -86,7 +86,7 @@ def rounding_error(place: str, x: float, y: float, R: float, side: Side) -> Roun
 
 @cache
 def _exact_optimum() -> Function:
-    """`optimum` in mpmath's arithmetic, without the tolerance that doubles need."""
+    """`optimum` in mpmath's arithmetic, without the allowance for rounding that doubles need."""
     import mpmath
 
     with mpmath.mp.workdps(DIGITS):

@@ -95,8 +95,8 @@ def reachability_difference(radius: float, turn: Turn, cells: int) -> Reachabili
 def least_within(distance: float, found: Reach, inside: NDArray[bool_], radius: float, turn: Turn) -> NDArray[float64]:
     """The least T within a distance of each node inside, (nodes,), on a lattice `FINER` times as fine as the grid."""
     width = found.spacing / FINER
-    # A lattice point represents the points up to half a diagonal away. Each piece of a plan may use a third of its
-    # tolerance, so three times that distance keeps the arcs through the end point, and that point, on the lattice.
+    # A lattice point represents the points up to half a diagonal away. Each piece of a plan may use a third of what
+    # it may miss by, so three times that distance keeps the arcs through the end point, and that point, on the lattice.
     blur = sqrt(0.5) * width if distance else 0.0
     steps = (distance + blur) / width
     reach = range(-int(steps), int(steps) + 1)

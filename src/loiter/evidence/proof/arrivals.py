@@ -146,9 +146,9 @@ def arrivals() -> Certainty:
 def check_region(name: str, case: Case, region: Region) -> None:
     """Raise `NotProved` where a word exists on a region other than as the text says, or misses the target."""
     field, point, R, q = region.plane
-    snapped, tolerance = SnappedArcs(), object()
+    snapped, arc_tolerance = SnappedArcs(), object()
     (word,) = exact(field, case.word, snap=snapped)
-    start = region.start._replace(arc_tolerance=tolerance)  # type: ignore[arg-type]
+    start = region.start._replace(arc_tolerance=arc_tolerance)  # type: ignore[arg-type]
     extremal = word(start, *case.crossing)
     require((extremal.straight is not inf) == region.exists, f"{name} does not exist where the text says")
     if not region.exists:
@@ -156,11 +156,11 @@ def check_region(name: str, case: Case, region: Region) -> None:
     check_word(name, extremal)
     first = extremal.first, squared(point, case.centre)
     if not case.crossing:
-        snapped.check(name, tolerance, first)
+        snapped.check(name, arc_tolerance, first)
         check_end(name, R, flown(point, extremal, axis_roots(field, point, case))[2])
         return
     last = R + case.centre
-    snapped.check(name, tolerance, first, (extremal.middle, last * last))
+    snapped.check(name, arc_tolerance, first, (extremal.middle, last * last))
     crossing, _, end = flown(point, extremal)
     check_end(name, R, end)
     check_crossing(name, case, crossing, q)
@@ -206,22 +206,22 @@ def single_arcs() -> int:
 def single_arc_within_tolerance(word: Callable[..., kernel.Extremal], whole: Plane, centre: float) -> None:
     """Check that a tolerance widens the circle of a single arc, and applies to the arc."""
     field, point, R, q = whole
-    near, snapped, tolerance, asked = object(), SnappedArcs(), object(), list[tuple[Any, ...]]()
+    near, snapped, arc_tolerance, asked = object(), SnappedArcs(), object(), list[tuple[Any, ...]]()
 
     def is_near_circle(beyond2: Any, radius: Any, distance: Any) -> bool:
         asked.append((beyond2 - (q.outer if centre < 0.0 else q.inner), radius - (R - centre), distance))
         return bool(near)
 
-    start = start_at(field, point.x, point.y, R)._replace(arc_tolerance=tolerance)  # type: ignore[arg-type]
+    start = start_at(field, point.x, point.y, R)._replace(arc_tolerance=arc_tolerance)  # type: ignore[arg-type]
     copied = rebinding(field.names() | {"snap_full_turn": snapped, "is_near_circle": is_near_circle})
     for near in (False, True):
         extremal = copied(word)(start)
         exists = near and (centre < 0.0 or not (R - 1.0).is_zero)
         require((extremal.straight is not inf) == exists, f"{word.__name__} does not exist within a tolerance")
-    same = all(a.is_zero and b.is_zero and c is tolerance for a, b, c in asked)
+    same = all(a.is_zero and b.is_zero and c is arc_tolerance for a, b, c in asked)
     require(same, f"{word.__name__}: the tolerance is not that of its circle")
     snapped.arcs = snapped.arcs[-1:]
-    snapped.check(word.__name__, tolerance, (extremal.first, (R - centre) * (R - centre)))
+    snapped.check(word.__name__, arc_tolerance, (extremal.first, (R - centre) * (R - centre)))
 
 
 def on_circle(word: Callable[..., kernel.Extremal], centre: float, grown: float, left: float, wide: Possible) -> None:

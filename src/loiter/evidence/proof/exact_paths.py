@@ -20,7 +20,7 @@ class Point(NamedTuple):
 
 
 def without_tolerance(rotated: Any, radius2: Any, arc_tolerance: Any) -> Any:
-    """What `angles.snap_full_turn` does where the tolerance is 0: nothing."""
+    """What `angles.snap_full_turn` does where `arc_tolerance` is 0: nothing."""
     return rotated
 
 
@@ -36,12 +36,12 @@ def exact(
 
 
 def start_at(field: Field, x: Expression, y: Expression, R: Expression) -> kernel.Start:
-    """The kernel's start at expressions, without a tolerance."""
+    """The kernel's start at expressions, with an arc tolerance of 0."""
     (function,) = exact(field, kernel.start_at)
-    tolerance = field.constant(0.0)
-    start: kernel.Start = function(x, y, R, tolerance)
-    if any(a is not b for a, b in zip(start[:4], (x, y, R, tolerance), strict=True)):  # type: ignore[comparison-overlap]
-        raise NotProved("`start_at` has another state, radius or tolerance")
+    arc_tolerance = field.constant(0.0)
+    start: kernel.Start = function(x, y, R, arc_tolerance)
+    if any(a is not b for a, b in zip(start[:4], (x, y, R, arc_tolerance), strict=True)):  # type: ignore[comparison-overlap]
+        raise NotProved("`start_at` has another state, radius or arc tolerance")
     return start
 
 
@@ -50,7 +50,7 @@ class Snapped(tuple):  # type: ignore[type-arg]
 
 
 class SnappedArcs:
-    """In place of `snap_full_turn`: what it got, the rotation, the squared radius and the tolerance, and no change."""
+    """In place of `snap_full_turn`: what it got, the rotation, the squared radius and `arc_tolerance`, and no change."""
 
     def __init__(self) -> None:
         self.arcs: list[tuple[Snapped, Any, Any]] = []
@@ -60,14 +60,14 @@ class SnappedArcs:
         self.arcs.append((Snapped(rotated), radius2, arc_tolerance))
         return self.arcs[-1][0]
 
-    def check(self, name: str, tolerance: object, *expected: tuple[Any, Expression]) -> None:
+    def check(self, name: str, arc_tolerance: object, *expected: tuple[Any, Expression]) -> None:
         """Raise `NotProved` where it did not get exactly the expected arcs, with their squared radii."""
         same = len(expected) == len(self.arcs) and all(
-            any(arc is rotated and given is tolerance and (radius2 - found).is_zero for arc, found, given in self.arcs)
+            any(arc is rotated and given is arc_tolerance and (radius2 - found).is_zero for arc, found, given in self.arcs)
             for rotated, radius2 in expected
         )
         if not same:
-            raise NotProved(f"{name}: the tolerance is not that of its arcs")
+            raise NotProved(f"{name}: the arc tolerance is another")
 
 
 def squared(point: Point, centre: float) -> Expression:

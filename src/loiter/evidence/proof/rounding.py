@@ -48,7 +48,7 @@ MOST_BOXES = 200_000
 # Digits of the balls, in bits: differences such as R - 1 keep theirs.
 BITS = 160
 
-# The relative error of `exact.beyond`, farther than three times that tolerance from its circle (docs/proof.md).
+# The relative error of `exact.beyond`, farther than three times that distance from its circle (docs/proof.md).
 BEYOND = 2.0**-51
 
 # The range: R up to 2^10; words with a straight piece up to 2^10 times the radius of the last circle.

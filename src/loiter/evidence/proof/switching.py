@@ -123,10 +123,10 @@ def lrl_on(left: float, rest: Possible, spread: Possible) -> None:
     field.assume(first2 - (y + 1.0) * (y + 1.0), NEVER_NEGATIVE)
     x = left * field.sqrt(first2 - (y + 1.0) * (y + 1.0))
     c = field.sqrt(c2)
-    snapped, tolerance = SnappedArcs(), object()
+    snapped, arc_tolerance = SnappedArcs(), object()
     (lrl,) = exact(field, kernel.lrl, known=[c / s], snap=snapped)
-    extremal = lrl(start_at(field, x, y, R)._replace(arc_tolerance=tolerance))  # type: ignore[arg-type]
-    snapped.check("lrl", tolerance, (extremal.first, first2))
+    extremal = lrl(start_at(field, x, y, R)._replace(arc_tolerance=arc_tolerance))  # type: ignore[arg-type]
+    snapped.check("lrl", arc_tolerance, (extremal.first, first2))
     require(extremal.straight == 0.0, "lrl does not exist")
     check_word("LRL", extremal)
     scale = (R + 1.0) * (5.0 - q)

@@ -19,7 +19,7 @@ SILENT_S, STALE_S, ALIVE_S = 2.0, 1.0, 0.5
 # unanswered for this time, seconds.
 LATE_S, LATE_FOR_S, UNHEARD_S = 1.0, 0.5, 3.0
 
-# The least rate of measurements, per second, with some tolerance, and the seconds for which it may be lower.
+# The least rate of measurements, per second, with some margin, and the seconds for which it may be lower.
 LEAST_HZ, SLOW_S = 4.5, 2.0
 
 # Seconds for which the estimator may report that it has no position, and for which the wind may be too strong.

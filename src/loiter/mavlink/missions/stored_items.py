@@ -236,8 +236,8 @@ def _tolerance(name: str, vehicle: Vehicle) -> float:
     return _HEADING_DEG if name == "parameter 4" and vehicle.autopilot == Autopilot.PX4 else 0.0
 
 
-def _equal(a: float, b: float, tolerance: float = 0.0) -> bool:
-    return (isnan(a) and isnan(b)) or abs(a - b) <= tolerance
+def _equal(a: float, b: float, within: float = 0.0) -> bool:
+    return (isnan(a) and isnan(b)) or abs(a - b) <= within
 
 
 def _float32(value: float) -> float:

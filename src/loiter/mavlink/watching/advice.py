@@ -70,7 +70,7 @@ class HoldDetector:
     def turn(self, offset: CircleOffset, turns: Sequence[Turn], time_s: float) -> Turn | None:
         """The direction of `turns` in which the circle is held at a time, or None.
 
-        For the first of `turns`, flying along the circle within the tolerance counts as holding it at once.
+        For the first of `turns`, flying along the circle within `tolerance_m` of it counts as holding it at once.
         """
         if self._turn is not None and self._band.has(offset, sign_of(self._turn), LEAVING):
             return self._turn
