@@ -173,6 +173,11 @@ def test_a_quote_that_is_never_closed_affects_only_its_own_line(solved, monkeypa
     assert (rows[8]["id"], rows[901]["id"], rows[2000]["id"]) == ('5" mast', 'a\nb\n"c"\n', "")
 
 
+@pytest.mark.parametrize(("lines", "expected"), [(100, ["ok", "ok"]), (101, ["malformed"] * 101 + ["ok"])])
+def test_a_quote_that_is_closed_more_than_100_lines_later_counts_as_never_closed(solved, lines, expected):
+    assert statuses(solved(HEADER + '"' + "a\n" * (lines - 1) + '",90,60,100\n1,90,60,100')[0]) == expected
+
+
 @pytest.mark.parametrize("block", [1, 7, 64, 1000])
 def test_the_same_text_in_blocks_of_any_size_gives_the_same_rows(solved, monkeypatch, block):
     text = HEADER + '0,1,2,3\n"a\n\n,b",1,2,3\r\n' * 20 + '0,"1,2,3\n' + "1,2,3,4\n" * 150 + '"q"",1,2,3'

@@ -214,8 +214,13 @@ def test_plan_is_the_first_of_all_and_no_candidate_is_sooner(scene):
     assert known[: len(every)] == every
     assert [m.duration_s for m in known] == sorted(m.duration_s for m in known)
     assert all(m.duration_s <= one.duration_s + allowed for m in every)
-    if scene[1].turn == Turn.EITHER:
-        assert {m.turn for m in known} == {Turn.CW, Turn.CCW}
+
+
+@given(windy_scenes())
+def test_where_either_turn_will_do_there_are_candidates_of_both(scene):
+    pose, orbit, *air = scene
+    known = candidates(pose, replace(orbit, turn=Turn.EITHER), *air)
+    assert {m.turn for m in known} == {Turn.CW, Turn.CCW}
 
 
 @pytest.mark.parametrize("east", [-500.0, -60.0, 60.0, 500.0])
