@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from functools import cache
 from itertools import pairwise
 from math import cos, hypot, radians, sin
 
@@ -32,11 +33,15 @@ SCENES = {
 each_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
 
-def drawn(scene, everything=False):
+def fresh(scene, everything=False):
     """The axes with the first optimum, or each, over the other extremals; and those drawn as best and as others."""
     best = plan_all(*scene)[: None if everything else 1]
     others = [m for m in candidates(*scene) if m not in best]
     return draw(best, others).axes[0], best, others
+
+
+# For those who only look: whoever changes the size of a figure needs a fresh one.
+drawn = cache(fresh)
 
 
 def artists(axes, gid):
@@ -284,7 +289,7 @@ def test_arrows_on_the_circle_point_the_way_it_is_held(scene, everything):
 @pytest.mark.parametrize("size_mm", [(203.0, 163.0), (84.0, 70.0), (174.0, 60.0)])
 @each_scene
 def test_the_scale_bar_is_as_long_as_it_says_and_hides_nothing(scene, size_mm):
-    axes, _, _ = drawn(scene)
+    axes, _, _ = fresh(scene)
     figure = axes.figure
     resize(figure, *size_mm)
     figure.draw_without_rendering()
@@ -306,7 +311,7 @@ def test_the_scale_bar_is_as_long_as_it_says_and_hides_nothing(scene, size_mm):
 @pytest.mark.parametrize("scene", [FAR, ON_CIRCLE], ids=["two lines", "one line"])
 def test_the_north_arrow_points_north_and_is_whole(scene, size_mm):
     """Also where the title, which gives the arrow its room, has one line only."""
-    axes, _, _ = drawn(scene)
+    axes, _, _ = fresh(scene)
     figure = axes.figure
     resize(figure, *size_mm)
     figure.draw_without_rendering()
@@ -453,7 +458,7 @@ def test_a_short_entry_has_one_panel(scene):
 @pytest.mark.parametrize("size_mm", [(203.0, 163.0), (84.0, 84.0), (174.0, 60.0)])
 @each_long_scene
 def test_a_second_panel_enlarges_the_last_turn_of_a_long_entry(scene, size_mm):
-    axes, [best], _ = drawn(scene)
+    axes, [best], _ = fresh(scene)
     figure = axes.figure
     resize(figure, *size_mm)
     figure.draw_without_rendering()
