@@ -29,7 +29,7 @@ def address():
         yield address
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser():
     with browsing.browsing() as browser:
         yield browser

@@ -1,9 +1,11 @@
 """A real server: `loiter serve` in a separate process, on a free port."""
 
+import asyncio
 import json
 import socket
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 
 # A server with other constants, such as {"limits.BODY_TIMEOUT_S": 0.3}, so that tests need not wait for the real ones.
@@ -69,3 +71,9 @@ def encode_request(body, path="/api/plan", headers=""):
 def encode_scene(scene):
     """A scene as the bytes of a body."""
     return json.dumps(scene).encode()
+
+
+def run_async(coroutine):
+    """The result of a coroutine, run in a thread: the browser, which is open meanwhile, has the loop of this one."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, coroutine).result()

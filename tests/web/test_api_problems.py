@@ -1,6 +1,5 @@
 """Refused requests and their problem documents (RFC 9457), which contain the library's own sentences."""
 
-import asyncio
 import json
 
 import httpx
@@ -11,7 +10,7 @@ import loiter
 from loiter.errors import LoiterError
 from loiter.web.app import create_app
 from loiter.web.problems import PROBLEM_TYPES, TYPE_PREFIX, ProblemDocument
-from web.serving import connected, read_response
+from web.serving import connected, read_response, run_async
 from web.test_api import ORIGIN, STILL, WINDY, arguments
 
 SCHEMA = ProblemDocument.model_json_schema()
@@ -53,7 +52,7 @@ def requester(app, **options):
         async with httpx.AsyncClient(transport=transport, base_url="http://localhost") as client:
             return await client.request(method, path, **request)
 
-    return lambda method, path, **request: asyncio.run(once(method, path, request))
+    return lambda method, path, **request: run_async(once(method, path, request))
 
 
 # What the library refuses

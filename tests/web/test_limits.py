@@ -12,7 +12,7 @@ from starlette.exceptions import HTTPException
 
 from loiter.web.limits import MAX_BODY_BYTES, MAX_DEPTH, depth
 from loiter.web.pool import BoundedPool
-from web.serving import connected, encode_request, encode_scene, read_response, serving
+from web.serving import connected, encode_request, encode_scene, read_response, run_async, serving
 from web.test_api import STILL, WINDY
 
 # Short time-outs for tests, seconds; a request on a busy machine takes less.
@@ -245,7 +245,7 @@ def test_work_is_refused_while_the_pool_is_full():
         assert [await first, await second] == [1, 2]
         return await pool.run(str, 4)
 
-    assert asyncio.run(scenario()) == "4"
+    assert run_async(scenario()) == "4"
 
 
 def test_abandoned_work_keeps_its_slot_until_it_is_done():
@@ -261,4 +261,4 @@ def test_abandoned_work_keeps_its_slot_until_it_is_done():
         pool.free_slots.release()
         return await pool.run(str, 3)
 
-    assert asyncio.run(scenario()) == "3"
+    assert run_async(scenario()) == "3"

@@ -17,7 +17,7 @@ from loiter.errors import MissingPackage
 from loiter.web import serve
 from loiter.web.app import create_app
 from loiter.web.server import Server, listening_socket
-from web.serving import connected, serving
+from web.serving import connected, run_async, serving
 from web.test_api import STILL
 
 
@@ -67,7 +67,7 @@ def test_a_connection_accepted_while_it_ends_does_not_delay_the_end(caplog):
         await asyncio.wait_for(server.shutdown(), 4.0)
         return late.shutdowns
 
-    assert asyncio.run(scenario()) == 2
+    assert run_async(scenario()) == 2
     # A test before may have switched on the server's own notices.
     assert not [record for record in caplog.records if record.levelno >= logging.WARNING]
 
@@ -146,7 +146,7 @@ def test_answers_are_sent_at_once():
                 await one.wait_closed()
             return option
 
-        assert asyncio.run(sends_at_once())
+        assert run_async(sends_at_once())
 
 
 @pytest.fixture
