@@ -115,8 +115,8 @@ def oracle_difference(problem: CheckProblem) -> OracleDifference:
     earlier = (found.length - planned) / (r + planned)
     later = 0.0
     if found.length < planned:
-        # OMPL's path may be shorter as it misses a little: compare from the start from which the path ends exactly on the circle,
-        # with the centre at the origin, where no offset rounds the distance from the circle.
+        # OMPL's path may be shorter as it misses a little: compare from the start from which it ends exactly on the
+        # circle, with the centre at the origin, where no offset rounds the distance from the circle.
         exact, _ = search.exact_start(start, circle, found)
         pose = Pose(exact.east, exact.north, 90.0 - degrees(exact.angle))
         centred = Orbit(0.0, 0.0, orbit.radius_m, orbit.turn)

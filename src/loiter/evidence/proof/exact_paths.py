@@ -50,7 +50,7 @@ class Snapped(tuple):  # type: ignore[type-arg]
 
 
 class SnappedArcs:
-    """In place of `snap_full_turn`: what it got, the rotation, the squared radius and `arc_tolerance`, and no change."""
+    """In place of `snap_full_turn`: the rotation, squared radius and `arc_tolerance` that it got, and no change."""
 
     def __init__(self) -> None:
         self.arcs: list[tuple[Snapped, Any, Any]] = []
@@ -63,7 +63,10 @@ class SnappedArcs:
     def check(self, name: str, arc_tolerance: object, *expected: tuple[Any, Expression]) -> None:
         """Raise `NotProved` where it did not get exactly the expected arcs, with their squared radii."""
         same = len(expected) == len(self.arcs) and all(
-            any(arc is rotated and given is arc_tolerance and (radius2 - found).is_zero for arc, found, given in self.arcs)
+            any(
+                arc is rotated and given is arc_tolerance and (radius2 - found).is_zero
+                for arc, found, given in self.arcs
+            )
             for rotated, radius2 in expected
         )
         if not same:
