@@ -5,7 +5,7 @@ from inspect import isclass, isfunction, signature
 import pytest
 
 import loiter
-from loiter import Aircraft, Maneuver, Orbit, Pose, Wind, batch, geo, guidance, io, mavlink, plot, verify
+from loiter import Aircraft, Maneuver, Orbit, Pose, Wind, batch, fences, geo, guidance, io, mavlink, plot, verify
 from loiter.errors import InvalidArgument
 from loiter.guidance import State
 from loiter.io import Mission, Site
@@ -15,7 +15,10 @@ POSE, ORBIT, UAV = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(1
 WIND, FRAME, MANEUVER = Wind(8.0, 250.0), geo.LocalFrame(47.0, 8.0), loiter.plan(POSE, ORBIT, UAV)
 LAW = guidance.LoiterEntry(ORBIT, UAV, identify=False)
 STATE = guidance.State(0.0, -400.0, 120.0, 90.0, 0.0, 18.0, 0.0, 18.0)
-FENCE, LINK = io.Fence((io.FenceCircle(47.0, 8.0, 900.0, True),)), "udpin:127.0.0.1:14999"
+FENCE, LINK = fences.Fence((fences.CircleZone("field", 0.0, 0.0, 900.0, True),)), "udpin:127.0.0.1:14999"
+PLACED = fences.PlacedFence(
+    (fences.PlacedCircle("a", 47.0, 8.0, 9.0), fences.PlacedPolygon("b", ((47.0, 8.0), (47.0, 8.1), (47.1, 8.0))))
+)
 TABLE = {"columns": {"east_m": "x"}, "origin": FRAME, "orbit_velocity_m_s": (1.0, 0.0)}
 SCENE = {"orbit": ORBIT, "aircraft": UAV, "wind": WIND}
 SAVED = {"maneuver": MANEUVER, "frame": FRAME, "datum": io.AltitudeDatum(), "altitude_m": 900.0}
@@ -36,15 +39,21 @@ CALLS = [
     (guidance.LoiterEntry, SCENE, "orbit aircraft wind roll"),
     (guidance.LoiterEntry.exact, SCENE, "orbit aircraft wind"),
     (LAW.step, {"state": STATE, "dt": 0.02}, "state"),
-    (FENCE.check, {"maneuver": MANEUVER, "frame": FRAME}, "maneuver frame"),
+    (FENCE.check, {"maneuver": MANEUVER}, "maneuver"),
+    (fences.check, {"fence": FENCE, "maneuver": MANEUVER}, "fence maneuver"),
+    (fences.default_margin_m, {"orbit": ORBIT}, "orbit"),
+    (PLACED.local, {"frame": FRAME}, "frame"),
+    (PLACED.zones[0].local, {"frame": FRAME}, "frame"),
+    (PLACED.zones[1].local, {"frame": FRAME}, "frame"),
     (io.mission, SAVED, "maneuver frame datum"),
     (io.save, {"path": "x.plan", "site": None, **SAVED}, "maneuver path frame datum site"),
     (io.save, {"path": "x.kml", "maneuver": MANEUVER}, "maneuver path"),
     (io.check_format, {"path": "x.kml"}, "path"),
     (io.read_mission, {"path": "x.plan"}, "path"),
     (io.read_site, {"path": "x.plan"}, "path"),
+    (io.read_fence, {"path": "x.plan"}, "path"),
     (io.read_parameters, {"path": "x.param"}, "path"),
-    (plot.draw, {"best": MANEUVER, "others": [], "frame": FRAME}, "best others frame"),
+    (plot.draw, {"best": MANEUVER, "others": [], "frame": FRAME, "fence": FENCE}, "best others frame fence"),
     (mavlink.upload, {"mission": io.mission(**SAVED), "connection": LINK}, "mission connection"),
     (mavlink.download, {"connection": LINK}, "connection"),
     (mavlink.watch, {"connection": LINK, "frame": FRAME, **SCENE}, "connection orbit frame aircraft wind"),

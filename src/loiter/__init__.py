@@ -55,7 +55,7 @@ __all__ = [
 
 
 # Loaded when first used.
-_MODULES = {"batch", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"}
+_MODULES = {"batch", "fences", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"}
 
 # The same, since they need NumPy.
 _ARRAY_NAMES = {

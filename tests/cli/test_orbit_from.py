@@ -6,7 +6,8 @@ import pytest
 
 import loiter
 from loiter.cli.app import main
-from loiter.io import Fence, FenceCircle, FencePolygon, MissionCircle, read_site
+from loiter.fences import PlacedCircle
+from loiter.io import MissionCircle, read_site
 from mavlink.vehicle import Vehicle, flying
 
 UAV = "--airspeed 18 --bank 35"
@@ -78,72 +79,24 @@ def test_home_and_fence_are_kept(existing, shown, tmp_path):
     assert after["mission"]["plannedHomePosition"] == [47.09, 8.21, 450.0]
     assert {item["frame"] for item in after["mission"]["items"]} == {3}
     assert loiter.io.read_mission(tmp_path / "new.waypoints").home == (47.09, 8.21, 450.0)
-    assert "The plan stays inside the fence, " in text
+    assert "The plan and its hold stay clear of the fence, " in text
 
 
-@pytest.mark.parametrize(
-    ("circles", "polygons", "options", "leaves", "margin"),
-    [
-        ([ring(3000.0)], [], "", False, 3000.0 - 2534.1),
-        ([], [box(3000.0)], "", False, None),
-        ([ring(2000.0)], [], "", True, 2000.0 - 2534.1),
-        ([], [box(1000.0)], "", True, None),
-        ([ring(50.0, inclusion=False)], [], "", False, 70.0),
-        ([ring(150.0, inclusion=False)], [], "", True, -30.0),
-        ([], [box(60.0, inclusion=False)], "", False, 120.0 - 60.0 * 2**0.5),
-        ([], [box(300.0, inclusion=False)], "", True, None),
-        ([ring(3000.0), ring(200.0)], [], "", True, 200.0 - 2534.1),
-        ([ring(3000.0), ring(200.0)], [], "--autopilot px4", False, 3000.0 - 2534.1),
-    ],
-)
-def test_a_sentence_says_whether_the_plan_leaves_the_fence(
-    existing, shown, planned, circles, polygons, options, leaves, margin
-):
-    path = existing(circles, polygons)
-    scene = f"{START} --orbit-from {path} {UAV} {options}"
-    checked = planned(scene)["fence"]
-    assert checked["inside"] == (not leaves)
-    assert (checked["leaves_in_s"] is None) == (not leaves)
-    assert (checked["margin_m"] < 0.0) == leaves
-    if margin is not None:
-        assert checked["margin_m"] == pytest.approx(margin, abs=1.0)
-    last = shown(f"plan {scene}").splitlines()[-1]
-    if leaves:
-        assert last.startswith(f"The plan leaves the fence in {checked['leaves_in_s']:.1f} s, by up to ")
-    else:
-        assert last == f"The plan stays inside the fence, {checked['margin_m']:.0f} m from it at least."
-
-
-def test_it_leaves_when_it_crosses_the_edge(existing, planned):
-    """An exclusion of 1000 m about the circle: the plan flies towards it at 18.0 m/s, from 2534 m away."""
-    path = existing([ring(1000.0, inclusion=False)])
-    assert planned(f"{START} --orbit-from {path} {UAV}")["fence"]["leaves_in_s"] == pytest.approx(86.0, abs=1.5)
-
-
-def test_a_polygon_may_be_concave():
-    """An L of two strips: its notch is outside."""
-    corners = [(0, 0), (300, 0), (300, 100), (100, 100), (100, 300), (0, 300)]
-    latitude, longitude = FRAME.to_geodetic(*zip(*corners, strict=True))
-    fence = Fence(polygons=(FencePolygon(tuple(zip(latitude.tolist(), longitude.tolist(), strict=True)), True),))
-    uav = loiter.Aircraft(5.0, min_turn_radius_m=10.0)
-
-    def margin(east_m, north_m):
-        pose = loiter.Pose(east_m, north_m + 10.0, 90.0)
-        here = loiter.plan(pose, loiter.Orbit(east_m, north_m, 10.0, "cw"), uav)
-        return fence.check(here, FRAME).margin_m
-
-    assert margin(50.0, 50.0) == pytest.approx(40.0, abs=0.1)
-    assert margin(200.0, 50.0) == pytest.approx(40.0, abs=0.1)
-    assert margin(200.0, 200.0) == pytest.approx(-(100.0 + 10.0 / 2**0.5), abs=0.1)
-    assert margin(110.0, 110.0) < 0.0
-
-
-def test_an_upload_says_it_too(existing, shown):
-    path = existing([ring(2000.0)])
-    with flying(Vehicle([])) as vehicle:
-        text = shown(f"upload --connect {vehicle.connection} {START} --orbit-from {path} {UAV} --altitude 900")
-    assert "The plan leaves the fence in 0.0 s, by up to 534 m." in text
-    assert vehicle.mission[-1][2][2] == -120.0
+def test_an_upload_outside_the_fence_is_refused(existing, capsys):
+    """The start, 2534 m from the middle of a fence of 2000 m, and a hold that enters a zone."""
+    for circles, problem in (
+        ([ring(2000.0)], "--pose is outside the inclusion zone 'circle 1': a plan must begin inside"),
+        (
+            [ring(150.0, inclusion=False)],
+            "--fence is not kept, and nothing is sent: The plan enters the zone 'circle 1'",
+        ),
+    ):
+        path = existing(circles)
+        with flying(Vehicle([])) as vehicle:
+            arguments = f"upload --connect {vehicle.connection} {START} --orbit-from {path} {UAV} --altitude 900"
+            assert main(arguments.split()) == 2
+            assert problem in capsys.readouterr().err
+            assert vehicle.mission == []
 
 
 def test_a_site_is_read(existing):
@@ -151,8 +104,9 @@ def test_a_site_is_read(existing):
     assert site.home == (47.09, 8.21, 450.0)
     [circle] = site.circles
     assert circle == MissionCircle(3, pytest.approx(47.11), pytest.approx(8.23), 120.0, loiter.Turn.CCW)
-    assert site.fence.circles == (FenceCircle(47.11, 8.23, 500.0, False),)
-    assert len(site.fence.polygons[0].corners) == 4
+    polygon, ring_outside = site.fence.zones
+    assert ring_outside == PlacedCircle("circle 1", 47.11, 8.23, 500.0, False)
+    assert (len(polygon.corners), polygon.inclusion) == (4, True)
 
 
 def first_area(kind, key, value):

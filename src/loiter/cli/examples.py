@@ -9,7 +9,9 @@ EXAMPLES = {
   loiter plan --pose -400 120 90 --orbit 0 0 120 --wind 8 250 \
       --airspeed 18 --bank 35 --certify
   loiter plan --pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 \
-      --airspeed 18 --bank 35 --altitude 900 --save entry.plan""",
+      --airspeed 18 --bank 35 --altitude 900 --save entry.plan
+  loiter plan --pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 \
+      --airspeed 18 --bank 35 --fence field.plan --margin 20""",
     "batch": r"""
   loiter batch states.parquet entries/ --orbit 0 0 80 \
       --airspeed 18 --bank 35
@@ -64,7 +66,7 @@ PROGRAM_ONLY = ("",)
 # shows the first text of each.
 STATUSES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("  0  done", ()),
-    ("  1  a check failed (loiter verify, loiter prove, loiter plan --certify)", ("plan", "verify", "prove")),
+    ("  1  a check failed: loiter verify, loiter prove, loiter plan --certify or --fence", ("plan", "verify", "prove")),
     (
         """  2  the request cannot be met: one sentence on standard error says why,
      and no file is left half written""",

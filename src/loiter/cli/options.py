@@ -39,6 +39,7 @@ from loiter.plot import files
 from loiter.plot.sizes import PictureFormat
 
 if TYPE_CHECKING:
+    from loiter.fences import PlacedFence
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
 
@@ -155,7 +156,7 @@ class OrbitOptions:
         Parameter(
             group=scene,
             metavar="FILE",
-            help="Instead of --orbit-lla: the circle of an existing mission, .plan or .waypoints, that of its first loiter item, in its direction. Plans and missions keep its home and its fence: a line says whether the plan stays inside.",
+            help="Instead of --orbit-lla: the circle of an existing mission, .plan or .waypoints, that of its first loiter item, in its direction. Plans and missions keep its home and its fence, which is checked as with --fence.",
         ),
     ] = None
     turn: Annotated[
@@ -461,6 +462,39 @@ class WindOptions:
         """Raise `InvalidArgument` for a declination that has no effect on the wind and on the start."""
         poses = [] if start is None else [start.pose, start.pose_lla]
         check_declination(self.declination, *(values[-1] for values in (self.wind, *poses) if values))
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class FenceOptions:
+    """A fence, and how far from it the path must stay."""
+
+    fence: Annotated[
+        Path | None,
+        Parameter(
+            group=scene,
+            metavar="FILE",
+            help="Fence of polygons and circles: .plan of QGroundControl, QGC WPL 110 with fence items, or latitudes and longitudes as ArduPilot's fence.txt. A line says whether the plan and its hold stay clear, and if not, where and when they enter which zone: exit status 1. That of --orbit-from if absent.",
+        ),
+    ] = None
+    margin: Annotated[
+        Metres,
+        Parameter(
+            group=scene,
+            help="Least distance from the fence; if absent, what loiter guide may be beside its path: 5 % of the radius, and 5 m at least.",
+        ),
+    ] = None
+
+    def placed(self, site: Site | None) -> PlacedFence | None:
+        """The fence of the file, or that of an existing mission; None without one. Raises `InvalidArgument`."""
+        if self.fence is not None:
+            from loiter.io.missions.fences import read_fence
+
+            return read_fence(self.fence)
+        found = None if site is None else site.fence
+        if found is None and self.margin is not None:
+            raise InvalidArgument("margin_m", "has no effect without --fence")
+        return found
 
 
 Fit = Annotated[

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
-from loiter.cli.options import AircraftOptions, OrbitOptions, StartOptions, WindOptions
+from loiter.cli.options import AircraftOptions, FenceOptions, OrbitOptions, StartOptions, WindOptions
 from loiter.errors import InvalidArgument, RadiusTooSmall
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
@@ -16,7 +16,7 @@ from loiter.planning.model import Orbit, Pose
 from loiter.planning.problem import Problem
 
 if TYPE_CHECKING:
-    from loiter.io.missions.fence import FenceCheck
+    from loiter.fences import Fence, FenceCheck
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
     from loiter.planning.maneuver import Maneuver
@@ -114,10 +114,24 @@ def place_scene(
     return Pose(east_m, north_m, air.true_heading("pose heading_deg", heading_deg)), circle, None
 
 
-def fence_check(
-    site: Site | None, maneuver: Maneuver, frame: LocalFrame | None, *, any_inclusion: bool
-) -> FenceCheck | None:
-    """Whether a plan stays inside the fence of an existing mission; None without a fence."""
-    if site is None or frame is None:
+class CheckedFence(NamedTuple):
+    """A fence in local metres, and whether a plan stays clear of it."""
+
+    fence: Fence
+    check: FenceCheck
+
+
+def check_fence(
+    options: FenceOptions, site: Site | None, maneuver: Maneuver, frame: LocalFrame | None
+) -> CheckedFence | None:
+    """Whether a plan stays clear of the fence of the options or of an existing mission; None without a fence."""
+    placed = options.placed(site)
+    if placed is None:
         return None
-    return site.fence.check(maneuver, frame, any_inclusion=any_inclusion)
+    if frame is None:
+        raise InvalidArgument("fence", "goes with --pose-lla and --orbit-lla: its places are in degrees")
+    try:
+        fence = placed.local(frame)
+    except InvalidArgument as error:
+        raise InvalidArgument("fence", f"cannot be used: {error}") from error
+    return CheckedFence(fence, fence.check(maneuver, options.margin))

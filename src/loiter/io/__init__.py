@@ -2,7 +2,7 @@
 
 from loiter.io.files import FORMATS, check_format, read_mission, save
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
-from loiter.io.missions.fence import Fence, FenceCheck, FenceCircle, FencePolygon
+from loiter.io.missions.fences import read_fence
 from loiter.io.missions.items import Autopilot, Frame, MavCommand, Mission, MissionItem
 from loiter.io.missions.mission import mission
 from loiter.io.missions.parameters import Preset, read_parameters
@@ -14,10 +14,6 @@ __all__ = [
     "AltitudeDatum",
     "AltitudeReference",
     "Autopilot",
-    "Fence",
-    "FenceCheck",
-    "FenceCircle",
-    "FencePolygon",
     "Frame",
     "MavCommand",
     "Mission",
@@ -27,6 +23,7 @@ __all__ = [
     "Site",
     "check_format",
     "mission",
+    "read_fence",
     "read_mission",
     "read_parameters",
     "read_site",

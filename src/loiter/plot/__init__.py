@@ -11,6 +11,8 @@ from loiter.planning.maneuver import Maneuver
 
 if TYPE_CHECKING:
     from matplotlib import figure as figures
+
+    from loiter.fences import Breach, Fence
 else:
     figures = LazyModule("matplotlib.figure")
 
@@ -22,6 +24,8 @@ def draw(
     others: Sequence[Maneuver] = (),
     *,
     frame: LocalFrame | None = None,
+    fence: Fence | None = None,
+    breaches: Sequence[Breach] = (),
     size_mm: tuple[float, float] | None = None,
     dpi: float | None = None,
 ) -> figures.Figure:
@@ -30,11 +34,12 @@ def draw(
     The segments of `best` are coloured, if they are as fast as the fastest of them; slower ones count as `others`. Of
     `others`, such as the remaining ones of `loiter.candidates`, the soonest in each direction is a grey band below; the
     rest is not drawn: it would hide the path. If the turns are too small to see, a second panel enlarges the last one.
-    With a frame the axes name its origin on Earth. `size_mm` is the width and height of the figure, by default 203 mm
-    by 163 mm, or by 107 mm for a wide scene with a second panel; in narrow figures text shrinks to 7 points at the
-    least. `dpi` are the dots per inch in which `Figure.savefig` writes a PNG. Raises `InvalidArgument` for something
-    that is no maneuver, and for none; for sizes below 80 mm by 60 mm or above 1189 mm, for resolutions that are not
-    from 30 to 1200, and for more than 200 million pixels.
+    With a frame the axes name its origin on Earth. Of a `fence` the zones to stay out of are hatched, those to stay in
+    are dashed, and crosses mark its `breaches`, from `Fence.check`. `size_mm` is the width and height of the figure, by
+    default 203 mm by 163 mm, or by 107 mm for a wide scene with a second panel; in narrow figures text shrinks to 7
+    points at the least. `dpi` are the dots per inch in which `Figure.savefig` writes a PNG. Raises `InvalidArgument`
+    for something that is no maneuver, and for none; for sizes below 80 mm by 60 mm or above 1189 mm, for resolutions
+    that are not from 30 to 1200, and for more than 200 million pixels.
 
     >>> from loiter import Aircraft, Orbit, Pose, plan
     >>> m = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0))
@@ -42,6 +47,7 @@ def draw(
     'east (m)'
     """
     from loiter.errors import InvalidArgument, instance
+    from loiter.fences import Fence
     from loiter.plot import picture
     from loiter.plot.sizes import PictureFormat
 
@@ -51,8 +57,10 @@ def draw(
         instance("maneuver", maneuver, Maneuver)
     if frame is not None:
         instance("frame", frame, LocalFrame)
+    if fence is not None:
+        instance("fence", fence, Fence)
     if not maneuvers:
         raise InvalidArgument("maneuver", "is missing: there is none to draw")
-    figure = picture.draw(maneuvers, slower, frame=frame)
+    figure = picture.draw(maneuvers, slower, frame=frame, fence=fence, breaches=breaches)
     chosen.apply(figure)
     return figure

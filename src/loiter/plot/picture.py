@@ -12,11 +12,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
+from loiter.fences import Breach, Fence
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
 from loiter.planning.flight import along
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Segment, Turn
+from loiter.plot.fences import FENCE_STYLES, draw_fence
 from loiter.plot.marks import (
     CHORD_RAD,
     Box,
@@ -72,7 +74,14 @@ RESOLUTION = 1e-6
 WHOLE_CIRCLE, WHOLE_PATH = 4.0, 12.0
 
 
-def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: LocalFrame | None = None) -> Figure:
+def draw(
+    best: Sequence[Maneuver],
+    others: Sequence[Maneuver] = (),
+    *,
+    frame: LocalFrame | None = None,
+    fence: Fence | None = None,
+    breaches: Sequence[Breach] = (),
+) -> Figure:
     """Draw maneuvers from one start: `best` coloured by segment, over the soonest of `others` in each direction.
 
     Those of `best` that are slower than the fastest of them count as `others`.
@@ -81,7 +90,8 @@ def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: Lo
     origin on Earth. Start, switches and join are marked. If the turns are specks, a second panel enlarges the last one,
     with the circle. The first of `best` gives the title. In wind, tracks are ground tracks, and an arrow beside the
     title shows the direction in which the air moves. A moving circle is drawn where it is when it is joined, and faint
-    where it is at the start; each of `others` ends on the circle at its own time of joining.
+    where it is at the start; each of `others` ends on the circle at its own time of joining. The zones of a fence to
+    stay out of are hatched, those to stay in are dashed, and crosses mark where `breaches` of it begin.
     """
     fastest = min(best, key=lambda maneuver: maneuver.duration_s)
     slower = soonest_each_way([*others, *(maneuver for maneuver in best if _is_later(maneuver, fastest))])
@@ -98,8 +108,10 @@ def draw(best: Sequence[Maneuver], others: Sequence[Maneuver] = (), *, frame: Lo
         axes, detail = figure.subplots(1, 2)
         figure.suptitle(_title(best), fontsize="large")
         _draw_panel(detail, best, slower)
+        draw_fence(detail, fence, breaches, whole)
         enlarge(detail, enlarged, axes, f"{_enlarged_part(best, enlarged)}, enlarged")
     _draw_panel(axes, best, slower, elsewhere=enlarged)
+    draw_fence(axes, fence, breaches, whole)
     if frame is not None:
         axes.set_xlabel(f"east of {degrees_of(frame.latitude_deg, frame.longitude_deg)} (m)")
     if first.wind.speed_m_s > 0.0:
@@ -234,6 +246,7 @@ def _legend(figure: Figure, best: Sequence[Maneuver], slower: Sequence[Maneuver]
         "circle": {"color": "black", "linewidth": 1.4, "label": "holding circle"},
         "circle at the start": {"label": "circle at the start", **AT_THE_START},
         **{name: {"color": "black", "linestyle": "none", "label": name, **style} for name, style in MARKS.items()},
+        **{name: {"label": name, **style} for name, style in FENCE_STYLES.items()},
         **bands,
     }
     drawn = drawn_gids(figure)

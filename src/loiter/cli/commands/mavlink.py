@@ -19,6 +19,7 @@ import loiter
 from loiter.cli import report, vehicles
 from loiter.cli.numbers import whole
 from loiter.cli.options import (
+    FenceOptions,
     Fit,
     MissionOptions,
     OrbitOptions,
@@ -30,7 +31,7 @@ from loiter.cli.options import (
     WindOptions,
     output,
 )
-from loiter.cli.scenes import fence_check, fit_proposed, read_options
+from loiter.cli.scenes import check_fence, fit_proposed, read_options
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.io.document import maneuver_values
@@ -99,6 +100,7 @@ def upload(
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
     uav: PlannedAircraftOptions = PlannedAircraftOptions(),
     air: WindOptions = WindOptions(),
+    fence: FenceOptions = FenceOptions(),
     fit: Fit = False,
     waypoints: MissionOptions = MissionOptions(),
     json: Annotated[
@@ -108,7 +110,7 @@ def upload(
     """Send the fastest entry to a vehicle as a mission, and read it back, item by item, to verify it."""
     # These checks come before anything is planned or printed.
     check_target(connect, system, 1, timeout)
-    options = (pose, circle, uav, air, waypoints)
+    options = (pose, circle, uav, air, waypoints, fence)
     to_send: Mission | Callable[[int], Mission]
     plan: dict[str, object] = {}
     own_loiter = ""
@@ -161,6 +163,7 @@ def _plan_mission(
     uav: PlannedAircraftOptions,
     air: WindOptions,
     waypoints: MissionOptions,
+    fence: FenceOptions,
     *,
     fit: bool,
 ) -> PlannedMission:
@@ -188,12 +191,14 @@ def _plan_mission(
     )
     # An entry that cannot become a mission is refused before anything is printed.
     to_mission()
-    checked = fence_check(circle.site, best, frame, any_inclusion=False)
+    fenced = check_fence(fence, circle.site, best, frame)
+    if fenced and not fenced.check.clear:
+        raise InvalidArgument("fence", f"is not kept, and nothing is sent: {fenced.check.sentence(frame)}")
     lines = [
         *([remark] if remark else []),
         str(best),
         *([report.ALONG_PATH] if along_path else []),
-        *([checked.sentence] if checked else []),
+        *([fenced.check.sentence(frame)] if fenced else []),
     ]
     return PlannedMission(best, frame, lambda autopilot: to_mission(autopilot=autopilot), lines)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
@@ -13,6 +13,7 @@ from loiter.cli import certificates, report
 from loiter.cli.numbers import metres, one
 from loiter.cli.options import (
     AircraftOptions,
+    FenceOptions,
     Fit,
     MissionOptions,
     OrbitOptions,
@@ -24,7 +25,7 @@ from loiter.cli.options import (
     output,
     scene,
 )
-from loiter.cli.scenes import fence_check, fit_proposed, read_options
+from loiter.cli.scenes import CheckedFence, check_fence, fit_proposed, read_options
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
 from loiter.geo import LocalFrame
@@ -95,6 +96,7 @@ def plan(
     circle: OrbitOptions = OrbitOptions(),
     uav: PlannedAircraftOptions = PlannedAircraftOptions(),
     air: WindOptions = WindOptions(),
+    fence: FenceOptions = FenceOptions(),
     fit: Fit = False,
     tolerance: Tolerance = 0.0,
     lead: Lead = 0.0,
@@ -122,30 +124,36 @@ def plan(
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
     # Files are written before pictures: they have more requirements, and if one fails, no picture is left.
     site, target = circle.site, _target(autopilot, uav)
-    checked = fence_check(site, first, frame, any_inclusion=target == Autopilot.PX4)
+    fenced = check_fence(fence, site, first, frame)
     written = [*_save(save, first, frame, uav, waypoints, target, site)]
     slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
     if pictures.plot:
         from loiter.plot.picture import draw
 
-        figure = draw(shown, slower if all_ else [*ties, *slower], frame=frame)
+        figure = draw(shown, slower if all_ else [*ties, *slower], frame=frame, **_drawn(fenced))
         pictures.save(figure)
         written += certificates.save_pictures(pictures, certified)
     if json:
         fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
         led = {"lead_s": lead} if lead else {}
-        fence = {"fence": checked._asdict()} if checked else {}
-        members = fitted | certificates.document(certified) | led | fence | report.files_member(written)
+        checked = {"fence": fenced.check.to_dict(frame)} if fenced else {}
+        members = fitted | certificates.document(certified) | led | checked | report.files_member(written)
         report.print_json(answer(best, others, frame) | members)
     else:
         remarks = [*([remark] if remark else []), *([report.begins(first, lead, frame)] if lead else [])]
         report.print_tables(best, others, everything=all_, frame=frame, remark="\n".join(remarks))
         certificates.print_text(certified)
-        lines = [*([report.ALONG_PATH] if along_path else []), *([checked.sentence] if checked else [])]
+        lines = [*([report.ALONG_PATH] if along_path else []), *([fenced.check.sentence(frame)] if fenced else [])]
         if any(map(is_mission, save)):
             lines += _mission_lines(first, uav, waypoints, target, site)
         report.write(*lines, *report.files_line(written))
-    return 0 if all(certificate.valid for certificate in certified) else CHECK_FAILED
+    is_clear = fenced is None or fenced.check.clear
+    return 0 if is_clear and all(certificate.valid for certificate in certified) else CHECK_FAILED
+
+
+def _drawn(fenced: CheckedFence | None) -> dict[str, Any]:
+    """What a picture shows of a fence."""
+    return {} if fenced is None else {"fence": fenced.fence, "breaches": fenced.check.breaches}
 
 
 def _target(autopilot: AutopilotName | None, uav: AircraftOptions) -> Autopilot:

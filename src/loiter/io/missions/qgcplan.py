@@ -62,12 +62,18 @@ def read_qgcplan(source: Source, text: str) -> Mission:
 
 def read_document(source: Source, text: str) -> dict[str, Any]:
     """The JSON document of a plan, with a mission, in versions that are known. Raises `InvalidArgument`."""
+    document = read_plan(source, text)
+    mission = kind(source, "mission", document.get("mission"), dict, "an object")
+    check_version(source, "the version of mission", mission, 2)
+    return document
+
+
+def read_plan(source: Source, text: str) -> dict[str, Any]:
+    """The JSON document of a plan, whatever it has in it. Raises `InvalidArgument`."""
     document = _parsed(source, text)
     if document.get("fileType") != "Plan":
         raise source.fault(f"fileType is {shown(document.get('fileType'))}: it must be 'Plan'")
-    _version(source, "version", document, 1)
-    mission = kind(source, "mission", document.get("mission"), dict, "an object")
-    _version(source, "the version of mission", mission, 2)
+    check_version(source, "version", document, 1)
     return document
 
 
@@ -145,7 +151,8 @@ def kind(source: Source, where: str, value: Any, type_: type, wanted: str) -> An
     return value
 
 
-def _version(source: Source, where: str, document: dict[str, Any], wanted: int) -> None:
+def check_version(source: Source, where: str, document: dict[str, Any], wanted: int) -> None:
+    """Raise `InvalidArgument`, which names the place, for another version than the one that is read."""
     version = document.get("version")
     if isinstance(version, bool) or version != wanted:
         raise source.fault(f"{where} is {shown(version)}: only {wanted} is read")

@@ -26,17 +26,21 @@ def wpl(mission: Mission) -> bytes:
 
 def read_wpl(source: Source, text: str) -> Mission:
     """The mission in the text of a file. Raises `InvalidArgument`."""
+    (home_line, home), *flown = read_items(source, text)
+    home_place = home.latitude_deg, home.longitude_deg, home.altitude_m
+    check_place(source, home_line, *home_place)
+    return checked_mission(source, Mission(tuple(checked_item(source, *item) for item in flown), home_place))
+
+
+def read_items(source: Source, text: str) -> list[tuple[str, MissionItem]]:
+    """All items in the text of a file, the first included, each with its line. Raises `InvalidArgument`."""
     header, *lines = text.splitlines()
     if header.split() != HEADER.split():
         raise source.fault(f"its first line is {shown(header)}: it must be {HEADER}")
     rows = [(f"line {number}", line.split()) for number, line in enumerate(lines, start=2) if line.strip()]
     if not rows:
         raise source.fault("it ends after its first line")
-    items = [(where, _item(source, where, sequence, fields)) for sequence, (where, fields) in enumerate(rows)]
-    (home_line, home), *flown = items
-    home_place = home.latitude_deg, home.longitude_deg, home.altitude_m
-    check_place(source, home_line, *home_place)
-    return checked_mission(source, Mission(tuple(checked_item(source, *item) for item in flown), home_place))
+    return [(where, _item(source, where, sequence, fields)) for sequence, (where, fields) in enumerate(rows)]
 
 
 def _line(number: int, item: MissionItem) -> str:

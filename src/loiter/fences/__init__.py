@@ -1,0 +1,18 @@
+"""Fences: zones to stay in or out of, and whether a maneuver and its hold do."""
+
+from loiter.fences.check import Breach, FenceCheck, check, default_margin_m
+from loiter.fences.model import CircleZone, Fence, PolygonZone
+from loiter.fences.places import PlacedCircle, PlacedFence, PlacedPolygon
+
+__all__ = [
+    "Breach",
+    "CircleZone",
+    "Fence",
+    "FenceCheck",
+    "PlacedCircle",
+    "PlacedFence",
+    "PlacedPolygon",
+    "PolygonZone",
+    "check",
+    "default_margin_m",
+]

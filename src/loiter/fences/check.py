@@ -1,0 +1,202 @@
+"""Whether a maneuver and its hold stay clear of a fence, and otherwise where and when they enter which zone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from loiter.errors import InvalidArgument, instance, not_negative
+from loiter.fences.model import Fence, Zone
+from loiter.fences.pieces import FlownPath, flown_path, time_in_hold
+from loiter.fences.search import TOUCH_M, Closest, PlaceInPath, Signed, approach, first_entry, least_distance
+from loiter.geo.frame import LocalFrame, degrees_of
+from loiter.planning.maneuver import Maneuver, decimals_of
+from loiter.planning.model import Orbit, Pose
+
+# What `loiter guide` may be beside its path while it counts as on it (docs/autopilots.md): 5 % of the radius, and 5 m
+# at least. This is the default margin.
+MARGIN_SHARE, LEAST_MARGIN_M = 0.05, 5.0
+
+
+def default_margin_m(orbit: Orbit) -> float:
+    """The default margin for a circle, metres: how far beside its path a vehicle may be that `loiter guide` flies."""
+    instance("orbit", orbit, Orbit)
+    return max(LEAST_MARGIN_M, MARGIN_SHARE * orbit.radius_m)
+
+
+class Breach(NamedTuple):
+    """A zone that a path enters, or to which it comes closer than the margin.
+
+    `clearance_m` is the least distance from the zone, metres; where the path `enters` the zone it is how deep it goes,
+    negative. The place (metres) and the time (seconds) are those of the first entry, or of the closest approach where
+    only the margin is not kept. `holding` says whether that is on the circle, after joining.
+    """
+
+    zone: Zone
+    clearance_m: float
+    east_m: float
+    north_m: float
+    time_s: float
+    holding: bool
+
+    @property
+    def enters(self) -> bool:
+        """Whether the path enters or touches the zone itself."""
+        return self.clearance_m <= TOUCH_M
+
+
+class FenceCheck(NamedTuple):
+    """The answer of `Fence.check`: the margin, the least clearance and its zone, place and time, and every breach.
+
+    Metres and seconds; `clearance_m` is negative inside a zone. Breaches are in the order of their times.
+    """
+
+    margin_m: float
+    closest: Breach
+    breaches: tuple[Breach, ...]
+    decimals: int = 1
+
+    @property
+    def clear(self) -> bool:
+        """Whether the path and the hold stay farther from every zone than the margin."""
+        return not self.breaches
+
+    @property
+    def clearance_m(self) -> float:
+        """The least distance from any zone, metres; negative where one is entered."""
+        return self.closest.clearance_m
+
+    def sentence(self, frame: LocalFrame | None = None) -> str:
+        """The answer in a sentence; with a frame places are in degrees."""
+        return _clear_sentence(self, frame) if self.clear else _breach_sentence(self, frame)
+
+    def to_dict(self, frame: LocalFrame | None = None) -> dict[str, object]:
+        """The answer as plain values for JSON; with a frame its places have latitude and longitude too."""
+        return {
+            "clear": self.clear,
+            "margin_m": self.margin_m,
+            "closest": _values(self.closest, frame),
+            "breaches": [_values(breach, frame) for breach in self.breaches],
+        }
+
+
+def check(fence: Fence, maneuver: Maneuver, margin_m: float | None = None) -> FenceCheck:
+    """Whether a maneuver and its hold stay farther from every zone of a fence than a margin, metres.
+
+    The margin is that of `default_margin_m` if it is absent. What comes within a micrometre of the margin does not keep
+    it. A circle that moves is checked as a disc, for the longest that one round can take. Raises `InvalidArgument` for
+    a margin that is negative or not finite, and for a start outside an inclusion zone or inside another one.
+    """
+    instance("fence", fence, Fence)
+    instance("maneuver", maneuver, Maneuver)
+    margin_m = default_margin_m(maneuver.orbit) if margin_m is None else not_negative("margin_m", margin_m, "metres")
+    path = flown_path(maneuver)
+    _check_start(fence, maneuver.start)
+    polygons, circles = approach(fence, path.pieces, margin_m)
+    approaches: list[tuple[Zone, PlaceInPath]] = []
+    kinds: tuple[tuple[Sequence[Zone], Closest], ...] = ((fence.polygons, polygons), (fence.circle_zones, circles))
+    for zones, closest in kinds:
+        places = zip(closest.distance.tolist(), closest.piece.tolist(), closest.time_s.tolist(), strict=True)
+        approaches += [(zone, PlaceInPath(*place)) for zone, place in zip(zones, places, strict=True)]
+    zone, nearest = min(approaches, key=lambda each: each[1].distance)
+    breaches = [_breach(zone, near, path, maneuver) for zone, near in approaches if near.distance <= margin_m + TOUCH_M]
+    ordered = tuple(sorted(breaches, key=lambda breach: breach.time_s))
+    least = min(ordered, key=lambda breach: breach.clearance_m, default=None)
+    closest_one = least or _at(zone, nearest.distance, nearest, path, maneuver)
+    return FenceCheck(margin_m, closest_one, ordered, decimals_of(maneuver.orbit))
+
+
+def _check_start(fence: Fence, start: Pose) -> None:
+    """Raise `InvalidArgument` for a start on the wrong side of a zone; one that touches it is a breach."""
+    import numpy as np
+
+    east, north = np.array([start.east_m]), np.array([start.north_m])
+    for zone in fence.zones:
+        if float(Signed(zone).at(east, north)[0]) < -TOUCH_M:
+            raise InvalidArgument("pose", _wrong_side(zone))
+
+
+def _wrong_side(zone: Zone) -> str:
+    if zone.inclusion:
+        return f"is outside the inclusion zone {zone.name!r}: a plan must begin inside"
+    return f"is inside the zone {zone.name!r}: a plan must begin outside"
+
+
+def _breach(zone: Zone, near: PlaceInPath, path: FlownPath, maneuver: Maneuver) -> Breach:
+    """A zone that is entered, searched for where and how deep, or that is too close."""
+    if near.distance > TOUCH_M:
+        return _at(zone, near.distance, near, path, maneuver)
+    deepest = least_distance(path.pieces, zone).distance
+    return _at(zone, deepest, first_entry(path.pieces, zone), path, maneuver)
+
+
+def _at(zone: Zone, clearance_m: float, place: PlaceInPath, path: FlownPath, maneuver: Maneuver) -> Breach:
+    """The place and the time of a point of the path."""
+    pieces = path.pieces
+    x, y = pieces.take(place.piece).position(place.time_s)
+    holding = place.piece == pieces.x.size - 1
+    time_s = float(pieces.start_s[place.piece]) + place.time_s
+    if holding and not maneuver.orbit.moves:
+        flown_rad = float(place.time_s * pieces.speed[place.piece] / pieces.radius[place.piece])
+        time_s = path.hold_s + time_in_hold(maneuver, flown_rad)
+    return Breach(zone, clearance_m, float(x), float(y), time_s, holding)
+
+
+def _clear_sentence(found: FenceCheck, frame: LocalFrame | None) -> str:
+    near = found.closest
+    where = f"at {_place(near, frame, found.decimals)}"
+    return (
+        f"The plan and its hold stay clear of the fence, {near.clearance_m:.{found.decimals}f} m from "
+        f"{_named(near.zone)} at least, {where}."
+    )
+
+
+def _breach_sentence(found: FenceCheck, frame: LocalFrame | None) -> str:
+    first, *others = found.breaches
+    d = found.decimals
+    where = f"{'on the circle, ' if first.holding else ''}in {first.time_s:.{d}f} s, at {_place(first, frame, d)}"
+    more = f"; {_and_others(others)}" if others else ""
+    if not first.enters:
+        near = f"comes within {first.clearance_m:.{d}f} m of {_named(first.zone)} {where}"
+        return f"The plan {near}, less than the margin of {found.margin_m:g} m{more}."
+    does = "leaves" if first.zone.inclusion else "enters"
+    depth = (
+        f"by up to {max(0.0, -first.clearance_m):.{d}f} m" if first.clearance_m < -TOUCH_M else "where it touches it"
+    )
+    return f"The plan {does} {_named(first.zone)} {where}, {depth}{more}."
+
+
+def _and_others(others: Sequence[Breach]) -> str:
+    names = " and ".join(repr(breach.zone.name) for breach in others)
+    return f"later also {names}"
+
+
+def _named(zone: Zone) -> str:
+    return f"the {'inclusion zone' if zone.inclusion else 'zone'} {zone.name!r}"
+
+
+def _place(breach: Breach, frame: LocalFrame | None, decimals: int) -> str:
+    """A place as text: "120 m east, 30 m south", or in degrees."""
+    if frame is not None:
+        place = frame.place(Pose(breach.east_m, breach.north_m, 0.0))
+        return degrees_of(place.latitude_deg, place.longitude_deg)
+    d = decimals - 1
+    east, north = ("east" if breach.east_m >= 0.0 else "west"), ("north" if breach.north_m >= 0.0 else "south")
+    return f"{abs(breach.east_m):.{d}f} m {east}, {abs(breach.north_m):.{d}f} m {north}"
+
+
+def _values(breach: Breach, frame: LocalFrame | None) -> dict[str, object]:
+    values: dict[str, object] = {
+        "zone": breach.zone.name,
+        "inclusion": breach.zone.inclusion,
+        "clearance_m": breach.clearance_m,
+        "enters": breach.enters,
+        "time_s": breach.time_s,
+        "holding": breach.holding,
+        "east_m": breach.east_m,
+        "north_m": breach.north_m,
+    }
+    if frame is None:
+        return values
+    place = frame.place(Pose(breach.east_m, breach.north_m, 0.0))
+    return values | {"latitude_deg": place.latitude_deg, "longitude_deg": place.longitude_deg}

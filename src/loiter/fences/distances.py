@@ -1,0 +1,198 @@
+"""Distances in closed form: points, chords and arcs of circles to edges; all arguments broadcast.
+
+Distances are unsigned, metres. Each function of two curves returns the least distance and where on the first curve it
+is, as a share of its length from 0 to 1.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+    from loiter.fences.model import Edges
+    from loiter.fences.pieces import Pieces
+
+# Any real arrays that broadcast.
+Reals = Any
+
+
+class Nearest(NamedTuple):
+    """The least distance, and where on the first curve it is, as a share of its length."""
+
+    distance: NDArray[float64]
+    share: NDArray[float64]
+
+
+def to_edge(x: Reals, y: Reals, edges: Edges) -> Reals:
+    """The distance of points to edges: to the foot of the perpendicular or, where it is beyond an end, to that end."""
+    import numpy as np
+
+    ex, ey = edges.bx - edges.ax, edges.by - edges.ay
+    px, py = x - edges.ax, y - edges.ay
+    share = np.clip((px * ex + py * ey) / (ex * ex + ey * ey), 0.0, 1.0)
+    return np.hypot(px - share * ex, py - share * ey)
+
+
+def foot_share(x: Reals, y: Reals, ax: Reals, ay: Reals, bx: Reals, by: Reals) -> Reals:
+    """Where on the line from a to b the foot of a point is, as a share from 0 to 1; 0 where a and b are one point."""
+    import numpy as np
+
+    ex, ey = bx - ax, by - ay
+    length_2 = ex * ex + ey * ey
+    along = (x - ax) * ex + (y - ay) * ey
+    return np.clip(
+        np.divide(along, length_2, out=np.zeros(np.broadcast(along, length_2).shape), where=length_2 > 0.0), 0.0, 1.0
+    )
+
+
+def chord_to_point(ax: Reals, ay: Reals, bx: Reals, by: Reals, x: Reals, y: Reals) -> Nearest:
+    """The distance of chords from a to b to points."""
+    import numpy as np
+
+    share = foot_share(x, y, ax, ay, bx, by)
+    return Nearest(np.hypot(ax + share * (bx - ax) - x, ay + share * (by - ay) - y), share)
+
+
+def chord_to_edge(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> Nearest:
+    """The distance of chords from a to b to edges.
+
+    Two segments that do not cross are nearest at an end of one of them.
+    """
+    import numpy as np
+
+    c = chord_to_point(ax, ay, bx, by, edges.ax, edges.ay)
+    d = chord_to_point(ax, ay, bx, by, edges.bx, edges.by)
+    from_a, from_b = to_edge(ax, ay, edges), to_edge(bx, by, edges)
+    shape = np.broadcast_shapes(c.distance.shape, from_a.shape)
+    zero, crossing = np.zeros(shape), crossing_share(ax, ay, bx, by, edges)
+    distances = np.stack([from_a + zero, from_b + zero, c.distance, d.distance, np.where(crossing >= 0.0, 0.0, np.inf)])
+    shares = np.stack([zero, zero + 1.0, c.share, d.share, crossing])
+    best = distances.argmin(axis=0)[None]
+    return Nearest(np.take_along_axis(distances, best, 0)[0], np.take_along_axis(shares, best, 0)[0])
+
+
+def crossing_share(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> Reals:
+    """Where chords cross edges, as a share of the chord; -1 where they do not.
+
+    Parallel ones do not cross here: if they overlap, an end of one lies on the other.
+    """
+    import numpy as np
+
+    dx, dy, ex, ey = bx - ax, by - ay, edges.bx - edges.ax, edges.by - edges.ay
+    px, py = edges.ax - ax, edges.ay - ay
+    cross = dx * ey - dy * ex
+    safe = np.where(cross == 0.0, 1.0, cross)
+    along, across = (px * ey - py * ex) / safe, (px * dy - py * dx) / safe
+    crosses = (cross != 0.0) & (along >= 0.0) & (along <= 1.0) & (across >= 0.0) & (across <= 1.0)
+    return np.where(crosses, along, -1.0)
+
+
+class Arcs(NamedTuple):
+    """Arcs of circles: centres and radii, metres, unit vector from the centre to the start, control, angle flown."""
+
+    x: NDArray[float64]
+    y: NDArray[float64]
+    radius: NDArray[float64]
+    nx: NDArray[float64]
+    ny: NDArray[float64]
+    u: NDArray[float64]
+    angle: NDArray[float64]
+
+    @classmethod
+    def of(cls, pieces: Pieces) -> Arcs:
+        """The arcs of pieces that are arcs of circles over the ground, as columns, to broadcast with edges."""
+        p = pieces.take((slice(None), None))
+        nx, ny = p.u * p.s, -p.u * p.c
+        angle = p.duration_s * p.speed / p.radius
+        return cls(p.x - p.radius * nx, p.y - p.radius * ny, p.radius, nx, ny, p.u, angle)
+
+    def share(self, qx: Reals, qy: Reals) -> Reals:
+        """Where on the arc the direction q from the centre is, as a share of its angle; above 1 beyond its end."""
+        import numpy as np
+
+        turned = np.arctan2(self.u * (self.nx * qy - self.ny * qx), self.nx * qx + self.ny * qy)
+        return np.where(turned < 0.0, turned + 2.0 * np.pi, turned) / np.maximum(self.angle, np.finfo(float).tiny)
+
+    def direction(self, share: Reals) -> tuple[Reals, Reals]:
+        """The unit vector from the centre to the point of the arc at a share of its angle."""
+        import numpy as np
+
+        c, s = np.cos(share * self.angle), self.u * np.sin(share * self.angle)
+        return self.nx * c - self.ny * s, self.ny * c + self.nx * s
+
+
+def arc_to_edge(arcs: Arcs, edges: Edges) -> Nearest:
+    """The distance of arcs to edges: arcs (k, 1) and edges (n,) give (k, n).
+
+    It is attained at an end of the arc, at an end a of an edge (the end b is the end a of the next edge), where the arc
+    crosses the line of the edge, or where its normal is that of the edge. Every such point that is on the arc is tried.
+    """
+    import numpy as np
+
+    ex, ey = edges.bx - edges.ax, edges.by - edges.ay
+    length = np.hypot(ex, ey)
+    ex, ey = ex / length, ey / length
+    vx, vy = edges.ax - arcs.x, edges.ay - arcs.y
+    # The line of the edge is at the signed distance h from the centre, along the normal (-ey, ex).
+    h = ex * vy - ey * vx
+    side = np.where(h < 0.0, -1.0, 1.0)
+    sine = np.clip(h / arcs.radius, -1.0, 1.0)
+    cosine = np.sqrt((1.0 - sine) * (1.0 + sine))
+    r = np.maximum(np.hypot(vx, vy), np.finfo(float).tiny)
+    shape = np.broadcast_shapes(arcs.x.shape, edges.ax.shape)
+    ends = [arcs.direction(share) for share in (0.0, 1.0)]
+    qx = np.stack(
+        [
+            *(np.broadcast_to(x, shape) for x, _ in ends),
+            vx / r,
+            -ey * side,
+            -ey * sine + ex * cosine,
+            -ey * sine - ex * cosine,
+        ]
+    )
+    qy = np.stack(
+        [
+            *(np.broadcast_to(y, shape) for _, y in ends),
+            vy / r,
+            ex * side,
+            ex * sine + ey * cosine,
+            ex * sine - ey * cosine,
+        ]
+    )
+    share = arcs.share(qx, qy)
+    share[0], share[1] = 0.0, 1.0
+    distance = np.where(share <= 1.0, to_edge(arcs.x + arcs.radius * qx, arcs.y + arcs.radius * qy, edges), np.inf)
+    best = distance.argmin(axis=0)[None]
+    return Nearest(np.take_along_axis(distance, best, 0)[0], np.take_along_axis(share, best, 0)[0])
+
+
+class Extremes(NamedTuple):
+    """The least and the largest distance from a point, and where they are."""
+
+    least: Nearest
+    largest: Nearest
+
+
+def arc_to_point(arcs: Arcs, x: Reals, y: Reals) -> Extremes:
+    """The least and the largest distance of arcs (k, 1) to points (n,): at an end, towards or away from it."""
+    import numpy as np
+
+    vx, vy = x - arcs.x, y - arcs.y
+    r = np.hypot(vx, vy)
+    safe = np.maximum(r, np.finfo(float).tiny)
+    qx, qy = vx / safe, vy / safe
+    at_ends = [arcs.direction(share) for share in (0.0, 1.0)]
+    ends = [np.hypot(arcs.radius * ox - vx, arcs.radius * oy - vy) for ox, oy in at_ends]
+    towards, away = arcs.share(qx, qy), arcs.share(-qx, -qy)
+    near = np.stack([*ends, np.where(towards <= 1.0, abs(r - arcs.radius), np.inf)])
+    far = np.stack([*ends, np.where(away <= 1.0, r + arcs.radius, -np.inf)])
+    zero = np.zeros_like(r)
+    least, most = near.argmin(axis=0)[None], far.argmax(axis=0)[None]
+    shares_near, shares_far = np.stack([zero, zero + 1.0, towards]), np.stack([zero, zero + 1.0, away])
+    return Extremes(
+        Nearest(np.take_along_axis(near, least, 0)[0], np.take_along_axis(shares_near, least, 0)[0]),
+        Nearest(np.take_along_axis(far, most, 0)[0], np.take_along_axis(shares_far, most, 0)[0]),
+    )

@@ -1,0 +1,136 @@
+"""What is flown, over the ground, as pieces: straight lines, arcs, trochoids (arcs in wind), and the hold.
+
+A piece is flown through the air at the speed V with the control u, and the air moves with a constant velocity w. After
+a time t its position is p(t) = p(0) + flown(t) + w t. The acceleration of a turn of radius r is V^2/r, whatever the
+wind: that is what the bounds in `search` need.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, hypot, pi, sin
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from loiter.planning.compass import heading_vector
+from loiter.planning.feasibility import relative_wind
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import CONTROLS, Orbit, Segment, Turn
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+
+class Pieces(NamedTuple):
+    """Pieces of a path as arrays of one length, in the order flown; metres, seconds, unit headings (c, s).
+
+    `widen` is the radius of a disc about the position that must be clear too: zero, except for the hold of a moving
+    circle.
+    """
+
+    start_s: NDArray[float64]
+    duration_s: NDArray[float64]
+    x: NDArray[float64]
+    y: NDArray[float64]
+    c: NDArray[float64]
+    s: NDArray[float64]
+    u: NDArray[float64]
+    radius: NDArray[float64]
+    speed: NDArray[float64]
+    wx: NDArray[float64]
+    wy: NDArray[float64]
+    widen: NDArray[float64]
+
+    def take(self, i: Any) -> Pieces:
+        """The pieces with the indices `i`, which may repeat."""
+        return Pieces(*(column[i] for column in self))
+
+    def position(self, time_s: Any) -> tuple[Any, Any]:
+        """East and north after a time in each piece: the arc's chord, along the heading at half time, and the wind."""
+        import numpy as np
+
+        angle = time_s * self.speed / self.radius
+        half = 0.5 * self.u * angle
+        chord = self.radius * np.where(self.u == 0.0, angle, 2.0 * np.sin(0.5 * angle))
+        ch, sh = np.cos(half), np.sin(half)
+        x = self.x + chord * (self.c * ch - self.s * sh) + self.wx * time_s
+        return x, self.y + chord * (self.s * ch + self.c * sh) + self.wy * time_s
+
+    @property
+    def acceleration(self) -> Any:
+        """The size of the acceleration, metres per second squared: V^2/r in a turn, zero on a straight piece."""
+        return abs(self.u) * self.speed**2 / self.radius
+
+    @property
+    def bent(self) -> Any:
+        """Whether a piece is an arc of a circle over the ground."""
+        return (self.u != 0.0) & (self.wx == 0.0) & (self.wy == 0.0)
+
+
+class FlownPath(NamedTuple):
+    """The pieces of a maneuver and, last, of its hold; `hold_s` is the time at which the hold begins."""
+
+    pieces: Pieces
+    hold_s: float
+
+
+def flown_path(maneuver: Maneuver) -> FlownPath:
+    """The path of a maneuver over the ground and one round of its hold (docs/fences.md, "The hold")."""
+    import numpy as np
+
+    rows = [_segment_row(segment, maneuver) for segment in maneuver.segments]
+    rows.append(_moving_hold_row(maneuver) if maneuver.orbit.moves else _hold_row(maneuver))
+    return FlownPath(Pieces(*np.array(rows, float).T), maneuver.duration_s)
+
+
+def _segment_row(segment: Segment, maneuver: Maneuver) -> tuple[float, ...]:
+    c, s = heading_vector(segment.start.heading_deg)
+    uav, start = maneuver.aircraft, segment.start
+    motion = (CONTROLS[segment.letter], uav.turn_radius_m, uav.airspeed_m_s, *maneuver.wind.velocity_m_s)
+    return segment.start_s, segment.duration_s, start.east_m, start.north_m, c, s, *motion, 0.0
+
+
+def _hold_row(maneuver: Maneuver) -> tuple[float, ...]:
+    """One round of a circle that stands still: an arc over the ground, whatever the wind."""
+    circle, join = maneuver.orbit, maneuver.join
+    azimuth = atan2(join.north_m - circle.north_m, join.east_m - circle.east_m)
+    u, speed, R = (-1.0 if maneuver.turn == Turn.CW else 1.0), maneuver.aircraft.airspeed_m_s, circle.radius_m
+    nx, ny = cos(azimuth), sin(azimuth)
+    place = circle.east_m + R * nx, circle.north_m + R * ny
+    return maneuver.duration_s, 2.0 * pi * R / speed, *place, -u * ny, u * nx, u, R, speed, 0.0, 0.0, 0.0
+
+
+def _moving_hold_row(maneuver: Maneuver) -> tuple[float, ...]:
+    """The disc of a circle that moves, as long as one round can take: its centre flies straight on.
+
+    The aircraft passes the circle at V - |w| at least, with w the wind relative to the circle.
+    """
+    circle: Orbit = maneuver.orbit_at_join
+    V, R = maneuver.aircraft.airspeed_m_s, circle.radius_m
+    slowest = V * (1.0 - hypot(*relative_wind(maneuver.orbit, maneuver.aircraft, maneuver.wind)))
+    east, north = circle.velocity_east_m_s, circle.velocity_north_m_s
+    speed = hypot(east, north)
+    motion = (east / speed, north / speed, 0.0, R, speed, 0.0, 0.0)
+    return maneuver.duration_s, 2.0 * pi * R / slowest, circle.east_m, circle.north_m, *motion, R
+
+
+def time_in_hold(maneuver: Maneuver, flown_rad: float) -> float:
+    """Seconds from joining a circle that stands still until `flown_rad` of it are flown.
+
+    In wind the ground speed varies: its inverse is integrated by Gauss's rule with 16 nodes on each eighth of the
+    circle, exact to rounding for winds that a circle is held in.
+    """
+    import numpy as np
+
+    R, V = maneuver.orbit.radius_m, maneuver.aircraft.airspeed_m_s
+    if maneuver.wind.speed_m_s == 0.0:
+        return R * flown_rad / V
+    u, join, circle = (-1.0 if maneuver.turn == Turn.CW else 1.0), maneuver.join, maneuver.orbit
+    begin = atan2(join.north_m - circle.north_m, join.east_m - circle.east_m)
+    nodes, weights = np.polynomial.legendre.leggauss(16)
+    parts = max(1, int(np.ceil(flown_rad / (0.25 * pi))))
+    width = flown_rad / parts
+    angles = begin + u * (width * (np.arange(parts)[:, None] + 0.5 * (nodes + 1.0)))
+    wx, wy = maneuver.wind.velocity_m_s
+    across, along = wx * np.cos(angles) + wy * np.sin(angles), u * (wy * np.cos(angles) - wx * np.sin(angles))
+    speed = np.sqrt(V * V - across**2) + along
+    return float(R * 0.5 * width * (weights / speed).sum())

@@ -1,0 +1,330 @@
+"""Least distances and first entries of whole paths, by branch and bound with proved bounds.
+
+A part of a piece between the times a and b differs from its chord, flown at constant speed, by at most
+A (b - a)^2 / 8 at every time, with A the largest acceleration: both are equal at a and at b, and a function that is
+zero at both and whose second derivative is at most A is nowhere larger (take its scalar product with the direction of
+its largest value). A distance changes by no more than the point moves. So the least distance of the part from anything
+lies within A (b - a)^2 / 8 of that of the chord, which has a closed form; on a straight piece it is that. The largest
+distance from a convex set, such as an edge or a point, is attained at an end of a chord, and again within that bound.
+Parts whose bound is above what is known are dropped, the others are halved. docs/fences.md has the derivation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+from loiter.fences.distances import Arcs, Nearest, arc_to_edge, arc_to_point, chord_to_edge, chord_to_point, to_edge
+from loiter.fences.model import Circles, CircleZone, Edges, Fence, Zone, edges_of, polygon_sign
+from loiter.fences.pieces import Pieces
+
+if TYPE_CHECKING:
+    from numpy import float64, intp
+    from numpy.typing import NDArray
+
+# What is closer than this, metres, touches. It is far above the rounding of coordinates up to 100 km, 1e-10 m, and far
+# below what any aircraft or fence is known to.
+TOUCH_M = 1e-6
+
+# The searches end when a distance is known to this, metres: a tenth of what decides whether something touches.
+RESOLUTION_M = 0.1 * TOUCH_M
+
+# A search begins with parts of turns of at most this angle; each level halves them. An eighth of a turn of 10 km
+# differs from its chord by 770 m, and 2^-40 of that squared is below the resolution: more levels are not needed, but
+# for the two sides of a ridge, where the bound is of the first order.
+FIRST_PART_RAD, MOST_LEVELS = 0.8, 80
+
+
+class Parts(NamedTuple):
+    """Parts of pieces: the index of the piece, and two times in it, seconds."""
+
+    piece: NDArray[intp]
+    a: NDArray[float64]
+    b: NDArray[float64]
+
+    def halves(self) -> Parts:
+        """Each part as two, in the order flown."""
+        import numpy as np
+
+        middle = 0.5 * (self.a + self.b)
+        a, b = np.column_stack([self.a, middle]).ravel(), np.column_stack([middle, self.b]).ravel()
+        return Parts(np.repeat(self.piece, 2), a, b)
+
+    def take(self, i: Any) -> Parts:
+        """The parts with the indices `i`."""
+        return Parts(self.piece[i], self.a[i], self.b[i])
+
+
+class Bounds(NamedTuple):
+    """Bounds of the least distance on parts; it is at most `upper` near the time `at`, seconds into the piece."""
+
+    lower: NDArray[float64]
+    upper: NDArray[float64]
+    at: NDArray[float64]
+
+
+class Chords(NamedTuple):
+    """Parts as chords from (ax, ay) to (bx, by), how far the part is from its chord at most, and the disc around it."""
+
+    ax: NDArray[float64]
+    ay: NDArray[float64]
+    bx: NDArray[float64]
+    by: NDArray[float64]
+    off: NDArray[float64]
+    widen: NDArray[float64]
+
+    @classmethod
+    def of(cls, pieces: Pieces, parts: Parts) -> Chords:
+        """The chords of parts."""
+        own = pieces.take(parts.piece)
+        off = own.acceleration * (parts.b - parts.a) ** 2 / 8.0
+        return cls(*own.position(parts.a), *own.position(parts.b), off, own.widen)
+
+    def columns(self) -> Chords:
+        """The same as columns, to broadcast with edges."""
+        return Chords(*(column[:, None] for column in self))
+
+
+# The bounds of parts; the indices are those of the edges or circles to which each part belongs.
+BoundParts: TypeAlias = Callable[[Chords, Parts, Any], Bounds]
+
+
+class Closest(NamedTuple):
+    """For each zone the least distance, metres, the piece in which it is attained, and the time in it, seconds."""
+
+    distance: NDArray[float64]
+    piece: NDArray[intp]
+    time_s: NDArray[float64]
+
+    @classmethod
+    def none(cls, count: int) -> Closest:
+        """Nothing known yet of so many zones."""
+        import numpy as np
+
+        return cls(np.full(count, np.inf), np.zeros(count, np.intp), np.zeros(count))
+
+    def note(self, zone: Any, distance: Any, piece: Any, time_s: Any) -> None:
+        """Keep, for each zone, the least of distances."""
+        import numpy as np
+
+        np.minimum.at(self.distance, zone, distance)
+        best = distance == self.distance[zone]
+        self.piece[zone[best]], self.time_s[zone[best]] = piece[best], time_s[best]
+
+
+def approach(fence: Fence, pieces: Pieces, margin_m: float) -> tuple[Closest, Closest]:
+    """How close a path comes to the polygons, unsigned, and to the circles, negative where it is on their wrong side.
+
+    The least of all is known to `RESOLUTION_M`, and so is every one that is at most the margin and above `TOUCH_M`.
+    """
+    polygons, circles = Closest.none(len(fence.polygons)), Closest.none(len(fence.circle_zones))
+    bent = pieces.bent.nonzero()[0]
+    if fence.polygons:
+        if bent.size:
+            _note_arcs_to_edges(polygons, pieces, bent, fence.edges)
+        _search(polygons, pieces, (~pieces.bent).nonzero()[0], _edge_bounds(fence.edges), fence.edges.zone, margin_m)
+    if fence.circle_zones:
+        if bent.size:
+            _note_arcs_to_circles(circles, pieces, bent, fence.circles)
+        each = _circle_bounds(fence.circles)
+        _search(circles, pieces, (~pieces.bent).nonzero()[0], each, _count(len(fence.circle_zones)), margin_m)
+    return polygons, circles
+
+
+def _count(n: int) -> Any:
+    import numpy as np
+
+    return np.arange(n)
+
+
+def _note_arcs_to_edges(closest: Closest, pieces: Pieces, bent: Any, edges: Edges) -> None:
+    found = arc_to_edge(Arcs.of(pieces.take(bent)), edges)
+    _note(closest, found.distance, found.share, pieces, bent, edges.zone)
+
+
+def _note_arcs_to_circles(closest: Closest, pieces: Pieces, bent: Any, circles: Circles) -> None:
+    import numpy as np
+
+    least, largest = arc_to_point(Arcs.of(pieces.take(bent)), circles.x, circles.y)
+    outside = circles.sign > 0.0
+    distance = circles.sign * (np.where(outside, least.distance, largest.distance) - circles.radius)
+    _note(closest, distance, np.where(outside, least.share, largest.share), pieces, bent, np.arange(circles.x.size))
+
+
+def _note(closest: Closest, distance: Any, share: Any, pieces: Pieces, bent: Any, zone: Any) -> None:
+    import numpy as np
+
+    piece = np.broadcast_to(bent[:, None], distance.shape)
+    own = np.broadcast_to(zone, distance.shape)
+    closest.note(own.ravel(), distance.ravel(), piece.ravel(), (share * pieces.duration_s[piece]).ravel())
+
+
+def _edge_bounds(edges: Edges) -> BoundParts:
+    """Bounds of the unsigned distance from edges."""
+
+    def bounds(chords: Chords, parts: Parts, j: Any) -> Bounds:
+        found = chord_to_edge(
+            chords.ax,
+            chords.ay,
+            chords.bx,
+            chords.by,
+            edges.take(j),
+        )
+        return _around(found, chords, parts)
+
+    return bounds
+
+
+def _circle_bounds(circles: Circles) -> BoundParts:
+    """Bounds of the signed distance from circles: positive on the allowed side."""
+    import numpy as np
+
+    def bounds(chords: Chords, parts: Parts, j: Any) -> Bounds:
+        x, y = circles.x[j], circles.y[j]
+        near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, x, y)
+        from_a, from_b = np.hypot(chords.ax - x, chords.ay - y), np.hypot(chords.bx - x, chords.by - y)
+        far = Nearest(-np.maximum(from_a, from_b), np.where(from_a > from_b, 0.0, 1.0))
+        outside = circles.sign[j] > 0.0
+        each = Nearest(np.where(outside, near.distance, far.distance), np.where(outside, near.share, far.share))
+        found = _around(each, chords, parts)
+        shift = circles.sign[j] * circles.radius[j]
+        return Bounds(found.lower - shift, found.upper - shift, found.at)
+
+    return bounds
+
+
+def _around(found: Nearest, chords: Chords, parts: Parts) -> Bounds:
+    """The bounds of parts from the distances of their chords."""
+    at = parts.a + found.share * (parts.b - parts.a)
+    distance = found.distance - chords.widen
+    return Bounds(distance - chords.off, distance + chords.off, at)
+
+
+def first_parts(pieces: Pieces, chosen: Any) -> Parts:
+    """The parts with which a search begins: turns in parts of at most `FIRST_PART_RAD`."""
+    import numpy as np
+
+    angle = abs(pieces.u) * pieces.speed * pieces.duration_s / pieces.radius
+    counts = np.maximum(1, np.ceil(angle / FIRST_PART_RAD)).astype(np.intp)[chosen]
+    piece = np.repeat(chosen, counts)
+    k = np.arange(piece.size) - np.repeat(np.cumsum(counts) - counts, counts)
+    width = pieces.duration_s[piece] / np.repeat(counts, counts)
+    return Parts(piece, k * width, (k + 1) * width)
+
+
+def _search(closest: Closest, pieces: Pieces, chosen: Any, bounds: BoundParts, zone: Any, margin_m: float) -> None:
+    """Note the least distances of the chosen pieces from edges or circles, each of which belongs to a zone.
+
+    What touches is not searched further, nor what is farther than the margin and cannot be the closest of all.
+    """
+    import numpy as np
+
+    parts = first_parts(pieces, chosen)
+    j = np.tile(np.arange(zone.size), parts.piece.size)
+    parts = parts.take(np.repeat(np.arange(parts.piece.size), zone.size))
+    for _ in range(MOST_LEVELS):
+        if not parts.piece.size:
+            return
+        found, own = bounds(Chords.of(pieces, parts), parts, j), zone[j]
+        closest.note(own, found.upper, parts.piece, found.at)
+        known = closest.distance[own]
+        matters = (found.lower <= margin_m + TOUCH_M) | (found.lower < closest.distance.min() - RESOLUTION_M)
+        keep = ((found.lower < known - RESOLUTION_M) & (known > TOUCH_M) & matters).nonzero()[0]
+        parts, j = parts.take(keep).halves(), np.repeat(j[keep], 2)
+
+
+class Signed:
+    """The signed distance of points and parts from one zone: positive on the side that is allowed."""
+
+    def __init__(self, zone: Zone) -> None:
+        self._zone = zone
+        if isinstance(zone, CircleZone):
+            import numpy as np
+
+            row = (zone.east_m, zone.north_m, zone.radius_m, -1.0 if zone.inclusion else 1.0)
+            self._circle = _circle_bounds(Circles(*np.array([row]).T))
+        else:
+            self._edges = edges_of((zone,))
+
+    def bounds(self, chords: Chords, parts: Parts) -> Bounds:
+        """Bounds on parts."""
+        import numpy as np
+
+        if isinstance(self._zone, CircleZone):
+            return self._at_ends(chords, parts, self._circle(chords, parts, np.zeros(parts.piece.size, np.intp)).lower)
+        c = chords.columns()
+        near = chord_to_edge(c.ax, c.ay, c.bx, c.by, self._edges).distance.min(axis=1)
+        from_a, from_b = to_edge(c.ax, c.ay, self._edges), to_edge(c.bx, c.by, self._edges)
+        # On the wrong side the zone's boundary is no farther than any one edge is.
+        deepest = np.maximum(from_a, from_b).min(axis=1) + chords.off
+        allowed = (polygon_sign(self._zone, chords.ax, chords.ay) > 0.0) & (near > chords.off)
+        lower = np.where(allowed, near - chords.off, -deepest) - chords.widen
+        return self._at_ends(chords, parts, lower)
+
+    def _at_ends(self, chords: Chords, parts: Parts, lower: Any) -> Bounds:
+        import numpy as np
+
+        at_a = self.at(chords.ax, chords.ay) - chords.widen
+        at_b = self.at(chords.bx, chords.by) - chords.widen
+        return Bounds(lower, np.minimum(at_a, at_b), np.where(at_b < at_a, parts.b, parts.a))
+
+    def at(self, x: Any, y: Any) -> Any:
+        """The signed distance of points."""
+        import numpy as np
+
+        zone = self._zone
+        if isinstance(zone, CircleZone):
+            outside = np.hypot(x - zone.east_m, y - zone.north_m) - zone.radius_m
+            return -outside if zone.inclusion else outside
+        return to_edge(x[:, None], y[:, None], self._edges).min(axis=1) * polygon_sign(zone, x, y)
+
+
+class PlaceInPath(NamedTuple):
+    """A signed distance, metres, and where it is: the piece, and the time in it, seconds."""
+
+    distance: float
+    piece: int
+    time_s: float
+
+
+def least_distance(pieces: Pieces, zone: Zone) -> PlaceInPath:
+    """The least signed distance of a path from a zone, to `RESOLUTION_M`: how deep it goes, where it is negative."""
+    import numpy as np
+
+    signed, parts = Signed(zone), first_parts(pieces, np.arange(pieces.x.size))
+    best = PlaceInPath(np.inf, 0, 0.0)
+    for _ in range(MOST_LEVELS):
+        found = signed.bounds(Chords.of(pieces, parts), parts)
+        i = int(found.upper.argmin())
+        if found.upper[i] < best.distance:
+            best = PlaceInPath(float(found.upper[i]), int(parts.piece[i]), float(found.at[i]))
+        parts = parts.take((found.lower < best.distance - RESOLUTION_M).nonzero()[0])
+        if not parts.piece.size:
+            break
+        parts = parts.halves()
+    return best
+
+
+def first_entry(pieces: Pieces, zone: Zone) -> PlaceInPath:
+    """Where a path that enters or touches a zone first does so; the time is exact to `TOUCH_M` over the speed."""
+    import numpy as np
+
+    signed, parts = Signed(zone), first_parts(pieces, np.arange(pieces.x.size))
+    step_s = TOUCH_M / float((pieces.speed + np.hypot(pieces.wx, pieces.wy)).max())
+    entry, entry_s = PlaceInPath(np.inf, 0, 0.0), np.inf
+    for _ in range(MOST_LEVELS):
+        found = signed.bounds(Chords.of(pieces, parts), parts)
+        times = np.where(found.upper <= TOUCH_M, pieces.start_s[parts.piece] + found.at, np.inf)
+        i = int(times.argmin())
+        if times[i] < entry_s:
+            entry, entry_s = (
+                PlaceInPath(float(found.upper[i]), int(parts.piece[i]), float(found.at[i])),
+                float(times[i]),
+            )
+        before = pieces.start_s[parts.piece] + parts.a < entry_s
+        keep = before & (found.lower <= TOUCH_M) & (parts.b - parts.a > step_s)
+        parts = parts.take(keep.nonzero()[0])
+        if not parts.piece.size:
+            break
+        parts = parts.halves()
+    return entry

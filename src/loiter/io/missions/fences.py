@@ -1,0 +1,189 @@
+"""Fences of ground stations and vehicles: QGroundControl's .plan, fence items as `QGC WPL 110`, and ArduPilot's list.
+
+The items are those of MAVLink's MAV_MISSION_TYPE_FENCE: one for each corner of a polygon, with the number of its
+corners in the first parameter, and one for each circle, with its radius there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from enum import IntEnum
+from pathlib import Path
+from typing import Any
+
+from loiter.errors import file_path
+from loiter.fences.places import PlacedCircle, PlacedFence, PlacedPolygon, PlacedZone
+from loiter.io.missions import qgcplan
+from loiter.io.missions.items import MissionItem
+from loiter.io.missions.limits import check_place
+from loiter.io.missions.wpl import MARK, read_items
+from loiter.io.reading import Source, shown
+
+# The versions of QGroundControl's fence, and of its circles and polygons.
+FENCE_VERSION, AREA_VERSION = 2, 1
+
+LEAST_CORNERS = 3
+
+
+class FenceCommand(IntEnum):
+    """The commands of fence items: MAVLink's MAV_CMD."""
+
+    RETURN_POINT = 5000
+    POLYGON_INCLUSION = 5001
+    POLYGON_EXCLUSION = 5002
+    CIRCLE_INCLUSION = 5003
+    CIRCLE_EXCLUSION = 5004
+
+
+POLYGONS = {FenceCommand.POLYGON_INCLUSION, FenceCommand.POLYGON_EXCLUSION}
+CIRCLES = {FenceCommand.CIRCLE_INCLUSION, FenceCommand.CIRCLE_EXCLUSION}
+INCLUSIONS = {FenceCommand.POLYGON_INCLUSION, FenceCommand.CIRCLE_INCLUSION}
+
+# Says what is wrong with an item: the error to raise for a sentence.
+Fault = Callable[[str], Exception]
+
+
+def read_fence(path: str | Path, argument: str = "fence") -> PlacedFence:
+    """The fence in a file: QGroundControl's .plan, `QGC WPL 110` with fence items, or latitudes and longitudes.
+
+    The last is ArduPilot's old format: a return point, and then the corners of one inclusion polygon, a line each.
+    Zones are named by their kind and number, "polygon 1". Raises `InvalidArgument`, for the argument named, which
+    names the file and the place in it, for a file without a fence, another format, and a file that cannot be read.
+    """
+    source = Source(argument, Path(file_path("path", path)))
+    text = source.text()
+    if text.startswith(MARK):
+        numbered = [(where, item) for where, item in read_items(source, text) if item.command in tuple(FenceCommand)]
+        for where, item in numbered:
+            check_place(source, where, item.latitude_deg, item.longitude_deg, 0.0)
+        zones = list(zones_of(numbered, source.fault))
+    elif text.lstrip().startswith("{"):
+        zones = plan_zones(source, qgcplan.read_plan(source, text).get("geoFence"))
+    else:
+        zones = [_listed_polygon(source, text)]
+    if not zones:
+        raise source.fault("it has no fence")
+    return PlacedFence(tuple(zones))
+
+
+# QGroundControl's plan
+
+
+def plan_zones(source: Source, fence: Any) -> list[PlacedZone]:
+    """The zones of the geoFence of a plan; none where it has no fence. Raises `InvalidArgument`."""
+    if fence is None:
+        return []
+    qgcplan.kind(source, "geoFence", fence, dict, "an object")
+    qgcplan.check_version(source, "the version of geoFence", fence, FENCE_VERSION)
+    polygons = [_polygon(source, number, area) for number, area in _areas(source, fence, "polygons")]
+    circles = [_circle(source, number, area) for number, area in _areas(source, fence, "circles")]
+    return [*polygons, *circles]
+
+
+def _areas(source: Source, fence: dict[str, Any], name: str) -> Iterator[tuple[int, dict[str, Any]]]:
+    areas = qgcplan.kind(source, f"geoFence: {name}", fence.get(name, []), list, "a list")
+    for number, area in enumerate(areas, start=1):
+        where = f"geoFence: {name} {number}"
+        qgcplan.check_version(
+            source, f"{where}: version", qgcplan.kind(source, where, area, dict, "an object"), AREA_VERSION
+        )
+        yield number, area
+
+
+def _circle(source: Source, number: int, area: dict[str, Any]) -> PlacedCircle:
+    where = f"geoFence: circle {number}"
+    circle = qgcplan.kind(source, where, area.get("circle"), dict, "an object")
+    latitude, longitude = _place(source, where, circle.get("center"))
+    radius_m = _radius_m(qgcplan.number(source, f"{where}: radius", circle.get("radius")), where, source.fault)
+    return PlacedCircle(f"circle {number}", latitude, longitude, radius_m, _inclusion(source, where, area))
+
+
+def _polygon(source: Source, number: int, area: dict[str, Any]) -> PlacedPolygon:
+    where = f"geoFence: polygon {number}"
+    corners = qgcplan.kind(source, where, area.get("polygon"), list, "a list of corners")
+    if len(corners) < LEAST_CORNERS:
+        raise source.fault(f"{where}: it has {len(corners)} corners: it needs {LEAST_CORNERS} at least")
+    places = tuple(_place(source, where, corner) for corner in corners)
+    return PlacedPolygon(f"polygon {number}", places, _inclusion(source, where, area))
+
+
+def _place(source: Source, where: str, value: Any) -> tuple[float, float]:
+    latitude, longitude = qgcplan.numbers(source, where, value, 2)
+    check_place(source, where, latitude, longitude, 0.0)
+    return latitude, longitude
+
+
+def _inclusion(source: Source, where: str, area: dict[str, Any]) -> bool:
+    inclusion: bool = qgcplan.kind(source, f"{where}: inclusion", area.get("inclusion"), bool, "true or false")
+    return inclusion
+
+
+# Fence items
+
+
+def zones_of(items: Iterable[tuple[str, MissionItem]], fault: Fault) -> Iterator[PlacedZone]:
+    """The zones of fence items, each with its place in the file or on the vehicle; the return point is passed over.
+
+    Raises what `fault` makes of a sentence for a polygon whose number of corners is not that of its items.
+    """
+    left = [(where, item) for where, item in items if item.command != FenceCommand.RETURN_POINT]
+    polygons = circles = 0
+    while left:
+        where, item = left[0]
+        if item.command in CIRCLES:
+            circles += 1
+            radius_m = _radius_m(item.params[0], where, fault)
+            inclusion = item.command in INCLUSIONS
+            yield PlacedCircle(f"circle {circles}", item.latitude_deg, item.longitude_deg, radius_m, inclusion)
+            left = left[1:]
+        else:
+            polygons += 1
+            count = _corner_count(left, fault)
+            places = tuple((corner.latitude_deg, corner.longitude_deg) for _, corner in left[:count])
+            yield PlacedPolygon(f"polygon {polygons}", places, item.command in INCLUSIONS)
+            left = left[count:]
+
+
+def _corner_count(items: Sequence[tuple[str, MissionItem]], fault: Fault) -> int:
+    """The number of corners of the polygon with which items begin."""
+    where, first = items[0]
+    if first.command not in POLYGONS:
+        raise fault(f"{where}: command {first.command} is no item of a fence")
+    count = first.params[0]
+    if not count >= LEAST_CORNERS or count != int(count):
+        raise fault(f"{where}: a polygon has {count:g} corners: it needs {LEAST_CORNERS} at least")
+    same = [item for _, item in items[: int(count)] if (item.command, item.params[0]) == (first.command, count)]
+    if len(same) < count:
+        raise fault(f"{where}: a polygon has {count:g} corners, and {len(same)} follow")
+    return int(count)
+
+
+def _radius_m(radius_m: float, where: str, fault: Fault) -> float:
+    if not radius_m > 0.0:
+        raise fault(f"{where}: radius is {radius_m:g}: it must be positive")
+    return radius_m
+
+
+# ArduPilot's list of latitudes and longitudes
+
+
+def _listed_polygon(source: Source, text: str) -> PlacedPolygon:
+    """The polygon of a list of places: a return point, and then the corners, of which the last repeats the first."""
+    lines = [(f"line {n}", line.split()) for n, line in enumerate(text.splitlines(), start=1)]
+    rows = [(where, words) for where, words in lines if words and not words[0].startswith("#")]
+    if not rows or len(rows[0][1]) != 2:
+        raise source.fault(
+            "it is neither a QGroundControl plan, nor QGC WPL 110, nor a list of latitudes and longitudes"
+        )
+    _return_point, *corners = [_listed_place(source, where, words) for where, words in rows]
+    if len(corners) < LEAST_CORNERS + 1 or corners[0] != corners[-1]:
+        raise source.fault("after the return point, the corners must be 3 at least, and the first one again at the end")
+    return PlacedPolygon("polygon 1", tuple(corners[:-1]), inclusion=True)
+
+
+def _listed_place(source: Source, where: str, words: Sequence[str]) -> tuple[float, float]:
+    if len(words) != 2:
+        raise source.fault(f"{where} is {shown(' '.join(words))}: it must be a latitude and a longitude")
+    latitude, longitude = (source.number(f"{where}: a number", word) for word in words)
+    check_place(source, where, latitude, longitude, 0.0)
+    return latitude, longitude

@@ -1,0 +1,118 @@
+"""`--fence`: whether a plan and its hold stay clear of a fence."""
+
+import json
+
+import pytest
+
+import loiter
+from loiter.cli.app import main
+from loiter.geo import LocalFrame
+
+FRAME = LocalFrame(47.11, 8.23)
+SCENE = "--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35"
+
+
+@pytest.fixture
+def fence(tmp_path):
+    """Writes a .plan whose fence has circles, given by east, north, radius and whether to stay inside."""
+
+    def written(*circles):
+        areas = []
+        for east_m, north_m, radius_m, inclusion in circles:
+            place = [float(value) for value in FRAME.to_geodetic(east_m, north_m)]
+            areas.append({"circle": {"center": place, "radius": radius_m}, "inclusion": inclusion, "version": 1})
+        path = tmp_path / "field.plan"
+        document = {"fileType": "Plan", "version": 1, "geoFence": {"circles": areas, "polygons": [], "version": 2}}
+        path.write_text(json.dumps(document))
+        return path
+
+    return written
+
+
+def run(arguments, capsys):
+    status = main(arguments.split())
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+def test_a_clear_plan_says_how_far_it_is(fence, capsys, planned):
+    path = fence((0.0, 0.0, 3000.0, True), (0.0, 0.0, 50.0, False))
+    status, out, err = run(f"plan {SCENE} --fence {path}", capsys)
+    assert (status, err) == (0, "")
+    assert out.splitlines()[-1].startswith(
+        "The plan and its hold stay clear of the fence, 70.0 m from the zone 'circle 2' at least, at 47.1"
+    )
+    found = planned(f"{SCENE} --fence {path}")["fence"]
+    assert found["clear"]
+    assert found["margin_m"] == 6.0
+    assert found["breaches"] == []
+    assert found["closest"]["clearance_m"] == pytest.approx(70.0, abs=1e-5)
+
+
+def test_a_plan_that_enters_ends_with_1(fence, capsys):
+    """A zone of 1000 m about the circle: the plan flies towards it at 18 m/s, from 2534 m away."""
+    path = fence((0.0, 0.0, 1000.0, False))
+    status, out, err = run(f"plan {SCENE} --fence {path}", capsys)
+    assert (status, err) == (1, "")
+    last = out.splitlines()[-1]
+    assert last.startswith("The plan enters the zone 'circle 1' in 86.")
+    assert " N " in last
+    assert last.endswith(" E, by up to 1000.0 m.") or "by up to" in last
+    status, out, _ = run(f"plan {SCENE} --fence {path} --json", capsys)
+    (breach,) = json.loads(out)["fence"]["breaches"]
+    assert status == 1
+    assert breach["enters"]
+    place = loiter.Pose(breach["east_m"], breach["north_m"], 0.0)
+    assert FRAME.place(place).latitude_deg == pytest.approx(breach["latitude_deg"])
+    assert (breach["east_m"] ** 2 + breach["north_m"] ** 2) ** 0.5 == pytest.approx(1000.0, abs=1e-4)
+
+
+def test_the_margin_is_asked_for(fence, capsys):
+    path = fence((0.0, 0.0, 115.0, False))
+    assert run(f"plan {SCENE} --fence {path} --margin 4", capsys)[0] == 1  # the entry comes from outside
+    path = fence((0.0, 0.0, 3000.0, True), (400.0, 0.0, 270.0, False))
+    status, out, _ = run(f"plan {SCENE} --fence {path} --margin 9.9", capsys)
+    assert (status, "10.0 m from the zone 'circle 2'" in out) == (0, True)
+    status, out, _ = run(f"plan {SCENE} --fence {path} --margin 10.1", capsys)
+    assert status == 1
+    assert "The plan comes within 10.0 m of the zone 'circle 2' on the circle, in " in out
+    assert "less than the margin of 10.1 m." in out
+
+
+def test_a_picture_shows_the_fence(fence, capsys, tmp_path):
+    path, picture = fence((0.0, 0.0, 300.0, False), (0.0, 0.0, 4000.0, True)), tmp_path / "entry.svg"
+    assert run(f"plan {SCENE} --fence {path} --plot {picture}", capsys)[0] == 1
+    text = picture.read_text()
+    assert all(f'id="{name}' in text for name in ("stay out", "stay in", "breach of the fence"))
+
+
+@pytest.mark.parametrize(
+    ("circles", "options", "problem"),
+    [
+        ([], "", "it has no fence"),
+        ([(-2270.0, -1110.0, 200.0, False)], "", "--pose is inside the zone 'circle 1': a plan must begin outside"),
+        ([(0.0, 0.0, 900.0, True)], "", "--pose is outside the inclusion zone 'circle 1': a plan must begin inside"),
+        ([(0.0, 0.0, 900.0, False)], "--margin -1", "--margin is -1: it must be zero or a positive, finite number"),
+        (
+            [(0.0, 0.0, 900.0, True), (2000.0, 0.0, 9.0, True)],
+            "",
+            "--fence cannot be used: fence has the inclusion zones 'circle 1' and 'circle 2' with no common point",
+        ),
+    ],
+)
+def test_what_cannot_be_checked_is_one_sentence(fence, capsys, circles, options, problem):
+    status, out, err = run(f"plan {SCENE} --fence {fence(*circles)} {options}", capsys)
+    assert (status, out) == (2, "")
+    assert problem in err
+    assert len(err.splitlines()) == 1
+
+
+def test_options_that_do_not_go_together(fence, capsys):
+    path = fence((0.0, 0.0, 50.0, False))
+    status, _, err = run(f"plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 --fence {path}", capsys)
+    assert (status, err) == (2, "loiter: --fence goes with --pose-lla and --orbit-lla: its places are in degrees\n")
+    status, _, err = run(f"plan {SCENE} --margin 3", capsys)
+    assert (status, err) == (2, "loiter: --margin has no effect without --fence\n")
+    status, _, err = run(f"plan {SCENE} --fence {path.parent / 'none.plan'}", capsys)
+    assert status == 2
+    assert "it cannot be read, No such file or directory" in err

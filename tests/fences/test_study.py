@@ -1,0 +1,118 @@
+"""A hundred random scenes of the study, and wrong checkers that it refuses."""
+
+import inspect
+import textwrap
+from collections import deque
+from itertools import starmap
+
+import numpy as np
+import pytest
+
+from fences.scenes import scene
+from fences.study import compare
+from loiter.errors import LoiterError
+from loiter.fences import check, distances, model, pieces, search
+
+SCENES, TRIED = 100, 60
+
+
+def test_dense_samples_find_the_same():
+    rng = np.random.default_rng(20261125)
+    rows = [compare(*scene(rng)) for _ in range(SCENES)]
+    assert min(sum(row.clear for row in rows), sum(not row.clear for row in rows)) > 20
+    assert sum(row.windy for row in rows) > 20
+
+
+# Wrong checkers: a place in the source, and what stands there instead.
+MUTANTS = {
+    "the vertex is forgotten": (distances, "arc_to_edge", "vx / r,", "-vx / r,"),
+    "the vertex beside a line is forgotten": (
+        distances,
+        "chord_to_edge",
+        "c.distance, d.distance",
+        "c.distance + 9.0, d.distance + 9.0",
+    ),
+    "the whole circle for the arc": (distances, "arc_to_edge", "share <= 1.0", "share < np.inf"),
+    "the normal is forgotten": (distances, "arc_to_edge", "-ey * side", "ey * side"),
+    "crossings are forgotten": (
+        distances,
+        "crossing_share",
+        "np.where(crosses, along, -1.0)",
+        "np.where(crosses, -1.0, -1.0)",
+    ),
+    "the bound of a trochoid is too tight": (search, "Chords.of", "/ 8.0", "/ 80.0"),
+    "the wind is forgotten": (pieces, "Pieces.position", "self.wx * time_s", "0.0"),
+    "the margin has the wrong sign": (
+        check,
+        "check",
+        "near.distance <= margin_m + TOUCH_M",
+        "near.distance <= -margin_m + TOUCH_M",
+    ),
+    "the hold is forgotten": (
+        pieces,
+        "flown_path",
+        "Pieces(*np.array(rows, float).T)",
+        "Pieces(*np.array(rows[:-1] or rows, float).T)",
+    ),
+    "the nearest point of an inclusion circle": (
+        search,
+        "_note_arcs_to_circles",
+        "largest.distance) - ",
+        "least.distance) - ",
+    ),
+    "the depth ends at the first edge": (
+        search,
+        "Signed.bounds",
+        ".min(axis=1) + chords.off",
+        ".max(axis=1) * 0.0 + chords.off",
+    ),
+    "the last entry for the first": (
+        search,
+        "first_entry",
+        "times.argmin()",
+        "np.where(times < np.inf, times, -1.0).argmax()",
+    ),
+}
+
+
+def replace(monkeypatch, module, name, old, new):
+    """Put a changed copy of a function in the place of the function, wherever it was imported."""
+    owner = module
+    *outer, last = name.split(".")
+    for part in outer:
+        owner = getattr(owner, part)
+    source = textwrap.dedent(
+        inspect.getsource(inspect.getattr_static(owner, last) if not outer else getattr(owner, last))
+    )
+    assert source.count(old) >= 1, f"{name} has no {old!r}"
+    scope = dict(vars(module))
+    exec("from __future__ import annotations\n" + source.replace(old, new), scope)
+    changed, before = scope[last], getattr(owner, last)
+    monkeypatch.setattr(owner, last, changed)
+    for other in (check, distances, model, pieces, search):
+        if getattr(other, last, None) is before:
+            monkeypatch.setattr(other, last, scope[last])
+
+
+@pytest.fixture(scope="module")
+def scenes():
+    rng = np.random.default_rng(7)
+    return [scene(rng) for _ in range(TRIED)]
+
+
+@pytest.mark.parametrize("mutant", MUTANTS)
+def test_a_wrong_checker_is_refused(mutant, scenes, monkeypatch):
+    replace(monkeypatch, *MUTANTS[mutant])
+    refused(scenes)
+
+
+def test_arcs_taken_for_their_chords_are_refused(scenes, monkeypatch):
+    monkeypatch.setattr(pieces.Pieces, "acceleration", property(lambda self: 0.0 * self.u))
+    monkeypatch.setattr(pieces.Pieces, "bent", property(lambda self: self.u > 2.0))
+    refused(scenes)
+
+
+def refused(scenes):
+    """Fences remember nothing of earlier checks but their edges."""
+    with pytest.raises((AssertionError, LoiterError)):
+        deque(starmap(compare, scenes), maxlen=0)
