@@ -56,6 +56,7 @@ CALLS = [
     (plot.draw, {"best": MANEUVER, "others": [], "frame": FRAME, "fence": FENCE}, "best others frame fence"),
     (mavlink.upload, {"mission": io.mission(**SAVED), "connection": LINK}, "mission connection"),
     (mavlink.download, {"connection": LINK}, "connection"),
+    (mavlink.download_fence, {"connection": LINK}, "connection"),
     (mavlink.watch, {"connection": LINK, "frame": FRAME, **SCENE}, "connection orbit frame aircraft wind"),
     (mavlink.guide, {"connection": LINK, "orbit": ORBIT, "frame": FRAME}, "connection orbit frame wind log"),
     (batch.plan, {"frame": None, **SCENE, **TABLE}, "frame orbit aircraft wind turn origin columns orbit_velocity_m_s"),

@@ -17,6 +17,7 @@ import loiter
 PACKAGES = [
     "loiter",
     "loiter.batch",
+    "loiter.fences",
     "loiter.geo",
     "loiter.guidance",
     "loiter.io",

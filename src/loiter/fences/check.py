@@ -8,7 +8,7 @@ from typing import NamedTuple
 from loiter.errors import InvalidArgument, instance, not_negative
 from loiter.fences.model import Fence, Zone
 from loiter.fences.pieces import FlownPath, flown_path, time_in_hold
-from loiter.fences.search import TOUCH_M, Closest, PlaceInPath, Signed, approach, first_entry, least_distance
+from loiter.fences.search import TOUCH_M, PlaceInPath, approach, first_entry, least_distance
 from loiter.geo.frame import LocalFrame, degrees_of
 from loiter.planning.maneuver import Maneuver, decimals_of
 from loiter.planning.model import Orbit, Pose
@@ -92,10 +92,8 @@ def check(fence: Fence, maneuver: Maneuver, margin_m: float | None = None) -> Fe
     margin_m = default_margin_m(maneuver.orbit) if margin_m is None else not_negative("margin_m", margin_m, "metres")
     path = flown_path(maneuver)
     _check_start(fence, maneuver.start)
-    polygons, circles = approach(fence, path.pieces, margin_m)
     approaches: list[tuple[Zone, PlaceInPath]] = []
-    kinds: tuple[tuple[Sequence[Zone], Closest], ...] = ((fence.polygons, polygons), (fence.circle_zones, circles))
-    for zones, closest in kinds:
+    for zones, closest in zip(_by_kind(fence), approach(fence, path.pieces, margin_m), strict=True):
         places = zip(closest.distance.tolist(), closest.piece.tolist(), closest.time_s.tolist(), strict=True)
         approaches += [(zone, PlaceInPath(*place)) for zone, place in zip(zones, places, strict=True)]
     zone, nearest = min(approaches, key=lambda each: each[1].distance)
@@ -108,12 +106,15 @@ def check(fence: Fence, maneuver: Maneuver, margin_m: float | None = None) -> Fe
 
 def _check_start(fence: Fence, start: Pose) -> None:
     """Raise `InvalidArgument` for a start on the wrong side of a zone; one that touches it is a breach."""
-    import numpy as np
+    for zones, distances in zip(_by_kind(fence), fence.signed_distances(start.east_m, start.north_m), strict=True):
+        for zone, distance_m in zip(zones, distances.tolist(), strict=True):
+            if distance_m < -TOUCH_M:
+                raise InvalidArgument("pose", _wrong_side(zone))
 
-    east, north = np.array([start.east_m]), np.array([start.north_m])
-    for zone in fence.zones:
-        if float(Signed(zone).at(east, north)[0]) < -TOUCH_M:
-            raise InvalidArgument("pose", _wrong_side(zone))
+
+def _by_kind(fence: Fence) -> tuple[Sequence[Zone], Sequence[Zone]]:
+    """The polygons and the circles."""
+    return fence.polygons, fence.circle_zones
 
 
 def _wrong_side(zone: Zone) -> str:

@@ -56,8 +56,16 @@ def chord_to_point(ax: Reals, ay: Reals, bx: Reals, by: Reals, x: Reals, y: Real
     return Nearest(np.hypot(ax + share * (bx - ax) - x, ay + share * (by - ay) - y), share)
 
 
-def chord_to_edge(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> Nearest:
-    """The distance of chords from a to b to edges.
+class ChordToEdge(NamedTuple):
+    """The distances of the two ends of chords from edges, and the least distance of chords and edges."""
+
+    from_a: NDArray[float64]
+    from_b: NDArray[float64]
+    nearest: Nearest
+
+
+def chord_to_edge(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> ChordToEdge:
+    """The distances of chords from a to b and edges.
 
     Two segments that do not cross are nearest at an end of one of them.
     """
@@ -66,12 +74,20 @@ def chord_to_edge(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> N
     c = chord_to_point(ax, ay, bx, by, edges.ax, edges.ay)
     d = chord_to_point(ax, ay, bx, by, edges.bx, edges.by)
     from_a, from_b = to_edge(ax, ay, edges), to_edge(bx, by, edges)
-    shape = np.broadcast_shapes(c.distance.shape, from_a.shape)
-    zero, crossing = np.zeros(shape), crossing_share(ax, ay, bx, by, edges)
-    distances = np.stack([from_a + zero, from_b + zero, c.distance, d.distance, np.where(crossing >= 0.0, 0.0, np.inf)])
-    shares = np.stack([zero, zero + 1.0, c.share, d.share, crossing])
-    best = distances.argmin(axis=0)[None]
-    return Nearest(np.take_along_axis(distances, best, 0)[0], np.take_along_axis(shares, best, 0)[0])
+    crossing = crossing_share(ax, ay, bx, by, edges)
+    crosses = np.where(crossing >= 0.0, 0.0, np.inf)
+    zero = np.zeros_like(from_a)
+    nearest = _least([from_a, from_b, c.distance, d.distance, crosses], [zero, zero + 1.0, c.share, d.share, crossing])
+    return ChordToEdge(from_a, from_b, nearest)
+
+
+def _least(distances: Any, shares: Any) -> Nearest:
+    """The least of several distances, stacked or in a sequence, with its share."""
+    import numpy as np
+
+    every = np.stack(distances)
+    best = every.argmin(axis=0)
+    return Nearest(every.min(axis=0), np.choose(best, shares))
 
 
 def crossing_share(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> Reals:
@@ -165,8 +181,7 @@ def arc_to_edge(arcs: Arcs, edges: Edges) -> Nearest:
     share = arcs.share(qx, qy)
     share[0], share[1] = 0.0, 1.0
     distance = np.where(share <= 1.0, to_edge(arcs.x + arcs.radius * qx, arcs.y + arcs.radius * qy, edges), np.inf)
-    best = distance.argmin(axis=0)[None]
-    return Nearest(np.take_along_axis(distance, best, 0)[0], np.take_along_axis(share, best, 0)[0])
+    return _least(distance, share)
 
 
 class Extremes(NamedTuple):
@@ -187,12 +202,8 @@ def arc_to_point(arcs: Arcs, x: Reals, y: Reals) -> Extremes:
     at_ends = [arcs.direction(share) for share in (0.0, 1.0)]
     ends = [np.hypot(arcs.radius * ox - vx, arcs.radius * oy - vy) for ox, oy in at_ends]
     towards, away = arcs.share(qx, qy), arcs.share(-qx, -qy)
-    near = np.stack([*ends, np.where(towards <= 1.0, abs(r - arcs.radius), np.inf)])
-    far = np.stack([*ends, np.where(away <= 1.0, r + arcs.radius, -np.inf)])
+    near, far = np.where(towards <= 1.0, abs(r - arcs.radius), np.inf), np.where(away <= 1.0, r + arcs.radius, -np.inf)
     zero = np.zeros_like(r)
-    least, most = near.argmin(axis=0)[None], far.argmax(axis=0)[None]
-    shares_near, shares_far = np.stack([zero, zero + 1.0, towards]), np.stack([zero, zero + 1.0, away])
-    return Extremes(
-        Nearest(np.take_along_axis(near, least, 0)[0], np.take_along_axis(shares_near, least, 0)[0]),
-        Nearest(np.take_along_axis(far, most, 0)[0], np.take_along_axis(shares_far, most, 0)[0]),
-    )
+    least = _least([*ends, near], [zero, zero + 1.0, towards])
+    largest = _least([*(-end for end in ends), -far], [zero, zero + 1.0, away])
+    return Extremes(least, Nearest(-largest.distance, largest.share))

@@ -9,6 +9,7 @@ from math import dist
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from loiter.errors import InvalidArgument, number, positive
+from loiter.fences.distances import to_edge
 
 if TYPE_CHECKING:
     from numpy import float64, intp
@@ -71,9 +72,11 @@ class PolygonZone:
 
     @cached_property
     def _polygon(self) -> Any:
-        from shapely import Polygon
+        import shapely
 
-        return Polygon(self.corners)
+        polygon = shapely.Polygon(self.corners)
+        shapely.prepare(polygon)
+        return polygon
 
 
 Zone: TypeAlias = CircleZone | PolygonZone
@@ -150,6 +153,19 @@ class Fence:
 
         rows = [(z.east_m, z.north_m, z.radius_m, -1.0 if z.inclusion else 1.0) for z in self.circle_zones]
         return Circles(*np.array(rows, float).reshape(-1, 4).T)
+
+    def signed_distances(self, east_m: float, north_m: float) -> tuple[NDArray[float64], NDArray[float64]]:
+        """The distances of a point from the polygons and from the circles, metres, negative on their wrong side."""
+        import numpy as np
+        import shapely
+
+        outside = np.hypot(self.circles.x - east_m, self.circles.y - north_m) - self.circles.radius
+        if not self.polygons:
+            return np.empty(0), self.circles.sign * outside
+        nearest = np.minimum.reduceat(to_edge(east_m, north_m, self.edges), self.edges.first)
+        inside = shapely.contains_xy([zone._polygon for zone in self.polygons], east_m, north_m)
+        allowed = inside == [zone.inclusion for zone in self.polygons]
+        return np.where(allowed, nearest, -nearest), self.circles.sign * outside
 
     def check(self, maneuver: Maneuver, margin_m: float | None = None) -> FenceCheck:
         """Whether a maneuver and its hold stay farther from every zone than a margin, metres (`fences.check`)."""

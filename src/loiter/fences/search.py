@@ -6,7 +6,7 @@ zero at both and whose second derivative is at most A is nowhere larger (take it
 its largest value). A distance changes by no more than the point moves. So the least distance of the part from anything
 lies within A (b - a)^2 / 8 of that of the chord, which has a closed form; on a straight piece it is that. The largest
 distance from a convex set, such as an edge or a point, is attained at an end of a chord, and again within that bound.
-Parts whose bound is above what is known are dropped, the others are halved. docs/fences.md has the derivation.
+Parts whose bound is above what is known are dropped, the others are split. docs/fences.md has the derivation.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from loiter.fences.distances import Arcs, Nearest, arc_to_edge, arc_to_point, chord_to_edge, chord_to_point, to_edge
-from loiter.fences.model import Circles, CircleZone, Edges, Fence, Zone, edges_of, polygon_sign
+from loiter.fences.model import Circles, CircleZone, Edges, Fence, PolygonZone, Zone, edges_of, polygon_sign
 from loiter.fences.pieces import Pieces
 
 if TYPE_CHECKING:
@@ -29,10 +29,10 @@ TOUCH_M = 1e-6
 # The searches end when a distance is known to this, metres: a tenth of what decides whether something touches.
 RESOLUTION_M = 0.1 * TOUCH_M
 
-# A search begins with parts of turns of at most this angle; each level halves them. An eighth of a turn of 10 km
-# differs from its chord by 770 m, and 2^-40 of that squared is below the resolution: more levels are not needed, but
-# for the two sides of a ridge, where the bound is of the first order.
-FIRST_PART_RAD, MOST_LEVELS = 0.8, 80
+# A search begins with parts of turns of at most this angle, which are split into so many parts at each level. Where the
+# bound is of the second order, eight levels divide it by 8^16; where it is of the first order, at a crossing, the parts
+# of 100 km are shorter than the resolution after 14.
+FIRST_PART_RAD, SPLIT, MOST_LEVELS = 0.8, 8, 20
 
 
 class Parts(NamedTuple):
@@ -42,13 +42,13 @@ class Parts(NamedTuple):
     a: NDArray[float64]
     b: NDArray[float64]
 
-    def halves(self) -> Parts:
-        """Each part as two, in the order flown."""
+    def split(self) -> Parts:
+        """Each part as `SPLIT` parts, in the order flown."""
         import numpy as np
 
-        middle = 0.5 * (self.a + self.b)
-        a, b = np.column_stack([self.a, middle]).ravel(), np.column_stack([middle, self.b]).ravel()
-        return Parts(np.repeat(self.piece, 2), a, b)
+        shares = np.arange(SPLIT + 1) / SPLIT
+        times = self.a[:, None] + shares * (self.b - self.a)[:, None]
+        return Parts(np.repeat(self.piece, SPLIT), times[:, :-1].ravel(), times[:, 1:].ravel())
 
     def take(self, i: Any) -> Parts:
         """The parts with the indices `i`."""
@@ -163,13 +163,7 @@ def _edge_bounds(edges: Edges) -> BoundParts:
     """Bounds of the unsigned distance from edges."""
 
     def bounds(chords: Chords, parts: Parts, j: Any) -> Bounds:
-        found = chord_to_edge(
-            chords.ax,
-            chords.ay,
-            chords.bx,
-            chords.by,
-            edges.take(j),
-        )
+        found = chord_to_edge(chords.ax, chords.ay, chords.bx, chords.by, edges.take(j)).nearest
         return _around(found, chords, parts)
 
     return bounds
@@ -230,43 +224,50 @@ def _search(closest: Closest, pieces: Pieces, chosen: Any, bounds: BoundParts, z
         known = closest.distance[own]
         matters = (found.lower <= margin_m + TOUCH_M) | (found.lower < closest.distance.min() - RESOLUTION_M)
         keep = ((found.lower < known - RESOLUTION_M) & (known > TOUCH_M) & matters).nonzero()[0]
-        parts, j = parts.take(keep).halves(), np.repeat(j[keep], 2)
+        parts, j = parts.take(keep).split(), np.repeat(j[keep], SPLIT)
 
 
 class Signed:
     """The signed distance of points and parts from one zone: positive on the side that is allowed."""
 
     def __init__(self, zone: Zone) -> None:
-        self._zone = zone
-        if isinstance(zone, CircleZone):
-            import numpy as np
-
-            row = (zone.east_m, zone.north_m, zone.radius_m, -1.0 if zone.inclusion else 1.0)
-            self._circle = _circle_bounds(Circles(*np.array([row]).T))
-        else:
-            self._edges = edges_of((zone,))
+        self._zone, self._edges = zone, edges_of([zone] if isinstance(zone, PolygonZone) else [])
 
     def bounds(self, chords: Chords, parts: Parts) -> Bounds:
-        """Bounds on parts."""
+        """Bounds on parts; `upper` is attained at one of their ends."""
         import numpy as np
 
-        if isinstance(self._zone, CircleZone):
-            return self._at_ends(chords, parts, self._circle(chords, parts, np.zeros(parts.piece.size, np.intp)).lower)
-        c = chords.columns()
-        near = chord_to_edge(c.ax, c.ay, c.bx, c.by, self._edges).distance.min(axis=1)
-        from_a, from_b = to_edge(c.ax, c.ay, self._edges), to_edge(c.bx, c.by, self._edges)
+        each = self._circle_bounds if isinstance(self._zone, CircleZone) else self._polygon_bounds
+        lower, at_a, at_b = each(chords)
+        upper = np.minimum(at_a, at_b) - chords.widen
+        return Bounds(lower - chords.off - chords.widen, upper, np.where(at_b < at_a, parts.b, parts.a))
+
+    def _circle_bounds(self, chords: Chords) -> tuple[Any, Any, Any]:
+        """The least signed distance of chords, and those of their ends."""
+        import numpy as np
+
+        zone = self._zone
+        assert isinstance(zone, CircleZone)
+        at_a, at_b = self.at(chords.ax, chords.ay), self.at(chords.bx, chords.by)
+        if zone.inclusion:
+            return np.minimum(at_a, at_b), at_a, at_b
+        near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, zone.east_m, zone.north_m)
+        return near.distance - zone.radius_m, at_a, at_b
+
+    def _polygon_bounds(self, chords: Chords) -> tuple[Any, Any, Any]:
+        """No more than the least signed distance of chords, and those of their ends."""
+        import numpy as np
+
+        zone, c = self._zone, chords.columns()
+        assert isinstance(zone, PolygonZone)
+        found = chord_to_edge(c.ax, c.ay, c.bx, c.by, self._edges)
+        sides = polygon_sign(zone, np.append(chords.ax, chords.bx), np.append(chords.ay, chords.by))
+        side_a, side_b = np.split(sides, 2)
+        near = found.nearest.distance.min(axis=1)
         # On the wrong side the zone's boundary is no farther than any one edge is.
-        deepest = np.maximum(from_a, from_b).min(axis=1) + chords.off
-        allowed = (polygon_sign(self._zone, chords.ax, chords.ay) > 0.0) & (near > chords.off)
-        lower = np.where(allowed, near - chords.off, -deepest) - chords.widen
-        return self._at_ends(chords, parts, lower)
-
-    def _at_ends(self, chords: Chords, parts: Parts, lower: Any) -> Bounds:
-        import numpy as np
-
-        at_a = self.at(chords.ax, chords.ay) - chords.widen
-        at_b = self.at(chords.bx, chords.by) - chords.widen
-        return Bounds(lower, np.minimum(at_a, at_b), np.where(at_b < at_a, parts.b, parts.a))
+        deepest = np.maximum(found.from_a, found.from_b).min(axis=1)
+        lower = np.where((side_a > 0.0) & (near > chords.off), near, -deepest)
+        return lower, side_a * found.from_a.min(axis=1), side_b * found.from_b.min(axis=1)
 
     def at(self, x: Any, y: Any) -> Any:
         """The signed distance of points."""
@@ -301,7 +302,7 @@ def least_distance(pieces: Pieces, zone: Zone) -> PlaceInPath:
         parts = parts.take((found.lower < best.distance - RESOLUTION_M).nonzero()[0])
         if not parts.piece.size:
             break
-        parts = parts.halves()
+        parts = parts.split()
     return best
 
 
@@ -326,5 +327,5 @@ def first_entry(pieces: Pieces, zone: Zone) -> PlaceInPath:
         parts = parts.take(keep.nonzero()[0])
         if not parts.piece.size:
             break
-        parts = parts.halves()
+        parts = parts.split()
     return entry

@@ -4,6 +4,7 @@ from loiter.mavlink.connection.telemetry import WindSource
 from loiter.mavlink.guiding.guide import guide
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.missions.exchange import MissionSummary, download, upload
+from loiter.mavlink.missions.fences import download_fence
 from loiter.mavlink.watching.watch import Report, watch
 
 __all__ = [
@@ -13,6 +14,7 @@ __all__ = [
     "Stage",
     "WindSource",
     "download",
+    "download_fence",
     "guide",
     "upload",
     "watch",

@@ -11,7 +11,7 @@ from enum import IntEnum
 from pathlib import Path
 from typing import Any
 
-from loiter.errors import file_path
+from loiter.errors import LoiterError, file_path
 from loiter.fences.places import PlacedCircle, PlacedFence, PlacedPolygon, PlacedZone
 from loiter.io.missions import qgcplan
 from loiter.io.missions.items import MissionItem
@@ -40,7 +40,7 @@ CIRCLES = {FenceCommand.CIRCLE_INCLUSION, FenceCommand.CIRCLE_EXCLUSION}
 INCLUSIONS = {FenceCommand.POLYGON_INCLUSION, FenceCommand.CIRCLE_INCLUSION}
 
 # Says what is wrong with an item: the error to raise for a sentence.
-Fault = Callable[[str], Exception]
+Fault = Callable[[str], LoiterError]
 
 
 def read_fence(path: str | Path, argument: str = "fence") -> PlacedFence:

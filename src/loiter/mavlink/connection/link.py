@@ -30,6 +30,9 @@ OUR_TYPE, NO_AUTOPILOT = 18, 8
 # forward the heartbeats of a component to a line on which they have heard that component themselves.
 FIRST_GUIDE, GUIDES = 25, 75
 
+# MAV_MISSION_TYPE_MISSION and _FENCE.
+MISSION, FENCE = 0, 1
+
 # MAV_TYPE_GCS; MAV_STATE_STANDBY and MAV_STATE_ACTIVE: a program that guides a vehicle is active once it commands.
 GROUND_STATION, STANDBY, ACTIVE = 6, 3, 4
 
@@ -96,6 +99,8 @@ class Link:
         self.others: set[Vehicle] = set()
         self.ground_stations: set[int] = set()
         self.rivals = False
+        # What the messages of the mission protocol transfer: missions, fences and rally points have the same ones.
+        self.mission_type = MISSION
         self.status = ACTIVE
         self._port = port
         self._heartbeats = heartbeats
@@ -166,9 +171,10 @@ class Link:
     def _to_us(self, message: Any) -> bool:
         our_system, our_component = self.us
         system, component = getattr(message, "target_system", 0), getattr(message, "target_component", 0)
-        # Fences and rally points are transferred by the same messages as missions, except in MAVLink 1.
-        is_mission = getattr(message, "mission_type", 0) == 0
-        return system in (0, our_system) and component in (0, our_component) and is_mission
+        # In MAVLink 1 there are only missions.
+        kind = getattr(message, "mission_type", None)
+        is_wanted = kind is None or kind == self.mission_type
+        return system in (0, our_system) and component in (0, our_component) and is_wanted
 
 
 @contextmanager

@@ -82,7 +82,7 @@ def above_sea_m(item: StoredItem, home_altitude_m: float) -> float:
 
 def decode(items: Sequence[StoredItem], vehicle: Vehicle) -> Mission:
     """The mission that a vehicle has; the home is nan if it is not among the items."""
-    decoded = tuple(map(_decode_item, items))
+    decoded = tuple(map(decode_item, items))
     if not keeps_home(vehicle) or not decoded:
         return Mission(decoded, (nan, nan, nan))
     home, *flown = decoded
@@ -173,7 +173,8 @@ def _encode_place(item: MissionItem, name: str) -> tuple[int, int]:
     return round(lat * PER_DEGREE), round(lon * PER_DEGREE)
 
 
-def _decode_item(item: StoredItem) -> MissionItem:
+def decode_item(item: StoredItem) -> MissionItem:
+    """The item with its place in degrees."""
     scale = PER_DEGREE if item.frame in _EQUIVALENT_FRAMES else 1.0
     place = item.x / scale, item.y / scale, item.z
     frame = _EQUIVALENT_FRAMES.get(item.frame, item.frame)

@@ -13,7 +13,7 @@ from typing import Any
 
 from loiter.errors import LinkFailed
 from loiter.mavlink.connection.enumerations import ACCEPTED, CANCELLED, DENIED, ERROR, INVALID_SEQUENCE, mission_result
-from loiter.mavlink.connection.link import Link, dialect
+from loiter.mavlink.connection.link import MISSION, Link, dialect
 from loiter.mavlink.missions.stored_items import StoredItem, from_message, item_name, to_message
 
 # Seconds until a message is repeated, and until a request for an item, which the vehicle answers faster, is repeated:
@@ -44,17 +44,21 @@ class _Unanswered(LinkFailed):
 
 
 def receive(link: Link, timeout_s: float, progress: CountItems = lambda done, total: None) -> list[StoredItem]:
-    """The items that a vehicle has. Raises `LinkFailed` if it is silent for `timeout_s`, or keeps refusing."""
-    request = dialect().MAVLink_mission_request_list_message(*_target(link), 0)
+    """The items of the mission or, if the link transfers those, of the fence that a vehicle has.
+
+    Raises `LinkFailed` if it is silent for `timeout_s`, or keeps refusing.
+    """
+    request = dialect().MAVLink_mission_request_list_message(*_target(link), link.mission_type)
+    action = "give its mission" if link.mission_type == MISSION else "give its fence"
     with _cancel_on_error(link):
         for _ in range(1, ATTEMPTS):
-            total = _answer(link, request, "give its mission", "MISSION_COUNT", REPEAT_S, timeout_s).count
+            total = _answer(link, request, action, "MISSION_COUNT", REPEAT_S, timeout_s).count
             try:
                 return _receive_items(link, total, min(SILENCE_S, timeout_s), progress)
             except _Unanswered:
                 # The vehicle has given up, as mavsdk's does when five requests are lost: the transfer starts again.
                 continue
-        total = _answer(link, request, "give its mission", "MISSION_COUNT", REPEAT_S, timeout_s).count
+        total = _answer(link, request, action, "MISSION_COUNT", REPEAT_S, timeout_s).count
         return _receive_items(link, total, timeout_s, progress)
 
 
@@ -64,11 +68,11 @@ def _receive_items(link: Link, total: int, timeout_s: float, progress: CountItem
     items: list[StoredItem] = []
     for seq in range(total):
         progress(seq, total)
-        request = mavlink.MAVLink_mission_request_int_message(*target, seq, 0)
+        request = mavlink.MAVLink_mission_request_int_message(*target, seq, link.mission_type)
         action = f"give {item_name(seq, link.vehicle)}"
         items.append(from_message(_answer(link, request, action, "MISSION_ITEM_INT", ITEM_REPEAT_S, timeout_s, seq)))
     progress(total, total)
-    link.send(mavlink.MAVLink_mission_ack_message(*target, ACCEPTED, 0))
+    link.send(mavlink.MAVLink_mission_ack_message(*target, ACCEPTED, link.mission_type))
     return items
 
 
@@ -99,7 +103,7 @@ def clear(link: Link, timeout_s: float) -> None:
 def cancel(link: Link) -> None:
     """Tell a vehicle that the transfer is over; if the message is lost, the vehicle's own time-out ends it."""
     with suppress(LinkFailed):
-        link.send(dialect().MAVLink_mission_ack_message(*_target(link), CANCELLED, 0))
+        link.send(dialect().MAVLink_mission_ack_message(*_target(link), CANCELLED, link.mission_type))
 
 
 class _SendAttempt:
