@@ -50,16 +50,19 @@ def test_a_clear_plan_says_how_far_it_is(fence, capsys, planned):
 
 
 def test_a_plan_that_enters_ends_with_1(fence, capsys):
-    """A zone of 1000 m about the circle: the plan flies towards it at 18 m/s, from 2534 m away."""
+    """A zone of 1000 m about a circle of 120 m: the plan flies to it at 18 m/s, from 2534 m away, and turns before."""
     path = fence((0.0, 0.0, 1000.0, False))
     status, out, err = run(f"plan {SCENE} --fence {path}", capsys)
     assert (status, err) == (1, "")
-    last = out.splitlines()[-1]
-    assert last.startswith("The plan enters the zone 'circle 1' in 86.")
-    assert " N " in last
-    assert last.endswith(" E, by up to 1000.0 m.") or "by up to" in last
+    sentence, last = out.splitlines()[-2:]
+    assert sentence.startswith("The plan enters the zone 'circle 1' in 85.3 s, at 47.1")
+    assert sentence.endswith(" E, by up to 880.0 m.")
+    assert last.startswith("No entry found: of the ")
+    assert last.endswith(" candidates none is clear, 'circle 1' blocks here.")
     status, out, _ = run(f"plan {SCENE} --fence {path} --json", capsys)
-    (breach,) = json.loads(out)["fence"]["breaches"]
+    found = json.loads(out)["fence"]
+    (breach,) = found["breaches"]
+    assert found["clear_entry"] is None
     assert status == 1
     assert breach["enters"]
     place = loiter.Pose(breach["east_m"], breach["north_m"], 0.0)
@@ -67,9 +70,28 @@ def test_a_plan_that_enters_ends_with_1(fence, capsys):
     assert (breach["east_m"] ** 2 + breach["north_m"] ** 2) ** 0.5 == pytest.approx(1000.0, abs=1e-4)
 
 
+def test_another_candidate_may_be_clear(fence, capsys):
+    """A mast on the way of the fastest entry, 1 km before the circle."""
+    m = loiter.plan(
+        FRAME.pose(47.1, 8.2, 90.0), loiter.Orbit(0.0, 0.0, 120.0), loiter.Aircraft(18.0, max_bank_deg=35.0)
+    )
+    samples = m.sample(m.duration_s - 55.0)
+    path = fence((float(samples.east_m[1]), float(samples.north_m[1]), 4.0, False))
+    status, out, _ = run(f"plan {SCENE} --fence {path} --margin 1", capsys)
+    assert status == 1
+    assert "The first candidate that is clear joins " in out.splitlines()[-1]
+    status, out, _ = run(f"plan {SCENE} --fence {path} --margin 1 --json", capsys)
+    document = json.loads(out)
+    entry = document["fence"]["clear_entry"]
+    assert entry["later_s"] == pytest.approx(entry["duration_s"] - document["duration_s"])
+    assert entry["later_s"] > 0.0
+
+
 def test_the_margin_is_asked_for(fence, capsys):
     path = fence((0.0, 0.0, 115.0, False))
-    assert run(f"plan {SCENE} --fence {path} --margin 4", capsys)[0] == 1  # the entry comes from outside
+    # The entry comes from outside the circle, which is 5 m from the zone inside it.
+    assert run(f"plan {SCENE} --fence {path} --margin 4.9", capsys)[0] == 0
+    assert run(f"plan {SCENE} --fence {path} --margin 5.1", capsys)[0] == 1
     path = fence((0.0, 0.0, 3000.0, True), (400.0, 0.0, 270.0, False))
     status, out, _ = run(f"plan {SCENE} --fence {path} --margin 9.9", capsys)
     assert (status, "10.0 m from the zone 'circle 2'" in out) == (0, True)
@@ -92,7 +114,7 @@ def test_a_picture_shows_the_fence(fence, capsys, tmp_path):
         ([], "", "it has no fence"),
         ([(-2270.0, -1110.0, 200.0, False)], "", "--pose is inside the zone 'circle 1': a plan must begin outside"),
         ([(0.0, 0.0, 900.0, True)], "", "--pose is outside the inclusion zone 'circle 1': a plan must begin inside"),
-        ([(0.0, 0.0, 900.0, False)], "--margin -1", "--margin is -1: it must be zero or a positive, finite number"),
+        ([(0.0, 0.0, 900.0, False)], "--margin -1", "--margin is -1.0: it must be zero or a positive, finite number"),
         (
             [(0.0, 0.0, 900.0, True), (2000.0, 0.0, 9.0, True)],
             "",

@@ -12,7 +12,20 @@ DOCUMENT = ROOT / "docs" / "design.md"
 BEGIN, END = "<!-- From the docstrings: tests/golden/build_design.py -->\n", "<!-- End of the map -->\n"
 
 # From the mathematics up to the front ends.
-ORDER = ["kernel", "compiled", "planning", "arrays", "geo", "fences", "verify", "evidence", "guidance", "batch", "io", "plot"]
+ORDER = [
+    "kernel",
+    "compiled",
+    "planning",
+    "arrays",
+    "geo",
+    "fences",
+    "verify",
+    "evidence",
+    "guidance",
+    "batch",
+    "io",
+    "plot",
+]
 ORDER += ["mavlink", "web", "cli"]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -11,12 +11,13 @@ from loiter.errors import InvalidArgument, RadiusTooSmall
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
 from loiter.geo.placed import PlacedProblem
+from loiter.io.document import maneuver_values
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
 from loiter.planning.model import Orbit, Pose
 from loiter.planning.problem import Problem
 
 if TYPE_CHECKING:
-    from loiter.fences import Fence, FenceCheck
+    from loiter.fences import ClearEntry, Fence, FenceCheck
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
     from loiter.planning.maneuver import Maneuver
@@ -119,6 +120,25 @@ class CheckedFence(NamedTuple):
 
     fence: Fence
     check: FenceCheck
+
+    def lines(self, maneuvers: Sequence[Maneuver], frame: LocalFrame | None) -> list[str]:
+        """Sentences for people: the check and, where the plan is not clear, the fastest of the maneuvers that is."""
+        found = self._first_clear(maneuvers)
+        return [self.check.sentence(frame), *([found.sentence] if found else [])]
+
+    def document(self, maneuvers: Sequence[Maneuver], frame: LocalFrame | None) -> dict[str, object]:
+        """The same for JSON."""
+        found = self._first_clear(maneuvers)
+        if found is None:
+            return self.check.to_dict(frame)
+        entry = None if found.maneuver is None else maneuver_values(found.maneuver, frame) | {"later_s": found.later_s}
+        return self.check.to_dict(frame) | {"clear_entry": entry}
+
+    def _first_clear(self, maneuvers: Sequence[Maneuver]) -> ClearEntry | None:
+        """The fastest of the maneuvers that is clear; None where the plan is."""
+        from loiter.fences import first_clear
+
+        return None if self.check.clear else first_clear(self.fence, maneuvers, self.check.margin_m)
 
 
 def check_fence(

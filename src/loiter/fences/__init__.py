@@ -1,12 +1,14 @@
 """Fences: zones to stay in or out of, and whether a maneuver and its hold do."""
 
 from loiter.fences.check import Breach, FenceCheck, check, default_margin_m
+from loiter.fences.entries import ClearEntry, first_clear
 from loiter.fences.model import CircleZone, Fence, PolygonZone
 from loiter.fences.places import PlacedCircle, PlacedFence, PlacedPolygon
 
 __all__ = [
     "Breach",
     "CircleZone",
+    "ClearEntry",
     "Fence",
     "FenceCheck",
     "PlacedCircle",
@@ -15,4 +17,5 @@ __all__ = [
     "PolygonZone",
     "check",
     "default_margin_m",
+    "first_clear",
 ]

@@ -125,8 +125,9 @@ def plan(
     # Files are written before pictures: they have more requirements, and if one fails, no picture is left.
     site, target = circle.site, _target(autopilot, uav)
     fenced = check_fence(fence, site, first, frame)
-    written = [*_save(save, first, frame, uav, waypoints, target, site)]
     slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
+    allowed = [*best, *slower]
+    written = [*_save(save, first, frame, uav, waypoints, target, site)]
     if pictures.plot:
         from loiter.plot.picture import draw
 
@@ -136,14 +137,14 @@ def plan(
     if json:
         fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
         led = {"lead_s": lead} if lead else {}
-        checked = {"fence": fenced.check.to_dict(frame)} if fenced else {}
+        checked = {"fence": fenced.document(allowed, frame)} if fenced else {}
         members = fitted | certificates.document(certified) | led | checked | report.files_member(written)
         report.print_json(answer(best, others, frame) | members)
     else:
         remarks = [*([remark] if remark else []), *([report.begins(first, lead, frame)] if lead else [])]
         report.print_tables(best, others, everything=all_, frame=frame, remark="\n".join(remarks))
         certificates.print_text(certified)
-        lines = [*([report.ALONG_PATH] if along_path else []), *([fenced.check.sentence(frame)] if fenced else [])]
+        lines = [*([report.ALONG_PATH] if along_path else []), *(fenced.lines(allowed, frame) if fenced else [])]
         if any(map(is_mission, save)):
             lines += _mission_lines(first, uav, waypoints, target, site)
         report.write(*lines, *report.files_line(written))

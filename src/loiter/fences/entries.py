@@ -1,0 +1,55 @@
+"""The fastest of given maneuvers that stays clear of a fence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import nan
+from typing import NamedTuple
+
+from loiter.errors import InvalidArgument
+from loiter.fences.check import FenceCheck, check
+from loiter.fences.model import Fence
+from loiter.planning.maneuver import Maneuver
+
+
+class ClearEntry(NamedTuple):
+    """The answer of `first_clear`.
+
+    `maneuver` is the fastest that stays clear, `check` its check, and `later_s` how much later than the fastest of all
+    it joins, seconds; None, None and nan where none is clear. `tried` counts the maneuvers that were checked, and
+    `blocking` names the zones that the others breach first.
+    """
+
+    maneuver: Maneuver | None
+    check: FenceCheck | None
+    later_s: float
+    tried: int
+    blocking: tuple[str, ...]
+
+    @property
+    def sentence(self) -> str:
+        """The answer in a sentence."""
+        if self.maneuver is None:
+            zones = " and ".join(map(repr, self.blocking))
+            return f"No entry found: of the {self.tried} candidates none is clear, {zones} blocks here."
+        if not self.later_s:
+            return "The fastest entry is clear."
+        return f"The first candidate that is clear joins {self.later_s:.1f} s later: {self.maneuver}"
+
+
+def first_clear(fence: Fence, maneuvers: Sequence[Maneuver], margin_m: float | None = None) -> ClearEntry:
+    """The fastest of some maneuvers from one start, such as `loiter.candidates`, that stays clear of a fence.
+
+    The margin, metres, is that of `Fence.check`, and so are the errors; none to choose from is an `InvalidArgument`.
+    Other entries than these are not tried: that none of them is clear does not say that there is none.
+    """
+    ordered = sorted(maneuvers, key=lambda maneuver: maneuver.duration_s)
+    if not ordered:
+        raise InvalidArgument("maneuvers", "has none to choose from")
+    blocking: dict[str, None] = {}
+    for tried, maneuver in enumerate(ordered, start=1):
+        found = check(fence, maneuver, margin_m)
+        if found.clear:
+            return ClearEntry(maneuver, found, maneuver.duration_s - ordered[0].duration_s, tried, tuple(blocking))
+        blocking[found.breaches[0].zone.name] = None
+    return ClearEntry(None, None, nan, len(ordered), tuple(blocking))
