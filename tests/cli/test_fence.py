@@ -71,16 +71,17 @@ def test_a_plan_that_enters_ends_with_1(fence, capsys):
 
 
 def test_another_candidate_may_be_clear(fence, capsys):
-    """A mast on the way of the fastest entry, 1 km before the circle."""
-    m = loiter.plan(
-        FRAME.pose(47.1, 8.2, 90.0), loiter.Orbit(0.0, 0.0, 120.0), loiter.Aircraft(18.0, max_bank_deg=35.0)
-    )
-    samples = m.sample(m.duration_s - 55.0)
+    """A mast on the way of the fastest entry, near the circle."""
+    start = loiter.Pose(-300.0, -50.0, 40.0)
+    m = loiter.plan(start, loiter.Orbit(0.0, 0.0, 100.0), loiter.Aircraft(18.0, max_bank_deg=35.0))
+    samples = m.sample(0.7 * m.duration_s)
     path = fence((float(samples.east_m[1]), float(samples.north_m[1]), 4.0, False))
-    status, out, _ = run(f"plan {SCENE} --fence {path} --margin 1", capsys)
+    latitude, longitude, heading = FRAME.place(start)
+    scene = f"--pose-lla {latitude} {longitude} {heading} --orbit-lla 47.11 8.23 100 --airspeed 18 --bank 35"
+    status, out, _ = run(f"plan {scene} --fence {path} --margin 1", capsys)
     assert status == 1
-    assert "The first candidate that is clear joins " in out.splitlines()[-1]
-    status, out, _ = run(f"plan {SCENE} --fence {path} --margin 1 --json", capsys)
+    assert "The first candidate that is clear joins 16.2 s later: LSL, clockwise: " in out.splitlines()[-1]
+    status, out, _ = run(f"plan {scene} --fence {path} --margin 1 --json", capsys)
     document = json.loads(out)
     entry = document["fence"]["clear_entry"]
     assert entry["later_s"] == pytest.approx(entry["duration_s"] - document["duration_s"])

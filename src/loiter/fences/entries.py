@@ -11,6 +11,9 @@ from loiter.fences.check import FenceCheck, check
 from loiter.fences.model import Fence
 from loiter.planning.maneuver import Maneuver
 
+# Differences below this, seconds, are printed as none.
+SAME_TIME_S = 0.05
+
 
 class ClearEntry(NamedTuple):
     """The answer of `first_clear`.
@@ -32,9 +35,10 @@ class ClearEntry(NamedTuple):
         if self.maneuver is None:
             zones = " and ".join(map(repr, self.blocking))
             return f"No entry found: of the {self.tried} candidates none is clear, {zones} blocks here."
-        if not self.later_s:
+        if self.tried == 1:
             return "The fastest entry is clear."
-        return f"The first candidate that is clear joins {self.later_s:.1f} s later: {self.maneuver}"
+        later = f"joins {self.later_s:.1f} s later" if self.later_s >= SAME_TIME_S else "is as fast"
+        return f"The first candidate that is clear {later}: {self.maneuver}"
 
 
 def first_clear(fence: Fence, maneuvers: Sequence[Maneuver], margin_m: float | None = None) -> ClearEntry:
