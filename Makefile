@@ -5,6 +5,7 @@
 # make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
 # make docs   the documentation site, in build/docs, with the page in try/: every warning and every broken link is an error
 # make site   the page as static files for any address, in build/site; ADDRESS=https://... for the pictures of links
+# make firefox  the same in Firefox, if it is installed: widths, appearances, axe, without a network
 # make notebooks  run the notebooks of docs/notebooks and write their outputs
 # make generate  translate the kernel and the law from Python to C, JavaScript and Lua, for package, page and autopilots
 # make pins   rewrite the requirement files from pyproject.toml
@@ -51,7 +52,7 @@ $(BIN)/python:
 /usr/bin/chromium-headless-shell:
 	@requirements/apt-install chromium-headless-shell
 
-.PHONY: demo check test bench verify docs site notebooks generate pins lint
+.PHONY: demo check test bench verify docs site firefox notebooks generate pins lint
 demo: .venv/base.stamp
 	$(BIN)/loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 --plot demo.png
 
@@ -86,6 +87,9 @@ site: .venv/dev.stamp .venv/node.stamp
 	rm -rf build/site
 	$(BIN)/python -m codegen.site build/site $(ADDRESS)
 	@echo "open build/site/index.html"
+
+firefox: .venv/node.stamp
+	cd tests && PYTHONPATH=..:. ../$(BIN)/python -m web.firefox
 
 notebooks: .venv/dev.stamp
 	cd tests && ../$(BIN)/python -m documents.notebooks

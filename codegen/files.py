@@ -17,7 +17,7 @@ from loiter.kernel.still_air import extremals, switching_curves, synthesis
 from loiter.kernel.wind import hold, wind_search
 from loiter.version import __version__
 from loiter.web import problems  # noqa: F401
-from loiter.web.answers import exports, plans  # noqa: F401
+from loiter.web.answers import exports, plans, race  # noqa: F401
 
 FOLDER = ROOT / "src" / "loiter" / "native"
 PAGE = ROOT / "src" / "loiter" / "web" / "static" / "kernel"
@@ -118,6 +118,7 @@ ABOVE_KERNEL = (
     ("loiter.web.answers.plans", "all_candidates"),
     ("loiter.web.answers.plans", "certificate"),
     ("loiter.web.answers.tracks", "lap"),
+    ("loiter.web.answers.race", "race"),
     ("loiter.web.answers.exports", "_check_points"),
     ("loiter.io.files", "FILE_FORMATS"),
     ("loiter.io.files", "SaveArguments"),

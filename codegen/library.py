@@ -5,6 +5,8 @@ and takes little time, so here operators and methods become calls of `static/ker
 complex numbers, arrays and text as Python does. Functions of the kernel stay those of `kernel.js`. All that the globals
 `roots` need is translated, but for what JavaScript has elsewhere.
 
+Classes that are neither dataclasses nor named tuples are classes there too, with at most one base of ours.
+
 Members of enumerations are their values: text or integers. A number without decimals may be written as a float, unless
 it looks like an integer, such as `len(...)`.
 """
@@ -103,7 +105,10 @@ class Library:
         writer = Writer(self, module)
         if name in classes(module):
             self.parts[key] = ""
-            self.parts[key] = self._class(title, classes(module)[name], getattr(module, name), writer)
+            text = self._class(title, classes(module)[name], getattr(module, name), writer)
+            # After its base.
+            del self.parts[key]
+            self.parts[key] = text
         elif name in syntax(module):
             self.parts[key] = ""
             self.parts[key] = writer.function(syntax(module)[name], title)
@@ -130,6 +135,9 @@ class Library:
                 writer.function(one, f"{title}_{one.name}") for one in node.body if isinstance(one, ast.FunctionDef)
             ]
             return "\n".join([f"const {title} = enumeration({{ {members} }});", *functions])
+        writer.cls = cls
+        if not is_dataclass(cls) and not hasattr(cls, "_fields"):
+            return self._plain_class(title, node, cls, writer)
         if is_dataclass(cls):
             fields = [(one.name, one.init) for one in dataclass_fields(cls)]
         else:
@@ -152,6 +160,23 @@ class Library:
         names = ", ".join(f'"{name}"' for name, is_given in fields if is_given)
         base = "Values" if is_dataclass(cls) else "Tuple"
         return f"const {title} = struct(class {title} extends {base} {{\n" + "\n".join(lines) + f"\n}}, [{names}]);"
+
+    def _plain_class(self, title: str, node: ast.ClassDef, cls: type, writer: Writer) -> str:
+        """A class with a constructor, and with a base that is translated before it if the base is ours."""
+        base = cls.__bases__[0] if cls.__bases__[0].__module__.startswith("loiter.") else None
+        parent = "Values"
+        if base is not None:
+            key = base.__module__, base.__name__
+            parent = f"{self.named(*key)}.kind"
+            if key in self.waiting:
+                self.waiting.remove(key)
+                self._translate(key)
+        lines = [
+            writer.constructor(one, base) if one.name == "__init__" else writer.method(one)
+            for one in node.body
+            if isinstance(one, ast.FunctionDef)
+        ]
+        return f"const {title} = struct(class {title} extends {parent} {{\n" + "\n".join(lines) + "\n}, []);"
 
     def _is_unused(self, node: ast.FunctionDef, cls: type) -> bool:
         return node.name in UNUSED.get(cls.__name__, ()) or (
@@ -188,6 +213,7 @@ class Writer:
         self.library, self.module = library, module
         self.local: list[set[str]] = []
         self.temporaries = 0
+        self.cls: type | None = None
 
     # Statements
 
@@ -205,6 +231,18 @@ class Writer:
         get = "get " if "property" in decorators else "*" if _yields(node) else ""
         name = {"__str__": "toString"}.get(node.name, safe(node.name))
         return f"{get}{name}({self._parameters(node.args, skip=1)}) {{\n{body}\n}}"
+
+    def constructor(self, node: ast.FunctionDef, base: type | None) -> str:
+        """A constructor; where there is a base, its first statement calls that of the base."""
+        head, body = "super();", node.body
+        if base is not None:
+            first, *body = body
+            assert isinstance(first, ast.Expr) and isinstance(first.value, ast.Call), ast.unparse(first)
+            self.local.append({one.arg for one in (*node.args.args, *node.args.kwonlyargs)})
+            head = f"super({', '.join(self._bound(first.value, base))});"
+            self.local.pop()
+        rest = self._body(ast.FunctionDef(node.name, node.args, body, [], lineno=node.lineno), "this")
+        return f"constructor({self._parameters(node.args, skip=1)}) {{\n{head}\n{rest}\n}}"
 
     def _parameters(self, arguments: ast.arguments, skip: int = 0) -> str:
         given = [*arguments.posonlyargs, *arguments.args]
@@ -596,8 +634,8 @@ class Writer:
 
     def _Call(self, node: ast.Call) -> str:
         match node.func:
-            case ast.Attribute(value=ast.Call(func=ast.Name(id="super"))):
-                raise NotTranslated(f"{self.module.__name__}:{node.lineno}: super()")
+            case ast.Attribute(value=ast.Call(func=ast.Name(id="super")), attr=name):
+                return f"super.{safe(name)}({', '.join(map(self._element, node.args))})"
             case ast.Attribute(value=ast.Name(id="object"), attr="__setattr__"):
                 owner, name, value = map(self.expression, node.args)
                 return f"({owner}[{name}] = {value})"
@@ -631,6 +669,9 @@ class Writer:
     def _method_call(self, node: ast.Call) -> str:
         assert isinstance(node.func, ast.Attribute)
         owner, name = self.expression(node.func.value), node.func.attr
+        if owner == "self" and node.keywords and self.cls is not None:
+            # Its own methods take their arguments in order.
+            return f"self.{safe(name)}({', '.join(self._bound(node, getattr(self.cls, name), skip=1))})"
         if name in METHODS:
             return f"{name}_({', '.join([owner, *map(self._element, node.args)])})"
         if not node.keywords:
@@ -638,12 +679,12 @@ class Writer:
         options = ", ".join(f"{one.arg}: {self.expression(one.value)}" for one in node.keywords)
         return f"{owner}.{safe(name)}({', '.join([*map(self._element, node.args), f'{{ {options} }}'])})"
 
-    def _bound(self, node: ast.Call, function: Any) -> Iterator[str]:
-        """The arguments of a call of a known function, in the order of its parameters."""
+    def _bound(self, node: ast.Call, function: Any, skip: int = 0) -> Iterator[str]:
+        """The arguments of a call of a known function, in the order of its parameters, of which the first are left out."""
         if isinstance(function, type) and issubclass(function, Exception):
             yield from map(self._element, node.args)
             return
-        parameters = list(inspect.signature(function).parameters.values())
+        parameters = list(inspect.signature(function).parameters.values())[skip:]
         rest = [one for one in parameters if one.kind == one.VAR_KEYWORD]
         plain = [one.name for one in parameters if one.kind != one.VAR_KEYWORD]
         texts = list(map(self._element, node.args))

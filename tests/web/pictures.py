@@ -1,28 +1,45 @@
-"""Pictures of the page for the documents: docs/page.png, docs/page-dark.png.
+"""Pictures of the page for the documents: page.png, page-dark.png and page-phone.png in docs.
 
-Run: PYTHONPATH=tests python -m web.pictures
+Run: PYTHONPATH=src:tests:. python -m web.pictures
 """
 
 from pathlib import Path
+from typing import NamedTuple
 
 from web import browsing
 
 DOCS = Path(__file__).parents[2] / "docs"
 
 
+class Picture(NamedTuple):
+    """A scene of the page on a screen; `share` is the time on the path, of 1000, None for a race."""
+
+    preset: str
+    share: str | None
+    screen: dict
+
+
+PICTURES = {
+    "page.png": Picture("Beside the circle", "620", {"viewport": browsing.DESK}),
+    "page-dark.png": Picture("In wind", None, {"viewport": browsing.DESK, "color_scheme": "dark"}),
+    "page-phone.png": Picture("Far away", "450", browsing.PHONE),
+}
+
+
 def main():
     with browsing.served() as address, browsing.browsing() as browser:
-        for name, scheme, preset, share in (
-            ("page.png", "light", "Beside the circle", "620"),
-            ("page-dark.png", "dark", "Paper, example 2", "450"),
-        ):
-            page = browser.new_page(viewport={"width": 1440, "height": 900}, color_scheme=scheme)
+        for name, (preset, share, screen) in PICTURES.items():
+            page = browser.new_page(**screen)
             page.set_default_timeout(300_000)
             page.goto(address)
             browsing.settle(page)
             browsing.press(page, preset)
-            page.locator("#clock").fill(share)
-            page.mouse.click(700, 10)
+            if share is None:
+                page.locator("#race").click()
+                page.wait_for_function("() => Number(document.getElementById('clock').value) >= 900")
+                page.locator("#play").click()
+            else:
+                page.locator("#clock").fill(share)
             page.screenshot(path=DOCS / name)
             print(f"{name}: {(DOCS / name).stat().st_size / 1000:.0f} kB")
 

@@ -5,7 +5,7 @@ import re
 import pytest
 
 import loiter
-from web.browsing import DESK, PHONE, TABLET, assert_shows_the_plan, middle, press, scene, settle, values
+from web.browsing import DESK, PHONE, TABLET, assert_shows_the_plan, middle, press, scene, settle, time_text, values
 
 DEVICES = {"desk": {"viewport": DESK}, "tablet": TABLET, "phone": PHONE}
 HANDLES = ("aircraft", "heading", "centre", "radius")
@@ -41,7 +41,7 @@ def test_no_label_covers_another_or_a_control(opened, device):
         press(page, name)
         labels = boxes(page, "#plan .marks text")
         assert len(labels) >= 1
-        others = boxes(page, "#plan .air text, #plan .dial circle, #plan-box .zoom, #plan-box .key")
+        others = boxes(page, "#plan .air text, #plan .dial circle, #plan-box .corner, #plan-box .key")
         assert pairs_that_overlap(labels) == []
         assert [label for label in labels if any(overlap(label, other) for other in others)] == []
     for link in links[1:]:
@@ -149,7 +149,7 @@ def test_a_time_reads_the_same_everywhere(page):
         press(page, name)
         maneuver = loiter.plan(*values(scene(page)))
         decimals = 2 if maneuver.orbit.radius_m >= 10.0 else 3
-        time = f"{maneuver.duration_s:.{decimals}f} s"
+        time = time_text(maneuver.duration_s, decimals)
         later = page.locator("#candidates li:not(.best) .later").first.inner_text()
         assert page.locator("#time").inner_text() == time
         assert page.locator("#candidates .best .duration").first.inner_text() == time

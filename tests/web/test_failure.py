@@ -9,7 +9,7 @@ import loiter
 from loiter.web.answers.exports import FORMATS
 from web.browsing import PHONE, assert_shows_the_plan, grave, scene, settle, values
 
-COPIES = ["copy-command", "copy-python", "copy-link"]
+COPIES = ["copy-command", "copy-python"]
 SAVES = list(FORMATS)
 BUTTONS = [f"#{name}" for name in [*COPIES, "play"]] + [f"[data-format={name}]" for name in SAVES]
 
@@ -44,6 +44,10 @@ def assert_off(page, reason):
         assert page.locator("#message").get_attribute("class") == "bad"
         assert page.locator("#message").inner_text() == "This scene has no plan."
     assert clipboard(page) == "untouched"
+    # A link to the scene can be sent all the same.
+    page.locator("#copy-link").click()
+    expect(page.locator("#message")).to_have_text("Link copied.")
+    assert clipboard(page) == page.url
     assert page.locator("#play").get_attribute("aria-pressed") == "false"
     assert page.locator("#clock").is_disabled()
     assert page.locator("#command").text_content() == page.locator("#python").text_content() == ""
@@ -122,6 +126,27 @@ def test_one_click_takes_the_least_radius_that_can_be_held(page, wind, radius):
     said = f"A circle of {radius} m cannot be held; this is the least radius."
     assert page.locator("#message").inner_text() == said
     assert_on(page)
+    assert_shows_the_plan(page)
+
+
+def test_the_radius_is_offered_below_its_field_too_in_the_units_of_the_page(opened):
+    page = opened(**PHONE)
+    page.locator("#units").select_option("aviation")
+    page.locator("#circle-radius").fill("100")
+    fail(page, "refused")
+    field = page.locator("#circle-radius").bounding_box()
+    offer = page.locator(".scene .offer")
+    assert offer.inner_text() == "Use 154.803 ft, the least radius"
+    below = offer.bounding_box()
+    assert below["y"] - (field["y"] + field["height"]) < 120
+    sentence = "Orbit radius 100 ft is tighter than the aircraft can turn: 154.79 ft at 34.989 kt and 35 deg of bank"
+    assert page.locator("#why").inner_text().startswith(sentence)
+    assert page.locator("#circle-radius-fault").inner_text().startswith(sentence)
+    # Other units, other sentence.
+    page.locator("#units").select_option("metric")
+    expect(page.locator("#why")).to_contain_text("Orbit radius 30.48 m is tighter than the aircraft can turn: 47.18 m at")
+    offer.click()
+    settle(page)
     assert_shows_the_plan(page)
 
 

@@ -28,6 +28,7 @@ from web.browsing import (
     press,
     scene,
     settle,
+    time_text,
     to_metres,
     values,
 )
@@ -98,7 +99,7 @@ def test_every_candidate_is_listed_with_what_it_loses(page):
     assert rows.count() == len(known)
     for row, maneuver in zip(rows.all(), known, strict=True):
         assert row.locator(".word").inner_text() == maneuver.word
-        assert row.locator(".duration").inner_text() == f"{maneuver.duration_s:.2f} s"
+        assert row.locator(".duration").inner_text() == time_text(maneuver.duration_s)
     row = rows.nth(1).locator("button")
     row.focus()
     later = known[1].duration_s - known[0].duration_s
@@ -181,7 +182,7 @@ def test_in_wind_a_drag_shows_every_candidate_too_and_asks_nobody(page):
     page.mouse.move(x + 30, y + 40, steps=3)
     assert_shows_the_plan(page)
     everyone = loiter.candidates(*values(scene(page)))
-    assert page.locator("#candidates .duration").all_inner_texts() == [f"{m.duration_s:.2f} s" for m in everyone]
+    assert page.locator("#candidates .duration").all_inner_texts() == [time_text(m.duration_s) for m in everyone]
     assert page.locator("#plan .others .line").count() == len(everyone) - 1
     # A move knows how long it waited for its path, on the page's clock.
     (wait,) = page.evaluate("performance.getEntriesByName('move to path').map(measure => measure.duration)")

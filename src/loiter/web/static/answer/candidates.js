@@ -13,10 +13,7 @@ import { DIRECTIONS, DIRECTION_ARROWS, isAllowed, splitAnswer, wordLabel } from 
 import { roving } from "../shared/roving.js";
 import { signedTimeDifference, timeText } from "../shared/units.js";
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 export function candidatesView(store, actions) {
   const list = byId("candidates", HTMLElement);
   const markStop = roving(list);
@@ -34,10 +31,7 @@ export function candidatesView(store, actions) {
   );
 }
 
-/**
- * @param {PageState} state
- * @param {(index: number | null) => void} highlight
- */
+/** @param {PageState} state @param {(index: number | null) => void} highlight */
 function rowsOf({ answer, scene }, highlight) {
   if (!answer) return [];
   const { best, others } = splitAnswer(answer);
@@ -56,11 +50,7 @@ function rowsOf({ answer, scene }, highlight) {
   ];
 }
 
-/**
- * @param {Maneuver} maneuver
- * @param {Scene} scene
- * @param {string} later
- */
+/** @param {Maneuver} maneuver @param {Scene} scene @param {string} later */
 function cells({ word, turn, duration_s }, scene, later) {
   return [
     wordLabel(word),

@@ -9,7 +9,7 @@
  */
 import { byId, html } from "../shared/dom.js";
 import { DIRECTIONS, DIRECTION_ARROWS, splitAnswer, wordLabel } from "../shared/maneuver.js";
-import { decimalsFor, fixed, quantityText, signedTimeDifference, timeText } from "../shared/units.js";
+import { clockText, decimalsFor, fixed, quantityText, signedTimeDifference, timeText } from "../shared/units.js";
 
 const TIE_S = 1e-9; // durations closer than this count as ties
 
@@ -20,7 +20,7 @@ export function factsView(store) {
   // For screen readers, only when a drag pauses.
   store.watch(
     ({ announced }) => [announced],
-    ({ announced }) => announced && (byId("spoken", HTMLElement).textContent = announced.instruction),
+    ({ announced }) => announced && (byId("spoken", HTMLElement).textContent = inMinutes(announced.instruction)),
   );
 }
 
@@ -38,17 +38,21 @@ function countdownOf({ answer, playback: { playing, time_s } }) {
   if (i < 0) return `Hold ${DIRECTIONS[answer.turn]}.`;
   const { letter, start_s, duration_s } = answer.segments[i];
   const next = answer.segments[i + 1];
-  const left = fixed(start_s + duration_s - time_s, 1);
-  return `${DOING[letter]}, then ${next ? DOING[next.letter].toLowerCase() : hold} in ${left} s.`;
+  const left = clockText(start_s + duration_s - time_s, 1);
+  return `${DOING[letter]}, then ${next ? DOING[next.letter].toLowerCase() : hold} in ${left}.`;
 }
+
+/** A text of the library with long times in minutes. @param {string} text */
+const inMinutes = (text) =>
+  text.replace(/(\d+\.(\d+)) s\b/g, (_, seconds, decimals) => clockText(Number(seconds), decimals.length));
 
 /** @param {PageState} state */
 function drawHeadline(state) {
   const { answer, failure } = state;
   const headline = byId("instruction", HTMLElement);
-  const text = failure?.headline ?? (countdownOf(state) || (answer?.instruction ?? ""));
+  const text = failure?.headline ?? (countdownOf(state) || inMinutes(answer?.instruction ?? ""));
   // What to do, then how to hold, each on lines of its own; a unit stays beside its number.
-  const parts = text.replaceAll(/(\d) s\b/g, "$1\u00a0s").split(/(?<=\.) (?=Hold )/);
+  const parts = text.replaceAll(/(\d) (s|min)\b/g, "$1\u00a0$2").split(/(?<=\.) (?=Hold )/);
   const hold = (/** @type {string} */ part) => html("span", { class: "hold" }, [part + (failure ? "" : tieText(answer))]);
   headline.replaceChildren(...parts.flatMap((part, i) => (i ? [" ", hold(part)] : [part])));
   headline.classList.toggle("bad", failure !== null);
@@ -73,11 +77,7 @@ function drawFacts({ answer, scene, units }) {
   setFact("bank-on-circle", bankText(answer));
 }
 
-/**
- * @param {string} id
- * @param {string | Element} value
- * @param {string} [note]
- */
+/** @param {string} id @param {string | Element} value @param {string} [note] */
 function setFact(id, value, note = "") {
   byId(id, HTMLElement).replaceChildren(value, ...(note ? [html("small", {}, [note])] : []));
 }

@@ -7,7 +7,7 @@
  * @typedef {import("../state/actions.js").Actions} Actions
  */
 import { withOrbit } from "../scene/scene.js";
-import { byId, show } from "../shared/dom.js";
+import { byId, html, show } from "../shared/dom.js";
 import { powerBelow, sixDigits, tidyAbove, unitOf } from "../shared/units.js";
 
 /** @param {Store} store */
@@ -24,10 +24,7 @@ export function messageView(store) {
 
 const REASON_IDS = "no-plan refusal"; // the elements that say why a button is disabled
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 export function failureView(store, actions) {
   // Runs before the listeners of the buttons themselves.
   addEventListener("click", (event) => stopDisabled(event) && actions.say("This scene has no plan.", true), {
@@ -45,25 +42,31 @@ export function failureView(store, actions) {
 }
 
 /**
- * The button that replaces a circle that cannot be held by the circle with the least radius that can be.
+ * The buttons that replace a circle that cannot be held by the circle with the least radius that can be: beside the
+ * message, and below the field.
  *
  * @param {Store} store
  * @param {Actions} actions
  */
 export function fitView(store, actions) {
-  const button = byId("fit-circle", HTMLButtonElement);
-  button.addEventListener("click", (event) => {
-    const { scene, failure } = store.get();
-    if (!failure?.fittedRadius_m) return;
-    actions.changeScene(withOrbit(scene, { radius_m: rounded(failure.fittedRadius_m) }), event);
-    actions.say(`A circle of ${text(scene.orbit.radius_m)} cannot be held; this is the least radius.`);
-  });
+  const inForm = html("button", { type: "button", class: "offer", tabindex: -1 });
+  const buttons = [byId("fit-circle", HTMLButtonElement), inForm];
+  byId("circle-radius-fault", HTMLElement).after(inForm);
+  for (const button of buttons)
+    button.addEventListener("click", (event) => {
+      const { scene, failure } = store.get();
+      if (!failure?.fittedRadius_m) return;
+      actions.changeScene(withOrbit(scene, { radius_m: rounded(failure.fittedRadius_m) }), event);
+      actions.say(`A circle of ${text(scene.orbit.radius_m)} cannot be held; this is the least radius.`);
+    });
   store.watch(
     ({ failure, units }) => [failure, units],
     ({ failure }) => {
       const radius_m = failure?.fittedRadius_m ?? null;
-      show(button, radius_m !== null);
-      if (radius_m !== null) button.textContent = `Use ${text(rounded(radius_m))}, the least radius`;
+      for (const button of buttons) {
+        show(button, radius_m !== null);
+        if (radius_m !== null) button.textContent = `Use ${text(rounded(radius_m))}, the least radius`;
+      }
     },
   );
 
@@ -77,11 +80,7 @@ export function fitView(store, actions) {
   }
 }
 
-/**
- * Stop a click on a disabled button. Returns whether the button was disabled.
- *
- * @param {Event} event
- */
+/** Stop a click on a disabled button. Returns whether the button was disabled. @param {Event} event */
 function stopDisabled(event) {
   const target = event.target instanceof Element ? event.target.closest("[data-needs-plan]") : null;
   if (target?.getAttribute("aria-disabled") !== "true") return false;

@@ -27,6 +27,7 @@ export function theoryView(store) {
     ({ theory }) => [theory],
     ({ theory }) => {
       button.setAttribute("aria-expanded", String(theory));
+      byId("main", HTMLElement).classList.toggle("theory", theory);
       for (const id of PARTS) show(byId(id, HTMLElement), theory);
     },
   );

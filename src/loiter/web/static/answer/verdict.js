@@ -25,10 +25,7 @@ export function verdictView(store) {
   );
 }
 
-/**
- * @param {PageState} state
- * @returns {{kind: "unchecked" | "waiting" | "valid" | "invalid", text: string}}
- */
+/** @param {PageState} state @returns {{kind: "unchecked" | "waiting" | "valid" | "invalid", text: string}} */
 function verdictOf({ failure, faults, proof, answer, scene }) {
   if (failure) return { kind: "unchecked", text: "–" };
   if (faults.certificate) return { kind: "unchecked", text: faults.certificate };

@@ -17,11 +17,7 @@ import { FORMATS, altitudeFor, missingFor, savedText } from "./formats.js";
 
 const KEPT_MS = 60_000; // an address of a file is kept until the browser has surely read it
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- * @param {Fields} fields
- */
+/** @param {Store} store @param {Actions} actions @param {Fields} fields */
 export function exportPanel(store, actions, fields) {
   /** @param {FieldErrors} file */
   const mark = (file) => store.update({ fieldErrors: { ...store.get().fieldErrors, file } });
@@ -36,7 +32,7 @@ export function exportPanel(store, actions, fields) {
 
   /** @param {Error} error */
   function refuse(error) {
-    const refusal = refusalOf(error);
+    const refusal = refusalOf(error, store.get().units);
     mark(refusal.fields);
     actions.say(refusal.sentence, true);
   }
@@ -58,11 +54,7 @@ function formatButton({ format, name, use }) {
   return html("button", { type: "button", ...label, "data-format": format, "data-needs-plan": "" }, [name]);
 }
 
-/**
- * @param {Format} format
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Format} format @param {Store} store @param {Actions} actions */
 async function saveFile({ format, kind }, store, actions) {
   const state = store.get();
   const options = { ...state.scene, ...altitudeFor(kind, state.altitude) };
@@ -71,20 +63,14 @@ async function saveFile({ format, kind }, store, actions) {
   actions.say(savedText(name, kind, state));
 }
 
-/**
- * @param {Blob} content
- * @param {string} name
- */
+/** @param {Blob} content @param {string} name */
 function download(content, name) {
   const address = URL.createObjectURL(content);
   html("a", { href: address, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(address), KEPT_MS);
 }
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 export function copyButtons(store, actions) {
   copyButton("copy-python", "Python", () => currentPlan(store.get())?.python, actions);
   copyButton("copy-command", "Command", () => currentPlan(store.get())?.command, actions);
@@ -108,7 +94,8 @@ function copyButton(id, name, text, actions) {
   byId(id, HTMLButtonElement).addEventListener("click", () => {
     const copied = text();
     if (copied === undefined) return actions.say("The plan of this scene is not ready yet.", true);
-    navigator.clipboard.writeText(copied).then(
+    // Browsers have no clipboard for pages without https.
+    (navigator.clipboard?.writeText(copied) ?? Promise.reject()).then(
       () => actions.say(`${name} copied.`),
       () => actions.say("The browser does not let this page copy; select the text instead.", true),
     );

@@ -10,6 +10,7 @@
  * @typedef {"map" | "table" | "mission" | "picture"} Kind
  * @typedef {{format: string, name: string, use: string, kind: Kind}} Format
  */
+import { quantityText } from "../shared/units.js";
 import { altitudeText, mapAltitude, missingForMission, missionAltitude } from "../fields/altitude.js";
 
 /** @type {Format[]} */
@@ -17,7 +18,7 @@ export const FORMATS = [
   { format: "geojson", name: "GeoJSON", use: "for maps", kind: "map" },
   { format: "kml", name: "KML", use: "for Google Earth", kind: "map" },
   { format: "gpx", name: "GPX", use: "for GPS receivers", kind: "map" },
-  { format: "csv", name: "CSV", use: "samples along the track", kind: "table" },
+  { format: "csv", name: "CSV", use: "samples along the track, in metres", kind: "table" },
   { format: "plan", name: "Plan", use: "mission for QGroundControl", kind: "mission" },
   { format: "waypoints", name: "WPL", use: "waypoints for Mission Planner", kind: "mission" },
   { format: "png", name: "PNG", use: "picture", kind: "picture" },
@@ -58,28 +59,16 @@ const typos = (fields) =>
       .filter(([, sentence]) => sentence !== ""),
   );
 
-/**
- * The altitude that is written into a file.
- *
- * @param {Kind} kind
- * @param {Altitude} altitude
- * @returns {Altitude}
- */
+/** The altitude that is written into a file. @param {Kind} kind @param {Altitude} altitude @returns {Altitude} */
 export function altitudeFor(kind, altitude) {
   if (kind === "picture") return {};
   return kind === "mission" ? missionAltitude(altitude) : mapAltitude(altitude);
 }
 
-/**
- * The message after a file was saved.
- *
- * @param {string} name
- * @param {Kind} kind
- * @param {PageState} state
- */
+/** The message after a file was saved. @param {string} name @param {Kind} kind @param {PageState} state */
 export function savedText(name, kind, { scene, altitude, units }) {
   if (kind === "mission")
-    return `${name} saved: ${altitudeText(missionAltitude(altitude), units)}.${radiusRemark(scene.orbit.radius_m)}`;
+    return `${name} saved: ${altitudeText(missionAltitude(altitude), units)}.${radiusRemark(scene.orbit.radius_m, units)}`;
   const isLost = altitude.altitude_m !== undefined && altitudeFor(kind, altitude).altitude_m === undefined;
   if (kind === "picture" || !isLost) return `${name} saved.`;
   return `${name} saved without the altitude: it is not known above mean sea level.`;
@@ -89,8 +78,10 @@ export function savedText(name, kind, { scene, altitude, units }) {
  * A sentence on the radius that ArduPlane stores, where it is not that of the mission; otherwise nothing.
  *
  * @param {number} radius_m
+ * @param {PageState["units"]} units
  */
-function radiusRemark(radius_m) {
+function radiusRemark(radius_m, units) {
   const stored_m = Math.floor(radius_m);
-  return stored_m === radius_m ? "" : ` ArduPlane stores the radius in whole metres: ${stored_m} m.`;
+  const shown = units === "metric" ? "" : ` (${quantityText(stored_m, "length", units, 1)})`;
+  return stored_m === radius_m ? "" : ` ArduPlane stores the radius in whole metres: ${stored_m} m${shown}.`;
 }

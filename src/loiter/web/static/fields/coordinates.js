@@ -118,12 +118,7 @@ export function parsePair(text) {
   return null;
 }
 
-/**
- * The error in a pair: a latitude beyond a pole.
- *
- * @param {Origin} pair
- * @returns {string} nothing if it is fine
- */
+/** The error in a pair: a latitude beyond a pole. @param {Origin} pair @returns {string} nothing if it is fine */
 export function pairProblem({ latitude_deg, longitude_deg }) {
   if (Math.abs(latitude_deg) > 90)
     return Math.abs(longitude_deg) <= 90

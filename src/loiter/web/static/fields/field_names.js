@@ -1,17 +1,15 @@
 // @ts-check
 /**
- * Errors of the service, in the names that the page gives to the fields.
+ * Errors of the library, in the names that the page gives to the fields.
  *
+ * @typedef {import("../shared/types.js").Units} Units
  * @typedef {import("../state/page_state.js").FieldErrors} FieldErrors
  */
 import { Problem } from "../requests/api.js";
 import { byId } from "../shared/dom.js";
+import { sentenceIn } from "../shared/units.js";
 
-/**
- * The id of the field for each part of a request.
- *
- * @type {Record<string, string>}
- */
+/** The id of the field for each part of a scene. @type {Record<string, string>} */
 const FIELDS = {
   "pose/east_m": "east",
   "pose/north_m": "north",
@@ -36,11 +34,7 @@ const FIELDS = {
   home_altitude_m: "home-altitude",
 };
 
-/**
- * Names of parts that have no field of their own, or several.
- *
- * @type {Record<string, string>}
- */
+/** Names of parts that have no field of their own, or several. @type {Record<string, string>} */
 const NAMES = {
   "orbit/turn": "Direction of the hold",
   tolerance_m: "Tolerance",
@@ -48,43 +42,38 @@ const NAMES = {
   origin: "The place of (0, 0) on Earth",
 };
 
-/**
- * The field for each kind of problem that names no part of the request.
- *
- * @type {Record<string, string>}
- */
+/** The field for each kind of problem that names no part of the scene. @type {Record<string, string>} */
 const FIELD_OF_PROBLEM = { "radius-too-small": "circle-radius", "wind-too-strong": "wind-speed" };
 
-/**
- * The name of a field: "Radius of the circle".
- *
- * @param {HTMLElement} input
- */
+/** The name of a field: "Radius of the circle". @param {HTMLElement} input */
 export function nameOf(input) {
   const label = input.closest("label")?.querySelector("span")?.textContent;
   return input.getAttribute("aria-label") ?? label ?? "The field";
 }
 
 /**
- * The sentence of an error in the names of the page, and the same sentence for each field that it concerns.
+ * The sentence of an error in the names and units of the page, and the same sentence for each field that it concerns.
  *
  * @param {Error} error
+ * @param {Units} units
  * @returns {{sentence: string, fields: FieldErrors}}
  */
-export function refusalOf(error) {
-  const sentence = translate(error.message);
+export function refusalOf(error, units) {
+  const sentence = translate(error.message, units);
   const ids = error instanceof Problem ? fieldsOf(error) : [];
   return { sentence, fields: Object.fromEntries(ids.map((id) => [id, sentence])) };
 }
 
 /**
- * A sentence of the service with the name of the field: "Airspeed is 0: ..." for "aircraft.airspeed_m_s is 0: ...".
+ * A sentence of the library with the name of the field: "Airspeed is 0: ..." for "aircraft.airspeed_m_s is 0: ...".
  *
  * @param {string} sentence
+ * @param {Units} units
  */
-function translate(sentence) {
+function translate(sentence, units) {
   const path = /^[\w.]*/.exec(sentence)?.[0] ?? "";
-  const translated = nameOfPart(path.replaceAll(".", "/")) + sentence.slice(path.length);
+  const quantity = path.endsWith("_m_s") ? "speed" : path.endsWith("_m") ? "length" : undefined;
+  const translated = nameOfPart(path.replaceAll(".", "/")) + sentenceIn(sentence.slice(path.length), units, quantity);
   return translated.charAt(0).toUpperCase() + translated.slice(1);
 
   /** @param {string} part */
@@ -93,12 +82,7 @@ function translate(sentence) {
   }
 }
 
-/**
- * The fields that a refusal concerns.
- *
- * @param {Problem} problem
- * @returns {string[]}
- */
+/** The fields that a refusal concerns. @param {Problem} problem @returns {string[]} */
 function fieldsOf({ kind, places }) {
   const fields = [...places.map((place) => FIELDS[place]), FIELD_OF_PROBLEM[kind]];
   return [...new Set(fields.filter((field) => field !== undefined))];

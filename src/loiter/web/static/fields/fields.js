@@ -15,7 +15,8 @@
  */
 import { REFERENCES } from "../scene/link.js";
 import { byId, show } from "../shared/dom.js";
-import { tidy } from "../shared/units.js";
+import { remember } from "../shared/storage.js";
+import { asUnits, tidy } from "../shared/units.js";
 import { needsHome } from "./altitude.js";
 import { pairProblem, parseAngle, parsePair } from "./coordinates.js";
 import { choiceField, numberField } from "./input_fields.js";
@@ -41,16 +42,19 @@ export function createFields(store, actions, camera) {
     }),
     ...altitudeFields(store, actions),
   };
-  unitsChoice(store);
+  unitsChoice(store, actions);
   markErrors(store, fields, "scene");
   markErrors(store, fields, "file");
   return fields;
 }
 
-/** @param {Store} store */
-function unitsChoice(store) {
+/** @param {Store} store @param {Actions} actions */
+function unitsChoice(store, actions) {
   const select = byId("units", HTMLSelectElement);
-  select.addEventListener("change", () => store.update({ units: select.value === "aviation" ? "aviation" : "metric" }));
+  select.addEventListener("change", () => {
+    remember("units", select.value);
+    actions.changeUnits(asUnits(select.value));
+  });
   store.watch(
     ({ units }) => [units],
     ({ units }) => (select.value = units),
@@ -80,10 +84,7 @@ function markErrors(store, fields, subject) {
   );
 }
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 export function originFields(store, actions) {
   /** @param {keyof Origin} name @returns {Source} */
   const sourceOf = (name) => ({

@@ -27,11 +27,7 @@ import { sixDigits, unitOf } from "../shared/units.js";
 import { nameOf } from "./field_names.js";
 import { parseNumber } from "./number_text.js";
 
-/**
- * A new line below a field for the sentence that says what is wrong with it.
- *
- * @param {HTMLElement} field
- */
+/** A new line below a field for the sentence that says what is wrong with it. @param {HTMLElement} field */
 export function errorLine(field) {
   const line = html("p", { id: `${field.id}-fault`, class: "fault", role: "alert" });
   (field.closest("label, .pair") ?? field).after(line);
@@ -39,10 +35,7 @@ export function errorLine(field) {
   return line;
 }
 
-/**
- * @param {HTMLElement} field
- * @param {boolean} invalid
- */
+/** @param {HTMLElement} field @param {boolean} invalid */
 export const markInvalid = (field, invalid) => field.setAttribute("aria-invalid", String(invalid));
 
 const TYPING_PAUSE_MS = 500; // an error is shown when the typing pauses: "12 k" may become "12 km"
@@ -52,10 +45,7 @@ const ARROWS = { ArrowUp: 1, ArrowDown: -1 };
 
 /** @implements {Field} */
 class NumberField {
-  /**
-   * @param {HTMLInputElement} input
-   * @param {Source} source
-   */
+  /** @param {HTMLInputElement} input @param {Source} source */
   constructor(input, source) {
     this.input = input;
     this.source = source;
@@ -145,11 +135,7 @@ class NumberField {
   }
 }
 
-/**
- * @param {HTMLInputElement} input
- * @param {Source} source
- * @returns {Field}
- */
+/** @param {HTMLInputElement} input @param {Source} source @returns {Field} */
 export const numberField = (input, source) => new NumberField(input, source);
 
 /**

@@ -25,7 +25,8 @@ const AMBIGUOUS = /^[+-]?[1-9]\d{0,2},\d{3}$/;
 export function parseNumber(text, quantity, units) {
   const typed = text.trim();
   if (typed === "") return { problem: "needs a number." };
-  const match = NUMBER.exec(typed.replaceAll("−", "-"));
+  // As the page writes them, for numbers that are copied from it.
+  const match = NUMBER.exec(typed.replaceAll("−", "-").replace(/(?<=\d)\u202f(?=\d{3})/g, ""));
   if (!match) return { problem: `is "${typed}": it must be a number.` };
   const [, digits, power = "", suffix] = match;
   const problem = digitsProblem(digits, suffix);
@@ -36,12 +37,7 @@ export function parseNumber(text, quantity, units) {
   return Number.isFinite(value) ? { value } : { problem: `is "${typed}": that is too large.` };
 }
 
-/**
- * What is unclear in the digits of a number, or nothing.
- *
- * @param {string} digits
- * @param {string} suffix
- */
+/** What is unclear in the digits of a number, or nothing. @param {string} digits @param {string} suffix */
 function digitsProblem(digits, suffix) {
   if (/^[\d.,]/.test(suffix)) return "write the number without separators, 1200.5 or 1200,5.";
   if (AMBIGUOUS.test(digits)) return `write ${withPoint(digits)} or ${digits.replace(",", "")}.`;

@@ -34,11 +34,7 @@ const OBJECTS = {
 
 const DECIMALS = 6; // 0.1 m
 
-/**
- * @param {Store} store
- * @param {Change} change
- * @returns {Record<string, Field>}
- */
+/** @param {Store} store @param {Change} change @returns {Record<string, Field>} */
 export function placeFields(store, change) {
   const fields = Object.fromEntries(
     Object.entries(OBJECTS).map(([id, object]) => [id, placeField(byId(id, HTMLInputElement), object, store, change)]),

@@ -18,6 +18,7 @@
  */
 import { LIMITS, limitOf, withOrbit, withPose, withWind } from "../scene/scene.js";
 import { byId } from "../shared/dom.js";
+import { wrapped } from "../shared/geometry.js";
 import { tidy } from "../shared/units.js";
 import { numberField } from "./input_fields.js";
 import { parseNumber } from "./number_text.js";
@@ -76,19 +77,10 @@ const limitPart = ({ aircraft }) => ({
   set: (scene, value) => ({ ...scene, aircraft: { ...scene.aircraft, [limitOf(aircraft)]: value } }),
 });
 
-/**
- * The number that a field shows.
- *
- * @param {string} id
- * @param {Scene} scene
- * @returns {Part}
- */
+/** The number that a field shows. @param {string} id @param {Scene} scene @returns {Part} */
 const partOf = (id, scene) => (id === "limit" ? limitPart(scene) : PARTS[id]);
 
-/**
- * @param {Store} store
- * @param {Change} change
- */
+/** @param {Store} store @param {Change} change */
 export function sceneFields(store, change) {
   const ids = [...Object.keys(PARTS), "limit"];
   const fields = Object.fromEntries(
@@ -106,9 +98,6 @@ export function sceneFields(store, change) {
   );
   return fields;
 }
-
-/** A direction in [0, 360). @param {number} degrees */
-const wrapped = (degrees) => degrees - 360 * Math.floor(degrees / 360);
 
 /**
  * The number of the scene that a field shows and sets.
@@ -159,12 +148,7 @@ function limitChoice(store, change) {
   );
 }
 
-/**
- * The choice of the direction of the hold.
- *
- * @param {Store} store
- * @param {Change} change
- */
+/** The choice of the direction of the hold. @param {Store} store @param {Change} change */
 function turnChoice(store, change) {
   /** @type {NodeListOf<HTMLInputElement>} */
   const inputs = document.querySelectorAll("input[name=turn]");

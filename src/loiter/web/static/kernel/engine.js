@@ -24,8 +24,11 @@ export const plan = (scene) => plain(library.plan(placed(scene)));
 /** The certificate of the first optimal maneuver. @param {Scene} scene @returns {Proof} */
 export const certificate = (scene) => plain(library.certificate(placed(scene)));
 
-/** A round of the circle after the first optimal maneuver. @param {Scene} scene @returns {Track} */
-export const lap = (scene) => plain(library.lap(library.all_fastest(placed(scene).problem)[0]));
+/** Rounds of the circle after the first optimal maneuver. @param {Scene} scene @param {number} [laps] @returns {Track} */
+export const lap = (scene, laps) => plain(library.lap(library.all_fastest(placed(scene).problem)[0], laps));
+
+/** Other guidance laws from the same start. @param {Scene} scene @returns {import("../shared/types.js").Racer[]} */
+export const race = (scene) => plain(library.race(placed(scene).problem));
 
 /** Every extremal. @param {Scene} scene */
 export const candidates = (scene) => plain(library.all_candidates(placed(scene)));

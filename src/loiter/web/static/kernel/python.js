@@ -48,7 +48,7 @@ export class Tuple {
 /** A function that makes values of a class, as Python's classes do; it has the names of their fields. */
 export function struct(kind, fields) {
   kind.fields = fields;
-  return Object.assign((...given) => new kind(...given), { _fields: fields });
+  return Object.assign((...given) => new kind(...given), { _fields: fields, kind });
 }
 
 /** The members of an enumeration; their values stand for them. */
@@ -276,13 +276,18 @@ export { makeComplex as complex };
 const makeComplex = (real, imag) => new Complex(real, imag);
 const DEGREE = Math.PI / 180;
 export const math = {
-  ...Object.fromEntries(["sin", "cos", "tan", "atan2", "sqrt", "hypot", "floor", "ceil", "trunc"].map((name) => [name, Math[name]])),
+  ...Object.fromEntries(["sin", "cos", "tan", "atan", "atan2", "sqrt", "hypot", "floor", "ceil", "trunc"].map((name) => [name, Math[name]])),
   pi: Math.PI,
   inf: Infinity,
   nan: NaN,
   isfinite: Number.isFinite,
   isnan: Number.isNaN,
   fmod: (a, b) => a % b,
+  /** The rest of a division that is rounded to the nearest whole number. */
+  remainder(a, b) {
+    const rest = a % b;
+    return Math.abs(rest) * 2 > b ? rest - Math.sign(rest) * b : rest;
+  },
   pow: (a, b) => a ** b,
   radians: (a) => a * DEGREE,
   degrees: (a) => a * (180 / Math.PI),

@@ -45,13 +45,7 @@ export function drawAxes(view) {
   ];
 }
 
-/**
- * A number at both axes.
- *
- * @param {View} view
- * @param {number} number
- * @param {string} text
- */
+/** A number at both axes. @param {View} view @param {number} number @param {string} text */
 function drawNumber(view, number, text) {
   const [x, y] = toScreen(view, number, number);
   if (number === 0 || x < EDGE_PX || x > view.width - EDGE_PX) return [];
@@ -61,10 +55,7 @@ function drawNumber(view, number, text) {
   ];
 }
 
-/**
- * @param {View} view
- * @param {Curve} curve
- */
+/** @param {View} view @param {Curve} curve */
 export function drawCurve(view, { kind, x, y }) {
   const points = x.map((value, i) => {
     const other = y[i];
@@ -73,12 +64,7 @@ export function drawCurve(view, { kind, x, y }) {
   return svg("path", { d: polyline(points), class: `curve ${kind}` });
 }
 
-/**
- * An optimal path, in the colours of its controls.
- *
- * @param {View} view
- * @param {Maneuver} maneuver
- */
+/** An optimal path, in the colours of its controls. @param {View} view @param {Maneuver} maneuver */
 export function drawReducedPath(view, maneuver) {
   const { x, y } = maneuver.track;
   const lines = piecesOf(maneuver).map(({ letter, indices }) => ({

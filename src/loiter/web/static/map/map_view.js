@@ -16,10 +16,7 @@ import { drawAxes, drawCurve, drawReducedPath, drawTargets, mapViewOf } from "./
 import { drawRegionLabels, paintRegions, regionLabels } from "./regions.js";
 import { stateHandle } from "./state_handle.js";
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 export function mapView(store, actions) {
   const root = byId("reduced", SVGSVGElement);
   const layers = svgLayers("axes", "curves", "way", "words", "targets");
@@ -40,10 +37,7 @@ export function mapView(store, actions) {
   drawWait(store);
 }
 
-/**
- * @param {Record<string, SVGGElement>} layers
- * @param {Store} store
- */
+/** @param {Record<string, SVGGElement>} layers @param {Store} store */
 function drawSynthesis(layers, store) {
   const canvas = byId("regions", HTMLCanvasElement);
   store.watch(
@@ -63,11 +57,7 @@ function drawSynthesis(layers, store) {
   );
 }
 
-/**
- * @param {Record<string, SVGGElement>} layers
- * @param {SVGCircleElement} ghost
- * @param {Store} store
- */
+/** @param {Record<string, SVGGElement>} layers @param {SVGCircleElement} ghost @param {Store} store */
 function drawPlan(layers, ghost, store) {
   store.watch(
     ({ answer, synthesis, mapSide }) => [answer, synthesis, mapSide],
@@ -100,12 +90,7 @@ function drawWait(store) {
   );
 }
 
-/**
- * The words of the regions, beside the path and the state.
- *
- * @param {SVGGElement} layer
- * @param {Store} store
- */
+/** The words of the regions, beside the path and the state. @param {SVGGElement} layer @param {Store} store */
 function drawWords(layer, store) {
   /** @type {ReturnType<typeof regionLabels>} */
   let labels = [];

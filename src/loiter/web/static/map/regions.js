@@ -32,10 +32,7 @@ const OTHER_STRENGTH = 0.4;
 /** @type {Colour} */
 const TRANSPARENT = [0, 0, 0, 0];
 
-/**
- * @param {HTMLCanvasElement} canvas
- * @param {Synthesis} synthesis
- */
+/** @param {HTMLCanvasElement} canvas @param {Synthesis} synthesis */
 export function paintRegions(canvas, { region, words, x, y }) {
   setCanvasSize(canvas, x.length, y.length);
   const context = canvas.getContext("2d");
@@ -56,12 +53,7 @@ function setCanvasSize(canvas, width, height) {
   canvas.height = height;
 }
 
-/**
- * The colour of a word in the present theme.
- *
- * @param {string} word
- * @returns {Colour}
- */
+/** The colour of a word in the present theme. @param {string} word @returns {Colour} */
 function colourOf(word) {
   const theme = getComputedStyle(document.documentElement);
   const hex = theme.getPropertyValue(`--${word[0] || "S"}`).trim();

@@ -18,12 +18,7 @@ import { turnRadiusOf } from "../shared/turning.js";
 
 const EDGE_PX = 4; // a state beyond the map is drawn this far from its edge
 
-/**
- * @param {SVGGElement} group
- * @param {SVGSVGElement} root
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {SVGGElement} group @param {SVGSVGElement} root @param {Store} store @param {Actions} actions */
 export function stateHandle(group, root, store, actions) {
   group.append(
     svg("circle", { r: 18, class: "touch" }),
@@ -81,13 +76,7 @@ function positionOf(x, y, { pose, orbit, aircraft }) {
   };
 }
 
-/**
- * The nearest point on the map.
- *
- * @param {Point} point
- * @param {View} view
- * @returns {Point}
- */
+/** The nearest point on the map. @param {Point} point @param {View} view @returns {Point} */
 function pinned([x, y], { width, height }) {
   const within = (/** @type {number} */ value, /** @type {number} */ side) =>
     Math.min(side - EDGE_PX, Math.max(EDGE_PX, value));

@@ -13,12 +13,12 @@ import { orbitMoves } from "../scene/scene.js";
 import { polyline, svg } from "../shared/dom.js";
 import { positionToScreen, toScreen, toWorld, unitVector } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
-import { decimalsOfStep, fixed, roundStep, unitOf } from "../shared/units.js";
+import { decimalsOfStep, fixed, lengthUnit, roundStep } from "../shared/units.js";
 
 const LEAST_SPACING_PX = 84;
 
 // Labels keep clear of the buttons, the corner with the unit, and the edges; pixels.
-const LABELS = { left: 56, right: 30, top: 130, bottom: 30 };
+const LABELS = { left: 56, right: 30, top: 166, bottom: 30 };
 
 /**
  * The spacing of the grid in the unit shown, and that unit's name and size in metres.
@@ -27,16 +27,11 @@ const LABELS = { left: 56, right: 30, top: 130, bottom: 30 };
  * @param {Units} units
  */
 export function gridOf(view, units) {
-  const { name, size } = unitOf("length", units);
+  const { name, size } = lengthUnit(units, view.width / view.scale / 4);
   return { name, size, step: roundStep(LEAST_SPACING_PX / (view.scale * size)) };
 }
 
-/**
- * Lines and labels of the grid.
- *
- * @param {View} view
- * @param {Units} units
- */
+/** Lines and labels of the grid. @param {View} view @param {Units} units */
 export function drawGrid(view, units) {
   const { name, size, step } = gridOf(view, units);
   const label = (/** @type {number} */ k) => fixed(k * step, decimalsOfStep(step));

@@ -37,7 +37,7 @@ export function spanOf({ view, moved }) {
 /** @param {Store} store */
 export function createCamera(store) {
   const viewNow = () => store.get().camera.view;
-  const isInView = () => contains(viewNow(), contentsOf(store.get()), KEPT_MARGIN_PX);
+  const isInView = () => contains(viewNow(), contentsOf(store.get(), false), KEPT_MARGIN_PX);
   /** @param {View} view */
   const move = (view) => store.update({ camera: { view, moved: true } });
   const fit = () => store.update(fitState(store.get()));
@@ -67,7 +67,8 @@ export function createCamera(store) {
     /** @param {number} width @param {number} height pixels */
     resize: (width, height) => {
       const { view, moved } = store.get().camera;
-      if (view.width === width && view.height === height) return;
+      const isHidden = width === 0 || height === 0;
+      if (isHidden || (view.width === width && view.height === height)) return;
       store.update({ camera: { view: { ...view, width, height }, moved } });
       if (!moved && !isInView()) fit();
     },
@@ -128,7 +129,7 @@ export function showOpenedScenes(store, camera) {
 
 /** @param {{camera: Camera, scene: Scene, answer: Answer | null}} state */
 function fitState({ camera, scene, answer }) {
-  const contents = contentsOf({ scene, answer });
+  const contents = contentsOf({ scene, answer }, true);
   const margins = marginsOf(camera.view);
   const view = fitted(camera.view, contents, margins);
   // The handle of the heading has the same length at every scale; a second step brings it into view.
@@ -149,18 +150,19 @@ function marginsOf({ width, height }) {
 }
 
 /**
- * Points of everything that a view should show: aircraft, circle, optimal paths.
+ * Points of everything that a view should show: aircraft, circle, optimal paths, and at first every other candidate.
  *
  * @param {{scene: Scene, answer: Answer | null}} state
+ * @param {boolean} isFirst
  * @returns {Point[]}
  */
-function contentsOf({ scene: { pose, orbit }, answer }) {
-  const best = answer ? splitAnswer(answer).best : [];
+function contentsOf({ scene: { pose, orbit }, answer }, isFirst) {
+  const { best, others } = answer ? splitAnswer(answer) : { best: [], others: [] };
   const centres = best.map(({ join_over_ground: centre }) => [centre.centre_east_m, centre.centre_north_m]);
   const r = Math.abs(orbit.radius_m);
   return [
     [pose.east_m, pose.north_m],
-    ...best.flatMap(({ track }) => track.east_m.map((east, i) => /** @type {Point} */ ([east, track.north_m[i]]))),
+    ...[...best, ...(isFirst ? others : [])].flatMap(({ track }) => track.east_m.map((east, i) => /** @type {Point} */ ([east, track.north_m[i]]))),
     ...[[orbit.east_m, orbit.north_m], ...centres].flatMap(([east, north]) => [
       /** @type {Point} */ ([east - r, north - r]),
       /** @type {Point} */ ([east + r, north + r]),

@@ -39,23 +39,14 @@ export function gestures(root, camera) {
   });
 }
 
-/**
- * @param {WheelEvent} event
- * @param {SVGSVGElement} root
- * @param {PlanCamera} camera
- */
+/** @param {WheelEvent} event @param {SVGSVGElement} root @param {PlanCamera} camera */
 function zoomWithWheel(event, root, camera) {
   event.preventDefault();
   const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_PX : 1);
   camera.zoomAt(pointOf(root, event), Math.exp(-pixels / 500));
 }
 
-/**
- * Pan with one pointer, pan and zoom with two.
- *
- * @param {SVGSVGElement} root
- * @param {PlanCamera} camera
- */
+/** Pan with one pointer, pan and zoom with two. @param {SVGSVGElement} root @param {PlanCamera} camera */
 function followPointers(root, camera) {
   /** @type {Map<number, Point>} */
   const pointers = new Map();

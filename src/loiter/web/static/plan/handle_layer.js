@@ -14,12 +14,7 @@ import { pointAt, positionToScreen } from "../shared/geometry.js";
 import { AIRCRAFT, CENTRE, HEADING, HEADING_HANDLE_PX, radiusHandle } from "./handles.js";
 import { WIND, windDial } from "./wind_handle.js";
 
-/**
- * @param {SVGSVGElement} root
- * @param {SVGGElement} layer
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {SVGSVGElement} root @param {SVGGElement} layer @param {Store} store @param {Actions} actions */
 export function createHandles(root, layer, store, actions) {
   const stage = () => stageOf(store);
   const lever = svg("path", { class: "lever" });

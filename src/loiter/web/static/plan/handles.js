@@ -50,12 +50,7 @@ function stepOf({ view, units }) {
 /** The resolution of a drag, metres: a tenth of a pixel. @param {View} view */
 const resolutionOf = (view) => 0.1 / view.scale;
 
-/**
- * A position after a drag or a key.
- *
- * @param {Stage} stage
- * @param {Point} point east and north
- */
+/** A position after a drag or a key. @param {Stage} stage @param {Point} point east and north */
 function tidyPosition({ view }, [east, north]) {
   return { east_m: tidy(east, resolutionOf(view)), north_m: tidy(north, resolutionOf(view)) };
 }

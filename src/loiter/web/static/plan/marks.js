@@ -19,6 +19,7 @@ const LEAST_DISTANCE = { join: 26, aircraft: 30 };
 
 // Pixels: mean width of a character, half the height of a label, and the strips with the numbers of the grid.
 const CHARACTER_PX = 6.6;
+const LETTER_PX = 8.6; // of a word
 const HALF_HEIGHT_PX = 9;
 const GRID_NUMBERS_PX = { left: 44, bottom: 22 };
 
@@ -28,10 +29,11 @@ const COST = { point: 1, box: 100, edge: 1000 };
 /**
  * @param {View} view
  * @param {Maneuver[]} best
+ * @param {Maneuver[]} others
  * @param {Scene} scene
  * @param {Box[]} boxes  that no label may cover: the dial of the wind, buttons, the key
  */
-export function drawMarks(view, best, scene, boxes) {
+export function drawMarks(view, best, others, scene, boxes) {
   const flown = best.filter(({ segments }) => segments.length > 0);
   const covered = flown.flatMap((maneuver) => coveredPoints(view, maneuver, scene));
   const taken = [...boxes, ...numberStrips(view)];
@@ -44,8 +46,15 @@ export function drawMarks(view, best, scene, boxes) {
     text: `join ${timeText(duration_s, scene)}`,
     most: Infinity,
   }));
-  const others = flown.flatMap((maneuver) => peelOffLabels(view, maneuver, scene));
-  return [...dots, ...[...joins, ...others].flatMap((one) => label(view, one, covered, taken))];
+  const peelOffs = flown.flatMap((maneuver) => peelOffLabels(view, maneuver, scene));
+  const words = others.map(({ track, word }) => ({ point: middleOf(view, track), text: word, most: COST.box, kind: "other" }));
+  return [...dots, ...[...joins, ...peelOffs, ...words].flatMap((one) => label(view, one, covered, taken))];
+}
+
+/** Half way along a track. @param {View} view @param {Maneuver["track"]} track */
+function middleOf(view, { east_m, north_m }) {
+  const i = east_m.length >> 1;
+  return toScreen(view, east_m[i], north_m[i]);
 }
 
 /** Where the control changes. @param {View} view @param {Maneuver} maneuver */
@@ -109,6 +118,7 @@ function coveredPoints(view, { track, duration_s, join, join_over_ground }, { po
  * @property {Point} point
  * @property {string} text
  * @property {number} most  the label is left out if its best place costs as much
+ * @property {string} [kind]
  */
 
 /**
@@ -119,8 +129,8 @@ function coveredPoints(view, { track, duration_s, join, join_over_ground }, { po
  * @param {Point[]} covered
  * @param {Box[]} taken
  */
-function label(view, { point, text, most }, covered, taken) {
-  const width = CHARACTER_PX * text.length;
+function label(view, { point, text, most, kind = "" }, covered, taken) {
+  const width = (kind ? LETTER_PX : CHARACTER_PX) * text.length;
   const places = [1, 2].flatMap((far) =>
     [0, 45, 90, 135, 180, 225, 270, 315].map((bearing) => {
       const box = placeAt(point, bearing, width, far);
@@ -130,7 +140,7 @@ function label(view, { point, text, most }, covered, taken) {
   const { box, cost } = places.reduce((least, place) => (place.cost < least.cost ? place : least));
   if (cost >= most) return [];
   taken.push(box);
-  return [svg("text", { x: box.left, y: box.top + HALF_HEIGHT_PX + 4, class: "halo" }, [text])];
+  return [svg("text", { x: box.left, y: box.top + HALF_HEIGHT_PX + 4, class: `halo ${kind}` }, [text])];
 }
 
 /**

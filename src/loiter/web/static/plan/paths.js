@@ -49,12 +49,7 @@ export function drawBest(view, maneuver) {
   ];
 }
 
-/**
- * An arrow half way along a segment that is long enough.
- *
- * @param {Letter} letter
- * @param {Point[]} points
- */
+/** An arrow half way along a segment that is long enough. @param {Letter} letter @param {Point[]} points */
 function drawArrow(letter, points) {
   const sums = cumulativeLengths(points);
   const half = (sums.at(-1) ?? 0) / 2;
@@ -91,7 +86,7 @@ function cumulativeLengths(points) {
 export function drawOther(view, other, index, scene, highlight) {
   const d = polyline(pointsOf(view, other.track));
   const group = svg("g", { class: isAllowed(scene, other) ? "other" : "other disallowed" }, [
-    svg("path", { d, class: "line", "stroke-opacity": Math.max(0.25, 0.8 - 0.12 * index) }),
+    svg("path", { d, class: "line" }),
     svg("path", { d, class: "reach" }),
   ]);
   group.addEventListener("pointerenter", () => highlight(index));

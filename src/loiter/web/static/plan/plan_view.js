@@ -20,16 +20,13 @@ import { createHandles, stageAt } from "./handle_layer.js";
 import { AEROPLANE } from "./handles.js";
 import { drawMarks } from "./marks.js";
 import { drawBest, drawOther, placeCallout } from "./paths.js";
+import { raceLayer } from "./race_layer.js";
 import { dialBox } from "./wind_handle.js";
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- * @param {PlanCamera} camera
- */
+/** @param {Store} store @param {Actions} actions @param {PlanCamera} camera */
 export function planView(store, actions, camera) {
   const root = byId("plan", SVGSVGElement);
-  const layers = svgLayers("grid", "circle", "others", "best", "marks", "wind", "handles");
+  const layers = svgLayers("grid", "circle", "others", "rivals", "best", "marks", "wind", "handles");
   const { handles, ...below } = layers;
   const ghost = svg("g", { class: "ghost" }, [svg("path", { d: AEROPLANE })]);
   const moving = svg("circle", { class: "moving" });
@@ -41,7 +38,7 @@ export function planView(store, actions, camera) {
   let overlays = [];
   observeSize(box, (width, height) => {
     setSize(root, width, height);
-    overlays = [...box.querySelectorAll(".zoom, .key")].map((element) => boxWithin(element, box));
+    overlays = [...box.querySelectorAll(".corner, .key")].map((element) => boxWithin(element, box));
     camera.resize(width, height);
   });
   camera.fit();
@@ -51,6 +48,7 @@ export function planView(store, actions, camera) {
   watchScene(root, layers, store, actions, () => overlays);
   watchHighlight(root, layers.others, callout, store);
   watchGhost(ghost, moving, store);
+  raceLayer(layers.rivals, store, actions);
 }
 
 /** @param {Store} store @param {PlanCamera} camera */
@@ -114,7 +112,7 @@ function drawPaths(layers, state, highlight, overlays) {
   const { best, others } = splitAnswer(answer);
   layers.best.replaceChildren(...best.flatMap((maneuver) => drawBest(view, maneuver)));
   layers.others.replaceChildren(...others.map((other, i) => drawOther(view, other, i, scene, highlight)));
-  layers.marks.replaceChildren(...drawMarks(view, best, scene, [dialBox(stageAt(state)), ...overlays()]));
+  layers.marks.replaceChildren(...drawMarks(view, best, others, scene, [dialBox(stageAt(state)), ...overlays()]));
 }
 
 /**

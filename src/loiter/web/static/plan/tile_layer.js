@@ -8,16 +8,12 @@
  */
 import { markInvalid, errorLine } from "../fields/input_fields.js";
 import { byId, html, show } from "../shared/dom.js";
+import { recall, remember } from "../shared/storage.js";
 
 /** The tile server unless the user gives another: that of OpenStreetMap. */
 const DEFAULT_TILES = "https://tile.openstreetmap.org/{z}/{x}/{y}.png";
 
-const KEY = "loiter.tiles";
-
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 export function tileLayer(store, actions) {
   const box = byId("plan-box", HTMLElement);
   /** @type {HTMLIFrameElement | null} */
@@ -71,28 +67,26 @@ function drawAttribution(template) {
   else line.textContent = template === null ? "" : `Tiles: ${hostOf(template)}`;
 }
 
-/**
- * The switch, and the field for the address of a tile server.
- *
- * @param {Store} store
- * @param {Actions} actions
- */
+/** The switch, and the field for the address of a tile server. @param {Store} store @param {Actions} actions */
 function tileSwitch(store, actions) {
   const toggle = byId("map-tiles", HTMLInputElement);
   const field = byId("tile-server", HTMLInputElement);
   const line = errorLine(field);
+  // A page from a folder may not show the document that draws the tiles.
+  show(byId("map-switch", HTMLElement), location.protocol !== "file:");
   field.placeholder = DEFAULT_TILES;
-  field.value = readTemplate();
+  field.value = recall("tiles") ?? "";
 
   function change() {
     const template = field.value.trim() || DEFAULT_TILES;
     const problem = problemOf(template);
     markInvalid(field, problem !== "");
     line.textContent = problem;
-    storeTemplate(field.value.trim());
+    remember("tiles", field.value.trim());
     if (problem !== "") toggle.checked = false;
     store.update({ tiles: toggle.checked ? template : null });
     if (toggle.checked && store.get().scene.origin === null) {
+      field.closest("details")?.setAttribute("open", "");
       byId("latitude", HTMLInputElement).focus();
       actions.say("The map needs the position of (0, 0) on Earth.", true);
     }
@@ -108,22 +102,4 @@ function problemOf(template) {
   const sentence = `The tile server is "${template}": write a URL with {z}, {x} and {y}, such as ${DEFAULT_TILES}.`;
   if (!["{z}", "{x}", "{y}"].every((part) => template.includes(part))) return sentence;
   return /^https?:\/\/[\w.:[\]-]+\//.test(template) && URL.canParse(template) ? "" : sentence;
-}
-
-function readTemplate() {
-  // A browser may forbid storage.
-  try {
-    return localStorage.getItem(KEY) ?? "";
-  } catch {
-    return "";
-  }
-}
-
-/** @param {string} template */
-function storeTemplate(template) {
-  try {
-    localStorage.setItem(KEY, template);
-  } catch {
-    // Then it is lost when the page is closed.
-  }
 }

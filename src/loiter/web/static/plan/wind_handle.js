@@ -11,7 +11,7 @@
  */
 import { withWind } from "../scene/scene.js";
 import { polyline, setAttributes, svg } from "../shared/dom.js";
-import { headingOf, overlaps, pointAt, unitVector } from "../shared/geometry.js";
+import { headingOf, overlaps, pointAt, positionToScreen, unitVector } from "../shared/geometry.js";
 import { fixed, quantityText, tidy } from "../shared/units.js";
 import { handleParts, handlePoints } from "./handles.js";
 
@@ -52,16 +52,25 @@ function dialPlaces(view) {
   ];
 }
 
-/** The middle of the dial: the first place where it lies over no handle. @param {Stage} stage @returns {Point} */
+/**
+ * The middle of the dial: the first place where it lies over no handle and not over the circle, or at least over no
+ * handle.
+ *
+ * @param {Stage} stage
+ * @returns {Point}
+ */
 function dialMiddle(stage) {
-  const handles = handlePoints(stage);
-  const isFree = (/** @type {Point} */ place) => {
-    const { left, right, top, bottom } = boxAround(stage.view, place);
-    const grown = { left: left - REACH_PX, right: right + REACH_PX, top: top - REACH_PX, bottom: bottom + REACH_PX };
-    return handles.every(([x, y]) => !overlaps(grown, { left: x, right: x, top: y, bottom: y }));
+  const { view, scene } = stage;
+  const r = Math.abs(scene.orbit.radius_m) * view.scale;
+  const circle = Array.from({ length: 48 }, (_, k) => pointAt(positionToScreen(view, scene.orbit), 7.5 * k, r));
+  const isFree = (/** @type {Point[]} */ points, /** @type {number} */ reach) => (/** @type {Point} */ place) => {
+    const { left, right, top, bottom } = boxAround(view, place);
+    const grown = { left: left - reach, right: right + reach, top: top - reach, bottom: bottom + reach };
+    return points.every(([x, y]) => !overlaps(grown, { left: x, right: x, top: y, bottom: y }));
   };
-  const places = dialPlaces(stage.view);
-  return places.find(isFree) ?? places[0];
+  const places = dialPlaces(view);
+  const offHandles = places.filter(isFree(handlePoints(stage), REACH_PX));
+  return offHandles.find(isFree(circle, 0)) ?? offHandles[0] ?? places[0];
 }
 
 /** The box of the dial and its texts. @param {Stage} stage */

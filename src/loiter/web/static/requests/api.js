@@ -36,8 +36,11 @@ function answer(compute) {
 /** The plan of a scene, with every other candidate. @param {Scene} scene */
 export const planOf = (scene) => answer(() => engine.plan(scene));
 
-/** A round of the circle after the plan: a track. @param {Scene} scene */
-export const lapOf = (scene) => answer(() => engine.lap(scene));
+/** Rounds of the circle after the plan: a track. @param {Scene} scene @param {number} [laps] */
+export const lapOf = (scene, laps) => answer(() => engine.lap(scene, laps));
+
+/** Other guidance laws from the start of the plan. @param {Scene} scene */
+export const raceOf = (scene) => answer(() => engine.race(scene));
 
 /** The certificate of the plan. @param {Scene} scene */
 export const certificateOf = (scene) => answer(() => engine.certificate(scene));

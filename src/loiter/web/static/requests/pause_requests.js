@@ -49,13 +49,7 @@ export function mapRequest(store) {
   };
 }
 
-/**
- * The map that belongs to a plan.
- *
- * @param {Scene} scene
- * @param {Answer} answer
- * @returns {MapOptions}
- */
+/** The map that belongs to a plan. @param {Scene} scene @param {Answer} answer @returns {MapOptions} */
 function mapOptions(scene, { reduced }) {
   const { turn } = scene.orbit;
   // R of a circle of the turn radius may be below 1 by rounding; the map needs at least 1.

@@ -7,7 +7,7 @@
  */
 import { refusalOf } from "../fields/field_names.js";
 import { NO_MESSAGE } from "../state/page_state.js";
-import { Problem, planOf } from "./api.js";
+import { Problem, lapOf, planOf, raceOf } from "./api.js";
 
 /**
  * A function that applies changes to the state, with the plan of the scene.
@@ -28,6 +28,7 @@ function outcome(state) {
     return {
       answer: planOf(state.scene),
       lap: null,
+      race: null,
       failure: null,
       proof: null,
       faults: { ...state.faults, certificate: null },
@@ -39,21 +40,27 @@ function outcome(state) {
   }
 }
 
-/**
- * @param {PageState} state
- * @param {Error} error
- * @returns {Partial<PageState>}
- */
-function failed({ playback, fieldErrors, failure, message }, error) {
-  const { sentence, fields } = refusalOf(error);
+/** @param {PageState} state @param {Error} error @returns {Partial<PageState>} */
+function failed({ playback, fieldErrors, failure, message, units }, error) {
+  const { sentence, fields } = refusalOf(error, units);
   const fittedRadius_m = error instanceof Problem ? error.fittedRadius_m : null;
   return {
     failure: { headline: "No plan for this scene", sentence, fittedRadius_m },
     lap: null,
+    race: null,
     announced: null,
     message: failure ? message : NO_MESSAGE,
     playback: { ...playback, playing: false },
     fieldErrors: { ...fieldErrors, scene: fields },
     requests: { plan: "failed", certificate: "stale", map: "stale" },
   };
+}
+
+/** The race of a plan, and as many laps after it as the race takes. @param {PageState} state @returns {Partial<PageState>} */
+export function raceRequest({ scene, answer }) {
+  if (!answer) return {};
+  const race = raceOf(scene);
+  const end_s = Math.max(...race.map(({ track }) => track.time_s.at(-1) ?? 0));
+  const lap_s = (lapOf(scene).time_s.at(-1) ?? 0) - answer.duration_s;
+  return { race, lap: lapOf(scene, Math.max(1, Math.ceil((end_s - answer.duration_s) / lap_s))) };
 }

@@ -8,7 +8,7 @@
  */
 import { PAUSE_MS, debounced } from "../shared/dom.js";
 import { certificateRequest, mapRequest } from "./pause_requests.js";
-import { planRequest } from "./plan_request.js";
+import { planRequest, raceRequest } from "./plan_request.js";
 
 /** @param {Store} store */
 export function createRequests(store) {
@@ -21,6 +21,7 @@ export function createRequests(store) {
     store.update({ announced: answer, pausedRevision: revision });
     askMap(answer);
     askCertificate();
+    if (store.get().racing) store.update(raceRequest(store.get()));
   });
   store.watch(
     ({ revision }) => [revision],

@@ -10,12 +10,14 @@
  * @typedef {Pick<PageState, "step" | "scene" | "place" | "altitude" | "camera">} Entry  of the history
  */
 import { spanOf } from "../plan/camera.js";
-import { PAUSE_MS, byId, debounced } from "../shared/dom.js";
+import { PAUSE_MS, byId, debounced, isTyping } from "../shared/dom.js";
+import { recall } from "../shared/storage.js";
+import { asUnits } from "../shared/units.js";
 import { fromLink, toLink } from "./link.js";
 import { PRESETS } from "./presets.js";
 
 /** @type {import("./link.js").Linked} */
-const FIRST = { scene: PRESETS[0].scene, units: "metric", altitude: {}, view: null };
+const FIRST = { scene: PRESETS[0].scene, units: null, altitude: {}, view: null };
 
 /** The fragment that links to the state. @param {PageState} state */
 const fragmentOf = ({ scene, units, altitude, camera }) => toLink({ scene, units, altitude, view: spanOf(camera) });
@@ -115,14 +117,11 @@ function directionOf({ key, ctrlKey, metaKey, altKey, shiftKey }) {
   return key.toLowerCase() === "y" ? "forward" : null;
 }
 
-/** @param {EventTarget | null} target */
-const isTyping = (target) => target instanceof HTMLInputElement && target.type === "text";
-
 /** @param {Actions} actions */
 function open(actions) {
   const { linked, error } = read(location.hash);
   const { scene, units, altitude, view } = linked;
-  actions.openScene({ scene, units, altitude, place: { ...scene.origin } }, view);
+  actions.openScene({ scene, units: units ?? asUnits(recall("units")), altitude, place: { ...scene.origin } }, view);
   if (error) actions.say(error, true);
 }
 

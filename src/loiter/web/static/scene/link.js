@@ -12,11 +12,11 @@
  *
  * @typedef {object} Linked
  * @property {Scene} scene
- * @property {Units} units
+ * @property {Units | null} units  null where the link leaves them to its reader
  * @property {Altitude} altitude
  * @property {number[] | null} view  middle east and north, width: metres; null unless the user has moved the view
  */
-import { powerBelow, tidy, tidyAbove } from "../shared/units.js";
+import { asUnits, powerBelow, tidy, tidyAbove } from "../shared/units.js";
 import { LIMITS, limitOf, orbitMoves, withWind } from "./scene.js";
 import { turnRadiusOf } from "../shared/turning.js";
 
@@ -26,16 +26,11 @@ const LIMIT_KEYS = { max_bank_deg: "bank", min_turn_radius_m: "turn-radius", max
 /** @type {Reference[]} */
 export const REFERENCES = ["msl", "home", "ground"];
 
-/**
- * The fragment of a link. Altitudes that are not given are left out.
- *
- * @param {Linked} linked
- * @returns {string}
- */
+/** The fragment of a link. Altitudes that are not given are left out. @param {Linked} linked @returns {string} */
 export function toLink({ scene, units, altitude, view }) {
   const parts = [...sceneParts(scene), ...altitudeParts(altitude)];
   if (view) parts.push(`view=${view}`);
-  if (units !== "metric") parts.push(`units=${units}`);
+  if (units === "aviation") parts.push(`units=${units}`);
   return `#${parts.join("&")}`;
 }
 
@@ -107,16 +102,13 @@ export function fromLink(fragment) {
   const parameters = new URLSearchParams(fragment.replace(/^#/, ""));
   return {
     scene: sceneOf(parameters),
-    units: parameters.get("units") === "aviation" ? "aviation" : "metric",
+    units: parameters.has("units") ? asUnits(parameters.get("units")) : null,
     altitude: altitudeOf(parameters),
     view: parameters.has("view") ? viewOf(numbers(parameters, "view", 3)) : null,
   };
 }
 
-/**
- * @param {URLSearchParams} parameters
- * @returns {Scene}
- */
+/** @param {URLSearchParams} parameters @returns {Scene} */
 function sceneOf(parameters) {
   const [east_m, north_m, heading_deg] = numbers(parameters, "pose", 3);
   const scene = {
@@ -145,12 +137,7 @@ function aircraftOf(parameters) {
   return { airspeed_m_s, [limit]: numbers(parameters, LIMIT_KEYS[limit], 1)[0] };
 }
 
-/**
- * Links of earlier versions have no altitude.
- *
- * @param {URLSearchParams} parameters
- * @returns {Altitude}
- */
+/** Links of earlier versions have no altitude. @param {URLSearchParams} parameters @returns {Altitude} */
 function altitudeOf(parameters) {
   const [altitude_m, home_altitude_m] = ["altitude", "home-altitude"].map((name) =>
     parameters.has(name) ? numbers(parameters, name, 1)[0] : undefined,
@@ -171,10 +158,7 @@ function viewOf([east, north, wide]) {
   return [east, north, wide];
 }
 
-/**
- * @param {URLSearchParams} parameters
- * @returns {Turn}
- */
+/** @param {URLSearchParams} parameters @returns {Turn} */
 function turnOf(parameters) {
   const turn = parameters.get("turn") ?? "either";
   if (turn !== "either" && turn !== "cw" && turn !== "ccw")

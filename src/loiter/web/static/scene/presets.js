@@ -46,12 +46,7 @@ export const PRESETS = [
   { name: "Just inside the jump", scene: scene([-0.954, 0.746, 90], 1, UNIT) },
 ];
 
-/**
- * The buttons that open the examples. The place on Earth stays.
- *
- * @param {Store} store
- * @param {Actions} actions
- */
+/** The buttons that open the examples. The place on Earth stays. @param {Store} store @param {Actions} actions */
 export function presetButtons(store, actions) {
   for (const { name, scene } of PRESETS) {
     const button = html("button", { type: "button" }, [name]);

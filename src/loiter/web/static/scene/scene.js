@@ -30,12 +30,7 @@ export const drifts = (scene) => scene.wind !== null || orbitMoves(scene);
 /** @type {Limit[]} */
 export const LIMITS = ["max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s"];
 
-/**
- * The limit that an aircraft gives.
- *
- * @param {Aircraft} aircraft
- * @returns {Limit}
- */
+/** The limit that an aircraft gives. @param {Aircraft} aircraft @returns {Limit} */
 export function limitOf(aircraft) {
   return LIMITS.find((name) => aircraft[name] !== undefined) ?? "max_bank_deg";
 }

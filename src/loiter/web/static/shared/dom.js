@@ -37,10 +37,7 @@ export function html(name, attributes = {}, children = []) {
   return element;
 }
 
-/**
- * @param {Element} element
- * @param {Attributes} attributes
- */
+/** @param {Element} element @param {Attributes} attributes */
 export function setAttributes(element, attributes) {
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
 }
@@ -96,12 +93,7 @@ export function polyline(points) {
     .join("");
 }
 
-/**
- * Show or hide an element.
- *
- * @param {Element} element
- * @param {boolean} shown
- */
+/** Show or hide an element. @param {Element} element @param {boolean} shown */
 export function show(element, shown) {
   element.toggleAttribute("hidden", !shown);
   if (element instanceof SVGElement) element.setAttribute("visibility", shown ? "visible" : "hidden");
@@ -125,6 +117,9 @@ export function boxWithin(element, on) {
   const origin = on.getBoundingClientRect();
   return { left: left - origin.left, right: right - origin.left, top: top - origin.top, bottom: bottom - origin.top };
 }
+
+/** Whether keys are typed into a field. @param {EventTarget | null} target */
+export const isTyping = (target) => target instanceof HTMLInputElement && target.type === "text";
 
 /** Milliseconds without a change after which a drag counts as paused. */
 export const PAUSE_MS = 140;

@@ -97,12 +97,7 @@ function followPointer(group, drawing, { begin, position, dragTo }) {
 /** @param {Point} a @param {Point} b @returns {Point} */
 const difference = (a, b) => [a[0] - b[0], a[1] - b[1]];
 
-/**
- * Send all further events of a pointer to a handle.
- *
- * @param {SVGGElement} group
- * @param {PointerEvent} event
- */
+/** Send all further events of a pointer to a handle. @param {SVGGElement} group @param {PointerEvent} event */
 function capture(group, event) {
   group.setPointerCapture(event.pointerId);
   group.classList.add("held");

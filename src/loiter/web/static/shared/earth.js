@@ -29,13 +29,7 @@ function geocentric({ latitude_deg, longitude_deg }) {
   return [fromAxis * Math.cos(longitude), fromAxis * Math.sin(longitude), z];
 }
 
-/**
- * Metres east and north of an origin.
- *
- * @param {Origin} origin
- * @param {Origin} place
- * @returns {[number, number]}
- */
+/** Metres east and north of an origin. @param {Origin} origin @param {Origin} place @returns {[number, number]} */
 export function toLocal(origin, place) {
   const [latitude, longitude] = [origin.latitude_deg * DEGREE, origin.longitude_deg * DEGREE];
   const start = geocentric(origin);

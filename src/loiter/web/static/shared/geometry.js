@@ -27,21 +27,12 @@ export function unitVector(heading_deg) {
   return [Math.sin(heading_deg * DEGREE), Math.cos(heading_deg * DEGREE)];
 }
 
-/**
- * The heading along a vector, degrees in [0, 360).
- *
- * @param {number} east
- * @param {number} north
- */
+/** The heading along a vector, degrees in [0, 360). @param {number} east @param {number} north */
 export function headingOf(east, north) {
   return (Math.atan2(east, north) / DEGREE + 360) % 360;
 }
 
-/**
- * A heading as the same direction in [0, 360).
- *
- * @param {number} degrees
- */
+/** A heading as the same direction in [0, 360). @param {number} degrees */
 export function wrapped(degrees) {
   return (((degrees % 360) + 360) % 360) + 0;
 }
@@ -64,12 +55,7 @@ export function toScreen(view, east, north) {
   return [view.width / 2 + (east - view.east) * view.scale, view.height / 2 - (north - view.north) * view.scale];
 }
 
-/**
- * The pixel of a position.
- *
- * @param {View} view
- * @param {{east_m: number, north_m: number}} position
- */
+/** The pixel of a position. @param {View} view @param {{east_m: number, north_m: number}} position */
 export const positionToScreen = (view, { east_m, north_m }) => toScreen(view, east_m, north_m);
 
 /**

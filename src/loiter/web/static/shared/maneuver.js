@@ -23,11 +23,7 @@ export const DIRECTIONS = { cw: "clockwise", ccw: "counter-clockwise" };
 /** @type {Record<Direction, string>} */
 export const DIRECTION_ARROWS = { cw: "↻", ccw: "↺" };
 
-/**
- * A word with each letter in the colour of its control; "hold" for the empty word.
- *
- * @param {string} word
- */
+/** A word with each letter in the colour of its control; "hold" for the empty word. @param {string} word */
 export function wordLabel(word) {
   const letters = Array.from(word, (letter) => html("span", { class: letter }, [letter]));
   return html("span", { class: "word" }, letters.length > 0 ? letters : ["hold"]);
@@ -76,18 +72,23 @@ export function interpolator(times, time) {
 }
 
 /**
- * The state of a maneuver at a time. Across north the heading takes the short way.
+ * The pose on a track at a time. Across north the heading takes the short way.
  *
- * @param {Track} track
+ * @param {Omit<Track, "x" | "y">} track
  * @param {number} time
- * @returns {Instant}
+ * @returns {import("./types.js").Pose}
  */
-export function stateAt({ time_s, east_m, north_m, heading_deg, x, y }, time) {
+export function poseAt({ time_s, east_m, north_m, heading_deg }, time) {
   const { i, j, share } = bracket(time_s, time);
-  const read = (/** @type {number[]} */ values) => values[i] + share * (values[j] - values[i]);
+  const read = interpolator(time_s, time);
   const turned = ((((heading_deg[j] - heading_deg[i]) % 360) + 540) % 360) - 180;
-  const heading = heading_deg[i] + share * turned;
-  return { east_m: read(east_m), north_m: read(north_m), heading_deg: heading, x: read(x), y: read(y) };
+  return { east_m: read(east_m), north_m: read(north_m), heading_deg: heading_deg[i] + share * turned };
+}
+
+/** The state of a maneuver at a time. @param {Track} track @param {number} time @returns {Instant} */
+export function stateAt(track, time) {
+  const read = interpolator(track.time_s, time);
+  return { ...poseAt(track, time), x: read(track.x), y: read(track.y) };
 }
 
 /**
@@ -117,10 +118,5 @@ export function splitAnswer(answer) {
   return { best: [answer, ...alternatives.slice(0, optimal - 1)], others: alternatives.slice(optimal - 1) };
 }
 
-/**
- * Whether the scene allows the direction of a maneuver.
- *
- * @param {Scene} scene
- * @param {Maneuver} maneuver
- */
+/** Whether the scene allows the direction of a maneuver. @param {Scene} scene @param {Maneuver} maneuver */
 export const isAllowed = ({ orbit }, { turn }) => orbit.turn === "either" || orbit.turn === turn;

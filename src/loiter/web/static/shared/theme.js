@@ -6,36 +6,16 @@
  * @typedef {import("../state/page_state.js").Theme} Theme
  */
 import { byId } from "./dom.js";
-
-const KEY = "loiter.theme";
-
-/** @returns {string | null} */
-function readTheme() {
-  // A browser may forbid storage.
-  try {
-    return localStorage.getItem(KEY);
-  } catch {
-    return null;
-  }
-}
-
-/** @param {Theme} theme */
-function storeTheme(theme) {
-  try {
-    localStorage.setItem(KEY, theme);
-  } catch {
-    // Then the choice is lost when the page is closed.
-  }
-}
+import { recall, remember } from "./storage.js";
 
 /** @param {Store} store */
 export function themeSwitch(store) {
   const button = byId("theme", HTMLButtonElement);
   const system = matchMedia("(prefers-color-scheme: dark)");
-  const useStored = () => store.update({ theme: asTheme(readTheme()) ?? (system.matches ? "dark" : "light") });
+  const useStored = () => store.update({ theme: asTheme(recall("theme")) ?? (system.matches ? "dark" : "light") });
   button.addEventListener("click", () => {
     const theme = store.get().theme === "dark" ? "light" : "dark";
-    storeTheme(theme);
+    remember("theme", theme);
     store.update({ theme });
   });
   system.addEventListener("change", useStored);

@@ -10,11 +10,7 @@ import { DEGREE } from "./geometry.js";
 
 const STANDARD_GRAVITY_M_S2 = 9.80665;
 
-/**
- * The turn radius of an aircraft, metres.
- *
- * @param {Aircraft} aircraft
- */
+/** The turn radius of an aircraft, metres. @param {Aircraft} aircraft */
 export function turnRadiusOf({ airspeed_m_s, max_bank_deg, min_turn_radius_m, max_turn_rate_deg_s }) {
   if (min_turn_radius_m !== undefined) return min_turn_radius_m;
   if (max_turn_rate_deg_s !== undefined) return airspeed_m_s / (max_turn_rate_deg_s * DEGREE);

@@ -37,9 +37,20 @@ const SCALES = {
  * @param {Quantity} quantity
  * @param {Units} units
  */
-export function unitOf(quantity, units) {
-  return SCALES[units][quantity];
-}
+export const unitOf = (quantity, units) => SCALES[units][quantity];
+
+/** @param {string | null} text @returns {Units} */
+export const asUnits = (text) => (text === "aviation" ? text : "metric");
+
+/** The units of long distances, and the distance in metres from which they are used. */
+const FAR = {
+  metric: { name: "km", size: 1000, from: 10_000 },
+  aviation: { name: "NM", size: NAUTICAL_MILE_M, from: NAUTICAL_MILE_M },
+};
+
+/** The unit in which a length of this size is read. @param {Units} units @param {number} metres */
+export const lengthUnit = (units, metres) =>
+  Math.abs(metres) >= FAR[units].from ? FAR[units] : unitOf("length", units);
 
 /**
  * The units that may be typed after a number, in lower case, with their sizes.
@@ -80,15 +91,19 @@ const ACCEPTED = {
 /** The units that may be typed for a quantity. @param {Quantity} quantity */
 export const acceptedUnits = (quantity) => ACCEPTED[quantity];
 
+/** What stands between thousands: a narrow space that breaks no line. Commas mean decimals in some countries. */
+const THOUSANDS = "\u202f";
+
 /**
- * A number with a minus sign (not a hyphen) and a fixed number of decimals.
+ * A number with a minus sign (not a hyphen), a fixed number of decimals, and its thousands apart.
  *
  * @param {number} value
  * @param {number} decimals
  */
 export function fixed(value, decimals) {
-  const text = value.toFixed(decimals);
-  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+  const [whole, part] = Math.abs(value).toFixed(decimals).split(".");
+  const text = whole.replace(/\B(?=(\d{3})+$)/g, THOUSANDS) + (part ? `.${part}` : "");
+  return value < 0 && /[1-9]/.test(text) ? `−${text}` : text;
 }
 
 /**
@@ -114,15 +129,37 @@ export const decimalsOfStep = (step) => Math.max(0, -Math.floor(Math.log10(step)
  * @param {number} decimals
  */
 export function quantityText(value, quantity, units, decimals) {
-  const { name, size } = unitOf(quantity, units);
-  return `${fixed(value / size, decimals)} ${name}`;
+  const { name, size } = quantity === "length" ? lengthUnit(units, value) : unitOf(quantity, units);
+  return `${fixed(value / size, size === FAR[units].size ? 2 : decimals)} ${name}`;
 }
 
+/** How sentences of the library call its units, and what they measure. @type {Record<string, Quantity>} */
+const MEASURES = { m: "length", "m/s": "speed", metres: "length", "metres per second": "speed" };
+const NAMES = { length: "feet", speed: "knots" };
+
 /**
- * A number for a field, with at most six digits.
+ * A sentence of the library, which measures in metres and metres per second, in the units of the page.
  *
- * @param {number} value
+ * @param {string} sentence
+ * @param {Units} units
+ * @param {Quantity} [quantity]  of its first number, if that has no unit
  */
+export function sentenceIn(sentence, units, quantity) {
+  if (units === "metric") return sentence;
+  const text = (/** @type {string} */ number, /** @type {Quantity} */ kind) =>
+    String(Number((Number(number) / unitOf(kind, units).size).toPrecision(5)));
+  const [name] = /metres per second|metres/.exec(sentence) ?? [];
+  const kind = name ? /** @type {"length" | "speed"} */ (MEASURES[name]) : null;
+  // "is -18.0: it must be a positive, finite number of metres per second"
+  if (name && kind) return sentence.replace(/-?\d[\d.]*/g, (number) => text(number, kind)).replace(name, NAMES[kind]);
+  const bare = quantity ? sentence.replace(/(?<= is )-?\d[\d.]*(?=:)/, (number) => text(number, quantity)) : sentence;
+  return bare.replace(
+    /(-?\d[\d.]*) (m\/s|m)\b/g,
+    (_, number, unit) => `${text(number, MEASURES[unit])} ${unitOf(MEASURES[unit], units).name}`,
+  );
+}
+
+/** A number for a field, with at most six digits. @param {number} value */
 export const sixDigits = (value) => Number(value.toPrecision(6));
 
 /**
@@ -132,8 +169,20 @@ export const sixDigits = (value) => Number(value.toPrecision(6));
  */
 const timeDecimals = ({ orbit }) => (orbit.radius_m < 10 ? 3 : 2);
 
-/** A time of a scene: "9.14 s". @param {number} seconds @param {Scene} scene */
-export const timeText = (seconds, scene) => `${fixed(seconds, timeDecimals(scene))} s`;
+/** A time of a scene: "9.14 s", or "1:23.40 min" from a minute on. @param {number} seconds @param {Scene} scene */
+export const timeText = (seconds, scene) => clockText(seconds, timeDecimals(scene));
+
+/** A time with its unit: seconds, or minutes and seconds. @param {number} seconds @param {number} decimals */
+export function clockText(seconds, decimals) {
+  const whole = Number(seconds.toFixed(decimals));
+  return whole < 60 ? `${fixed(whole, decimals)} s` : `${clock(whole, decimals)} min`;
+}
+
+/** A time as minutes and seconds: "1:23.40". @param {number} seconds @param {number} decimals */
+export function clock(seconds, decimals) {
+  const minutes = Math.floor(seconds / 60);
+  return `${minutes}:${(seconds - 60 * minutes).toFixed(decimals).padStart(decimals ? decimals + 3 : 2, "0")}`;
+}
 
 /**
  * A difference of times without its sign: "4.91 s", or "< 0.01 s" where it would read as none.
@@ -177,11 +226,7 @@ export function tidyAbove(value, resolution) {
 /** The power of ten that is at most this share of a size. @param {number} size @param {number} share */
 export const powerBelow = (size, share) => 10 ** Math.floor(Math.log10(Math.max(Math.abs(size) * share, 1e-12)));
 
-/**
- * The smallest number of the form 1, 2 or 5 times a power of ten that is not below `least`.
- *
- * @param {number} least
- */
+/** The smallest number of the form 1, 2 or 5 times a power of ten that is not below `least`. @param {number} least */
 export function roundStep(least) {
   const power = 10 ** Math.floor(Math.log10(least));
   return /** @type {number} */ ([1, 2, 5, 10].find((step) => step * power >= least * (1 - 1e-12))) * power;

@@ -10,14 +10,11 @@
  * @typedef {ReturnType<typeof createActions>} Actions
  */
 import { lapOf } from "../requests/api.js";
+import { raceRequest } from "../requests/plan_request.js";
 import { NO_MESSAGE, durationOf, endOf } from "./page_state.js";
 import { createStepper } from "./steps.js";
 
-/**
- * @param {Store} store
- * @param {Requests} requests
- * @param {Latency} latency
- */
+/** @param {Store} store @param {Requests} requests @param {Latency} latency */
 export function createActions(store, requests, latency) {
   /** @param {Partial<PageState["playback"]>} changes */
   const setPlayback = (changes) => store.update({ playback: { ...store.get().playback, ...changes } });
@@ -80,6 +77,9 @@ export function createActions(store, requests, latency) {
       });
     },
 
+    /** Change the units, also those of the sentences that say why there is no plan. @param {PageState["units"]} units */
+    changeUnits: (units) => (store.get().failure ? requests.askPlan({ units }) : store.update({ units })),
+
     /** Change the altitude of missions. @param {PageState["altitude"]} altitude @param {Event} [event] */
     changeAltitude: (altitude, event) => store.update({ ...stepOf(event), altitude }),
 
@@ -90,6 +90,13 @@ export function createActions(store, requests, latency) {
       if (playing && !lap) store.update({ lap: lapOf(scene) });
       setPlayback({ playing, time_s: playing && time_s >= endOf(store.get()) ? 0 : time_s });
     },
+    /** Begin or end the race with other guidance laws. @param {boolean} racing */
+    race(racing) {
+      const { answer, playback } = store.get();
+      if (!racing || !answer) return store.update({ racing, race: null });
+      store.update({ racing, ...raceRequest(store.get()), playback: { ...playback, playing: true, time_s: 0 } });
+    },
+
     /** @param {number} time_s */
     seek: (time_s) => setPlayback({ time_s: Math.min(durationOf(store.get()), Math.max(0, time_s)) }),
     /** @param {number} speed times real time */

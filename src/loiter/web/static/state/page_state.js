@@ -59,7 +59,9 @@
  * @property {number} pausedRevision  number of the newest scene after which a drag has paused
  * @property {Record<"plan" | "certificate" | "map", Status>} requests
  * @property {Answer | null} answer  the newest plan
- * @property {import("../shared/types.js").Track | null} lap  a round of the circle after joining, once it is played
+ * @property {import("../shared/types.js").Track | null} lap  rounds of the circle after joining, once they are played
+ * @property {boolean} racing  whether other guidance laws are flown too
+ * @property {import("../shared/types.js").Racer[] | null} race  their flights, once they are computed
  * @property {Failure | null} failure
  * @property {Answer | null} announced  the plan of the last pause: its text is read out and can be copied
  * @property {Proof | null} proof  the certificate of the plan
@@ -99,6 +101,8 @@ export const INITIAL_STATE = {
   requests: { plan: "idle", certificate: "idle", map: "idle" },
   answer: null,
   lap: null,
+  racing: false,
+  race: null,
   failure: null,
   announced: null,
   proof: null,
@@ -121,11 +125,7 @@ export const durationOf = ({ answer }) => answer?.duration_s ?? 0;
 /** The time on the path that is shown, seconds. @param {PageState} state */
 export const shownTime = (state) => Math.min(state.playback.time_s, durationOf(state));
 
-/**
- * Whether no request is waiting or under way.
- *
- * @param {PageState} state
- */
+/** Whether no request is waiting or under way. @param {PageState} state */
 export function isSettled({ revision, pausedRevision, failure, requests }) {
   if (pausedRevision !== revision) return false;
   const done = (/** @type {Status} */ status) => status === "idle" || status === "failed";

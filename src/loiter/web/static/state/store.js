@@ -11,10 +11,7 @@
  *   now, and after each update that changes a selected value
  */
 
-/**
- * @param {PageState} initial
- * @returns {Store}
- */
+/** @param {PageState} initial @returns {Store} */
 export function createStore(initial) {
   let state = initial;
   /** @type {(() => void)[]} */

@@ -10,7 +10,7 @@
  */
 import { polyline, svg } from "../shared/dom.js";
 import { CONTROLS, interpolator } from "../shared/maneuver.js";
-import { decimalsOfStep, fixed, roundStep } from "../shared/units.js";
+import { clock, decimalsOfStep, fixed, roundStep } from "../shared/units.js";
 
 // Pixels
 const LEFT = 34;
@@ -44,21 +44,12 @@ export function timeScale(width, duration_s, theory) {
   };
 }
 
-/**
- * Bars of the control.
- *
- * @param {Segment[]} segments
- * @param {TimeScale} scale
- */
+/** Bars of the control. @param {Segment[]} segments @param {TimeScale} scale */
 export function drawControls(segments, { x }) {
   return segments.flatMap(({ letter, start_s, duration_s }) => drawBar(letter, x(start_s), x(start_s + duration_s)));
 }
 
-/**
- * @param {Letter} letter
- * @param {number} from
- * @param {number} to
- */
+/** @param {Letter} letter @param {number} from @param {number} to */
 function drawBar(letter, from, to) {
   const width = to - from;
   const box = { x: from, y: STRIP.top, width: Math.max(0.5, width), height: STRIP.height };
@@ -69,23 +60,24 @@ function drawBar(letter, from, to) {
   return [bar, svg("text", { ...middle, class: "barname" }, [text])];
 }
 
-/**
- * Lines at the switching times.
- *
- * @param {Segment[]} segments
- * @param {TimeScale} scale
- */
+/** Lines at the switching times. @param {Segment[]} segments @param {TimeScale} scale */
 export function drawSwitches(segments, { x, axis }) {
   const line = (/** @type {number} */ time) => `M${x(time)} ${STRIP.top}V${axis - 12}`;
   return segments.slice(1).map(({ start_s }) => svg("path", { d: line(start_s), class: "switchline" }));
 }
 
+/** The spacing of times: whole parts of a minute, or whole minutes, from ten seconds on. @param {number} least */
+const timeStep = (least) =>
+  least <= 5 ? roundStep(least) : ([10, 20, 30].find((step) => step >= least) ?? 60 * roundStep(least / 60));
+
 /** The numbers of the time axis. @param {TimeScale} scale */
 export function drawAxis({ x, end, length, axis }) {
-  const step = roundStep((end * TICK_SPACING) / length);
+  const step = timeStep((end * TICK_SPACING) / length);
   // The end itself may be off by rounding.
   const count = Math.floor(end / step + 1e-9);
-  const text = (/** @type {number} */ k) => fixed(k * step, decimalsOfStep(step)) + (k === count ? " s" : "");
+  const unit = end < 60 ? " s" : " min";
+  const text = (/** @type {number} */ k) =>
+    (end < 60 ? fixed(k * step, decimalsOfStep(step)) : clock(k * step, 0)) + (k === count ? unit : "");
   return Array.from({ length: count + 1 }, (_, k) =>
     svg("text", { x: x(k * step), y: axis + 3, "text-anchor": "middle", class: "tick" }, [text(k)]),
   );
@@ -153,7 +145,7 @@ export function drawReadings({ series, certificate: { lambda } }, time, { right 
   const text = (/** @type {number} */ y, /** @type {string} */ content, kind = "") =>
     svg("text", { x: right + 8, y, class: kind }, [content]);
   return [
-    text(STRIP.top + 16, `${fixed(time, 2)} s`),
+    text(STRIP.top + 16, time < 60 ? `${fixed(time, 2)} s` : clock(time, 1)),
     text(PHI.top + 30, `φ ${fixed(read(series.phi), 3)}`, "phi"),
     text(PSI.top + 16, `ψ₁ ${fixed(read(series.psi1), 3)}`, "psi1"),
     text(PSI.top + 34, `ψ₂ ${fixed(read(series.psi2), 3)}`, "psi2"),

@@ -15,11 +15,7 @@ const WANTED_S = 10; // longest playback at the speed of a new scene
 const REST_S = 1.2; // at the end, before the playback starts again
 const LONGEST_FRAME_S = 0.1; // a page that was hidden does not jump
 
-/**
- * The slowest speed that plays a plan within some ten seconds.
- *
- * @param {number} duration_s
- */
+/** The slowest speed that plays a plan within some ten seconds. @param {number} duration_s */
 export function speedFor(duration_s) {
   return SPEEDS.find((speed) => duration_s / speed <= WANTED_S) ?? SPEEDS[SPEEDS.length - 1];
 }
@@ -54,11 +50,7 @@ export function runClock(store) {
   );
 }
 
-/**
- * Choose a fitting speed when a scene is opened.
- *
- * @param {Store} store
- */
+/** Choose a fitting speed when a scene is opened. @param {Store} store */
 export function chooseSpeed(store) {
   let waiting = false;
   store.watch(
@@ -74,10 +66,7 @@ export function chooseSpeed(store) {
   );
 }
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 export function player(store, actions) {
   playButton(store, actions);
   speedChoice(store, actions);
@@ -86,10 +75,7 @@ export function player(store, actions) {
   chooseSpeed(store);
 }
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 function playButton(store, actions) {
   const button = byId("play", HTMLButtonElement);
   button.addEventListener("click", () => actions.play(!store.get().playback.playing));
@@ -102,10 +88,7 @@ function playButton(store, actions) {
   );
 }
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 function speedChoice(store, actions) {
   const select = byId("speed", HTMLSelectElement);
   select.append(...SPEEDS.map((speed) => html("option", { value: speed }, [`${speed}×`])));
@@ -116,10 +99,7 @@ function speedChoice(store, actions) {
   );
 }
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 function timeSlider(store, actions) {
   const slider = byId("clock", HTMLInputElement);
   const steps = Number(slider.max);

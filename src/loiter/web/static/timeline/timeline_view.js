@@ -14,10 +14,7 @@ import { drawAxis, drawControls, drawReadings, drawSeries, drawSwitches, heightO
 
 const LEAST_WIDTH_PX = 260;
 
-/**
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {Store} store @param {Actions} actions */
 export function timelineView(store, actions) {
   const root = byId("timeline", SVGSVGElement);
   const { reads, ...below } = svgLayers("back", "strip", "lines", "ticks", "reads");
@@ -68,11 +65,7 @@ function watchPlan(root, { back, strip, lines, ticks }, store) {
   );
 }
 
-/**
- * @param {SVGPathElement} cursor
- * @param {SVGGElement} reads
- * @param {Store} store
- */
+/** @param {SVGPathElement} cursor @param {SVGGElement} reads @param {Store} store */
 function watchTime(cursor, reads, store) {
   store.watch(
     (state) => [shownTime(state), state.answer, state.proof, state.timelineWidth, state.theory],
@@ -85,11 +78,7 @@ function watchTime(cursor, reads, store) {
   );
 }
 
-/**
- * @param {SVGSVGElement} root
- * @param {Store} store
- * @param {Actions} actions
- */
+/** @param {SVGSVGElement} root @param {Store} store @param {Actions} actions */
 function seekWithPointer(root, store, actions) {
   /** @param {PointerEvent} event */
   function seek(event) {

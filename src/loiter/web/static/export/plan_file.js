@@ -1,0 +1,97 @@
+// @ts-check
+/**
+ * A mission of QGroundControl, dropped on the page or opened: its first loiter is the circle, and the place before it
+ * that of the aircraft.
+ *
+ * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../shared/types.js").Altitude} Altitude
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/actions.js").Actions} Actions
+ */
+import { withOrbit, withPose } from "../scene/scene.js";
+import { byId } from "../shared/dom.js";
+import { REACH_M, toLocal } from "../shared/earth.js";
+import { headingOf } from "../shared/geometry.js";
+import { tidy } from "../shared/units.js";
+
+/** Where each command that flies a circle has its radius: NAV_LOITER_UNLIM, _TURNS, _TIME, _TO_ALT. @type {Record<number, number>} */
+const RADIUS_AT = { 17: 2, 18: 2, 19: 2, 31: 1 };
+
+/** The reference of each frame of MAVLink. @type {Record<number, import("../shared/types.js").Reference>} */
+const REFERENCES = { 0: "msl", 3: "home", 10: "ground" };
+
+/**
+ * The scene of a plan, and the altitude of its mission. Throws an Error with a sentence.
+ *
+ * @param {string} text  of the file
+ * @param {Scene} scene  has what the plan does not say
+ * @returns {{scene: Scene, altitude: Altitude}}
+ */
+export function sceneOfPlan(text, scene) {
+  const { fileType, mission } = parsed(text);
+  if (fileType !== "Plan" || !Array.isArray(mission?.items)) throw new Error("This file is no plan of QGroundControl.");
+  const items = mission.items.filter((/** @type {any} */ { type, params }) => type === "SimpleItem" && params?.length === 7);
+  const at = items.findIndex((/** @type {any} */ { command }) => command in RADIUS_AT);
+  if (at < 0) throw new Error("This plan has no loiter.");
+  const { command, frame, params } = items[at];
+  const signed_m = params[RADIUS_AT[command]];
+  if (!signed_m) throw new Error("The loiter of this plan has no radius: the autopilot uses its own.");
+  const origin = { latitude_deg: params[4], longitude_deg: params[5] };
+  const circle = { east_m: 0, north_m: 0, radius_m: Math.abs(signed_m), velocity_east_m_s: 0, velocity_north_m_s: 0 };
+  const [home, ...places] = [mission.plannedHomePosition, ...items.slice(0, at).map((/** @type {any} */ item) => item.params.slice(4))]
+    .filter(([latitude, longitude]) => latitude || longitude)
+    .map(([latitude_deg, longitude_deg]) => toLocal(origin, { latitude_deg, longitude_deg }));
+  return {
+    scene: withPose({ ...withOrbit(scene, { ...circle, turn: signed_m < 0 ? "ccw" : "cw" }), origin }, poseOf([home, ...places])),
+    altitude: {
+      altitude_m: params[6],
+      altitude_reference: REFERENCES[frame],
+      home_altitude_m: mission.plannedHomePosition?.[2],
+    },
+  };
+}
+
+/** The object in a JSON text. @param {string} text @returns {any} */
+function parsed(text) {
+  try {
+    return JSON.parse(text) ?? {};
+  } catch {
+    throw new Error("This file is no plan of QGroundControl: it is not JSON.");
+  }
+}
+
+/**
+ * The aircraft at the last place before the loiter, as it comes from the place before; what is not known stays.
+ *
+ * @param {number[][]} places  east and north, metres
+ * @returns {Partial<Scene["pose"]>}
+ */
+function poseOf(places) {
+  const [[east, north] = [NaN, NaN], before] = places.filter(Boolean).reverse();
+  if (!(Math.hypot(east, north) <= REACH_M)) return {};
+  const [fromEast, fromNorth] = before ?? [2 * east, 2 * north]; // towards the circle
+  const heading_deg = tidy(headingOf(east - fromEast, north - fromNorth), 0.1);
+  return { east_m: tidy(east, 0.01), north_m: tidy(north, 0.01), heading_deg };
+}
+
+/** Open a plan that is dropped on the page or chosen. @param {Store} store @param {Actions} actions */
+export function planOpener(store, actions) {
+  /** @param {File | undefined} file */
+  async function open(file) {
+    if (!file) return;
+    try {
+      const { scene, altitude } = sceneOfPlan(await file.text(), store.get().scene);
+      actions.openScene({ scene, altitude, place: { ...scene.origin } });
+      actions.say(`Circle, aircraft and altitude are those of ${file.name}.`);
+    } catch (error) {
+      actions.say(/** @type {Error} */ (error).message, true);
+    }
+  }
+  const chooser = byId("open-plan", HTMLInputElement);
+  chooser.addEventListener("change", () => open(chooser.files?.[0]).finally(() => (chooser.value = "")));
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    open(event.dataTransfer?.files[0]);
+  });
+}
