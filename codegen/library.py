@@ -237,7 +237,8 @@ class Writer:
         head, body = "super();", node.body
         if base is not None:
             first, *body = body
-            assert isinstance(first, ast.Expr) and isinstance(first.value, ast.Call), ast.unparse(first)
+            assert isinstance(first, ast.Expr), ast.unparse(first)
+            assert isinstance(first.value, ast.Call), ast.unparse(first)
             self.local.append({one.arg for one in (*node.args.args, *node.args.kwonlyargs)})
             head = f"super({', '.join(self._bound(first.value, base))});"
             self.local.pop()
@@ -680,7 +681,7 @@ class Writer:
         return f"{owner}.{safe(name)}({', '.join([*map(self._element, node.args), f'{{ {options} }}'])})"
 
     def _bound(self, node: ast.Call, function: Any, skip: int = 0) -> Iterator[str]:
-        """The arguments of a call of a known function, in the order of its parameters, of which the first are left out."""
+        """The arguments of a call of a known function, in the order of its parameters but for the first `skip`."""
         if isinstance(function, type) and issubclass(function, Exception):
             yield from map(self._element, node.args)
             return

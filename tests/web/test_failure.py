@@ -144,7 +144,9 @@ def test_the_radius_is_offered_below_its_field_too_in_the_units_of_the_page(open
     assert page.locator("#circle-radius-fault").inner_text().startswith(sentence)
     # Other units, other sentence.
     page.locator("#units").select_option("metric")
-    expect(page.locator("#why")).to_contain_text("Orbit radius 30.48 m is tighter than the aircraft can turn: 47.18 m at")
+    expect(page.locator("#why")).to_contain_text(
+        "Orbit radius 30.48 m is tighter than the aircraft can turn: 47.18 m at"
+    )
     offer.click()
     settle(page)
     assert_shows_the_plan(page)

@@ -43,7 +43,7 @@ def test_the_help_opens_by_a_key_and_at_each_term(page):
 
 def test_on_a_phone_the_plan_and_two_numbers_are_in_the_first_view(opened):
     page = opened(**PHONE)
-    plan, facts = page.locator("#plan").bounding_box(), page.locator(".facts").bounding_box()
+    plan, facts = page.locator("#plan-box").bounding_box(), page.locator(".facts").bounding_box()
     assert plan["y"] + plan["height"] <= facts["y"]
     assert facts["y"] + facts["height"] <= PHONE["viewport"]["height"]
     assert page.locator(".facts dd:visible").count() == 2
@@ -92,7 +92,8 @@ def test_no_label_is_cut(opened, size):
     page.evaluate("for (const each of document.querySelectorAll('details')) each.open = true")
     page.locator("#altitude-reference").select_option("home")
     cut = page.locator(".column :is(label, legend) span:visible:not(.sr, .box), .column button:visible").evaluate_all(
-        "all => all.filter(one => one.scrollWidth > one.clientWidth + 1 && one.clientWidth > 0).map(one => one.outerHTML)"
+        """all => all.filter(({ scrollWidth, clientWidth }) => clientWidth > 0 && scrollWidth > clientWidth + 1)
+            .map(one => one.outerHTML)"""
     )
     assert cut == []
     # A label and its field lie beside each other.
@@ -138,7 +139,7 @@ def luminance(colour):
 def test_every_candidate_is_seen_named_and_in_the_first_view(opened, scheme):
     page = opened(color_scheme=scheme)
     colours = page.locator("#plan .others .line").first.evaluate(
-        """line => [getComputedStyle(line).stroke, getComputedStyle(document.getElementById("plan-box")).backgroundColor]
+        """line => [getComputedStyle(line).stroke, getComputedStyle(plan.parentElement).backgroundColor]
             .map(text => text.match(/\\d+/g).map(Number))"""
     )
     dark, light = sorted(map(luminance, colours))
@@ -189,7 +190,10 @@ def test_a_plan_that_is_dropped_gives_circle_aircraft_and_altitude(page, tmp_pat
     settle(page)
     found, items = scene(page), json.loads(text)["mission"]["items"]
     loiter_at = next(i for i, item in enumerate(items) if item["command"] in (17, 18, 19, 31))
-    assert found["origin"] == {"latitude_deg": items[loiter_at]["params"][4], "longitude_deg": items[loiter_at]["params"][5]}
+    assert found["origin"] == {
+        "latitude_deg": items[loiter_at]["params"][4],
+        "longitude_deg": items[loiter_at]["params"][5],
+    }
     assert (found["orbit"]["radius_m"], found["orbit"]["turn"]) == (120, "ccw")
     last = items[loiter_at - 1]["params"][4:6] if loiter_at else json.loads(text)["mission"]["plannedHomePosition"][:2]
     east, north = LocalFrame(**found["origin"]).to_local(*last)
@@ -210,7 +214,9 @@ LOITER = {"type": "SimpleItem", "command": 17, "frame": 3, "params": [0, 0, 80, 
         (json.dumps({"fileType": "Fence"}), "This file is no plan of QGroundControl."),
         (json.dumps({"fileType": "Plan", "mission": {"items": []}}), "This plan has no loiter."),
         (
-            json.dumps({"fileType": "Plan", "mission": {"items": [LOITER | {"params": [0, 0, None, 0, 47.1, 8.2, 9]}]}}),
+            json.dumps(
+                {"fileType": "Plan", "mission": {"items": [LOITER | {"params": [0, 0, None, 0, 47.1, 8.2, 9]}]}}
+            ),
             "The loiter of this plan has no radius: the autopilot uses its own.",
         ),
     ],

@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import expect
 
-from web.browsing import assert_shows_the_plan, drag, fly_at, located, press, scene, settle
+from web.browsing import assert_shows_the_plan, drag, fly_at, located, press, settle
 
 
 def returned(page, expected):

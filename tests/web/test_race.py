@@ -63,11 +63,7 @@ def test_the_page_flies_the_same_race():
                     "velocity_east_m_s": velocity[0],
                     "velocity_north_m_s": velocity[1],
                 },
-                "aircraft": {
-                    name: value
-                    for name, value in vars(aircraft).items()
-                    if value is not None
-                },
+                "aircraft": {name: value for name, value in vars(aircraft).items() if value is not None},
                 "wind": {"speed_m_s": wind[0], "from_deg": wind[1]},
             }
         )

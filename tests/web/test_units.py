@@ -46,10 +46,9 @@ def test_a_quantity_as_text(expression, text):
     ("sentence", "quantity", "text"),
     [
         (
-            "orbit radius 30.48 m is tighter than the aircraft can turn: 47.18 m at 18 m/s and 35 deg of bank; it needs 47 deg",
+            "orbit radius 30.48 m is tighter than the aircraft can turn: 47.18 m at 18 m/s; it needs 47 deg",
             None,
-            "orbit radius 100 ft is tighter than the aircraft can turn: 154.79 ft at 34.989 kt and 35 deg of bank; it needs "
-            "47 deg",
+            "orbit radius 100 ft is tighter than the aircraft can turn: 154.79 ft at 34.989 kt; it needs 47 deg",
         ),
         (" is -18.0: it must be a positive, finite number of metres per second", "speed",
          " is -34.989: it must be a positive, finite number of knots"),

@@ -19,7 +19,7 @@ const LEAST_DISTANCE = { join: 26, aircraft: 30 };
 
 // Pixels: mean width of a character, half the height of a label, and the strips with the numbers of the grid.
 const CHARACTER_PX = 6.6;
-const LETTER_PX = 8.6; // of a word
+const LETTER_PX = 9.4; // of a word
 const HALF_HEIGHT_PX = 9;
 const GRID_NUMBERS_PX = { left: 44, bottom: 22 };
 

@@ -85,8 +85,9 @@ function tileSwitch(store, actions) {
     remember("tiles", field.value.trim());
     if (problem !== "") toggle.checked = false;
     store.update({ tiles: toggle.checked ? template : null });
-    if (toggle.checked && store.get().scene.origin === null) {
-      field.closest("details")?.setAttribute("open", "");
+    const lacksPlace = toggle.checked && store.get().scene.origin === null;
+    if (problem !== "" || lacksPlace) field.closest("details")?.setAttribute("open", "");
+    if (lacksPlace) {
       byId("latitude", HTMLInputElement).focus();
       actions.say("The map needs the position of (0, 0) on Earth.", true);
     }
