@@ -136,7 +136,7 @@ def test_the_radius_is_offered_below_its_field_too_in_the_units_of_the_page(open
     fail(page, "refused")
     field = page.locator("#circle-radius").bounding_box()
     offer = page.locator(".scene .offer")
-    assert offer.inner_text() == "Use 154.803 ft, the least radius"
+    assert offer.inner_text() == "Use 154.806 ft, the least radius"
     below = offer.bounding_box()
     assert below["y"] - (field["y"] + field["height"]) < 120
     sentence = "Orbit radius 100 ft is tighter than the aircraft can turn: 154.79 ft at 34.989 kt and 35 deg of bank"

@@ -104,6 +104,7 @@ def test_what_changes_without_a_pause_is_one_step(page):
     before, length = shown(page), page.evaluate("history.length")
     page.evaluate("for (const button of document.querySelectorAll('#presets button')) button.click()")
     settle(page)
+    page.wait_for_function("() => history.state.step === 1")
     assert page.evaluate("history.length") == length + 1
     page.locator("#undo").click()
     returned(page, before)

@@ -72,7 +72,7 @@ def test_minutes_and_nautical_miles_are_read_everywhere(page):
     settle(page)
     time = page.locator("#time").inner_text()
     assert time.endswith(" min")
-    assert page.locator("#instruction").text_content().replace("\u00a0", " ").endswith(f"from {time}.")
+    assert f"from {time}." in page.locator("#instruction").text_content().replace("\u00a0", " ")
     assert page.locator("#candidates .best .duration").first.inner_text() == time
     assert f"join {time}" in page.locator("#plan .marks text").all_text_contents()
     assert page.locator("#timeline .tick").last.text_content().endswith(" min")

@@ -19,9 +19,12 @@ const MOVES = {
  * @param {HTMLElement} group
  */
 export function roving(group) {
-  let current = 0;
-  const buttons = () => Array.from(group.querySelectorAll("button"));
+  const buttons = () => Array.from(group.querySelectorAll(/** @type {"button"} */ ("button, input")));
   const indexOf = (/** @type {EventTarget | null} */ target) => buttons().findIndex((button) => button === target);
+  let current = Math.max(
+    0,
+    buttons().findIndex((button) => button.checkVisibility()),
+  );
   function mark() {
     const all = buttons();
     current = Math.min(current, Math.max(0, all.length - 1));
