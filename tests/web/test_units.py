@@ -78,7 +78,7 @@ def test_minutes_and_nautical_miles_are_read_everywhere(page):
     assert page.locator("#timeline .tick").last.text_content().endswith(" min")
     assert all(":" in tick for tick in page.locator("#timeline .tick").all_text_contents())
     assert "NM" not in page.locator("#path").inner_text()
-    page.locator("#east").fill("-3 NM")
+    page.locator("#east").fill("-6 NM")
     settle(page)
     assert page.locator("#path").inner_text().endswith(" NM")
     page.locator("#fit").click()
