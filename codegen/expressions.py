@@ -411,12 +411,13 @@ class Expressions:
             return self._constructed(node, called, arguments)
         if isinstance(called, FunctionType):
             title, kinds, arguments, result = self._with_all(node, called, arguments)
-            if kinds and kinds[0].is_changed:
-                is_fresh = re.fullmatch(r"changed_\d+", arguments[0].text)
-                name = arguments[0].text if is_fresh else self.temporary(arguments[0], "changed", is_constant=False)
-                arguments[0] = Expression(name, result)
+            at = next((i for i, kind in enumerate(kinds) if kind.is_changed), None)
+            if at is not None:
+                is_fresh = re.fullmatch(r"changed_\d+", arguments[at].text)
+                name = arguments[at].text if is_fresh else self.temporary(arguments[at], "changed", is_constant=False)
+                arguments[at] = Expression(name, result)
                 self.before.append(f"{title}({', '.join(self._texts(title, kinds, arguments))});")
-                return arguments[0]
+                return arguments[at]
             return Expression(f"{title}({', '.join(self._texts(title, kinds, arguments))})", result)
         if called is not None and getattr(math, name, None) is called:
             return self._of_math(node, name, arguments)

@@ -85,7 +85,7 @@ PLANNING = (
 )
 
 # In the law the kernel's functions stand in for machine code that Python calls.
-LAW_REPLACED = {"entry_in_still_air": synthesis.optimum, "fastest_in_wind": wind_search.fastest}
+LAW_REPLACED = {"entry_in_still_air": synthesis.optimum, "advance_in_wind": wind_search.advance_search}
 LAW_ARITHMETIC = DOUBLE._replace(replaced=LAW_REPLACED)
 
 

@@ -27,7 +27,7 @@ from codegen.expressions import (
     Expression,
     Expressions,
 )
-from codegen.kinds import INTEGER, REAL, TRUTH, Kind, NotTranslated, safe, signature
+from codegen.kinds import INTEGER, REAL, TRUTH, Kind, safe, signature
 from codegen.statements import STEP, Function, paragraphs, wrapped
 from codegen.unit import Unit
 
@@ -62,6 +62,17 @@ local function filled(one, length)
         ring[i] = one
     end
     return ring
+end""",
+    "with_fields": """-- A table with other values of some fields.
+local function with_fields(one, values)
+    local copy = {}
+    for name, value in pairs(one) do
+        copy[name] = value
+    end
+    for name, value in pairs(values) do
+        copy[name] = value
+    end
+    return copy
 end""",
     "with_last": """-- A ring with another last element.
 local function with_last(ring, last)
@@ -148,8 +159,10 @@ class LuaExpressions(Expressions):
     constant = structure
 
     def changed(self, found: Expression, values: dict[str, Expression]) -> Expression:
-        """Refused: no function that is translated to Lua changes fields."""
-        raise NotTranslated(f"{self.file}: {found.text!r} with other fields is not translated to Lua")
+        """A copy with other values of some fields."""
+        return Expression(
+            f"with_fields({found.text}, {{{', '.join(f'{k} = {v.text}' for k, v in values.items())}}})", found.kind
+        )
 
     def as_result(self, node: ast.expr, found: Expression, kind: Kind) -> Expression:
         """A tuple as the values that a function returns."""

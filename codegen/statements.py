@@ -212,6 +212,8 @@ class Function:
     def _set_fields(self, call: ast.Call, indent: str) -> None:
         """Set fields of a variable where it is; values that read it are computed before."""
         name = ast.unparse(call.func.value)  # type: ignore[attr-defined]
+        if self._changes_field(name, call.keywords, indent):
+            return
         values = []
         for keyword in call.keywords:
             value = self.expressions.translate(keyword.value)
@@ -222,6 +224,18 @@ class Function:
         for field, value in values:
             place = self.expressions.translate(ast.Attribute(ast.Name(name), field))
             self._write(indent, f"{place.text} = {self.expressions.of_kind(place.kind, value).text};")
+
+    def _changes_field(self, name: str, keywords: list[ast.keyword], indent: str) -> bool:
+        """Change one field where it is, `one = one._replace(field=f(one.field, ...))`, if this is that."""
+        match keywords:
+            case [
+                ast.keyword(arg=field, value=ast.Call(func=ast.Name(), args=[ast.Attribute() as source, *_]) as call)
+            ]:
+                if ast.unparse(source) == f"{name}.{field}" and (change := self.expressions.change(call)):
+                    self._before(indent)
+                    self._write(indent, change)
+                    return True
+        return False
 
     def _pairs(self, target: ast.expr, value: ast.expr) -> Iterator[tuple[str, Expression]]:
         """Names and the values that they are set to."""

@@ -159,7 +159,7 @@ class Unit:
         if self.arithmetic.in_place and self._fills(function):
             parameters = {RINGS: Kind("Rings *"), **parameters}
         if self.arithmetic.large:
-            first, *_ = [*parameters, ""]
+            first, *_ = [*(name for name in parameters if name != RINGS), ""]
             is_changed = parameters.get(first) == result and result.size >= UPDATED
             parameters = {name: self._passed(function, name, kind) for name, kind in parameters.items()}
             if is_changed:
@@ -209,8 +209,12 @@ class Unit:
             body = ["#ifdef FP_FAST_FMA", STEP + self.arithmetic.faster[node.name], "#else", *body, "#endif"]
         doc = ast.get_docstring(node)
         kind = NOTHING if any(one.is_changed for one in parameters.values()) else result
-        head = f"{self.arithmetic.storage} {kind.name} {self.name(function)}({listed}) {{"
+        head = f"{self.storage(function)} {kind.name} {self.name(function)}({listed}) {{"
         return [*(comment(doc) if doc else ()), *wrapped(head), *body, "}", ""]
+
+    def storage(self, function: FunctionType) -> str:
+        """What stands before a function."""
+        return self.arithmetic.storage
 
     def _structure(self, kind: Kind) -> None:
         """Declare a structure, after those of its fields."""

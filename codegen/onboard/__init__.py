@@ -5,13 +5,14 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from types import FunctionType
 
 from codegen.arithmetic import FUNCTIONS, ONBOARD
 from codegen.expressions import Expressions, Names
 from codegen.kinds import Kind, NotTranslated, kind_of_type
 from codegen.statements import comment, wrapped
 from codegen.unit import ROOT, Unit, digest
-from loiter.guidance.entry import law_step
+from loiter.guidance.entry import entry_planner, law_step
 from loiter.guidance.entry.law_step import Memory, Settings
 from loiter.guidance.estimation import bank_history
 from loiter.guidance.estimation.vehicle import VehicleModel, fly_as_declared
@@ -28,7 +29,7 @@ FOLDER = ROOT / "onboard" / "c"
 
 # In the law the kernel's functions stand in for machine code that Python calls.
 ARITHMETIC = ONBOARD._replace(
-    replaced={"entry_in_still_air": synthesis.optimum, "fastest_in_wind": wind_search.fastest}
+    replaced={"entry_in_still_air": synthesis.optimum, "advance_in_wind": wind_search.advance_search}
 )
 
 ROOTS = (
@@ -43,7 +44,16 @@ ROOTS = (
     fly_as_declared,
     law_step.first_memory,
     law_step.plan_by_clock,
-    law_step.step,
+    law_step.advance,
+)
+
+# Functions that are not inlined, so that their memory on the stack does not add up.
+APART = (
+    law_step.prepare,
+    law_step.take_entry,
+    law_step.conclude,
+    entry_planner.begin_in_air,
+    wind_search.advance_search,
 )
 
 HEAD = """{title}
@@ -137,6 +147,10 @@ class OnboardUnit(Unit):
             yield f"typedef loiter_{kind.name} {kind.name};"
         else:
             yield from super()._structure_lines(kind)
+
+    def storage(self, function: FunctionType) -> str:
+        """What stands before a function."""
+        return "static APART" if function in APART else super().storage(function)
 
     def parts(self) -> dict[str, str]:
         """What stands for the names of the templates."""

@@ -24,6 +24,13 @@ typedef uint64_t unsigned_integer;
 #define MAKE(type) (type)
 #endif
 
+/* Before functions that are not inlined, so that their memory on the stack does not add up. */
+#if defined(__GNUC__)
+#define APART __attribute__((noinline))
+#else
+#define APART
+#endif
+
 @TYPEDEFS@
 
 @GENERATED@
@@ -111,6 +118,7 @@ loiter_law_config loiter_law_defaults(loiter_real airspeed_m_s, loiter_real bank
     config.reserve = @RESERVE@;
     config.smoothing_s = @SMOOTHING@;
     config.gain = @GAIN@;
+    config.search_steps = 0;
     return config;
 }
 
@@ -135,7 +143,7 @@ static int status_of_config(const loiter_law_config *c) {
     }
     if (!is_within(c->roll_time_s, REAL(0.0), MOST) || !(c->roll_rate_deg_s >= LEAST_ROLL_RATE) ||
         !is_within(c->delay_s, REAL(0.0), MOST) || !is_within(c->reserve, REAL(0.0), MOST) ||
-        !is_within(c->smoothing_s, REAL(0.0), MOST) || !(c->gain > REAL(0.0)) || !(c->gain <= MOST)) {
+        !is_within(c->smoothing_s, REAL(0.0), MOST) || !(c->gain > REAL(0.0)) || !(c->gain <= MOST) || c->search_steps < 0) {
         return LOITER_BAD_RESPONSE;
     }
     const real R = rounded_radius(c->radius_m / radius_at_bank(c->airspeed_m_s, c->bank_limit_deg));
@@ -186,7 +194,8 @@ int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
                                    c->reserve,
                                    c->smoothing_s,
                                    REAL(0.0),
-                                   max_real(@COVERED@, c->delay_s)};
+                                   max_real(@COVERED@, c->delay_s),
+                                   c->search_steps};
     law->vehicle = MAKE(VehicleModel){0, REAL(0.0), declared};
     law->begin_us = 0;
     law->memory = first_memory(&law->rings, &law->settings, &law->vehicle);
@@ -216,6 +225,8 @@ static void follow_clock(loiter_law *law, uint32_t time_us) {
     sensing->observer.estimate.time_s -= past_s;
     sensing->present.time_s -= past_s;
     plan_by_clock(&law->memory.plan, -past_s);
+    law->memory.search.state.time_s -= past_s;
+    law->memory.response.state.time_s -= past_s;
     BankEntry *entries = law->rings.BankEntry_ring_128.at;
     const BankEntry last = entries[ENTRIES - 1];
     for (int i = 0; i < ENTRIES; i++) {
@@ -236,22 +247,22 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
     const real time_s = (real)(int32_t)(m->time_us - law->begin_us) * REAL(1e-6);
     const State state = {time_s,      m->east_m,           m->north_m,           m->heading_deg,
                          m->bank_deg, m->velocity_east_m_s, m->velocity_north_m_s, m->airspeed_m_s};
-    const Memory_LawCommand after = step(&law->rings, &law->settings, &law->memory, &law->vehicle, &state, dt_s);
-    law->memory = after.a0;
-    command->turn_rate_deg_s = after.a1.turn_rate_deg_s;
-    command->bank_deg = after.a1.bank_deg;
-    command->phase = (int)after.a1.phase;
-    command->time_to_join_s = after.a1.time_to_join_s;
-    command->side = (int)after.a1.side;
-    command->next_phase = (int)after.a1.next_phase;
-    command->next_in_s = after.a1.next_in_s;
+    law_step_advance(&law->rings, &law->memory, &law->settings, &law->vehicle, &state, dt_s);
+    const LawCommand *const given = &law->memory.command;
+    command->turn_rate_deg_s = given->turn_rate_deg_s;
+    command->bank_deg = given->bank_deg;
+    command->phase = (int)given->phase;
+    command->time_to_join_s = given->time_to_join_s;
+    command->side = (int)given->side;
+    command->next_phase = (int)given->next_phase;
+    command->next_in_s = given->next_in_s;
 }
 
 int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
     if (!(dt_s > REAL(0.0)) || !isfinite(dt_s)) {
         return LOITER_BAD_STEP;
     }
-    law->vehicle = fly_as_declared(&law->vehicle, law->memory.command_deg, law->memory.step_s);
+    law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
     step_with(law, measurement, dt_s, command);
     return LOITER_OK;
 }

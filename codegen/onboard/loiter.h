@@ -84,7 +84,8 @@ int loiter_search_step(loiter_search *search, int steps, loiter_entry *entry);
  * Everything is relative to the centre of the circle. Where that moves, its velocity is to be subtracted from all
  * velocities over the ground, and from the wind. The wind is a velocity towards the east and the north; 0 where none is
  * known. The roll response is a first-order lag with a limited rate; the delay is that between a command and the first
- * measurement that shows it. */
+ * measurement that shows it. A step of the law takes at most `search_steps` steps of a search in wind, and the next
+ * steps continue it; with 0 it makes whole searches. */
 typedef struct {
     loiter_real radius_m;
     int side;
@@ -92,6 +93,7 @@ typedef struct {
     loiter_real roll_time_s, roll_rate_deg_s, delay_s;
     loiter_real wind_east_m_s, wind_north_m_s;
     loiter_real reserve, smoothing_s, gain;
+    int search_steps;
 } loiter_law_config;
 
 /* A measurement: a time stamp in microseconds that may wrap around, the position from the circle's centre, metres, at

@@ -11,8 +11,8 @@ local GUIDED, DO_REPOSITION, GUIDED_CHANGE_HEADING, ACCEPTED = 15, 192, 43002, 0
 local FRAME_GLOBAL, ABSOLUTE = 0, 0
 local GRAVITY = 9.80665
 
--- The time between callbacks, milliseconds.
-local PERIOD_MS = 50
+-- The time between two steps, and from a step to the search that follows it where one is due, milliseconds.
+local PERIOD_MS, SEARCH_MS = 50, 20
 
 -- What GUIDED_CHANGE_HEADING does with a bank: a delay, seconds, then a quick response with a limited rate of roll.
 local DELAY_S, ROLL_TIME_S, ROLL_RATE_DEG_S = 0.2, 0.1, 90.0
@@ -103,64 +103,37 @@ local BEAT = own_parameter(6, "BEAT", 0)
 
 local law = {}
 
--- The solvers that the law calls.
-local solve_in_still_air, solve_in_wind
+-- What the law searches with in wind.
+local begin_in_wind, advance_in_wind
 
 -- The guidance law.
 do
 @LAW@
 end
 
--- The instructions of a callback are limited (SCR_VM_I_COUNT), and a step of the law may need more than one search for an entry. So one
--- search is made in a callback. Where a step needs another one it is given up with the error `LATER`, and repeated in
--- the next callback with the same arguments and the answers that are known.
-local LATER = {}
-local answers, asked, is_allowed = {}, 0, false
-
-local function solve_once(solve, ...)
-    asked = asked + 1
-    if answers[asked] == nil then
-        if not is_allowed then
-            error(LATER, 0)
-        end
-        is_allowed = false
-        answers[asked] = solve(...)
-    end
-    return answers[asked]
-end
-
--- A call that may be given up: whether it was not, and its results.
-local function attempt(call, ...)
-    asked, is_allowed = 0, true
-    local results = table.pack(pcall(call, ...))
-    if results[1] then
-        answers = {}
-    elseif results[2] ~= LATER then
-        error(results[2], 0)
-    end
-    return table.unpack(results, 1, results.n)
-end
-
-solve_in_still_air = function(x, y, R, side, tolerance)
-    return solve_once(law.optimum, x, y, R, side, tolerance)
-end
-
--- In wind the point of joining is remembered.
+-- The instructions of a callback are limited (SCR_VM_I_COUNT). So a search has callbacks of its own, between two steps
+-- of the law. In wind the point of joining is remembered, and each of these callbacks improves it.
 local NO_JOIN = {side = 0, phase = 0.0, words = 0, shift = @FIRST_SHIFT@, calls = 0}
 local known_join = NO_JOIN
 
-local function track_join(problem)
-    local entry
-    known_join, entry = law.track(known_join, problem)
-    return entry
+begin_in_wind = function(problem)
+    return {stage = 0, problem = problem}
 end
 
-solve_in_wind = function(problem)
-    return solve_once(track_join, problem)
+advance_in_wind = function(search)
+    local entry = search.entry
+    if search.stage ~= @ENDED@ then
+        known_join, entry = law.track(known_join, search.problem)
+        entry.status = entry.side == 0 and @NOT_CONVERGED@ or 0
+    end
+    return {stage = @ENDED@, left = 0, entry = entry}
 end
 
 -- The flight that is prepared or flown; and whether the switch must be moved before the next one.
 local flight, is_latched = nil, true
+
+-- Whether the next callback is one of a search.
+local is_search_next = false
 
 -- The turn rate over that of a coordinated turn, and what is measured of it at present.
 local turn_ratio = 1.0
@@ -283,7 +256,7 @@ local function prepare(now)
         east_m = 0.0, north_m = 0.0, radius_m = radius_m, side = math.floor(SIDE:get()), velocity_east_m_s = 0.0,
         velocity_north_m_s = 0.0, wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s,
         limit_deg = bank_deg, command_limit_deg = bank_deg, gain = @GAIN@, reserve = @RESERVE@,
-        smoothing_s = @SMOOTHING@, negligible_wind = @NEGLIGIBLE_WIND@, covered_s = @COVERED@,
+        smoothing_s = @SMOOTHING@, negligible_wind = @NEGLIGIBLE_WIND@, covered_s = @COVERED@, search_steps = 1,
     }
     local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
     local estimates = {
@@ -321,12 +294,11 @@ local function improve(now)
     local state = relative(now)
     local heading = math.rad(state.heading_deg)
     local hx, hy = state.airspeed_m_s * math.sin(heading), state.airspeed_m_s * math.cos(heading)
-    answers = {}
-    attempt(law.entry_from, flight.settings, limits, {
+    local search = law.begin_in_air(law.search_from(flight.settings, limits, @FIRST_TURN@, {
         time_s = state.time_s, x = state.east_m, y = state.north_m, vx = state.velocity_east_m_s,
         vy = state.velocity_north_m_s, hx = hx, hy = hy,
-    }, true)
-    answers = {}
+    }, true))
+    advance_in_wind(search.in_air)
 end
 
 -- Command the circle by ArduPlane's own guidance, which ends a command of heading; the result.
@@ -447,35 +419,37 @@ local function begin(now)
     say(SEVERITY.NOTICE, "begins")
 end
 
--- A callback in flight: one step of the law, or a part of it.
+-- Whether a search goes on.
+local function is_searching()
+    return flight and flight.is_flown and flight.memory.search.aim ~= @NOTHING@
+end
+
+-- A callback in flight: one step of the law.
 local function guide(now)
     local reason, is_ours = reason_to_end(now, vehicle:get_mode())
     if reason then
         finish(SEVERITY.WARNING, reason, is_ours)
         return
     end
-    if not flight.pending then
-        local elapsed_s = flight.stepped_ms and (now.now_ms - flight.stepped_ms):tofloat() * 0.001 or 0.0
-        flight.stepped_ms, flight.pending = now.now_ms, relative(now)
-        flight.memory.step_s = elapsed_s
-        flight.model = law.fly_as_declared(vehicle_with(now, flight.model), flight.command_deg, elapsed_s)
-    end
-    local is_done, memory, command =
-        attempt(law.step, flight.settings, flight.memory, flight.model, flight.pending, PERIOD_MS * 0.001)
-    if is_done then
-        local state = flight.pending
-        flight.memory, flight.pending, flight.side = memory, nil, command.side ~= 0 and command.side or flight.side
-        flight.command_deg = command.bank_deg
+    local elapsed_s = flight.stepped_ms and (now.now_ms - flight.stepped_ms):tofloat() * 0.001 or 0.0
+    local state = relative(now)
+    flight.stepped_ms, flight.memory.step_s = now.now_ms, elapsed_s
+    flight.model = law.fly_as_declared(vehicle_with(now, flight.model), flight.command_deg, elapsed_s)
+    local memory = law.prepare(flight.memory, flight.settings, flight.model, state)
+    flight.memory = law.conclude(memory, flight.settings, flight.model, PERIOD_MS * 0.001)
+    local command = flight.memory.command
+    -- Until there is a plan, the circle by ArduPlane's own guidance goes on.
+    if command.phase ~= @NO_DATA@ or flight.is_commanded then
+        flight.command_deg, flight.side, flight.is_commanded = command.bank_deg, command.side, true
         if is_held(now, state) then
             finish(SEVERITY.NOTICE, "circle held, left to ArduPlane", true)
             return
         end
+        if not command_bank(now, flight.command_deg) then
+            finish(SEVERITY.WARNING, "bank refused", false)
+            return
+        end
     end
-    if (is_done or flight.is_commanded) and not command_bank(now, flight.command_deg) then
-        finish(SEVERITY.WARNING, "bank refused", false)
-        return
-    end
-    flight.is_commanded = flight.is_commanded or is_done
     flight.beat = (flight.beat or 0) % 1000 + 1
     BEAT:set(flight.side * flight.beat)
 end
@@ -506,6 +480,13 @@ local function wait(now)
 end
 
 local function update()
+    if is_search_next then
+        is_search_next = false
+        if is_searching() then
+            flight.memory = law.continue_search(flight.memory, flight.settings, 1)
+        end
+        return PERIOD_MS - SEARCH_MS
+    end
     local now = measure()
     if now then
         measure_turning(now)
@@ -515,12 +496,15 @@ local function update()
     else
         wait(now)
     end
+    is_search_next = is_searching()
+    return is_search_next and SEARCH_MS or PERIOD_MS
 end
 
 -- An error, for instance of memory, ends a flight.
 local function protected_update()
-    local is_done, problem = pcall(update)
+    local is_done, delay_ms = pcall(update)
     if not is_done then
+        local problem = delay_ms
         if flight and flight.is_flown then
             pcall(finish, SEVERITY.CRITICAL, "script error", vehicle:get_mode() == GUIDED)
         end
@@ -528,7 +512,7 @@ local function protected_update()
         say(SEVERITY.CRITICAL, tostring(problem))
         return protected_update, 1000
     end
-    return protected_update, PERIOD_MS
+    return protected_update, delay_ms
 end
 
 say(SEVERITY.NOTICE, "loiter_entry @VERSION@ ready")

@@ -9,10 +9,13 @@ from typing import Any
 from codegen.arithmetic import Arithmetic
 from codegen.lua import LUA_32BITS, Chunk, note
 from codegen.unit import ROOT, digest
+from loiter.compiled import wind_solver
 from loiter.guidance.entry import entry_planner, join_tracking, law_step
 from loiter.guidance.estimation import bank_history
 from loiter.guidance.estimation.vehicle import fly_as_declared
+from loiter.kernel.statuses import Status
 from loiter.kernel.still_air import synthesis
+from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.hold import tightest_radius
 from loiter.planning.model import radius_at_bank
 from loiter.version import __version__
@@ -23,8 +26,9 @@ APPLET = "loiter_entry.lua"
 
 ROOTS: tuple[Any, ...] = (
     law_step.first_memory,
-    law_step.step,
-    law_step.entry_from,
+    law_step.prepare,
+    law_step.continue_search,
+    law_step.conclude,
     fly_as_declared,
     radius_at_bank,
     tightest_radius,
@@ -32,11 +36,14 @@ ROOTS: tuple[Any, ...] = (
     join_tracking.track,
 )
 
-# The functions that the applet has by hand, with these names: they spread searches over callbacks.
+# The functions that the applet has by hand, with these names: they search in wind by `join_tracking`.
 BY_HAND: dict[Any, str] = {
-    entry_planner.entry_in_still_air: "solve_in_still_air",
-    entry_planner.solve_in_wind: "solve_in_wind",
+    wind_search.begin_search: "begin_in_wind",
+    wind_solver.advance: "advance_in_wind",
 }
+
+# The kernel's function stands in for machine code that Python calls.
+REPLACED = {"entry_in_still_air": synthesis.optimum}
 
 HEAD = """The fastest entry onto a holding circle, for ArduPlane.
 
@@ -47,7 +54,7 @@ SHA-256 of the source: {digest}"""
 
 def law(arithmetic: Arithmetic) -> Chunk:
     """The law and the solvers, for an arithmetic."""
-    return Chunk(APPLET, arithmetic, ROOTS, BY_HAND)
+    return Chunk(APPLET, arithmetic._replace(replaced=REPLACED), ROOTS, BY_HAND)
 
 
 def applet(arithmetic: Arithmetic) -> str:
@@ -59,6 +66,11 @@ def applet(arithmetic: Arithmetic) -> str:
         "LAW": chunk.body(),
         "VERSION": __version__,
         "FIRST_SHIFT": join_tracking.FIRST_SHIFT,
+        "ENDED": wind_search.ENDED,
+        "NOT_CONVERGED": int(Status.NOT_CONVERGED),
+        "NO_DATA": law_step.NO_DATA,
+        "NOTHING": entry_planner.NOTHING,
+        "FIRST_TURN": law_step.FIRST_TURN,
         "GAIN": law_step.GAIN,
         "RESERVE": law_step.RESERVE,
         "SMOOTHING": law_step.SMOOTHING_S,

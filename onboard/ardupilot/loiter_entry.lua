@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 00c80e25cb86478ef85f9f412a9521103205b55bc4dc2b5d75d21a6055581056
+-- SHA-256 of the source: 38615eb68fd1365ce6e4d4e0a773a82c5927aab3c30d58c96d053588489e1b9c
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -15,8 +15,8 @@ local GUIDED, DO_REPOSITION, GUIDED_CHANGE_HEADING, ACCEPTED = 15, 192, 43002, 0
 local FRAME_GLOBAL, ABSOLUTE = 0, 0
 local GRAVITY = 9.80665
 
--- The time between callbacks, milliseconds.
-local PERIOD_MS = 50
+-- The time between two steps, and from a step to the search that follows it where one is due, milliseconds.
+local PERIOD_MS, SEARCH_MS = 50, 20
 
 -- What GUIDED_CHANGE_HEADING does with a bank: a delay, seconds, then a quick response with a limited rate of roll.
 local DELAY_S, ROLL_TIME_S, ROLL_RATE_DEG_S = 0.2, 0.1, 90.0
@@ -107,8 +107,8 @@ local BEAT = own_parameter(6, "BEAT", 0)
 
 local law = {}
 
--- The solvers that the law calls.
-local solve_in_still_air, solve_in_wind
+-- What the law searches with in wind.
+local begin_in_wind, advance_in_wind
 
 -- The guidance law.
 do
@@ -128,6 +128,18 @@ local function filled(one, length)
         ring[i] = one
     end
     return ring
+end
+
+-- A table with other values of some fields.
+local function with_fields(one, values)
+    local copy = {}
+    for name, value in pairs(one) do
+        copy[name] = value
+    end
+    for name, value in pairs(values) do
+        copy[name] = value
+    end
+    return copy
 end
 
 -- A ring with another last element.
@@ -203,6 +215,11 @@ law.NO_ESTIMATE = {time_s = -huge, pose = {x = 0.0, y = 0.0, c = 1.0, s = 0.0}, 
 law.FIRST_CLOCK = {time_s = -huge, since_s = 0.0, gap_s = huge, jump_s = 0.0, first_s = (0.0 / 0.0), latest_s = (0.0 / 0.0)}
 law.NO_PLAN = {route = {side = 0, current = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0}, second = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0}, third = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0}, last_u = -2, start_s = 0.0, turn_radius_m = 1.0, speed_m_s = 1.0, wind_east_m_s = 0.0, wind_north_m_s = 0.0}, remaining_s = 0.0, join_s = huge, planned_join_s = huge, searched_s = -huge}
 law.NO_LEADS = {bank = -1000000000, current = 0, next = 0, last = 0, current_s = 0.0, next_s = 0.0, last_s = 0.0}
+law.NO_RESPONSE = {state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, offset = {crosstrack = 0.0, course_error = 0.0, path_rate = 0.0}, early_s = 0.0}
+law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, wind_east_m_s = 0.0, wind_north_m_s = 0.0, radius_m = 1.0, wide_m = 1.0, side = 0, reversing = false, is_second = false, is_begun = false, in_air = {stage = 0, sides = 0, one = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}}
+
+-- What a command does: the control that it flies, +1 to the left; or one of these.
+-- NO_DATA = 3
 
 -- The history covers at least this time, seconds, in this many entries.
 -- ENTRIES = 128
@@ -245,6 +262,9 @@ law.NO_LEADS = {bank = -1000000000, current = 0, next = 0, last = 0, current_s =
 -- GUST_AVERAGE_S = 10.0
 -- SAMPLE_GAP_S = 0.016129032258064516 -- GUST_LAG_S / (SAMPLES - 2)
 
+-- The aim of no search.
+-- NOTHING = 0
+
 -- The least speed along the heading, as a share of the airspeed, from which a course is taken: below it the
 -- measured velocity is not that of an aircraft in flight.
 -- LEAST_SPEED = 0.05
@@ -256,32 +276,16 @@ law.NO_PIECE = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y =
 -- A flight that begins on the circle, within half of the reserve and this angle, radians, holds it at once.
 -- ON_COURSE = 0.09
 
--- Rounding error of a length of order one: the reduction (2) costs 2 roundings a coordinate, a difference of
--- squares 6, the angle and the flight of each of three pieces about 10; 64 units of 2**-52 is the next power of two
--- above the sum.
--- ROUNDING = 7.62939453125e-06 -- 64.0 * 2.0 ** (-52)
-
 -- The interval between searches for another plan, seconds.
 -- SEARCH_INTERVAL_S = 0.1
 
 -- A piece with less than this left, seconds, is complete but for rounding.
 -- ROUNDING_S = 0.000131072 -- 1e-09
 
--- In wind a new plan counts as the same one if it differs only by a first turn back to the path that is no longer
--- than `LONGEST_BEND`, turn radii. It is not adopted before the crosstrack error or the change of the time to join
--- exceeds `DEVIATION`, turn radii: each adds such a turn.
--- LONGEST_BEND = 0.1
-
--- Margins, turn radii over airspeed. A different plan replaces the present one if it is faster by the first margin,
--- the same plan, made again from the present state, if it is slower by no more than the second. Sensor noise
--- changes the least time by less than these margins, except where that time jumps; there the present plan is the
--- fastest.
--- UPDATE_MARGIN = 0.25
--- SWITCH_MARGIN = 0.25
--- BLIND_S = 1.0
-
--- What a command does: the control that it flies, +1 to the left; or one of these.
--- NO_DATA = 3
+-- What a search is for: the first turn of the first plan, as it would be with wings level; any plan; a plan that is
+-- better than the present one; or one that is better or is the present one from the present state. `NOTHING` is
+-- none.
+-- FIRST_TURN = 1
 
 -- Added to inner products, so that a zero vector gives the rotation by zero. It is negligible for vectors longer
 -- than 1e-37, and a product of three of them does not underflow.
@@ -292,7 +296,44 @@ law.NO_PIECE = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y =
 -- accepted.
 -- LOST_OFFSET = 0.5
 -- LOST_COURSE = 1.0
+-- ANY = 2
+
+-- In wind a new plan counts as the same one if it differs only by a first turn back to the path that is no longer
+-- than `LONGEST_BEND`, turn radii. It is not adopted before the crosstrack error or the change of the time to join
+-- exceeds `DEVIATION`, turn radii: each adds such a turn.
 -- DEVIATION = 0.1
+-- UPDATE = 4
+-- BETTER = 3
+
+-- Rounding error of a length of order one: the reduction (2) costs 2 roundings a coordinate, a difference of
+-- squares 6, the angle and the flight of each of three pieces about 10; 64 units of 2**-52 is the next power of two
+-- above the sum.
+-- ROUNDING = 7.62939453125e-06 -- 64.0 * 2.0 ** (-52)
+
+-- Dekker's splitting factor, 2^27 + 1, halves the 53 digits of a double.
+-- SPLITTER = 4097.0 -- 134217729.0
+
+-- A rotation multiplied by less could have subnormal components, which have lost digits. Below this distance the
+-- rounding error of c - end x itself is negligible.
+-- SMALLEST_SCALE = 1.4551915228366852e-11 -- 2.0 ** (-300)
+law.NO_ROTATION = {0.0, 1.0}
+law.NO_SEARCH = {stage = 0, sides = 0, one = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}
+
+-- The stages of a search: on each side, first some points, then cells down to the leaves, then the leaves that are
+-- left.
+-- ENDED = 5
+
+-- The answer of the kernel where there is no entry.
+law.NONE = {side = 0, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
+-- LONGEST_BEND = 0.1
+
+-- Margins, turn radii over airspeed. A different plan replaces the present one if it is faster by the first margin,
+-- the same plan, made again from the present state, if it is slower by no more than the second. Sensor noise
+-- changes the least time by less than these margins, except where that time jumps; there the present plan is the
+-- fastest.
+-- UPDATE_MARGIN = 0.25
+-- SWITCH_MARGIN = 0.25
+-- BLIND_S = 1.0
 
 -- On the circle it falls so far that course errors are corrected at this rate, 1/s, or at this multiple of that at
 -- which crosstrack errors are, but not below the last share. It rises with weaker gusts already. A vehicle that
@@ -331,14 +372,6 @@ law.NO_PIECE = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y =
 -- TRIM_GAIN = 0.12
 -- LARGEST_TRIM = 0.15
 -- HOLD = 2
-
--- Dekker's splitting factor, 2^27 + 1, halves the 53 digits of a double.
--- SPLITTER = 4097.0 -- 134217729.0
-
--- A rotation multiplied by less could have subnormal components, which have lost digits. Below this distance the
--- rounding error of c - end x itself is negligible.
--- SMALLEST_SCALE = 1.4551915228366852e-11 -- 2.0 ** (-300)
-law.NO_ROTATION = {0.0, 1.0}
 
 -- A slower wind displaces no point within REACH by as much as rounding, and its square would be subnormal.
 -- NEGLIGIBLE_WIND = 1.7763568394002505e-15 -- 2.0 ** (-400)
@@ -595,14 +628,15 @@ end
 function law.first_memory(settings, vehicle)
     local limits = law.limits_of(settings, vehicle, law.NO_LIMITS)
     local observer, history = law.first_observer(settings.smoothing_s), law.constant_history(vehicle.bank_deg)
-    local sensing = {clock = law.FIRST_CLOCK, observer = observer, history = history, limits = limits, present =
-            law.NO_ESTIMATE, elapsed_s = 0.0, model_error_deg = 0.0}
-    return {sensing = sensing, plan = law.NO_PLAN, leads = law.NO_LEADS, trim = 0.0, command_deg = 0.0, side =
-            settings.side, step_s = 0.0}
+    return {sensing = {clock = law.FIRST_CLOCK, observer = observer, history = history, limits = limits, present =
+            law.NO_ESTIMATE, elapsed_s = 0.0, model_error_deg = 0.0, is_known = false}, plan = law.NO_PLAN, leads =
+            law.NO_LEADS, response = law.NO_RESPONSE, search = law.NO_ENTRY_SEARCH, trim = 0.0, command =
+            {turn_rate_deg_s = 0.0, bank_deg = 0.0, phase = 3--[[NO_DATA]], time_to_join_s = (0.0 / 0.0), side =
+            settings.side, next_phase = 3--[[NO_DATA]], next_in_s = (0.0 / 0.0)}, step_s = 0.0}
 end
 
 -- The clock `dt` seconds later.
-function law.advance(clock, dt)
+function law.clock_advance(clock, dt)
     local time_s, since_s, gap_s, jump_s, first_s, latest_s = clock.time_s, clock.since_s, clock.gap_s,
             clock.jump_s, clock.first_s, clock.latest_s
     return {time_s = time_s, since_s = since_s + dt, gap_s = gap_s, jump_s = jump_s, first_s = first_s, latest_s =
@@ -960,37 +994,37 @@ function law.estimate_at_present(estimate, history, delay_s)
             present_deg, air_east_m_s = east, air_north_m_s = north, turning = turning}
 end
 
--- What is known at a measurement, `step_s` seconds after the last, and whether the present state is.
+-- What is known at a measurement, `step_s` seconds after the last.
 --
 -- Telemetry may be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last
 -- estimate is extrapolated with the modelled bank.
-function law.sense(settings, sensing, vehicle, measurement, step_s)
+function law.sense(sensing, settings, vehicle, measurement, step_s)
     local clock, observer, history, limits, present, elapsed_s, error_deg = sensing.clock, sensing.observer,
             sensing.history, sensing.limits, sensing.present, sensing.elapsed_s, sensing.model_error_deg
     if step_s > 0.0 then
-        clock = law.advance(clock, step_s)
+        clock = law.clock_advance(clock, step_s)
         elapsed_s = elapsed_s + step_s
         history = law.record_bank(history, vehicle.bank_deg, step_s, settings.covered_s)
     end
     if not law.is_usable(measurement) then
         return {clock = clock, observer = observer, history = history, limits = limits, present = present, elapsed_s
-                = elapsed_s, model_error_deg = error_deg}, false
+                = elapsed_s, model_error_deg = error_deg, is_known = false}
     end
     if measurement.time_s == clock.time_s then
         if present.airspeed_m_s == 0.0 or clock.since_s > 3.0--[[EXTRAPOLATED_S]] then
             return {clock = clock, observer = observer, history = history, limits = limits, present = present,
-                    elapsed_s = elapsed_s, model_error_deg = error_deg}, false
+                    elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
         end
         present = law.estimate_after(law.estimate_with_bank(present, history.current_deg + error_deg), elapsed_s)
         return {clock = clock, observer = observer, history = history, limits = limits, present = present, elapsed_s
-                = 0.0, model_error_deg = error_deg}, true
+                = 0.0, model_error_deg = error_deg, is_known = true}
     end
     local is_first = clock.time_s == -huge
     local is_new
     clock, is_new = law.check_stamp(clock, measurement.time_s)
     if not is_new then
         return {clock = clock, observer = observer, history = history, limits = limits, present = present, elapsed_s
-                = elapsed_s, model_error_deg = error_deg}, false
+                = elapsed_s, model_error_deg = error_deg, is_known = false}
     end
     if is_first then
         history = law.constant_history(vehicle.bank_deg)
@@ -1007,7 +1041,12 @@ function law.sense(settings, sensing, vehicle, measurement, step_s)
     observer = law.observe(observer, law.remove_bias(known, measurement), bank_deg, settings.smoothing_s, turning)
     present = law.estimate_at_present(observer.estimate, history, known.delay_s)
     return {clock = clock, observer = observer, history = history, limits = limits, present = present, elapsed_s =
-            0.0, model_error_deg = present.bank_deg - history.current_deg}, true
+            0.0, model_error_deg = present.bank_deg - history.current_deg, is_known = true}
+end
+
+-- The search without an aim.
+function law.end_entry_search(search)
+    return with_fields(search, {aim = 0--[[NOTHING]]})
 end
 
 -- The route by a clock that has jumped.
@@ -1158,190 +1197,41 @@ function law.plan_on_circle(settings, limits, plan, state)
     return plan
 end
 
+-- Whether the last search is long enough ago.
+function law.is_search_due(clock, plan)
+    return clock.time_s - plan.searched_s >= 0.1--[[SEARCH_INTERVAL_S]] - 0.000131072--[[ROUNDING_S]]
+end
+
 -- The delay of a change of bank.
 function law.lead_s(limits, bank_deg, target_deg)
     return law.rounded_onset(limits.roll_time_s, limits.roll_rate_deg_s, bank_deg, target_deg,
             limits.limit_deg).lead_s
 end
 
--- The reduced state (2) of a vehicle at (x, y), relative to the circle's centre, with the unit heading (c, s).
-function law.reduce(x, y, c, s)
-    return x * c + y * s, y * c - x * s
+-- The search for the fastest entry from a state, before its first step.
+function law.search_from(settings, limits, aim, state, reversing)
+    return with_fields(law.NO_ENTRY_SEARCH, {aim = aim, state = state, turns = limits.turns, wind_east_m_s =
+            limits.wind_east_m_s, wind_north_m_s = limits.wind_north_m_s, radius_m = settings.radius_m, wide_m =
+            settings.radius_m + limits.reversal_m, side = settings.side, reversing = reversing})
 end
 
-function law._still_air_entry(state, c, s, r, radius_m, side, tolerance)
-    local x, y = law.reduce(state.x / r, state.y / r, c, s)
-    return solve_in_still_air(x, y, radius_m / r, side, tolerance)
-end
-
--- R, or 1 where R is less than 1 by rounding only: a circle as tight as the aircraft can turn.
-function law.rounded_radius(R)
-    return 1.0 - 7.62939453125e-06--[[ROUNDING]] <= R and R < 1.0 and 1.0 or R
-end
-
--- The fastest entry from a state onto a circle, in air that moves past it; `NO_ENTRY` where there is none.
+-- The memory with the plan to hold the circle where the flight begins on it, otherwise with a search if it is due.
 --
--- It starts along the velocity relative to that air. In still air turns are wider in the present gust: at a given
--- turn rate the radius grows with the speed. They are at most as wide as the circle.
-function law.fastest_entry(state, limits, radius_m, side, east_m_s, north_m_s)
-    local V, r = limits.airspeed_m_s, limits.planned_m
-    local vx, vy = law.flight_velocity(state.vx - east_m_s, state.vy - north_m_s, state.hx, state.hy)
-    local speed = law.length(vx, vy)
-    local c, s = vx / speed, vy / speed
-    local scale, entry
-    if east_m_s == 0.0 and north_m_s == 0.0 then
-        scale = min(speed / V, radius_m / r)
-        -- A start beside the last arc counts as on it if half of the reserve can correct its distance.
-        local tolerance = max(0.5 * (r / limits.tightest_m - 1.0), 0.0)
-        entry = law._still_air_entry(state, c, s, scale * r, radius_m, side, tolerance)
-    else
-        scale = 1.0
-        local R = law.rounded_radius(radius_m / r)
-        local problem = {x = state.x / r, y = state.y / r, c = c, s = s, R = R, side = side, wx = east_m_s / V, wy =
-                north_m_s / V, tolerance = 0.0}
-        entry = solve_in_wind(problem)
+-- The fastest entry begins where a command takes effect, which depends on the bank and the first turn. So that is
+-- found first, as it would be with wings level.
+function law.begin_first_plan(memory, settings)
+    local limits, present = memory.sensing.limits, memory.sensing.present
+    memory = with_fields(memory, {plan = law.plan_on_circle(settings, limits, memory.plan,
+            law.relative_state(settings, present))})
+    if memory.plan.route.side ~= 0 then
+        return with_fields(memory, {search = law.end_entry_search(memory.search)})
     end
-    local unit_s = r / V
-    local t1_s, t2_s, t3_s = entry.t1 * unit_s, entry.t2 * unit_s, entry.t3 * unit_s
-    return {side = entry.side, word = entry.word, t1_s = t1_s, t2_s = t2_s, t3_s = t3_s, turn_radius_m = scale * r,
-            speed_m_s = scale * V, wind_east_m_s = east_m_s, wind_north_m_s = north_m_s}
-end
-
--- Whether the last turn of an entry is opposite to that of the circle.
-function law.ends_opposite(entry)
-    local u1, u2, u3 = law.controls(entry.word)
-    return (u3 ~= -2--[[ABSENT]] and u3 or u2 ~= -2--[[ABSENT]] and u2 or u1) == entry.side
-end
-
--- The fastest entry from a state, onto a circle that is wider by the reversal if its last turn is opposite.
---
--- It is first assumed to be so where `reversing`.
-function law.entry_from(settings, limits, state, reversing)
-    local R, wide_m, side = settings.radius_m, settings.radius_m + limits.reversal_m, settings.side
-    local east, north = limits.wind_east_m_s, limits.wind_north_m_s
-    local entry = law.fastest_entry(state, limits.turns, reversing and wide_m or R, side, east, north)
-    if entry.side == 0 or law.ends_opposite(entry) == reversing then
-        return entry
+    if memory.search.aim ~= 0--[[NOTHING]] or not law.is_search_due(memory.sensing.clock, memory.plan) then
+        return memory
     end
-    return law.fastest_entry(state, limits.turns, reversing and R or wide_m, side, east, north)
-end
-
--- Whether the last search is long enough ago.
-function law.is_search_due(clock, plan)
-    return clock.time_s - plan.searched_s >= 0.1--[[SEARCH_INTERVAL_S]] - 0.000131072--[[ROUNDING_S]]
-end
-
--- Whether the last turn of the plan is opposite to that of the circle.
-function law.reverses(route)
-    return route.last_u == route.side
-end
-
--- The word of the controls -1, 0 or +1 of up to three pieces, in the order flown.
-function law.encode(u1, u2, u3)
-    return u1 + 2 + 4 * (u2 + 2) + 16 * (u3 + 2)
-end
-
--- Whether a word is that of an entry, without pieces at its beginning that take no longer than `bend_s` in all.
-function law.is_rest(entry, left, bend_s)
-    local word = entry.word
-    if word == left then
-        return true
-    end
-    if (word >> 2) == left then
-        return entry.t1_s <= bend_s
-    end
-    return (word >> 4) == left and entry.t1_s + entry.t2_s <= bend_s
-end
-
--- The time until the circle is joined.
-function law.duration_s(entry)
-    return entry.t1_s + entry.t2_s + entry.t3_s
-end
-
--- The time from the end of the current piece to the circle.
-function law.later_s(route)
-    return route.second.time_s + route.third.time_s
-end
-
--- Whether an entry should replace a plan.
---
--- Either `update` holds, and it is the same plan and not much slower; or it is faster by a margin.
---
--- In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a different
--- plan. The duration of a plan with tighter turns grows with their radius.
-function law.is_better(entry, plan, turns, update)
-    local route, unit_s = plan.route, turns.planned_m / turns.airspeed_m_s
-    local is_still = entry.wind_east_m_s == 0.0 and entry.wind_north_m_s == 0.0
-    local left = law.encode(route.current.u, route.second.u, route.third.u)
-    local same = entry.side == route.side and law.is_rest(entry, left, is_still and 0.0 or 0.1--[[LONGEST_BEND]] *
-            unit_s)
-    if same and not update then
-        return false
-    end
-    local widened = same and max(1.0, entry.turn_radius_m / route.turn_radius_m) or 1.0
-    local margin_s = (same and 0.25--[[UPDATE_MARGIN]] or -0.25--[[SWITCH_MARGIN]]) * unit_s
-    return law.duration_s(entry) < widened * (plan.remaining_s + law.later_s(route)) + margin_s
-end
-
--- The fastest entry from a state if it is better than the plan, and whether it is; with `is_any` it always is.
---
--- With `update` the same plan from the present state counts as better.
-function law.search_plan(settings, sensing, plan, state, is_any, update)
-    local now_s, limits = sensing.clock.time_s, sensing.limits
-    local route, left_s, join_s, planned_join_s = plan.route, plan.remaining_s, plan.join_s, plan.planned_join_s
-    local entry = law.entry_from(settings, limits, state, route.side == 0 or law.reverses(route))
-    if entry.side == 0 or not (is_any or law.is_better(entry, plan, limits.turns, update)) then
-        return {route = route, remaining_s = left_s, join_s = join_s, planned_join_s = planned_join_s, searched_s =
-                now_s}, false
-    end
-    route = law.route_of(state, entry)
-    join_s = state.time_s + law.duration_s(entry)
-    return {route = route, remaining_s = route.current.time_s, join_s = join_s, planned_join_s = join_s, searched_s
-            = now_s}, true
-end
-
--- The fastest entry from where a command takes effect, which depends on the bank and the first turn.
-function law.first_plan(settings, sensing, plan)
-    local limits, present = sensing.limits, sensing.present
-    plan = law.plan_on_circle(settings, limits, plan, law.relative_state(settings, present))
-    if plan.route.side ~= 0 then
-        return plan
-    end
-    local level_s = law.lead_s(limits, present.bank_deg, 0.0)
-    local entry = law.entry_from(settings, limits, law.relative_state(settings, law.estimate_after(present,
-            level_s)), true)
-    if entry.side == 0 then
-        return plan
-    end
-    local first = law.controls(entry.word)
-    if not law.is_search_due(sensing.clock, plan) then
-        return plan
-    end
-    local bank_deg = first ~= -2--[[ABSENT]] and -first * limits.limit_deg or entry.side * limits.hold_deg
-    local later = law.estimate_after(present, law.lead_s(limits, present.bank_deg, bank_deg))
-    plan = law.search_plan(settings, sensing, plan, law.relative_state(settings, later), true, true)
-    return plan
-end
-
--- The rate at which the vehicle turns at a bank: the inverse of `bank_for`, but in degrees per second.
-function law.turn_rate_deg_s(known, bank_deg)
-    return known.turn_ratio * law.rate_at_bank(bank_deg, known.airspeed_m_s) * 57.29577951308232
-end
-
--- The safe command while there is no usable measurement.
-function law.without_data(settings, memory, sensing, plan, known, dt)
-    local bank_deg, route = memory.command_deg, plan.route
-    if sensing.clock.since_s > 1.0--[[BLIND_S]] then
-        local on_circle = route.side ~= 0 and law.is_holding(route)
-        bank_deg = on_circle and route.side * sensing.limits.hold_deg or 0.0
-    end
-    -- The limit may be lower now than when the last command was given.
-    bank_deg = law.clip(bank_deg, settings.command_limit_deg)
-    local rate = law.turn_rate_deg_s(known, bank_deg)
-    local command = {turn_rate_deg_s = rate, bank_deg = bank_deg, phase = 3--[[NO_DATA]], time_to_join_s = (0.0 /
-            0.0), side = memory.side, next_phase = 3--[[NO_DATA]], next_in_s = (0.0 / 0.0)}
-    return {sensing = sensing, plan = plan, leads = law.NO_LEADS, trim = memory.trim, command_deg = bank_deg, side =
-            memory.side, step_s = dt}, command
+    local later = law.estimate_after(present, law.lead_s(limits, present.bank_deg, 0.0))
+    return with_fields(memory, {search = law.search_from(settings, limits, 1--[[FIRST_TURN]],
+            law.relative_state(settings, later), true)})
 end
 
 -- Whether delays of changes of bank are others than before.
@@ -1440,223 +1330,141 @@ function law.without_current(route)
             turn_radius_m = r, speed_m_s = speed, wind_east_m_s = east, wind_north_m_s = north}
 end
 
--- The plan without the pieces that are complete when a command takes effect, and the predicted state then.
+-- The time from the end of the current piece to the circle.
+function law.later_s(route)
+    return route.second.time_s + route.third.time_s
+end
+
+-- The memory with the plan at the response: without the pieces that are complete when a command takes effect.
 --
 -- A change of bank takes effect with a delay; from then on the aircraft turns like one that banks instantly.
-function law.advance_plan(settings, limits, plan, leads, estimate)
-    local route, left_s, join_s, planned_join_s, searched_s = plan.route, plan.remaining_s, plan.join_s,
-            plan.planned_join_s, plan.searched_s
+function law.advance_plan(memory, settings)
+    local limits, estimate, leads = memory.sensing.limits, memory.sensing.present, memory.leads
+    local route, left_s, join_s, planned_join_s, searched_s = memory.plan.route, memory.plan.remaining_s,
+            memory.plan.join_s, memory.plan.planned_join_s, memory.plan.searched_s
     -- At most three pieces are dropped.
+    local state, early_s
     while true do
         leads = law.leads_to(limits, leads, estimate.bank_deg, route)
-        local state = law.relative_state(settings, law.estimate_after(estimate, leads.current_s))
+        state = law.relative_state(settings, law.estimate_after(estimate, leads.current_s))
         left_s = law.remaining_s(route, state, left_s)
-        local response
-        if law.is_holding(route) then
-            response = {state = state, offset = law.offset_of(route, state, settings.radius_m), early_s = 0.0}
-            return {route = route, remaining_s = left_s, join_s = join_s, planned_join_s = planned_join_s,
-                    searched_s = searched_s}, leads, response
-        end
-        local early_s = law.early_end_s(route, leads)
-        if left_s > early_s + 0.000131072--[[ROUNDING_S]] then
-            response = {state = state, offset = law.offset_of(route, state, settings.radius_m), early_s = early_s}
-            join_s = state.time_s + left_s + law.later_s(route)
-            return {route = route, remaining_s = left_s, join_s = join_s, planned_join_s = planned_join_s,
-                    searched_s = searched_s}, leads, response
+        early_s = law.early_end_s(route, leads)
+        if law.is_holding(route) or left_s > early_s + 0.000131072--[[ROUNDING_S]] then
+            break
         end
         route = law.without_current(route)
         left_s = route.current.time_s
     end
+    if law.is_holding(route) then
+        early_s = 0.0
+    else
+        join_s = state.time_s + left_s + law.later_s(route)
+    end
+    return with_fields(memory, {plan = {route = route, remaining_s = left_s, join_s = join_s, planned_join_s =
+            planned_join_s, searched_s = searched_s}, leads = leads, response = {state = state, offset =
+            law.offset_of(route, state, settings.radius_m), early_s = early_s}})
 end
 
--- The plan after a search for another one, if that is due, and whether it is another.
-function law.reconsider(settings, sensing, plan, response)
-    local limits, route, offset = sensing.limits, plan.route, response.offset
-    if not law.is_search_due(sensing.clock, plan) then
-        return plan, false
+-- Whether the last turn of the plan is opposite to that of the circle.
+function law.reverses(route)
+    return route.last_u == route.side
+end
+
+-- The plan with the time of the last search.
+function law.searched_at(plan, time_s)
+    return with_fields(plan, {searched_s = time_s})
+end
+
+-- The memory with a search for a plan from a state, and when it began.
+function law.begin_plan_search(memory, settings, aim, state)
+    local reversing = memory.plan.route.side == 0 or law.reverses(memory.plan.route)
+    memory = with_fields(memory, {search = law.search_from(settings, memory.sensing.limits, aim, state, reversing)})
+    return with_fields(memory, {plan = law.searched_at(memory.plan, memory.sensing.clock.time_s)})
+end
+
+-- The memory with a search for another plan, if that is due.
+function law.reconsider(memory, settings)
+    if memory.search.aim ~= 0--[[NOTHING]] or not law.is_search_due(memory.sensing.clock, memory.plan) then
+        return memory
     end
+    local limits, offset, plan = memory.sensing.limits, memory.response.offset, memory.plan
     local r, V = limits.turns.planned_m, limits.turns.airspeed_m_s
-    local holding = law.is_holding(route)
+    local holding = law.is_holding(plan.route)
     local is_lost = abs(offset.crosstrack) > 0.5--[[LOST_OFFSET]] * r or abs(offset.course_error) >
             1.0--[[LOST_COURSE]]
     -- A plan for a wind that differs so much from the present one means nothing.
-    local east, north = limits.wind_east_m_s - route.wind_east_m_s, limits.wind_north_m_s - route.wind_north_m_s
+    local east, north = limits.wind_east_m_s - plan.route.wind_east_m_s, limits.wind_north_m_s -
+            plan.route.wind_north_m_s
     if is_lost or (not holding and law.length(east, north) > 0.1--[[WIND_DIFFERS]] * V) then
-        return law.search_plan(settings, sensing, plan, response.state, true, true)
+        return law.begin_plan_search(memory, settings, 2--[[ANY]], memory.response.state)
     end
     if holding then
-        return plan, false
+        return memory
     end
     local later_m = abs(plan.join_s - plan.planned_join_s) * V
     local deviates = max(abs(offset.crosstrack), later_m) > 0.1--[[DEVIATION]] * r
     local is_still = limits.wind_east_m_s == 0.0 and limits.wind_north_m_s == 0.0
-    return law.search_plan(settings, sensing, plan, response.state, false, deviates or is_still)
+    return law.begin_plan_search(memory, settings, (deviates or is_still) and 4--[[UPDATE]] or 3--[[BETTER]],
+            memory.response.state)
 end
 
--- The velocity along the path: relative to the plan's steady wind; on the circle, relative to the circle.
-function law.path_velocity(route, state)
-    if law.is_holding(route) then
-        return law.flight_velocity(state.vx, state.vy, state.hx, state.hy)
+-- The memory after a measurement: what is known, the present plan, and a search begun for another if it is due.
+function law.prepare(memory, settings, vehicle, measurement)
+    local before = memory.sensing.limits
+    memory = with_fields(memory, {sensing = law.sense(memory.sensing, settings, vehicle, measurement,
+            memory.step_s)})
+    if not memory.sensing.is_known then
+        return with_fields(memory, {search = law.end_entry_search(memory.search)})
     end
-    local east, north = route.wind_east_m_s, route.wind_north_m_s
-    return law.flight_velocity(state.vx - east, state.vy - north, state.hx, state.hy)
+    local clock = memory.sensing.clock
+    if clock.since_s == 0.0 and clock.jump_s ~= 0.0 then
+        memory = with_fields(memory, {plan = law.plan_by_clock(memory.plan, clock.jump_s)})
+        memory = with_fields(memory, {search = law.end_entry_search(memory.search)})
+    end
+    if memory.plan.route.side == 0 then
+        memory = law.begin_first_plan(memory, settings)
+    end
+    if memory.plan.route.side == 0 then
+        return memory
+    end
+    if law.is_other_roll(memory.sensing.limits, before) then
+        memory = with_fields(memory, {leads = law.NO_LEADS})
+    end
+    memory = law.advance_plan(memory, settings)
+    return law.reconsider(memory, settings)
 end
 
--- The gain of course corrections in the present air; on the circle, which turns at `turn_rate`, it is smaller.
+-- The radius of the circle that is searched for.
+function law.circle_m(search)
+    return search.reversing and search.wide_m or search.radius_m
+end
+
+-- The velocity relative to the air with which an entry starts.
+function law.flight_vector(search)
+    local state = search.state
+    return law.flight_velocity(state.vx - search.wind_east_m_s, state.vy - search.wind_north_m_s, state.hx,
+            state.hy)
+end
+
+-- Whether the air is planned to be at rest.
+function law.is_still(search)
+    return search.wind_east_m_s == 0.0 and search.wind_north_m_s == 0.0
+end
+
+-- The radius of the turns at a speed, over that of the planned ones.
 --
--- It is larger in heavy gusts, and smaller where quick turns are quicker than the bank says.
-function law.corrections_gain(settings, known, observer, response_s, turn_rate, holding)
-    local gain = settings.gain
-    local rough, share
-    if holding then
-        rough = law.roughness(observer, 1.0)
-        local calm_rate = max(1.3--[[HOLD_RATE]], 4.0--[[HOLD_MULTIPLE]] * 1.2--[[HOLD_GAIN]] * turn_rate)
-        local calm_share = max(min(calm_rate * response_s / gain, 0.75--[[CALM_GAIN]]), 0.35--[[CALM_HOLD_GAIN]])
-        share = max(min(rough / 0.015--[[ROUGH_HOLD]], 1.0), calm_share)
-    else
-        rough = law.roughness(observer, 0.0)
-        share = max(min(rough / 0.02--[[ROUGH_AIR]], 1.0), 0.75--[[CALM_GAIN]])
+-- In still air turns are wider in the present gust: at a given turn rate the radius grows with the speed. They are
+-- at most as wide as the circle.
+function law.turn_scale(search, speed)
+    if not law.is_still(search) then
+        return 1.0
     end
-    local lively = max(known.quick_turn_ratio / known.turn_ratio, 1.0)
-    return gain * max(share, min(rough / 0.04--[[HEAVY_GUSTS]], 1.5--[[HEAVY_GAIN]])) / lively
+    return min(speed / search.turns.airspeed_m_s, law.circle_m(search) / search.turns.planned_m)
 end
 
--- The rate at which the course should turn to reach a path and stay on it.
---
--- With the crosstrack error e, the course error b and small angles, e' = speed b, and b is driven towards
--- -`place_gain` e/speed with the gain `course_gain`: e'' + course_gain (e' + place_gain e) = 0. There is no
--- overshoot if `course_gain` is at least four times `place_gain`.
-function law.course_rate(offset, course_gain, place_gain, speed)
-    local intercept = law.clip(-place_gain * offset.crosstrack / speed, 0.6--[[STEEPEST_INTERCEPT]])
-    return offset.path_rate - course_gain * (offset.course_error - intercept)
-end
-
--- The correction of the rate of turn on the circle after another step, radians per second.
-function law.next_trim(settings, trim, crosstrack, course_gain, V, dt)
-    local R, turn_rate = settings.radius_m, V / settings.radius_m
-    if abs(crosstrack) >= 0.05--[[TRIMMED_OFFSET]] * R then
-        return trim
-    end
-    local place_gain = 1.2--[[HOLD_GAIN]] * turn_rate
-    local integral_gain = 0.12--[[TRIM_GAIN]] * place_gain * place_gain * course_gain / V
-    return law.clip(trim + integral_gain * crosstrack * dt, 0.15--[[LARGEST_TRIM]] * turn_rate)
-end
-
--- The turn rate through the air, for the heading (hx, hy), that turns the velocity (vx, vy) at `rate`.
---
--- A turn at the rate w with the airspeed a accelerates the vehicle by a w across its heading. The component a w
--- cos(crab) turns a velocity of the size v at the rate a w cos(crab)/v. On the circle this is equation (3) of
--- docs/wind.md, `hold.hold_rate`.
-function law.air_rate(rate, vx, vy, hx, hy)
-    return rate * (vx * vx + vy * vy) / (hx * vx + hy * vy)
-end
-
--- The bank that follows the route, and the trim; on a turn before the last piece it is the bank limit.
---
--- Such a turn is planned again before it ends; flying it as wide as planned would only cost time.
-function law.target_bank(settings, sensing, known, route, response, trim, dt)
-    local limits, observer, u = sensing.limits, sensing.observer, route.current.u
-    if u ~= 0 and route.second.u ~= -2--[[ABSENT]] then
-        return -u * limits.limit_deg, trim
-    end
-    local state, offset = response.state, response.offset
-    local vx, vy = law.path_velocity(route, state)
-    local speed, R, V, holding = law.length(vx, vy), settings.radius_m, limits.turns.airspeed_m_s,
-            law.is_holding(route)
-    local response_s = limits.lag_s + observer.smoothing_s
-    local gain = law.corrections_gain(settings, known, observer, response_s, V / R, holding)
-    local bandwidth = 1.0 / (response_s + gain * dt)
-    local place_gain = holding and 1.2--[[HOLD_GAIN]] * speed / R or 0.25--[[PLACE_GAIN]] * bandwidth
-    local course = law.course_rate(offset, gain * bandwidth, place_gain, speed)
-    if holding then
-        trim = law.next_trim(settings, trim, offset.crosstrack, gain * bandwidth, V, dt)
-        course = course - trim
-    end
-    local rate = -law.air_rate(course, vx, vy, state.hx, state.hy)
-    -- At the present airspeed, which differs from the mean one where an autopilot holds it less exactly.
-    return law.bank_at_rate(rate / known.turn_ratio, law.length(state.hx, state.hy)), trim
-end
-
--- The command that brings the bank to a target `command_gain` times as fast as commanding the target would.
---
--- It lies beyond the target, but never beyond the bank limit.
-function law.demand_deg(roll_time_s, bank_deg, target_deg, limit_deg)
-    if roll_time_s == 0.0 then
-        return target_deg
-    end
-    return law.clip(bank_deg + law.command_gain(roll_time_s) * (target_deg - bank_deg), limit_deg)
-end
-
--- The phase in which a control is flown; on the circle, which follows the last control, if that is absent.
-function law.phase_code(u)
-    return u == -2--[[ABSENT]] and 2--[[HOLD]] or u
-end
-
--- The memory and the command for the next `dt` seconds.
---
--- `vehicle` is what is known at this time, with the bank that is modelled for the end of the last command.
-function law.step(settings, memory, vehicle, measurement, dt)
-    local sensing, plan, leads, trim, step_s = memory.sensing, memory.plan, memory.leads, memory.trim, memory.step_s
-    local is_known
-    sensing, is_known = law.sense(settings, sensing, vehicle, measurement, step_s)
-    local clock, limits, present = sensing.clock, sensing.limits, sensing.present
-    if is_known and clock.since_s == 0.0 and clock.jump_s ~= 0.0 then
-        plan = law.plan_by_clock(plan, clock.jump_s)
-    end
-    if is_known and plan.route.side == 0 then
-        plan = law.first_plan(settings, sensing, plan)
-    end
-    if not is_known or plan.route.side == 0 then
-        return law.without_data(settings, memory, sensing, plan, vehicle.estimates, dt)
-    end
-    if law.is_other_roll(limits, memory.sensing.limits) then
-        leads = law.NO_LEADS
-    end
-    local response
-    plan, leads, response = law.advance_plan(settings, limits, plan, leads, present)
-    local is_new
-    plan, is_new = law.reconsider(settings, sensing, plan, response)
-    if is_new then
-        plan, leads, response = law.advance_plan(settings, limits, plan, leads, present)
-    end
-    local route, known = plan.route, vehicle.estimates
-    local target_deg
-    target_deg, trim = law.target_bank(settings, sensing, known, route, response, trim, dt)
-    target_deg = law.clip(target_deg, limits.limit_deg)
-    local bank_deg = law.demand_deg(known.roll.time_s, present.bank_deg, target_deg, limits.limit_deg)
-    bank_deg = law.clip(bank_deg, settings.command_limit_deg)
-    local command = {turn_rate_deg_s = law.turn_rate_deg_s(known, bank_deg), bank_deg = bank_deg, phase =
-            law.phase_code(route.current.u), time_to_join_s = max(plan.join_s - present.time_s, 0.0), side =
-            route.side, next_phase = law.phase_code(route.second.u), next_in_s = law.is_holding(route) and huge or
-            plan.remaining_s - response.early_s}
-    return {sensing = sensing, plan = plan, leads = leads, trim = trim, command_deg = bank_deg, side = route.side,
-            step_s = dt}, command
-end
-
--- The exact bank after `time_s` seconds under a constant command.
-function law.bank_after(roll_time_s, rate_deg_s, bank_deg, command_deg, time_s)
-    if roll_time_s == 0.0 and rate_deg_s == huge then
-        return command_deg
-    end
-    local missing = command_deg - bank_deg
-    local sign = missing >= 0.0 and 1.0 or -1.0
-    local beyond = max(abs(missing) - rate_deg_s * roll_time_s, 0.0)
-    local limited_s = beyond / rate_deg_s
-    if limited_s > time_s then
-        return bank_deg + sign * rate_deg_s * time_s
-    end
-    missing = missing - sign * beyond
-    if roll_time_s > 0.0 then
-        return command_deg - missing * exp(-(time_s - limited_s) / roll_time_s)
-    end
-    return time_s <= limited_s and command_deg - missing or command_deg
-end
-
--- The model of a vehicle that is as declared after `dt` seconds under a command; `identify` is not needed then.
-function law.fly_as_declared(vehicle, command_deg, dt)
-    local revision, bank_deg, known = vehicle.revision, vehicle.bank_deg, vehicle.estimates
-    bank_deg = law.bank_after(known.roll.time_s, known.roll.rate_deg_s, bank_deg, command_deg, dt)
-    return {revision = revision, bank_deg = bank_deg, estimates = known}
+-- The reduced state (2) of a vehicle at (x, y), relative to the circle's centre, with the unit heading (c, s).
+function law.reduce(x, y, c, s)
+    return x * c + y * s, y * c - x * s
 end
 
 -- The plain number of a member of `Word`, `Side` or `Status`, which Python answers in as compiled code does.
@@ -2015,6 +1823,11 @@ function law.durations(extremal)
     return law.angle(extremal.first), extremal.straight + law.angle(extremal.middle), law.angle(extremal.last)
 end
 
+-- The word of the controls -1, 0 or +1 of up to three pieces, in the order flown.
+function law.encode(u1, u2, u3)
+    return u1 + 2 + 4 * (u2 + 2) + 16 * (u3 + 2)
+end
+
 -- The word without its first piece.
 function law.rest(word)
     return (word >> 2)
@@ -2100,6 +1913,332 @@ function law.optimum(x, y, R, side, tolerance)
     end
     local far = law.optimum_on_side(x, y, R, -law.near_side(y), tolerance)
     return law.is_faster(far, near, law.rounding(x, y, R)) and far or near
+end
+
+function law._still_air_entry(state, c, s, r, radius_m, side, tolerance)
+    local x, y = law.reduce(state.x / r, state.y / r, c, s)
+    return law.optimum(x, y, radius_m / r, side, tolerance)
+end
+
+-- The search whose answer is known.
+function law.found_at_once(entry)
+    local found = {status = 0--[[Status.OK]] + 0, side = entry.side, word = entry.word, t1 = entry.t1, t2 =
+            entry.t2, t3 = entry.t3, azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}
+    return with_fields(law.NO_SEARCH, {stage = 5--[[ENDED]], entry = found})
+end
+
+-- R, or 1 where R is less than 1 by rounding only: a circle as tight as the aircraft can turn.
+function law.rounded_radius(R)
+    return 1.0 - 7.62939453125e-06--[[ROUNDING]] <= R and R < 1.0 and 1.0 or R
+end
+
+-- The search with that of the kernel begun; the entry starts along the velocity relative to the air.
+function law.begin_in_air(search)
+    local state, V, r, radius_m = search.state, search.turns.airspeed_m_s, search.turns.planned_m,
+            law.circle_m(search)
+    local vx, vy = law.flight_vector(search)
+    local speed = law.length(vx, vy)
+    local c, s = vx / speed, vy / speed
+    if law.is_still(search) then
+        -- A start beside the last arc counts as on it if half of the reserve can correct its distance.
+        local tolerance = max(0.5 * (r / search.turns.tightest_m - 1.0), 0.0)
+        local turn_m = law.turn_scale(search, speed) * r
+        local entry = law._still_air_entry(state, c, s, turn_m, radius_m, search.side, tolerance)
+        return with_fields(search, {is_begun = true, in_air = law.found_at_once(entry)})
+    end
+    local R, east, north = law.rounded_radius(radius_m / r), search.wind_east_m_s / V, search.wind_north_m_s / V
+    local problem = {x = state.x / r, y = state.y / r, c = c, s = s, R = R, side = search.side, wx = east, wy =
+            north, tolerance = 0.0}
+    return with_fields(search, {is_begun = true, in_air = begin_in_wind(problem)})
+end
+
+-- Whether the last turn of an entry is opposite to that of the circle.
+function law.ends_opposite(side, word)
+    local u1, u2, u3 = law.controls(word)
+    return (u3 ~= -2--[[ABSENT]] and u3 or u2 ~= -2--[[ABSENT]] and u2 or u1) == side
+end
+
+-- The search after at most `steps` more steps of the kernel's, up to the end of the first or second one of these.
+--
+-- `in_air.left` is then how many of the steps are left.
+function law.advance_entry_search(search, steps)
+    if not search.is_begun then
+        search = law.begin_in_air(search)
+    end
+    search = with_fields(search, {in_air = advance_in_wind(search.in_air, steps)})
+    if search.in_air.stage == 5--[[ENDED]] and not search.is_second then
+        local entry = search.in_air.entry
+        local is_found = entry.status == 0--[[Status.OK]] and entry.side ~= 0
+        if is_found and law.ends_opposite(entry.side, entry.word) ~= search.reversing then
+            search = with_fields(search, {reversing = not search.reversing, is_second = true, is_begun = false})
+        end
+    end
+    return search
+end
+
+-- Whether the answer is known.
+function law.is_complete(search)
+    return search.is_begun and search.in_air.stage == 5--[[ENDED]]
+end
+
+-- The side, word and durations of a maneuver, as for still air.
+function law.entry_of(maneuver)
+    return {side = maneuver.side, word = maneuver.word, t1 = maneuver.t1, t2 = maneuver.t2, t3 = maneuver.t3}
+end
+
+-- The entry that a search has found; its side is 0 where there is none.
+function law.found_entry(search)
+    local V, r = search.turns.airspeed_m_s, search.turns.planned_m
+    local vx, vy = law.flight_vector(search)
+    local scale, unit_s = law.turn_scale(search, law.length(vx, vy)), r / V
+    local entry = search.in_air.entry.status == 0--[[Status.OK]] and law.entry_of(search.in_air.entry) or law.NONE
+    local t1_s, t2_s, t3_s = entry.t1 * unit_s, entry.t2 * unit_s, entry.t3 * unit_s
+    local east, north = search.wind_east_m_s, search.wind_north_m_s
+    return {side = entry.side, word = entry.word, t1_s = t1_s, t2_s = t2_s, t3_s = t3_s, turn_radius_m = scale * r,
+            speed_m_s = scale * V, wind_east_m_s = east, wind_north_m_s = north}
+end
+
+-- Whether a word is that of an entry, without pieces at its beginning that take no longer than `bend_s` in all.
+function law.is_rest(entry, left, bend_s)
+    local word = entry.word
+    if word == left then
+        return true
+    end
+    if (word >> 2) == left then
+        return entry.t1_s <= bend_s
+    end
+    return (word >> 4) == left and entry.t1_s + entry.t2_s <= bend_s
+end
+
+-- The time until the circle is joined.
+function law.duration_s(entry)
+    return entry.t1_s + entry.t2_s + entry.t3_s
+end
+
+-- Whether an entry, which began `passed_s` seconds ago, should replace a plan.
+--
+-- Either `update` holds, and it is the same plan and not much slower; or it is faster by a margin.
+--
+-- In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a different
+-- plan. The duration of a plan with tighter turns grows with their radius.
+function law.is_better(entry, plan, turns, update, passed_s)
+    local route, unit_s = plan.route, turns.planned_m / turns.airspeed_m_s
+    local is_still = entry.wind_east_m_s == 0.0 and entry.wind_north_m_s == 0.0
+    local left = law.encode(route.current.u, route.second.u, route.third.u)
+    local same = entry.side == route.side and law.is_rest(entry, left, is_still and 0.0 or 0.1--[[LONGEST_BEND]] *
+            unit_s)
+    if same and not update then
+        return false
+    end
+    local widened = same and max(1.0, entry.turn_radius_m / route.turn_radius_m) or 1.0
+    local margin_s = (same and 0.25--[[UPDATE_MARGIN]] or -0.25--[[SWITCH_MARGIN]]) * unit_s
+    return law.duration_s(entry) - passed_s < widened * (plan.remaining_s + law.later_s(route)) + margin_s
+end
+
+-- The memory after a complete search, with the plan that it has found if that is better than the present one.
+--
+-- After the search for the first turn the one for the first plan follows.
+function law.take_entry(memory, settings)
+    local aim, state, entry = memory.search.aim, memory.search.state, law.found_entry(memory.search)
+    memory = with_fields(memory, {search = law.end_entry_search(memory.search)})
+    if entry.side == 0 then
+        return memory
+    end
+    local limits, present = memory.sensing.limits, memory.sensing.present
+    if aim == 1--[[FIRST_TURN]] then
+        local first = law.controls(entry.word)
+        local bank_deg = first ~= -2--[[ABSENT]] and -first * limits.limit_deg or entry.side * limits.hold_deg
+        local later = law.estimate_after(present, law.lead_s(limits, present.bank_deg, bank_deg))
+        return law.begin_plan_search(memory, settings, 2--[[ANY]], law.relative_state(settings, later))
+    end
+    -- How much later it is than where the search began.
+    local passed_s = aim == 2--[[ANY]] and 0.0 or memory.response.state.time_s - state.time_s
+    if aim ~= 2--[[ANY]] and not law.is_better(entry, memory.plan, limits.turns, aim == 4--[[UPDATE]], passed_s)
+            then
+        return memory
+    end
+    local route, join_s = law.route_of(state, entry), state.time_s + law.duration_s(entry)
+    local plan = {route = route, remaining_s = route.current.time_s, join_s = join_s, planned_join_s = join_s,
+            searched_s = memory.plan.searched_s}
+    memory = with_fields(memory, {plan = plan})
+    return law.advance_plan(memory, settings)
+end
+
+-- The memory after at most `steps` more steps of its search, with the plan that this has found.
+function law.continue_search(memory, settings, steps)
+    local left = steps
+    while memory.search.aim ~= 0--[[NOTHING]] and left > 0 do
+        memory = with_fields(memory, {search = law.advance_entry_search(memory.search, left)})
+        left = memory.search.in_air.left
+        if law.is_complete(memory.search) then
+            memory = law.take_entry(memory, settings)
+        end
+    end
+    return memory
+end
+
+-- The rate at which the vehicle turns at a bank: the inverse of `bank_for`, but in degrees per second.
+function law.turn_rate_deg_s(known, bank_deg)
+    return known.turn_ratio * law.rate_at_bank(bank_deg, known.airspeed_m_s) * 57.29577951308232
+end
+
+-- The memory with the safe command while there is no usable measurement, or no plan yet.
+function law.without_data(memory, settings, known, dt)
+    local bank_deg, route = memory.command.bank_deg, memory.plan.route
+    if memory.sensing.clock.since_s > 1.0--[[BLIND_S]] then
+        local on_circle = route.side ~= 0 and law.is_holding(route)
+        bank_deg = on_circle and route.side * memory.sensing.limits.hold_deg or 0.0
+    end
+    -- The limit may be lower now than when the last command was given.
+    bank_deg = law.clip(bank_deg, settings.command_limit_deg)
+    local rate = law.turn_rate_deg_s(known, bank_deg)
+    local command = {turn_rate_deg_s = rate, bank_deg = bank_deg, phase = 3--[[NO_DATA]], time_to_join_s = (0.0 /
+            0.0), side = memory.command.side, next_phase = 3--[[NO_DATA]], next_in_s = (0.0 / 0.0)}
+    return with_fields(memory, {leads = law.NO_LEADS, command = command, step_s = dt})
+end
+
+-- The velocity along the path: relative to the plan's steady wind; on the circle, relative to the circle.
+function law.path_velocity(route, state)
+    if law.is_holding(route) then
+        return law.flight_velocity(state.vx, state.vy, state.hx, state.hy)
+    end
+    local east, north = route.wind_east_m_s, route.wind_north_m_s
+    return law.flight_velocity(state.vx - east, state.vy - north, state.hx, state.hy)
+end
+
+-- The gain of course corrections in the present air; on the circle, which turns at `turn_rate`, it is smaller.
+--
+-- It is larger in heavy gusts, and smaller where quick turns are quicker than the bank says.
+function law.corrections_gain(settings, known, observer, response_s, turn_rate, holding)
+    local gain = settings.gain
+    local rough, share
+    if holding then
+        rough = law.roughness(observer, 1.0)
+        local calm_rate = max(1.3--[[HOLD_RATE]], 4.0--[[HOLD_MULTIPLE]] * 1.2--[[HOLD_GAIN]] * turn_rate)
+        local calm_share = max(min(calm_rate * response_s / gain, 0.75--[[CALM_GAIN]]), 0.35--[[CALM_HOLD_GAIN]])
+        share = max(min(rough / 0.015--[[ROUGH_HOLD]], 1.0), calm_share)
+    else
+        rough = law.roughness(observer, 0.0)
+        share = max(min(rough / 0.02--[[ROUGH_AIR]], 1.0), 0.75--[[CALM_GAIN]])
+    end
+    local lively = max(known.quick_turn_ratio / known.turn_ratio, 1.0)
+    return gain * max(share, min(rough / 0.04--[[HEAVY_GUSTS]], 1.5--[[HEAVY_GAIN]])) / lively
+end
+
+-- The rate at which the course should turn to reach a path and stay on it.
+--
+-- With the crosstrack error e, the course error b and small angles, e' = speed b, and b is driven towards
+-- -`place_gain` e/speed with the gain `course_gain`: e'' + course_gain (e' + place_gain e) = 0. There is no
+-- overshoot if `course_gain` is at least four times `place_gain`.
+function law.course_rate(offset, course_gain, place_gain, speed)
+    local intercept = law.clip(-place_gain * offset.crosstrack / speed, 0.6--[[STEEPEST_INTERCEPT]])
+    return offset.path_rate - course_gain * (offset.course_error - intercept)
+end
+
+-- The correction of the rate of turn on the circle after another step, radians per second.
+function law.next_trim(settings, trim, crosstrack, course_gain, V, dt)
+    local R, turn_rate = settings.radius_m, V / settings.radius_m
+    if abs(crosstrack) >= 0.05--[[TRIMMED_OFFSET]] * R then
+        return trim
+    end
+    local place_gain = 1.2--[[HOLD_GAIN]] * turn_rate
+    local integral_gain = 0.12--[[TRIM_GAIN]] * place_gain * place_gain * course_gain / V
+    return law.clip(trim + integral_gain * crosstrack * dt, 0.15--[[LARGEST_TRIM]] * turn_rate)
+end
+
+-- The turn rate through the air, for the heading (hx, hy), that turns the velocity (vx, vy) at `rate`.
+--
+-- A turn at the rate w with the airspeed a accelerates the vehicle by a w across its heading. The component a w
+-- cos(crab) turns a velocity of the size v at the rate a w cos(crab)/v. On the circle this is equation (3) of
+-- docs/wind.md, `hold.hold_rate`.
+function law.air_rate(rate, vx, vy, hx, hy)
+    return rate * (vx * vx + vy * vy) / (hx * vx + hy * vy)
+end
+
+-- The bank that follows the route, and the trim; on a turn before the last piece it is the bank limit.
+--
+-- Such a turn is planned again before it ends; flying it as wide as planned would only cost time.
+function law.target_bank(settings, memory, known, dt)
+    local limits, route, trim = memory.sensing.limits, memory.plan.route, memory.trim
+    local u = memory.plan.route.current.u
+    if u ~= 0 and route.second.u ~= -2--[[ABSENT]] then
+        return -u * limits.limit_deg, trim
+    end
+    local state, offset = memory.response.state, memory.response.offset
+    local vx, vy = law.path_velocity(route, state)
+    local speed, R, V, holding = law.length(vx, vy), settings.radius_m, limits.turns.airspeed_m_s,
+            law.is_holding(route)
+    local response_s = limits.lag_s + memory.sensing.observer.smoothing_s
+    local gain = law.corrections_gain(settings, known, memory.sensing.observer, response_s, V / R, holding)
+    local bandwidth = 1.0 / (response_s + gain * dt)
+    local place_gain = holding and 1.2--[[HOLD_GAIN]] * speed / R or 0.25--[[PLACE_GAIN]] * bandwidth
+    local course = law.course_rate(offset, gain * bandwidth, place_gain, speed)
+    if holding then
+        trim = law.next_trim(settings, trim, offset.crosstrack, gain * bandwidth, V, dt)
+        course = course - trim
+    end
+    local rate = -law.air_rate(course, vx, vy, state.hx, state.hy)
+    -- At the present airspeed, which differs from the mean one where an autopilot holds it less exactly.
+    return law.bank_at_rate(rate / known.turn_ratio, law.length(state.hx, state.hy)), trim
+end
+
+-- The command that brings the bank to a target `command_gain` times as fast as commanding the target would.
+--
+-- It lies beyond the target, but never beyond the bank limit.
+function law.demand_deg(roll_time_s, bank_deg, target_deg, limit_deg)
+    if roll_time_s == 0.0 then
+        return target_deg
+    end
+    return law.clip(bank_deg + law.command_gain(roll_time_s) * (target_deg - bank_deg), limit_deg)
+end
+
+-- The phase in which a control is flown; on the circle, which follows the last control, if that is absent.
+function law.phase_code(u)
+    return u == -2--[[ABSENT]] and 2--[[HOLD]] or u
+end
+
+-- The memory with the command for the next `dt` seconds, which follows the plan.
+function law.conclude(memory, settings, vehicle, dt)
+    if not memory.sensing.is_known or memory.plan.route.side == 0 then
+        return law.without_data(memory, settings, vehicle.estimates, dt)
+    end
+    local limits, present = memory.sensing.limits, memory.sensing.present
+    local target_deg, trim = law.target_bank(settings, memory, vehicle.estimates, dt)
+    target_deg = law.clip(target_deg, limits.limit_deg)
+    local bank_deg = law.demand_deg(vehicle.estimates.roll.time_s, present.bank_deg, target_deg, limits.limit_deg)
+    bank_deg = law.clip(bank_deg, settings.command_limit_deg)
+    local route = memory.plan.route
+    local command = {turn_rate_deg_s = law.turn_rate_deg_s(vehicle.estimates, bank_deg), bank_deg = bank_deg, phase
+            = law.phase_code(route.current.u), time_to_join_s = max(memory.plan.join_s - present.time_s, 0.0), side
+            = route.side, next_phase = law.phase_code(route.second.u), next_in_s = law.is_holding(route) and huge or
+            memory.plan.remaining_s - memory.response.early_s}
+    return with_fields(memory, {trim = trim, command = command, step_s = dt})
+end
+
+-- The exact bank after `time_s` seconds under a constant command.
+function law.bank_after(roll_time_s, rate_deg_s, bank_deg, command_deg, time_s)
+    if roll_time_s == 0.0 and rate_deg_s == huge then
+        return command_deg
+    end
+    local missing = command_deg - bank_deg
+    local sign = missing >= 0.0 and 1.0 or -1.0
+    local beyond = max(abs(missing) - rate_deg_s * roll_time_s, 0.0)
+    local limited_s = beyond / rate_deg_s
+    if limited_s > time_s then
+        return bank_deg + sign * rate_deg_s * time_s
+    end
+    missing = missing - sign * beyond
+    if roll_time_s > 0.0 then
+        return command_deg - missing * exp(-(time_s - limited_s) / roll_time_s)
+    end
+    return time_s <= limited_s and command_deg - missing or command_deg
+end
+
+-- The model of a vehicle that is as declared after `dt` seconds under a command; `identify` is not needed then.
+function law.fly_as_declared(vehicle, command_deg, dt)
+    local revision, bank_deg, known = vehicle.revision, vehicle.bank_deg, vehicle.estimates
+    bank_deg = law.bank_after(known.roll.time_s, known.roll.rate_deg_s, bank_deg, command_deg, dt)
+    return {revision = revision, bank_deg = bank_deg, estimates = known}
 end
 
 -- The scene of a problem, with the arc tolerance that rounding requires; negligible wind is treated as zero.
@@ -2496,56 +2635,29 @@ function law.track(known, problem)
 end
 end
 
--- The instructions of a callback are limited (SCR_VM_I_COUNT), and a step of the law may need more than one search for an entry. So one
--- search is made in a callback. Where a step needs another one it is given up with the error `LATER`, and repeated in
--- the next callback with the same arguments and the answers that are known.
-local LATER = {}
-local answers, asked, is_allowed = {}, 0, false
-
-local function solve_once(solve, ...)
-    asked = asked + 1
-    if answers[asked] == nil then
-        if not is_allowed then
-            error(LATER, 0)
-        end
-        is_allowed = false
-        answers[asked] = solve(...)
-    end
-    return answers[asked]
-end
-
--- A call that may be given up: whether it was not, and its results.
-local function attempt(call, ...)
-    asked, is_allowed = 0, true
-    local results = table.pack(pcall(call, ...))
-    if results[1] then
-        answers = {}
-    elseif results[2] ~= LATER then
-        error(results[2], 0)
-    end
-    return table.unpack(results, 1, results.n)
-end
-
-solve_in_still_air = function(x, y, R, side, tolerance)
-    return solve_once(law.optimum, x, y, R, side, tolerance)
-end
-
--- In wind the point of joining is remembered.
+-- The instructions of a callback are limited (SCR_VM_I_COUNT). So a search has callbacks of its own, between two steps
+-- of the law. In wind the point of joining is remembered, and each of these callbacks improves it.
 local NO_JOIN = {side = 0, phase = 0.0, words = 0, shift = 0.2, calls = 0}
 local known_join = NO_JOIN
 
-local function track_join(problem)
-    local entry
-    known_join, entry = law.track(known_join, problem)
-    return entry
+begin_in_wind = function(problem)
+    return {stage = 0, problem = problem}
 end
 
-solve_in_wind = function(problem)
-    return solve_once(track_join, problem)
+advance_in_wind = function(search)
+    local entry = search.entry
+    if search.stage ~= 5 then
+        known_join, entry = law.track(known_join, search.problem)
+        entry.status = entry.side == 0 and 12 or 0
+    end
+    return {stage = 5, left = 0, entry = entry}
 end
 
 -- The flight that is prepared or flown; and whether the switch must be moved before the next one.
 local flight, is_latched = nil, true
+
+-- Whether the next callback is one of a search.
+local is_search_next = false
 
 -- The turn rate over that of a coordinated turn, and what is measured of it at present.
 local turn_ratio = 1.0
@@ -2668,7 +2780,7 @@ local function prepare(now)
         east_m = 0.0, north_m = 0.0, radius_m = radius_m, side = math.floor(SIDE:get()), velocity_east_m_s = 0.0,
         velocity_north_m_s = 0.0, wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s,
         limit_deg = bank_deg, command_limit_deg = bank_deg, gain = 4.0, reserve = 0.1,
-        smoothing_s = 0.5, negligible_wind = 0.03, covered_s = 2.0,
+        smoothing_s = 0.5, negligible_wind = 0.03, covered_s = 2.0, search_steps = 1,
     }
     local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
     local estimates = {
@@ -2706,12 +2818,11 @@ local function improve(now)
     local state = relative(now)
     local heading = math.rad(state.heading_deg)
     local hx, hy = state.airspeed_m_s * math.sin(heading), state.airspeed_m_s * math.cos(heading)
-    answers = {}
-    attempt(law.entry_from, flight.settings, limits, {
+    local search = law.begin_in_air(law.search_from(flight.settings, limits, 1, {
         time_s = state.time_s, x = state.east_m, y = state.north_m, vx = state.velocity_east_m_s,
         vy = state.velocity_north_m_s, hx = hx, hy = hy,
-    }, true)
-    answers = {}
+    }, true))
+    advance_in_wind(search.in_air)
 end
 
 -- Command the circle by ArduPlane's own guidance, which ends a command of heading; the result.
@@ -2832,35 +2943,37 @@ local function begin(now)
     say(SEVERITY.NOTICE, "begins")
 end
 
--- A callback in flight: one step of the law, or a part of it.
+-- Whether a search goes on.
+local function is_searching()
+    return flight and flight.is_flown and flight.memory.search.aim ~= 0
+end
+
+-- A callback in flight: one step of the law.
 local function guide(now)
     local reason, is_ours = reason_to_end(now, vehicle:get_mode())
     if reason then
         finish(SEVERITY.WARNING, reason, is_ours)
         return
     end
-    if not flight.pending then
-        local elapsed_s = flight.stepped_ms and (now.now_ms - flight.stepped_ms):tofloat() * 0.001 or 0.0
-        flight.stepped_ms, flight.pending = now.now_ms, relative(now)
-        flight.memory.step_s = elapsed_s
-        flight.model = law.fly_as_declared(vehicle_with(now, flight.model), flight.command_deg, elapsed_s)
-    end
-    local is_done, memory, command =
-        attempt(law.step, flight.settings, flight.memory, flight.model, flight.pending, PERIOD_MS * 0.001)
-    if is_done then
-        local state = flight.pending
-        flight.memory, flight.pending, flight.side = memory, nil, command.side ~= 0 and command.side or flight.side
-        flight.command_deg = command.bank_deg
+    local elapsed_s = flight.stepped_ms and (now.now_ms - flight.stepped_ms):tofloat() * 0.001 or 0.0
+    local state = relative(now)
+    flight.stepped_ms, flight.memory.step_s = now.now_ms, elapsed_s
+    flight.model = law.fly_as_declared(vehicle_with(now, flight.model), flight.command_deg, elapsed_s)
+    local memory = law.prepare(flight.memory, flight.settings, flight.model, state)
+    flight.memory = law.conclude(memory, flight.settings, flight.model, PERIOD_MS * 0.001)
+    local command = flight.memory.command
+    -- Until there is a plan, the circle by ArduPlane's own guidance goes on.
+    if command.phase ~= 3 or flight.is_commanded then
+        flight.command_deg, flight.side, flight.is_commanded = command.bank_deg, command.side, true
         if is_held(now, state) then
             finish(SEVERITY.NOTICE, "circle held, left to ArduPlane", true)
             return
         end
+        if not command_bank(now, flight.command_deg) then
+            finish(SEVERITY.WARNING, "bank refused", false)
+            return
+        end
     end
-    if (is_done or flight.is_commanded) and not command_bank(now, flight.command_deg) then
-        finish(SEVERITY.WARNING, "bank refused", false)
-        return
-    end
-    flight.is_commanded = flight.is_commanded or is_done
     flight.beat = (flight.beat or 0) % 1000 + 1
     BEAT:set(flight.side * flight.beat)
 end
@@ -2891,6 +3004,13 @@ local function wait(now)
 end
 
 local function update()
+    if is_search_next then
+        is_search_next = false
+        if is_searching() then
+            flight.memory = law.continue_search(flight.memory, flight.settings, 1)
+        end
+        return PERIOD_MS - SEARCH_MS
+    end
     local now = measure()
     if now then
         measure_turning(now)
@@ -2900,12 +3020,15 @@ local function update()
     else
         wait(now)
     end
+    is_search_next = is_searching()
+    return is_search_next and SEARCH_MS or PERIOD_MS
 end
 
 -- An error, for instance of memory, ends a flight.
 local function protected_update()
-    local is_done, problem = pcall(update)
+    local is_done, delay_ms = pcall(update)
     if not is_done then
+        local problem = delay_ms
         if flight and flight.is_flown then
             pcall(finish, SEVERITY.CRITICAL, "script error", vehicle:get_mode() == GUIDED)
         end
@@ -2913,7 +3036,7 @@ local function protected_update()
         say(SEVERITY.CRITICAL, tostring(problem))
         return protected_update, 1000
     end
-    return protected_update, PERIOD_MS
+    return protected_update, delay_ms
 end
 
 say(SEVERITY.NOTICE, "loiter_entry 0.1.0 ready")

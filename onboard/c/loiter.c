@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 761a627d9953e7746d84fcdfff0a92566ac1ea9e66e18e41bbf047ce5826244a
+ * SHA-256 of the source: 1b20a95b4b1e8fd11018122c5ad62e8bc0d462f3504195055e8a3534310baa8b
  */
 #include "loiter.h"
 
@@ -55,6 +55,13 @@ typedef uint64_t unsigned_integer;
 #define MAKE(type) type
 #else
 #define MAKE(type) (type)
+#endif
+
+/* Before functions that are not inlined, so that their memory on the stack does not add up. */
+#if defined(__GNUC__)
+#define APART __attribute__((noinline))
+#else
+#define APART
 #endif
 
 typedef loiter_Rings Rings;
@@ -291,6 +298,16 @@ typedef loiter_Plan Plan;
 
 typedef loiter_Leads Leads;
 
+typedef loiter_RelativeState RelativeState;
+
+typedef loiter_PathOffset PathOffset;
+
+typedef loiter_ResponsePoint ResponsePoint;
+
+typedef loiter_EntrySearch EntrySearch;
+
+typedef loiter_LawCommand LawCommand;
+
 typedef loiter_Memory Memory;
 
 typedef struct { bool a0; real a1, a2; } bool_real_2;
@@ -310,21 +327,7 @@ typedef struct { real lead_s, variance_s2; } TurnOnset;
 typedef struct { real time_s, east_m, north_m, heading_deg, bank_deg, velocity_east_m_s, velocity_north_m_s,
         airspeed_m_s; } State;
 
-/* A command: turn rate, bank, phase, time to join, side, the next phase and when it begins (as `Command`). */
-typedef struct { real turn_rate_deg_s, bank_deg; integer phase; real time_to_join_s; integer side, next_phase; real
-        next_in_s; } LawCommand;
-
-typedef struct { Memory a0; LawCommand a1; } Memory_LawCommand;
-
-typedef struct { Sensing a0; bool a1; } Sensing_bool;
-
 typedef struct { Clock a0; bool a1; } Clock_bool;
-
-/* An aircraft relative to the circle, in metres and seconds.
- *
- * Time, position (x, y) east and north, velocity (vx, vy), and velocity through the air (hx, hy).
- */
-typedef struct { real time_s, x, y, vx, vy, hx, hy; } RelativeState;
 
 /* An entry to fly: side, word and durations, the turn radius and the speed, and the velocity of the air.
  *
@@ -336,25 +339,8 @@ typedef struct { integer side, word; real t1_s, t2_s, t3_s, turn_radius_m, speed
 
 typedef struct { RoutePiece a0; real a1, a2; } RoutePiece_real_2;
 
-/* The crosstrack error of a vehicle, positive to the left of the path, its course error, and the path's turn rate.
- *
- * The course error is the vehicle's course relative to that of the path. The turn rate is that of the path's course
- * as the vehicle moves along it.
- */
-typedef struct { real crosstrack, course_error, path_rate; } PathOffset;
-
 /* Position and velocity, relative to the steady wind of a plan, as if the air were still. */
 typedef struct { real x, y, vx, vy; } Motion;
-
-typedef struct { Plan a0; bool a1; } Plan_bool;
-
-/* The predicted state in which a command takes effect, and its offset from the route.
- *
- * The next piece begins `early_s` seconds before the current one ends.
- */
-typedef struct { RelativeState state; PathOffset offset; real early_s; } ResponsePoint;
-
-typedef struct { Plan a0; Leads a1; ResponsePoint a2; } Plan_Leads_ResponsePoint;
 
 
 /* Rounding error of a length of order one: the reduction (2) costs 2 roundings a coordinate, a difference of
@@ -638,6 +624,11 @@ static const Estimate NO_ESTIMATE = {-REAL_INFINITY, {REAL(0.0), REAL(0.0), REAL
 static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
 static const Plan NO_PLAN = {{0, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, -2, REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY, REAL_INFINITY, -REAL_INFINITY};
 static const Leads NO_LEADS = {-1000000000, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
+static const ResponsePoint NO_RESPONSE = {{REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(0.0)};
+static const EntrySearch NO_ENTRY_SEARCH = {0, {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), 0, false, false, false, {0, 0, 1, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), 0, {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}}, {{0, 0, REAL_INFINITY, REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY}, {0, 0, 63}, {-2, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}}, {0, 0, 0, 0}, {0, 0, 0, 0}, {REAL(0.0), 0, REAL(0.0), REAL(0.0)}, REAL_INFINITY, 0, {0, 0, REAL(0.0), {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, 0, false, 0, 0}, {0, REAL(0.0), REAL(0.0)}, 0, {12, 0, 0, REAL_NAN, REAL_NAN, REAL_NAN, REAL_NAN, REAL_NAN}}};
+
+/* What a command does: the control that it flies, +1 to the left; or one of these. */
+#define NO_DATA 3
 
 /* The history covers at least this time, seconds, in this many entries. */
 #define ENTRIES 128
@@ -689,6 +680,9 @@ static const Leads NO_LEADS = {-1000000000, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(
  */
 #define SLIP_ERROR_S REAL(0.2)
 
+/* The aim of no search. */
+#define NOTHING 0
+
 /* The least speed along the heading, as a share of the airspeed, from which a course is taken: below it the
  * measured velocity is not that of an aircraft in flight.
  */
@@ -697,12 +691,6 @@ static const RoutePiece NO_PIECE = {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.
 
 /* A flight that begins on the circle, within half of the reserve and this angle, radians, holds it at once. */
 #define ON_COURSE REAL(0.09)
-
-/* More steps than any search takes. */
-#define UNLIMITED 2147483647 /* 2 ** 31 - 1 */
-
-/* The answer of the kernel where there is no entry. */
-static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 
 /* The interval between searches for another plan, seconds. */
 #define SEARCH_INTERVAL_S REAL(0.1)
@@ -714,10 +702,29 @@ static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 #define ROUNDING_S REAL(1e-09)
 #endif
 
+/* What a search is for: the first turn of the first plan, as it would be with wings level; any plan; a plan that is
+ * better than the present one; or one that is better or is the present one from the present state. `NOTHING` is
+ * none.
+ */
+#define FIRST_TURN 1
+
+/* Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is
+ * accepted.
+ */
+#define LOST_OFFSET REAL(0.5)
+#define LOST_COURSE REAL(1.0)
+#define ANY 2
+
 /* In wind a new plan counts as the same one if it differs only by a first turn back to the path that is no longer
  * than `LONGEST_BEND`, turn radii. It is not adopted before the crosstrack error or the change of the time to join
  * exceeds `DEVIATION`, turn radii: each adds such a turn.
  */
+#define DEVIATION REAL(0.1)
+#define UPDATE 4
+#define BETTER 3
+
+/* The answer of the kernel where there is no entry. */
+static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 #define LONGEST_BEND REAL(0.1)
 
 /* Margins, turn radii over airspeed. A different plan replaces the present one if it is faster by the first margin,
@@ -727,17 +734,10 @@ static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
  */
 #define UPDATE_MARGIN REAL(0.25)
 #define SWITCH_MARGIN REAL(0.25)
+
+/* More steps than any search takes. */
+#define UNLIMITED 2147483647 /* 2 ** 31 - 1 */
 #define BLIND_S REAL(1.0)
-
-/* What a command does: the control that it flies, +1 to the left; or one of these. */
-#define NO_DATA 3
-
-/* Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is
- * accepted.
- */
-#define LOST_OFFSET REAL(0.5)
-#define LOST_COURSE REAL(1.0)
-#define DEVIATION REAL(0.1)
 
 /* On the circle it falls so far that course errors are corrected at this rate, 1/s, or at this multiple of that at
  * which crosstrack errors are, but not below the last share. It rises with weaker gusts already. A vehicle that
@@ -1172,7 +1172,7 @@ static inline Extremal detour(const Start *start) {
  * Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
  * where it exists and its first arc is no longer than half a turn, up to the switching curve.
  */
-static inline real_Extremal extremals_fastest(real x, real y, real R, real arc_tolerance, bool exact) {
+static inline real_Extremal fastest(real x, real y, real R, real arc_tolerance, bool exact) {
     const Start start = start_at(x, y, R, arc_tolerance);
     Extremal right = right_first(&start);
     const Extremal only_right = extremals_r(&start);
@@ -1307,8 +1307,8 @@ static inline Entry flown_entry(const Extremal *extremal, real length_tolerance,
 
 /* The fastest maneuver onto the circle held on one side. */
 static inline Entry optimum_on_side(real x, real y, real R, integer side, real tolerance) {
-    const real_Extremal fastest_1 = extremals_fastest(x, (real)side * y, R, arc_tolerance_of(x, y, R, tolerance),
-            tolerance == REAL(0.0));
+    const real_Extremal fastest_1 = fastest(x, (real)side * y, R, arc_tolerance_of(x, y, R, tolerance), tolerance ==
+            REAL(0.0));
     const Extremal best = fastest_1.a1;
     return flown_entry(&best, rounding(x, y, R), side);
 }
@@ -3391,7 +3391,7 @@ static inline void fine_search(WindSearch *search) {
 }
 
 /* The search after at most `steps` more steps, each of which takes about as long as trying one point of joining. */
-static inline void advance_search(WindSearch *search, integer steps) {
+static APART void advance_search(WindSearch *search, integer steps) {
     search->left = steps;
     while (search->stage != ENDED && search->left > 0) {
         if (search->refinement.stage != REFINED) {
@@ -3658,9 +3658,9 @@ static inline Memory first_memory(Rings *rings, const Settings *settings, const 
     const Limits limits = limits_of(settings, vehicle, &NO_LIMITS);
     const Observer observer = first_observer(rings, settings->smoothing_s);
     const BankHistory history = constant_history(rings, vehicle->bank_deg);
-    const Sensing sensing = MAKE(Sensing){FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, REAL(0.0),
-            REAL(0.0)};
-    return MAKE(Memory){sensing, NO_PLAN, NO_LEADS, REAL(0.0), REAL(0.0), settings->side, REAL(0.0)};
+    return MAKE(Memory){MAKE(Sensing){FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, REAL(0.0), REAL(0.0),
+            false}, NO_PLAN, NO_LEADS, NO_RESPONSE, NO_ENTRY_SEARCH, REAL(0.0), MAKE(LawCommand){REAL(0.0),
+            REAL(0.0), NO_DATA, REAL_NAN, settings->side, NO_DATA, REAL_NAN}, REAL(0.0)};
 }
 
 /* The route by a clock that has jumped. */
@@ -3684,7 +3684,7 @@ static inline void plan_by_clock(Plan *plan, real jump_s) {
 }
 
 /* The clock `dt` seconds later. */
-static inline Clock advance(const Clock *clock, real dt) {
+static inline Clock clock_advance(const Clock *clock, real dt) {
     const real time_s = clock->time_s, since_s = clock->since_s, gap_s = clock->gap_s, jump_s =
             clock->jump_s, first_s = clock->first_s, latest_s = clock->latest_s;
     return MAKE(Clock){time_s, since_s + dt, gap_s, jump_s, first_s, latest_s};
@@ -4066,13 +4066,13 @@ static inline Estimate estimate_at_present(const Estimate *estimate, BankHistory
     return MAKE(Estimate){time_s + delay_s, pose, V, present_rate, present_deg, east, north, turning};
 }
 
-/* What is known at a measurement, `step_s` seconds after the last, and whether the present state is.
+/* What is known at a measurement, `step_s` seconds after the last.
  *
  * Telemetry may be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last
  * estimate is extrapolated with the modelled bank.
  */
-static inline Sensing_bool sense(Rings *rings, const Settings *settings, const Sensing *sensing, const VehicleModel
-        *vehicle, const State *measurement, real step_s) {
+static inline void sense(Rings *rings, Sensing *sensing, const Settings *settings, const VehicleModel *vehicle,
+        const State *measurement, real step_s) {
     Clock clock = sensing->clock;
     Observer observer = sensing->observer;
     BankHistory history = sensing->history;
@@ -4081,31 +4081,31 @@ static inline Sensing_bool sense(Rings *rings, const Settings *settings, const S
     real elapsed_s = sensing->elapsed_s;
     const real error_deg = sensing->model_error_deg;
     if (step_s > REAL(0.0)) {
-        clock = advance(&clock, step_s);
+        clock = clock_advance(&clock, step_s);
         elapsed_s = elapsed_s + step_s;
         history = record_bank(history, vehicle->bank_deg, step_s, settings->covered_s);
     }
     if (!is_usable(measurement)) {
-        return MAKE(Sensing_bool){MAKE(Sensing){clock, observer, history, limits, present, elapsed_s, error_deg},
-                false};
+        *sensing = MAKE(Sensing){clock, observer, history, limits, present, elapsed_s, error_deg, false};
+        return;
     }
     if (measurement->time_s == clock.time_s) {
         if (present.airspeed_m_s == REAL(0.0) || clock.since_s > EXTRAPOLATED_S) {
-            return MAKE(Sensing_bool){MAKE(Sensing){clock, observer, history, limits, present, elapsed_s,
-                    error_deg}, false};
+            *sensing = MAKE(Sensing){clock, observer, history, limits, present, elapsed_s, error_deg, false};
+            return;
         }
         const Estimate stored_1 = estimate_with_bank(&present, history.current_deg + error_deg);
         present = estimate_after(&stored_1, elapsed_s);
-        return MAKE(Sensing_bool){MAKE(Sensing){clock, observer, history, limits, present, REAL(0.0), error_deg},
-                true};
+        *sensing = MAKE(Sensing){clock, observer, history, limits, present, REAL(0.0), error_deg, true};
+        return;
     }
     const bool is_first = clock.time_s == -REAL_INFINITY;
     const Clock_bool check_stamp_2 = check_stamp(&clock, measurement->time_s);
     clock = check_stamp_2.a0;
     const bool is_new = check_stamp_2.a1;
     if (!is_new) {
-        return MAKE(Sensing_bool){MAKE(Sensing){clock, observer, history, limits, present, elapsed_s, error_deg},
-                false};
+        *sensing = MAKE(Sensing){clock, observer, history, limits, present, elapsed_s, error_deg, false};
+        return;
     }
     if (is_first) {
         history = constant_history(rings, vehicle->bank_deg);
@@ -4122,8 +4122,15 @@ static inline Sensing_bool sense(Rings *rings, const Settings *settings, const S
     const State stored_3 = remove_bias(&known, measurement);
     observer = observe(rings, &observer, &stored_3, bank_deg, settings->smoothing_s, turning);
     present = estimate_at_present(&observer.estimate, history, known.delay_s);
-    return MAKE(Sensing_bool){MAKE(Sensing){clock, observer, history, limits, present, REAL(0.0), present.bank_deg -
-            history.current_deg}, true};
+    *sensing = MAKE(Sensing){clock, observer, history, limits, present, REAL(0.0), present.bank_deg -
+            history.current_deg, true};
+    return;
+}
+
+/* The search without an aim. */
+static inline void end_entry_search(EntrySearch *search) {
+    search->aim = NOTHING;
+    return;
 }
 
 /* The aircraft relative to the circle. */
@@ -4258,216 +4265,54 @@ static inline Plan plan_on_circle(const Settings *settings, const Limits *limits
     return (*plan);
 }
 
+/* Whether the last search is long enough ago. */
+static inline bool is_search_due(const Clock *clock, const Plan *plan) {
+    return clock->time_s - plan->searched_s >= SEARCH_INTERVAL_S - ROUNDING_S;
+}
+
 /* The delay of a change of bank. */
 static inline real lead_s(const Limits *limits, real bank_deg, real target_deg) {
     return rounded_onset(limits->roll_time_s, limits->roll_rate_deg_s, bank_deg, target_deg,
             limits->limit_deg).lead_s;
 }
 
-static inline Entry _still_air_entry(const RelativeState *state, real c, real s, real r, real radius_m, integer
-        side, real tolerance) {
-    const real_2 reduce_1 = reduce(state->x / r, state->y / r, c, s);
-    const real x = reduce_1.a0, y = reduce_1.a1;
-    return optimum(x, y, radius_m / r, side, tolerance);
+/* The search for the fastest entry from a state, before its first step. */
+static inline EntrySearch search_from(const Settings *settings, const Limits *limits, integer aim, const
+        RelativeState *state, bool reversing) {
+    EntrySearch changed_1 = NO_ENTRY_SEARCH;
+    changed_1.aim = aim;
+    changed_1.state = (*state);
+    changed_1.turns = limits->turns;
+    changed_1.wind_east_m_s = limits->wind_east_m_s;
+    changed_1.wind_north_m_s = limits->wind_north_m_s;
+    changed_1.radius_m = settings->radius_m;
+    changed_1.wide_m = settings->radius_m + limits->reversal_m;
+    changed_1.side = settings->side;
+    changed_1.reversing = reversing;
+    return changed_1;
 }
 
-/* The fastest maneuver onto the circle, or beside it within the tolerance; nan, with a status, where there is none.
+/* The memory with the plan to hold the circle where the flight begins on it, otherwise with a search if it is due.
  *
- * docs/wind.md, section 5, bounds by how much another maneuver could be faster, and says how the answer is found
- * and checked. The status is `Status.NOT_CONVERGED` where the maneuver, flown exactly, does not end on the circle.
+ * The fastest entry begins where a command takes effect, which depends on the bank and the first turn. So that is
+ * found first, as it would be with wings level.
  */
-static inline WindEntry wind_search_fastest(const WindProblem *problem) {
-    WindSearch changed_1 = begin_search(problem);
-    advance_search(&changed_1, UNLIMITED);
-    return changed_1.entry;
-}
-
-/* The kernel's answer in wind; `NONE` where it has none. */
-static inline Entry solve_in_wind(const WindProblem *problem) {
-    const WindEntry found = wind_search_fastest(problem);
-    return found.status == STATUS_OK ? entry_of(&found) : NONE;
-}
-
-/* The fastest entry from a state onto a circle, in air that moves past it; `NO_ENTRY` where there is none.
- *
- * It starts along the velocity relative to that air. In still air turns are wider in the present gust: at a given
- * turn rate the radius grows with the speed. They are at most as wide as the circle.
- */
-static inline PlannedEntry fastest_entry(const RelativeState *state, TurnLimits limits, real radius_m, integer side,
-        real east_m_s, real north_m_s) {
-    const real V = limits.airspeed_m_s, r = limits.planned_m;
-    const real_2 flight_velocity_1 = flight_velocity(state->vx - east_m_s, state->vy - north_m_s, state->hx,
-            state->hy);
-    const real vx = flight_velocity_1.a0, vy = flight_velocity_1.a1;
-    const real speed = length(vx, vy);
-    const real c = vx / speed, s = vy / speed;
-    real scale;
-    Entry entry;
-    if (east_m_s == REAL(0.0) && north_m_s == REAL(0.0)) {
-        scale = min_real(speed / V, radius_m / r);
-        /* A start beside the last arc counts as on it if half of the reserve can correct its distance. */
-        const real tolerance = max_real(REAL(0.5) * (r / limits.tightest_m - REAL(1.0)), REAL(0.0));
-        entry = _still_air_entry(state, c, s, scale * r, radius_m, side, tolerance);
-    } else {
-        scale = REAL(1.0);
-        const real R = rounded_radius(radius_m / r);
-        const WindProblem problem = MAKE(WindProblem){state->x / r, state->y / r, c, s, R, side, east_m_s / V,
-                north_m_s / V, REAL(0.0)};
-        entry = solve_in_wind(&problem);
-    }
-    const real unit_s = r / V;
-    const real t1_s = entry.t1 * unit_s, t2_s = entry.t2 * unit_s, t3_s = entry.t3 * unit_s;
-    return MAKE(PlannedEntry){entry.side, entry.word, t1_s, t2_s, t3_s, scale * r, scale * V, east_m_s, north_m_s};
-}
-
-/* Whether the last turn of an entry is opposite to that of the circle. */
-static inline bool ends_opposite(const PlannedEntry *entry) {
-    const integer_3 controls_1 = controls(entry->word);
-    const integer u1 = controls_1.a0, u2 = controls_1.a1, u3 = controls_1.a2;
-    return (u3 != ABSENT ? u3 : u2 != ABSENT ? u2 : u1) == entry->side;
-}
-
-/* The fastest entry from a state, onto a circle that is wider by the reversal if its last turn is opposite.
- *
- * It is first assumed to be so where `reversing`.
- */
-static inline PlannedEntry entry_from(const Settings *settings, const Limits *limits, const RelativeState *state,
-        bool reversing) {
-    const real R = settings->radius_m, wide_m = settings->radius_m + limits->reversal_m;
-    const integer side = settings->side;
-    const real east = limits->wind_east_m_s, north = limits->wind_north_m_s;
-    const PlannedEntry entry = fastest_entry(state, limits->turns, reversing ? wide_m : R, side, east, north);
-    if (entry.side == 0 || ends_opposite(&entry) == reversing) {
-        return entry;
-    }
-    return fastest_entry(state, limits->turns, reversing ? R : wide_m, side, east, north);
-}
-
-/* Whether the last search is long enough ago. */
-static inline bool is_search_due(const Clock *clock, const Plan *plan) {
-    return clock->time_s - plan->searched_s >= SEARCH_INTERVAL_S - ROUNDING_S;
-}
-
-/* Whether the last turn of the plan is opposite to that of the circle. */
-static inline bool reverses(const Route *route) {
-    return route->last_u == route->side;
-}
-
-/* Whether a word is that of an entry, without pieces at its beginning that take no longer than `bend_s` in all. */
-static inline bool is_rest(const PlannedEntry *entry, integer left, real bend_s) {
-    const integer word = entry->word;
-    if (word == left) {
-        return true;
-    }
-    if ((word >> 2) == left) {
-        return entry->t1_s <= bend_s;
-    }
-    return (word >> 4) == left && entry->t1_s + entry->t2_s <= bend_s;
-}
-
-/* The time until the circle is joined. */
-static inline real duration_s(const PlannedEntry *entry) {
-    return entry->t1_s + entry->t2_s + entry->t3_s;
-}
-
-/* The time from the end of the current piece to the circle. */
-static inline real later_s(const Route *route) {
-    return route->second.time_s + route->third.time_s;
-}
-
-/* Whether an entry should replace a plan.
- *
- * Either `update` holds, and it is the same plan and not much slower; or it is faster by a margin.
- *
- * In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a different
- * plan. The duration of a plan with tighter turns grows with their radius.
- */
-static inline bool is_better(const PlannedEntry *entry, const Plan *plan, TurnLimits turns, bool update) {
-    const Route route = plan->route;
-    const real unit_s = turns.planned_m / turns.airspeed_m_s;
-    const bool is_still = entry->wind_east_m_s == REAL(0.0) && entry->wind_north_m_s == REAL(0.0);
-    const integer left = encode(route.current.u, route.second.u, route.third.u);
-    const bool same = entry->side == route.side && is_rest(entry, left, is_still ? REAL(0.0) : LONGEST_BEND *
-            unit_s);
-    if (same && !update) {
-        return false;
-    }
-    const real widened = same ? max_real(REAL(1.0), entry->turn_radius_m / route.turn_radius_m) : REAL(1.0);
-    const real margin_s = (same ? UPDATE_MARGIN : -SWITCH_MARGIN) * unit_s;
-    return duration_s(entry) < widened * (plan->remaining_s + later_s(&route)) + margin_s;
-}
-
-/* The fastest entry from a state if it is better than the plan, and whether it is; with `is_any` it always is.
- *
- * With `update` the same plan from the present state counts as better.
- */
-static inline Plan_bool search_plan(const Settings *settings, const Sensing *sensing, const Plan *plan, const
-        RelativeState *state, bool is_any, bool update) {
-    const real now_s = sensing->clock.time_s;
-    const Limits limits = sensing->limits;
-    Route route = plan->route;
-    const real left_s = plan->remaining_s;
-    real join_s = plan->join_s;
-    const real planned_join_s = plan->planned_join_s;
-    const PlannedEntry entry = entry_from(settings, &limits, state, route.side == 0 || reverses(&route));
-    if (entry.side == 0 || !(is_any || is_better(&entry, plan, limits.turns, update))) {
-        return MAKE(Plan_bool){MAKE(Plan){route, left_s, join_s, planned_join_s, now_s}, false};
-    }
-    route = route_of(state, &entry);
-    join_s = state->time_s + duration_s(&entry);
-    return MAKE(Plan_bool){MAKE(Plan){route, route.current.time_s, join_s, join_s, now_s}, true};
-}
-
-/* The fastest entry from where a command takes effect, which depends on the bank and the first turn. */
-static inline Plan first_plan(const Settings *settings, const Sensing *sensing, Plan plan) {
-    const Limits limits = sensing->limits;
-    const Estimate present = sensing->present;
+static inline void begin_first_plan(Memory *memory, const Settings *settings) {
+    const Limits limits = memory->sensing.limits;
+    const Estimate present = memory->sensing.present;
     const RelativeState stored_1 = relative_state(settings, &present);
-    plan = plan_on_circle(settings, &limits, &plan, &stored_1);
-    if (plan.route.side != 0) {
-        return plan;
+    memory->plan = plan_on_circle(settings, &limits, &memory->plan, &stored_1);
+    if (memory->plan.route.side != 0) {
+        end_entry_search(&memory->search);
+        return;
     }
-    const real level_s = lead_s(&limits, present.bank_deg, REAL(0.0));
-    const Estimate stored_2 = estimate_after(&present, level_s);
-    const RelativeState stored_3 = relative_state(settings, &stored_2);
-    const PlannedEntry entry = entry_from(settings, &limits, &stored_3, true);
-    if (entry.side == 0) {
-        return plan;
+    if (memory->search.aim != NOTHING || !is_search_due(&memory->sensing.clock, &memory->plan)) {
+        return;
     }
-    const integer_3 controls_4 = controls(entry.word);
-    const integer first = controls_4.a0;
-    if (!is_search_due(&sensing->clock, &plan)) {
-        return plan;
-    }
-    const real bank_deg = first != ABSENT ? (real)-first * limits.limit_deg : (real)entry.side * limits.hold_deg;
-    const Estimate later = estimate_after(&present, lead_s(&limits, present.bank_deg, bank_deg));
-    const RelativeState stored_5 = relative_state(settings, &later);
-    const Plan_bool search_plan_6 = search_plan(settings, sensing, &plan, &stored_5, true, true);
-    plan = search_plan_6.a0;
-    return plan;
-}
-
-/* The rate at which the vehicle turns at a bank: the inverse of `bank_for`, but in degrees per second. */
-static inline real turn_rate_deg_s(const VehicleEstimates *known, real bank_deg) {
-    return known->turn_ratio * rate_at_bank(bank_deg, known->airspeed_m_s) * REAL(57.29577951308232);
-}
-
-/* The safe command while there is no usable measurement. */
-static inline Memory_LawCommand without_data(const Settings *settings, const Memory *memory, const Sensing *sensing,
-        const Plan *plan, const VehicleEstimates *known, real dt) {
-    real bank_deg = memory->command_deg;
-    const Route route = plan->route;
-    if (sensing->clock.since_s > BLIND_S) {
-        const bool on_circle = route.side != 0 && is_holding(&route);
-        bank_deg = on_circle ? (real)route.side * sensing->limits.hold_deg : REAL(0.0);
-    }
-    /* The limit may be lower now than when the last command was given. */
-    bank_deg = clip(bank_deg, settings->command_limit_deg);
-    const real rate = turn_rate_deg_s(known, bank_deg);
-    const LawCommand command = MAKE(LawCommand){rate, bank_deg, NO_DATA, REAL_NAN, memory->side, NO_DATA,
-            REAL_NAN};
-    return MAKE(Memory_LawCommand){MAKE(Memory){(*sensing), (*plan), NO_LEADS, memory->trim, bank_deg,
-            memory->side, dt}, command};
+    const Estimate later = estimate_after(&present, lead_s(&limits, present.bank_deg, REAL(0.0)));
+    const RelativeState stored_2 = relative_state(settings, &later);
+    memory->search = search_from(settings, &limits, FIRST_TURN, &stored_2, true);
+    return;
 }
 
 /* Whether delays of changes of bank are others than before. */
@@ -4545,65 +4390,355 @@ static inline Route without_current(const Route *route) {
     return MAKE(Route){side, second, third, NO_PIECE, last_u, start_s, r, speed, east, north};
 }
 
-/* The plan without the pieces that are complete when a command takes effect, and the predicted state then.
+/* The time from the end of the current piece to the circle. */
+static inline real later_s(const Route *route) {
+    return route->second.time_s + route->third.time_s;
+}
+
+/* The memory with the plan at the response: without the pieces that are complete when a command takes effect.
  *
  * A change of bank takes effect with a delay; from then on the aircraft turns like one that banks instantly.
  */
-static inline Plan_Leads_ResponsePoint advance_plan(const Settings *settings, const Limits *limits, const Plan
-        *plan, Leads leads, const Estimate *estimate) {
-    Route route = plan->route;
-    real left_s = plan->remaining_s, join_s = plan->join_s;
-    const real planned_join_s = plan->planned_join_s, searched_s = plan->searched_s;
+static inline void advance_plan(Memory *memory, const Settings *settings) {
+    const Limits limits = memory->sensing.limits;
+    const Estimate estimate = memory->sensing.present;
+    Leads leads = memory->leads;
+    Route route = memory->plan.route;
+    real left_s = memory->plan.remaining_s, join_s = memory->plan.join_s;
+    const real planned_join_s = memory->plan.planned_join_s, searched_s = memory->plan.searched_s;
     /* At most three pieces are dropped. */
+    RelativeState state;
+    real early_s;
     while (true) {
-        leads = leads_to(limits, &leads, estimate->bank_deg, &route);
-        const Estimate stored_1 = estimate_after(estimate, leads.current_s);
-        const RelativeState state = relative_state(settings, &stored_1);
+        leads = leads_to(&limits, &leads, estimate.bank_deg, &route);
+        const Estimate stored_1 = estimate_after(&estimate, leads.current_s);
+        state = relative_state(settings, &stored_1);
         left_s = remaining_s(&route, &state, left_s);
-        ResponsePoint response;
-        if (is_holding(&route)) {
-            response = MAKE(ResponsePoint){state, offset_of(&route, &state, settings->radius_m), REAL(0.0)};
-            return MAKE(Plan_Leads_ResponsePoint){MAKE(Plan){route, left_s, join_s, planned_join_s, searched_s},
-                    leads, response};
-        }
-        const real early_s = early_end_s(&route, &leads);
-        if (left_s > early_s + ROUNDING_S) {
-            response = MAKE(ResponsePoint){state, offset_of(&route, &state, settings->radius_m), early_s};
-            join_s = state.time_s + left_s + later_s(&route);
-            return MAKE(Plan_Leads_ResponsePoint){MAKE(Plan){route, left_s, join_s, planned_join_s, searched_s},
-                    leads, response};
+        early_s = early_end_s(&route, &leads);
+        if (is_holding(&route) || left_s > early_s + ROUNDING_S) {
+            break;
         }
         route = without_current(&route);
         left_s = route.current.time_s;
     }
+    if (is_holding(&route)) {
+        early_s = REAL(0.0);
+    } else {
+        join_s = state.time_s + left_s + later_s(&route);
+    }
+    memory->plan = MAKE(Plan){route, left_s, join_s, planned_join_s, searched_s};
+    memory->leads = leads;
+    memory->response = MAKE(ResponsePoint){state, offset_of(&route, &state, settings->radius_m), early_s};
+    return;
 }
 
-/* The plan after a search for another one, if that is due, and whether it is another. */
-static inline Plan_bool reconsider(const Settings *settings, const Sensing *sensing, const Plan *plan, const
-        ResponsePoint *response) {
-    const Limits limits = sensing->limits;
-    const Route route = plan->route;
-    const PathOffset offset = response->offset;
-    if (!is_search_due(&sensing->clock, plan)) {
-        return MAKE(Plan_bool){(*plan), false};
+/* Whether the last turn of the plan is opposite to that of the circle. */
+static inline bool reverses(const Route *route) {
+    return route->last_u == route->side;
+}
+
+/* The plan with the time of the last search. */
+static inline void searched_at(Plan *plan, real time_s) {
+    plan->searched_s = time_s;
+    return;
+}
+
+/* The memory with a search for a plan from a state, and when it began. */
+static inline void begin_plan_search(Memory *memory, const Settings *settings, integer aim, const RelativeState
+        *state) {
+    const bool reversing = memory->plan.route.side == 0 || reverses(&memory->plan.route);
+    memory->search = search_from(settings, &memory->sensing.limits, aim, state, reversing);
+    searched_at(&memory->plan, memory->sensing.clock.time_s);
+    return;
+}
+
+/* The memory with a search for another plan, if that is due. */
+static inline void reconsider(Memory *memory, const Settings *settings) {
+    if (memory->search.aim != NOTHING || !is_search_due(&memory->sensing.clock, &memory->plan)) {
+        return;
     }
+    const Limits limits = memory->sensing.limits;
+    const PathOffset offset = memory->response.offset;
+    const Plan plan = memory->plan;
     const real r = limits.turns.planned_m, V = limits.turns.airspeed_m_s;
-    const bool holding = is_holding(&route);
+    const bool holding = is_holding(&plan.route);
     const bool is_lost = real_fabs(offset.crosstrack) > LOST_OFFSET * r || real_fabs(offset.course_error) >
             LOST_COURSE;
     /* A plan for a wind that differs so much from the present one means nothing. */
-    const real east = limits.wind_east_m_s - route.wind_east_m_s, north = limits.wind_north_m_s -
-            route.wind_north_m_s;
+    const real east = limits.wind_east_m_s - plan.route.wind_east_m_s, north = limits.wind_north_m_s -
+            plan.route.wind_north_m_s;
     if (is_lost || (!holding && length(east, north) > WIND_DIFFERS * V)) {
-        return search_plan(settings, sensing, plan, &response->state, true, true);
+        begin_plan_search(memory, settings, ANY, &memory->response.state);
+        return;
     }
     if (holding) {
-        return MAKE(Plan_bool){(*plan), false};
+        return;
     }
-    const real later_m = real_fabs(plan->join_s - plan->planned_join_s) * V;
+    const real later_m = real_fabs(plan.join_s - plan.planned_join_s) * V;
     const bool deviates = max_real(real_fabs(offset.crosstrack), later_m) > DEVIATION * r;
     const bool is_still = limits.wind_east_m_s == REAL(0.0) && limits.wind_north_m_s == REAL(0.0);
-    return search_plan(settings, sensing, plan, &response->state, false, deviates || is_still);
+    begin_plan_search(memory, settings, deviates || is_still ? UPDATE : BETTER, &memory->response.state);
+    return;
+}
+
+/* The memory after a measurement: what is known, the present plan, and a search begun for another if it is due. */
+static APART void prepare(Rings *rings, Memory *memory, const Settings *settings, const VehicleModel *vehicle, const
+        State *measurement) {
+    const Limits before = memory->sensing.limits;
+    sense(rings, &memory->sensing, settings, vehicle, measurement, memory->step_s);
+    if (!memory->sensing.is_known) {
+        end_entry_search(&memory->search);
+        return;
+    }
+    const Clock clock = memory->sensing.clock;
+    if (clock.since_s == REAL(0.0) && clock.jump_s != REAL(0.0)) {
+        plan_by_clock(&memory->plan, clock.jump_s);
+        end_entry_search(&memory->search);
+    }
+    if (memory->plan.route.side == 0) {
+        begin_first_plan(memory, settings);
+    }
+    if (memory->plan.route.side == 0) {
+        return;
+    }
+    if (is_other_roll(&memory->sensing.limits, &before)) {
+        memory->leads = NO_LEADS;
+    }
+    advance_plan(memory, settings);
+    reconsider(memory, settings);
+    return;
+}
+
+/* The radius of the circle that is searched for. */
+static inline real circle_m(const EntrySearch *search) {
+    return search->reversing ? search->wide_m : search->radius_m;
+}
+
+/* The velocity relative to the air with which an entry starts. */
+static inline real_2 flight_vector(const EntrySearch *search) {
+    const RelativeState state = search->state;
+    return flight_velocity(state.vx - search->wind_east_m_s, state.vy - search->wind_north_m_s, state.hx,
+            state.hy);
+}
+
+/* Whether the air is planned to be at rest. */
+static inline bool is_still(const EntrySearch *search) {
+    return search->wind_east_m_s == REAL(0.0) && search->wind_north_m_s == REAL(0.0);
+}
+
+/* The radius of the turns at a speed, over that of the planned ones.
+ *
+ * In still air turns are wider in the present gust: at a given turn rate the radius grows with the speed. They are
+ * at most as wide as the circle.
+ */
+static inline real turn_scale(const EntrySearch *search, real speed) {
+    if (!is_still(search)) {
+        return REAL(1.0);
+    }
+    return min_real(speed / search->turns.airspeed_m_s, circle_m(search) / search->turns.planned_m);
+}
+
+static inline Entry _still_air_entry(const RelativeState *state, real c, real s, real r, real radius_m, integer
+        side, real tolerance) {
+    const real_2 reduce_1 = reduce(state->x / r, state->y / r, c, s);
+    const real x = reduce_1.a0, y = reduce_1.a1;
+    return optimum(x, y, radius_m / r, side, tolerance);
+}
+
+/* The search whose answer is known. */
+static inline WindSearch found_at_once(Entry entry) {
+    const WindEntry found = MAKE(WindEntry){STATUS_OK + 0, entry.side, entry.word, entry.t1, entry.t2, entry.t3,
+            REAL_NAN, REAL_NAN};
+    WindSearch changed_1 = NO_SEARCH;
+    changed_1.stage = ENDED;
+    changed_1.entry = found;
+    return changed_1;
+}
+
+/* The search with that of the kernel begun; the entry starts along the velocity relative to the air. */
+static APART void begin_in_air(EntrySearch *search) {
+    const RelativeState state = search->state;
+    const real V = search->turns.airspeed_m_s, r = search->turns.planned_m, radius_m = circle_m(search);
+    const real_2 flight_vector_1 = flight_vector(search);
+    const real vx = flight_vector_1.a0, vy = flight_vector_1.a1;
+    const real speed = length(vx, vy);
+    const real c = vx / speed, s = vy / speed;
+    if (is_still(search)) {
+        /* A start beside the last arc counts as on it if half of the reserve can correct its distance. */
+        const real tolerance = max_real(REAL(0.5) * (r / search->turns.tightest_m - REAL(1.0)), REAL(0.0));
+        const real turn_m = turn_scale(search, speed) * r;
+        const Entry entry = _still_air_entry(&state, c, s, turn_m, radius_m, search->side, tolerance);
+        search->is_begun = true;
+        search->in_air = found_at_once(entry);
+        return;
+    }
+    const real R = rounded_radius(radius_m / r), east = search->wind_east_m_s / V, north =
+            search->wind_north_m_s / V;
+    const WindProblem problem = MAKE(WindProblem){state.x / r, state.y / r, c, s, R, search->side, east, north,
+            REAL(0.0)};
+    search->is_begun = true;
+    search->in_air = begin_search(&problem);
+    return;
+}
+
+/* Whether the last turn of an entry is opposite to that of the circle. */
+static inline bool ends_opposite(integer side, integer word) {
+    const integer_3 controls_1 = controls(word);
+    const integer u1 = controls_1.a0, u2 = controls_1.a1, u3 = controls_1.a2;
+    return (u3 != ABSENT ? u3 : u2 != ABSENT ? u2 : u1) == side;
+}
+
+/* The search after at most `steps` more steps of the kernel's, up to the end of the first or second one of these.
+ *
+ * `in_air.left` is then how many of the steps are left.
+ */
+static inline void advance_entry_search(EntrySearch *search, integer steps) {
+    if (!search->is_begun) {
+        begin_in_air(search);
+    }
+    advance_search(&search->in_air, steps);
+    if (search->in_air.stage == ENDED && !search->is_second) {
+        const WindEntry entry = search->in_air.entry;
+        const bool is_found = entry.status == STATUS_OK && entry.side != 0;
+        if (is_found && ends_opposite(entry.side, entry.word) != search->reversing) {
+            const bool new_1 = !search->reversing;
+            search->reversing = new_1;
+            search->is_second = true;
+            search->is_begun = false;
+        }
+    }
+    return;
+}
+
+/* Whether the answer is known. */
+static inline bool is_complete(const EntrySearch *search) {
+    return search->is_begun && search->in_air.stage == ENDED;
+}
+
+/* The entry that a search has found; its side is 0 where there is none. */
+static inline PlannedEntry found_entry(const EntrySearch *search) {
+    const real V = search->turns.airspeed_m_s, r = search->turns.planned_m;
+    const real_2 flight_vector_1 = flight_vector(search);
+    const real vx = flight_vector_1.a0, vy = flight_vector_1.a1;
+    const real scale = turn_scale(search, length(vx, vy)), unit_s = r / V;
+    const Entry entry = search->in_air.entry.status == STATUS_OK ? entry_of(&search->in_air.entry) : NONE;
+    const real t1_s = entry.t1 * unit_s, t2_s = entry.t2 * unit_s, t3_s = entry.t3 * unit_s;
+    const real east = search->wind_east_m_s, north = search->wind_north_m_s;
+    return MAKE(PlannedEntry){entry.side, entry.word, t1_s, t2_s, t3_s, scale * r, scale * V, east, north};
+}
+
+/* Whether a word is that of an entry, without pieces at its beginning that take no longer than `bend_s` in all. */
+static inline bool is_rest(const PlannedEntry *entry, integer left, real bend_s) {
+    const integer word = entry->word;
+    if (word == left) {
+        return true;
+    }
+    if ((word >> 2) == left) {
+        return entry->t1_s <= bend_s;
+    }
+    return (word >> 4) == left && entry->t1_s + entry->t2_s <= bend_s;
+}
+
+/* The time until the circle is joined. */
+static inline real duration_s(const PlannedEntry *entry) {
+    return entry->t1_s + entry->t2_s + entry->t3_s;
+}
+
+/* Whether an entry, which began `passed_s` seconds ago, should replace a plan.
+ *
+ * Either `update` holds, and it is the same plan and not much slower; or it is faster by a margin.
+ *
+ * In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a different
+ * plan. The duration of a plan with tighter turns grows with their radius.
+ */
+static inline bool is_better(const PlannedEntry *entry, const Plan *plan, TurnLimits turns, bool update, real
+        passed_s) {
+    const Route route = plan->route;
+    const real unit_s = turns.planned_m / turns.airspeed_m_s;
+    const bool is_still = entry->wind_east_m_s == REAL(0.0) && entry->wind_north_m_s == REAL(0.0);
+    const integer left = encode(route.current.u, route.second.u, route.third.u);
+    const bool same = entry->side == route.side && is_rest(entry, left, is_still ? REAL(0.0) : LONGEST_BEND *
+            unit_s);
+    if (same && !update) {
+        return false;
+    }
+    const real widened = same ? max_real(REAL(1.0), entry->turn_radius_m / route.turn_radius_m) : REAL(1.0);
+    const real margin_s = (same ? UPDATE_MARGIN : -SWITCH_MARGIN) * unit_s;
+    return duration_s(entry) - passed_s < widened * (plan->remaining_s + later_s(&route)) + margin_s;
+}
+
+/* The memory after a complete search, with the plan that it has found if that is better than the present one.
+ *
+ * After the search for the first turn the one for the first plan follows.
+ */
+static APART void take_entry(Memory *memory, const Settings *settings) {
+    const integer aim = memory->search.aim;
+    const RelativeState state = memory->search.state;
+    const PlannedEntry entry = found_entry(&memory->search);
+    end_entry_search(&memory->search);
+    if (entry.side == 0) {
+        return;
+    }
+    const Limits limits = memory->sensing.limits;
+    const Estimate present = memory->sensing.present;
+    if (aim == FIRST_TURN) {
+        const integer_3 controls_1 = controls(entry.word);
+        const integer first = controls_1.a0;
+        const real bank_deg = first != ABSENT ? (real)-first * limits.limit_deg : (real)entry.side *
+                limits.hold_deg;
+        const Estimate later = estimate_after(&present, lead_s(&limits, present.bank_deg, bank_deg));
+        const RelativeState stored_2 = relative_state(settings, &later);
+        begin_plan_search(memory, settings, ANY, &stored_2);
+        return;
+    }
+    /* How much later it is than where the search began. */
+    const real passed_s = aim == ANY ? REAL(0.0) : memory->response.state.time_s - state.time_s;
+    if (aim != ANY && !is_better(&entry, &memory->plan, limits.turns, aim == UPDATE, passed_s)) {
+        return;
+    }
+    const Route route = route_of(&state, &entry);
+    const real join_s = state.time_s + duration_s(&entry);
+    const Plan plan = MAKE(Plan){route, route.current.time_s, join_s, join_s, memory->plan.searched_s};
+    memory->plan = plan;
+    advance_plan(memory, settings);
+    return;
+}
+
+/* The memory after at most `steps` more steps of its search, with the plan that this has found. */
+static inline void continue_search(Memory *memory, const Settings *settings, integer steps) {
+    integer left = steps;
+    while (memory->search.aim != NOTHING && left > 0) {
+        advance_entry_search(&memory->search, left);
+        left = memory->search.in_air.left;
+        if (is_complete(&memory->search)) {
+            take_entry(memory, settings);
+        }
+    }
+    return;
+}
+
+/* The rate at which the vehicle turns at a bank: the inverse of `bank_for`, but in degrees per second. */
+static inline real turn_rate_deg_s(const VehicleEstimates *known, real bank_deg) {
+    return known->turn_ratio * rate_at_bank(bank_deg, known->airspeed_m_s) * REAL(57.29577951308232);
+}
+
+/* The memory with the safe command while there is no usable measurement, or no plan yet. */
+static inline void without_data(Memory *memory, const Settings *settings, const VehicleEstimates *known, real dt) {
+    real bank_deg = memory->command.bank_deg;
+    const Route route = memory->plan.route;
+    if (memory->sensing.clock.since_s > BLIND_S) {
+        const bool on_circle = route.side != 0 && is_holding(&route);
+        bank_deg = on_circle ? (real)route.side * memory->sensing.limits.hold_deg : REAL(0.0);
+    }
+    /* The limit may be lower now than when the last command was given. */
+    bank_deg = clip(bank_deg, settings->command_limit_deg);
+    const real rate = turn_rate_deg_s(known, bank_deg);
+    const LawCommand command = MAKE(LawCommand){rate, bank_deg, NO_DATA, REAL_NAN, memory->command.side, NO_DATA,
+            REAL_NAN};
+    memory->leads = NO_LEADS;
+    memory->command = command;
+    memory->step_s = dt;
+    return;
 }
 
 /* The velocity along the path: relative to the plan's steady wind; on the circle, relative to the circle. */
@@ -4673,22 +4808,23 @@ static inline real air_rate(real rate, real vx, real vy, real hx, real hy) {
  *
  * Such a turn is planned again before it ends; flying it as wide as planned would only cost time.
  */
-static inline real_2 target_bank(const Settings *settings, const Sensing *sensing, const VehicleEstimates *known,
-        const Route *route, const ResponsePoint *response, real trim, real dt) {
-    const Limits limits = sensing->limits;
-    const Observer observer = sensing->observer;
-    const integer u = route->current.u;
-    if (u != 0 && route->second.u != ABSENT) {
+static inline real_2 target_bank(const Settings *settings, const Memory *memory, const VehicleEstimates *known, real
+        dt) {
+    const Limits limits = memory->sensing.limits;
+    const Route route = memory->plan.route;
+    real trim = memory->trim;
+    const integer u = memory->plan.route.current.u;
+    if (u != 0 && route.second.u != ABSENT) {
         return MAKE(real_2){(real)-u * limits.limit_deg, trim};
     }
-    const RelativeState state = response->state;
-    const PathOffset offset = response->offset;
-    const real_2 path_velocity_1 = path_velocity(route, &state);
+    const RelativeState state = memory->response.state;
+    const PathOffset offset = memory->response.offset;
+    const real_2 path_velocity_1 = path_velocity(&route, &state);
     const real vx = path_velocity_1.a0, vy = path_velocity_1.a1;
     const real speed = length(vx, vy), R = settings->radius_m, V = limits.turns.airspeed_m_s;
-    const bool holding = is_holding(route);
-    const real response_s = limits.lag_s + observer.smoothing_s;
-    const real gain = corrections_gain(settings, known, &observer, response_s, V / R, holding);
+    const bool holding = is_holding(&route);
+    const real response_s = limits.lag_s + memory->sensing.observer.smoothing_s;
+    const real gain = corrections_gain(settings, known, &memory->sensing.observer, response_s, V / R, holding);
     const real bandwidth = REAL(1.0) / (response_s + gain * dt);
     const real place_gain = holding ? HOLD_GAIN * speed / R : PLACE_GAIN * bandwidth;
     real course = course_rate(offset, gain * bandwidth, place_gain, speed);
@@ -4717,60 +4853,41 @@ static inline integer phase_code(integer u) {
     return u == ABSENT ? HOLD : u;
 }
 
-/* The memory and the command for the next `dt` seconds.
+/* The memory with the command for the next `dt` seconds, which follows the plan. */
+static APART void conclude(Memory *memory, const Settings *settings, const VehicleModel *vehicle, real dt) {
+    if (!memory->sensing.is_known || memory->plan.route.side == 0) {
+        without_data(memory, settings, &vehicle->estimates, dt);
+        return;
+    }
+    const Limits limits = memory->sensing.limits;
+    const Estimate present = memory->sensing.present;
+    const real_2 target_bank_1 = target_bank(settings, memory, &vehicle->estimates, dt);
+    real target_deg = target_bank_1.a0;
+    const real trim = target_bank_1.a1;
+    target_deg = clip(target_deg, limits.limit_deg);
+    real bank_deg = demand_deg(vehicle->estimates.roll.time_s, present.bank_deg, target_deg, limits.limit_deg);
+    bank_deg = clip(bank_deg, settings->command_limit_deg);
+    const Route route = memory->plan.route;
+    const LawCommand command = MAKE(LawCommand){turn_rate_deg_s(&vehicle->estimates, bank_deg), bank_deg,
+            phase_code(route.current.u), max_real(memory->plan.join_s - present.time_s, REAL(0.0)), route.side,
+            phase_code(route.second.u), is_holding(&route) ? REAL_INFINITY : memory->plan.remaining_s -
+            memory->response.early_s};
+    memory->trim = trim;
+    memory->command = command;
+    memory->step_s = dt;
+    return;
+}
+
+/* The memory, with the command for the next `dt` seconds.
  *
  * `vehicle` is what is known at this time, with the bank that is modelled for the end of the last command.
  */
-static inline Memory_LawCommand step(Rings *rings, const Settings *settings, const Memory *memory, const
-        VehicleModel *vehicle, const State *measurement, real dt) {
-    Sensing sensing = memory->sensing;
-    Plan plan = memory->plan;
-    Leads leads = memory->leads;
-    real trim = memory->trim;
-    const real step_s = memory->step_s;
-    const Sensing_bool sense_1 = sense(rings, settings, &sensing, vehicle, measurement, step_s);
-    sensing = sense_1.a0;
-    const bool is_known = sense_1.a1;
-    const Clock clock = sensing.clock;
-    const Limits limits = sensing.limits;
-    const Estimate present = sensing.present;
-    if (is_known && clock.since_s == REAL(0.0) && clock.jump_s != REAL(0.0)) {
-        plan_by_clock(&plan, clock.jump_s);
-    }
-    if (is_known && plan.route.side == 0) {
-        plan = first_plan(settings, &sensing, plan);
-    }
-    if (!is_known || plan.route.side == 0) {
-        return without_data(settings, memory, &sensing, &plan, &vehicle->estimates, dt);
-    }
-    if (is_other_roll(&limits, &memory->sensing.limits)) {
-        leads = NO_LEADS;
-    }
-    const Plan_Leads_ResponsePoint advance_plan_2 = advance_plan(settings, &limits, &plan, leads, &present);
-    plan = advance_plan_2.a0;
-    leads = advance_plan_2.a1;
-    ResponsePoint response = advance_plan_2.a2;
-    const Plan_bool reconsider_3 = reconsider(settings, &sensing, &plan, &response);
-    plan = reconsider_3.a0;
-    const bool is_new = reconsider_3.a1;
-    if (is_new) {
-        const Plan_Leads_ResponsePoint advance_plan_4 = advance_plan(settings, &limits, &plan, leads, &present);
-        plan = advance_plan_4.a0;
-        leads = advance_plan_4.a1;
-        response = advance_plan_4.a2;
-    }
-    const Route route = plan.route;
-    const VehicleEstimates known = vehicle->estimates;
-    const real_2 target_bank_5 = target_bank(settings, &sensing, &known, &route, &response, trim, dt);
-    real target_deg = target_bank_5.a0;
-    trim = target_bank_5.a1;
-    target_deg = clip(target_deg, limits.limit_deg);
-    real bank_deg = demand_deg(known.roll.time_s, present.bank_deg, target_deg, limits.limit_deg);
-    bank_deg = clip(bank_deg, settings->command_limit_deg);
-    const LawCommand command = MAKE(LawCommand){turn_rate_deg_s(&known, bank_deg), bank_deg,
-            phase_code(route.current.u), max_real(plan.join_s - present.time_s, REAL(0.0)), route.side,
-            phase_code(route.second.u), is_holding(&route) ? REAL_INFINITY : plan.remaining_s - response.early_s};
-    return MAKE(Memory_LawCommand){MAKE(Memory){sensing, plan, leads, trim, bank_deg, route.side, dt}, command};
+static inline void law_step_advance(Rings *rings, Memory *memory, const Settings *settings, const VehicleModel
+        *vehicle, const State *measurement, real dt) {
+    prepare(rings, memory, settings, vehicle, measurement);
+    continue_search(memory, settings, settings->search_steps == 0 ? UNLIMITED : settings->search_steps);
+    conclude(memory, settings, vehicle, dt);
+    return;
 }
 
 /* ---- The functions of loiter.h ---------------------------------------------------------------------------------- */
@@ -4857,6 +4974,7 @@ loiter_law_config loiter_law_defaults(loiter_real airspeed_m_s, loiter_real bank
     config.reserve = REAL(0.1);
     config.smoothing_s = REAL(0.5);
     config.gain = REAL(4.0);
+    config.search_steps = 0;
     return config;
 }
 
@@ -4881,7 +4999,7 @@ static int status_of_config(const loiter_law_config *c) {
     }
     if (!is_within(c->roll_time_s, REAL(0.0), MOST) || !(c->roll_rate_deg_s >= LEAST_ROLL_RATE) ||
         !is_within(c->delay_s, REAL(0.0), MOST) || !is_within(c->reserve, REAL(0.0), MOST) ||
-        !is_within(c->smoothing_s, REAL(0.0), MOST) || !(c->gain > REAL(0.0)) || !(c->gain <= MOST)) {
+        !is_within(c->smoothing_s, REAL(0.0), MOST) || !(c->gain > REAL(0.0)) || !(c->gain <= MOST) || c->search_steps < 0) {
         return LOITER_BAD_RESPONSE;
     }
     const real R = rounded_radius(c->radius_m / radius_at_bank(c->airspeed_m_s, c->bank_limit_deg));
@@ -4932,7 +5050,8 @@ int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
                                    c->reserve,
                                    c->smoothing_s,
                                    REAL(0.0),
-                                   max_real(REAL(2.0), c->delay_s)};
+                                   max_real(REAL(2.0), c->delay_s),
+                                   c->search_steps};
     law->vehicle = MAKE(VehicleModel){0, REAL(0.0), declared};
     law->begin_us = 0;
     law->memory = first_memory(&law->rings, &law->settings, &law->vehicle);
@@ -4962,6 +5081,8 @@ static void follow_clock(loiter_law *law, uint32_t time_us) {
     sensing->observer.estimate.time_s -= past_s;
     sensing->present.time_s -= past_s;
     plan_by_clock(&law->memory.plan, -past_s);
+    law->memory.search.state.time_s -= past_s;
+    law->memory.response.state.time_s -= past_s;
     BankEntry *entries = law->rings.BankEntry_ring_128.at;
     const BankEntry last = entries[ENTRIES - 1];
     for (int i = 0; i < ENTRIES; i++) {
@@ -4982,22 +5103,22 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
     const real time_s = (real)(int32_t)(m->time_us - law->begin_us) * REAL(1e-6);
     const State state = {time_s,      m->east_m,           m->north_m,           m->heading_deg,
                          m->bank_deg, m->velocity_east_m_s, m->velocity_north_m_s, m->airspeed_m_s};
-    const Memory_LawCommand after = step(&law->rings, &law->settings, &law->memory, &law->vehicle, &state, dt_s);
-    law->memory = after.a0;
-    command->turn_rate_deg_s = after.a1.turn_rate_deg_s;
-    command->bank_deg = after.a1.bank_deg;
-    command->phase = (int)after.a1.phase;
-    command->time_to_join_s = after.a1.time_to_join_s;
-    command->side = (int)after.a1.side;
-    command->next_phase = (int)after.a1.next_phase;
-    command->next_in_s = after.a1.next_in_s;
+    law_step_advance(&law->rings, &law->memory, &law->settings, &law->vehicle, &state, dt_s);
+    const LawCommand *const given = &law->memory.command;
+    command->turn_rate_deg_s = given->turn_rate_deg_s;
+    command->bank_deg = given->bank_deg;
+    command->phase = (int)given->phase;
+    command->time_to_join_s = given->time_to_join_s;
+    command->side = (int)given->side;
+    command->next_phase = (int)given->next_phase;
+    command->next_in_s = given->next_in_s;
 }
 
 int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
     if (!(dt_s > REAL(0.0)) || !isfinite(dt_s)) {
         return LOITER_BAD_STEP;
     }
-    law->vehicle = fly_as_declared(&law->vehicle, law->memory.command_deg, law->memory.step_s);
+    law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
     step_with(law, measurement, dt_s, command);
     return LOITER_OK;
 }

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 761a627d9953e7746d84fcdfff0a92566ac1ea9e66e18e41bbf047ce5826244a
+ * SHA-256 of the source: 1b20a95b4b1e8fd11018122c5ad62e8bc0d462f3504195055e8a3534310baa8b
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
@@ -123,7 +123,8 @@ int loiter_search_step(loiter_search *search, int steps, loiter_entry *entry);
  * Everything is relative to the centre of the circle. Where that moves, its velocity is to be subtracted from all
  * velocities over the ground, and from the wind. The wind is a velocity towards the east and the north; 0 where none is
  * known. The roll response is a first-order lag with a limited rate; the delay is that between a command and the first
- * measurement that shows it. */
+ * measurement that shows it. A step of the law takes at most `search_steps` steps of a search in wind, and the next
+ * steps continue it; with 0 it makes whole searches. */
 typedef struct {
     loiter_real radius_m;
     int side;
@@ -131,6 +132,7 @@ typedef struct {
     loiter_real roll_time_s, roll_rate_deg_s, delay_s;
     loiter_real wind_east_m_s, wind_north_m_s;
     loiter_real reserve, smoothing_s, gain;
+    int search_steps;
 } loiter_law_config;
 
 /* A measurement: a time stamp in microseconds that may wrap around, the position from the circle's centre, metres, at
@@ -155,7 +157,7 @@ typedef struct {
 /* The structures of which the state of the law consists. No program needs to read them. */
 typedef struct { loiter_real east_m, north_m, radius_m; loiter_integer side; loiter_real velocity_east_m_s,
         velocity_north_m_s, wind_east_m_s, wind_north_m_s, limit_deg, command_limit_deg, gain, reserve, smoothing_s,
-        negligible_wind, covered_s; } loiter_Settings;
+        negligible_wind, covered_s; loiter_integer search_steps; } loiter_Settings;
 typedef struct { loiter_real time_s, rate_deg_s; } loiter_RollValues;
 typedef struct { loiter_RollValues roll; loiter_real delay_s, turn_ratio, quick_turn_ratio, course_lead_s,
         wind_east_m_s, wind_north_m_s, airspeed_m_s, turn_airspeed_m_s, overshoot_deg, turns_unknown,
@@ -182,14 +184,22 @@ typedef struct { loiter_integer revision; bool wind_differs; loiter_real wind_ea
         roll_rate_deg_s, limit_deg; loiter_TurnLimits turns; loiter_real hold_deg; loiter_integer hold_half_deg,
         planned_half_deg; loiter_real lead_s, reversal_s2, reversal_m, lag_s; } loiter_Limits;
 typedef struct { loiter_Clock clock; loiter_Observer observer; loiter_BankHistory history; loiter_Limits limits;
-        loiter_Estimate present; loiter_real elapsed_s, model_error_deg; } loiter_Sensing;
+        loiter_Estimate present; loiter_real elapsed_s, model_error_deg; bool is_known; } loiter_Sensing;
 typedef struct { loiter_integer u; loiter_real x, y, c, s, end_x, end_y, time_s; } loiter_RoutePiece;
 typedef struct { loiter_integer side; loiter_RoutePiece current, second, third; loiter_integer last_u; loiter_real
         start_s, turn_radius_m, speed_m_s, wind_east_m_s, wind_north_m_s; } loiter_Route;
 typedef struct { loiter_Route route; loiter_real remaining_s, join_s, planned_join_s, searched_s; } loiter_Plan;
 typedef struct { loiter_integer bank, current, next, last; loiter_real current_s, next_s, last_s; } loiter_Leads;
-typedef struct { loiter_Sensing sensing; loiter_Plan plan; loiter_Leads leads; loiter_real trim, command_deg;
-        loiter_integer side; loiter_real step_s; } loiter_Memory;
+typedef struct { loiter_real time_s, x, y, vx, vy, hx, hy; } loiter_RelativeState;
+typedef struct { loiter_real crosstrack, course_error, path_rate; } loiter_PathOffset;
+typedef struct { loiter_RelativeState state; loiter_PathOffset offset; loiter_real early_s; } loiter_ResponsePoint;
+typedef struct { loiter_integer aim; loiter_RelativeState state; loiter_TurnLimits turns; loiter_real wind_east_m_s,
+        wind_north_m_s, radius_m, wide_m; loiter_integer side; bool reversing, is_second, is_begun;
+        loiter_WindSearch in_air; } loiter_EntrySearch;
+typedef struct { loiter_real turn_rate_deg_s, bank_deg; loiter_integer phase; loiter_real time_to_join_s;
+        loiter_integer side, next_phase; loiter_real next_in_s; } loiter_LawCommand;
+typedef struct { loiter_Sensing sensing; loiter_Plan plan; loiter_Leads leads; loiter_ResponsePoint response;
+        loiter_EntrySearch search; loiter_real trim; loiter_LawCommand command; loiter_real step_s; } loiter_Memory;
 typedef struct { loiter_AirSample_ring_64 AirSample_ring_64; loiter_BankEntry_ring_128 BankEntry_ring_128; } loiter_Rings;
 
 /* The state of a law; it contains no pointers, so that it may be copied and moved. `estimates` of `vehicle` are what is

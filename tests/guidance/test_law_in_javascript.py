@@ -21,7 +21,7 @@ let identification = first_identification(known);
 let model = { revision: 0, bank_deg: 0, estimates: declared.declared };
 let memory = first_memory(settings, model), command;
 const said = states.map((state) => {
-  const { command_deg, step_s } = memory;
+  const { command: { bank_deg: command_deg }, step_s } = memory;
   if (identifies) [identification, model] = identify(known, identification, state, command_deg, step_s);
   else model = fly_as_declared(model, command_deg, step_s);
   [memory, command] = step(settings, memory, model, state, dt);
@@ -57,7 +57,7 @@ def test_the_law_in_javascript_gives_the_commands_of_python(tmp_path, i, identif
         command = law.step(last, dt)
         states.append(last)
         numbers = command.turn_rate_deg_s, command.bank_deg, command.time_to_join_s, command.next_in_s
-        given.append([*numbers, law._memory.side, law._vehicle.revision, law._vehicle.bank_deg])
+        given.append([*numbers, law._memory.command.side, law._vehicle.revision, law._vehicle.bank_deg])
         mass.advance(command, dt)
     parts = {"settings": law._settings, "declared": law._declared, "identifies": identify, "states": states, "dt": dt}
     flight = "\n".join(f"export const {name} = {in_javascript(value)};" for name, value in parts.items())

@@ -35,7 +35,7 @@ let identification = first_identification(known);
 let model = { revision: 0, bank_deg: 0, estimates: declared.declared };
 let memory = first_memory(settings, model), command;
 const said = states.map((state, i) => {
-  const { command_deg, step_s } = memory;
+  const { command: { bank_deg: command_deg }, step_s } = memory;
   if (identifies) [identification, model] = identify(known, identification, state, command_deg, step_s);
   else model = fly_as_declared(model, command_deg, step_s);
   [memory, command] = step(limit_step >= 0 && i >= limit_step ? limited : settings, memory, model, state, dt);

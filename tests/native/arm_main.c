@@ -71,12 +71,13 @@ static void entries(int count, int windy) {
 }
 
 /* A flight with bank and turn as commanded. */
-static void flight(int steps, loiter_real wind_east_m_s) {
+static void flight(int steps, loiter_real wind_east_m_s, int search_steps) {
     static loiter_law law;
     Counts counts = {0, 0, 0};
     loiter_law_config config = loiter_law_defaults(18.0f, 35.0f, 90.0f, LOITER_EITHER);
     loiter_real x = -250.0f, y = 70.0f, heading_deg = 70.0f, bank_deg = 0.0f;
     config.wind_east_m_s = wind_east_m_s;
+    config.search_steps = search_steps;
     printf("%d\n", loiter_law_begin(&law, &config));
     for (int i = 0; i < steps; i++) {
         const loiter_real c = sinf(heading_deg * 0.0174532925f), s = cosf(heading_deg * 0.0174532925f);
@@ -97,12 +98,13 @@ static void flight(int steps, loiter_real wind_east_m_s) {
         x += (18.0f * c + wind_east_m_s) * 0.02f;
         y += 18.0f * s * 0.02f;
     }
-    print_counts(wind_east_m_s != 0.0f ? "law in wind" : "law", &counts);
+    print_counts(search_steps > 0 ? "law in wind by parts" : wind_east_m_s != 0.0f ? "law in wind" : "law", &counts);
 }
 
 int main(void) {
-    flight(FLIGHT_STEPS, 0.0f);
-    flight(FLIGHT_STEPS, 4.0f);
+    flight(FLIGHT_STEPS, 0.0f, 0);
+    flight(FLIGHT_STEPS, 4.0f, 0);
+    flight(FLIGHT_STEPS, 4.0f, 5);
     entries(STILL_ENTRIES, 0);
     entries(WINDY_ENTRIES, 1);
     return 0;

@@ -1,7 +1,8 @@
-/* Calls every function of the C for autopilots with random and special numbers: nothing may trap, each call has a
- * status, and a command is within the limits.
+/* Makes calls of the C for autopilots from bytes: nothing may trap, each call has a status, a search in parts gives the
+ * bits of a whole one, and a bank is within its limit.
  *
- * Arguments: the number of entries to find, in still air and in wind, and of steps of the law. */
+ * libFuzzer gives the bytes, where FUZZED is what is called: entry, search or law (`python -m native.fuzz`). Where
+ * AT_RANDOM is defined a generator does; the arguments are what is called, and how many inputs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,130 +10,207 @@
 
 #include "loiter.h"
 
-static unsigned long long seed = 88172645463325252ULL;
+static const uint8_t *next_byte;
+static size_t bytes_left;
 
-static unsigned long long bits(void) {
-    seed ^= seed << 13;
-    seed ^= seed >> 7;
-    seed ^= seed << 17;
-    return seed;
+static unsigned byte(void) {
+    if (bytes_left == 0) {
+        return 0;
+    }
+    bytes_left--;
+    return *next_byte++;
 }
 
-static loiter_real uniform(void) { return (loiter_real)((double)(bits() >> 11) / 9007199254740992.0); }
+static int integer(void) {
+    const unsigned low = byte(), high = byte();
+    return (int)(low | high << 8) - 32768;
+}
 
 /* A number of some size, a special number, or any pattern of bits. */
 static loiter_real number(loiter_real size) {
     static const double special[] = {0.0,   -0.0,  1.0,   -1.0,     2.0,       5e-324, 1e-40,
                                      1e-30, 1e-20, 1e-9,  16777216, 8388608.0, 1e18,   1e30,
                                      3e38,  1e300, 180.0, INFINITY, -INFINITY, NAN,    0.5};
-    const unsigned long long kind = bits() % 32;
+    const unsigned kind = byte();
     loiter_real value;
-    if (kind < 28) {
-        return size * ((loiter_real)2 * uniform() - (loiter_real)1);
+    if (kind < 224) {
+        return size * (loiter_real)integer() / 32768;
     }
-    if (kind < 31) {
-        const double chosen = special[bits() % (sizeof special / sizeof *special)];
+    if (kind < 248) {
+        const double chosen = special[byte() % (sizeof special / sizeof *special)];
         return fabs(chosen) > 3e38 && isfinite(chosen) && sizeof value == 4 ? (loiter_real)3e38 : (loiter_real)chosen;
     }
-    const unsigned long long any = bits();
-    memcpy(&value, &any, sizeof value);
+    uint8_t bits[sizeof value];
+    for (size_t i = 0; i < sizeof bits; i++) {
+        bits[i] = (uint8_t)byte();
+    }
+    memcpy(&value, bits, sizeof value);
     return value;
+}
+
+static int side(void) {
+    const unsigned kind = byte();
+    return kind < 240 ? (int)(kind % 3) - 1 : integer();
 }
 
 static void fail(const char *what) {
     fprintf(stderr, "%s\n", what);
-    exit(1);
+    abort();
 }
 
-static void entries(int count, int windy) {
-    for (int i = 0; i < count; i++) {
-        const double heading = 6.3 * (double)uniform();
-        loiter_problem p;
-        loiter_entry entry;
-        p.x = number(8);
-        p.y = number(8);
-        p.c = bits() % 16 ? (loiter_real)cos(heading) : number(1);
-        p.s = bits() % 16 ? (loiter_real)sin(heading) : number(1);
-        p.radius = bits() % 8 ? 1 + (loiter_real)4 * uniform() : number(8);
-        p.side = bits() % 32 ? (int)(bits() % 3) - 1 : (int)bits();
-        p.wx = windy ? number((loiter_real)0.6) : 0;
-        p.wy = windy ? number((loiter_real)0.6) : 0;
-        p.tolerance = bits() % 2 ? 0 : number((loiter_real)0.01);
-        memset(&entry, 0, sizeof entry);
-        const int status = loiter_fastest(&p, &entry);
-        if (status < 0 || status > LOITER_BAD_RESPONSE) {
-            fail("entry: no status");
-        }
-        for (int k = 0; status == LOITER_OK && k < 3; k++) {
-            if (entry.pieces > 3 || !(entry.durations[k] >= 0) || !isfinite(entry.durations[k])) {
-                fail("entry: a piece has no duration");
-            }
+static loiter_problem problem(void) {
+    loiter_problem p;
+    const double heading = 3.2 * integer() / 32768;
+    const unsigned kind = byte();
+    p.x = number(8);
+    p.y = number(8);
+    p.c = kind & 15 ? (loiter_real)cos(heading) : number(1);
+    p.s = kind & 15 ? (loiter_real)sin(heading) : number(1);
+    p.radius = kind & 16 ? number(8) : (loiter_real)3 + 2 * (loiter_real)integer() / 32768;
+    p.side = side();
+    p.wx = kind & 96 ? number((loiter_real)0.7) : 0;
+    p.wy = kind & 96 ? number((loiter_real)0.7) : 0;
+    p.tolerance = kind & 128 ? number((loiter_real)0.01) : 0;
+    return p;
+}
+
+static void check_entry(int status, const loiter_entry *entry) {
+    if (status < 0 || status > LOITER_BAD_RESPONSE) {
+        fail("entry: no status");
+    }
+    for (int k = 0; status == LOITER_OK && k < 3; k++) {
+        if (entry->pieces > 3 || !(entry->durations[k] >= 0) || !isfinite(entry->durations[k])) {
+            fail("entry: a piece has no duration");
         }
     }
 }
 
-static void law(int count) {
-    static loiter_law law;
-    int left = 0;
-    loiter_real limit = 0, east = 0, north = 0;
+static void entry(void) {
+    const loiter_problem p = problem();
+    loiter_entry found;
+    memset(&found, 0, sizeof found);
+    check_entry(loiter_fastest(&p, &found), &found);
+}
+
+static void search(void) {
+    const loiter_problem p = problem();
+    loiter_search one, copy;
+    loiter_entry found, whole;
+    memset(&found, 0, sizeof found);
+    memset(&whole, 0, sizeof whole);
+    int status = loiter_search_begin(&one, &p);
+    if (status != loiter_search_step(&one, 0, &found) && status != LOITER_OK) {
+        fail("search: another status than at its beginning");
+    }
+    do {
+        copy = one;
+        status = loiter_search_step(&copy, integer() % 64, &found);
+        one = copy;
+    } while (status == LOITER_SEARCHING && bytes_left > 0);
+    if (status == LOITER_SEARCHING) {
+        status = loiter_search_step(&one, 1 << 30, &found);
+    }
+    check_entry(status, &found);
+    if (loiter_fastest(&p, &whole) != status || memcmp(&found, &whole, sizeof found) != 0) {
+        fail("search: another answer than a whole one");
+    }
+}
+
+/* A law, with a vehicle that flies as it is commanded but for what the bytes say. */
+static void law(void) {
+    static loiter_law flown;
+    loiter_law_config config = loiter_law_defaults(18, 35, 90, side());
+    loiter_real *const configured[] = {&config.radius_m,      &config.airspeed_m_s,    &config.bank_limit_deg,
+                                       &config.roll_time_s,   &config.roll_rate_deg_s, &config.delay_s,
+                                       &config.wind_east_m_s, &config.wind_north_m_s,  &config.reserve,
+                                       &config.smoothing_s,   &config.gain};
+    for (unsigned k = byte() % 4; k > 0; k--) {
+        loiter_real *const one = configured[byte() % 11];
+        *one = byte() % 2 ? number(100) : *one * 2 * (loiter_real)byte() / 256;
+    }
+    config.search_steps = byte() % 2 ? integer() % 32 : 0;
+    loiter_real wind_east = 0, wind_north = 0;
+    if (byte() % 2) {
+        config.wind_east_m_s = wind_east = number(12);
+        config.wind_north_m_s = wind_north = number(12);
+    }
+    const int begun = loiter_law_begin(&flown, &config);
+    if (begun < 0 || begun > LOITER_BAD_RESPONSE) {
+        fail("law: no status");
+    }
+    if (begun != LOITER_OK) {
+        return;
+    }
+    loiter_real east = number(500), north = number(500), heading_deg = 180 + number(180), bank_deg = 0;
     uint32_t time_us = 0;
-    while (count > 0) {
-        if (left == 0) {
-            loiter_law_config config = loiter_law_defaults(18, 35, 90, LOITER_EITHER);
-            loiter_real *const numbers[] = {&config.radius_m,        &config.airspeed_m_s,  &config.bank_limit_deg,
-                                            &config.roll_time_s,     &config.roll_rate_deg_s, &config.delay_s,
-                                            &config.wind_east_m_s,   &config.wind_north_m_s, &config.reserve,
-                                            &config.smoothing_s,     &config.gain};
-            for (int k = (int)(bits() % 4); k > 0; k--) {
-                loiter_real *const one = numbers[bits() % 11];
-                *one = bits() % 2 ? number(100) : *one * 2 * uniform();
-            }
-            config.side = bits() % 32 ? (int)(bits() % 3) - 1 : (int)bits();
-            const int status = loiter_law_begin(&law, &config);
-            if (status < 0 || status > LOITER_BAD_RESPONSE) {
-                fail("law: no status");
-            }
-            count--;
-            if (status != LOITER_OK) {
-                continue;
-            }
-            limit = config.bank_limit_deg;
-            left = 1 + (int)(bits() % 300);
-            east = number(500);
-            north = number(500);
-        }
-        loiter_measurement m = {time_us, east, north, 200 * uniform(), 20 * uniform(), 10 * uniform(), 10 * uniform(), 18};
-        loiter_real *const numbers[] = {&m.east_m,  &m.north_m, &m.heading_deg, &m.bank_deg,
-                                        &m.velocity_east_m_s, &m.velocity_north_m_s, &m.airspeed_m_s};
-        loiter_real dt = (loiter_real)0.02;
-        loiter_command command;
-        if (bits() % 8 == 0) {
-            *numbers[bits() % 7] = number(1000);
-        }
-        if (bits() % 64 == 0) {
+    for (int steps = 0; steps < 300 && bytes_left > 0; steps++) {
+        const unsigned event = byte();
+        const loiter_real c = (loiter_real)cos(heading_deg * 0.01745), s = (loiter_real)sin(heading_deg * 0.01745);
+        loiter_real dt = (loiter_real)0.01 * (loiter_real)(1 + event % 32);
+        loiter_measurement m = {time_us, east, north, heading_deg, bank_deg, 18 * s + wind_east, 18 * c + wind_north, 18};
+        loiter_real *const measured[] = {&m.east_m,            &m.north_m,           &m.heading_deg, &m.bank_deg,
+                                         &m.velocity_east_m_s, &m.velocity_north_m_s, &m.airspeed_m_s};
+        const loiter_real flown_s = dt;
+        if (event >= 192 && event < 224) {
+            *measured[byte() % 7] = number(1000);
+        } else if (event >= 224 && event < 240) {
             dt = number(2);
+        } else if (event >= 240) {
+            time_us += (uint32_t)integer() * 65536u + (uint32_t)integer();
         }
-        time_us += bits() % 64 ? 20000u : (uint32_t)bits();
-        east += (loiter_real)0.3;
-        const int status = loiter_law_step(&law, &m, dt, &command);
+        loiter_command command;
+        const int status = loiter_law_step(&flown, &m, dt, &command);
         if (status != LOITER_OK && status != LOITER_BAD_STEP) {
             fail("step: no status");
         }
-        if (status == LOITER_OK && !(fabs((double)command.bank_deg) <= (double)limit)) {
-            fprintf(stderr, "bank %g of %g, phase %d\n", (double)command.bank_deg, (double)limit, command.phase);
+        if (status != LOITER_OK) {
+            continue;
+        }
+        if (!(fabs((double)command.bank_deg) <= (double)config.bank_limit_deg)) {
             fail("step: a bank beyond the limit");
         }
-        count--;
-        left--;
+        bank_deg = command.bank_deg;
+        heading_deg += 31 * (loiter_real)tan(bank_deg * 0.01745) * flown_s;
+        heading_deg -= 360 * (loiter_real)floor(heading_deg / 360);
+        east += m.velocity_east_m_s * flown_s;
+        north += m.velocity_north_m_s * flown_s;
+        if (!isfinite(east) || !isfinite(north) || !isfinite(heading_deg)) {
+            east = north = heading_deg = 0;
+        }
+        time_us += (uint32_t)(flown_s * 1000000);
     }
 }
 
-int main(int count, char **arguments) {
-    if (count != 4) {
-        fail("three numbers are needed");
-    }
-    entries(atoi(arguments[1]), 0);
-    entries(atoi(arguments[2]), 1);
-    law(atoi(arguments[3]));
+static void call(void (*one)(void), const uint8_t *data, size_t size) {
+    next_byte = data;
+    bytes_left = size;
+    one();
+}
+
+#ifndef AT_RANDOM
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    call(FUZZED, data, size);
     return 0;
 }
+#else
+int main(int count, char **arguments) {
+    uint64_t seed = UINT64_C(88172645463325252);
+    uint8_t bytes[512];
+    if (count != 3) {
+        fail("what is called, and a number, are needed");
+    }
+    void (*const called)(void) = arguments[1][0] == 'e' ? entry : arguments[1][0] == 's' ? search : law;
+    for (long left = atol(arguments[2]); left > 0; left--) {
+        for (size_t i = 0; i < sizeof bytes; i++) {
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            bytes[i] = (uint8_t)(seed >> 32);
+        }
+        call(called, bytes, sizeof bytes);
+    }
+    return 0;
+}
+#endif

@@ -41,7 +41,11 @@ void test_optima(int count, const double *rows, double *found) {
         found[3] = (double)entry.t1 + (double)entry.t2 + (double)entry.t3;
     }
 }
-void test_fastest(const WindProblem *problem, WindEntry *entry) { *entry = wind_search_fastest(problem); }
+void test_fastest(const WindProblem *problem, WindEntry *entry) {
+    WindSearch search = begin_search(problem);
+    advance_search(&search, UNLIMITED);
+    *entry = search.entry;
+}
 int test_search(const WindProblem *problem, int steps, int most, WindEntry *entry) {
     WindSearch search = begin_search(problem);
     int calls = 0;
@@ -61,9 +65,8 @@ void test_begin(loiter_law *law, const Settings *settings, const VehicleModel *v
 }
 void test_step(loiter_law *law, const VehicleModel *vehicle, const State *state, const real *dt, LawCommand *command) {
     use_own_rings(law);
-    const Memory_LawCommand after = step(&law->rings, &law->settings, &law->memory, vehicle, state, *dt);
-    law->memory = after.a0;
-    *command = after.a1;
+    law_step_advance(&law->rings, &law->memory, &law->settings, vehicle, state, *dt);
+    *command = law->memory.command;
 }
 void test_step_with(loiter_law *law, const VehicleModel *vehicle, const loiter_measurement *m, const real *dt,
                     loiter_command *command) {
@@ -203,16 +206,17 @@ class OnboardLaw(LoiterEntry):
         before = self._memory
         if self._identifies:
             self._identification, self._vehicle = identify(
-                self._declared, self._identification, state, before.command_deg, before.step_s
+                self._declared, self._identification, state, before.command.bank_deg, before.step_s
             )
         else:
-            self._vehicle = fly_as_declared(self._vehicle, before.command_deg, before.step_s)
+            self._vehicle = fly_as_declared(self._vehicle, before.command.bank_deg, before.step_s)
         given = self.types.command()
         measured = self.measurement(state)
         self.library.c.test_step_with(
             self.law, byref(self.known()), byref(measured), byref(self.types.real(dt)), byref(given)
         )
-        self._memory = self._memory._replace(command_deg=given.bank_deg, step_s=dt, side=given.side)
+        said = before.command._replace(bank_deg=given.bank_deg, side=given.side)
+        self._memory = before._replace(command=said, step_s=dt)
         return Command(
             given.turn_rate_deg_s,
             given.bank_deg,

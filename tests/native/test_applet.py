@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from codegen.arithmetic import CONSTANTS
 from codegen.lua import LUA
-from codegen.onboard.lua_files import APPLET, BY_HAND, FOLDER, applet_files, law
+from codegen.onboard.lua_files import APPLET, FOLDER, applet_files, law
 from lupa.lua53 import LuaRuntime
 
 from guidance.test_law_in_c import START, UAV, same
 from loiter import Orbit, Wind
-from loiter.guidance.entry import entry_planner, join_tracking
+from loiter.guidance.entry import join_tracking
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.kernel.still_air import synthesis
@@ -24,7 +24,6 @@ from native.applet import (
     AIRCRAFT,
     HELD,
     MOST_INSTRUCTIONS,
-    PERIOD_S,
     WAITING,
     Applet,
     World,
@@ -43,12 +42,17 @@ OWN = {"concat"}
 STARTS = (0, 1, 2, 17)
 
 SOLVERS = """
-solve_in_still_air = function(...) return law.optimum(...) end
+begin_in_wind = function(problem)
+    return {stage = 0, problem = problem}
+end
 local known = {side = 0, phase = 0.0, words = 0, shift = 0.2, calls = 0}
-solve_in_wind = function(problem)
-    local entry
-    known, entry = law.track(known, problem)
-    return entry
+advance_in_wind = function(search, steps)
+    local entry = search.entry
+    if search.stage ~= 5 then
+        known, entry = law.track(known, search.problem)
+        entry.status = entry.side == 0 and 5 or 0
+    end
+    return {stage = 5, left = steps, entry = entry}
 end
 return law
 """
@@ -63,7 +67,7 @@ def flights():
 def lua():
     """The law and the solvers in double precision."""
     runtime = LuaRuntime(unpack_returned_tuples=True)
-    text = f"local law, solve_in_still_air, solve_in_wind = {{}}\n{law(LUA).body()}\n{SOLVERS}"
+    text = f"local law, begin_in_wind, advance_in_wind = {{}}\n{law(LUA).body()}\n{SOLVERS}"
     return runtime, runtime.execute(text)
 
 
@@ -112,7 +116,7 @@ def test_every_start_settles(flights):
     assert np.median([one.entered_s - least_s(i) for i, one in zip(STARTS, flights, strict=True)]) < 4.0
 
 
-def test_no_callback_takes_more_instructions_than_the_manual_asks_for(flights):
+def test_no_callback_takes_more_instructions_than_ardupilot_allows_by_default(flights):
     assert max(max(one.applet.counts) for one in flights) <= MOST_INSTRUCTIONS
 
 
@@ -134,9 +138,10 @@ def test_the_law_gives_the_commands_of_python(lua):
     memory = functions.first_memory(settings, model)
     for _ in range(1500):
         state = mass.measured_state()
-        model = functions.fly_as_declared(model, memory.command_deg, memory.step_s)
-        memory, found = functions.step(settings, memory, model, in_lua(runtime, state), dt)
-        wanted = law_.step(state, dt)
+        model = functions.fly_as_declared(model, memory.command.bank_deg, memory.step_s)
+        memory = functions.prepare(memory, settings, model, in_lua(runtime, state))
+        memory = functions.conclude(functions.continue_search(memory, settings, 10), settings, model, dt)
+        found, wanted = memory.command, law_.step(state, dt)
         assert same(found.bank_deg, wanted.bank_deg)
         mass.advance(wanted, dt)
 
@@ -176,7 +181,6 @@ def begun(i=0):
         if step == WAITING:
             world.states.add("switch")
         applet.callback()
-        world.advance(PERIOD_S)
     assert world.commands[-1][0] == 43002
     return world, applet
 
@@ -232,10 +236,6 @@ def test_a_flight_that_has_ended_begins_again_only_when_the_switch_is_moved():
     for _ in range(5):
         applet.callback()
     assert world.commands[before][0] == 192
-
-
-def test_the_solvers_by_hand_are_those_of_the_planner():
-    assert set(BY_HAND) == {entry_planner.entry_in_still_air, entry_planner.solve_in_wind}
 
 
 def test_the_mock_refuses_what_is_no_binding():

@@ -7,7 +7,7 @@ from typing import Any
 
 from loiter.kernel.rebinding import rebound
 from loiter.kernel.wind import wind_search
-from loiter.kernel.wind.wind_search import WindEntry, WindProblem
+from loiter.kernel.wind.wind_search import ENDED, JOINING, UNLIMITED, WindEntry, WindProblem, WindSearch
 
 try:
     from loiter.compiled import single as _single
@@ -20,6 +20,14 @@ single: Any = _single
 def fastest(problem: WindProblem) -> WindEntry:
     """`wind_search.fastest`."""
     return wind_search.fastest(problem) if single is None else WindEntry(*single.fastest_in_wind(*problem))
+
+
+def advance(search: WindSearch, steps: int) -> WindSearch:
+    """`wind_search.advance_search`; a whole search for an entry without tolerance is one call of machine code."""
+    if single is None or steps < UNLIMITED or search.stage != JOINING:
+        return wind_search.advance_search(search, steps)
+    x, y, c, s, R, wx, wy, _ = search.scene
+    return search._replace(stage=ENDED, left=steps, entry=fastest(WindProblem(x, y, c, s, R, search.sides, wx, wy)))
 
 
 def local_minima(problem: WindProblem) -> list[WindEntry]:

@@ -10,11 +10,17 @@ from math import ceil, degrees, inf, nan
 from typing import NamedTuple
 
 from loiter.guidance.entry.entry_planner import (
+    NO_ENTRY_SEARCH,
+    NOTHING,
+    EntrySearch,
     PlannedEntry,
     RelativeState,
     TurnLimits,
+    advance_entry_search,
     duration_s,
-    fastest_entry,
+    end_entry_search,
+    found_entry,
+    is_complete,
     widest_turn_m,
 )
 from loiter.guidance.entry.path_tracking import PathOffset, air_rate, course_rate
@@ -38,7 +44,8 @@ from loiter.guidance.estimation.bank_history import (
     delayed_deg,
     record_bank,
 )
-from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advance, check_stamp
+from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, check_stamp
+from loiter.guidance.estimation.clock import advance as advance_clock
 from loiter.guidance.estimation.observer import (
     NO_ESTIMATE,
     Estimate,
@@ -59,6 +66,7 @@ from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import TurnOnset, demand_deg, turn_onset
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.kernel.angles import length
+from loiter.kernel.wind.wind_search import UNLIMITED
 from loiter.kernel.words import ABSENT, Side, Word, controls, encode
 from loiter.planning.model import radius_at_bank
 
@@ -152,7 +160,8 @@ NO_BANK = -(10**9)
 class Settings(NamedTuple):
     """What a law is made for: the circle at time 0, its velocity and side, the declared wind, limits and gains.
 
-    `covered_s` is the time that the history of the bank must cover. SI units; banks are in degrees.
+    `covered_s` is the time that the history of the bank must cover; `search_steps` how many steps of a search in wind
+    one step of the law may take, 0 for whole searches. SI units; banks are in degrees.
     """
 
     east_m: float
@@ -170,6 +179,7 @@ class Settings(NamedTuple):
     smoothing_s: float
     negligible_wind: float
     covered_s: float
+    search_steps: int
 
 
 class Limits(NamedTuple):
@@ -222,7 +232,7 @@ class Sensing(NamedTuple):
     """What is known of the present: the clock, the observer, the modelled bank and the limits.
 
     `present` is the last estimate of the present state, `elapsed_s` the time since then, and `model_error_deg` how far
-    its bank was from the modelled one.
+    its bank was from the modelled one. `is_known` says whether the estimate is of this step.
     """
 
     clock: Clock
@@ -232,6 +242,7 @@ class Sensing(NamedTuple):
     present: Estimate
     elapsed_s: float
     model_error_deg: float
+    is_known: bool
 
 
 class Plan(NamedTuple):
@@ -265,22 +276,6 @@ class Leads(NamedTuple):
 NO_LEADS = Leads(NO_BANK, 0, 0, 0, 0.0, 0.0, 0.0)
 
 
-class Memory(NamedTuple):
-    """What the law remembers from one step to the next.
-
-    `trim` is the correction of the rate of turn that cancels a steady crosstrack error on the circle, radians per
-    second. The last command was the bank `command_deg`, for `step_s` seconds, with the circle on `side`.
-    """
-
-    sensing: Sensing
-    plan: Plan
-    leads: Leads
-    trim: float
-    command_deg: float
-    side: int
-    step_s: float
-
-
 class LawCommand(NamedTuple):
     """A command: turn rate, bank, phase, time to join, side, the next phase and when it begins (as `Command`)."""
 
@@ -304,51 +299,116 @@ class ResponsePoint(NamedTuple):
     early_s: float
 
 
+NO_RESPONSE = ResponsePoint(RelativeState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), PathOffset(0.0, 0.0, 0.0), 0.0)
+
+# What a search is for: the first turn of the first plan, as it would be with wings level; any plan; a plan that is
+# better than the present one; or one that is better or is the present one from the present state. `NOTHING` is none.
+FIRST_TURN, ANY, BETTER, UPDATE = 1, 2, 3, 4
+
+
+class Memory(NamedTuple):
+    """What the law remembers from one step to the next.
+
+    `response` is where the last command took effect, and `search` a search for another plan that goes on. `trim` is the
+    correction of the rate of turn that cancels a steady crosstrack error on the circle, radians per second. The last
+    command was given for `step_s` seconds.
+    """
+
+    sensing: Sensing
+    plan: Plan
+    leads: Leads
+    response: ResponsePoint
+    search: EntrySearch
+    trim: float
+    command: LawCommand
+    step_s: float
+
+
 def first_memory(settings: Settings, vehicle: VehicleModel) -> Memory:
     """The memory before the first measurement, with wings level."""
     limits = limits_of(settings, vehicle, NO_LIMITS)
     observer, history = first_observer(settings.smoothing_s), constant_history(vehicle.bank_deg)
-    sensing = Sensing(FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, 0.0, 0.0)
-    return Memory(sensing, NO_PLAN, NO_LEADS, 0.0, 0.0, settings.side, 0.0)
+    return Memory(
+        sensing=Sensing(FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, 0.0, 0.0, False),
+        plan=NO_PLAN,
+        leads=NO_LEADS,
+        response=NO_RESPONSE,
+        search=NO_ENTRY_SEARCH,
+        trim=0.0,
+        command=LawCommand(0.0, 0.0, NO_DATA, nan, settings.side, NO_DATA, nan),
+        step_s=0.0,
+    )
 
 
 def step(
     settings: Settings, memory: Memory, vehicle: VehicleModel, measurement: State, dt: float
 ) -> tuple[Memory, LawCommand]:
-    """The memory and the command for the next `dt` seconds.
+    """The memory and the command for the next `dt` seconds, as in `advance`."""
+    memory = advance(memory, settings, vehicle, measurement, dt)
+    return memory, memory.command
+
+
+def advance(memory: Memory, settings: Settings, vehicle: VehicleModel, measurement: State, dt: float) -> Memory:
+    """The memory, with the command for the next `dt` seconds.
 
     `vehicle` is what is known at this time, with the bank that is modelled for the end of the last command.
     """
-    sensing, plan, leads, trim, _, _, step_s = memory
-    sensing, is_known = sense(settings, sensing, vehicle, measurement, step_s)
-    clock, _, _, limits, present, _, _ = sensing
-    if is_known and clock.since_s == 0.0 and clock.jump_s != 0.0:
-        plan = plan_by_clock(plan, clock.jump_s)
-    if is_known and plan.route.side == 0:
-        plan = first_plan(settings, sensing, plan)
-    if not is_known or plan.route.side == 0:
-        return without_data(settings, memory, sensing, plan, vehicle.estimates, dt)
-    if is_other_roll(limits, memory.sensing.limits):
-        leads = NO_LEADS
-    plan, leads, response = advance_plan(settings, limits, plan, leads, present)
-    plan, is_new = reconsider(settings, sensing, plan, response)
-    if is_new:
-        plan, leads, response = advance_plan(settings, limits, plan, leads, present)
-    route, known = plan.route, vehicle.estimates
-    target_deg, trim = target_bank(settings, sensing, known, route, response, trim, dt)
+    memory = prepare(memory, settings, vehicle, measurement)
+    memory = continue_search(memory, settings, UNLIMITED if settings.search_steps == 0 else settings.search_steps)
+    return conclude(memory, settings, vehicle, dt)
+
+
+def prepare(memory: Memory, settings: Settings, vehicle: VehicleModel, measurement: State) -> Memory:
+    """The memory after a measurement: what is known, the present plan, and a search begun for another if it is due."""
+    before = memory.sensing.limits
+    memory = memory._replace(sensing=sense(memory.sensing, settings, vehicle, measurement, memory.step_s))
+    if not memory.sensing.is_known:
+        return memory._replace(search=end_entry_search(memory.search))
+    clock = memory.sensing.clock
+    if clock.since_s == 0.0 and clock.jump_s != 0.0:
+        memory = memory._replace(plan=plan_by_clock(memory.plan, clock.jump_s))
+        memory = memory._replace(search=end_entry_search(memory.search))
+    if memory.plan.route.side == 0:
+        memory = begin_first_plan(memory, settings)
+    if memory.plan.route.side == 0:
+        return memory
+    if is_other_roll(memory.sensing.limits, before):
+        memory = memory._replace(leads=NO_LEADS)
+    memory = advance_plan(memory, settings)
+    return reconsider(memory, settings)
+
+
+def continue_search(memory: Memory, settings: Settings, steps: int) -> Memory:
+    """The memory after at most `steps` more steps of its search, with the plan that this has found."""
+    left = steps
+    while memory.search.aim != NOTHING and left > 0:
+        memory = memory._replace(search=advance_entry_search(memory.search, left))
+        left = memory.search.in_air.left
+        if is_complete(memory.search):
+            memory = take_entry(memory, settings)
+    return memory
+
+
+def conclude(memory: Memory, settings: Settings, vehicle: VehicleModel, dt: float) -> Memory:
+    """The memory with the command for the next `dt` seconds, which follows the plan."""
+    if not memory.sensing.is_known or memory.plan.route.side == 0:
+        return without_data(memory, settings, vehicle.estimates, dt)
+    limits, present = memory.sensing.limits, memory.sensing.present
+    target_deg, trim = target_bank(settings, memory, vehicle.estimates, dt)
     target_deg = clip(target_deg, limits.limit_deg)
-    bank_deg = demand_deg(known.roll.time_s, present.bank_deg, target_deg, limits.limit_deg)
+    bank_deg = demand_deg(vehicle.estimates.roll.time_s, present.bank_deg, target_deg, limits.limit_deg)
     bank_deg = clip(bank_deg, settings.command_limit_deg)
+    route = memory.plan.route
     command = LawCommand(
-        turn_rate_deg_s(known, bank_deg),
+        turn_rate_deg_s(vehicle.estimates, bank_deg),
         bank_deg,
         phase_code(route.current.u),
-        max(plan.join_s - present.time_s, 0.0),
+        max(memory.plan.join_s - present.time_s, 0.0),
         route.side,
         phase_code(route.second.u),
-        inf if is_holding(route) else plan.remaining_s - response.early_s,
+        inf if is_holding(route) else memory.plan.remaining_s - memory.response.early_s,
     )
-    return Memory(sensing, plan, leads, trim, bank_deg, route.side, dt), command
+    return memory._replace(trim=trim, command=command, step_s=dt)
 
 
 def phase_code(u: int) -> int:
@@ -364,29 +424,27 @@ def crosstrack_m(settings: Settings, memory: Memory) -> float:
     return offset_of(route, relative_state(settings, present), settings.radius_m).crosstrack
 
 
-def sense(
-    settings: Settings, sensing: Sensing, vehicle: VehicleModel, measurement: State, step_s: float
-) -> tuple[Sensing, bool]:
-    """What is known at a measurement, `step_s` seconds after the last, and whether the present state is.
+def sense(sensing: Sensing, settings: Settings, vehicle: VehicleModel, measurement: State, step_s: float) -> Sensing:
+    """What is known at a measurement, `step_s` seconds after the last.
 
     Telemetry may be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last
     estimate is extrapolated with the modelled bank.
     """
-    clock, observer, history, limits, present, elapsed_s, error_deg = sensing
+    clock, observer, history, limits, present, elapsed_s, error_deg, _ = sensing
     if step_s > 0.0:
-        clock, elapsed_s = advance(clock, step_s), elapsed_s + step_s
+        clock, elapsed_s = advance_clock(clock, step_s), elapsed_s + step_s
         history = record_bank(history, vehicle.bank_deg, step_s, settings.covered_s)
     if not is_usable(measurement):
-        return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg), False
+        return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg, False)
     if measurement.time_s == clock.time_s:
         if present.airspeed_m_s == 0.0 or clock.since_s > EXTRAPOLATED_S:
-            return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg), False
+            return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg, False)
         present = estimate_after(estimate_with_bank(present, history.current_deg + error_deg), elapsed_s)
-        return Sensing(clock, observer, history, limits, present, 0.0, error_deg), True
+        return Sensing(clock, observer, history, limits, present, 0.0, error_deg, True)
     is_first = clock.time_s == -inf
     clock, is_new = check_stamp(clock, measurement.time_s)
     if not is_new:
-        return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg), False
+        return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg, False)
     if is_first:
         history = constant_history(vehicle.bank_deg)
     if clock.jump_s != 0.0 or clock.gap_s > EXTRAPOLATED_S:
@@ -397,7 +455,7 @@ def sense(
     turning, bank_deg = Turning(known.turn_ratio, known.course_lead_s), delayed_deg(history, known.delay_s)
     observer = observe(observer, remove_bias(known, measurement), bank_deg, settings.smoothing_s, turning)
     present = estimate_at_present(observer.estimate, history, known.delay_s)
-    return Sensing(clock, observer, history, limits, present, 0.0, present.bank_deg - history.current_deg), True
+    return Sensing(clock, observer, history, limits, present, 0.0, present.bank_deg - history.current_deg, True)
 
 
 def limits_of(settings: Settings, vehicle: VehicleModel, before: Limits) -> Limits:
@@ -543,44 +601,44 @@ def plan_by_clock(plan: Plan, jump_s: float) -> Plan:
     return Plan(by_clock(route, jump_s), left_s, join_s + jump_s, planned_join_s + jump_s, searched_s + jump_s)
 
 
-def without_data(
-    settings: Settings, memory: Memory, sensing: Sensing, plan: Plan, known: VehicleEstimates, dt: float
-) -> tuple[Memory, LawCommand]:
-    """The safe command while there is no usable measurement."""
-    bank_deg, route = memory.command_deg, plan.route
-    if sensing.clock.since_s > BLIND_S:
+def without_data(memory: Memory, settings: Settings, known: VehicleEstimates, dt: float) -> Memory:
+    """The memory with the safe command while there is no usable measurement, or no plan yet."""
+    bank_deg, route = memory.command.bank_deg, memory.plan.route
+    if memory.sensing.clock.since_s > BLIND_S:
         on_circle = route.side != 0 and is_holding(route)
-        bank_deg = route.side * sensing.limits.hold_deg if on_circle else 0.0
+        bank_deg = route.side * memory.sensing.limits.hold_deg if on_circle else 0.0
     # The limit may be lower now than when the last command was given.
     bank_deg = clip(bank_deg, settings.command_limit_deg)
     rate = turn_rate_deg_s(known, bank_deg)
-    command = LawCommand(rate, bank_deg, NO_DATA, nan, memory.side, NO_DATA, nan)
-    return Memory(sensing, plan, NO_LEADS, memory.trim, bank_deg, memory.side, dt), command
+    command = LawCommand(rate, bank_deg, NO_DATA, nan, memory.command.side, NO_DATA, nan)
+    return memory._replace(leads=NO_LEADS, command=command, step_s=dt)
 
 
-def advance_plan(
-    settings: Settings, limits: Limits, plan: Plan, leads: Leads, estimate: Estimate
-) -> tuple[Plan, Leads, ResponsePoint]:
-    """The plan without the pieces that are complete when a command takes effect, and the predicted state then.
+def advance_plan(memory: Memory, settings: Settings) -> Memory:
+    """The memory with the plan at the response: without the pieces that are complete when a command takes effect.
 
     A change of bank takes effect with a delay; from then on the aircraft turns like one that banks instantly.
     """
-    route, left_s, join_s, planned_join_s, searched_s = plan
+    limits, estimate, leads = memory.sensing.limits, memory.sensing.present, memory.leads
+    route, left_s, join_s, planned_join_s, searched_s = memory.plan
     # At most three pieces are dropped.
     while True:
         leads = leads_to(limits, leads, estimate.bank_deg, route)
         state = relative_state(settings, estimate_after(estimate, leads.current_s))
-        left_s = remaining_s(route, state, left_s)
-        if is_holding(route):
-            response = ResponsePoint(state, offset_of(route, state, settings.radius_m), 0.0)
-            return Plan(route, left_s, join_s, planned_join_s, searched_s), leads, response
-        early_s = early_end_s(route, leads)
-        if left_s > early_s + ROUNDING_S:
-            response = ResponsePoint(state, offset_of(route, state, settings.radius_m), early_s)
-            join_s = state.time_s + left_s + later_s(route)
-            return Plan(route, left_s, join_s, planned_join_s, searched_s), leads, response
+        left_s, early_s = remaining_s(route, state, left_s), early_end_s(route, leads)
+        if is_holding(route) or left_s > early_s + ROUNDING_S:
+            break
         route = without_current(route)
         left_s = route.current.time_s
+    if is_holding(route):
+        early_s = 0.0
+    else:
+        join_s = state.time_s + left_s + later_s(route)
+    return memory._replace(
+        plan=Plan(route, left_s, join_s, planned_join_s, searched_s),
+        leads=leads,
+        response=ResponsePoint(state, offset_of(route, state, settings.radius_m), early_s),
+    )
 
 
 def early_end_s(route: Route, leads: Leads) -> float:
@@ -592,24 +650,24 @@ def early_end_s(route: Route, leads: Leads) -> float:
     return max(early_s, 0.0)
 
 
-def reconsider(settings: Settings, sensing: Sensing, plan: Plan, response: ResponsePoint) -> tuple[Plan, bool]:
-    """The plan after a search for another one, if that is due, and whether it is another."""
-    limits, route, offset = sensing.limits, plan.route, response.offset
-    if not is_search_due(sensing.clock, plan):
-        return plan, False
+def reconsider(memory: Memory, settings: Settings) -> Memory:
+    """The memory with a search for another plan, if that is due."""
+    if memory.search.aim != NOTHING or not is_search_due(memory.sensing.clock, memory.plan):
+        return memory
+    limits, offset, plan = memory.sensing.limits, memory.response.offset, memory.plan
     r, V = limits.turns.planned_m, limits.turns.airspeed_m_s
-    holding = is_holding(route)
+    holding = is_holding(plan.route)
     is_lost = abs(offset.crosstrack) > LOST_OFFSET * r or abs(offset.course_error) > LOST_COURSE
     # A plan for a wind that differs so much from the present one means nothing.
-    east, north = limits.wind_east_m_s - route.wind_east_m_s, limits.wind_north_m_s - route.wind_north_m_s
+    east, north = limits.wind_east_m_s - plan.route.wind_east_m_s, limits.wind_north_m_s - plan.route.wind_north_m_s
     if is_lost or (not holding and length(east, north) > WIND_DIFFERS * V):
-        return search_plan(settings, sensing, plan, response.state, is_any=True, update=True)
+        return begin_plan_search(memory, settings, ANY, memory.response.state)
     if holding:
-        return plan, False
+        return memory
     later_m = abs(plan.join_s - plan.planned_join_s) * V
     deviates = max(abs(offset.crosstrack), later_m) > DEVIATION * r
     is_still = limits.wind_east_m_s == 0.0 and limits.wind_north_m_s == 0.0
-    return search_plan(settings, sensing, plan, response.state, is_any=False, update=deviates or is_still)
+    return begin_plan_search(memory, settings, UPDATE if deviates or is_still else BETTER, memory.response.state)
 
 
 def is_search_due(clock: Clock, plan: Plan) -> bool:
@@ -617,23 +675,20 @@ def is_search_due(clock: Clock, plan: Plan) -> bool:
     return clock.time_s - plan.searched_s >= SEARCH_INTERVAL_S - ROUNDING_S
 
 
-def first_plan(settings: Settings, sensing: Sensing, plan: Plan) -> Plan:
-    """The fastest entry from where a command takes effect, which depends on the bank and the first turn."""
-    limits, present = sensing.limits, sensing.present
-    plan = plan_on_circle(settings, limits, plan, relative_state(settings, present))
-    if plan.route.side != 0:
-        return plan
-    level_s = lead_s(limits, present.bank_deg, 0.0)
-    entry = entry_from(settings, limits, relative_state(settings, estimate_after(present, level_s)), True)
-    if entry.side == 0:
-        return plan
-    first, _, _ = controls(entry.word)
-    if not is_search_due(sensing.clock, plan):
-        return plan
-    bank_deg = -first * limits.limit_deg if first != ABSENT else entry.side * limits.hold_deg
-    later = estimate_after(present, lead_s(limits, present.bank_deg, bank_deg))
-    plan, _ = search_plan(settings, sensing, plan, relative_state(settings, later), is_any=True, update=True)
-    return plan
+def begin_first_plan(memory: Memory, settings: Settings) -> Memory:
+    """The memory with the plan to hold the circle where the flight begins on it, otherwise with a search if it is due.
+
+    The fastest entry begins where a command takes effect, which depends on the bank and the first turn. So that is
+    found first, as it would be with wings level.
+    """
+    limits, present = memory.sensing.limits, memory.sensing.present
+    memory = memory._replace(plan=plan_on_circle(settings, limits, memory.plan, relative_state(settings, present)))
+    if memory.plan.route.side != 0:
+        return memory._replace(search=end_entry_search(memory.search))
+    if memory.search.aim != NOTHING or not is_search_due(memory.sensing.clock, memory.plan):
+        return memory
+    later = estimate_after(present, lead_s(limits, present.bank_deg, 0.0))
+    return memory._replace(search=search_from(settings, limits, FIRST_TURN, relative_state(settings, later), True))
 
 
 def plan_on_circle(settings: Settings, limits: Limits, plan: Plan, state: RelativeState) -> Plan:
@@ -649,43 +704,60 @@ def plan_on_circle(settings: Settings, limits: Limits, plan: Plan, state: Relati
     return plan
 
 
-def search_plan(
-    settings: Settings, sensing: Sensing, plan: Plan, state: RelativeState, is_any: bool, update: bool
-) -> tuple[Plan, bool]:
-    """The fastest entry from a state if it is better than the plan, and whether it is; with `is_any` it always is.
+def search_from(settings: Settings, limits: Limits, aim: int, state: RelativeState, reversing: bool) -> EntrySearch:
+    """The search for the fastest entry from a state, before its first step."""
+    return NO_ENTRY_SEARCH._replace(
+        aim=aim,
+        state=state,
+        turns=limits.turns,
+        wind_east_m_s=limits.wind_east_m_s,
+        wind_north_m_s=limits.wind_north_m_s,
+        radius_m=settings.radius_m,
+        wide_m=settings.radius_m + limits.reversal_m,
+        side=settings.side,
+        reversing=reversing,
+    )
 
-    With `update` the same plan from the present state counts as better.
+
+def begin_plan_search(memory: Memory, settings: Settings, aim: int, state: RelativeState) -> Memory:
+    """The memory with a search for a plan from a state, and when it began."""
+    reversing = memory.plan.route.side == 0 or reverses(memory.plan.route)
+    memory = memory._replace(search=search_from(settings, memory.sensing.limits, aim, state, reversing))
+    return memory._replace(plan=searched_at(memory.plan, memory.sensing.clock.time_s))
+
+
+def searched_at(plan: Plan, time_s: float) -> Plan:
+    """The plan with the time of the last search."""
+    return plan._replace(searched_s=time_s)
+
+
+def take_entry(memory: Memory, settings: Settings) -> Memory:
+    """The memory after a complete search, with the plan that it has found if that is better than the present one.
+
+    After the search for the first turn the one for the first plan follows.
     """
-    now_s, limits = sensing.clock.time_s, sensing.limits
-    route, left_s, join_s, planned_join_s, _ = plan
-    entry = entry_from(settings, limits, state, route.side == 0 or reverses(route))
-    if entry.side == 0 or not (is_any or is_better(entry, plan, limits.turns, update)):
-        return Plan(route, left_s, join_s, planned_join_s, now_s), False
+    aim, state, entry = memory.search.aim, memory.search.state, found_entry(memory.search)
+    memory = memory._replace(search=end_entry_search(memory.search))
+    if entry.side == 0:
+        return memory
+    limits, present = memory.sensing.limits, memory.sensing.present
+    if aim == FIRST_TURN:
+        first, _, _ = controls(entry.word)
+        bank_deg = -first * limits.limit_deg if first != ABSENT else entry.side * limits.hold_deg
+        later = estimate_after(present, lead_s(limits, present.bank_deg, bank_deg))
+        return begin_plan_search(memory, settings, ANY, relative_state(settings, later))
+    # How much later it is than where the search began.
+    passed_s = 0.0 if aim == ANY else memory.response.state.time_s - state.time_s
+    if aim != ANY and not is_better(entry, memory.plan, limits.turns, aim == UPDATE, passed_s):
+        return memory
     route, join_s = route_of(state, entry), state.time_s + duration_s(entry)
-    return Plan(route, route.current.time_s, join_s, join_s, now_s), True
+    plan = Plan(route, route.current.time_s, join_s, join_s, memory.plan.searched_s)
+    memory = memory._replace(plan=plan)
+    return advance_plan(memory, settings)
 
 
-def entry_from(settings: Settings, limits: Limits, state: RelativeState, reversing: bool) -> PlannedEntry:
-    """The fastest entry from a state, onto a circle that is wider by the reversal if its last turn is opposite.
-
-    It is first assumed to be so where `reversing`.
-    """
-    R, wide_m, side = settings.radius_m, settings.radius_m + limits.reversal_m, settings.side
-    east, north = limits.wind_east_m_s, limits.wind_north_m_s
-    entry = fastest_entry(state, limits.turns, wide_m if reversing else R, side, east, north)
-    if entry.side == 0 or ends_opposite(entry) == reversing:
-        return entry
-    return fastest_entry(state, limits.turns, R if reversing else wide_m, side, east, north)
-
-
-def ends_opposite(entry: PlannedEntry) -> bool:
-    """Whether the last turn of an entry is opposite to that of the circle."""
-    u1, u2, u3 = controls(entry.word)
-    return (u3 if u3 != ABSENT else u2 if u2 != ABSENT else u1) == entry.side
-
-
-def is_better(entry: PlannedEntry, plan: Plan, turns: TurnLimits, update: bool) -> bool:
-    """Whether an entry should replace a plan.
+def is_better(entry: PlannedEntry, plan: Plan, turns: TurnLimits, update: bool, passed_s: float) -> bool:
+    """Whether an entry, which began `passed_s` seconds ago, should replace a plan.
 
     Either `update` holds, and it is the same plan and not much slower; or it is faster by a margin.
 
@@ -700,7 +772,7 @@ def is_better(entry: PlannedEntry, plan: Plan, turns: TurnLimits, update: bool) 
         return False
     widened = max(1.0, entry.turn_radius_m / route.turn_radius_m) if same else 1.0
     margin_s = (UPDATE_MARGIN if same else -SWITCH_MARGIN) * unit_s
-    return duration_s(entry) < widened * (plan.remaining_s + later_s(route)) + margin_s
+    return duration_s(entry) - passed_s < widened * (plan.remaining_s + later_s(route)) + margin_s
 
 
 def is_rest(entry: PlannedEntry, left: int, bend_s: float) -> bool:
@@ -713,27 +785,19 @@ def is_rest(entry: PlannedEntry, left: int, bend_s: float) -> bool:
     return word >> 4 == left and entry.t1_s + entry.t2_s <= bend_s
 
 
-def target_bank(
-    settings: Settings,
-    sensing: Sensing,
-    known: VehicleEstimates,
-    route: Route,
-    response: ResponsePoint,
-    trim: float,
-    dt: float,
-) -> tuple[float, float]:
+def target_bank(settings: Settings, memory: Memory, known: VehicleEstimates, dt: float) -> tuple[float, float]:
     """The bank that follows the route, and the trim; on a turn before the last piece it is the bank limit.
 
     Such a turn is planned again before it ends; flying it as wide as planned would only cost time.
     """
-    limits, observer, u = sensing.limits, sensing.observer, route.current.u
+    limits, route, trim, u = memory.sensing.limits, memory.plan.route, memory.trim, memory.plan.route.current.u
     if u != 0 and route.second.u != ABSENT:
         return -u * limits.limit_deg, trim
-    state, offset, _ = response
+    state, offset, _ = memory.response
     vx, vy = path_velocity(route, state)
     speed, R, V, holding = length(vx, vy), settings.radius_m, limits.turns.airspeed_m_s, is_holding(route)
-    response_s = limits.lag_s + observer.smoothing_s
-    gain = corrections_gain(settings, known, observer, response_s, V / R, holding)
+    response_s = limits.lag_s + memory.sensing.observer.smoothing_s
+    gain = corrections_gain(settings, known, memory.sensing.observer, response_s, V / R, holding)
     bandwidth = 1.0 / (response_s + gain * dt)
     place_gain = HOLD_GAIN * speed / R if holding else PLACE_GAIN * bandwidth
     course = course_rate(offset, gain * bandwidth, place_gain, speed)

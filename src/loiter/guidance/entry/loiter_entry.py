@@ -91,6 +91,7 @@ class LoiterEntry:
             smoothing_s=not_negative("smoothing_s", smoothing_s, "seconds"),
             negligible_wind=NEGLIGIBLE_WIND if identify else 0.0,
             covered_s=max(COVERED_S, delay_s),
+            search_steps=0,
         )
         turn_ratio = EXPECTED_TURN_RATIO if identify else 1.0
         declared = VehicleEstimates(
@@ -149,10 +150,10 @@ class LoiterEntry:
         before = self._memory
         if self._identifies:
             self._identification, self._vehicle = identification_step.identify(
-                self._declared, self._identification, state, before.command_deg, before.step_s
+                self._declared, self._identification, state, before.command.bank_deg, before.step_s
             )
         else:
-            self._vehicle = fly_as_declared(self._vehicle, before.command_deg, before.step_s)
+            self._vehicle = fly_as_declared(self._vehicle, before.command.bank_deg, before.step_s)
         self._memory, command = law_step.step(self._settings, before, self._vehicle, state, dt)
         rate, bank_deg, phase, join_s, side, next_phase, next_s = command
         return Command(rate, bank_deg, NAMED_PHASES[phase], join_s, NAMED_TURNS[side], NAMED_PHASES[next_phase], next_s)
