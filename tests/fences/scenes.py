@@ -35,7 +35,7 @@ def zones(rng, maneuver):
     size = 2.0 * circle.radius_m + circle.distance_m(maneuver.start)
     if rng.random() < 0.5:
         middle = (circle.east_m + maneuver.start.east_m) / 2.0, (circle.north_m + maneuver.start.north_m) / 2.0
-        yield zone(rng, "field", *middle, size * rng.uniform(0.55, 1.2), inclusion=True)
+        yield zone(rng, "field", *middle, size * rng.uniform(0.35, 1.1), inclusion=True)
     for i in range(rng.integers(1, 4)):
         beside = rng.normal(0.0, 1.2 * r, 2)
         if rng.random() < 0.5 or not maneuver.segments:

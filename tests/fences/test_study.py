@@ -11,7 +11,7 @@ import pytest
 from fences.scenes import scene
 from fences.study import compare
 from loiter.errors import LoiterError
-from loiter.fences import check, distances, model, pieces, search
+from loiter.fences import distances, fence_check, model, pieces, search
 
 SCENES, TRIED = 100, 60
 
@@ -33,7 +33,6 @@ MUTANTS = {
         "c.distance + 9.0, d.distance + 9.0",
     ),
     "the whole circle for the arc": (distances, "arc_to_edge", "share <= 1.0", "share < np.inf"),
-    "the normal is forgotten": (distances, "arc_to_edge", "-ey * side", "ey * side"),
     "crossings are forgotten": (
         distances,
         "crossing_share",
@@ -43,7 +42,7 @@ MUTANTS = {
     "the bound of a trochoid is too tight": (search, "Chords.of", "/ 8.0", "/ 80.0"),
     "the wind is forgotten": (pieces, "Pieces.position", "self.wx * time_s", "0.0"),
     "the margin has the wrong sign": (
-        check,
+        fence_check,
         "check",
         "near.distance <= margin_m + TOUCH_M",
         "near.distance <= -margin_m + TOUCH_M",
@@ -60,17 +59,17 @@ MUTANTS = {
         "largest.distance) - ",
         "least.distance) - ",
     ),
-    "the depth ends at the first edge": (
+    "the depth ends at once": (
         search,
-        "Signed.bounds",
-        ".min(axis=1) + chords.off",
-        ".max(axis=1) * 0.0 + chords.off",
+        "Signed._polygon_bounds",
+        "found.from_b).min(axis=1)",
+        "found.from_b).min(axis=1) * 0.0",
     ),
-    "the last entry for the first": (
-        search,
-        "first_entry",
-        "times.argmin()",
-        "np.where(times < np.inf, times, -1.0).argmax()",
+    "the deepest place for the entry": (
+        fence_check,
+        "_breach",
+        "first_entry(path.pieces, zone)",
+        "least_distance(path.pieces, zone)",
     ),
 }
 
@@ -89,7 +88,7 @@ def replace(monkeypatch, module, name, old, new):
     exec("from __future__ import annotations\n" + source.replace(old, new), scope)
     changed, before = scope[last], getattr(owner, last)
     monkeypatch.setattr(owner, last, changed)
-    for other in (check, distances, model, pieces, search):
+    for other in (fence_check, distances, model, pieces, search):
         if getattr(other, last, None) is before:
             monkeypatch.setattr(other, last, scope[last])
 

@@ -1,7 +1,7 @@
 """Fences: zones to stay in or out of, and whether a maneuver and its hold do."""
 
-from loiter.fences.check import Breach, FenceCheck, check, default_margin_m
 from loiter.fences.entries import ClearEntry, first_clear
+from loiter.fences.fence_check import Breach, FenceCheck, check, default_margin_m
 from loiter.fences.model import CircleZone, Fence, PolygonZone
 from loiter.fences.places import PlacedCircle, PlacedFence, PlacedPolygon
 

@@ -143,8 +143,9 @@ class Arcs(NamedTuple):
 def arc_to_edge(arcs: Arcs, edges: Edges) -> Nearest:
     """The distance of arcs to edges: arcs (k, 1) and edges (n,) give (k, n).
 
-    It is attained at an end of the arc, at an end a of an edge (the end b is the end a of the next edge), where the arc
-    crosses the line of the edge, or where its normal is that of the edge. Every such point that is on the arc is tried.
+    It is attained at an end of the arc, towards an end a of an edge (its end b is the end a of the next one), where the
+    arc crosses the line of the edge or, if its circle does not reach that line, where it is nearest to it. Every such
+    point that is on the arc is tried.
     """
     import numpy as np
 
@@ -154,30 +155,19 @@ def arc_to_edge(arcs: Arcs, edges: Edges) -> Nearest:
     vx, vy = edges.ax - arcs.x, edges.ay - arcs.y
     # The line of the edge is at the signed distance h from the centre, along the normal (-ey, ex).
     h = ex * vy - ey * vx
-    side = np.where(h < 0.0, -1.0, 1.0)
-    sine = np.clip(h / arcs.radius, -1.0, 1.0)
-    cosine = np.sqrt((1.0 - sine) * (1.0 + sine))
+    # The points of the circle on that line, or nearest to it, as parts of the radius along the edge and across it.
+    across = np.clip(h / arcs.radius, -1.0, 1.0)
+    along = np.sqrt((1.0 - across) * (1.0 + across))
     r = np.maximum(np.hypot(vx, vy), np.finfo(float).tiny)
     shape = np.broadcast_shapes(arcs.x.shape, edges.ax.shape)
     ends = [arcs.direction(share) for share in (0.0, 1.0)]
-    qx = np.stack(
-        [
-            *(np.broadcast_to(x, shape) for x, _ in ends),
-            vx / r,
-            -ey * side,
-            -ey * sine + ex * cosine,
-            -ey * sine - ex * cosine,
-        ]
-    )
-    qy = np.stack(
-        [
-            *(np.broadcast_to(y, shape) for _, y in ends),
-            vy / r,
-            ex * side,
-            ex * sine + ey * cosine,
-            ex * sine - ey * cosine,
-        ]
-    )
+    directions = [
+        *ends,
+        (vx / r, vy / r),
+        (ex * along - ey * across, ey * along + ex * across),
+        (-ex * along - ey * across, -ey * along + ex * across),
+    ]
+    qx, qy = (np.stack([np.broadcast_to(value, shape) for value in values]) for values in zip(*directions, strict=True))
     share = arcs.share(qx, qy)
     share[0], share[1] = 0.0, 1.0
     distance = np.where(share <= 1.0, to_edge(arcs.x + arcs.radius * qx, arcs.y + arcs.radius * qy, edges), np.inf)

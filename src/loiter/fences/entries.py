@@ -7,7 +7,7 @@ from math import nan
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.fences.check import FenceCheck, check
+from loiter.fences.fence_check import FenceCheck, check
 from loiter.fences.model import Fence
 from loiter.planning.maneuver import Maneuver
 

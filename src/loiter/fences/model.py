@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy import float64, intp
     from numpy.typing import NDArray
 
-    from loiter.fences.check import FenceCheck
+    from loiter.fences.fence_check import FenceCheck
     from loiter.planning.maneuver import Maneuver
 
 # East and north of a corner, metres.
@@ -168,8 +168,8 @@ class Fence:
         return np.where(allowed, nearest, -nearest), self.circles.sign * outside
 
     def check(self, maneuver: Maneuver, margin_m: float | None = None) -> FenceCheck:
-        """Whether a maneuver and its hold stay farther from every zone than a margin, metres (`fences.check`)."""
-        from loiter.fences.check import check
+        """Whether a maneuver and its hold stay farther from every zone than a margin, metres: `loiter.fences.check`."""
+        from loiter.fences.fence_check import check
 
         return check(self, maneuver, margin_m)
 

@@ -307,7 +307,10 @@ def least_distance(pieces: Pieces, zone: Zone) -> PlaceInPath:
 
 
 def first_entry(pieces: Pieces, zone: Zone) -> PlaceInPath:
-    """Where a path that enters or touches a zone first does so; the time is exact to `TOUCH_M` over the speed."""
+    """Where a path that enters a zone first does so; the time is exact to `TOUCH_M` over the speed.
+
+    The distance is infinite if no place was found that is closer than `TOUCH_M`.
+    """
     import numpy as np
 
     signed, parts = Signed(zone), first_parts(pieces, np.arange(pieces.x.size))

@@ -127,8 +127,10 @@ def _breach(zone: Zone, near: PlaceInPath, path: FlownPath, maneuver: Maneuver) 
     """A zone that is entered, searched for where and how deep, or that is too close."""
     if near.distance > TOUCH_M:
         return _at(zone, near.distance, near, path, maneuver)
-    deepest = least_distance(path.pieces, zone).distance
-    return _at(zone, deepest, first_entry(path.pieces, zone), path, maneuver)
+    deepest, entry = least_distance(path.pieces, zone), first_entry(path.pieces, zone)
+    # What only just touches may do so between the places that the search for the entry looks at.
+    place = entry if entry.distance <= TOUCH_M else deepest
+    return _at(zone, deepest.distance, place, path, maneuver)
 
 
 def _at(zone: Zone, clearance_m: float, place: PlaceInPath, path: FlownPath, maneuver: Maneuver) -> Breach:
