@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, instance, not_negative
-from loiter.fences.model import Fence, Zone
+from loiter.fences.model import CircleZone, Fence, Zone
 from loiter.fences.pieces import FlownPath, flown_path, time_in_hold
 from loiter.fences.search import TOUCH_M, PlaceInPath, approach, first_entry, least_distance
 from loiter.geo.frame import LocalFrame, degrees_of
@@ -127,7 +127,8 @@ def _breach(zone: Zone, near: PlaceInPath, path: FlownPath, maneuver: Maneuver) 
     """A zone that is entered, searched for where and how deep, or that is too close."""
     if near.distance > TOUCH_M:
         return _at(zone, near.distance, near, path, maneuver)
-    deepest, entry = least_distance(path.pieces, zone), first_entry(path.pieces, zone)
+    entry = first_entry(path.pieces, zone)
+    deepest = near if isinstance(zone, CircleZone) else least_distance(path.pieces, zone)
     # What only just touches may do so between the places that the search for the entry looks at.
     place = entry if entry.distance <= TOUCH_M else deepest
     return _at(zone, deepest.distance, place, path, maneuver)
