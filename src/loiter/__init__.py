@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from loiter import errors
 from loiter.planning.hold import hold
+from loiter.planning.leg import Leg, LegPlan, plan_leg
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
 from loiter.planning.solve import candidates, plan, plan_all
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Aircraft",
+    "Leg",
+    "LegPlan",
     "Maneuver",
     "Orbit",
     "Pose",
@@ -48,6 +51,7 @@ __all__ = [
     "min_time_in_wind",
     "plan",
     "plan_all",
+    "plan_leg",
     "reduce",
     "solve",
     "solve_in_wind",

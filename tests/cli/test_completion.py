@@ -10,6 +10,7 @@ from loiter.cli.app import main
 
 COMMANDS = [
     "plan",
+    "leg",
     "batch",
     "fly",
     "upload",

@@ -57,9 +57,18 @@ app.command(
 It needs a start (--pose), a circle (--orbit), the airspeed, and one limit on the turn (--bank, --turn-radius or --turn-rate). Everything else is optional.""",
 )
 app.command(
-    "loiter.cli.commands.batch:batch",
+    "loiter.cli.commands.leg:leg",
     group=planning,
     sort_key=1,
+    help_epilogue=epilogue("leg"),
+    help="""Plan the fastest way in, round and out of a holding circle: the entry, how long to hold, and where to leave.
+
+It needs what loiter plan needs, and the point to fly to afterwards (--exit-to). The aircraft leaves the circle on the tangent to that point, once the least hold, the turns and the altitude are reached; all of them together take the least time.""",
+)
+app.command(
+    "loiter.cli.commands.batch:batch",
+    group=planning,
+    sort_key=2,
     help_epilogue=epilogue("batch"),
     help="""Plan the fastest entry for every row of a table: Parquet or CSV, any size.
 

@@ -12,6 +12,12 @@ EXAMPLES = {
       --airspeed 18 --bank 35 --altitude 900 --save entry.plan
   loiter plan --pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 \
       --airspeed 18 --bank 35 --fence field.plan --margin 20""",
+    "leg": r"""
+  loiter leg --pose -400 120 90 --orbit 0 0 80 --exit-to 600 0 \
+      --airspeed 18 --bank 35 --hold 60 --plot leg.png
+  loiter leg --pose -400 120 90 --orbit 0 0 120 --exit-to 600 0 \
+      --airspeed 18 --bank 35 --wind 8 250 \
+      --altitude 100 --to-altitude 300 --climb-rate 2.5""",
     "batch": r"""
   loiter batch states.parquet entries/ --orbit 0 0 80 \
       --airspeed 18 --bank 35

@@ -14,6 +14,7 @@ from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
 from loiter.io.missions.altitudes import AltitudeDatum, AltitudeReference
 from loiter.planning.compass import wrapped
+from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver, decimals_of
 from loiter.planning.model import Orbit, Pose
 from loiter.planning.vocabulary import ACTIONS
@@ -93,7 +94,7 @@ def print_tables(
 
 def _description(maneuver: Maneuver, frame: LocalFrame | None) -> list[RenderableType]:
     """Headline, table and remarks of a maneuver."""
-    lines: list[RenderableType] = [Text(str(maneuver), style="bold")]
+    lines: list[RenderableType] = [headline(str(maneuver))]
     if maneuver.segments:
         lines += [table(maneuver, frame), peel_off(maneuver, frame)]
     if _windy(maneuver):
@@ -101,6 +102,11 @@ def _description(maneuver: Maneuver, frame: LocalFrame | None) -> list[Renderabl
     if maneuver.miss_m > SMALLEST_MISS * maneuver.orbit.radius_m:
         lines.append(f"Ends {maneuver.miss_m:.3g} m off the point of joining, within the tolerance.")
     return lines
+
+
+def headline(text: str) -> Text:
+    """The first line of a plan."""
+    return Text(text, style="bold")
 
 
 def write(*lines: RenderableType) -> None:
@@ -125,6 +131,25 @@ def new_table() -> Table:
 
 def table(maneuver: Maneuver, frame: LocalFrame | None = None) -> Table:
     """A table with a row for each segment and one for the hold."""
+    rows = _entry_table(maneuver, frame)
+    _add_row(rows, maneuver, maneuver.duration_s, f"hold {maneuver.turn.described}", None, maneuver.join, frame)
+    return rows
+
+
+def leg_table(plan: LegPlan, frame: LocalFrame | None = None) -> Table:
+    """A table with a row for each segment of the entry, for the hold, for the straight way out and for its end."""
+    entry = plan.entry
+    rows = _entry_table(entry, frame)
+    hold = f"hold {plan.turn.described}, {plan.held_deg / 360.0:.2f} turns"
+    _add_row(rows, entry, entry.duration_s, hold, (plan.held_s, None), entry.join, frame)
+    straight = plan.straight_s, plan.straight_s * entry.aircraft.airspeed_m_s
+    _add_row(rows, entry, plan.exit_s, "leave straight", straight, plan.exit, frame)
+    _add_row(rows, entry, plan.duration_s, "at the point", None, plan.end, frame)
+    return rows
+
+
+def _entry_table(maneuver: Maneuver, frame: LocalFrame | None) -> Table:
+    """A table with a row for each segment."""
     rows = new_table()
     rows.add_column("in", justify="right")
     rows.add_column("do", justify="left")
@@ -132,23 +157,30 @@ def table(maneuver: Maneuver, frame: LocalFrame | None = None) -> Table:
     for heading in columns + ["track, deg", "ground speed"] * _windy(maneuver):
         rows.add_column(heading, justify="right")
     for segment in maneuver.segments:
-        rows.add_row(
-            _seconds(maneuver, segment.start_s),
-            ACTIONS[segment.letter],
-            _seconds(maneuver, segment.duration_s),
-            _metres(maneuver, segment.length_m),
-            _metres(maneuver, maneuver.orbit.after(segment.start_s).distance_m(segment.start)),
-            *_directions(maneuver, segment.start, frame),
-        )
-    rows.add_row(
-        _seconds(maneuver, maneuver.duration_s),
-        f"hold {maneuver.turn.described}",
-        "",
-        "",
-        _metres(maneuver, maneuver.orbit_at_join.distance_m(maneuver.join)),
-        *_directions(maneuver, maneuver.join, frame),
-    )
+        flown = segment.duration_s, segment.length_m
+        _add_row(rows, maneuver, segment.start_s, ACTIONS[segment.letter], flown, segment.start, frame)
     return rows
+
+
+def _add_row(
+    rows: Table,
+    maneuver: Maneuver,
+    time_s: float,
+    action: str,
+    flown: tuple[float, float | None] | None,
+    pose: Pose,
+    frame: LocalFrame | None,
+) -> None:
+    """Add a row for what begins at a time and a pose; `flown` are its seconds and metres, as far as they are known."""
+    duration_s, length_m = flown or (None, None)
+    rows.add_row(
+        _seconds(maneuver, time_s),
+        action,
+        "" if duration_s is None else _seconds(maneuver, duration_s),
+        "" if length_m is None else _metres(maneuver, length_m),
+        _metres(maneuver, maneuver.orbit.after(time_s).distance_m(pose)),
+        *_directions(maneuver, pose, frame),
+    )
 
 
 def _directions(maneuver: Maneuver, pose: Pose, frame: LocalFrame | None) -> list[str]:

@@ -78,7 +78,8 @@ class Aircraft:
     """A fixed-wing aircraft in level flight: its airspeed and exactly one limit on how tightly it turns.
 
     `airspeed_m_s` is the true airspeed. The limit is `max_bank_deg` (between 0 and 90; the turn radius is that of a
-    coordinated turn, V^2 / (g tan bank)), `min_turn_radius_m` or `max_turn_rate_deg_s`.
+    coordinated turn, V^2 / (g tan bank)), `min_turn_radius_m` or `max_turn_rate_deg_s`. The rates at which it climbs
+    and descends, metres per second, are for legs with an altitude alone (`Leg`).
     Raises `InvalidArgument` for a value that is not a positive, finite number, and for no limit or several.
 
     >>> round(Aircraft(airspeed_m_s=18.0, max_bank_deg=35.0).turn_radius_m, 2)
@@ -89,6 +90,8 @@ class Aircraft:
     max_bank_deg: float | None = None
     min_turn_radius_m: float | None = None
     max_turn_rate_deg_s: float | None = None
+    climb_rate_m_s: float | None = None
+    descent_rate_m_s: float | None = None
 
     def __post_init__(self) -> None:
         _keep(self, airspeed_m_s=positive("airspeed_m_s", self.airspeed_m_s, "metres per second"))
@@ -101,6 +104,9 @@ class Aircraft:
         if self.max_bank_deg is not None and as_float(self.max_bank_deg) >= 90.0:
             raise InvalidArgument("max_bank_deg", f"is {self.max_bank_deg}: it must be between 0 and 90 degrees")
         positive("turn radius", self.turn_radius_m, "metres; airspeed and turn limit together give it")
+        for name in ("climb_rate_m_s", "descent_rate_m_s"):
+            if getattr(self, name) is not None:
+                _keep(self, **{name: positive(name, getattr(self, name), "metres per second")})
 
     @property
     def turn_radius_m(self) -> float:
@@ -248,16 +254,20 @@ def wind_from_velocity(east_m_s: float, north_m_s: float) -> Wind:
 class Pose:
     """Position (metres, local east and north) and compass heading (degrees clockwise from north) of the aircraft.
 
-    A heading may be any finite number. Raises `InvalidArgument` for a value that is not finite.
+    A heading may be any finite number. `altitude_m` is for legs that end at an altitude alone (`Leg`), above the same
+    level as that. Raises `InvalidArgument` for a value that is not finite.
     """
 
     east_m: float
     north_m: float
     heading_deg: float
+    altitude_m: float | None = None
 
     def __post_init__(self) -> None:
         east_m, north_m = number("pose east_m", self.east_m, "metres"), number("pose north_m", self.north_m, "metres")
         _keep(self, east_m=east_m, north_m=north_m, heading_deg=number("pose heading_deg", self.heading_deg, "degrees"))
+        if self.altitude_m is not None:
+            _keep(self, altitude_m=number("pose altitude_m", self.altitude_m, "metres"))
 
 
 @dataclass(frozen=True)

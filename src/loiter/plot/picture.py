@@ -173,11 +173,12 @@ def _draw_panel(axes: Axes, best: Sequence[Maneuver], slower: Sequence[Maneuver]
     if elsewhere is None:
         draw_turns(axes, first.orbit_at_join, {maneuver.turn for maneuver in best})
     for maneuver in best:
-        _draw_path(axes, maneuver, elsewhere)
+        draw_path(axes, maneuver, elsewhere)
     draw_aircraft(axes, first.start)
 
 
-def _draw_path(axes: Axes, maneuver: Maneuver, elsewhere: Box | None) -> None:
+def draw_path(axes: Axes, maneuver: Maneuver, elsewhere: Box | None = None) -> None:
+    """Draw the segments of a maneuver, and its marks where no other panel enlarges them."""
     for segment in maneuver.segments:
         east, north = _segment_track(segment, maneuver)
         axes.plot(east, north, color=COLOURS[segment.letter], linewidth=2.6, zorder=3, gid=f"segment {segment.letter}")

@@ -1,0 +1,135 @@
+"""`loiter leg`: in, round and out of the circle, as a table or JSON, and as a picture."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated
+
+from cyclopts import Group, Parameter
+from rich.console import RenderableType
+
+from loiter.cli import report
+from loiter.cli.coordinates import latitude, longitude
+from loiter.cli.numbers import altitude, metres, metres_per_second, one, several
+from loiter.cli.options import AircraftOptions, Fit, OrbitOptions, PictureOptions, StartOptions, WindOptions, output
+from loiter.cli.scenes import fit_proposed, read_options
+from loiter.errors import InvalidArgument
+from loiter.geo import LocalFrame
+from loiter.planning.leg import Leg, LegPlan, plan_leg
+
+way_out = Group("The way out", sort_key=4)
+
+# The options of the command, in the order of its help.
+ExitTo = Annotated[
+    tuple[float, float] | None,
+    Parameter(
+        group=way_out,
+        converter=several(metres, metres),
+        metavar="EAST NORTH",
+        help="The point that the aircraft flies to from the circle, on a tangent: metres.",
+    ),
+]
+ExitToDegrees = Annotated[
+    tuple[float, float] | None,
+    Parameter(
+        group=way_out,
+        converter=several(latitude, longitude),
+        metavar="LAT LON",
+        help="The same in WGS84 degrees, with --pose-lla and --orbit-lla.",
+    ),
+]
+Hold = Annotated[
+    float, Parameter(group=way_out, metavar="SECONDS", help="Least time on the circle, from joining to the exit.")
+]
+Turns = Annotated[float, Parameter(group=way_out, metavar="N", help="Least number of turns on the circle.")]
+ToAltitude = Annotated[
+    float | None,
+    Parameter(
+        group=way_out,
+        converter=one(altitude),
+        metavar="METRES",
+        help="Altitude at the exit; --altitude is that at the start. The climb or descent begins at once.",
+    ),
+]
+ClimbRate = Annotated[
+    float | None,
+    Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S", help="Rate at which it climbs."),
+]
+DescentRate = Annotated[
+    float | None,
+    Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S", help="Rate at which it descends."),
+]
+Json = Annotated[bool, Parameter(group=output, help="Print one JSON object.")]
+
+
+def leg(
+    *,
+    start: StartOptions = StartOptions(),
+    circle: OrbitOptions = OrbitOptions(),
+    uav: AircraftOptions = AircraftOptions(),
+    air: WindOptions = WindOptions(),
+    fit: Fit = False,
+    exit_to: ExitTo = None,
+    exit_to_lla: ExitToDegrees = None,
+    hold: Hold = 0.0,
+    turns: Turns = 0.0,
+    to_altitude: ToAltitude = None,
+    climb_rate: ClimbRate = None,
+    descent_rate: DescentRate = None,
+    json: Json = False,
+    pictures: PictureOptions = PictureOptions(),
+) -> None:
+    """Plan the fastest way in, round and out of a holding circle towards a point."""
+    (problem, frame), remark = read_options(start, circle, uav, air, fit=fit)
+    pictures.check()
+    pose, aircraft = problem.pose, problem.aircraft
+    if to_altitude is not None and uav.altitude is None:
+        raise InvalidArgument("altitude_m", "is needed with --to-altitude: it is the altitude at the start")
+    asked = Leg(
+        replace(pose, altitude_m=uav.altitude),
+        problem.orbit,
+        exit_place(exit_to, exit_to_lla, frame),
+        hold_s=hold,
+        turns=turns,
+        altitude_m=to_altitude,
+    )
+    with fit_proposed():
+        plan = plan_leg(
+            asked, replace(aircraft, climb_rate_m_s=climb_rate, descent_rate_m_s=descent_rate), problem.wind
+        )
+    if pictures.plot:
+        from loiter.plot.leg import draw
+
+        pictures.save(draw(plan, frame=frame))
+    if json:
+        report.print_json(plan.to_dict() | report.files_member(pictures.plot))
+    else:
+        lines = [remark] if remark else []
+        report.write(*lines, *leg_lines(plan, frame), *report.files_line(pictures.plot))
+
+
+def exit_place(
+    exit_to: tuple[float, float] | None, exit_to_lla: tuple[float, float] | None, frame: LocalFrame | None
+) -> tuple[float, float]:
+    """The point flown to, metres; raises `InvalidArgument` unless it is given once, in the units of the circle."""
+    if (exit_to is None) == (exit_to_lla is None):
+        raise InvalidArgument("exit_to", "or --exit-to-lla is needed, and not both")
+    if (exit_to_lla is None) != (frame is None):
+        raise InvalidArgument("exit_to", "has the units of the circle: --exit-to-lla goes with --orbit-lla")
+    if exit_to_lla is None or frame is None:
+        assert exit_to is not None  # one of them is given
+        return exit_to
+    east, north = frame.to_local(*exit_to_lla)
+    return float(east), float(north)
+
+
+def leg_lines(plan: LegPlan, frame: LocalFrame | None) -> list[RenderableType]:
+    """Headline, the table of the entry, the exit and the altitude."""
+    entry = plan.entry
+    lines: list[RenderableType] = [report.headline(str(plan))]
+    lines += [report.weather(entry)] if entry.wind.speed_m_s > 0.0 else []
+    lines.append(report.leg_table(plan, frame))
+    if plan.leg.climb_m != 0.0:
+        change = "climbs" if plan.leg.climb_m > 0.0 else "descends"
+        lines.append(f"The aircraft {change} by {abs(plan.leg.climb_m):g} m from the start to the exit at the latest.")
+    return lines

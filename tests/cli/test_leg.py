@@ -1,0 +1,56 @@
+"""`loiter leg`: in, round and out, as a table, as JSON and as a picture; docs/legs.md shows its table."""
+
+import json
+import shlex
+
+import pytest
+
+from loiter import Aircraft, Leg, Orbit, Pose, Wind, plan_leg
+from loiter.cli.app import main
+
+UAV = "--airspeed 18 --bank 35"
+SCENE = f"leg --pose -400 120 90 --orbit 0 0 120 {UAV} --wind 8 250"
+
+
+def test_json_has_the_plan_of_the_library(shown):
+    options = "--exit-to 600 0 --hold 30 --turns 1 --altitude 100 --to-altitude 300 --climb-rate 2.5"
+    answer = json.loads(shown(f"{SCENE} {options} --json"))
+    leg = Leg(Pose(-400.0, 120.0, 90.0, 100.0), Orbit(0.0, 0.0, 120.0), (600.0, 0.0), 30.0, 1.0, 300.0)
+    uav = Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5)
+    assert answer == json.loads(json.dumps(plan_leg(leg, uav, Wind(8.0, 250.0)).to_dict()))
+
+
+def test_places_in_degrees(shown):
+    placed = "leg --pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 --exit-to-lla 47.2 8.23"
+    answer = json.loads(shown(f"{placed} {UAV} --json"))
+    assert answer["exit_to"] == pytest.approx({"east_m": 0.0, "north_m": 10005.6}, abs=0.1)
+    assert (answer["exit"]["heading_deg"] + 180.0) % 360.0 == pytest.approx(180.0, abs=1.5)
+
+
+def test_a_picture_shows_the_hold_and_the_way_out(shown, tmp_path):
+    file = tmp_path / "leg.svg"
+    assert f"Wrote {file}." in shown(f"{SCENE} --exit-to 600 0 --hold 90 --plot {file}")
+    drawn = file.read_text("utf-8")
+    for gid in ("hold", "way out", "exit", "point", "join"):
+        assert f'id="{gid}"' in drawn
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ("", "--exit-to or --exit-to-lla is needed, and not both"),
+        ("--exit-to-lla 47 8", "--exit-to has the units of the circle: --exit-to-lla goes with --orbit-lla"),
+        ("--exit-to 50 0", "--exit-to is 50 m from the centre: it must be outside the circle of 120 m"),
+        ("--exit-to 600 0 --hold -3", "--hold is -3.0: it must be zero or a positive, finite number of seconds"),
+        ("--exit-to 600 0 --turns -1", "--turns is -1.0: it must be zero or a positive, finite number of turns"),
+        ("--exit-to 600 0 --to-altitude 300", "--altitude is needed with --to-altitude"),
+        ("--exit-to 600 0 --to-altitude 300 --altitude 100", "--climb-rate is needed: the leg climbs by 200 m"),
+        ("--exit-to 600 0 --to-altitude 50 --altitude 100", "--descent-rate is needed: the leg descends by 50 m"),
+        ("--exit-to 600 0 --orbit-velocity 3 0", "--orbit moves: the way out is planned for a circle"),
+    ],
+)
+def test_bad_input_gets_a_sentence(capsys, options, sentence):
+    assert main(shlex.split(f"{SCENE} {options}")) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith(f"loiter: {sentence}")
