@@ -14,8 +14,8 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from benchmarks.states import Row
 from benchmarks.tables import Run
+from benchmarks.timing import Row
 from loiter.plot.files import save_figure
 from loiter.plot.picture import COLOURS
 

@@ -4,13 +4,12 @@ import os
 from collections.abc import Callable
 from math import cos, inf, nan, sin
 from time import perf_counter
-from typing import NamedTuple
 
 import numpy as np
 
 import loiter
 from benchmarks import peers, plain
-from benchmarks.timing import least_times
+from benchmarks.timing import Row, least_times
 from loiter import Aircraft, Orbit, Pose
 from loiter.compiled import ufuncs, wind_solver
 from loiter.evidence.checks import wind_scan_check
@@ -24,17 +23,6 @@ CORES = os.cpu_count() or 1
 
 # |x| and |y| of the states: those of the paper's figures, where every word occurs, and mostly distant ones, with RSL.
 NEAR, FAR = 4.0, 40.0
-
-
-class Row(NamedTuple):
-    """One line of the table: seconds per state, their ratio to the first line, largest and mean error of T."""
-
-    task: str
-    contender: str
-    seconds: float
-    ratio: float
-    largest: float
-    mean: float
 
 
 def measure() -> list[Row]:

@@ -2,6 +2,18 @@
 
 from collections.abc import Callable, Mapping
 from time import perf_counter
+from typing import NamedTuple
+
+
+class Row(NamedTuple):
+    """One line of the table: seconds per state, their ratio to the first line, largest and mean error of T."""
+
+    task: str
+    contender: str
+    seconds: float
+    ratio: float
+    largest: float
+    mean: float
 
 
 def least_times(contenders: Mapping[str, Callable[[], object]], rounds: int) -> dict[str, float]:

@@ -24,21 +24,21 @@ X, Y = RANDOM.uniform(-12.0, 12.0, (2, 3000))
 R = RANDOM.choice([1.0, 1.0 + 1e-6, 1.5, 2.0, 4.0, 9.0], 3000)
 TURNS = RANDOM.choice(["cw", "ccw", "either"], 3000)
 SIDES = {"cw": Side.CW, "ccw": Side.CCW, "either": Side.EITHER}
-MANEUVERS = [optimum(x, y, q, SIDES[t], 0.0) for x, y, q, t in zip(X, Y, R, TURNS, strict=True)]
 
 
 def test_arrays_give_what_the_scalar_functions_give():
+    maneuvers = [optimum(x, y, q, SIDES[t], 0.0) for x, y, q, t in zip(X, Y, R, TURNS, strict=True)]
     solution = loiter.solve(X, Y, R, TURNS)
-    assert solution.time == pytest.approx([duration(m) for m in MANEUVERS], abs=1e-13, rel=0.0)
-    assert solution.durations == pytest.approx(np.array([times_of(m) for m in MANEUVERS]), abs=1e-13, rel=0.0)
-    assert solution.word.tolist() == [m.word for m in MANEUVERS]
-    assert solution.side.tolist() == [m.side for m in MANEUVERS]
+    assert solution.time == pytest.approx([duration(m) for m in maneuvers], abs=1e-13, rel=0.0)
+    assert solution.durations == pytest.approx(np.array([times_of(m) for m in maneuvers]), abs=1e-13, rel=0.0)
+    assert solution.word.tolist() == [m.word for m in maneuvers]
+    assert solution.side.tolist() == [m.side for m in maneuvers]
     assert np.all(solution.status == Status.OK)
     assert solution.miss == pytest.approx(
-        [miss(x, y, q, m) for x, y, q, m in zip(X, Y, R, MANEUVERS, strict=True)], abs=1e-13
+        [miss(x, y, q, m) for x, y, q, m in zip(X, Y, R, maneuvers, strict=True)], abs=1e-13
     )
     assert loiter.min_time(X, Y, R, TURNS) == pytest.approx(solution.time, abs=1e-13, rel=0.0)
-    expected = [first_control(q, maneuver) for q, maneuver in zip(R, MANEUVERS, strict=True)]
+    expected = [first_control(q, maneuver) for q, maneuver in zip(R, maneuvers, strict=True)]
     assert loiter.control(X, Y, R, TURNS).tolist() == expected
 
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 from benchmarks.report import draw, read, table
-from benchmarks.states import Row
 from benchmarks.tables import Run
+from benchmarks.timing import Row
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "performance.md"
 ROWS = [

@@ -66,8 +66,7 @@ def test_a_vehicle_that_is_low_is_refused(kind):
     assert vehicle.commands == vehicle.asked == []
 
 
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize(("climb_m_s", "side"), [(6.0, "above"), (-6.0, "below")])
+@pytest.mark.parametrize(("kind", "climb_m_s", "side"), [(GuidedPlane, 6.0, "above"), (OffboardPx4, -6.0, "below")])
 def test_an_altitude_that_departs_ends_the_flight(kind, climb_m_s, side):
     outcome = guided(kind(events=[when(JOINING_S, climb_m_s=climb_m_s)]))
     assert f" m {side} the circle: guiding has stopped" in outcome.end
@@ -185,24 +184,23 @@ def hearing(kind, *beats):
     return Hearing()
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_second_guide_is_refused(kind):
-    vehicle = hearing(kind, (0.0, {"component": 24, "kind": 18}), (0.0, {"component": 100, "kind": 18}))
+def test_a_second_guide_is_refused():
+    vehicle = hearing(GuidedPlane, (0.0, {"component": 24, "kind": 18}), (0.0, {"component": 100, "kind": 18}))
     assert guided(vehicle).end == ""
-    vehicle = hearing(kind, *[(0.0, {"component": component, "kind": 18}) for component in (25, 99)])
+    vehicle = hearing(OffboardPx4, *[(0.0, {"component": component, "kind": 18}) for component in (25, 99)])
     assert "cannot be guided: another program guides it already" in guided(vehicle).end
     assert vehicle.commands == vehicle.asked == []
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_second_guide_that_does_not_command_yet_is_none(kind):
-    vehicle = hearing(kind, *[(0.0, {"component": component, "kind": 18, "status": 3}) for component in (25, 99)])
+def test_a_second_guide_that_does_not_command_yet_is_none():
+    vehicle = hearing(
+        OffboardPx4, *[(0.0, {"component": component, "kind": 18, "status": 3}) for component in (25, 99)]
+    )
     assert guided(vehicle).end == ""
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_second_guide_in_flight_ends_the_first(kind):
-    vehicle = hearing(kind, *[(JOINING_S, {"component": component, "kind": 18}) for component in (25, 99)])
+def test_a_second_guide_in_flight_ends_the_first():
+    vehicle = hearing(GuidedPlane, *[(JOINING_S, {"component": component, "kind": 18}) for component in (25, 99)])
     outcome = guided(vehicle)
     assert outcome.end.startswith("another program guides the vehicle too: guiding has stopped, nothing more is sent")
 
@@ -253,29 +251,28 @@ def test_an_arduplane_that_reports_no_target_is_guided():
     assert guided(vehicle).end == ""
 
 
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("sticks_us", [(2000, 1500), (1500, 1100)])
+@pytest.mark.parametrize(("kind", "sticks_us"), [*zip(KINDS, [(2000, 1500), (1500, 1100)], strict=True)])
 def test_a_pilot_who_moves_a_stick_is_left_alone(kind, sticks_us):
     outcome = guided(kind(events=[when(JOINING_S, sticks_us=sticks_us)]))
     assert outcome.end.startswith("the pilot moves a stick: guiding has stopped, nothing more is sent, and ")
     assert max(outcome.vehicle.heard_at) < JOINING_S + 1.5
 
 
-@pytest.mark.parametrize("value", [0, 65535, 1300, 1700])
-def test_no_remote_control_and_small_motions_are_no_pilot(value):
-    outcome = guided(GuidedPlane(events=[when(JOINING_S, sticks_us=(value, value))]))
-    assert outcome.end == ""
+def moved(*values_us):
+    """Whether a stick, that of roll, counts as moved after each of some values; it is on the third channel."""
+    sticks, known = Sticks(), {"RCMAP_ROLL": 3.0, "RC_MAP_PITCH": 0.0}
+    for value_us in values_us:
+        message = SimpleNamespace(get_type=lambda: "RC_CHANNELS", chan1_raw=2000, chan2_raw=2000, chan3_raw=value_us)
+        sticks.update(message, known)
+        yield sticks.moved
+
+
+def test_no_remote_control_and_small_motions_are_no_pilot():
+    assert not any(moved(1500, 0, 65535, 1300, 1700))
 
 
 def test_a_stick_that_was_never_in_the_middle_is_not_watched():
-    sticks, known = Sticks(), {"RCMAP_ROLL": 3.0, "RC_MAP_PITCH": 0.0}
-
-    def moved(value_us):
-        message = SimpleNamespace(get_type=lambda: "RC_CHANNELS", chan1_raw=2000, chan2_raw=2000, chan3_raw=value_us)
-        sticks.update(message, known)
-        return sticks.moved
-
-    assert [moved(value) for value in (1000, 1500, 2000, 1500)] == [False, False, True, False]
+    assert [*moved(1000, 1500, 2000, 1500)] == [False, False, True, False]
 
 
 # A lost link.
@@ -292,7 +289,7 @@ def test_a_px4_that_would_fly_away_is_refused(action):
     with pytest.raises(InvalidArgument, match=r"accept_fly_away is needed: .* set that parameter to 5 \(hold\) or 3"):
         guided(vehicle)
     assert vehicle.commands == vehicle.asked == []
-    if action is not None:
+    if action == 0:
         vehicle = Px4()
         outcome = guided(vehicle, accept_fly_away=True)
         assert outcome.end == ""

@@ -286,8 +286,12 @@ def test_arrows_on_the_circle_point_the_way_it_is_held(scene, everything):
     assert set(senses) == {maneuver.turn.value for maneuver in best}
 
 
-@pytest.mark.parametrize("size_mm", [(203.0, 163.0), (84.0, 70.0), (174.0, 60.0)])
-@each_scene
+WIDE, LOW = (203.0, 163.0), (174.0, 60.0)
+
+
+@pytest.mark.parametrize(
+    ("scene", "size_mm"), [*((scene, (84.0, 70.0)) for scene in SCENES.values()), (FAR, WIDE), (LRL, LOW)]
+)
 def test_the_scale_bar_is_as_long_as_it_says_and_hides_nothing(scene, size_mm):
     axes, _, _ = fresh(scene)
     figure = axes.figure
@@ -307,7 +311,7 @@ def test_the_scale_bar_is_as_long_as_it_says_and_hides_nothing(scene, size_mm):
     assert not any(box.overlaps(tick) for tick in ticks)
 
 
-@pytest.mark.parametrize("size_mm", [(203.0, 163.0), (84.0, 70.0), (84.0, 84.0), (174.0, 60.0)])
+@pytest.mark.parametrize("size_mm", [(84.0, 84.0), LOW])
 @pytest.mark.parametrize("scene", [FAR, ON_CIRCLE], ids=["two lines", "one line"])
 def test_the_north_arrow_points_north_and_is_whole(scene, size_mm):
     """Also where the title, which gives the arrow its room, has one line only."""
@@ -455,8 +459,10 @@ def test_a_short_entry_has_one_panel(scene):
     assert axes.figure.axes == [axes]
 
 
-@pytest.mark.parametrize("size_mm", [(203.0, 163.0), (84.0, 84.0), (174.0, 60.0)])
-@each_long_scene
+@pytest.mark.parametrize(
+    ("scene", "size_mm"),
+    [*((scene, (84.0, 84.0)) for scene in LONG.values()), (LONG["100 radii"], LOW), (LONG["in wind"], WIDE)],
+)
 def test_a_second_panel_enlarges_the_last_turn_of_a_long_entry(scene, size_mm):
     axes, [best], _ = fresh(scene)
     figure = axes.figure

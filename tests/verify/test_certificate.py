@@ -41,7 +41,7 @@ def shown(certificate):
     return "\n" + str(certificate)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(scenes())
 def test_every_optimum_has_a_valid_certificate(scene):
     for m in plan_all(*scene):
@@ -49,7 +49,7 @@ def test_every_optimum_has_a_valid_certificate(scene):
         assert certificate.valid, shown(certificate)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(coordinates, coordinates, radii, turns)
 @example(0.0, 0.0, 1.0, Turn.EITHER)
 @example(0.0, 0.0, 2.0, Turn.CW)
@@ -105,7 +105,7 @@ def test_hard_places_have_valid_certificates(seed):
 MEETING = st.tuples(st.sampled_from([1.0, -1.0]), st.sampled_from([1.0, -1.0]))
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(MEETING, st.floats(0.0, 2.0 * pi), radii, turns, st.sampled_from([0.0, 1e-15, -1e-13, 1e-11, -1e-9, 1e-6]))
 def test_next_to_where_words_meet_too(circle, azimuth, R, turn, off):
     """The last circles, (25) and its likes: words tie there smoothly, T jumps, pieces vanish."""
@@ -116,7 +116,7 @@ def test_next_to_where_words_meet_too(circle, azimuth, R, turn, off):
         assert certificate.valid, shown(certificate)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(scenes())
 def test_no_loser_has_a_valid_certificate(scene):
     best = plan(*scene)
