@@ -19,7 +19,7 @@ from loiter.plot.marks import (
     corners,
     draw_aircraft,
     draw_arrow,
-    draw_circle,
+    draw_orbit,
     draw_turns,
     drawn_gids,
     enlarge,
@@ -91,7 +91,7 @@ def _enlarged(ideal: Maneuver, flights: Mapping[str, Flight]) -> Box | None:
 def _draw_tracks(axes: Axes, ideal: Maneuver, flights: Mapping[str, Flight], elsewhere: Box | None = None) -> None:
     """Draw the tracks, without the marks on the circle if another panel enlarges it."""
     prepare_plan(axes)
-    draw_circle(axes, ideal.orbit_at_join)
+    draw_orbit(axes, ideal.orbit_at_join)
     if elsewhere is None:
         draw_turns(axes, ideal.orbit_at_join, {ideal.turn})
     if ideal.segments:

@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
 from loiter.planning.model import Orbit, Pose
 from loiter.plot.flown import BANK_LABEL, COLOURS, prepare_timeline
-from loiter.plot.marks import Floats, draw_aircraft, draw_arrow, draw_turns, prepare_plan
+from loiter.plot.marks import Floats, draw_aircraft, draw_arrow, draw_circle, draw_turns, prepare_plan
 from loiter.plot.picture import FAINT
 
 Columns = Mapping[str, Sequence[Any]]
@@ -59,12 +58,10 @@ def _draw_values(axes: Axes, time_s: Floats, log: Columns, name: str, label: str
 
 def _draw_track(axes: Axes, log: Columns) -> None:
     prepare_plan(axes)
-    *_, radius_m = log["orbit_radius_m"]
-    *_, turn = log["turn"]
-    orbit = Orbit(log["orbit_east_m"][-1], log["orbit_north_m"][-1], radius_m, turn)
-    centre = (orbit.east_m, orbit.north_m)
-    axes.add_patch(Circle(centre, radius_m, fill=False, color=FAINT, linewidth=5.0, gid="circle"))
-    axes.plot([], [], color=FAINT, linewidth=5.0, label="holding circle")  # a legend shows a circle as a rectangle
+    orbit = Orbit(*(log[f"orbit_{name}"][-1] for name in ("east_m", "north_m", "radius_m")), log["turn"][-1])
+    band: dict[str, Any] = {"color": FAINT, "linewidth": 5.0}
+    draw_circle(axes, orbit, gid="circle", **band)
+    axes.plot([], [], **band, label="holding circle")  # a legend shows a circle as a rectangle
     draw_turns(axes, orbit, {orbit.turn})
     east, north = np.asarray(log["east_m"], float), np.asarray(log["north_m"], float)
     holding = np.array([stage != "joining" for stage in log["stage"]])

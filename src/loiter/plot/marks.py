@@ -81,11 +81,15 @@ def corners(orbit: Orbit) -> Points:
     return orbit.east_m + ends, orbit.north_m + ends
 
 
-def draw_circle(axes: Axes, orbit: Orbit) -> None:
-    """Draw a circle and its centre."""
-    centre = (orbit.east_m, orbit.north_m)
-    axes.add_patch(Circle(centre, orbit.radius_m, fill=False, color="black", linewidth=1.4, zorder=2, gid="circle"))
-    axes.plot(*centre, marker="+", color="black", markersize=8, linestyle="none", gid="centre")
+def draw_orbit(axes: Axes, orbit: Orbit) -> None:
+    """Draw the circle and its centre."""
+    draw_circle(axes, orbit, gid="circle", color="black", linewidth=1.4, zorder=2.0)
+    mark(axes, orbit, marker="+", markersize=8, zorder=2.0, gid="centre")
+
+
+def draw_circle(axes: Axes, orbit: Orbit, **style: Any) -> None:
+    """Draw a circle as a line."""
+    axes.add_patch(Circle((orbit.east_m, orbit.north_m), orbit.radius_m, fill=False, **style))
 
 
 def draw_turns(axes: Axes, orbit: Orbit, turns: set[Turn]) -> None:
@@ -142,10 +146,10 @@ def draw_aircraft(axes: Axes, pose: Pose) -> None:
     mark(axes, pose, marker=outline, markersize=16, zorder=2.5, gid="start")
 
 
-def mark(axes: Axes, pose: Pose, **style: Any) -> None:
-    """Draw a mark at a pose."""
+def mark(axes: Axes, place: Pose | Orbit, **style: Any) -> None:
+    """Draw a mark at a pose or at the centre of a circle."""
     chosen: dict[str, Any] = {"color": "black", "linestyle": "none", "zorder": 5} | style
-    axes.plot([pose.east_m], [pose.north_m], **chosen)
+    axes.plot([place.east_m], [place.north_m], **chosen)
 
 
 def draw_wind(axes: Axes, wind: Wind) -> None:

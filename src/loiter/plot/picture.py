@@ -10,7 +10,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle
 
 from loiter.fences import Breach, Fence
 from loiter.geo import LocalFrame
@@ -28,6 +27,7 @@ from loiter.plot.marks import (
     draw_arrow,
     draw_circle,
     draw_north,
+    draw_orbit,
     draw_turns,
     draw_wind,
     drawn_gids,
@@ -169,7 +169,7 @@ def _draw_panel(axes: Axes, best: Sequence[Maneuver], slower: Sequence[Maneuver]
         axes.plot(*_track(maneuver), **style, gid=f"slower {maneuver.turn}")
     if first.orbit.moves:
         _draw_movement(axes, first)
-    draw_circle(axes, first.orbit_at_join)
+    draw_orbit(axes, first.orbit_at_join)
     if elsewhere is None:
         draw_turns(axes, first.orbit_at_join, {maneuver.turn for maneuver in best})
     for maneuver in best:
@@ -193,9 +193,8 @@ def draw_path(axes: Axes, maneuver: Maneuver, elsewhere: Box | None = None) -> N
 def _draw_movement(axes: Axes, maneuver: Maneuver) -> None:
     """Draw the circle at the start, and the path of its centre until it is joined."""
     before, after = maneuver.orbit, maneuver.orbit_at_join
-    centre = (before.east_m, before.north_m)
-    axes.add_patch(Circle(centre, before.radius_m, fill=False, zorder=1, gid="circle at the start", **AT_THE_START))
-    east, north = np.linspace(centre, (after.east_m, after.north_m), 3).T
+    draw_circle(axes, before, zorder=1, gid="circle at the start", **AT_THE_START)
+    east, north = np.linspace((before.east_m, before.north_m), (after.east_m, after.north_m), 3).T
     axes.plot(east, north, color=FAINT, linewidth=1.0, linestyle=":", gid="way of the centre")
     draw_arrow(axes, east, north, 1, FAINT)
 
