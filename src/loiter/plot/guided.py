@@ -58,7 +58,10 @@ def _draw_values(axes: Axes, time_s: Floats, log: Columns, name: str, label: str
 
 def _draw_track(axes: Axes, log: Columns) -> None:
     prepare_plan(axes)
-    orbit = Orbit(*(log[f"orbit_{name}"][-1] for name in ("east_m", "north_m", "radius_m")), log["turn"][-1])
+    east_m, north_m, radius_m, turn = (
+        log[name][-1] for name in ("orbit_east_m", "orbit_north_m", "orbit_radius_m", "turn")
+    )
+    orbit = Orbit(east_m, north_m, radius_m, turn)
     band: dict[str, Any] = {"color": FAINT, "linewidth": 5.0}
     draw_circle(axes, orbit, gid="circle", **band)
     axes.plot([], [], **band, label="holding circle")  # a legend shows a circle as a rectangle
