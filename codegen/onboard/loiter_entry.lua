@@ -95,7 +95,7 @@ local BANK = own_parameter(5, "BANK", 0)
 --[[
   // @Param: LENT_BEAT
   // @DisplayName: Fastest entry: sign of life
-  // @Description: Changes twenty times a second while an entry is flown, and is 0 otherwise: for loiter_entry_watchdog.lua. It is positive where the circle is flown clockwise. Not to be set by a user
+  // @Description: Changes twenty times a second while an entry is flown, and is 0 otherwise: for loiter_watchdog.lua. It is positive where the circle is flown clockwise. Not to be set by a user
   // @User: Advanced
   // @ReadOnly: True
 --]]

@@ -19,6 +19,7 @@ from lupa.lua53 import LuaRuntime
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
 from loiter.guidance.protocol import Command, Phase
+from loiter.guidance.rivals.l1 import L1
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.trials.settling import SettlingMonitor
 from loiter.guidance.vehicle.circle import Band
@@ -87,6 +88,7 @@ class World:
         }
         self.states, self.now_mode, self.centre, self.stick_share = {"armed"}, LOITER, (0, 0), 0.0
         self.said, self.commands, self.waiting, self.heading = [], [], deque(), None
+        self.aircraft, self.wind_air, self.loiter = aircraft, wind, None
         self.healthy = True
 
     # What the bindings call.
@@ -143,6 +145,9 @@ class World:
         self.commands.append((command, p2, p3, p4))
         if command == REPOSITION:
             self.now_mode, self.heading, self.centre = GUIDED, None, (x, y)
+            self.waiting.clear()
+            orbit = Orbit(y * 0.01, x * 0.01, p3, Turn.CCW if p4 else Turn.CW)
+            self.loiter = L1(orbit, self.aircraft, self.wind_air)
         elif self.now_mode != GUIDED:
             return FAILED
         else:
@@ -156,7 +161,7 @@ class World:
         while self.waiting and self.waiting[0][0] <= s.time_s:
             self.heading = self.waiting.popleft()[1:]
         if self.heading is None:
-            return 0.0
+            return 0.0 if self.loiter is None else self.loiter.step(self.state(), PERIOD_S).bank_deg
         target_deg, acceleration = self.heading
         limit_deg = degrees(atan(acceleration / G))
         return max(-limit_deg, min(limit_deg, remainder(target_deg - s.heading_deg, 360.0)))
@@ -174,18 +179,22 @@ class Applet:
 
     def __init__(self, world, path=FOLDER / APPLET):
         self.world = world
-        self.lua = LuaRuntime(unpack_returned_tuples=True)
+        self.lua = LuaRuntime(unpack_returned_tuples=True, max_memory=0)
         load = self.lua.eval("function(text, name) return assert(load(text, name)) end")
         load((HERE / "bindings.lua").read_text("utf-8"), "bindings")(world, self.lua.table_from(bindings()))
         self.count_of = self.lua.execute(COUNT)
         self.load_count, self.update, _ = self.count_of(load(_source(path), path.name))
         self.counts = []
 
-    def callback(self):
-        """Call what it asked to be called, count its instructions, and let the world go on until the next call."""
+    def call(self):
+        """Call what it asked to be called, and count its instructions; the seconds until the next call."""
         count, self.update, delay_ms = self.count_of(self.update)
         self.counts.append(count)
-        self.world.advance(delay_ms / 1000.0)
+        return delay_ms / 1000.0
+
+    def callback(self):
+        """The same, and let the world go on until the next call."""
+        self.world.advance(self.call())
 
 
 @cache

@@ -71,6 +71,7 @@ param = counted("param", {
   add_table = function() return true end,
   add_param = function(_, _, name, default) world.set("LENT_" .. name, default) return true end,
   get = function(name) return world.get(name) end,
+  set = function(name, value) world.set(name, value) return true end,
 })
 function Parameter(name)
   return counted("Parameter_ud", {
