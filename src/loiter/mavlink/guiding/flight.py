@@ -51,7 +51,7 @@ WIND_S = 0.5
 HAND_OVER_S = 180.0
 
 # What a refused circle may mean.
-OUTSIDE_FENCE = "; its fence is on: is the circle outside?"
+OUTSIDE_FENCE = "; its fence is on, and the circle may be outside"
 
 
 class GuidingStopped(Exception):
@@ -281,10 +281,15 @@ class GuidedFlight:
         if stop.ours:
             try:
                 if self._command_hold(measured=stop.measured):
-                    return f"{stop.reason}: guiding has stopped, and {self._contact.name} flies the fall-back circle"
+                    return f"{stop.reason}: {self._end}, and {self._contact.name} flies the fall-back circle"
             except (LoiterError, GuidingStopped) as failure:
                 stop = StopReason(f"{stop.reason}, and then {failure}", ours=False)
-        return f"{stop.reason}: guiding has stopped, nothing more is sent, and {self._consequence()}{self._texts}"
+        return f"{stop.reason}: {self._end}, nothing more is sent, and {self._consequence()}{self._texts}"
+
+    @property
+    def _end(self) -> str:
+        """That guiding has ended, or that it never began."""
+        return "guiding has stopped" if self._steered or self.resumed else "guiding has not begun"
 
     def _consequence(self) -> str:
         """What the vehicle does when nothing more is sent: what it was observed to do, or is set to do."""
