@@ -22,9 +22,8 @@ from loiter.kernel.wind.wind_search import WindProblem, fastest, time_of
 from loiter.kernel.words import Side
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_no_difference_beyond_what_the_search_resolves(seed):
-    differences = list(compare_with_scan(24, seed))
+def test_no_difference_beyond_what_the_search_resolves():
+    differences = list(compare_with_scan(24, 1))
     assert len(differences) == 24
     assert max(d.later for d in differences) <= RESOLUTION
     assert max(d.earlier for d in differences) <= RESOLUTION

@@ -17,7 +17,7 @@ schema = schemathesis.openapi.from_asgi("/openapi.json", create_app())
 
 
 @schema.parametrize()
-@settings(max_examples=25, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=15, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
 def test_every_answer_fits_its_description(case):
     # A schema cannot express that the circle can be held in this wind; the library refuses such scenes with 422.
     case.call_and_validate(excluded_checks=[positive_data_acceptance])
