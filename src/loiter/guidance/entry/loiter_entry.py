@@ -147,13 +147,17 @@ class LoiterEntry:
         """
         dt = positive("dt", dt, "seconds")
         instance("state", state, State)
-        before = self._memory
-        if self._identifies:
-            self._identification, self._vehicle = identification_step.identify(
-                self._declared, self._identification, state, before.command.bank_deg, before.step_s
-            )
-        else:
-            self._vehicle = fly_as_declared(self._vehicle, before.command.bank_deg, before.step_s)
-        self._memory, command = law_step.step(self._settings, before, self._vehicle, state, dt)
+        self._vehicle = self._vehicle_at(state)
+        self._memory, command = law_step.step(self._settings, self._memory, self._vehicle, state, dt)
         rate, bank_deg, phase, join_s, side, next_phase, next_s = command
         return Command(rate, bank_deg, NAMED_PHASES[phase], join_s, NAMED_TURNS[side], NAMED_PHASES[next_phase], next_s)
+
+    def _vehicle_at(self, state: State) -> VehicleModel:
+        """What is known of the vehicle at a measurement, after the last command."""
+        command_deg, step_s = self._memory.command.bank_deg, self._memory.step_s
+        if not self._identifies:
+            return fly_as_declared(self._vehicle, command_deg, step_s)
+        self._identification, vehicle = identification_step.identify(
+            self._declared, self._identification, state, command_deg, step_s
+        )
+        return vehicle
