@@ -20,6 +20,7 @@ from loiter.mavlink import guide
 from loiter.mavlink.connection import link, parameters
 from loiter.mavlink.guiding import contact, flight, preparation
 from loiter.mavlink.guiding import guide as guiding
+from loiter.mavlink.missions import transfer
 from mavlink.vehicle import ACCEPTED, Plane, Port, Vehicle, mavlink
 
 FRAME = LocalFrame(47.0, 8.0)
@@ -505,7 +506,7 @@ class Guided:
 def simulated_time(port):
     """Connections lead to a port while this lasts, and the library's clock is that of the port."""
     with pytest.MonkeyPatch.context() as patch:
-        for module in (link, parameters, contact, flight, preparation, guiding):
+        for module in (link, parameters, contact, flight, preparation, guiding, transfer):
             patch.setattr(module, "monotonic", lambda: port.now)
         for name, seconds in REAL.items():
             patch.setattr(*name, seconds)

@@ -6,6 +6,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 from loiter.errors import LinkFailed
 from loiter.fences import PlacedCircle, PlacedFence, PlacedPolygon
 from loiter.mavlink import download, download_fence
+from mavlink.flyer import FRAME, ORBIT, Airframe, GuidedPlane, guided
 from mavlink.vehicle import OLD, Vehicle, flying, item
 
 CORNERS = ((47.0, 8.0), (47.01, 8.0), (47.01, 8.02))
@@ -40,6 +41,52 @@ class Fenced(Vehicle):
 
 class Ardu(Fenced):
     autopilot = 3
+
+
+def ring(radius_m, command=5003):
+    """A circle about that which is guided onto."""
+    latitude, longitude = (round(float(value) * 1e7) for value in FRAME.to_geodetic(ORBIT.east_m, ORBIT.north_m))
+    return item(command, params=(radius_m, 0.0, 0.0, 0.0), x=latitude, y=longitude)
+
+
+class FencedPlane(GuidedPlane):
+    """A plane in flight with a fence."""
+
+    fence = ()
+
+    on_mission_request_list, on_mission_request_int = Fenced.on_mission_request_list, Fenced.on_mission_request_int
+
+
+def guided_with(own_fence, **options):
+    """A flight from near the middle of the circle, which is inside."""
+    vehicle = FencedPlane(Airframe())
+    vehicle.fence = own_fence
+    return guided(vehicle, seconds=4.0, coast_s=0.3, **options)
+
+
+@pytest.mark.parametrize(
+    ("fence", "end"),
+    [
+        ([ring(84.0)], "cannot be guided: the plan comes within 4.0 m of the inclusion zone 'circle 1'"),
+        ([ring(79.0)], "cannot be guided: the plan leaves the inclusion zone 'circle 1'"),
+        ([ring(75.0, 5004)], "cannot be guided: its pose is inside the zone 'circle 1'"),
+        ([], "system 1 (ArduPilot) has no fence to be checked"),
+    ],
+)
+def test_a_vehicle_is_not_guided_into_its_fence(fence, end):
+    outcome = guided_with(fence, fence="vehicle")
+    assert end in outcome.end
+    assert outcome.end.endswith("; nothing was commanded")
+
+
+def test_a_vehicle_is_guided_inside_its_fence():
+    outcome = guided_with([ring(400.0)], fence="vehicle", dry_run=True)
+    assert any(notice.startswith("The plan and its hold stay clear of the fence, ") for notice in outcome.notices)
+
+
+def test_a_fence_of_a_file_is_kept():
+    mast = PlacedFence((PlacedCircle("mast", 47.0, 8.0, 60.0),))
+    assert "cannot be guided: its pose is inside the zone 'mast'" in guided_with([], fence=mast).end
 
 
 @pytest.mark.parametrize("kind", [Fenced, Ardu])

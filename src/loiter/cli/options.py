@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from loiter.fences import PlacedFence
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
+    from loiter.mavlink.guiding.preparation import OwnFence
 
 scene = Group("Scene", sort_key=1)
 aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sort_key=2)
@@ -495,6 +496,25 @@ class FenceOptions:
         if found is None and self.margin is not None:
             raise InvalidArgument("margin_m", "has no effect without --fence")
         return found
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class GuidedFenceOptions(FenceOptions):
+    """A fence, which may be that of the vehicle."""
+
+    fence: Annotated[
+        Path | None,
+        Parameter(
+            group=scene,
+            metavar="FILE",
+            help="Refuse a plan that does not stay clear of a fence: that of a file, as for loiter plan, or with --fence vehicle the one that the vehicle has. It is not watched in flight.",
+        ),
+    ] = None
+
+    def of_flight(self) -> PlacedFence | OwnFence | None:
+        """The fence of the file, or "vehicle"; None without one. Raises `InvalidArgument`."""
+        return "vehicle" if self.fence == Path("vehicle") else self.placed(None)
 
 
 Fit = Annotated[

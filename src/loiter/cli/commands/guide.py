@@ -19,6 +19,7 @@ import loiter
 from loiter.cli import report, vehicles
 from loiter.cli.commands.mavlink import Connect, JsonLines, System, Timeout, connection
 from loiter.cli.options import (
+    GuidedFenceOptions,
     GuidedOrbitOptions,
     GuidedVehicleOptions,
     WindOptions,
@@ -81,6 +82,7 @@ def guide(
     circle: GuidedOrbitOptions = GuidedOrbitOptions(),
     uav: GuidedVehicleOptions = GuidedVehicleOptions(),
     air: WindOptions = WindOptions(),
+    fence: GuidedFenceOptions = GuidedFenceOptions(),
     log: Annotated[
         Path | None,
         Parameter(
@@ -115,6 +117,8 @@ def guide(
         confirm=None if yes else _question(),
         resume=resume,
         log=log,
+        fence=fence.of_flight(),
+        margin_m=fence.margin,
     )
     with _ending_signals(), closing(reports):
         try:

@@ -7,6 +7,7 @@ from time import monotonic
 from typing import Any
 
 from loiter.errors import LinkFailed
+from loiter.fences import Fence
 from loiter.geo import LocalFrame
 from loiter.guidance.protocol import State
 from loiter.io.missions.items import Autopilot
@@ -41,7 +42,7 @@ AIR_S, WIND_DIFFERS = 1.0, 0.2
 class Contact:
     """A link to a vehicle with ArduPilot or PX4, and what its messages say.
 
-    `pending`, once it is set, gets every message too.
+    `pending`, once it is set, gets every message too. `fence` is that against which plans are checked, if any.
     """
 
     def __init__(self, link: Link, connection: str, frame: LocalFrame) -> None:
@@ -60,6 +61,7 @@ class Contact:
         self.round_trip = RoundTrip()
         self.steering: Steering | None = None
         self.pending: PendingCommand | None = None
+        self.fence: Fence | None = None
         self._next_request = -inf
         # The mean velocity of the air, east and north, from ground speed, heading and airspeed, the mean airspeed, and
         # the time of the last state in them.

@@ -9,13 +9,14 @@ from pathlib import Path
 from time import monotonic
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument, LinkFailed, file_path, instance, number, positive
+from loiter.errors import InvalidArgument, LinkFailed, file_path, instance, not_negative, number, positive
+from loiter.fences import PlacedFence
 from loiter.geo import LocalFrame
 from loiter.mavlink.connection.link import TIMEOUT_S, check_target, open_link
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.flight import GuidedFlight, GuidingStopped
 from loiter.mavlink.guiding.monitor import StopReason
-from loiter.mavlink.guiding.preparation import GuideRequest
+from loiter.mavlink.guiding.preparation import GuideRequest, OwnFence
 from loiter.mavlink.guiding.report import GuideReport
 from loiter.mavlink.guiding.step_log import check_log, step_log
 from loiter.planning.model import Orbit, Wind
@@ -46,6 +47,8 @@ def guide(
     confirm: Callable[[], bool] | None = None,
     resume: bool = False,
     log: str | Path | None = None,
+    fence: PlacedFence | OwnFence | None = None,
+    margin_m: float | None = None,
 ) -> Generator[GuideReport, None, None]:
     """Guide a vehicle in flight onto a circle by bank commands, and hand it over to its own hold of that circle.
 
@@ -70,6 +73,9 @@ def guide(
     heard again, still in ArduPlane's GUIDED and on its way to the circle, guiding begins anew. PX4 has then left
     OFFBOARD, as a pilot may have wanted.
 
+    `fence` is a fence, or "vehicle" for the one that the vehicle has: a plan that does not stay farther from it than
+    `margin_m` metres (`loiter.fences.check`) is refused before the first command. It is not watched in flight.
+
     docs/autopilots.md lists what ends the flight early, and what the vehicle does then: at once it is commanded back to
     the fall-back circle, if the link is alive and neither the pilot nor a failsafe has changed its mode. `LinkFailed`
     then says why. It is also raised if the vehicle is not found, is not fit to be guided, or refuses a command;
@@ -90,10 +96,25 @@ def guide(
         instance("wind", wind, Wind)
     if orbit.moves:
         raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
+    if fence is not None and fence != "vehicle":
+        instance("fence", fence, PlacedFence)
+    if margin_m is not None:
+        margin_m = not_negative("margin_m", margin_m, "metres")
     path = None if log is None else Path(file_path("log", log))
     check_log(path)
     request = GuideRequest(
-        orbit, frame, airspeed_m_s, max_bank_deg, wind, altitude_m, keep, dry_run, accept_fly_away, confirm
+        orbit=orbit,
+        frame=frame,
+        airspeed_m_s=airspeed_m_s,
+        max_bank_deg=max_bank_deg,
+        wind=wind,
+        altitude_m=altitude_m,
+        keep=keep,
+        dry_run=dry_run,
+        accept_fly_away=accept_fly_away,
+        confirm=confirm,
+        fence=fence,
+        margin_m=margin_m,
     )
     target = _Target(connection, system, component, timeout_s)
     return _guide(target, request, period_s, path, resume=resume)

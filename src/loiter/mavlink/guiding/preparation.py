@@ -6,9 +6,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import isfinite
 from time import monotonic
-from typing import NamedTuple
+from typing import Literal, NamedTuple, TypeAlias
 
 from loiter.errors import InvalidArgument, LinkFailed
+from loiter.fences import Fence, PlacedFence
 from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.protocol import State
@@ -19,8 +20,10 @@ from loiter.mavlink.connection.link import not_found
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.measurements import AirspeedSource
 from loiter.mavlink.guiding.monitor import LEAST_HEIGHT_M, LEAST_HZ
+from loiter.mavlink.missions.fences import receive_fence
 from loiter.planning.compass import wrapped
 from loiter.planning.feasibility import RelativeWind, check_held, is_holdable, relative_velocity
+from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.solve import plan
 
@@ -38,6 +41,10 @@ WIND_SLACK = 1.15
 AIRSPEED_SHARE = 0.15
 
 
+# The fence that the vehicle has.
+OwnFence: TypeAlias = Literal["vehicle"]
+
+
 class GuideRequest(NamedTuple):
     """The arguments of `guide`: the circle and its frame, the aircraft and the wind if they are given, the options."""
 
@@ -51,6 +58,8 @@ class GuideRequest(NamedTuple):
     dry_run: bool
     accept_fly_away: bool
     confirm: Callable[[], bool] | None
+    fence: PlacedFence | OwnFence | None = None
+    margin_m: float | None = None
 
 
 class FlightSetup(NamedTuple):
@@ -82,6 +91,7 @@ def prepare(contact: Contact, request: GuideRequest, timeout_s: float, *, only_v
     settings = autopilot_settings(contact.autopilot, contact.parameters.known)
     if contact.flies_px4 and settings.flies_away and not (request.accept_fly_away or request.dry_run):
         raise InvalidArgument("accept_fly_away", _fly_away_problem(settings))
+    contact.fence = _local_fence(contact, request, timeout_s)
     return choose(contact, request, settings)
 
 
@@ -95,10 +105,34 @@ def choose(contact: Contact, request: GuideRequest, settings: AutopilotSettings)
     state, orbit = contact.state(), request.orbit
     assert state is not None  # it was waited for
     wind = request.wind or _holdable_wind(orbit, aircraft, contact.likely_wind(airspeed))
+    start = Pose(state.east_m, state.north_m, wrapped(state.heading_deg))
     if orbit.turn == Turn.EITHER:
-        start = Pose(state.east_m, state.north_m, wrapped(state.heading_deg))
         orbit = replace(orbit, turn=plan(start, orbit, aircraft, wind).turn)
+    if contact.fence is not None:
+        notices += (_fence_sentence(contact, contact.fence, plan(start, orbit, aircraft, wind), request),)
     return FlightSetup(orbit, aircraft, settings, altitude_m, state, wind, notices)
+
+
+def _local_fence(contact: Contact, request: GuideRequest, timeout_s: float) -> Fence | None:
+    """The fence of the request, which may be that of the vehicle, in the metres of its frame; None without one."""
+    placed = request.fence
+    if placed == "vehicle":
+        placed = receive_fence(contact.link, timeout_s)
+        if placed is None:
+            raise LinkFailed(f"{contact.name} has no fence to be checked")
+    return None if placed is None else placed.local(request.frame)
+
+
+def _fence_sentence(contact: Contact, fence: Fence, maneuver: Maneuver, request: GuideRequest) -> str:
+    """That a plan stays clear of the fence; raises `LinkFailed` for one that does not."""
+    try:
+        found = fence.check(maneuver, request.margin_m)
+    except InvalidArgument as error:
+        raise LinkFailed(f"{contact.name} cannot be guided: its {error}") from error
+    sentence = found.sentence(request.frame)
+    if not found.clear:
+        raise LinkFailed(f"{contact.name} cannot be guided: {sentence[0].lower()}{sentence[1:].rstrip('.')}")
+    return sentence
 
 
 def _holdable_wind(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> Wind | None:
