@@ -38,7 +38,13 @@ SLOW = {
 }
 
 # Files of tests that first build the package, the site or a library, or check all types: by one worker, not by each.
-BUILDING = "documents/test_package.py", "documents/test_site.py", "guidance/test_law_in_c.py", "tests/test_types.py"
+BUILDING = (
+    "documents/test_package.py",
+    "documents/test_site.py",
+    "guidance/test_law_in_c.py",
+    "guidance/test_law_in_javascript.py",
+    "tests/test_types.py",
+)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 38615eb68fd1365ce6e4d4e0a773a82c5927aab3c30d58c96d053588489e1b9c
+-- SHA-256 of the source: 8664ad35e34dca5faca9f85e14ea7a4d399d1201d332100d21c0f98ffb6c5437
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -1075,6 +1075,11 @@ function law.relative_state(settings, estimate)
             vx = hx + air_east - east, vy = hy + air_north - north, hx = hx, hy = hy}
 end
 
+-- The plain number of a member of `Word`, `Side` or `Status`, which Python answers in as compiled code does.
+function law.code(member)
+    return member + 0
+end
+
 -- The velocity (vx, vy) of a vehicle that flies along (hx, hy); (hx, hy) where that velocity is not plausible.
 function law.flight_velocity(vx, vy, hx, hy)
     local chosen_1 = vx * hx + vy * hy > 0.05--[[LEAST_SPEED]] * (hx * hx + hy * hy)
@@ -1178,11 +1183,11 @@ end
 -- The plan that holds the circle at once, if the flight begins on it; otherwise the plan as it is.
 function law.plan_on_circle(settings, limits, plan, state)
     local r, V, R = limits.turns.planned_m, limits.turns.airspeed_m_s, settings.radius_m
-    local each_side_1 = {1--[[Side.CW]] + 0, -1--[[Side.CCW]] + 0}
+    local each_side_1 = {law.code(1--[[Side.CW]]), law.code(-1--[[Side.CCW]])}
     for i_1 = 1, 2 do
         local side = each_side_1[i_1]
         if settings.side == side or settings.side == 0--[[Side.EITHER]] then
-            local entry = {side = side, word = 0--[[Word.EMPTY]] + 0, t1_s = 0.0, t2_s = 0.0, t3_s = 0.0,
+            local entry = {side = side, word = law.code(0--[[Word.EMPTY]]), t1_s = 0.0, t2_s = 0.0, t3_s = 0.0,
                     turn_radius_m = r, speed_m_s = V, wind_east_m_s = limits.wind_east_m_s, wind_north_m_s =
                     limits.wind_north_m_s}
             local route = law.route_of(state, entry)
@@ -1465,11 +1470,6 @@ end
 -- The reduced state (2) of a vehicle at (x, y), relative to the circle's centre, with the unit heading (c, s).
 function law.reduce(x, y, c, s)
     return x * c + y * s, y * c - x * s
-end
-
--- The plain number of a member of `Word`, `Side` or `Status`, which Python answers in as compiled code does.
-function law.code(member)
-    return member + 0
 end
 
 -- The side that is never slower: T_either(x, y) = T_cw(x, |y|) (paper, section 5); clockwise on y = 0.
@@ -1922,7 +1922,7 @@ end
 
 -- The search whose answer is known.
 function law.found_at_once(entry)
-    local found = {status = 0--[[Status.OK]] + 0, side = entry.side, word = entry.word, t1 = entry.t1, t2 =
+    local found = {status = law.code(0--[[Status.OK]]), side = entry.side, word = entry.word, t1 = entry.t1, t2 =
             entry.t2, t3 = entry.t3, azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}
     return with_fields(law.NO_SEARCH, {stage = 5--[[ENDED]], entry = found})
 end

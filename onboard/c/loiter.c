@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 1b20a95b4b1e8fd11018122c5ad62e8bc0d462f3504195055e8a3534310baa8b
+ * SHA-256 of the source: d37b5193fd273e7d342eabe235191eed19256d3d9710e749c70c29fae460f4b8
  */
 #include "loiter.h"
 
@@ -4248,12 +4248,12 @@ static inline PathOffset offset_of(const Route *route, const RelativeState *stat
 static inline Plan plan_on_circle(const Settings *settings, const Limits *limits, const Plan *plan, const
         RelativeState *state) {
     const real r = limits->turns.planned_m, V = limits->turns.airspeed_m_s, R = settings->radius_m;
-    const integer each_side_1[2] = {SIDE_CW + 0, SIDE_CCW + 0};
+    const integer each_side_1[2] = {code(SIDE_CW), code(SIDE_CCW)};
     for (int i_1 = 0; i_1 < 2; i_1++) {
         const integer side = each_side_1[i_1];
         if (settings->side == side || settings->side == SIDE_EITHER) {
-            const PlannedEntry entry = MAKE(PlannedEntry){side, WORD_EMPTY + 0, REAL(0.0), REAL(0.0), REAL(0.0), r,
-                    V, limits->wind_east_m_s, limits->wind_north_m_s};
+            const PlannedEntry entry = MAKE(PlannedEntry){side, code(WORD_EMPTY), REAL(0.0), REAL(0.0), REAL(0.0),
+                    r, V, limits->wind_east_m_s, limits->wind_north_m_s};
             const Route route = route_of(state, &entry);
             const PathOffset offset = offset_of(&route, state, R);
             if (real_fabs(offset.crosstrack) < REAL(0.5) * settings->reserve * R && real_fabs(offset.course_error)
@@ -4547,7 +4547,7 @@ static inline Entry _still_air_entry(const RelativeState *state, real c, real s,
 
 /* The search whose answer is known. */
 static inline WindSearch found_at_once(Entry entry) {
-    const WindEntry found = MAKE(WindEntry){STATUS_OK + 0, entry.side, entry.word, entry.t1, entry.t2, entry.t3,
+    const WindEntry found = MAKE(WindEntry){code(STATUS_OK), entry.side, entry.word, entry.t1, entry.t2, entry.t3,
             REAL_NAN, REAL_NAN};
     WindSearch changed_1 = NO_SEARCH;
     changed_1.stage = ENDED;

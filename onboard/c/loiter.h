@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 1b20a95b4b1e8fd11018122c5ad62e8bc0d462f3504195055e8a3534310baa8b
+ * SHA-256 of the source: d37b5193fd273e7d342eabe235191eed19256d3d9710e749c70c29fae460f4b8
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

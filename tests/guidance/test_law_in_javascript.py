@@ -43,9 +43,18 @@ def in_javascript(value):
     return repr(float(value)).replace("nan", "NaN").replace("inf", "Infinity")
 
 
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """The law in JavaScript, which takes long to generate, and a module that flies it."""
+    folder = tmp_path_factory.mktemp("javascript")
+    for name, text in {"law.js": law_module(), "fly.mjs": FLY, "package.json": '{"type": "module"}'}.items():
+        (folder / name).write_text(text, "utf-8")
+    return folder
+
+
 @pytest.mark.parametrize("identify", [False, True])
 @pytest.mark.parametrize("i", range(4))
-def test_the_law_in_javascript_gives_the_commands_of_python(tmp_path, i, identify):
+def test_the_law_in_javascript_gives_the_commands_of_python(folder, i, identify):
     """Also with measurements that are lost, wrong or repeated, and a clock that jumps, as in recorded flight 8."""
     orbit, told, air, others = SCENES[i]
     law = LoiterEntry(orbit, UAV, told, identify=identify)
@@ -61,11 +70,8 @@ def test_the_law_in_javascript_gives_the_commands_of_python(tmp_path, i, identif
         mass.advance(command, dt)
     parts = {"settings": law._settings, "declared": law._declared, "identifies": identify, "states": states, "dt": dt}
     flight = "\n".join(f"export const {name} = {in_javascript(value)};" for name, value in parts.items())
-    (tmp_path / "flight.mjs").write_text(flight, "utf-8")
-    (tmp_path / "law.js").write_text(law_module(), "utf-8")
-    (tmp_path / "package.json").write_text('{"type": "module"}', "utf-8")
-    (tmp_path / "fly.mjs").write_text(FLY, "utf-8")
-    done = subprocess.run([NODE, tmp_path / "fly.mjs"], capture_output=True, text=True, check=True, timeout=600)
+    (folder / "flight.mjs").write_text(flight, "utf-8")
+    done = subprocess.run([NODE, folder / "fly.mjs"], capture_output=True, text=True, check=True, timeout=600)
     found = json.loads(done.stdout)
     for step, (numbers, (*flown, _)) in enumerate(zip(given, found, strict=True)):
         for number, other in zip(numbers, flown, strict=True):

@@ -13,7 +13,7 @@ from native.test_javascript import beside
 from native.test_kernel import scenes
 from native.test_mutants import CHANGES, EQUIVALENT, line_at
 
-COUNT = 8
+COUNT = 5
 
 
 def everything(kernel):

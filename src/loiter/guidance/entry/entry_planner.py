@@ -15,7 +15,7 @@ from loiter.kernel.rounding import rounded_radius
 from loiter.kernel.statuses import Status
 from loiter.kernel.wind.hold import tightest_radius
 from loiter.kernel.wind.wind_search import ENDED, NO_SEARCH, WindEntry, WindProblem, WindSearch, begin_search, entry_of
-from loiter.kernel.words import ABSENT, Word, controls
+from loiter.kernel.words import ABSENT, Word, code, controls
 
 # An aircraft that hardly exceeds the wind can hold no circle; wind beyond this share of the airspeed is planned as if
 # it were weaker.
@@ -197,7 +197,7 @@ def begin_in_air(search: EntrySearch) -> EntrySearch:
 
 def found_at_once(entry: Entry) -> WindSearch:
     """The search whose answer is known."""
-    found = WindEntry(Status.OK + 0, entry.side, entry.word, entry.t1, entry.t2, entry.t3, nan, nan)
+    found = WindEntry(code(Status.OK), entry.side, entry.word, entry.t1, entry.t2, entry.t3, nan, nan)
     return NO_SEARCH._replace(stage=ENDED, entry=found)
 
 
@@ -213,7 +213,7 @@ def found_entry(search: EntrySearch) -> PlannedEntry:
 
 
 # The answer of the kernel where there is no entry.
-NONE = Entry(0, Word.EMPTY + 0, 0.0, 0.0, 0.0)
+NONE = Entry(0, code(Word.EMPTY), 0.0, 0.0, 0.0)
 
 
 def _still_air_entry(

@@ -67,7 +67,7 @@ from loiter.guidance.vehicle.rolling import TurnOnset, demand_deg, turn_onset
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.kernel.angles import length
 from loiter.kernel.wind.wind_search import UNLIMITED
-from loiter.kernel.words import ABSENT, Side, Word, controls, encode
+from loiter.kernel.words import ABSENT, Side, Word, code, controls, encode
 from loiter.planning.model import radius_at_bank
 
 # The values below were tuned in gusts, with 200 to 500 starts each: docs/guidance.md.
@@ -694,9 +694,11 @@ def begin_first_plan(memory: Memory, settings: Settings) -> Memory:
 def plan_on_circle(settings: Settings, limits: Limits, plan: Plan, state: RelativeState) -> Plan:
     """The plan that holds the circle at once, if the flight begins on it; otherwise the plan as it is."""
     r, V, R = limits.turns.planned_m, limits.turns.airspeed_m_s, settings.radius_m
-    for side in (Side.CW + 0, Side.CCW + 0):
+    for side in (code(Side.CW), code(Side.CCW)):
         if settings.side == side or settings.side == Side.EITHER:
-            entry = PlannedEntry(side, Word.EMPTY + 0, 0.0, 0.0, 0.0, r, V, limits.wind_east_m_s, limits.wind_north_m_s)
+            entry = PlannedEntry(
+                side, code(Word.EMPTY), 0.0, 0.0, 0.0, r, V, limits.wind_east_m_s, limits.wind_north_m_s
+            )
             route = route_of(state, entry)
             offset = offset_of(route, state, R)
             if abs(offset.crosstrack) < 0.5 * settings.reserve * R and abs(offset.course_error) < ON_COURSE:

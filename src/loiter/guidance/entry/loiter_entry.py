@@ -22,12 +22,12 @@ from loiter.guidance.estimation.wind_fit import DECLARED_WIND_S
 from loiter.guidance.protocol import PHASES, Command, Phase, State
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll, RollValues
 from loiter.planning.feasibility import check_held, relative_wind
-from loiter.planning.model import CALM, Aircraft, Orbit, Wind
-from loiter.planning.sides import SIDES, TURNS
+from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind
+from loiter.planning.sides import sign_of
 
 # The names of the codes of a step.
 NAMED_PHASES = {**PHASES, HOLD: Phase.HOLD, NO_DATA: Phase.NO_DATA}
-NAMED_TURNS = {side + 0: turn for side, turn in TURNS.items()}
+NAMED_TURNS = {sign_of(turn): turn for turn in Turn}
 
 
 class LoiterEntry:
@@ -79,7 +79,7 @@ class LoiterEntry:
             east_m=orbit.east_m,
             north_m=orbit.north_m,
             radius_m=orbit.radius_m,
-            side=SIDES[orbit.turn] + 0,
+            side=sign_of(orbit.turn),
             velocity_east_m_s=orbit.velocity_east_m_s,
             velocity_north_m_s=orbit.velocity_north_m_s,
             wind_east_m_s=wind_east_m_s,

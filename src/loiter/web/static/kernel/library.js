@@ -1138,11 +1138,12 @@ return HoldPoint(wrapped(math.degrees(math.atan2(x, y))), heading_deg, track_deg
 }, ["orbit", "aircraft", "wind", "turn"]);
 
 const Pose = struct(class Pose extends Values {
-constructor(east_m, north_m, heading_deg) {
+constructor(east_m, north_m, heading_deg, altitude_m = null) {
 super();
 this.east_m = east_m;
 this.north_m = north_m;
 this.heading_deg = heading_deg;
+this.altitude_m = altitude_m;
 this.__post_init__();
 }
 __post_init__() {
@@ -1150,8 +1151,11 @@ let east_m, north_m;
 const self = this;
 [east_m, north_m] = iter([number("pose east_m", self.east_m, "metres"), number("pose north_m", self.north_m, "metres")]);
 _keep(self, new Map([["east_m", east_m], ["north_m", north_m], ["heading_deg", number("pose heading_deg", self.heading_deg, "degrees")]]));
+if ((self.altitude_m != null)) {
+_keep(self, new Map([["altitude_m", number("pose altitude_m", self.altitude_m, "metres")]]));
 }
-}, ["east_m", "north_m", "heading_deg"]);
+}
+}, ["east_m", "north_m", "heading_deg", "altitude_m"]);
 
 function over_ground(heading_deg, aircraft, wind) {
 let east, north;
@@ -1384,12 +1388,14 @@ return math.hypot(sub(pose.east_m, self.east_m), sub(pose.north_m, self.north_m)
 }, ["east_m", "north_m", "radius_m", "turn", "velocity_east_m_s", "velocity_north_m_s"]);
 
 const Aircraft = struct(class Aircraft extends Values {
-constructor(airspeed_m_s, max_bank_deg = null, min_turn_radius_m = null, max_turn_rate_deg_s = null) {
+constructor(airspeed_m_s, max_bank_deg = null, min_turn_radius_m = null, max_turn_rate_deg_s = null, climb_rate_m_s = null, descent_rate_m_s = null) {
 super();
 this.airspeed_m_s = airspeed_m_s;
 this.max_bank_deg = max_bank_deg;
 this.min_turn_radius_m = min_turn_radius_m;
 this.max_turn_rate_deg_s = max_turn_rate_deg_s;
+this.climb_rate_m_s = climb_rate_m_s;
+this.descent_rate_m_s = descent_rate_m_s;
 this.__post_init__();
 }
 __post_init__() {
@@ -1408,6 +1414,11 @@ if (((self.max_bank_deg != null) && ge(float(self.max_bank_deg), 90.0))) {
 throw errors.InvalidArgument("max_bank_deg", `is ${str(self.max_bank_deg)}: it must be between 0 and 90 degrees`);
 }
 positive("turn radius", self.turn_radius_m, "metres; airspeed and turn limit together give it");
+for (name of iter(["climb_rate_m_s", "descent_rate_m_s"])) {
+if ((self[name] != null)) {
+_keep(self, new Map([...iter_items(new Map([[name, positive(name, self[name], "metres per second")]]))]));
+}
+}
 }
 get turn_radius_m() {
 const self = this;
@@ -1424,7 +1435,7 @@ bank_deg(radius_m) {
 const self = this;
 return math.degrees(math.atan2(mul(self.airspeed_m_s, self.airspeed_m_s), mul(STANDARD_GRAVITY_M_S2, radius_m)));
 }
-}, ["airspeed_m_s", "max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s"]);
+}, ["airspeed_m_s", "max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s", "climb_rate_m_s", "descent_rate_m_s"]);
 
 const RelativeWind = struct(class RelativeWind extends Tuple {
 constructor(x, y) {
