@@ -8,7 +8,10 @@ from loiter.web.answers.tracks import lap
 from web.engine import difference, difference_of_files, differences, drawn, of_the_page
 
 # Numbers with all their digits differ in the last ones, because the page's sine and arctangent are its own.
-NAMED = {"a tie, in another order", *(f"{name}: digits" for name in ("csv", "geojson", "gpx", "kml", "plan"))}
+NAMED = {
+    "a tie, in another order",
+    *(f"{name}: digits" for name in ("csv", "geojson", "gpx", "kml", "plan", "waypoints")),
+}
 
 
 def test_the_engine_gives_the_answers_of_the_library():

@@ -57,8 +57,13 @@ export function raceLayer(layer, store, actions) {
 
 /** The path of a racer, and its ghost with its name. @param {Racer} racer @param {number} i */
 function shapesOf({ law }, i) {
-  // Above, below and further above, so that the names of those that fly together can be read.
-  const name = svg("text", { x: 14, y: [-10, 22, -26][i], class: "halo" }, [law]);
+  // The names of those that fly together lie on different sides.
+  const [x, y] = [
+    [14, 22],
+    [14, -12],
+    [-14, -12],
+  ][i];
+  const name = svg("text", { x, y, "text-anchor": x < 0 ? "end" : "start", class: "halo" }, [law]);
   return {
     path: svg("path", { class: `racer${i}` }),
     ghost: svg("g", { class: `racer${i}` }, [svg("path", { d: AEROPLANE }), name]),

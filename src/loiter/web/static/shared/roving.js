@@ -23,7 +23,7 @@ export function roving(group) {
   const indexOf = (/** @type {EventTarget | null} */ target) => buttons().findIndex((button) => button === target);
   let current = Math.max(
     0,
-    buttons().findIndex((button) => button.checkVisibility()),
+    buttons().findIndex((button) => button.getClientRects().length > 0),
   );
   function mark() {
     const all = buttons();
