@@ -19,7 +19,10 @@ export function raceLayer(layer, store, actions) {
   button.addEventListener("click", () => actions.race(!store.get().racing));
   store.watch(
     ({ racing }) => [racing],
-    ({ racing }) => button.setAttribute("aria-pressed", String(racing)),
+    ({ racing }) => {
+      button.setAttribute("aria-pressed", String(racing));
+      layer.ownerSVGElement?.classList.toggle("racing", racing);
+    },
   );
   /** @type {{ghost: SVGGElement, path: SVGPathElement, racer: Racer}[]} */
   let drawn = [];
