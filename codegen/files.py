@@ -94,7 +94,7 @@ STEPS = (
     law_step.first_memory,
     law_step.step,
     identification_step.settings_of,
-    identification_step.first_identification,
+    identification_step.begin_identification,
     identification_step.identify,
     fly_as_declared,
 )
@@ -109,7 +109,7 @@ def law_module() -> str:
     """What `law` has, as JavaScript; it belongs to no package. Its tangents and exponentials are the browser's."""
     functions = PORTABLE.functions | {name: f"Math.{name}" for name in ("tan", "atan", "exp", "log")}
     arithmetic = PORTABLE._replace(functions=functions, replaced=PORTABLE.replaced | LAW_REPLACED)
-    return Module("law.js", arithmetic, STEPS).text()
+    return Module("law.js", arithmetic, (*STEPS, identification_step.first_identification)).text()
 
 
 # What the page needs above the kernel, and what it has elsewhere than in Python.

@@ -30,10 +30,11 @@ class Kind(NamedTuple):
         """The kind of the value itself."""
         return self._replace(by_address=False, is_changed=False)
 
-    @property
-    def size(self) -> int:
-        """The numbers in a value of this kind, of which a ring in place is one."""
-        return sum(inner.size for _, inner in self.fields) if self.fields and not self.length else 1
+    def size(self, in_place: bool) -> int:
+        """The numbers in a value of this kind; a ring in place, which is elsewhere, counts as one."""
+        if not self.fields or (self.length and in_place):
+            return 1
+        return max(self.length, 1) * sum(inner.size(in_place) for _, inner in self.fields)
 
 
 REAL, INTEGER, TRUTH, NOTHING, REALS = Kind("real"), Kind("integer"), Kind("bool"), Kind("void"), Kind("real *")

@@ -198,6 +198,8 @@ class Function:
         """Change a large structure where it is, `one = one._replace(...)` or `one = f(one, ...)`, if this is that."""
         if not self.names.arithmetic.large:
             return False
+        if self._appends(name, value, indent):
+            return True
         match value:
             case ast.Call(func=ast.Attribute(value=ast.Name(id=source), attr="_replace")) if source == name:
                 self._set_fields(value, indent)
@@ -225,8 +227,21 @@ class Function:
             place = self.expressions.translate(ast.Attribute(ast.Name(name), field))
             self._write(indent, f"{place.text} = {self.expressions.of_kind(place.kind, value).text};")
 
+    def _appends(self, place: str, value: ast.expr, indent: str) -> bool:
+        """Append to a ring where it is, `ring = (*ring[1:], last)`, if this is that and rings are passed by value."""
+        match value:
+            case ast.Tuple(elts=[ast.Starred(value=ast.Subscript(value=source, slice=ast.Slice() as part)), last]):
+                if ast.unparse(source) == place and ast.unparse(part) == "1:" and not self.names.arithmetic.in_place:
+                    ring, one = self.expressions.translate(source), self.expressions.translate(last)
+                    self._before(indent)
+                    self._write(indent, f"{ring.kind.name}_append({self.expressions.address(ring)}, {one.text});")
+                    return True
+        return False
+
     def _changes_field(self, name: str, keywords: list[ast.keyword], indent: str) -> bool:
         """Change one field where it is, `one = one._replace(field=f(one.field, ...))`, if this is that."""
+        if len(keywords) == 1 and self._appends(f"{name}.{keywords[0].arg}", keywords[0].value, indent):
+            return True
         match keywords:
             case [
                 ast.keyword(arg=field, value=ast.Call(func=ast.Name(), args=[ast.Attribute() as source, *_]) as call)

@@ -27,7 +27,7 @@ from loiter.version import __version__
 ROOT = Path(__file__).parents[1]
 HELPERS = Path(__file__).with_name("helpers.h").read_text("utf-8")
 
-# A ring: filled with one element; with another last element; and without its first one besides.
+# A ring: filled with one element; with another last element; and without its first one besides; this where it is.
 RING = """typedef struct {{ {element} at[{length}]; }} {ring};
 
 static inline {ring} {ring}_filled({element} one) {{
@@ -49,6 +49,13 @@ static inline {ring} {ring}_appended({ring} ring, {element} last) {{
     }}
     ring.at[{last}] = last;
     return ring;
+}}
+
+static inline void {ring}_append({ring} *ring, {element} last) {{
+    for (int i = 0; i < {last}; i++) {{
+        ring->at[i] = ring->at[i + 1];
+    }}
+    ring->at[{last}] = last;
 }}"""
 
 # Names of the C library, and of POSIX, that functions of the kernel have too.
@@ -138,7 +145,7 @@ class Unit:
         """The kind of a parameter: large structures are passed by address, unless the function sets them."""
         body = syntax(modules[function.__module__])[function.__name__].body
         is_set = any(one == name and place.is_set for one, place in occurrences(body, ()))
-        return kind._replace(by_address=kind.size >= self.arithmetic.large and not is_set)
+        return kind._replace(by_address=kind.size(self.arithmetic.in_place) >= self.arithmetic.large and not is_set)
 
     def _replaced(self, function: FunctionType) -> dict[str, Any]:
         """What stands in for the globals of a function; replacements are themselves as they are written."""
@@ -160,7 +167,7 @@ class Unit:
             parameters = {RINGS: Kind("Rings *"), **parameters}
         if self.arithmetic.large:
             first, *_ = [*(name for name in parameters if name != RINGS), ""]
-            is_changed = parameters.get(first) == result and result.size >= UPDATED
+            is_changed = parameters.get(first) == result and result.size(self.arithmetic.in_place) >= UPDATED
             parameters = {name: self._passed(function, name, kind) for name, kind in parameters.items()}
             if is_changed:
                 parameters[first] = result._replace(by_address=True, is_changed=True)

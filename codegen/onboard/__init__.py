@@ -3,19 +3,24 @@
 `loiter.h` and `loiter.c` beside this file are what is written by hand; `@NAME@` in them is what is generated.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import FunctionType
+from typing import Any
 
-from codegen.arithmetic import FUNCTIONS, ONBOARD
+from codegen.arithmetic import FUNCTIONS, ONBOARD, Arithmetic
 from codegen.expressions import Expressions, Names
 from codegen.kinds import Kind, NotTranslated, kind_of_type
 from codegen.statements import comment, wrapped
+from codegen.unit import RING as VALUE_RING
 from codegen.unit import ROOT, Unit, digest
 from loiter.guidance.entry import entry_planner, law_step
 from loiter.guidance.entry.law_step import Memory, Settings
-from loiter.guidance.estimation import bank_history
+from loiter.guidance.estimation import bank_history, identification_step
+from loiter.guidance.estimation.identification_step import Identification, IdentificationSettings
+from loiter.guidance.estimation.turn_fits import EXPECTED_TURN_RATIO
 from loiter.guidance.estimation.vehicle import VehicleModel, fly_as_declared
+from loiter.guidance.estimation.wind_fit import DECLARED_WIND_S
 from loiter.guidance.vehicle import rolling
 from loiter.kernel import motion
 from loiter.kernel.rounding import rounded_radius
@@ -53,6 +58,8 @@ APART = (
     law_step.take_entry,
     law_step.conclude,
     entry_planner.begin_in_air,
+    identification_step.begin_identification,
+    identification_step.advance_identification,
     wind_search.advance_search,
 )
 
@@ -70,7 +77,20 @@ TITLES = {
         "and never with -ffast-math."
     ),
     "loiter.c": "The functions of loiter.h, C99 and C++.",
+    "loiter_identification.h": (
+        "Identification of the vehicle in flight, for the law of loiter.h: docs/onboard.md. Without it this "
+        "file and loiter_identification.c are left out."
+    ),
+    "loiter_identification.c": "The functions of loiter_identification.h, C99 and C++.",
 }
+
+# The identification, whose rings are in its state.
+IDENTIFICATION_ARITHMETIC = ARITHMETIC._replace(in_place=False)
+IDENTIFICATION_ROOTS = (
+    identification_step.settings_of,
+    identification_step.begin_identification,
+    identification_step.advance_identification,
+)
 
 # A ring is changed where it is: filled with one element; with another last element; and without its first one besides.
 RING = """typedef loiter_{ring} *{ring};
@@ -106,43 +126,53 @@ def kinds_within(kind: Kind) -> Iterator[Kind]:
         yield kind
 
 
-def exported_name(kind: Kind) -> str:
-    """The name of a kind in the header; for a ring, that of a pointer to it."""
-    return f"loiter_{kind.name} *" if kind.length else SIMPLE.get(kind.name, f"loiter_{kind.name}")
+def exported_name(kind: Kind, in_place: bool) -> str:
+    """The name of a kind in the header; for a ring in place, that of a pointer to it."""
+    is_pointer = kind.length and in_place
+    return f"loiter_{kind.name} *" if is_pointer else SIMPLE.get(kind.name, f"loiter_{kind.name}")
 
 
-def declared(kind: Kind) -> Iterator[str]:
+def declared(kind: Kind, in_place: bool) -> Iterator[str]:
     """The declaration of a structure in the header."""
     if kind.length:
         ((_, element),) = kind.fields
-        yield f"typedef struct {{ loiter_{element.name} at[{kind.length}]; }} loiter_{kind.name};"
+        yield f"typedef struct {{ {exported_name(element, False)} at[{kind.length}]; }} loiter_{kind.name};"
         return
     runs: list[tuple[str, list[str]]] = []
     for name, inner in kind.fields:
-        if runs and runs[-1][0] == exported_name(inner) and not inner.length:
+        if runs and runs[-1][0] == exported_name(inner, in_place) and not inner.length:
             runs[-1][1].append(name)
         else:
-            runs.append((exported_name(inner), [name]))
+            runs.append((exported_name(inner, in_place), [name]))
     fields = " ".join(f"{title}{'' if title.endswith('*') else ' '}{', '.join(names)};" for title, names in runs)
     yield from wrapped(f"typedef struct {{ {fields} }} loiter_{kind.name};")
 
 
-class OnboardUnit(Unit):
-    """The generated part of loiter.c, whose structures of the law's state the header declares."""
+def kinds_of(*states: type) -> list[Kind]:
+    """The structures of which states consist, each after those of its fields."""
+    kinds = [kind_of_type(one, "") for one in states]
+    return list(dict.fromkeys(one for kind in kinds for one in kinds_within(kind)))
 
-    def __init__(self) -> None:
-        of_state = [kind_of_type(one, "") for one in (wind_search.WindSearch, Settings, VehicleModel, Memory)]
-        self.exported = list(dict.fromkeys(one for kind in of_state for one in kinds_within(kind)))
-        self.rings = [kind for kind in self.exported if kind.length]
-        fields = [inner for kind in self.exported for _, inner in kind.fields if inner.length]
-        if len(set(fields)) < len(fields):
+
+class OnboardUnit(Unit):
+    """The generated part of a file, whose structures of the state are declared in headers."""
+
+    def __init__(self, title: str, arithmetic: Arithmetic, roots: Sequence[Any], exported: list[Kind]) -> None:
+        self.exported = exported
+        self.rings = [kind for kind in exported if kind.length]
+        fields = [inner for kind in exported for _, inner in kind.fields if inner.length]
+        if arithmetic.in_place and len(set(fields)) < len(fields):
             raise NotTranslated("the state of the law has two rings of one kind, which would be one ring on board")
-        super().__init__("loiter.c", ARITHMETIC, ROOTS)
+        super().__init__(title, arithmetic, roots)
 
     def _structure_lines(self, kind: Kind) -> Iterator[str]:
         if kind.length:
             ((_, element),) = kind.fields
-            yield RING.format(ring=kind.name, element=element.name, length=kind.length, last=kind.length - 1)
+            template = RING
+            if not self.arithmetic.in_place:
+                _, _, functions = VALUE_RING.partition("\n")
+                template = f"typedef loiter_{{ring}} {{ring}};\n{functions}"
+            yield template.format(ring=kind.name, element=element.name, length=kind.length, last=kind.length - 1)
         elif kind in self.exported:
             yield f"typedef loiter_{kind.name} {kind.name};"
         else:
@@ -152,40 +182,70 @@ class OnboardUnit(Unit):
         """What stands before a function."""
         return "static APART" if function in APART else super().storage(function)
 
+    def literal(self, value: float) -> str:
+        """A number of the arithmetic."""
+        return Expressions(Names(self.arithmetic, {}, {}, {}, self._add, self._constant), "").literal(value)
+
     def parts(self) -> dict[str, str]:
-        """What stands for the names of the templates."""
-        literal = Expressions(Names(self.arithmetic, {}, {}, {}, self._add, self._constant), "").literal
-        roll = rolling.Roll()
-        rings = " ".join(f"loiter_{ring.name} {ring.name};" for ring in self.rings)
-        search = list(kinds_within(kind_of_type(wind_search.WindSearch, "")))
-        of_law = [line for kind in self.exported if kind not in search for line in declared(kind)]
+        """What stands for the names of the templates of every file."""
         return {
-            "STATUSES": "\n".join(f"    LOITER_{status.name} = {int(status)}," for status in Status),
-            "SEARCH": "\n".join(line for kind in dict.fromkeys(search) for line in declared(kind)),
-            "STRUCTURES": "\n".join([*of_law, f"typedef struct {{ {rings} }} loiter_Rings;"]),
+            "ARITHMETIC": Path(__file__).with_name("arithmetic.c").read_text("utf-8").rstrip("\n"),
             "FLOAT_FUNCTIONS": "\n".join(f"#define real_{name} {name}f" for name in FUNCTIONS),
             "DOUBLE_FUNCTIONS": "\n".join(f"#define real_{name} {name}" for name in FUNCTIONS),
-            "TYPEDEFS": "typedef loiter_Rings Rings;",
             "GENERATED": self.body(),
-            "ROLL_TIME": literal(roll.time_s),
-            "ROLL_RATE": literal(roll.rate_deg_s),
-            "DELAY": literal(law_step.DELAY_S),
-            "RESERVE": literal(law_step.RESERVE),
-            "SMOOTHING": literal(law_step.SMOOTHING_S),
-            "GAIN": literal(law_step.GAIN),
-            "COVERED": literal(bank_history.COVERED_S),
         }
+
+
+def law_unit() -> tuple[OnboardUnit, dict[str, str]]:
+    """The kernel and the law, and what stands for the names of their templates."""
+    search, exported = (
+        kinds_of(wind_search.WindSearch),
+        kinds_of(wind_search.WindSearch, Settings, VehicleModel, Memory),
+    )
+    unit, roll = OnboardUnit("loiter.c", ARITHMETIC, ROOTS, exported), rolling.Roll()
+    rings = " ".join(f"loiter_{ring.name} {ring.name};" for ring in unit.rings)
+    of_law = [line for kind in exported if kind not in search for line in declared(kind, True)]
+    return unit, {
+        **unit.parts(),
+        "STATUSES": "\n".join(f"    LOITER_{status.name} = {int(status)}," for status in Status),
+        "SEARCH": "\n".join(line for kind in search for line in declared(kind, True)),
+        "STRUCTURES": "\n".join([*of_law, f"typedef struct {{ {rings} }} loiter_Rings;"]),
+        "TYPEDEFS": "typedef loiter_Rings Rings;",
+        "ROLL_TIME": unit.literal(roll.time_s),
+        "ROLL_RATE": unit.literal(roll.rate_deg_s),
+        "DELAY": unit.literal(law_step.DELAY_S),
+        "RESERVE": unit.literal(law_step.RESERVE),
+        "SMOOTHING": unit.literal(law_step.SMOOTHING_S),
+        "GAIN": unit.literal(law_step.GAIN),
+        "COVERED": unit.literal(bank_history.COVERED_S),
+    }
+
+
+def identification_unit(of_law: list[Kind]) -> tuple[OnboardUnit, dict[str, str]]:
+    """The identification, and what stands for the names of its templates; the header of the law has its structures."""
+    exported = kinds_of(IdentificationSettings, Identification)
+    unit = OnboardUnit("loiter_identification.c", IDENTIFICATION_ARITHMETIC, IDENTIFICATION_ROOTS, exported)
+    return unit, {
+        **unit.parts(),
+        "STRUCTURES": "\n".join(line for kind in exported if kind not in of_law for line in declared(kind, False)),
+        "TURN_RATIO": unit.literal(EXPECTED_TURN_RATIO),
+        "NEGLIGIBLE_WIND": unit.literal(law_step.NEGLIGIBLE_WIND),
+        "WIND_KNOWN": unit.literal(DECLARED_WIND_S),
+    }
 
 
 def onboard_files() -> dict[Path, str]:
     """The generated files for autopilots, by place."""
-    unit = OnboardUnit()
-    parts = unit.parts()
-    found = {}
+    law = law_unit()
+    identification, found = identification_unit(law[0].exported), {}
     for name, title in TITLES.items():
+        unit, parts = identification if "identification" in name else law
         head = HEAD.format(title=title, version=__version__, digest=digest(unit.sources()))
         text = Path(__file__).with_name(name).read_text("utf-8")
         for key, value in {**parts, "HEAD": "\n".join(comment(head))}.items():
             text = text.replace(f"@{key}@", value)
+        # The arithmetic has names itself.
+        for key in ("FLOAT_FUNCTIONS", "DOUBLE_FUNCTIONS"):
+            text = text.replace(f"@{key}@", parts[key])
         found[FOLDER / name] = text
     return found

@@ -1,35 +1,7 @@
 @HEAD@
 #include "loiter.h"
 
-#include <math.h>
-
-typedef loiter_real real;
-typedef loiter_integer integer;
-
-/* Numbers and functions of the arithmetic; and structures, which C and C++ make in different ways. */
-#ifdef LOITER_FLOAT
-typedef uint32_t unsigned_integer;
-#define REAL(number) number##f
-@FLOAT_FUNCTIONS@
-#else
-typedef uint64_t unsigned_integer;
-#define REAL(number) number
-@DOUBLE_FUNCTIONS@
-#endif
-#define REAL_NAN ((real)NAN)
-#define REAL_INFINITY ((real)INFINITY)
-#ifdef __cplusplus
-#define MAKE(type) type
-#else
-#define MAKE(type) (type)
-#endif
-
-/* Before functions that are not inlined, so that their memory on the stack does not add up. */
-#if defined(__GNUC__)
-#define APART __attribute__((noinline))
-#else
-#define APART
-#endif
+@ARITHMETIC@
 
 @TYPEDEFS@
 
@@ -258,11 +230,18 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
     command->next_in_s = given->next_in_s;
 }
 
-int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
+int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s,
+                          loiter_command *command) {
     if (!(dt_s > REAL(0.0)) || !isfinite(dt_s)) {
         return LOITER_BAD_STEP;
     }
-    law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
     step_with(law, measurement, dt_s, command);
     return LOITER_OK;
+}
+
+int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
+    if (dt_s > REAL(0.0) && isfinite(dt_s)) {
+        law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
+    }
+    return loiter_law_step_known(law, measurement, dt_s, command);
 }

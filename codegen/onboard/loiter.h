@@ -140,6 +140,11 @@ int loiter_law_begin(loiter_law *law, const loiter_law_config *config);
  * other than LOITER_OK law and command are unchanged. */
 int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command);
 
+/* The same for the vehicle that has been written to `law->vehicle`, with the bank at the end of the last command; for
+ * loiter_identification.c, and for identification of one's own. */
+int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s,
+                          loiter_command *command);
+
 #ifdef __cplusplus
 }
 #endif

@@ -5114,11 +5114,18 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
     command->next_in_s = given->next_in_s;
 }
 
-int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
+int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s,
+                          loiter_command *command) {
     if (!(dt_s > REAL(0.0)) || !isfinite(dt_s)) {
         return LOITER_BAD_STEP;
     }
-    law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
     step_with(law, measurement, dt_s, command);
     return LOITER_OK;
+}
+
+int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
+    if (dt_s > REAL(0.0) && isfinite(dt_s)) {
+        law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
+    }
+    return loiter_law_step_known(law, measurement, dt_s, command);
 }

@@ -57,7 +57,7 @@ def identified(roll, delay_s, *, noise_deg=0.5, seconds=12.0, dt=0.02):
         banks.append(bank)
         measured = banks[max(len(banks) - 1 - round(delay_s / dt), 0)]
         memory = add_measured_bank(memory, measured + random.normal(0.0, noise_deg))
-        memory = fly_models(settings, memory, command, dt)
+        memory = fly_models(memory, settings, command, dt)
         bank = roll.bank_after(bank, command, dt)
         errors.append(memory.bank_deg - bank)
     return memory.weights.estimate, np.array(errors)
@@ -87,7 +87,7 @@ def test_before_anything_is_measured_the_estimate_is_what_is_declared(roll, dela
 @pytest.mark.parametrize("delay_s", [1.3, 2.0, 1e6])
 def test_a_delay_beyond_the_longest_counts_as_that(delay_s):
     settings = roll_settings(RollValues(0.5, 60.0), delay_s)
-    memory = fly_models(settings, add_measured_bank(first_roll(settings), 0.0), 30.0, 0.5)
+    memory = fly_models(add_measured_bank(first_roll(settings), 0.0), settings, 30.0, 0.5)
     assert memory.weights.estimate.delay_s == pytest.approx(1.3, abs=1e-6)
 
 
@@ -97,7 +97,7 @@ def test_a_long_flight_of_wrong_predictions_leaves_the_probabilities_finite():
     memory = first_roll(settings)
     for i in range(6000):
         command_deg = 35.0 if i % 100 < 50 else -35.0
-        memory = fly_models(settings, add_measured_bank(memory, -command_deg), command_deg, 0.05)
+        memory = fly_models(add_measured_bank(memory, -command_deg), settings, command_deg, 0.05)
     assert sum(memory.weights.probabilities) == pytest.approx(1.0)
     assert 0.1 < memory.weights.estimate.roll.time_s < 1.0
 
@@ -106,7 +106,7 @@ def test_a_constant_bank_teaches_nothing_and_makes_nothing_forgotten():
     settings = roll_settings(RollValues(0.5, 60.0), 0.1)
     memory = start_models(first_roll(settings), 20.0)
     for _ in range(3000):
-        memory = fly_models(settings, add_measured_bank(memory, 20.0), 20.0, 0.02)
+        memory = fly_models(add_measured_bank(memory, 20.0), settings, 20.0, 0.02)
     assert memory.weights.estimate.delay_s == pytest.approx(0.1, abs=1e-6)
     assert memory.weights.estimate.roll.time_s == pytest.approx(0.5, rel=1e-6)
 

@@ -32,7 +32,7 @@ typedef struct { IdentificationSettings settings; Identification memory; Vehicle
 void vehicle_begin(const VehicleEstimates *declared, const double *limit_deg, const double *wind_known_s,
                    Vehicle *vehicle) {
     vehicle->settings = settings_of(*declared, *limit_deg, *wind_known_s);
-    vehicle->memory = first_identification(vehicle->settings);
+    vehicle->memory = begin_identification(vehicle->memory, vehicle->settings);
     vehicle->model = (VehicleModel){0, 0.0, *declared};
 }
 void law_begin(const Settings *settings, const Vehicle *vehicle, Memory *memory) {

@@ -24,10 +24,10 @@ PROCESSORS = {
 FLAGS = ["-mthumb", "-mfloat-abi=hard", "-std=c99", "-Os", "-ffp-contract=off", "-fno-math-errno", "-DLOITER_FLOAT"]
 
 
-def compiled(folder, processor):
-    """The object file of loiter.c, and the call graph beside it."""
-    target, (flags, _) = folder / "loiter.o", PROCESSORS[processor]
-    more = ["-fstack-usage", "-fcallgraph-info=su", "-c", str(FOLDER / "loiter.c"), "-o", str(target)]
+def compiled(folder, processor, name="loiter"):
+    """The object file of loiter.c, or of another file, and the call graph beside it."""
+    target, (flags, _) = folder / f"{name}.o", PROCESSORS[processor]
+    more = ["-fstack-usage", "-fcallgraph-info=su", "-c", str(FOLDER / f"{name}.c"), "-o", str(target)]
     subprocess.run([COMPILER, *FLAGS, *flags, *more], check=True)
     return target
 

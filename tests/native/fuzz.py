@@ -29,7 +29,7 @@ LONGEST_S, MOST_BYTES = 20, 1024
 def build(folder, called, single):
     """The program that libFuzzer drives."""
     program, macros = folder / f"fuzz-{called}", [f"-DFUZZED={called}", *(["-DLOITER_FLOAT"] if single else [])]
-    sources = [HERE / "fuzz_onboard.c", FOLDER / "loiter.c"]
+    sources = [HERE / "fuzz_onboard.c", FOLDER / "loiter.c", FOLDER / "loiter_identification.c"]
     flags = [*FLAGS, f"-fsanitize=fuzzer,{SANITIZERS}", "-Wno-unused-function", f"-I{FOLDER}"]
     subprocess.run([CLANG, *flags, *macros, *sources, "-o", program, "-lm"], check=True)
     return program

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "loiter.h"
+#include "loiter_identification.h"
 
 static const uint8_t *next_byte;
 static size_t bytes_left;
@@ -119,6 +119,7 @@ static void search(void) {
 /* A law, with a vehicle that flies as it is commanded but for what the bytes say. */
 static void law(void) {
     static loiter_law flown;
+    static loiter_identification known;
     loiter_law_config config = loiter_law_defaults(18, 35, 90, side());
     loiter_real *const configured[] = {&config.radius_m,      &config.airspeed_m_s,    &config.bank_limit_deg,
                                        &config.roll_time_s,   &config.roll_rate_deg_s, &config.delay_s,
@@ -141,6 +142,10 @@ static void law(void) {
     if (begun != LOITER_OK) {
         return;
     }
+    const int is_identified = byte() % 2;
+    if (is_identified) {
+        loiter_identification_begin(&known, &flown, byte() % 2);
+    }
     loiter_real east = number(500), north = number(500), heading_deg = 180 + number(180), bank_deg = 0;
     uint32_t time_us = 0;
     for (int steps = 0; steps < 300 && bytes_left > 0; steps++) {
@@ -159,7 +164,8 @@ static void law(void) {
             time_us += (uint32_t)integer() * 65536u + (uint32_t)integer();
         }
         loiter_command command;
-        const int status = loiter_law_step(&flown, &m, dt, &command);
+        const int status = is_identified ? loiter_law_step_identified(&flown, &known, &m, dt, &command)
+                                         : loiter_law_step(&flown, &m, dt, &command);
         if (status != LOITER_OK && status != LOITER_BAD_STEP) {
             fail("step: no status");
         }

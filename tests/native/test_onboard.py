@@ -39,6 +39,7 @@ def test_make_generate_was_run_after_the_last_change():
         assert path.read_text("utf-8") == generated, f"{path.name}: run make generate"
 
 
+SOURCES = [FOLDER / "loiter.c", FOLDER / "loiter_identification.c"]
 COMPILERS = {"c99": [COMPILER, "-std=c99"], "c++": [shutil.which("c++"), "-x", "c++", "-std=c++11"]}
 
 
@@ -50,13 +51,14 @@ def test_it_compiles_without_a_warning(language, single, tmp_path):
         pytest.skip("there is no compiler of C++")
     flags = ["-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror", *WARNINGS]
     macros = ["-DLOITER_FLOAT"] if single else []
-    subprocess.run([*command, *flags, *macros, "-c", FOLDER / "loiter.c", "-o", tmp_path / "loiter.o"], check=True)
+    for source in SOURCES:
+        subprocess.run([*command, *flags, *macros, "-c", source, "-o", tmp_path / "loiter.o"], check=True)
 
 
 def test_it_needs_no_header_but_those_of_the_language_and_math():
-    for name in ("loiter.h", "loiter.c"):
+    for name in (path.name for path in FOLDER.glob("loiter*.[ch]")):
         included = {line.split()[1] for line in (FOLDER / name).read_text("utf-8").splitlines() if "#include" in line}
-        assert included <= {"<math.h>", "<stdint.h>", "<stdbool.h>", '"loiter.h"'}
+        assert included <= {"<math.h>", "<stdint.h>", "<stdbool.h>", '"loiter.h"', '"loiter_identification.h"'}
     source = (FOLDER / "loiter.c").read_text("utf-8")
     assert "malloc" not in source
     assert "static real" not in source
@@ -129,7 +131,7 @@ def test_no_number_makes_it_do_what_c_does_not_define(single, tmp_path):
     """Random bytes as input; `python -m native.fuzz` has a fuzzer choose them."""
     program, macros = tmp_path / "fuzz", ["-DAT_RANDOM", *(["-DLOITER_FLOAT"] if single else [])]
     flags = ["-std=c99", "-O1", "-g", "-ffp-contract=off", f"-fsanitize={SANITIZERS}", "-fno-sanitize-recover=all"]
-    sources = [Path(__file__).with_name("fuzz_onboard.c"), FOLDER / "loiter.c"]
+    sources = [Path(__file__).with_name("fuzz_onboard.c"), *SOURCES]
     command = [COMPILER, *flags, *macros, f"-I{FOLDER}", *sources, "-o", program, "-lm"]
     built = subprocess.run(command, capture_output=True, text=True)
     if "cannot find" in built.stderr:

@@ -12,10 +12,11 @@ from typing import NamedTuple
 from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advance, check_stamp
 from loiter.guidance.estimation.observer import is_usable
 from loiter.guidance.estimation.roll_response import (
+    NO_ROLL,
     RollMemory,
     RollSettings,
     add_measured_bank,
-    first_roll,
+    begin_roll,
     fly_models,
     roll_settings,
     start_models,
@@ -36,6 +37,7 @@ from loiter.guidance.estimation.turn_fits import (
 from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, remove_bias
 from loiter.guidance.estimation.wind_fit import WindFit, add_air_velocity, first_wind, is_changing
 from loiter.guidance.protocol import State
+from loiter.guidance.vehicle.rolling import RollValues
 from loiter.guidance.vehicle.turning import rate_at_bank
 
 # The airspeed is averaged over the first time, seconds, at most; the declared one counts for the second.
@@ -119,6 +121,20 @@ class Identification(NamedTuple):
     estimates: VehicleEstimates
 
 
+NO_AVERAGE = Average(0.0, 0.0)
+NO_VEHICLE = VehicleEstimates(RollValues(0.0, 0.0), *(12 * (0.0,)))
+NO_IDENTIFICATION = Identification(
+    stamps=Stamps(FIRST_CLOCK, 0.0, -inf),
+    roll=NO_ROLL,
+    turns=Turns(first_slow_turns(1.0, 0.0, NO_TURNS), first_quick_turns(1.0, NO_PAIRS), first_lead(0.0, NO_PAIRS)),
+    wind=first_wind(0.0, 0.0, 0.0),
+    airspeeds=Airspeeds(NO_AVERAGE, NO_AVERAGE),
+    overshoot=NO_OVERSHOOT,
+    revision=0,
+    estimates=NO_VEHICLE,
+)
+
+
 def settings_of(declared: VehicleEstimates, limit_deg: float, wind_known_s: float) -> IdentificationSettings:
     """The settings for what is declared."""
     return IdentificationSettings(declared, wind_known_s, limit_deg, roll_settings(declared.roll, declared.delay_s))
@@ -126,19 +142,22 @@ def settings_of(declared: VehicleEstimates, limit_deg: float, wind_known_s: floa
 
 def first_identification(settings: IdentificationSettings) -> Identification:
     """The memory before the first command and the first measurement, with wings level."""
+    return begin_identification(NO_IDENTIFICATION, settings)
+
+
+def begin_identification(memory: Identification, settings: IdentificationSettings) -> Identification:
+    """`NO_IDENTIFICATION`, which is given, with what is declared."""
     declared = settings.declared
     airspeed = Average(declared.airspeed_m_s, DECLARED_AIRSPEED_S)
     turn_airspeed = Average(declared.turn_airspeed_m_s, DECLARED_TURN_AIRSPEED_S)
     slow, quick = first_slow_turns(declared.turn_ratio, 0.0, NO_TURNS), first_quick_turns(declared.turn_ratio, NO_PAIRS)
     lead = first_lead(declared.course_lead_s, NO_PAIRS)
-    return Identification(
+    memory = memory._replace(roll=begin_roll(memory.roll, settings.roll))
+    return memory._replace(
         stamps=Stamps(FIRST_CLOCK, 0.0, -inf),
-        roll=first_roll(settings.roll),
         turns=Turns(slow, quick, lead),
         wind=first_wind(declared.wind_east_m_s, declared.wind_north_m_s, settings.wind_known_s),
         airspeeds=Airspeeds(airspeed, turn_airspeed),
-        overshoot=NO_OVERSHOOT,
-        revision=0,
         estimates=declared,
     )
 
@@ -146,32 +165,39 @@ def first_identification(settings: IdentificationSettings) -> Identification:
 def identify(
     settings: IdentificationSettings, memory: Identification, measurement: State, command_deg: float, dt: float
 ) -> tuple[Identification, VehicleModel]:
-    """The memory, and what is known of the vehicle, at a measurement `dt` seconds after the last call.
+    """The memory, and what is known of the vehicle, as in `advance_identification`."""
+    memory = advance_identification(memory, settings, measurement, command_deg, dt)
+    return memory, VehicleModel(memory.revision, memory.roll.bank_deg, memory.estimates)
+
+
+def advance_identification(
+    memory: Identification, settings: IdentificationSettings, measurement: State, command_deg: float, dt: float
+) -> Identification:
+    """The memory at a measurement `dt` seconds after the last call.
 
     The bank `command_deg` was commanded since then. The measurement may be unusable, or repeat the last one.
     """
-    (clock, waited_s, used_s), roll, turns, wind, airspeeds, overshoot, revision, known = memory
+    clock, waited_s, used_s = memory.stamps
     if dt > 0.0:
-        roll, waited_s = fly_models(settings.roll, roll, command_deg, dt), waited_s + dt
+        memory = memory._replace(roll=fly_models(memory.roll, settings.roll, command_deg, dt))
+        waited_s = waited_s + dt
     if is_usable(measurement) and measurement.time_s != clock.time_s:
         clock, is_new = check_stamp(advance(clock, waited_s), measurement.time_s)
         waited_s, since_s = 0.0, measurement.time_s - used_s
         if is_new and not 0.0 < since_s < SHORTEST_GAP_S:
-            stamps = Stamps(clock, 0.0, measurement.time_s)
             if used_s == -inf:
-                roll = start_models(roll, remove_bias(known, measurement).bank_deg)
-            before = Identification(stamps, roll, turns, wind, airspeeds, overshoot, revision, known)
-            after = update_fits(settings, before, measurement, since_s)
-            return after, VehicleModel(after.revision, after.roll.bank_deg, after.estimates)
-    memory = Identification(Stamps(clock, waited_s, used_s), roll, turns, wind, airspeeds, overshoot, revision, known)
-    return memory, VehicleModel(revision, roll.bank_deg, known)
+                bank_deg = remove_bias(memory.estimates, measurement).bank_deg
+                memory = memory._replace(roll=start_models(memory.roll, bank_deg))
+            memory = memory._replace(stamps=Stamps(clock, 0.0, measurement.time_s))
+            return update_fits(memory, settings, measurement, since_s)
+    return memory._replace(stamps=Stamps(clock, waited_s, used_s))
 
 
 def update_fits(
-    settings: IdentificationSettings, memory: Identification, measurement: State, since_s: float
+    memory: Identification, settings: IdentificationSettings, measurement: State, since_s: float
 ) -> Identification:
     """The memory with a new measurement, `since_s` seconds after the last one that was used."""
-    stamps, roll, (slow, quick, lead), wind, airspeeds, overshoot, revision, known = memory
+    _, _, (slow, quick, lead), wind, airspeeds, overshoot, _, known = memory
     declared, dt, is_near = settings.declared, since_s, 0.0 < since_s <= RELATED_S
     if not is_near:
         dt, slow = 0.0, first_slow_turns(slow.ratio, slow.bank_bias_deg, slow.sums)
@@ -186,11 +212,12 @@ def update_fits(
     lead = add_course(lead, declared.course_lead_s, state, slow.ratio, wind.east_m_s, wind.north_m_s, dt)
     # The direction of flight is to the right of the heading by this angle.
     wind = add_air_velocity(wind, state, lead.lead_s * slow.ratio * rate, known.heading_bias_deg, dt)
-    roll, airspeeds = add_measured_bank(roll, state.bank_deg), update_airspeeds(settings, airspeeds, state, dt)
+    memory = memory._replace(roll=add_measured_bank(memory.roll, state.bank_deg))
+    airspeeds = update_airspeeds(settings, airspeeds, state, dt)
     overshoot = update_overshoot(overshoot, settings.limit_deg, state.bank_deg, dt)
     estimates = VehicleEstimates(
-        roll=roll.weights.estimate.roll,
-        delay_s=roll.weights.estimate.delay_s,
+        roll=memory.roll.weights.estimate.roll,
+        delay_s=memory.roll.weights.estimate.delay_s,
         turn_ratio=slow.ratio,
         quick_turn_ratio=quick.ratio,
         course_lead_s=lead.lead_s,
@@ -203,7 +230,10 @@ def update_fits(
         heading_bias_deg=wind.heading_bias_deg,
         bank_bias_deg=slow.bank_bias_deg,
     )
-    return Identification(stamps, roll, Turns(slow, quick, lead), wind, airspeeds, overshoot, revision + 1, estimates)
+    memory = memory._replace(revision=memory.revision + 1)
+    return memory._replace(
+        turns=Turns(slow, quick, lead), wind=wind, airspeeds=airspeeds, overshoot=overshoot, estimates=estimates
+    )
 
 
 def update_airspeeds(settings: IdentificationSettings, airspeeds: Airspeeds, state: State, dt: float) -> Airspeeds:

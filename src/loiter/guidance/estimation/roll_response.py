@@ -219,14 +219,14 @@ def estimate_of(unknown: Unknown, sums: Sums) -> float:
 
 def first_roll(settings: RollSettings) -> RollMemory:
     """The memory before the first command, with wings level."""
-    estimate = RollEstimate(
-        RollValues(exp(settings.time.declared), exp(settings.rate.declared)), settings.delay.declared
-    )
-    weights = Weights(((0.0,) * DELAYS,) * MODELS, 0.0, 0.0, (0.0,) * MODELS, estimate)
-    models = constant_models(0.0)
+    return begin_roll(NO_ROLL, settings)
+
+
+def begin_roll(memory: RollMemory, settings: RollSettings) -> RollMemory:
+    """`NO_ROLL`, which is given, with the estimate before the first command."""
+    memory = memory._replace(since_s=CORRELATION_S)
     # A measurement that counts for no time leaves the probabilities as they are declared.
-    weights = update_weights(settings, models, weights, NOTHING_MEASURED)
-    return RollMemory(0.0, 0.0, 0.0, CORRELATION_S, NOTHING_MEASURED, models, weights)
+    return memory._replace(weights=update_weights(memory.weights, settings, memory.models, NOTHING_MEASURED))
 
 
 def constant_models(bank_deg: float) -> Models:
@@ -234,90 +234,107 @@ def constant_models(bank_deg: float) -> Models:
     return Models((bank_deg,) * DELAYS, (RollModel(bank_deg, bank_deg),) * MODELS)
 
 
+NO_ROLL = RollMemory(
+    bank_deg=0.0,
+    waiting_s=0.0,
+    commanded=0.0,
+    since_s=0.0,
+    measured=NOTHING_MEASURED,
+    models=constant_models(0.0),
+    weights=Weights(
+        logs=((0.0,) * DELAYS,) * MODELS,
+        log_total=0.0,
+        variance_deg2=0.0,
+        probabilities=(0.0,) * MODELS,
+        estimate=RollEstimate(RollValues(0.0, 0.0), 0.0),
+    ),
+)
+
+
 def start_models(memory: RollMemory, bank_deg: float) -> RollMemory:
     """The memory with every model at a bank."""
-    _, waiting_s, commanded, since_s, measured, _, weights = memory
-    return RollMemory(bank_deg, waiting_s, commanded, since_s, measured, constant_models(bank_deg), weights)
+    return memory._replace(bank_deg=bank_deg, models=constant_models(bank_deg))
 
 
-def fly_models(settings: RollSettings, memory: RollMemory, command_deg: float, dt: float) -> RollMemory:
+def fly_models(memory: RollMemory, settings: RollSettings, command_deg: float, dt: float) -> RollMemory:
     """The memory after `dt` seconds under a command."""
-    bank_deg, waiting_s, commanded, since_s, measured, models, weights = memory
-    dt = min(dt, LONGEST_STEP_S)
-    since_s, missing_s = since_s + dt, STEP_S - waiting_s
+    waiting_s, commanded, dt = memory.waiting_s, memory.commanded, min(dt, LONGEST_STEP_S)
+    since_s, missing_s = memory.since_s + dt, STEP_S - waiting_s
     if dt < missing_s:
         # Between the steps of the models the present bank is that of the estimated response.
-        bank_deg = bank_after(*weights.estimate.roll, bank_deg, command_deg, dt)
+        bank_deg = bank_after(*memory.weights.estimate.roll, memory.bank_deg, command_deg, dt)
         waiting_s, commanded = waiting_s + dt, commanded + dt * command_deg
-        return RollMemory(bank_deg, waiting_s, commanded, since_s, measured, models, weights)
-    models = step_models(settings, models, (commanded + missing_s * command_deg) / STEP_S)
-    if measured.since_s > 0.0:
-        weights = update_weights(settings, models, weights, measured)
+        return memory._replace(bank_deg=bank_deg, waiting_s=waiting_s, commanded=commanded, since_s=since_s)
+    mean_deg = (commanded + missing_s * command_deg) / STEP_S
+    memory = memory._replace(models=step_models(memory.models, settings, mean_deg))
+    if memory.measured.since_s > 0.0:
+        memory = memory._replace(weights=update_weights(memory.weights, settings, memory.models, memory.measured))
     left_s = dt - missing_s
     while left_s >= STEP_S:
-        models, left_s = step_models(settings, models, command_deg), left_s - STEP_S
+        memory = memory._replace(models=step_models(memory.models, settings, command_deg))
+        left_s -= STEP_S
     bank_deg = 0.0
     for i in range(MODELS):
-        bank_deg += weights.probabilities[i] * models.models[i].bank_deg
-    bank_deg = bank_after(*weights.estimate.roll, bank_deg, command_deg, left_s)
-    return RollMemory(bank_deg, left_s, left_s * command_deg, since_s, NOTHING_MEASURED, models, weights)
+        bank_deg += memory.weights.probabilities[i] * memory.models.models[i].bank_deg
+    bank_deg = bank_after(*memory.weights.estimate.roll, bank_deg, command_deg, left_s)
+    commanded = left_s * command_deg
+    memory = memory._replace(bank_deg=bank_deg, waiting_s=left_s, commanded=commanded, since_s=since_s)
+    return memory._replace(measured=NOTHING_MEASURED)
 
 
 def add_measured_bank(memory: RollMemory, measured_deg: float) -> RollMemory:
     """The memory with a measured bank that has just arrived; it is compared with the models at their next step."""
-    bank_deg, waiting_s, commanded, since_s, measured, models, weights = memory
-    if since_s < MEASURED_S:
+    if memory.since_s < MEASURED_S:
         return memory
-    measured = MeasuredBank(measured_deg, waiting_s, min(since_s, CORRELATION_S))
-    return RollMemory(bank_deg, waiting_s, commanded, 0.0, measured, models, weights)
+    measured = MeasuredBank(measured_deg, memory.waiting_s, min(memory.since_s, CORRELATION_S))
+    return memory._replace(since_s=0.0, measured=measured)
 
 
-def step_models(settings: RollSettings, before: Models, command_deg: float) -> Models:
+def step_models(models: Models, settings: RollSettings, command_deg: float) -> Models:
     """All models after a step under the mean command."""
-    commands_deg, models = before
-    oldest_deg = commands_deg[0]
+    oldest_deg = models.commands_deg[0]
     for i in range(TIMES):
         share = settings.shares[i]
         for j in range(RATES):
-            (bank_deg, earliest_deg), limit_deg = models[0], settings.limits_deg[j]
+            (bank_deg, earliest_deg), limit_deg = models.models[0], settings.limits_deg[j]
             bank_deg += clip(share * (command_deg - bank_deg), limit_deg)
             earliest_deg += clip(share * (oldest_deg - earliest_deg), limit_deg)
-            models = (*models[1:], RollModel(bank_deg, earliest_deg))
-    return Models((*commands_deg[1:], command_deg), models)
+            models = models._replace(models=(*models.models[1:], RollModel(bank_deg, earliest_deg)))
+    return models._replace(commands_deg=(*models.commands_deg[1:], command_deg))
 
 
-def update_weights(settings: RollSettings, models: Models, before: Weights, measured: MeasuredBank) -> Weights:
+def update_weights(weights: Weights, settings: RollSettings, models: Models, measured: MeasuredBank) -> Weights:
     """The weights after a bank that was measured within the last step of the models."""
-    (commands_deg, states), (logs, log_total, variance_deg2, probabilities, _) = models, before
+    variance_deg2, log_total = weights.variance_deg2, weights.log_total
     kept = exp(-variance_deg2 / (variance_deg2 + EXCITED_DEG * EXCITED_DEG) * measured.since_s / MEMORY_S)
     scale = -0.5 * measured.since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG)
     measured_deg, done, largest = measured.bank_deg, measured.after_s / STEP_S, LARGEST_ERROR_DEG * LARGEST_ERROR_DEG
-    delay_logs, errors, squares, index, index_square = settings.delay_logs, 0.0, 0.0, 0.0, 0.0
+    errors, squares, index, index_square = 0.0, 0.0, 0.0, 0.0
     time, rate = NO_SUMS, NO_SUMS
     for i in range(TIMES):
         share, time_log = settings.shares[i], declared_log(settings.time, i) - log_total
         for j in range(RATES):
             limit_deg, model_log = settings.limits_deg[j], time_log + declared_log(settings.rate, j)
-            bank_deg, pairs, total = states[i * RATES + j].earliest_deg, logs[0], 0.0
+            bank_deg, pairs, total = models.models[i * RATES + j].earliest_deg, weights.logs[0], 0.0
             for k in range(DELAYS):
-                change = clip(share * (commands_deg[k] - bank_deg), limit_deg)
+                change = clip(share * (models.commands_deg[k] - bank_deg), limit_deg)
                 error = bank_deg + done * change - measured_deg
                 bank_deg, square = bank_deg + change, error * error
                 errors, squares = errors + error, squares + square
                 one = kept * pairs[0] + scale * (square if square < largest else largest)
-                pairs, weight = (*pairs[1:], one), exp(model_log + delay_logs[k] + one)
+                weight = exp(model_log + settings.delay_logs[k] + one)
+                pairs = (*pairs[1:], one)
                 total, index, index_square = total + weight, index + k * weight, index_square + k * k * weight
-            logs, probabilities = (*logs[1:], pairs), (*probabilities[1:], total)
+            weights = weights._replace(logs=(*weights.logs[1:], pairs))
+            weights = weights._replace(probabilities=(*weights.probabilities[1:], total))
             time, rate = with_index(time, i, total), with_index(rate, j, total)
     for _ in range(MODELS):
-        probabilities = (*probabilities[1:], probabilities[0] / time.total)
+        weights = weights._replace(probabilities=(*weights.probabilities[1:], weights.probabilities[0] / time.total))
     roll = RollValues(exp(estimate_of(settings.time, time)), exp(estimate_of(settings.rate, rate)))
     delay_s = max(estimate_of(settings.delay, Sums(time.total, index, index_square)), 0.0)
     mean = errors / (MODELS * DELAYS)
-    return Weights(
-        logs,
-        log_total + log(time.total),
-        max(squares / (MODELS * DELAYS) - mean * mean, 0.0),
-        probabilities,
-        RollEstimate(roll, delay_s),
+    return weights._replace(
+        log_total=log_total + log(time.total),
+        variance_deg2=max(squares / (MODELS * DELAYS) - mean * mean, 0.0),
+        estimate=RollEstimate(roll, delay_s),
     )
