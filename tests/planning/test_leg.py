@@ -144,6 +144,21 @@ def test_on_the_circle_the_hold_begins_at_once():
     assert plan_leg(replace(leg, pose=there, hold_s=1.0), UAV).exit_s <= LAP_S + 1e-9
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_a_hold_that_ends_just_at_the_exit_begins_where_the_aircraft_is(seed):
+    """Rounding must not put the start behind the point of joining, which would cost most of a lap."""
+    random = np.random.default_rng(seed)
+    orbit = Orbit(*random.uniform(-1e4, 1e4, 2), random.uniform(60.0, 200.0), random.choice(["cw", "ccw"]))
+    azimuth = random.uniform(0.0, tau)
+    way = 1.0 if orbit.turn == "cw" else -1.0
+    east, north = orbit.east_m + orbit.radius_m * sin(azimuth), orbit.north_m + orbit.radius_m * cos(azimuth)
+    leg = Leg(Pose(east, north, degrees(azimuth + way * pi / 2)), orbit, (orbit.east_m + 900.0, orbit.north_m))
+    first = plan_leg(leg, UAV)
+    arc = (way * (np.arctan2(first.exit.east_m - orbit.east_m, first.exit.north_m - orbit.north_m) - azimuth)) % tau
+    hold_s = (arc + tau) * orbit.radius_m / UAV.airspeed_m_s
+    assert plan_leg(replace(leg, hold_s=hold_s), UAV).exit_s == pytest.approx(hold_s, abs=1e-6)
+
+
 def test_the_track_has_the_speed_of_the_air_and_ends_at_the_point():
     p = plan_leg(Leg(POSE, ORBIT, EXIT, hold_s=90.0), UAV, Wind(7.0, 200.0))
     track = p.sample(0.05)
