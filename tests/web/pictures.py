@@ -36,7 +36,7 @@ def main():
             browsing.press(page, preset)
             if share is None:
                 page.locator("#race").click()
-                page.wait_for_function("() => Number(document.getElementById('clock').value) >= 550")
+                page.wait_for_function("() => Number(document.getElementById('clock').value) >= 400")
                 page.locator("#play").click()
             else:
                 page.locator("#clock").fill(share)
