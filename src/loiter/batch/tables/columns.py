@@ -53,7 +53,7 @@ STATUSES = tuple(status.name.lower() for status in Status)
 class SharedValues(NamedTuple):
     """The values that all rows share, and the columns of the others.
 
-    `numbers` are by the names of the columns that they replace, and the tolerance; `origin` is that of positions in
+    `numbers` are by the names of the columns that they replace, and `TOLERANCE`; `origin` is that of positions in
     degrees; `mapped` has the names of columns by the quantities that they hold, as `mapped_columns` takes them.
     """
 
