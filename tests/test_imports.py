@@ -10,6 +10,8 @@ import loiter
 
 PUBLIC = [
     "Aircraft",
+    "Leg",
+    "LegPlan",
     "Maneuver",
     "Orbit",
     "Pose",
@@ -26,6 +28,7 @@ PUBLIC = [
     "min_time_in_wind",
     "plan",
     "plan_all",
+    "plan_leg",
     "reduce",
     "solve",
     "solve_in_wind",
@@ -78,7 +81,7 @@ def test_array_functions_load_numpy_when_first_named():
 
 
 def test_dir_shows_the_public_names_and_modules_alone():
-    modules = ["batch", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"]
+    modules = ["batch", "fences", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"]
     shown = "import loiter, json\nprint(json.dumps([n for n in dir(loiter) if not n.startswith('__')]))"
     assert fresh(shown) == sorted(PUBLIC + modules)
 
