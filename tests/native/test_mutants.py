@@ -1,4 +1,4 @@
-"""Twelve changes of signs and branches of the generated C, each of which its tests must notice."""
+"""Twenty changes of signs and branches of the generated C, each of which its tests must notice."""
 
 import re
 import subprocess
@@ -18,7 +18,7 @@ pytestmark = needs_compiler
 # A sign, a comparison and a branch, and what they become.
 CHANGES = [(r" \+ ", " - "), (r"(?<=[\w)]) - ", " + "), (r" < ", " > "), (r"if \((.*)\) {$", r"if (!(\1)) {")]
 
-COUNT = 12
+COUNT = 20
 
 # Lines where the sign has no effect: LAST is even, so that LAST + level is even where LAST - level is; and an integer
 # less 0 is that plus 0.
