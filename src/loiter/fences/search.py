@@ -1,4 +1,4 @@
-"""Least distances and first entries of whole paths, by branch and bound with proved bounds.
+"""Least distances and first entries of whole paths, by branch and bound.
 
 A part of a piece between the times a and b differs from its chord, flown at constant speed, by at most
 A (b - a)^2 / 8 at every time, with A the largest acceleration: both are equal at a and at b, and a function that is
