@@ -327,10 +327,18 @@ def test_the_table_prints_where_only_ascii_can_be_written():
 def test_the_examples_of_the_help_run(shown, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     examples = re.findall(r"^  loiter (plan .*)$", shown("--help").replace("\\\n", ""), re.MULTILINE)
-    assert len(examples) == 4
+    assert len(examples) == 5
+    write_fence(tmp_path / "field.plan")
     for example in examples:
         assert "joins in" in shown(example)
-    assert {path.name for path in tmp_path.iterdir()} == {"entry.png", "entry.plan"}
+    assert {path.name for path in tmp_path.iterdir()} == {"entry.png", "entry.plan", "field.plan"}
+
+
+def write_fence(path):
+    """A field of some kilometres round the circle of the examples, as QGroundControl writes it."""
+    field = {"circle": {"center": [47.105, 8.215], "radius": 5000.0}, "inclusion": True, "version": 1}
+    fence = {"version": 2, "circles": [field], "polygons": []}
+    path.write_text(json.dumps({"fileType": "Plan", "version": 1, "geoFence": fence}), "utf-8")
 
 
 def test_the_version(shown):

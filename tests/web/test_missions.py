@@ -97,7 +97,7 @@ def test_an_altitude_is_in_the_units_shown(page, tmp_path):
     flown, said = saved(page, "plan", tmp_path)
     assert flown.items[0].altitude_m == pytest.approx(304.8)
     assert flown.home[2] == 450.0
-    assert said == "entry.plan saved: 1000 ft above home, home at 1476.4 ft."
+    assert said == "entry.plan saved: 1\u202f000 ft above home, home at 1\u202f476.4 ft."
 
 
 def test_an_altitude_that_is_not_understood_is_none(page):

@@ -186,7 +186,7 @@ FILE_FORMATS = (
         partial(_map, kml, has_ground=True),
     ),
     Format((".gpx",), "map", "application/gpx+xml", "GPX", "for GPS receivers", partial(_map, gpx)),
-    Format((".csv",), "table", "text/csv; charset=utf-8", "CSV", "samples along the track", _table),
+    Format((".csv",), "table", "text/csv; charset=utf-8", "CSV", "samples along the track, in metres", _table),
     Format((".plan",), "mission", "application/json", "Plan", "mission for QGroundControl", _plan),
     Format(
         (".waypoints", ".txt"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, ceil, degrees, hypot, nan, radians, tau
 from typing import TYPE_CHECKING, NamedTuple
@@ -123,7 +124,7 @@ class LegPlan:
         if sum(steps) > MAX_SAMPLES:
             raise InvalidArgument("step_s", f"is {step_s}: it would take more than {MAX_SAMPLES} samples")
         held, shares = (np.linspace(0.0, 1.0, n + 1)[1:] for n in steps)
-        held_s, *on_circle = self.on_circle(held)
+        held_s, *on_circle, _ = self.on_circle(held.tolist())
         out = (
             self.exit.east_m + (self.end.east_m - self.exit.east_m) * shares,
             self.exit.north_m + (self.end.north_m - self.exit.north_m) * shares,
@@ -133,8 +134,8 @@ class LegPlan:
         east_m, north_m = (np.concatenate(part) for part in parts)
         return Track(time_s, east_m, north_m, self._altitudes(time_s))
 
-    def on_circle(self, shares: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
-        """Seconds from the start, and metres east and north, after each share (n,) of the angle that is held."""
+    def on_circle(self, shares: Sequence[float]) -> Track:
+        """The track on the circle after each share, from 0 to 1, of the angle that is held."""
         import numpy as np
 
         orbit, aircraft, r = self.leg.orbit, self.entry.aircraft, self.entry.aircraft.turn_radius_m
@@ -142,13 +143,13 @@ class LegPlan:
         wx, wy = relative_wind(orbit, aircraft, self.entry.wind)
         last = phase_of(self.exit.east_m - orbit.east_m, self.exit.north_m - orbit.north_m, side, wx, wy)
         rows = []
-        for share in shares.tolist():
+        for share in shares:
             phase = last - (1.0 - share) * width
             x, y, _, _, _ = hold_pose(phase, side, R, wx, wy)
             rows.append((time_held(phase, share * width, R, wx, wy), x, y))
         times, east, north = np.array(rows).reshape(-1, 3).T
         time_s = self.entry.duration_s + times * (r / aircraft.airspeed_m_s)
-        return time_s, orbit.east_m + r * east, orbit.north_m + r * north
+        return Track(time_s, orbit.east_m + r * east, orbit.north_m + r * north, self._altitudes(time_s))
 
     def _altitudes(self, time_s: NDArray[float64]) -> NDArray[float64]:
         """The altitude at times, which changes at the aircraft's rate until that of the leg is reached."""

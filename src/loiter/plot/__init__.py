@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from loiter.fences import Breach, Fence
 from loiter.geo import LocalFrame
 from loiter.lazy import LazyModule
 from loiter.planning.maneuver import Maneuver
 
 if TYPE_CHECKING:
     from matplotlib import figure as figures
-
-    from loiter.fences import Breach, Fence
 else:
     figures = LazyModule("matplotlib.figure")
 

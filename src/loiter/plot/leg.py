@@ -51,8 +51,10 @@ def draw(plan: LegPlan, *, frame: LocalFrame | None = None) -> Figure:
     draw_turns(axes, orbit, {plan.turn})
     # More than a turn covers the whole circle.
     steps = max(1.0, min(plan.held_deg, 360.0) / degrees(CHORD_RAD))
-    held = plan.on_circle(np.linspace(max(0.0, 1.0 - 360.0 / max(plan.held_deg, 360.0)), 1.0, round(steps) + 1))
-    axes.plot(held[1], held[2], zorder=2.8, gid="hold", **HELD)
+    held = plan.on_circle(
+        np.linspace(max(0.0, 1.0 - 360.0 / max(plan.held_deg, 360.0)), 1.0, round(steps) + 1).tolist()
+    )
+    axes.plot(held.east_m, held.north_m, zorder=2.8, gid="hold", **HELD)
     draw_path(axes, entry)
     end = plan.end
     east, north = np.linspace((plan.exit.east_m, plan.exit.north_m), (end.east_m, end.north_m), 3).T
