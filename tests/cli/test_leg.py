@@ -31,7 +31,7 @@ def test_a_picture_shows_the_hold_and_the_way_out(shown, tmp_path):
     file = tmp_path / "leg.svg"
     assert f"Wrote {file}." in shown(f"{SCENE} --exit-to 600 0 --hold 90 --plot {file}")
     drawn = file.read_text("utf-8")
-    for gid in ("hold", "way out", "exit", "point", "join"):
+    for gid in ("circle", "centre", "hold", "way out", "exit", "point", "join"):
         assert f'id="{gid}"' in drawn
 
 
@@ -41,6 +41,11 @@ def test_a_picture_shows_the_hold_and_the_way_out(shown, tmp_path):
         ("", "--exit-to or --exit-to-lla is needed, and not both"),
         ("--exit-to-lla 47 8", "--exit-to has the units of the circle: --exit-to-lla goes with --orbit-lla"),
         ("--exit-to 50 0", "--exit-to is 50 m from the centre: it must be outside the circle of 120 m"),
+        ("--exit-to nan 0", "--exit-to EAST is nan: it must be a finite number of metres"),
+        ("--exit-to 600 0 --altitude 100 --to-altitude nan", "--to-altitude is nan: it must be a finite number"),
+        ("--exit-to 600 0 --altitude nan", "--altitude is nan: it must be a finite number of metres"),
+        ("--exit-to 600 0 --hold 1e300", "the hold is too long: "),
+        ("--exit-to 600 0 --turns 1e9", "the hold is too long: 1e+09 turns; at most 100000 are planned"),
         ("--exit-to 600 0 --hold -3", "--hold is -3.0: it must be zero or a positive, finite number of seconds"),
         ("--exit-to 600 0 --turns -1", "--turns is -1.0: it must be zero or a positive, finite number of turns"),
         ("--exit-to 600 0 --to-altitude 300", "--altitude is needed with --to-altitude"),

@@ -65,10 +65,9 @@ def one_way_s(leg, uav, wind, clockwise, joins):
     )
     climb_s = climb_time(leg, uav)
     # Angles held: enough for the turns, the hold and the altitude, and a turn more.
-    speeds = ground_speeds(
+    angles, held = hold_times(
         exit_azimuth, way, w, np.arange(0.0, angle_enough(leg, climb_s, R, abs(w), v / r), tau / joins), R
     )
-    angles, held = speeds
     enough = (angles >= tau * leg.turns - 1e-9) & (held * r / v >= leg.hold_s)
     angles, held = angles[enough], held[enough]
     times = join_times(start, R, clockwise, w, exit_azimuth - way * angles)
@@ -97,7 +96,7 @@ def ground_speed(azimuth, way, w):
     return cos(asin(across)) + (w * track.conjugate()).real
 
 
-def ground_speeds(last, way, w, angles, R):
+def hold_times(last, way, w, angles, R):
     """The angles and the times that they are held, before the azimuth `last`, by Simpson's rule."""
     half = np.linspace(0.0, angles[-1], 8 * (len(angles) - 1) + 1)
     track = np.exp(1j * (last - way * half)) * way * 1j

@@ -10,10 +10,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from loiter import Aircraft, Leg, Orbit, Pose, Wind, plan, plan_leg
-from loiter.errors import InvalidArgument, RadiusTooSmall
+from loiter.errors import InvalidArgument, OutOfRange, RadiusTooSmall
 from loiter.kernel.wind.held import elliptic, time_held, width_held
 from planning.flying import fly
-from planning.legs import SOONER, enumerated_s, ground_speeds, random_leg
+from planning.legs import SOONER, enumerated_s, hold_times, random_leg
 
 UAV = Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5, descent_rate_m_s=4.0)
 POSE, ORBIT, EXIT = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), (600.0, 0.0)
@@ -50,9 +50,7 @@ def test_a_plan_flown_meets_the_circle_the_exit_and_the_point(drawn):
     held = radians(p.held_deg)
     assert abs(join * np.exp(1j * way * held) - out) < size
     steps = np.linspace(0.0, held, 4001)
-    _, times = ground_speeds(
-        np.angle(out), way, complex(*wind.velocity_m_s) / uav.airspeed_m_s, steps, leg.orbit.radius_m
-    )
+    _, times = hold_times(np.angle(out), way, complex(*wind.velocity_m_s) / uav.airspeed_m_s, steps, leg.orbit.radius_m)
     assert times[-1] / uav.airspeed_m_s == pytest.approx(p.held_s, abs=1e-9 * (1.0 + p.duration_s))
     # Along the tangent at the exit, on the heading there.
     heading = radians(p.exit.heading_deg)
@@ -199,6 +197,13 @@ def test_the_angle_held_in_a_time_takes_that_time(phase, time, w):
 def test_a_leg_that_cannot_be_flown(change, sentence):
     with pytest.raises(InvalidArgument, match=sentence.replace("(", r"\(").replace(")", r"\)")):
         Leg(**{"pose": POSE, "orbit": ORBIT, "exit_to": EXIT} | change)
+
+
+@pytest.mark.parametrize("needs", [{"hold_s": 1e300}, {"hold_s": 1.7e308}, {"turns": 1e9}, {"altitude_m": 1e12}])
+def test_a_hold_without_an_end_is_refused(needs):
+    on_circle = replace(plan_leg(Leg(POSE, ORBIT, EXIT), UAV).exit, altitude_m=0.0)
+    with pytest.raises(OutOfRange, match="the hold is too long"):
+        plan_leg(Leg(on_circle, ORBIT, EXIT, **needs), UAV)
 
 
 def test_a_climb_needs_its_rate_and_a_circle_that_can_be_held():

@@ -23,11 +23,11 @@ accept_fly_away airframe airspeed_m_s altitude_m altitude_reference autopilot ca
 cors declination_deg descent_rate_m_s dpi exit_to fence gust hold_s home_altitude_m host indicated_airspeed_m_s lead_s
 log margin_m orbit orbit_from orbit_lla orbit_velocity_m_s out plot port pose pose_lla radius reach rejects replay
 reports runs save scheduler seed send show sim size_mm spacing_m states system temperature_c timeout_s tolerance_m
-true_radius turn turns wind workers yes
+to_altitude_m true_radius turn turns wind workers yes
 """
 NAMED = frozenset(_NAMED.split())
 # Those of several values, each of which may be the argument of an error.
-SEVERAL = ("pose", "orbit", "origin", "wind", "size_mm")
+SEVERAL = ("exit_to", "pose", "orbit", "origin", "wind", "size_mm")
 # Those whose option has another name.
 RENAMED = {
     "max_bank_deg": "--bank",
@@ -41,6 +41,7 @@ RENAMED = {
     "parameters": "--params",
     "connection": "--connect",
     "period_s": "--every",
+    "pose altitude_m": "--altitude",
     "pose latitude_deg": "--pose-lla LAT",
     "pose longitude_deg": "--pose-lla LON",
     "pose true heading_deg": "--pose-lla HEADING",

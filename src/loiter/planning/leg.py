@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from math import atan2, ceil, degrees, hypot, nan, radians, tau
 from typing import TYPE_CHECKING, NamedTuple
 
-from loiter.errors import InvalidArgument, instance, not_negative, number
+from loiter.errors import InvalidArgument, OutOfRange, instance, not_negative, number
 from loiter.kernel.rounding import ROUNDING
 from loiter.kernel.wind.held import time_held
 from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.kernel.wind.paths import WindScene
-from loiter.kernel.wind.way_out import WayOut, entry_before, exit_point, exit_speed, soonest_exit
+from loiter.kernel.wind.way_out import WayOut, entry_before, exit_point, soonest_exit
 from loiter.kernel.wind.wind_search import scene_of
 from loiter.planning.compass import wrapped
 from loiter.planning.feasibility import radius_in_turns, relative_wind
@@ -25,6 +25,11 @@ from loiter.planning.sides import sign_of
 if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import NDArray
+
+
+# The longest hold, radians: 100,000 turns. Beyond, rounding of the angle flown displaces the point of joining by more
+# than 1e-10 of the radius.
+MOST_HELD = 1e5 * tau
 
 
 @dataclass(frozen=True)
@@ -194,7 +199,8 @@ def plan_leg(leg: Leg, aircraft: Aircraft, wind: Wind | None = None) -> LegPlan:
     Both directions are compared where the circle's turn is *either*. The time on the circle counts from the point of
     joining, and the entry is the first path to that point, which need not be where `plan` joins: a hold of a given
     time or altitude ends at the exit, so that the aircraft joins that long before it (docs/legs.md).
-    Raises the errors of `plan`, and `InvalidArgument` for a climb or descent without the aircraft's rate.
+    Raises the errors of `plan`, `InvalidArgument` for a climb or descent without the aircraft's rate, and `OutOfRange`
+    for a hold of more than 100,000 turns.
 
     >>> from loiter import Aircraft, Leg, Orbit, Pose, plan_leg
     >>> leg = Leg(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), exit_to=(600.0, 0.0), hold_s=30.0)
@@ -219,14 +225,23 @@ def _planned(leg: Leg, problem: Problem, climb_s: float) -> LegPlan:
     out = WayOut(
         side, phase_of(*point, side, scene.wx, scene.wy), leg.hold_s / unit_s, tau * leg.turns, climb_s / unit_s
     )
+    _check_length(out, scene)
     found = soonest_exit(out, scene)
     entry, miss = entry_before(found, out, scene)
     entered = maneuver(problem, entry, miss)
     held_s = (found.time - found.path.time) * unit_s
     exit_ = _exit_pose(orbit, out, scene, r)
     straight_m = hypot(leg.exit_to[0] - exit_.east_m, leg.exit_to[1] - exit_.north_m)
-    speed_m_s = exit_speed(out, scene) * problem.aircraft.airspeed_m_s
+    _, speed_m_s = entered.over_ground(exit_)
     return LegPlan(leg, entered, held_s, degrees(found.width), exit_, straight_m / speed_m_s)
+
+
+def _check_length(out: WayOut, scene: WindScene) -> None:
+    """Raise `OutOfRange` where the hold may be longer than `MOST_HELD`, at the largest ground speed."""
+    fastest = (1.0 + hypot(scene.wx, scene.wy)) / scene.R
+    longest = max(out.width, fastest * out.hold, fastest * out.time)
+    if longest > MOST_HELD:
+        raise OutOfRange(f"the hold is too long: {longest / tau:.3g} turns; at most {MOST_HELD / tau:g} are planned")
 
 
 def _exit_pose(orbit: Orbit, out: WayOut, scene: WindScene, r: float) -> Pose:
@@ -255,7 +270,7 @@ def _outside(exit_to: tuple[float, float], orbit: Orbit) -> tuple[float, float]:
         east, north = exit_to
     except (TypeError, ValueError):
         raise InvalidArgument("exit_to", f"is {exit_to!r}: it must be two numbers, metres east and north") from None
-    east, north = number("exit_to east", east, "metres"), number("exit_to north", north, "metres")
+    east, north = number("exit_to east_m", east, "metres"), number("exit_to north_m", north, "metres")
     distance = hypot(east - orbit.east_m, north - orbit.north_m)
     if distance < orbit.radius_m * (1.0 - ROUNDING):
         raise InvalidArgument(

@@ -16,8 +16,8 @@ from loiter.plot.marks import (
     CHORD_RAD,
     draw_aircraft,
     draw_arrow,
-    draw_circle,
     draw_north,
+    draw_orbit,
     draw_turns,
     draw_wind,
     drawn_gids,
@@ -47,7 +47,7 @@ def draw(plan: LegPlan, *, frame: LocalFrame | None = None) -> Figure:
     if frame is not None:
         axes.set_xlabel(f"east of {degrees_of(frame.latitude_deg, frame.longitude_deg)} (m)")
     entry, orbit = plan.entry, plan.leg.orbit
-    draw_circle(axes, orbit)
+    draw_orbit(axes, orbit)
     draw_turns(axes, orbit, {plan.turn})
     # More than a turn covers the whole circle.
     steps = max(1.0, min(plan.held_deg, 360.0) / degrees(CHORD_RAD))

@@ -13,6 +13,7 @@ from loiter.cli.coordinates import latitude, longitude
 from loiter.cli.numbers import altitude, metres, metres_per_second, one, several
 from loiter.cli.options import AircraftOptions, Fit, OrbitOptions, PictureOptions, StartOptions, WindOptions, output
 from loiter.cli.scenes import fit_proposed, read_options
+from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.planning.leg import Leg, LegPlan, plan_leg
@@ -85,14 +86,9 @@ def leg(
     pose, aircraft = problem.pose, problem.aircraft
     if to_altitude is not None and uav.altitude is None:
         raise InvalidArgument("altitude_m", "is needed with --to-altitude: it is the altitude at the start")
-    asked = Leg(
-        replace(pose, altitude_m=uav.altitude),
-        problem.orbit,
-        exit_place(exit_to, exit_to_lla, frame),
-        hold_s=hold,
-        turns=turns,
-        altitude_m=to_altitude,
-    )
+    start_pose, point = replace(pose, altitude_m=uav.altitude), exit_place(exit_to, exit_to_lla, frame)
+    with argument_names(altitude_m="to_altitude_m"):
+        asked = Leg(start_pose, problem.orbit, point, hold_s=hold, turns=turns, altitude_m=to_altitude)
     with fit_proposed():
         plan = plan_leg(
             asked, replace(aircraft, climb_rate_m_s=climb_rate, descent_rate_m_s=descent_rate), problem.wind

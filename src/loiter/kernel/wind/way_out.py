@@ -5,7 +5,7 @@ longer. Hence the time at the exit never falls as the aircraft joins further bef
 gives the soonest exit, and the soonest exit after a given time is found by halving.
 """
 
-from math import inf, sqrt
+from math import ceil, inf, sqrt
 from typing import NamedTuple
 
 from loiter.kernel.angles import TWO_PI
@@ -13,7 +13,6 @@ from loiter.kernel.entry import Entry, drop_short_pieces
 from loiter.kernel.rounding import ROUNDING, rounding
 from loiter.kernel.wind.fits import end_miss
 from loiter.kernel.wind.held import HALVINGS, time_held, width_held
-from loiter.kernel.wind.hold import hold_pose
 from loiter.kernel.wind.moving_target import Path
 from loiter.kernel.wind.paths import WindScene, first_path
 from loiter.kernel.wind.wind_search import is_on_circle, start_on_circle
@@ -89,8 +88,7 @@ def exit_of_hold(least: float, out: WayOut, scene: WindScene) -> Exit:
     # A passage that is too early by rounding only counts.
     width = (out.phase - start.phase) % TWO_PI
     enough = max(least, width_held(out.phase, out.time, scene.R, scene.wx, scene.wy)) * (1.0 - ROUNDING) - ROUNDING
-    while width < enough:
-        width += TWO_PI
+    width += TWO_PI * max(ceil((enough - width) / TWO_PI), 0)
     return Exit(start.path, width, time_held(out.phase, width, scene.R, scene.wx, scene.wy))
 
 
@@ -101,9 +99,3 @@ def entry_before(found: Exit, out: WayOut, scene: WindScene) -> tuple[Entry, flo
     )
     entry = Entry(out.side, word, t1, t2, t3)
     return entry, end_miss(entry, out.phase - found.width, scene)
-
-
-def exit_speed(out: WayOut, scene: WindScene) -> float:
-    """The ground speed at the exit, which the aircraft keeps on the tangent."""
-    _, _, _, _, speed = hold_pose(out.phase, out.side, scene.R, scene.wx, scene.wy)
-    return speed
