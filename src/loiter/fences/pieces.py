@@ -10,10 +10,13 @@ from __future__ import annotations
 from math import atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from loiter.kernel.wind.held import time_held
+from loiter.kernel.wind.hold import phase_of
 from loiter.planning.compass import heading_vector
-from loiter.planning.feasibility import relative_wind
+from loiter.planning.feasibility import radius_in_turns, relative_wind
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CONTROLS, Orbit, Segment, Turn
+from loiter.planning.model import CONTROLS, Orbit, Segment
+from loiter.planning.sides import sign_of
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -93,7 +96,7 @@ def _hold_row(maneuver: Maneuver) -> tuple[float, ...]:
     """One round of a circle that stands still: an arc over the ground, whatever the wind."""
     circle, join = maneuver.orbit, maneuver.join
     azimuth = atan2(join.north_m - circle.north_m, join.east_m - circle.east_m)
-    u, speed, R = (-1.0 if maneuver.turn == Turn.CW else 1.0), maneuver.aircraft.airspeed_m_s, circle.radius_m
+    u, speed, R = -float(sign_of(maneuver.turn)), maneuver.aircraft.airspeed_m_s, circle.radius_m
     nx, ny = cos(azimuth), sin(azimuth)
     place = circle.east_m + R * nx, circle.north_m + R * ny
     return maneuver.duration_s, 2.0 * pi * R / speed, *place, -u * ny, u * nx, u, R, speed, 0.0, 0.0, 0.0
@@ -114,23 +117,9 @@ def _moving_hold_row(maneuver: Maneuver) -> tuple[float, ...]:
 
 
 def time_in_hold(maneuver: Maneuver, flown_rad: float) -> float:
-    """Seconds from joining a circle that stands still until `flown_rad` of it are flown.
-
-    In wind the ground speed varies: its inverse is integrated by Gauss's rule with 16 nodes on each eighth of the
-    circle, exact to rounding for winds that a circle is held in.
-    """
-    import numpy as np
-
-    R, V = maneuver.orbit.radius_m, maneuver.aircraft.airspeed_m_s
-    if maneuver.wind.speed_m_s == 0.0:
-        return R * flown_rad / V
-    u, join, circle = (-1.0 if maneuver.turn == Turn.CW else 1.0), maneuver.join, maneuver.orbit
-    begin = atan2(join.north_m - circle.north_m, join.east_m - circle.east_m)
-    nodes, weights = np.polynomial.legendre.leggauss(16)
-    parts = max(1, int(np.ceil(flown_rad / (0.25 * pi))))
-    width = flown_rad / parts
-    angles = begin + u * (width * (np.arange(parts)[:, None] + 0.5 * (nodes + 1.0)))
-    wx, wy = maneuver.wind.velocity_m_s
-    across, along = wx * np.cos(angles) + wy * np.sin(angles), u * (wy * np.cos(angles) - wx * np.sin(angles))
-    speed = np.sqrt(V * V - across**2) + along
-    return float(R * 0.5 * width * (weights / speed).sum())
+    """Seconds from joining a circle that stands still until `flown_rad` of it are flown; exact in wind too."""
+    circle, join, uav, side = maneuver.orbit, maneuver.join, maneuver.aircraft, sign_of(maneuver.turn)
+    wx, wy = relative_wind(circle, uav, maneuver.wind)
+    begin = phase_of(join.east_m - circle.east_m, join.north_m - circle.north_m, side, wx, wy)
+    held = time_held(begin + flown_rad, flown_rad, radius_in_turns(circle, uav), wx, wy)
+    return held * uav.turn_radius_m / uav.airspeed_m_s

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from loiter.errors import LoiterError, file_path
+from loiter.fences.model import LEAST_CORNERS
 from loiter.fences.places import PlacedCircle, PlacedFence, PlacedPolygon, PlacedZone
 from loiter.io.missions import qgcplan
 from loiter.io.missions.items import MissionItem
@@ -21,8 +22,6 @@ from loiter.io.reading import Source, shown
 
 # The versions of QGroundControl's fence, and of its circles and polygons.
 FENCE_VERSION, AREA_VERSION = 2, 1
-
-LEAST_CORNERS = 3
 
 
 class FenceCommand(IntEnum):
