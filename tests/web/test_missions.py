@@ -186,3 +186,19 @@ def test_a_preset_keeps_place_and_altitude(page, tmp_path):
     settle(page)
     flown, _ = saved(page, "plan", tmp_path)
     assert flown.items[0].altitude_m == 620.0
+
+
+def test_a_link_opened_while_the_address_waits_to_be_written_is_not_lost(page):
+    page.evaluate(
+        """link => {
+            const waiting = [];
+            const { setTimeout } = window;
+            window.setTimeout = act => waiting.push(act);
+            document.getElementById("plan").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
+            window.setTimeout = setTimeout;
+            location.hash = link;
+            // The pause is over before the event of the new address comes.
+            for (const act of waiting) act(); }""",
+        f"{OLD_LINK}&altitude=120&altitude-reference=home",
+    )
+    expect(page.locator("#altitude")).to_have_value("120")

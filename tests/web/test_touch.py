@@ -135,7 +135,7 @@ def test_a_finger_that_moves_sideways_pans(opened):
     page = opened(**PHONE)
     box = page.locator("#plan").bounding_box()
     east, north, scale = view(page)
-    kinds = Fingers(page).swipe(box["x"] + 60, box["y"] + 200, 80, 0)
+    kinds = Fingers(page).swipe(box["x"] + 60, box["y"] + 0.8 * box["height"], 80, 0)
     assert "pointercancel" not in kinds
     assert view(page) == pytest.approx([east - 80 / scale, north, scale])
     assert scrolled(page) == 0

@@ -19,6 +19,8 @@ import { PRESETS } from "./presets.js";
 /** @type {import("./link.js").Linked} */
 const FIRST = { scene: PRESETS[0].scene, units: null, altitude: {}, view: null };
 
+let opened = ""; // the link that the page showed last without a step of the user
+
 /** The fragment that links to the state. @param {PageState} state */
 const fragmentOf = ({ scene, units, altitude, camera }) => toLink({ scene, units, altitude, view: spanOf(camera) });
 
@@ -41,6 +43,9 @@ export function openAddress(store, actions) {
   store.update({ step, lastStep: step });
 }
 
+/** Whether the address is a link that the user has set and that is not opened yet. */
+const isUnopened = () => history.state === null && location.hash !== opened;
+
 /** @param {unknown} state @returns {state is Entry} */
 const isEntry = (state) => typeof state === "object" && state !== null && "step" in state && "scene" in state;
 
@@ -55,6 +60,8 @@ export function writeAddress(store) {
 
   /** @param {PageState} state */
   function write(state) {
+    // Its event is still to come; what is written now would take its place.
+    if (isUnopened()) return;
     const { step, scene, place, altitude, camera } = state;
     /** @type {Entry} */
     const entry = { step, scene, place, altitude, camera };
@@ -62,6 +69,7 @@ export function writeAddress(store) {
     // In a page that embeds this one, Back belongs to that page.
     if (parent === window && isEntry(history.state) && step > history.state.step) history.pushState(entry, "", fragmentOf(state));
     else history.replaceState(entry, "", fragmentOf(state));
+    opened = "";
     isWritten = true;
   }
   const writeLater = debounced(PAUSE_MS, () => isWritten || write(last));
@@ -119,7 +127,8 @@ function directionOf({ key, ctrlKey, metaKey, altKey, shiftKey }) {
 
 /** @param {Actions} actions */
 function open(actions) {
-  const { linked, error } = read(location.hash);
+  opened = location.hash;
+  const { linked, error } = read(opened);
   const { scene, units, altitude, view } = linked;
   actions.openScene({ scene, units: units ?? asUnits(recall("units")), altitude, place: { ...scene.origin } }, view);
   if (error) actions.say(error, true);
