@@ -55,6 +55,12 @@ def test_importing_the_package_loads_nothing_heavy():
     assert loaded_by("import loiter") == set()
 
 
+def test_importing_the_package_loads_none_of_its_folders():
+    """Until the program runs, an interrupt prints a traceback: that must be milliseconds."""
+    modules = fresh("import loiter, sys, json\nprint(json.dumps([m for m in sys.modules if m.startswith('loiter')]))")
+    assert modules == ["loiter.version", "loiter"] or modules == ["loiter", "loiter.version"]
+
+
 def test_a_single_plan_loads_nothing_heavy():
     scene = "loiter.Pose(-400.0, 120.0, 90.0), loiter.Orbit(0.0, 0.0, 80.0), loiter.Aircraft(18.0, max_bank_deg=35.0)"
     assert loaded_by(f"import loiter\nloiter.plan({scene})\nloiter.candidates({scene})") == set()

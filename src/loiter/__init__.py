@@ -1,18 +1,16 @@
 """The fastest way onto a holding circle for an aircraft of constant speed and bounded turn rate."""
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
-from loiter import errors
-from loiter.planning.hold import hold
-from loiter.planning.leg import Leg, LegPlan, plan_leg
-from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
-from loiter.planning.solve import candidates, plan, plan_all
 from loiter.version import __version__ as __version__
 
+# Type checkers take it for that of `typing`, whose import would last longer than that of this package.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from loiter import batch as batch
+    from loiter import errors as errors
     from loiter import geo as geo
     from loiter import guidance as guidance
     from loiter import io as io
@@ -30,6 +28,27 @@ if TYPE_CHECKING:
         solve,
         solve_in_wind,
     )
+    from loiter.planning.hold import hold
+    from loiter.planning.leg import Leg, LegPlan, plan_leg
+    from loiter.planning.maneuver import Maneuver
+    from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
+    from loiter.planning.solve import candidates, plan, plan_all
+
+# What is public, by the module that has it. Each is imported when first used: the program handles an interrupt from its
+# first milliseconds on, and a single plan does without NumPy.
+_NAMES = {
+    name: module
+    for module, names in {
+        "arrays": "Solution WindSolution control min_time min_time_in_wind reduce solve solve_in_wind",
+        "planning.hold": "hold",
+        "planning.leg": "Leg LegPlan plan_leg",
+        "planning.maneuver": "Maneuver",
+        "planning.model": "Aircraft Orbit Pose Segment Turn Wind",
+        "planning.solve": "candidates plan plan_all",
+    }.items()
+    for name in names.split()
+}
+_MODULES = {"batch", "errors", "fences", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"}
 
 __all__ = [
     "Aircraft",
@@ -58,32 +77,15 @@ __all__ = [
 ]
 
 
-# Loaded when first used.
-_MODULES = {"batch", "fences", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"}
-
-# The same, since they need NumPy.
-_ARRAY_NAMES = {
-    "Solution",
-    "WindSolution",
-    "control",
-    "min_time",
-    "min_time_in_wind",
-    "reduce",
-    "solve",
-    "solve_in_wind",
-}
-
-
 def __dir__() -> list[str]:
     return sorted({*__all__, *_MODULES, *(name for name in globals() if name.startswith("__"))})
 
 
-def __getattr__(name: str) -> Any:
-    # The array functions need NumPy, which a single plan does not load.
-    if name in _ARRAY_NAMES:
-        from loiter import arrays
-
-        return getattr(arrays, name)
+def __getattr__(name: str) -> "Any":
+    if name in _NAMES:
+        value = getattr(import_module(f"loiter.{_NAMES[name]}"), name)
+        globals()[name] = value
+        return value
     if name in _MODULES:
         return import_module(f"loiter.{name}")
     raise AttributeError(f"module 'loiter' has no attribute {name!r}")

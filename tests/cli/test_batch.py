@@ -1,7 +1,6 @@
 """`loiter batch`: refusals before any work, the closing summary, help."""
 
 import json
-import subprocess
 import sys
 from pathlib import Path
 
@@ -304,18 +303,3 @@ def test_an_interrupt_before_the_job_gets_a_sentence(capsys, monkeypatch):
     monkeypatch.setattr("loiter.batch.run", interrupted)
     assert main(["batch", "in.parquet", "out.parquet", *OPTIONS]) == 130
     assert capsys.readouterr() == ("", "loiter: interrupted\n")
-
-
-def test_an_interrupt_during_the_imports_gets_a_sentence():
-    code = """
-import sys
-class Interrupted:
-    def find_spec(self, name, path=None, target=None):
-        if name == "cyclopts":
-            raise KeyboardInterrupt
-sys.meta_path.insert(0, Interrupted())
-from loiter.__main__ import main
-sys.exit(main())
-"""
-    done = subprocess.run([sys.executable, "-c", code, "plan"], capture_output=True, text=True)
-    assert (done.returncode, done.stdout, done.stderr) == (130, "", "loiter: interrupted\n")

@@ -181,6 +181,24 @@ def test_a_full_disk_gets_one_sentence(output):
     assert "No space left on device" in line
 
 
+@pytest.mark.parametrize("module", ["cyclopts", "loiter.cli.sentences", "loiter.cli.commands.plan"])
+def test_an_interrupt_during_the_imports_ends_quietly(module):
+    code = f"""
+import os, signal, sys
+class Interrupted:
+    def find_spec(self, name, path=None, target=None):
+        if name == {module!r}:
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Interrupted())
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from loiter.__main__ import main
+sys.exit(main())
+"""
+    scene = ["--pose", "-400", "120", "90", "--orbit", "0", "0", "80", "--airspeed", "18", "--bank", "35"]
+    done = subprocess.run([sys.executable, "-c", code, "plan", *scene], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+
+
 def test_an_interrupt_ends_quietly(capsys, monkeypatch):
     def interrupted(*_, **__):
         raise KeyboardInterrupt

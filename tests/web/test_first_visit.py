@@ -33,6 +33,8 @@ def test_the_help_opens_by_a_key_and_at_each_term(page):
         page.locator("#close-help").click()
     links = dialog.locator("a").evaluate_all("links => links.map(link => link.href)")
     assert all(link.startswith("https://github.com/loiter-uav/loiter") for link in links)
+    # The button of the format says it too.
+    assert "text file" in page.locator("[data-format='waypoints']").get_attribute("title")
     # A question mark in a field is one.
     page.locator("#airspeed").press("?")
     expect(dialog).to_be_hidden()

@@ -20,7 +20,7 @@ export const FORMATS = [
   { format: "gpx", name: "GPX", use: "for GPS receivers", kind: "map" },
   { format: "csv", name: "CSV", use: "samples along the track, in metres", kind: "table" },
   { format: "plan", name: "Plan", use: "mission for QGroundControl", kind: "mission" },
-  { format: "waypoints", name: "WPL", use: "waypoints for Mission Planner", kind: "mission" },
+  { format: "waypoints", name: "WPL", use: "waypoints for Mission Planner, MAVProxy and QGroundControl, in a text file", kind: "mission" },
   { format: "png", name: "PNG", use: "picture", kind: "picture" },
   { format: "svg", name: "SVG", use: "picture", kind: "picture" },
 ];
