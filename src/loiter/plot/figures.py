@@ -24,8 +24,7 @@ from loiter.kernel.still_air.switching_curves import last_arc_abscissa, switchin
 from loiter.kernel.still_air.synthesis import optima, ranked
 from loiter.kernel.words import Side, Word, controls
 from loiter.planning.model import CONTROLS
-from loiter.plot.marks import CHORD_RAD, draw_arrow
-from loiter.plot.picture import COLOURS, MARKS
+from loiter.plot.picture import CHORD_RAD, COLOURS, MARKS, draw_arrow
 
 Floats = NDArray[np.float64]
 

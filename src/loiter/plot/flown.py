@@ -14,7 +14,10 @@ from numpy.typing import NDArray
 from loiter.guidance.trials.flight import Flight
 from loiter.planning.compass import wrapped
 from loiter.planning.maneuver import Maneuver
-from loiter.plot.marks import (
+from loiter.plot.picture import (
+    CIRCLE,
+    FAINT,
+    SPECK,
     Box,
     corners,
     draw_aircraft,
@@ -25,7 +28,6 @@ from loiter.plot.marks import (
     enlarge,
     prepare_plan,
 )
-from loiter.plot.picture import FAINT, SPECK
 from loiter.plot.sizes import OUTSIDE_IF_NARROW
 
 # From the palette of Okabe and Ito.
@@ -134,7 +136,7 @@ def _legend(figure: Figure, flights: Mapping[str, Flight]) -> list[Line2D]:
         )
         for (name, flight), colour in zip(flights.items(), COLOURS, strict=False)
     ]
-    return [*ideal, Line2D([], [], color="black", linewidth=1.4, label="holding circle"), *laws]
+    return [*ideal, Line2D([], [], **CIRCLE["circle"]), *laws]
 
 
 def _label(name: str, flight: Flight) -> str:

@@ -11,8 +11,7 @@ from matplotlib.figure import Figure
 
 from loiter.planning.model import Orbit, Pose
 from loiter.plot.flown import BANK_LABEL, COLOURS, prepare_timeline
-from loiter.plot.marks import Floats, draw_aircraft, draw_arrow, draw_circle, draw_turns, prepare_plan
-from loiter.plot.picture import FAINT
+from loiter.plot.picture import FAINT, Floats, draw_aircraft, draw_arrow, draw_circle, draw_turns, prepare_plan
 
 Columns = Mapping[str, Sequence[Any]]
 
