@@ -61,6 +61,11 @@ CALLS = [
     (mavlink.download, {"connection": LINK}, "connection"),
     (mavlink.download_fence, {"connection": LINK}, "connection"),
     (mavlink.watch, {"connection": LINK, "frame": FRAME, **SCENE}, "connection orbit frame aircraft wind"),
+    (
+        mavlink.stream_path,
+        {"connection": LINK, "maneuver": MANEUVER, "frame": FRAME, "altitude_m": 600.0},
+        "connection maneuver frame",
+    ),
     (mavlink.guide, {"connection": LINK, "orbit": ORBIT, "frame": FRAME}, "connection orbit frame wind log"),
     (batch.plan, {"frame": None, **SCENE, **TABLE}, "frame orbit aircraft wind turn origin columns orbit_velocity_m_s"),
     (

@@ -14,7 +14,7 @@ from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.rounding import ROUNDING
 from loiter.planning.compass import heading_after, heading_vector, wrapped
-from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment, Wind, position_after
+from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment, Setpoints, Wind, position_after
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -72,6 +72,22 @@ def samples_at(
     east, north, heading = (np.concatenate(parts) for parts in zip(*paths, strict=True))
     curvature = np.concatenate([np.full(times.size, segment.curvature_per_m) for segment, times in pieces])
     return Samples(time_s, east, north, heading, curvature, *_over_ground(heading, curvature, aircraft, wind))
+
+
+def setpoints(track: Samples) -> Setpoints:
+    """The setpoints of `Maneuver.setpoints` at the times of samples."""
+    import numpy as np
+
+    course = np.radians(track.track_deg)
+    return Setpoints(
+        time_s=track.time_s,
+        east_m=track.east_m,
+        north_m=track.north_m,
+        tangent_east=np.sin(course),
+        tangent_north=np.cos(course),
+        curvature_per_m=track.ground_curvature_per_m,
+        speed_m_s=track.ground_speed_m_s,
+    )
 
 
 def _over_ground(

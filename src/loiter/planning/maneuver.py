@@ -9,9 +9,9 @@ from typing import Any
 
 from loiter.errors import InvalidArgument, MissingPackage, instance, positive
 from loiter.planning.drawing import Drawing
-from loiter.planning.flight import over_ground, samples
+from loiter.planning.flight import over_ground, samples, setpoints
 from loiter.planning.hold import Hold
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Samples, Segment, Turn, Wind
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Samples, Segment, Setpoints, Turn, Wind
 
 # More samples than this would not fit in the memory of a small machine: 8 arrays of 8 bytes each, 640 MB.
 MAX_SAMPLES = 10_000_000
@@ -83,6 +83,15 @@ class Maneuver:
         if self.duration_s / step_s > MAX_SAMPLES:
             raise InvalidArgument("step_s", f"is {step_s}: it would take more than {MAX_SAMPLES} samples")
         return samples(self.start, self.segments, self.aircraft, self.wind, step_s)
+
+    def setpoints(self, step_s: float) -> Setpoints:
+        """The path over the ground for path-following guidance, at the times of `sample`.
+
+        Position, unit tangent, curvature and speed are what PX4's offboard mode and ArduPilot's pull request 26328
+        take (docs/mavlink.md). At a switch the curvature is that of the piece that begins, at the join that of the
+        piece that ends. Raises `InvalidArgument` like `sample`.
+        """
+        return setpoints(self.sample(step_s))
 
     def to_dict(self) -> dict[str, object]:
         """The maneuver as plain values for JSON: the members of `loiter plan --json`, in metres, seconds, degrees."""

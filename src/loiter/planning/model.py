@@ -305,3 +305,19 @@ class Samples(NamedTuple):
     track_deg: NDArray[float64]
     ground_speed_m_s: NDArray[float64]
     ground_curvature_per_m: NDArray[float64]
+
+
+class Setpoints(NamedTuple):
+    """A path over the ground as guidance follows it: seven float64 arrays of one length.
+
+    The tangent is a unit vector along the motion over the ground. The curvature, positive to the left, and the speed
+    are those over the ground too. Where the ground speed is zero the curvature is nan.
+    """
+
+    time_s: NDArray[float64]
+    east_m: NDArray[float64]
+    north_m: NDArray[float64]
+    tangent_east: NDArray[float64]
+    tangent_north: NDArray[float64]
+    curvature_per_m: NDArray[float64]
+    speed_m_s: NDArray[float64]
