@@ -10,7 +10,7 @@ from codegen.library import Library
 from codegen.unit import ROOT, Unit
 from loiter.arrays import partition  # noqa: F401
 from loiter.kernel import adjoint, entry, motion, rounding
-from loiter.kernel.still_air import extremals, switching_curves, synthesis
+from loiter.kernel.still_air import extremals, switching_curves, synthesis, value_gradient
 from loiter.kernel.wind import hold, wind_search
 from loiter.version import __version__
 from loiter.web import problems  # noqa: F401
@@ -28,6 +28,7 @@ SINGLE = (
     synthesis.least_time,
     entry.first_control,
     entry.miss,
+    value_gradient.value_gradient,
     wind_search.fastest,
     wind_search.scene_of,
     wind_search.sampled_times,

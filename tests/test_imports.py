@@ -10,6 +10,7 @@ import loiter
 
 PUBLIC = [
     "Aircraft",
+    "Gradient",
     "Leg",
     "LegPlan",
     "Maneuver",
@@ -23,6 +24,7 @@ PUBLIC = [
     "candidates",
     "control",
     "errors",
+    "gradient",
     "hold",
     "min_time",
     "min_time_in_wind",

@@ -122,6 +122,7 @@ def test_array_functions_have_types(checked):
         "anything: ArrayLike = [1.0]",
         "assert_type(loiter.min_time(4.0, 4), np.float64)",
         "assert_type(loiter.min_time([4.0, 1], 4.0), NDArray[np.float64])",
+        "assert_type(loiter.gradient([4.0, 1], 4.0, turn='cw').radius, NDArray[np.float64])",
         "assert_type(loiter.min_time(many, 0.0, turn=['cw', 'ccw', 'cw']), NDArray[np.float64])",
         "assert_type(loiter.min_time(column, many), Column)",
         "assert_type(loiter.min_time(0.0, column, radius=column), Column)",

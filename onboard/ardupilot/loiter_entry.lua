@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 8664ad35e34dca5faca9f85e14ea7a4d399d1201d332100d21c0f98ffb6c5437
+-- SHA-256 of the source: e87425f769e7fc25cfe8813e5f3f1b5a48a28ae368bcf5851e609d206077ad29
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target

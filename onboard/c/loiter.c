@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: d37b5193fd273e7d342eabe235191eed19256d3d9710e749c70c29fae460f4b8
+ * SHA-256 of the source: 81f68a68ded1687b4fd462e1af1f2ff3609392a73d1289ef6f4359f7bf2f05f8
  */
 #include "loiter.h"
 

@@ -19,9 +19,11 @@ if TYPE_CHECKING:
     from loiter import verify as verify
     from loiter import web as web
     from loiter.arrays import (
+        Gradient,
         Solution,
         WindSolution,
         control,
+        gradient,
         min_time,
         min_time_in_wind,
         reduce,
@@ -39,7 +41,8 @@ if TYPE_CHECKING:
 _NAMES = {
     name: module
     for module, names in {
-        "arrays": "Solution WindSolution control min_time min_time_in_wind reduce solve solve_in_wind",
+        "arrays": "Gradient Solution WindSolution control gradient min_time min_time_in_wind reduce solve "
+        "solve_in_wind",
         "planning.hold": "hold",
         "planning.leg": "Leg LegPlan plan_leg",
         "planning.maneuver": "Maneuver",
@@ -52,6 +55,7 @@ _MODULES = {"batch", "errors", "fences", "geo", "guidance", "io", "mavlink", "pl
 
 __all__ = [
     "Aircraft",
+    "Gradient",
     "Leg",
     "LegPlan",
     "Maneuver",
@@ -65,6 +69,7 @@ __all__ = [
     "candidates",
     "control",
     "errors",
+    "gradient",
     "hold",
     "min_time",
     "min_time_in_wind",

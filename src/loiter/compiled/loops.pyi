@@ -7,3 +7,4 @@ reduce: Any
 solve: Any
 min_time_in_wind: Any
 solve_in_wind: Any
+gradient: Any

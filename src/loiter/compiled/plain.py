@@ -15,6 +15,7 @@ from loiter.kernel.entry import duration, first_control, miss
 from loiter.kernel.rounding import rounded_radius
 from loiter.kernel.statuses import Status
 from loiter.kernel.still_air import synthesis
+from loiter.kernel.still_air.value_gradient import value_gradient
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.wind_search import WindProblem
 
@@ -44,6 +45,13 @@ def _control(x: float, y: float, R: float, side: float, tolerance: float) -> flo
         return nan
     R = rounded_radius(R)
     return first_control(R, synthesis.optimum(x, y, R, int(side), tolerance))
+
+
+def _gradient(x: float, y: float, R: float, side: float) -> tuple[float, float, float]:
+    if not synthesis.is_solvable(x, y, R, 0.0):
+        return nan, nan, nan
+    R = rounded_radius(R)
+    return value_gradient(x, y, R, synthesis.optimum(x, y, R, int(side), 0.0))
 
 
 def _solved_in_wind(*numbers: float) -> tuple[Any, ...]:
@@ -101,7 +109,7 @@ def _solver(function: Callable[..., tuple[Any, ...]], inputs: int, types: tuple[
 
 
 min_time, control = _ufunc(_time, 5, 1), _ufunc(_control, 5, 1)
-reduce = _ufunc(motion.reduce, 4, 2)
+reduce, gradient = _ufunc(motion.reduce, 4, 2), _ufunc(_gradient, 4, 3)
 min_time_in_wind = _ufunc(_time_in_wind, 9, 1)
 solve = _solver(_solved, 5, _SOLVED)
 solve_in_wind = _solver(_solved_in_wind, 9, _SOLVED_IN_WIND)

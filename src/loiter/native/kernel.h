@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 490fe032d0b8155e08728e9eb49e1eb53af49a7417fab4fe4c552366be5e09e4
+ * SHA-256 of the source: 5388f1cba30406691cebcea2d4c43db65745bfba4a6905b959582803075775e5
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -92,6 +92,14 @@ typedef struct { integer a0; real a1, a2, a3; } integer_real_3;
 
 typedef struct { integer a0, a1, a2; } integer_3;
 
+/* The derivatives of T with respect to the reduced state and the radius of the circle. */
+typedef struct { real x, y, radius; } ValueGradient;
+
+/* The multiplier lambda and the adjoint psi of a state. */
+typedef struct { real lam, psi1, psi2; } Adjoint;
+
+typedef struct { real a0, a1, a2, a3; } real_4;
+
 /* An entry to find: start, heading as a unit vector, radius, `words.Side`, velocity of the air past the circle.
  *
  * A start beyond the circle, or beyond a last arc, by less than `tolerance` (turn radii) counts as on it.
@@ -170,8 +178,6 @@ typedef struct { integer stage, sides, one; WindScene scene; WindCandidate best;
         refinement; OpenCell cell; integer left; WindEntry entry; } WindSearch;
 
 typedef struct { real a0, a1, a2, a3, a4; } real_5;
-
-typedef struct { real a0, a1, a2, a3; } real_4;
 
 typedef struct { Entry a0; real a1; } Entry_real;
 
@@ -970,6 +976,156 @@ static inline real miss(real x, real y, real R, Entry maneuver) {
     return length(x, y - (real)side * R);
 }
 
+/* Position (x, y) and unit velocity (c, s) after a time t with control u: the exact flow of (1).
+ *
+ * The displacement is the chord of the arc, 2 sin(t/2) long, along the velocity at half time. This avoids the
+ * difference of two nearly equal sines for short arcs.
+ */
+static inline real_4 fly(real x, real y, real c, real s, integer u, real t) {
+    const real half = 0.5 * (real)u * t;
+    const real ch = cos(half), sh = sin(half);
+    const real chord = u != 0 ? 2.0 * sin(0.5 * t) : t;
+    const real ce = cos((real)u * t), se = sin((real)u * t);
+    return (real_4){x + chord * (c * ch - s * sh), y + chord * (s * ch + c * sh), c * ce - s * se, s * ce + c * se};
+}
+
+/* The adjoint psi after a time t (before, if t < 0) with control u: the exact flow of the dual system (12). */
+static inline real_2 turn_adjoint(real psi1, real psi2, integer u, real t) {
+    /* psi is the constant adjoint of the position in axes along the course, so it turns opposite to the course. */
+    const real_4 fly_1 = fly(0.0, 0.0, psi1, psi2, -u, t);
+    psi1 = fly_1.a2;
+    psi2 = fly_1.a3;
+    return (real_2){psi1, psi2};
+}
+
+/* The adjoint at a state (x, y) where phi = 0 and the next control is u.
+ *
+ * psi is parallel to (x, y). Its sign follows from psi1 = lambda >= 0, and also from phi' = -psi2, which has the
+ * sign of u. The two agree on an optimum; the larger component of (x, y) decides, so that rounding of the smaller
+ * one has no effect. At the centre any psi is possible: (1, 0) is chosen, that of the straight piece.
+ */
+static inline Adjoint at_switch(real x, real y, integer u, real R) {
+    real r = length(x, y);
+    if (r <= rounding(x, y, R)) {
+        return (Adjoint){1.0, 1.0, 0.0};
+    }
+    const bool backwards = fabs(x) > fabs(y) ? x < 0.0 : (real)u * y > 0.0;
+    if (backwards) {
+        r = -r;
+    }
+    return (Adjoint){x / r, x / r, y / r};
+}
+
+/* The adjoint at the start (x, y) of a single arc onto the circle, chosen as described at the top. */
+static inline Adjoint of_single_arc(real x, real y, real R, Entry maneuver) {
+    const integer_3 controls_1 = controls(maneuver.word);
+    const integer u = controls_1.a0;
+    const real_2_real onto_axis_2 = onto_axis(x, (real)u * y, -1.0 * (real)u * (real)maneuver.side, 0.0);
+    const real_2 to_axis = onto_axis_2.a0;
+    const real c = onto_axis_2.a1;
+    if (c >= 0.0 && angle(to_axis) < maneuver.t1) {
+        const real_2 turn_adjoint_3 = turn_adjoint(1.0, 0.0, u, -angle(to_axis));
+        const real psi1 = turn_adjoint_3.a0, psi2 = turn_adjoint_3.a1;
+        return (Adjoint){1.0, psi1, psi2};
+    }
+    const Adjoint start = at_switch(x, y, u, R);
+    /* Past half a turn of the small circle lambda would be negative; there lambda = 0 is the nearest possible value. */
+    return start.lam < 0.0 ? (Adjoint){0.0, 0.0, -1.0 * (real)u} : start;
+}
+
+/* The adjoint at the start of a word of two or three arcs, from the last switch between L and R. */
+static inline Adjoint of_arcs(real R, Entry maneuver) {
+    const integer side = maneuver.side, word = maneuver.word;
+    const real t1 = maneuver.t1, t2 = maneuver.t2, t3 = maneuver.t3;
+    const integer_3 controls_1 = controls(word);
+    const integer first = controls_1.a0, second = controls_1.a1, third = controls_1.a2;
+    real x, y, lam, psi1, psi2;
+    if (third == ABSENT) {
+        const real_2 flow_2 = flow(0.0, (real)side * R, second, -t2);
+        x = flow_2.a0;
+        y = flow_2.a1;
+        const Adjoint at_switch_3 = at_switch(x, y, second, R);
+        lam = at_switch_3.lam;
+        psi1 = at_switch_3.psi1;
+        psi2 = at_switch_3.psi2;
+    } else {
+        const real_2 flow_4 = flow(0.0, (real)side * R, third, -t3);
+        x = flow_4.a0;
+        y = flow_4.a1;
+        const Adjoint at_switch_5 = at_switch(x, y, third, R);
+        lam = at_switch_5.lam;
+        psi1 = at_switch_5.psi1;
+        psi2 = at_switch_5.psi2;
+        const real_2 turn_adjoint_6 = turn_adjoint(psi1, psi2, second, -t2);
+        psi1 = turn_adjoint_6.a0;
+        psi2 = turn_adjoint_6.a1;
+    }
+    const real_2 turn_adjoint_7 = turn_adjoint(psi1, psi2, first, -t1);
+    psi1 = turn_adjoint_7.a0;
+    psi2 = turn_adjoint_7.a1;
+    return (Adjoint){lam, psi1, psi2};
+}
+
+/* Lambda and psi at the start of an extremal from (x, y) onto the circle; |psi| = 1.
+ *
+ * nan for the empty word, which has no controls. A word that is not an extremal also gets a psi, the one that its
+ * last switch requires; it then violates one of (13)-(16).
+ */
+static inline Adjoint adjoint(real x, real y, real R, Entry maneuver) {
+    const integer_3 controls_1 = controls(maneuver.word);
+    const integer first = controls_1.a0, second = controls_1.a1;
+    if (first == ABSENT) {
+        return (Adjoint){NAN, NAN, NAN};
+    }
+    if (second == ABSENT) {
+        return of_single_arc(x, y, R, maneuver);
+    }
+    if (first == 0) {
+        return (Adjoint){1.0, 1.0, 0.0};
+    }
+    if (second == 0) {
+        const real_2 turn_adjoint_2 = turn_adjoint(1.0, 0.0, first, -maneuver.t1);
+        const real psi1 = turn_adjoint_2.a0, psi2 = turn_adjoint_2.a1;
+        return (Adjoint){1.0, psi1, psi2};
+    }
+    return of_arcs(R, maneuver);
+}
+
+/* A component over lambda; infinite where lambda is 0, a division that Python would refuse. */
+static inline real quotient(real a, real lam) {
+    if (lam != 0.0) {
+        return a / lam;
+    }
+    return a > 0.0 ? INFINITY : a < 0.0 ? -INFINITY : NAN;
+}
+
+/* The gradient of the time of an extremal from (x, y) onto the circle.
+ *
+ * nan for the empty word; infinite, and of no use, where lambda = 0: there T has a vertical tangent.
+ */
+static inline ValueGradient value_gradient(real x, real y, real R, Entry maneuver) {
+    const Adjoint adjoint_1 = adjoint(x, y, R, maneuver);
+    const real lam = adjoint_1.lam, psi1 = adjoint_1.psi1, psi2 = adjoint_1.psi2;
+    const integer_3 controls_2 = controls(maneuver.word);
+    const integer u1 = controls_2.a0, u2 = controls_2.a1, u3 = controls_2.a2;
+    if (u1 == ABSENT) {
+        return (ValueGradient){NAN, NAN, NAN};
+    }
+    const real_2 turn_adjoint_3 = turn_adjoint(psi1, psi2, u1, maneuver.t1);
+    real end1 = turn_adjoint_3.a0, end2 = turn_adjoint_3.a1;
+    if (u2 != ABSENT) {
+        const real_2 turn_adjoint_4 = turn_adjoint(end1, end2, u2, maneuver.t2);
+        end1 = turn_adjoint_4.a0;
+        end2 = turn_adjoint_4.a1;
+    }
+    if (u3 != ABSENT) {
+        const real_2 turn_adjoint_5 = turn_adjoint(end1, end2, u3, maneuver.t3);
+        end1 = turn_adjoint_5.a0;
+        end2 = turn_adjoint_5.a1;
+    }
+    return (ValueGradient){quotient(-psi1, lam), quotient(-psi2, lam), quotient((real)maneuver.side * end2, lam)};
+}
+
 /* The least R of a circle that can be held all round: the rate of turn is largest downwind, (1 + |w|)^2 / R. */
 static inline real tightest_radius(real wx, real wy) {
     const real fastest = 1.0 + length(wx, wy);
@@ -1049,19 +1205,6 @@ static inline real hold_miss(real phase, integer side, WindScene scene) {
     const real_5 hold_pose_1 = hold_pose(phase, side, scene.R, scene.wx, scene.wy);
     const real px = hold_pose_1.a0, py = hold_pose_1.a1, ce = hold_pose_1.a2, se = hold_pose_1.a3;
     return length(length(px - scene.x, py - scene.y), scene.R * length(ce - scene.c, se - scene.s));
-}
-
-/* Position (x, y) and unit velocity (c, s) after a time t with control u: the exact flow of (1).
- *
- * The displacement is the chord of the arc, 2 sin(t/2) long, along the velocity at half time. This avoids the
- * difference of two nearly equal sines for short arcs.
- */
-static inline real_4 fly(real x, real y, real c, real s, integer u, real t) {
-    const real half = 0.5 * (real)u * t;
-    const real ch = cos(half), sh = sin(half);
-    const real chord = u != 0 ? 2.0 * sin(0.5 * t) : t;
-    const real ce = cos((real)u * t), se = sin((real)u * t);
-    return (real_4){x + chord * (c * ch - s * sh), y + chord * (s * ch + c * sh), c * ce - s * se, s * ce + c * se};
 }
 
 /* The distance of the end of a maneuver, flown exactly, from a point of joining: position and heading together. */

@@ -36,6 +36,17 @@ double loiter_miss(double x, double y, double R, const loiter_entry *e) {
     return miss(x, y, rounded_radius(R), (Entry){e->side, e->word, e->t1, e->t2, e->t3});
 }
 
+void loiter_gradient(double x, double y, double R, int side, double gradient[3]) {
+    ValueGradient found = {NAN, NAN, NAN};
+    if (synthesis_status_of(x, y, R, 0.0) == STATUS_OK) {
+        const double radius = rounded_radius(R);
+        found = value_gradient(x, y, radius, optimum(x, y, radius, side, 0.0));
+    }
+    gradient[0] = found.x;
+    gradient[1] = found.y;
+    gradient[2] = found.radius;
+}
+
 void loiter_controls(int word, int u[3]) {
     const integer_3 found = controls(word);
     u[0] = (int)found.a0;

@@ -48,6 +48,10 @@ double loiter_least_time(double x, double y, double R, int side, double toleranc
 /* The distance from the target at which a maneuver from (x, y) ends when flown exactly. */
 double loiter_miss(double x, double y, double R, const loiter_entry *entry);
 
+/* The derivatives of the least time with respect to x, y and R: those of the maneuver of `loiter_optimum` without a
+ * tolerance; nan where its status is not 0, and at the target. */
+void loiter_gradient(double x, double y, double R, int side, double gradient[3]);
+
 /* The controls of the three pieces of a word: 1 left, 0 straight, -1 right, -2 past its last. */
 void loiter_controls(int word, int u[3]);
 

@@ -18,6 +18,7 @@ static const char TYPES[][18] = {
     {D, D, D, D, D, D, D, B, D, B, B, D},
     {D, D, D, D, D, D, D, D, D, D},
     {D, D, D, D, D, D, D, D, D, D, D, B, D, B, B, D, D},
+    {D, D, D, D, D, D, D},
 };
 
 static const struct {
@@ -31,6 +32,7 @@ static const struct {
     {"solve", 6, 6, "(),(),(),(),(),(n)->(),(),(n),(),(),()"},
     {"min_time_in_wind", 9, 1, NULL},
     {"solve_in_wind", 10, 7, "(),(),(),(),(),(),(),(),(),(n)->(),(),(n),(),(),(),()"},
+    {"gradient", 4, 3, NULL},
 };
 
 enum { COUNT = sizeof UFUNCS / sizeof *UFUNCS };
@@ -50,6 +52,7 @@ static PyUFuncGenericFunction loops[COUNT];
 static const char *choose_loops(void) {
     loops[4] = (PyUFuncGenericFunction)loiter_min_time_in_wind;
     loops[5] = (PyUFuncGenericFunction)loiter_solve_in_wind;
+    loops[6] = (PyUFuncGenericFunction)loiter_gradients;
 #ifdef LOITER_X86_LEVELS
     __builtin_cpu_init();
     const int has_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");

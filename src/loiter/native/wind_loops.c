@@ -1,4 +1,4 @@
-/* The inner loops of NumPy's ufuncs for arrays in wind, over the search of loiter.h. */
+/* The inner loops of NumPy's ufuncs that solve one state at a time, by loiter.h: those in wind, and the gradient. */
 #include "wind_loops.h"
 
 #include <fenv.h>
@@ -39,6 +39,21 @@ static loiter_wind_entry solved(char **args, const ptrdiff_t *steps, ptrdiff_t i
         .tolerance = number_at(args, steps, TOLERANCE, i),
     };
     return loiter_fastest_in_wind(&problem);
+}
+
+/* Operands: x, y, radius and side, and then the three derivatives. */
+void loiter_gradients(char **args, const ptrdiff_t *dimensions, const ptrdiff_t *steps, void *data) {
+    (void)data;
+    for (ptrdiff_t i = 0; i < dimensions[0]; i++) {
+        const double side = number_at(args, steps, 3, i);
+        double gradient[3];
+        loiter_gradient(number_at(args, steps, 0, i), number_at(args, steps, 1, i), number_at(args, steps, 2, i),
+                        side > 0.0 ? 1 : side < 0.0 ? -1 : 0, gradient);
+        for (int k = 0; k < 3; k++) {
+            put_number(args, steps, 4 + k, i, gradient[k]);
+        }
+    }
+    feclearexcept(FE_ALL_EXCEPT);
 }
 
 void loiter_min_time_in_wind(char **args, const ptrdiff_t *dimensions, const ptrdiff_t *steps, void *data) {

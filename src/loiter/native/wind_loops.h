@@ -4,6 +4,6 @@
 
 #include "loops.h"
 
-extern loiter_loop loiter_min_time_in_wind, loiter_solve_in_wind;
+extern loiter_loop loiter_min_time_in_wind, loiter_solve_in_wind, loiter_gradients;
 
 #endif

@@ -922,6 +922,10 @@ const self = this;
 arrays.unchecked("pose", pose, Pose);
 return over_ground(pose.heading_deg, self.aircraft, self.wind);
 }
+setpoints(step_s) {
+const self = this;
+return setpoints(self.sample(step_s));
+}
 toString() {
 let decimals, windy;
 const self = this;
@@ -1166,6 +1170,13 @@ return [wrapped(heading_deg), aircraft.airspeed_m_s];
 return [wrapped(math.degrees(math.atan2(east, north))), math.hypot(east, north)];
 }
 
+function setpoints(track) {
+let course;
+
+course = np.radians(track.track_deg);
+return Setpoints(track.time_s, track.east_m, track.north_m, np.sin(course), np.cos(course), track.ground_curvature_per_m, track.ground_speed_m_s);
+}
+
 function decimals_of(orbit) {
 return (ge(orbit.radius_m, 10.0) ? 1 : 3);
 }
@@ -1271,6 +1282,20 @@ this.bank_deg = bank_deg;
 
 }
 }, ["azimuth_deg", "heading_deg", "track_deg", "ground_speed_m_s", "bank_deg"]);
+
+const Setpoints = struct(class Setpoints extends Tuple {
+constructor(time_s, east_m, north_m, tangent_east, tangent_north, curvature_per_m, speed_m_s) {
+super();
+this.time_s = time_s;
+this.east_m = east_m;
+this.north_m = north_m;
+this.tangent_east = tangent_east;
+this.tangent_north = tangent_north;
+this.curvature_per_m = curvature_per_m;
+this.speed_m_s = speed_m_s;
+
+}
+}, ["time_s", "east_m", "north_m", "tangent_east", "tangent_north", "curvature_per_m", "speed_m_s"]);
 
 function drawing__track(segment, aircraft, wind) {
 let _, east, north, points;
