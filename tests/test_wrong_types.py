@@ -43,6 +43,7 @@ CALLS = [
     (LAW.step, {"state": STATE, "dt": 0.02}, "state"),
     (FENCE.check, {"maneuver": MANEUVER}, "maneuver"),
     (fences.check, {"fence": FENCE, "maneuver": MANEUVER}, "fence maneuver"),
+    (fences.clear_entry, {"fence": FENCE, "pose": POSE, "orbit": ORBIT, "aircraft": UAV}, "fence"),
     (fences.first_clear, {"fence": FENCE, "maneuvers": [MANEUVER]}, "fence"),
     (fences.default_margin_m, {"orbit": ORBIT}, "orbit"),
     (PLACED.local, {"frame": FRAME}, "frame"),

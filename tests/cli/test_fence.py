@@ -57,12 +57,11 @@ def test_a_plan_that_enters_ends_with_1(fence, capsys):
     sentence, last = out.splitlines()[-2:]
     assert sentence.startswith("The plan enters the zone 'circle 1' in 85.3 s, at 47.1")
     assert sentence.endswith(" E, by up to 880.0 m.")
-    assert last.startswith("No entry found: of the ")
-    assert last.endswith(" candidates none is clear, 'circle 1' blocks here.")
+    assert last == "No entry is clear: 'circle 1' blocks the circle itself, or every way to it."
     status, out, _ = run(f"plan {SCENE} --fence {path} --json", capsys)
     found = json.loads(out)["fence"]
     (breach,) = found["breaches"]
-    assert found["clear_entry"] is None
+    assert (found["clear_entry"], found["least_s"], found["blocking"]) == (None, None, ["circle 1"])
     assert status == 1
     assert breach["enters"]
     place = loiter.Pose(breach["east_m"], breach["north_m"], 0.0)
@@ -70,22 +69,42 @@ def test_a_plan_that_enters_ends_with_1(fence, capsys):
     assert (breach["east_m"] ** 2 + breach["north_m"] ** 2) ** 0.5 == pytest.approx(1000.0, abs=1e-4)
 
 
-def test_another_candidate_may_be_clear(fence, capsys):
-    """A mast on the way of the fastest entry, near the circle."""
+@pytest.fixture
+def beside_a_mast(fence):
+    """A scene with a mast on the way of the fastest entry, near the circle."""
     start = loiter.Pose(-300.0, -50.0, 40.0)
     m = loiter.plan(start, loiter.Orbit(0.0, 0.0, 100.0), loiter.Aircraft(18.0, max_bank_deg=35.0))
     samples = m.sample(0.7 * m.duration_s)
-    path = fence((float(samples.east_m[1]), float(samples.north_m[1]), 4.0, False))
+    path = fence((float(samples.east_m[1]), float(samples.north_m[1]), 20.0, False))
     latitude, longitude, heading = FRAME.place(start)
     scene = f"--pose-lla {latitude} {longitude} {heading} --orbit-lla 47.11 8.23 100 --airspeed 18 --bank 35"
-    status, out, _ = run(f"plan {scene} --fence {path} --margin 1", capsys)
+    return f"plan {scene} --fence {path} --margin 1"
+
+
+def test_another_entry_is_found(beside_a_mast, capsys):
+    status, out, _ = run(beside_a_mast, capsys)
     assert status == 1
-    assert "The first candidate that is clear joins 16.2 s later: LSL, clockwise: " in out.splitlines()[-1]
-    status, out, _ = run(f"plan {scene} --fence {path} --margin 1 --json", capsys)
+    assert "The fastest clear entry found joins 0.2 s later: RSRSR" in out
+    assert out.splitlines()[-1].startswith("No clear entry joins before ")
+    status, out, _ = run(f"{beside_a_mast} --json", capsys)
     document = json.loads(out)
     entry = document["fence"]["clear_entry"]
     assert entry["later_s"] == pytest.approx(entry["duration_s"] - document["duration_s"])
-    assert entry["later_s"] > 0.0
+    assert 0.1 < entry["later_s"] < 0.3
+    assert document["fence"]["least_s"] <= entry["duration_s"]
+
+
+def test_files_have_the_clear_entry(beside_a_mast, capsys, tmp_path):
+    """The plan that enters the fence is not in them, nor is the straight flight to the circle in a mission."""
+    track, mission, picture = tmp_path / "track.geojson", tmp_path / "mission.plan", tmp_path / "entry.svg"
+    files = f"--save {track} --save {mission} --plot {picture} --altitude 120"
+    status, out, _ = run(f"{beside_a_mast} {files} --json", capsys)
+    assert status == 1
+    entry = json.loads(out)["fence"]["clear_entry"]
+    lines = [f for f in json.loads(track.read_text())["features"] if f["properties"].get("letter")]
+    assert "".join(line["properties"]["letter"] for line in lines) == entry["word"]
+    assert len(json.loads(mission.read_text())["mission"]["items"]) > len(entry["segments"])
+    assert 'id="stay out' in picture.read_text()
 
 
 def test_the_margin_is_asked_for(fence, capsys):

@@ -1,11 +1,15 @@
 """The fence of a vehicle, read by the mission protocol."""
 
+from types import SimpleNamespace
+
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
+from loiter import Aircraft, Orbit, Pose, plan
 from loiter.errors import LinkFailed
-from loiter.fences import PlacedCircle, PlacedFence, PlacedPolygon
+from loiter.fences import CircleZone, Fence, PlacedCircle, PlacedFence, PlacedPolygon
 from loiter.mavlink import download, download_fence
+from loiter.mavlink.guiding.preparation import _direction
 from mavlink.flyer import FRAME, ORBIT, Airframe, GuidedPlane, guided
 from mavlink.vehicle import OLD, Vehicle, flying, item
 
@@ -87,6 +91,18 @@ def test_a_vehicle_is_guided_inside_its_fence():
 def test_a_fence_of_a_file_is_kept():
     mast = PlacedFence((PlacedCircle("mast", 47.0, 8.0, 60.0),))
     assert "cannot be guided: its pose is inside the zone 'mast'" in guided_with([], fence=mast).end
+
+
+def test_the_direction_that_is_clear_is_taken():
+    """The fastest entry, clockwise, passes a mast on its last turn; the other one does not."""
+    start, orbit, uav = Pose(-300.0, -50.0, 40.0), Orbit(0.0, 0.0, 100.0), Aircraft(18.0, max_bank_deg=35.0)
+    fastest = plan(start, orbit, uav)
+    east_m, north_m = fastest.sample(0.85 * fastest.duration_s)[1:3]
+    mast = Fence((CircleZone("mast", float(east_m[1]), float(north_m[1]), 1.0),))
+    chosen = _direction(SimpleNamespace(fence=mast, name="it"), SimpleNamespace(margin_m=0.5), start, orbit, uav, None)
+    assert chosen == fastest.turn.other
+    none = SimpleNamespace(fence=None)
+    assert _direction(none, SimpleNamespace(), start, orbit, uav, None) == fastest.turn
 
 
 @pytest.mark.parametrize("kind", [Fenced, Ardu])

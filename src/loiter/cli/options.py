@@ -475,7 +475,7 @@ class FenceOptions:
         Parameter(
             group=scene,
             metavar="FILE",
-            help="Fence of polygons and circles: .plan of QGroundControl, QGC WPL 110 with fence items, or latitudes and longitudes as ArduPilot's fence.txt. A line says whether the plan and its hold stay clear, and if not, where and when they enter which zone: exit status 1. That of --orbit-from if absent.",
+            help="Fence of polygons and circles: .plan of QGroundControl, QGC WPL 110 with fence items, or latitudes and longitudes as ArduPilot's fence.txt. A line says whether the plan and its hold stay clear, and if not, where and when they enter which zone, and the fastest clear entry found, which files and pictures then have: exit status 1. That of --orbit-from if absent.",
         ),
     ] = None
     margin: Annotated[

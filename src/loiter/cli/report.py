@@ -1,10 +1,13 @@
 """Output of the commands: lines and tables for people, JSON for programs."""
 
+from __future__ import annotations
+
 import json
 import sys
 from collections.abc import Iterable, Sequence
 from math import atan2, degrees, hypot, isfinite
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rich.console import Console, RenderableType
 from rich.table import Table
@@ -18,6 +21,9 @@ from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver, decimals_of
 from loiter.planning.model import Orbit, Pose
 from loiter.planning.vocabulary import ACTIONS
+
+if TYPE_CHECKING:
+    from loiter.fences import ClearEntry
 
 # Durations that are equal in theory differ by rounding, relatively by 1e-15 in near scenes and by 1e-14 in far ones.
 SAME_DURATION = 1e-12
@@ -102,6 +108,17 @@ def _description(maneuver: Maneuver, frame: LocalFrame | None) -> list[Renderabl
     if maneuver.miss_m > SMALLEST_MISS * maneuver.orbit.radius_m:
         lines.append(f"Ends {maneuver.miss_m:.3g} m off the point of joining, within the tolerance.")
     return lines
+
+
+def clear_entry_lines(entry: ClearEntry, frame: LocalFrame | None) -> list[RenderableType]:
+    """The clear entry as a sentence and a table, and what of any other is known."""
+    lines: list[RenderableType] = [entry.sentence]
+    if entry.maneuver is None:
+        return lines
+    if entry.maneuver.segments:
+        lines.append(table(entry.maneuver, frame))
+    least = _seconds(entry.maneuver, entry.least_s)
+    return [*lines, f"No clear entry joins before {least}; files and pictures have the clear entry."]
 
 
 def headline(text: str) -> Text:

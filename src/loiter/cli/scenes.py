@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
+from math import isfinite
 from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.cli.options import AircraftOptions, FenceOptions, OrbitOptions, StartOptions, WindOptions
@@ -121,24 +122,23 @@ class CheckedFence(NamedTuple):
     fence: Fence
     check: FenceCheck
 
-    def lines(self, maneuvers: Sequence[Maneuver], frame: LocalFrame | None) -> list[str]:
-        """Sentences for people: the check and, where the plan is not clear, the fastest of the maneuvers that is."""
-        found = self._first_clear(maneuvers)
-        return [self.check.sentence(frame), *([found.sentence] if found else [])]
+    def clear_entry(self, problem: Problem) -> ClearEntry | None:
+        """The fastest entry found that is clear; None where the plan is."""
+        from loiter.fences import clear_entry
 
-    def document(self, maneuvers: Sequence[Maneuver], frame: LocalFrame | None) -> dict[str, object]:
-        """The same for JSON."""
-        found = self._first_clear(maneuvers)
-        if found is None:
+        p = problem
+        if self.check.clear:
+            return None
+        return clear_entry(self.fence, p.pose, p.orbit, p.aircraft, p.wind, self.check.margin_m)
+
+    def document(self, entry: ClearEntry | None, frame: LocalFrame | None) -> dict[str, object]:
+        """The check and, where the plan is not clear, the entry that is, for JSON."""
+        if entry is None:
             return self.check.to_dict(frame)
-        entry = None if found.maneuver is None else maneuver_values(found.maneuver, frame) | {"later_s": found.later_s}
-        return self.check.to_dict(frame) | {"clear_entry": entry}
-
-    def _first_clear(self, maneuvers: Sequence[Maneuver]) -> ClearEntry | None:
-        """The fastest of the maneuvers that is clear; None where the plan is."""
-        from loiter.fences import first_clear
-
-        return None if self.check.clear else first_clear(self.fence, maneuvers, self.check.margin_m)
+        least_s = entry.least_s if isfinite(entry.least_s) else None
+        flown = entry.maneuver
+        values = None if flown is None else maneuver_values(flown, frame) | {"later_s": entry.later_s}
+        return self.check.to_dict(frame) | {"clear_entry": values, "least_s": least_s, "blocking": entry.blocking}
 
 
 def check_fence(

@@ -1,5 +1,6 @@
 """Fences: zones to stay in or out of, and whether a maneuver and its hold do."""
 
+from loiter.fences.clear_entry import clear_entry
 from loiter.fences.entries import ClearEntry, first_clear
 from loiter.fences.fence_check import Breach, FenceCheck, check, default_margin_m
 from loiter.fences.model import CircleZone, Fence, PolygonZone
@@ -16,6 +17,7 @@ __all__ = [
     "PlacedPolygon",
     "PolygonZone",
     "check",
+    "clear_entry",
     "default_margin_m",
     "first_clear",
 ]

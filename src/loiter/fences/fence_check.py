@@ -104,6 +104,17 @@ def check(fence: Fence, maneuver: Maneuver, margin_m: float | None = None) -> Fe
     return FenceCheck(margin_m, closest_one, ordered, decimals_of(maneuver.orbit))
 
 
+def zones_on_circle(fence: Fence, maneuver: Maneuver, margin_m: float) -> tuple[str, ...]:
+    """The names of the zones to which the circle of a hold, wherever it is joined, is closer than a margin."""
+    hold = flown_path(maneuver).pieces.take([-1])
+    sides = fence.signed_distances(float(hold.x[0]), float(hold.y[0]))
+    names = []
+    for zones, closest, side in zip(_by_kind(fence), approach(fence, hold, margin_m), sides, strict=True):
+        near = (closest.distance <= margin_m + TOUCH_M) | (side < 0.0)
+        names += [zone.name for zone, is_near in zip(zones, near, strict=True) if is_near]
+    return tuple(names)
+
+
 def _check_start(fence: Fence, start: Pose) -> None:
     """Raise `InvalidArgument` for a start on the wrong side of a zone; one that touches it is a breach."""
     for zones, distances in zip(_by_kind(fence), fence.signed_distances(start.east_m, start.north_m), strict=True):

@@ -183,6 +183,21 @@ def polygon_sign(zone: PolygonZone, east_m: Any, north_m: Any) -> Any:
     return np.where(inside == zone.inclusion, 1.0, -1.0)
 
 
+def clear_points(fence: Fence, east_m: Any, north_m: Any, margin_m: float) -> Any:
+    """Which of many points (n,) are on the allowed side of every zone of a fence, farther from it than a margin."""
+    import numpy as np
+
+    clear = np.ones(east_m.size, bool)
+    for zone in fence.zones:
+        if isinstance(zone, CircleZone):
+            outside = np.hypot(east_m - zone.east_m, north_m - zone.north_m) - zone.radius_m
+            clear &= (-outside if zone.inclusion else outside) > margin_m
+        else:
+            distance = to_edge(east_m[:, None], north_m[:, None], edges_of([zone])).min(axis=1)
+            clear &= distance * polygon_sign(zone, east_m, north_m) > margin_m
+    return clear
+
+
 def edges_of(polygons: Sequence[PolygonZone]) -> Edges:
     """The edges of polygons as arrays, one polygon after the other."""
     import numpy as np

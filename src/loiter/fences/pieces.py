@@ -14,6 +14,7 @@ from loiter.kernel.wind.held import time_held
 from loiter.kernel.wind.hold import phase_of
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import radius_in_turns, relative_wind
+from loiter.planning.flight import radius_of
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Orbit, Segment
 from loiter.planning.sides import sign_of
@@ -88,7 +89,7 @@ def flown_path(maneuver: Maneuver) -> FlownPath:
 def _segment_row(segment: Segment, maneuver: Maneuver) -> tuple[float, ...]:
     c, s = heading_vector(segment.start.heading_deg)
     uav, start = maneuver.aircraft, segment.start
-    motion = (CONTROLS[segment.letter], uav.turn_radius_m, uav.airspeed_m_s, *maneuver.wind.velocity_m_s)
+    motion = (CONTROLS[segment.letter], radius_of(segment, uav), uav.airspeed_m_s, *maneuver.wind.velocity_m_s)
     return segment.start_s, segment.duration_s, start.east_m, start.north_m, c, s, *motion, 0.0
 
 

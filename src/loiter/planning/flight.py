@@ -21,17 +21,29 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-def flown_from(start: Pose, u: int, length_m: float, aircraft: Aircraft, wind: Wind) -> Pose:
-    """The pose over the ground after flying `length_m` metres through the air from `start` with control u."""
-    return Pose(*_flown(start, u, length_m, aircraft, wind, motion.fly))
+def flown_from(
+    start: Pose, u: int, length_m: float, aircraft: Aircraft, wind: Wind, radius_m: float | None = None
+) -> Pose:
+    """The pose over the ground after flying `length_m` metres through the air from `start` with control u.
+
+    The radius of a turn, metres, is that of the aircraft if it is absent.
+    """
+    radius_m = aircraft.turn_radius_m if radius_m is None else radius_m
+    return Pose(*_flown(start, u, length_m, radius_m, aircraft, wind, motion.fly))
 
 
 def along(segment: Segment, length_m: NDArray[float64], aircraft: Aircraft, wind: Wind) -> tuple[NDArray[float64], ...]:
     """East, north (metres, over the ground) and heading (degrees) at distances `length_m` (n,) flown into a segment."""
     import numpy as np
 
-    u = CONTROLS[segment.letter]
-    return tuple(np.broadcast_arrays(*_flown(segment.start, u, length_m, aircraft, wind, _fly_arrays())))
+    u, radius_m = CONTROLS[segment.letter], radius_of(segment, aircraft)
+    return tuple(np.broadcast_arrays(*_flown(segment.start, u, length_m, radius_m, aircraft, wind, _fly_arrays())))
+
+
+def radius_of(segment: Segment, aircraft: Aircraft) -> float:
+    """The radius with which a segment is flown, metres: that of its curvature, which need not be the tightest."""
+    r = aircraft.turn_radius_m
+    return r if abs(segment.curvature_per_m) in (0.0, 1.0 / r) else 1.0 / abs(segment.curvature_per_m)
 
 
 def over_ground(heading_deg: float, aircraft: Aircraft, wind: Wind) -> tuple[float, float]:
@@ -120,9 +132,10 @@ def _velocity(east: Any, north: Any, aircraft: Aircraft, wind: Wind) -> tuple[An
     return aircraft.airspeed_m_s * east + wind_east, aircraft.airspeed_m_s * north + wind_north
 
 
-def _flown(start: Pose, u: int, length_m: Any, aircraft: Aircraft, wind: Wind, fly: Function) -> tuple[Any, Any, Any]:
-    """East, north and heading after `length_m` (a number or an array) through the air with control u."""
-    r = aircraft.turn_radius_m
+def _flown(
+    start: Pose, u: int, length_m: Any, r: float, aircraft: Aircraft, wind: Wind, fly: Function
+) -> tuple[Any, Any, Any]:
+    """East, north and heading after `length_m` (a number or an array) through the air with control u and radius r."""
     t, time_s = length_m / r, length_m / aircraft.airspeed_m_s
     east, north, _, _ = fly(0.0, 0.0, *heading_vector(start.heading_deg), u, t)
     wind_east, wind_north = wind.velocity_m_s

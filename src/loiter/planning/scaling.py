@@ -17,15 +17,17 @@ def maneuver(problem: Problem, entry: Entry, miss: float) -> Maneuver:
     segments: list[Segment] = []
     here, now = problem.pose, 0.0
     for letter, t in zip(Word(entry.word).letters, entry[2:], strict=False):
-        segment = _segment(here, now, letter, t, aircraft, wind)
-        segments.append(segment)
-        here, now = segment.end, now + segment.duration_s
+        r = aircraft.turn_radius_m
+        segments.append(segment(here, now, letter, t * r, aircraft, wind, r))
+        here, now = segments[-1].end, now + segments[-1].duration_s
     miss_m = miss * aircraft.turn_radius_m
     return Maneuver(problem.pose, problem.orbit, aircraft, TURNS[Side(entry.side)], tuple(segments), miss_m, wind)
 
 
-def _segment(start: Pose, start_s: float, letter: str, t: float, aircraft: Aircraft, wind: Wind) -> Segment:
-    r, u = aircraft.turn_radius_m, CONTROLS[letter]
-    length = t * r
-    end = flown_from(start, u, length, aircraft, wind)
-    return Segment(letter, start_s, length / aircraft.airspeed_m_s, length, u / r, start, end)
+def segment(
+    start: Pose, start_s: float, letter: str, length_m: float, aircraft: Aircraft, wind: Wind, radius_m: float
+) -> Segment:
+    """A piece of a maneuver from a pose, flown with a radius, metres."""
+    u = CONTROLS[letter]
+    end = flown_from(start, u, length_m, aircraft, wind, radius_m)
+    return Segment(letter, start_s, length_m / aircraft.airspeed_m_s, length_m, u / radius_m, start, end)

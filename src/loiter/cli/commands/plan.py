@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter
+from rich.console import RenderableType
 
 import loiter
 from loiter.cli import certificates, report
@@ -126,27 +127,33 @@ def plan(
     site, target = circle.site, _target(autopilot, uav)
     fenced = check_fence(fence, site, first, frame)
     slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
-    allowed = [*best, *slower]
-    written = [*_save(save, first, frame, uav, waypoints, target, site)]
+    entry = fenced.clear_entry(problem) if fenced else None
+    # Files and pictures have the plan or, where that is not clear of the fence, the entry that is.
+    clear = entry.maneuver if entry else None
+    flown = clear or first
+    written = [*_save(save, flown, frame, uav, waypoints, target, site, whole_path=clear is not None)]
     if pictures.plot:
         from loiter.plot.picture import draw
 
-        figure = draw(shown, slower if all_ else [*ties, *slower], frame=frame, **_drawn(fenced))
+        slower = slower if all_ else [*ties, *slower]
+        figure = draw([clear] if clear else shown, [first, *slower] if clear else slower, frame=frame, **_drawn(fenced))
         pictures.save(figure)
         written += certificates.save_pictures(pictures, certified)
     if json:
         fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
         led = {"lead_s": lead} if lead else {}
-        checked = {"fence": fenced.document(allowed, frame)} if fenced else {}
+        checked = {"fence": fenced.document(entry, frame)} if fenced else {}
         members = fitted | certificates.document(certified) | led | checked | report.files_member(written)
         report.print_json(answer(best, others, frame) | members)
     else:
         remarks = [*([remark] if remark else []), *([report.begins(first, lead, frame)] if lead else [])]
         report.print_tables(best, others, everything=all_, frame=frame, remark="\n".join(remarks))
         certificates.print_text(certified)
-        lines = [*([report.ALONG_PATH] if along_path else []), *(fenced.lines(allowed, frame) if fenced else [])]
+        lines: list[RenderableType] = [report.ALONG_PATH] if along_path else []
+        lines += [fenced.check.sentence(frame)] if fenced else []
+        lines += report.clear_entry_lines(entry, frame) if entry else []
         if any(map(is_mission, save)):
-            lines += _mission_lines(first, uav, waypoints, target, site)
+            lines += _mission_lines(flown, uav, waypoints, target, site)
         report.write(*lines, *report.files_line(written))
     is_clear = fenced is None or fenced.check.clear
     return 0 if is_clear and all(certificate.valid for certificate in certified) else CHECK_FAILED
@@ -193,8 +200,13 @@ def _save(
     waypoints: MissionOptions,
     autopilot: Autopilot,
     site: Site | None,
+    *,
+    whole_path: bool,
 ) -> Sequence[Path]:
-    """Write the maneuver to files for maps or autopilots, once the contents of all are known; returns the files."""
+    """Write the maneuver to files for maps or autopilots, once the contents of all are known; returns the files.
+
+    With `whole_path` missions follow the maneuver, whatever the options say.
+    """
     of_a_map = SaveArguments(
         maneuver=maneuver,
         frame=frame,
@@ -207,7 +219,9 @@ def _save(
     )
     # `along_path` refuses options that only fit a path, so it is asked for missions alone.
     contents = [
-        file_content(path, of_a_map._replace(along_path=waypoints.along_path) if is_mission(path) else of_a_map)
+        file_content(path, of_a_map._replace(along_path=waypoints.along_path or whole_path))
+        if is_mission(path)
+        else file_content(path, of_a_map)
         for path in paths
     ]
     for path, content in zip(paths, contents, strict=True):

@@ -9,7 +9,7 @@ from time import monotonic
 from typing import Literal, NamedTuple, TypeAlias
 
 from loiter.errors import InvalidArgument, LinkFailed
-from loiter.fences import Fence, PlacedFence
+from loiter.fences import Fence, PlacedFence, first_clear
 from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.protocol import State
@@ -107,7 +107,7 @@ def choose(contact: Contact, request: GuideRequest, settings: AutopilotSettings)
     wind = request.wind or _holdable_wind(orbit, aircraft, contact.likely_wind(airspeed))
     start = Pose(state.east_m, state.north_m, wrapped(state.heading_deg))
     if orbit.turn == Turn.EITHER:
-        orbit = replace(orbit, turn=plan(start, orbit, aircraft, wind).turn)
+        orbit = replace(orbit, turn=_direction(contact, request, start, orbit, aircraft, wind))
     if contact.fence is not None:
         notices += (_fence_sentence(contact, contact.fence, plan(start, orbit, aircraft, wind), request),)
     return FlightSetup(orbit, aircraft, settings, altitude_m, state, wind, notices)
@@ -121,6 +121,21 @@ def _local_fence(contact: Contact, request: GuideRequest, timeout_s: float) -> F
         if placed is None:
             raise LinkFailed(f"{contact.name} has no fence to be checked")
     return None if placed is None else placed.local(request.frame)
+
+
+def _direction(
+    contact: Contact, request: GuideRequest, start: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None
+) -> Turn:
+    """The direction of the faster plan or, where that is not clear of the fence, of the other one if it is."""
+    either = plan(start, orbit, aircraft, wind)
+    if contact.fence is None:
+        return either.turn
+    try:
+        other = plan(start, replace(orbit, turn=either.turn.other), aircraft, wind)
+        clear = first_clear(contact.fence, [either, other], request.margin_m).maneuver
+    except InvalidArgument as error:
+        raise LinkFailed(f"{contact.name} cannot be guided: its {error}") from error
+    return either.turn if clear is None else clear.turn
 
 
 def _fence_sentence(contact: Contact, fence: Fence, maneuver: Maneuver, request: GuideRequest) -> str:

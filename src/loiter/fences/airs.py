@@ -1,0 +1,295 @@
+"""Paths between poses in still air and in wind, and which of many stay clear of a fence.
+
+Directions are angles, counter-clockwise from east; lengths, metres, are those through the air.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import cos, inf, sin, tau
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+from loiter.arrays import min_time, min_time_in_wind
+from loiter.compiled import wind_solver
+from loiter.fences.contacts import Contacts, Curve
+from loiter.fences.distances import Arcs, arc_to_edge, arc_to_point, chord_to_edge, chord_to_point
+from loiter.fences.model import Fence
+from loiter.fences.search import TOUCH_M
+from loiter.fences.words import Words, words_between
+from loiter.kernel import motion
+from loiter.kernel.entry import Entry
+from loiter.kernel.rounding import ROUNDING, rounded_radius, rounding
+from loiter.kernel.statuses import Status
+from loiter.kernel.still_air.synthesis import ranked
+from loiter.kernel.wind import wind_search
+from loiter.kernel.wind.hold import phase_of
+from loiter.kernel.wind.paths import WindScene, first_path_of
+from loiter.kernel.wind.wind_search import WindProblem
+from loiter.kernel.words import ABSENT, controls, encode, set_of
+from loiter.planning.problem import Problem
+from loiter.planning.sides import SIDES
+
+if TYPE_CHECKING:
+    from numpy import bool_, float64
+    from numpy.typing import NDArray
+
+# How far a chord may be from its part of a trochoid, metres: clear paths in wind are farther from a zone by this.
+CHORD_ERROR_M = 0.02
+
+# How much farther than the margin a path passes what it touches: enough for it to be called clear.
+STILL_AIR_GAP_M, WIND_GAP_M = 10.0 * TOUCH_M, 1.5 * CHORD_ERROR_M
+
+# The six words of three pieces.
+SIX = [set_of(encode(u, v, w)) for u, v, w in ((1, 0, 1), (-1, 0, -1), (1, 0, -1), (-1, 0, 1), (1, -1, 1), (-1, 1, -1))]
+
+
+class Pose2(NamedTuple):
+    """A place, metres, and the direction of the heading as an angle."""
+
+    x: float
+    y: float
+    heading: float
+
+
+class Air(Protocol):
+    """What a search needs to know of paths."""
+
+    gap_m: float
+
+    def headings(self, contacts: Contacts) -> NDArray[float64]:
+        """The headings with which contacts are passed."""
+
+    def least_lengths(self, contacts: Contacts, headings: NDArray[float64]) -> NDArray[float64]:
+        """Lower bounds on the lengths from contacts to the circle: without a fence, zero on it."""
+
+    def words(self, start: Pose2, at: int | None, contacts: Contacts, headings: NDArray[float64]) -> Words:
+        """Paths from a pose, which is the contact `at` if that is given, to contacts."""
+
+    def are_clear(self, start: Pose2, words: Words) -> NDArray[bool_]:
+        """Whether paths from a pose stay clear of the fence."""
+
+
+class StillAir:
+    """Still air: words, and arcs along curves that are wider than the tightest turn, all in closed form."""
+
+    gap_m = STILL_AIR_GAP_M
+
+    def __init__(self, fence: Fence, problem: Problem, margin_m: float, curves: list[Curve]) -> None:
+        self._fence, self._problem, self._margin_m, self._curves = fence, problem, margin_m, curves
+        self._radius_m = problem.aircraft.turn_radius_m
+
+    def headings(self, contacts: Contacts) -> NDArray[float64]:
+        """The directions of motion."""
+        return contacts.angle
+
+    def least_lengths(self, contacts: Contacts, headings: NDArray[float64]) -> NDArray[float64]:
+        """The lengths of the fastest entries."""
+        import numpy as np
+
+        orbit, r = self._problem.orbit, self._radius_m
+        dx, dy, c, s = (
+            (contacts.x - orbit.east_m) / r,
+            (contacts.y - orbit.north_m) / r,
+            np.cos(headings),
+            np.sin(headings),
+        )
+        radius = max(self._problem.radius, 1.0)
+        least = min_time(*motion.reduce(dx, dy, c, s), radius, orbit.turn)  # type: ignore[arg-type]
+        return np.where(contacts.joined, 0.0, least * r * (1.0 - ROUNDING))
+
+    def words(self, start: Pose2, at: int | None, contacts: Contacts, headings: NDArray[float64]) -> Words:
+        """Dubins' words, and the arc along the curve of the contact."""
+        placed = (~contacts.anywhere).nonzero()[0]
+        found = words_between(*start, contacts.x[placed], contacts.y[placed], headings[placed], self._radius_m)
+        several = [found._replace(to=placed[found.to]), _onto_circle(self._entries(start), contacts, self._radius_m)]
+        if at is not None and self._curves[contacts.curve[at]].radius > self._radius_m:
+            several.append(self._along(at, contacts))
+        return Words.joined(several)
+
+    def _entries(self, start: Pose2) -> list[Entry]:
+        """The candidates from a pose."""
+        orbit, r = self._problem.orbit, self._radius_m
+        place = (start.x - orbit.east_m) / r, (start.y - orbit.north_m) / r
+        state = motion.reduce(*place, cos(start.heading), sin(start.heading))
+        return ranked(*state, rounded_radius(self._problem.radius), SIDES[orbit.turn], 0.0)
+
+    def _along(self, at: int, contacts: Contacts) -> Words:
+        """The arcs along the curve of a contact to the others on it, in the direction in which it is passed."""
+        import numpy as np
+
+        curve, way = self._curves[contacts.curve[at]], contacts.way[at]
+        others = ((contacts.curve == contacts.curve[at]) & (contacts.way == way)).nonzero()[0]
+        turned = (contacts.share[others] - contacts.share[at]) * way * curve.width
+        turned = np.mod(turned, tau) if curve.closed else turned
+        others, turned = others[turned > 0.0], turned[turned > 0.0]
+        zero = np.zeros_like(turned)
+        length = np.stack([turned * curve.radius, zero, zero], axis=-1)
+        return Words(others, np.full(length.shape, float(way)), length, np.full(length.shape, curve.radius))
+
+    def are_clear(self, start: Pose2, words: Words) -> NDArray[bool_]:
+        """In closed form."""
+        import numpy as np
+
+        clear = np.ones(words.to.size, bool)
+        x, y, heading = (np.full(words.to.size, value) for value in start)
+        for k in range(3):
+            u, length, radius = words.control[:, k], words.length[:, k], words.radius[:, k]
+            c, s, angle = np.cos(heading), np.sin(heading), length / radius
+            half = 0.5 * u * angle
+            chord = np.where(u == 0.0, length, 2.0 * radius * np.sin(0.5 * angle))
+            next_x = x + chord * np.cos(heading + half)
+            next_y = y + chord * np.sin(heading + half)
+            bent = (clear & (u != 0.0) & (length > 0.0)).nonzero()[0]
+            if bent.size:
+                nx, ny = u * s, -u * c
+                arcs = (x - radius * nx, y - radius * ny, radius, nx, ny, u, angle)
+                clear[bent] = _clear_arcs(self._fence, Arcs(*(v[bent, None] for v in arcs)), self._margin_m)
+            straight = (clear & (u == 0.0) & (length > 0.0)).nonzero()[0]
+            if straight.size:
+                ends = [v[straight] for v in (x, y, next_x, next_y)]
+                clear[straight] = _clear_chords(self._fence, ends, self._margin_m)
+            x, y, heading = next_x, next_y, heading + u * angle
+        return clear
+
+
+def _onto_circle(entries: Sequence[Entry], contacts: Contacts, radius_m: float) -> Words:
+    """Entries as paths to the contact that is anywhere on the circle, in their direction."""
+    import numpy as np
+
+    ends = {int(contacts.way[i]): i for i in contacts.anywhere.nonzero()[0].tolist()}
+    rows = []
+    for entry in entries:
+        if -entry.side in ends:
+            letters = [float(u) if u != ABSENT else 0.0 for u in controls(entry.word)]
+            rows.append((ends[-entry.side], *letters, *entry[2:]))
+    table = np.array(rows, float).reshape(-1, 7)
+    length = table[:, 4:] * radius_m
+    return Words(table[:, 0].astype(np.intp), table[:, 1:4], length, np.full(length.shape, radius_m))
+
+
+def _clear_arcs(fence: Fence, arcs: Arcs, margin_m: float) -> NDArray[bool_]:
+    """Whether arcs (k, 1) stay clear of a fence."""
+    import numpy as np
+
+    clear, least = np.ones(arcs.x.shape[0], bool), margin_m + TOUCH_M
+    if fence.polygons:
+        clear &= arc_to_edge(arcs, fence.edges).distance.min(axis=1) > least
+    if fence.circle_zones:
+        circles = fence.circles
+        found = arc_to_point(arcs, circles.x, circles.y)
+        outside = np.where(circles.sign > 0.0, found.least.distance, found.largest.distance)
+        clear &= (circles.sign * (outside - circles.radius)).min(axis=1) > least
+    return clear
+
+
+def _clear_chords(fence: Fence, ends: list[Any], margin_m: float) -> NDArray[bool_]:
+    """Whether straight lines stay clear of a fence; `ends` has the coordinates of their ends, four arrays (n,)."""
+    import numpy as np
+
+    ax, ay, bx, by = (v[:, None] for v in ends)
+    clear, least = np.ones(ax.shape[0], bool), margin_m + TOUCH_M
+    if fence.polygons:
+        clear &= chord_to_edge(ax, ay, bx, by, fence.edges).nearest.distance.min(axis=1) > least
+    if fence.circle_zones:
+        circles = fence.circles
+        near = chord_to_point(ax, ay, bx, by, circles.x, circles.y).distance
+        far = np.maximum(np.hypot(ax - circles.x, ay - circles.y), np.hypot(bx - circles.x, by - circles.y))
+        outside = np.where(circles.sign > 0.0, near, far)
+        clear &= (circles.sign * (outside - circles.radius)).min(axis=1) > least
+    return clear
+
+
+class SteadyWind:
+    """Wind: the words of docs/wind.md, section 4, and trochoids as chords with a bound."""
+
+    gap_m = WIND_GAP_M
+
+    def __init__(self, fence: Fence, problem: Problem, margin_m: float) -> None:
+        self._fence, self._problem, self._margin_m = fence, problem, margin_m
+        self._radius_m = problem.aircraft.turn_radius_m
+        self._wx, self._wy = problem.relative_wind
+
+    def headings(self, contacts: Contacts) -> NDArray[float64]:
+        """The headings whose motion over the ground has the directions of the contacts."""
+        import numpy as np
+
+        across = self._wy * np.cos(contacts.angle) - self._wx * np.sin(contacts.angle)
+        return contacts.angle - np.arcsin(across)
+
+    def least_lengths(self, contacts: Contacts, headings: NDArray[float64]) -> NDArray[float64]:
+        """The lengths of the fastest entries through the air."""
+        import numpy as np
+
+        orbit, r = self._problem.orbit, self._radius_m
+        dx, dy = (contacts.x - orbit.east_m) / r, (contacts.y - orbit.north_m) / r
+        least = np.zeros(contacts.x.size)
+        free = ~contacts.joined
+        least[free] = min_time_in_wind(
+            dx[free], dy[free], headings[free], self._problem.radius, orbit.turn, self._wx, self._wy
+        )
+        return np.where(np.isfinite(least), least, 0.0) * r * (1.0 - 1e-9)
+
+    def words(self, start: Pose2, at: int | None, contacts: Contacts, headings: NDArray[float64]) -> Words:
+        """The first path of each of the six words to each contact."""
+        import numpy as np
+
+        r, rows = self._radius_m, []
+        heading = cos(start.heading), sin(start.heading)
+        placed = (~contacts.anywhere).nonzero()[0]
+        places = zip(*(v[placed].tolist() for v in (contacts.x, contacts.y, contacts.angle)), strict=True)
+        for i, (x, y, angle) in zip(placed.tolist(), places, strict=True):
+            # The contact as a point of a circle of radius 1 on its left, passed counter-clockwise.
+            nx, ny = sin(angle), -cos(angle)
+            sx, sy = (start.x - x) / r + nx, (start.y - y) / r + ny
+            scene = WindScene(sx, sy, *heading, 1.0, self._wx, self._wy, rounding(sx, sy, 1.0) / 3.0)
+            phase = phase_of(nx, ny, -1, self._wx, self._wy)
+            for word in SIX:
+                path = first_path_of(word, phase, -1, scene, inf)
+                if path.time < inf:
+                    rows.append((i, *controls(path.word), path.t1, path.t2, path.t3))
+        table = np.array(rows, float).reshape(-1, 7)
+        length = table[:, 4:] * r
+        found = Words(table[:, 0].astype(np.intp), table[:, 1:4], length, np.full(length.shape, r))
+        return Words.joined([found, _onto_circle(self._entries(start), contacts, r)])
+
+    def _entries(self, start: Pose2) -> list[Entry]:
+        """The candidates from a pose."""
+        orbit, r = self._problem.orbit, self._radius_m
+        place = (start.x - orbit.east_m) / r, (start.y - orbit.north_m) / r
+        heading = cos(start.heading), sin(start.heading)
+        problem = WindProblem(*place, *heading, self._problem.radius, SIDES[orbit.turn], self._wx, self._wy, 0.0)
+        return [wind_search.entry_of(found) for found in wind_solver.ranked(problem) if found.status == Status.OK]
+
+    def are_clear(self, start: Pose2, words: Words) -> NDArray[bool_]:
+        """By chords of trochoids, each no farther than `CHORD_ERROR_M` from its part."""
+        import numpy as np
+
+        n, r = words.to.size, self._radius_m
+        clear = np.ones(n, bool)
+        wind_x, wind_y = self._wx, self._wy
+        x, y, heading = (np.full(n, value) for value in start)
+        step = (8.0 * CHORD_ERROR_M * r) ** 0.5
+        for k in range(3):
+            u, length = words.control[:, k], words.length[:, k]
+            tried = (clear & (length > 0.0)).nonzero()[0]
+            counts = np.where(u[tried] == 0.0, 1, np.ceil(length[tried] / step)).astype(np.intp)
+            i = np.repeat(tried, counts)
+            j = np.arange(i.size) - np.repeat(np.cumsum(counts) - counts, counts)
+            width = length[i] / np.repeat(counts, counts)
+            ends: list[Any] = []
+            for flown in (j * width, (j + 1) * width):
+                ends += _flown(x[i], y[i], heading[i], u[i], flown, r, wind_x, wind_y)
+            good = _clear_chords(self._fence, ends, self._margin_m + CHORD_ERROR_M)
+            np.logical_and.at(clear, i, good)
+            x, y = _flown(x, y, heading, u, length, r, wind_x, wind_y)
+            heading = heading + u * length / r
+        return clear
+
+
+def _flown(x: Any, y: Any, heading: Any, u: Any, length: Any, r: float, wx: float, wy: float) -> tuple[Any, Any]:
+    """Places over the ground after a length through the air that moves with the wind (wx, wy) over the airspeed."""
+    import numpy as np
+
+    angle = length / r
+    half, chord = heading + 0.5 * u * angle, np.where(u == 0.0, length, 2.0 * r * np.sin(0.5 * angle))
+    return x + chord * np.cos(half) + wx * length, y + chord * np.sin(half) + wy * length

@@ -1,0 +1,193 @@
+"""The fastest entry that stays clear of a fence: the candidates, then a search over where a path can touch it."""
+
+from __future__ import annotations
+
+from math import atan2, inf
+from typing import TYPE_CHECKING
+
+from loiter.errors import instance, not_negative
+from loiter.fences.airs import Air, Pose2, SteadyWind, StillAir
+from loiter.fences.chains import NO_PIECE_M, Chain, ChainSearch, Piece
+from loiter.fences.contacts import (
+    Contacts,
+    Curve,
+    Row,
+    beside,
+    curves_of,
+    placed,
+    rows_of,
+    rows_on,
+    rows_without_straight,
+)
+from loiter.fences.entries import ClearEntry, first_clear
+from loiter.fences.fence_check import check, default_margin_m, zones_on_circle
+from loiter.fences.model import Fence, clear_points
+from loiter.fences.taut import least_length_m
+from loiter.planning.compass import heading_vector
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import CALM, CONTROLS, Aircraft, Orbit, Pose, Segment, Turn, Wind
+from loiter.planning.problem import Problem
+from loiter.planning.scaling import segment
+from loiter.planning.solve import extremals
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# The first search has one contact for each step of `contacts`; where it finds nothing, one with half the steps follows.
+REFINED = (1, 2)
+
+# Chains that are longer than the first one by up to so many turn radii are refined too, up to so many of them.
+SLACK, MOST_CHAINS = 0.5, 4
+
+# Steps are halved so many times: the last is then a thousandth of a degree, or less than a millimetre.
+HALVINGS = 14
+
+# The largest number of poses from which a search goes on, in still air and in wind.
+MOST_POSES, MOST_POSES_IN_WIND = 1500, 60
+
+# Steps of Newton's method towards a tangent, which begin within a step of it: the errors are squared.
+TANGENT_STEPS = 5
+
+LETTERS = {float(control): letter for letter, control in CONTROLS.items()}
+
+
+def clear_entry(
+    fence: Fence, pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, margin_m: float | None = None
+) -> ClearEntry:
+    """The fastest entry found that stays clear of a fence, with its hold, and a lower bound on the time of any.
+
+    The margin, metres, is that of `Fence.check`. Where the fastest candidate of the planner is not clear, paths that
+    touch the margin are searched, as docs/fences.md describes; onto a circle that moves only candidates are tried.
+    Raises the errors of `candidates` and of `Fence.check`.
+
+    >>> from loiter import Aircraft, Orbit, Pose
+    >>> from loiter.fences import CircleZone, Fence, clear_entry
+    >>> fence, uav = Fence((CircleZone("mast", -150.0, 90.0, 60.0),)), Aircraft(18.0, max_bank_deg=35.0)
+    >>> found = clear_entry(fence, Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), uav, margin_m=5.0)
+    >>> found.maneuver.word, round(found.maneuver.duration_s, 2), round(found.later_s, 2)
+    ('RSLSL', 19.92, 0.15)
+    """
+    instance("fence", fence, Fence)
+    problem = Problem(pose, orbit, aircraft, CALM if wind is None else wind)
+    margin_m = default_margin_m(orbit) if margin_m is None else not_negative("margin_m", margin_m, "metres")
+    known = extremals(problem)
+    found = first_clear(fence, known, margin_m)
+    if found.tried == 1 or orbit.moves:
+        return found
+    if blocking := zones_on_circle(fence, known[0], margin_m):
+        return found._replace(blocking=blocking, least_s=inf)
+    fastest_m_s = aircraft.airspeed_m_s + problem.wind.speed_m_s
+    least_s = max(known[0].duration_s, least_length_m(fence, problem, margin_m) / fastest_m_s)
+    best = _Search(fence, problem, margin_m).fastest(found.maneuver) if least_s < inf else None
+    if best is None:
+        return found._replace(searched=True, least_s=least_s)
+    later_s = best.duration_s - known[0].duration_s
+    return found._replace(
+        maneuver=best, check=check(fence, best, margin_m), later_s=later_s, searched=True, least_s=least_s
+    )
+
+
+class _Search:
+    """The search for one problem: first over contacts all along the curves, then about those of the best chains."""
+
+    def __init__(self, fence: Fence, problem: Problem, margin_m: float) -> None:
+        gap_m = StillAir.gap_m if problem.still else SteadyWind.gap_m
+        self._fence, self._problem, self._margin_m = fence, problem, margin_m
+        self._curves: list[Curve] = curves_of(fence, problem.orbit, margin_m + gap_m)
+        self._air: Air = (
+            StillAir(fence, problem, margin_m, self._curves) if problem.still else SteadyWind(fence, problem, margin_m)
+        )
+        c, s = heading_vector(problem.pose.heading_deg)
+        self._start = Pose2(problem.pose.east_m, problem.pose.north_m, atan2(s, c))
+
+    def fastest(self, known: Maneuver | None) -> Maneuver | None:
+        """The fastest of the clear maneuvers found, and of the one that is known, if any."""
+        best = known
+        for refined in REFINED:
+            for maneuver in self._maneuvers(refined, inf if known is None else known.length_m):
+                faster = best is None or maneuver.duration_s < best.duration_s
+                if faster and check(self._fence, maneuver, self._margin_m).clear:
+                    best = maneuver
+            if best is not None:
+                break
+        return best
+
+    def _maneuvers(self, refined: int, most_m: float) -> Iterator[Maneuver]:
+        """Those of the best chains, which may be longer than a length by what their coarse steps cost."""
+        r = self._problem.aircraft.turn_radius_m
+        rows = [*rows_on(self._curves, r, refined), *rows_without_straight(self._curves, *self._start, r)]
+        for chain in self._chains(placed(self._curves, rows), most_m + SLACK * r, SLACK * r, MOST_CHAINS):
+            yield self._maneuver(self._moved(chain, refined))
+
+    def _chains(self, contacts: Contacts, most_m: float, slack_m: float, most: int) -> list[Chain]:
+        clear = clear_points(self._fence, contacts.x, contacts.y, self._margin_m)
+        allowed = contacts.take(clear.nonzero()[0])
+        poses = MOST_POSES if self._problem.still else MOST_POSES_IN_WIND
+        return ChainSearch(self._air, self._start, allowed, most_m, poses).chains(slack_m, most)
+
+    def _moved(self, chain: Chain, refined: int) -> Chain:
+        """A chain whose contacts are moved along their curves, by steps that are halved, where that shortens it."""
+        for k in range(1, HALVINGS + 1):
+            rows = {row for path in range(len(chain.paths)) for row in self._rows_near(chain, path, 0.5**k, refined)}
+            near = placed(self._curves, sorted(rows))
+            chain = next(iter(self._chains(near, chain.length_m, 0.0, 1)), chain)
+        return self._tangent(chain)
+
+    def _tangent(self, chain: Chain) -> Chain:
+        """A chain without short arcs before and after a wide curve that it follows, if it has any.
+
+        Where an arc of the angle q leads from a straight line to a curve, the line is along the tangent q before.
+        """
+        r, tangent = self._problem.aircraft.turn_radius_m, chain
+        for _ in range(TANGENT_STEPS):
+            rows, paths = [], tangent.paths
+            for k, (i, share, way) in enumerate(rows_of(tangent.contacts)):
+                move = 0.0
+                if k + 1 < len(paths) and paths[k + 1][0].radius_m > r:
+                    move = -_turned(paths[k][2])
+                elif k + 1 < len(paths) and paths[k][0].radius_m > r:
+                    move = _turned(paths[k + 1][0])
+                rows.append((i, beside(self._curves[i], share, move / (self._curves[i].width or inf)), way))
+            found = self._chains(placed(self._curves, rows), inf, 0.0, 1)
+            if not found or len(found[0].paths) != len(paths):
+                return chain
+            tangent = found[0]
+        return tangent if tangent.length_m < chain.length_m else chain
+
+    def _rows_near(self, chain: Chain, k: int, step: float, refined: int) -> Iterator[Row]:
+        """Contacts about that of path k: up to two parts `step` of a first step away."""
+        i, share, way = rows_of(chain.contacts)[k]
+        curve = self._curves[i]
+        width = step / curve.steps(self._problem.aircraft.turn_radius_m, refined)
+        moves = [m * width for m in (-2, -1, 0, 1, 2)]
+        yield from ((i, beside(curve, share, move), way) for move in moves)
+
+    def _maneuver(self, chain: Chain) -> Maneuver:
+        """A chain as a maneuver."""
+        problem = self._problem
+        segments: list[Segment] = []
+        here, now = problem.pose, 0.0
+        for control, length_m, radius_m in _merged(chain):
+            segments.append(segment(here, now, LETTERS[control], length_m, problem.aircraft, problem.wind, radius_m))
+            here, now = segments[-1].end, now + segments[-1].duration_s
+        turn = Turn.CCW if chain.contacts.way[-1] > 0 else Turn.CW
+        miss_m = abs(problem.orbit.distance_m(here) - problem.orbit.radius_m)
+        return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, tuple(segments), miss_m, problem.wind)
+
+
+def _turned(piece: Piece) -> float:
+    """The angle of an arc, counter-clockwise positive."""
+    return piece.control * piece.length_m / piece.radius_m
+
+
+def _merged(chain: Chain) -> list[Piece]:
+    """The pieces of a chain, without those of no length; those that go on alike are one."""
+    merged: list[Piece] = []
+    for piece in (piece for path in chain.paths for piece in path):
+        if piece.length_m < NO_PIECE_M:
+            continue
+        if merged and (merged[-1].control, merged[-1].radius_m) == (piece.control, piece.radius_m):
+            merged.append(piece._replace(length_m=piece.length_m + merged.pop().length_m))
+        else:
+            merged.append(piece)
+    return merged

@@ -1,0 +1,188 @@
+"""The fastest clear entry against brute force, known figures and laws, in still air and in wind."""
+
+import sys
+from dataclasses import replace
+from math import atan2, degrees, hypot, inf, pi
+
+import numpy as np
+import pytest
+
+from fences.brute import blocked_scene, compare
+from fences.sampling import clearance, path
+from loiter import Aircraft, Orbit, Pose, Turn, Wind, candidates, plan
+from loiter.errors import InvalidArgument
+from loiter.fences import CircleZone, Fence, PolygonZone, airs, clear_entry
+
+clear_entry_module = sys.modules["loiter.fences.clear_entry"]
+
+UAV = Aircraft(18.0, max_bank_deg=35.0)
+POSE, ORBIT = Pose(-600.0, 0.0, 90.0), Orbit(0.0, -200.0, 200.0, Turn.CW)
+
+
+def test_brute_force_finds_nothing_faster():
+    """The campaign is `python -m fences.brute`."""
+    found = 0
+    for k in range(2):
+        rng = np.random.default_rng([20261125, k])
+        row, brute, _ = compare(*blocked_scene(rng, 3), rng)
+        assert brute is None or row.brute_s >= row.answer_s, f"scene {k}: {brute}"
+        found += row.answer_s < inf
+    assert found >= 1
+
+
+def test_round_a_circle_that_is_wider_than_the_turn():
+    """A zone on the way is passed along its circle, from one straight line to another, both tangents."""
+    found = clear_entry(Fence((CircleZone("mast", -300.0, -70.0, 60.0),)), POSE, ORBIT, UAV, margin_m=10.0)
+    (k,) = [k for k, s in enumerate(found.maneuver.segments) if abs(s.curvature_per_m) == pytest.approx(1.0 / 70.0)]
+    before, arc, after = found.maneuver.segments[k - 1 : k + 2]
+    assert before.letter + after.letter == "SS"
+    for place in (arc.start, arc.end):
+        assert hypot(place.east_m + 300.0, place.north_m + 70.0) == pytest.approx(70.0, abs=1e-4)
+    # A string about the zone to the circle is shorter, by no more than what the first turn and the join take.
+    string_m = found.least_s * 18.0
+    assert string_m < found.maneuver.length_m < string_m + 20.0
+    assert found.check.clearance_m == pytest.approx(10.0, abs=1e-3)
+    assert found.sentence.startswith("The fastest clear entry found joins ")
+
+
+def test_about_a_corner_the_turn_is_symmetrical():
+    """A wedge whose corner is just on the way: the turn about it has its middle at the corner."""
+    wedge = PolygonZone("wedge", ((-300.0, 30.0), (-320.0, -400.0), (-280.0, -400.0)))
+    found = clear_entry(Fence((wedge,)), Pose(-600.0, 0.0, 90.0), Orbit(0.0, -100.0, 100.0), UAV, margin_m=0.0)
+    turns = [s for s in found.maneuver.segments if s.letter == "R" and abs(s.start.east_m + 300.0) < 60.0]
+    (turn,) = turns
+    before = hypot(turn.start.east_m + 300.0, turn.start.north_m - 30.0)
+    after = hypot(turn.end.east_m + 300.0, turn.end.north_m - 30.0)
+    assert before == pytest.approx(after, abs=0.05)
+
+
+def test_the_circle_itself_is_blocked():
+    found = clear_entry(Fence((CircleZone("mast", 200.0, -200.0, 9.0),)), POSE, ORBIT, UAV)
+    assert (found.maneuver, found.least_s, found.blocking) == (None, inf, ("mast",))
+    assert found.sentence == "No entry is clear: 'mast' blocks the circle itself, or every way to it."
+    around = clear_entry(Fence((CircleZone("field", 0.0, -200.0, 500.0),)), Pose(-900.0, 0.0, 90.0), ORBIT, UAV)
+    assert around.least_s == inf
+
+
+def test_a_wall_all_round_is_known_to_block():
+    """The circle is clear, and there is no way to it."""
+    walls = {
+        "south": (-470.0, -620.0, 470.0, -580.0),
+        "east": (430.0, -620.0, 470.0, 320.0),
+        "north": (-470.0, 280.0, 470.0, 320.0),
+        "west": (-470.0, -620.0, -430.0, 320.0),
+    }
+    found = clear_entry(Fence(tuple(box(name, *sides) for name, sides in walls.items())), POSE, ORBIT, UAV)
+    assert (found.maneuver, found.least_s) == (None, inf)
+    # A door in the wall before the start, 44 m wide between the margins, off the fastest entry.
+    del walls["west"]
+    walls |= {"below": (-470.0, -620.0, -430.0, -20.0), "above": (-470.0, 40.0, -430.0, 320.0)}
+    through = clear_entry(
+        Fence(tuple(box(name, *sides) for name, sides in walls.items())), POSE, ORBIT, UAV, margin_m=8.0
+    )
+    assert through.searched
+    assert through.maneuver is not None
+
+
+def box(name, west, south, east, north):
+    return PolygonZone(name, ((west, south), (east, south), (east, north), (west, north)))
+
+
+def test_no_way_is_found_without_a_proof():
+    """A wall so near ahead that no turn avoids it, and that a string would."""
+    wall = PolygonZone("wall", ((-590.0, -200.0), (-580.0, -200.0), (-580.0, 200.0), (-590.0, 200.0)))
+    found = clear_entry(Fence((wall,)), POSE, ORBIT, UAV, margin_m=0.0)
+    assert found.maneuver is None
+    assert 0.0 < found.least_s < inf
+    assert found.sentence == "No entry found: 'wall' blocks here."
+
+
+def test_what_is_clear_is_the_plan():
+    found = clear_entry(Fence((CircleZone("far", 5000.0, 0.0, 9.0),)), POSE, ORBIT, UAV)
+    assert (found.maneuver, found.later_s, found.searched) == (candidates(POSE, ORBIT, UAV)[0], 0.0, False)
+    assert found.least_s == found.maneuver.duration_s
+    with pytest.raises(InvalidArgument, match="pose is inside the zone"):
+        clear_entry(Fence((CircleZone("here", -600.0, 0.0, 9.0),)), POSE, ORBIT, UAV)
+
+
+def test_an_entry_in_wind_is_clear_and_joins():
+    """Flown by samples of its letters and durations, which share no code with the search."""
+    zone, orbit = CircleZone("mast", -150.0, 90.0, 60.0), Orbit(20.0, 0.0, 100.0)
+    pose, wind = Pose(-400.0, 120.0, 90.0), Wind(8.0, 250.0)
+    found = clear_entry(Fence((zone,)), pose, orbit, UAV, wind, 5.0)
+    assert found.searched
+    assert not any(Fence((zone,)).check(m, 5.0).clear for m in candidates(pose, orbit, UAV, wind))
+    assert 0.5 < found.later_s < 0.7
+    (_, east, north), end_s = path(found.maneuver, 0.1)
+    assert (clearance(zone, east, north) >= 5.0).all()
+    assert hypot(east[-1] - 20.0, north[-1]) == pytest.approx(100.0, abs=1e-5)
+    assert end_s == pytest.approx(found.maneuver.duration_s)
+    assert found.least_s <= end_s
+    # Along the circle.
+    turn = 90.0 if found.maneuver.turn == "cw" else -90.0
+    azimuth = degrees(atan2(east[-1] - 20.0, north[-1]))
+    track_deg, _ = found.maneuver.over_ground(found.maneuver.join)
+    assert (track_deg - azimuth - turn + 180.0) % 360.0 - 180.0 == pytest.approx(0.0, abs=1e-4)
+
+
+def test_a_wind_that_vanishes_gives_the_entry_of_still_air():
+    """Up to the chords of trochoids, which keep 3 cm more from what they touch."""
+    fence = Fence((CircleZone("mast", -300.0, 10.0, 20.0),))
+    still = clear_entry(fence, POSE, ORBIT, UAV, margin_m=10.0)
+    light = clear_entry(fence, POSE, ORBIT, UAV, Wind(1e-9, 250.0), margin_m=10.0)
+    assert light.maneuver.duration_s == pytest.approx(still.maneuver.duration_s, abs=0.02)
+    assert light.maneuver.word == still.maneuver.word
+
+
+def test_a_circle_that_moves_has_candidates_alone():
+    moving = replace(ORBIT, velocity_east_m_s=3.0)
+    places = plan(POSE, moving, UAV).sample(10.0)
+    zone = CircleZone("mast", float(places.east_m[1]), float(places.north_m[1]), 20.0)
+    assert not Fence((zone,)).check(plan(POSE, moving, UAV)).clear
+    assert not clear_entry(Fence((zone,)), POSE, moving, UAV).searched
+
+
+# Scenes of `python -m fences.brute` and the times of their fastest entries, seconds, faster than brute force finds.
+HARD = {42: 11.490900, 54: 17.104022, 89: 14.715324, 127: 17.706917}
+
+
+@pytest.fixture(scope="module")
+def hard():
+    return {k: blocked_scene(np.random.default_rng([0, k])) for k in HARD}
+
+
+def later(scenes):
+    """How much later than they should the entries of hard scenes are, seconds, at most."""
+    times = []
+    for k, (maneuver, fence, margin_m) in scenes.items():
+        found = clear_entry(fence, maneuver.start, maneuver.orbit, maneuver.aircraft, margin_m=margin_m)
+        times.append(found.maneuver.duration_s - HARD[k] if found.maneuver else inf)
+    return max(times)
+
+
+def test_entries_that_join_elsewhere_or_turn_without_a_straight_line(hard):
+    assert later(hard) < 1e-5
+
+
+WRONG = {
+    "contacts are not moved": (clear_entry_module, "HALVINGS", 0),
+    "turns without a straight line are left out": (clear_entry_module, "rows_without_straight", lambda *a: []),
+    "no longer chains": (clear_entry_module, "SLACK", 0.0),
+    "entries end at given points of the circle": (airs, "_onto_circle", lambda *a: no_words()),
+}
+
+
+def no_words():
+    return airs.words_between(0.0, 0.0, 0.0, np.zeros(0), np.zeros(0), np.zeros(0), 1.0)
+
+
+@pytest.mark.parametrize("wrong", WRONG)
+def test_searches_that_leave_something_out_are_refused(wrong, hard, monkeypatch):
+    monkeypatch.setattr(*WRONG[wrong])
+    assert later(hard) > 5e-4
+
+
+def test_half_a_turn_is_a_bound():
+    """The start flies away from the circle: the bound is the entry without a fence, which turns first."""
+    found = clear_entry(Fence((CircleZone("m", -300.0, 0.0, 60.0),)), replace(POSE, heading_deg=270.0), ORBIT, UAV)
+    assert found.least_s * 18.0 > 500.0 + pi * UAV.turn_radius_m / 2.0
