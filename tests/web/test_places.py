@@ -2,6 +2,7 @@
 
 import json
 import subprocess
+from itertools import product
 
 import numpy as np
 import pytest
@@ -94,47 +95,44 @@ def test_the_plane_is_that_of_the_library(origin, reach, off):
 # Fields
 
 
-@pytest.mark.parametrize("field", ["latitude", "longitude"])
-@pytest.mark.parametrize("text", ["47.1, 8.2", "47°06' N 8°12' E"])
-def test_a_pair_pasted_into_either_field_fills_both(page, field, text):
+def test_a_pair_pasted_into_either_field_fills_both(page, subtests):
     page.locator("#earth summary").click()
-    page.locator(f"#{field}").fill(text)
-    settle(page)
-    assert scene(page)["origin"] == {"latitude_deg": 47.1, "longitude_deg": 8.2}
-    assert [page.locator(f"#{each}").input_value() for each in ("latitude", "longitude")] == ["47.1", "8.2"]
-    assert_shows_the_plan(page)
+    for field, text in product(("latitude", "longitude"), ("47.1, 8.2", "47°06' N 8°12' E")):
+        with subtests.test(field=field, text=text):
+            for each in ("latitude", "longitude"):
+                page.locator(f"#{each}").fill("")
+            page.locator(f"#{field}").fill(text)
+            settle(page)
+            assert scene(page)["origin"] == {"latitude_deg": 47.1, "longitude_deg": 8.2}
+            assert [page.locator(f"#{each}").input_value() for each in ("latitude", "longitude")] == ["47.1", "8.2"]
+            assert_shows_the_plan(page)
 
 
-@pytest.mark.parametrize(
-    ("field", "text", "value"),
-    [("latitude", "33.9 S", -33.9), ("latitude", "47 06 36", 47.11), ("longitude", "8°12.3' W", -8.205)],
-)
-def test_one_coordinate_has_its_hemisphere_and_its_minutes(page, field, text, value):
-    located(page)
-    page.locator(f"#{field}").fill(text)
-    settle(page)
-    assert scene(page)["origin"][f"{field}_deg"] == value
+def test_one_coordinate_has_its_hemisphere_and_its_minutes(page):
+    for field, text, value in (
+        ("latitude", "33.9 S", -33.9),
+        ("latitude", "47 06 36", 47.11),
+        ("longitude", "8°12.3' W", -8.205),
+    ):
+        located(page)
+        page.locator(f"#{field}").fill(text)
+        settle(page)
+        assert scene(page)["origin"][f"{field}_deg"] == value
 
 
-@pytest.mark.parametrize(
-    ("field", "text", "sentence"),
-    [
+def test_what_is_no_coordinate_gets_a_sentence(page):
+    swapped = "a latitude is at most 90°. Are latitude and longitude swapped?"
+    for field, text, sentence in (
         ("latitude", "8.2 E", 'Latitude of (0, 0) is "8.2 E": that is no latitude.'),
-        (
-            "latitude",
-            "128",
-            'Latitude of (0, 0) is "128": a latitude is at most 90°. Are latitude and longitude swapped?',
-        ),
+        ("latitude", "128", f'Latitude of (0, 0) is "128": {swapped}'),
         ("longitude", "eight", 'Longitude of (0, 0) is "eight": write 47.1, 47.1 N or 47°06\' N.'),
-    ],
-)
-def test_what_is_no_coordinate_gets_a_sentence(page, field, text, sentence):
-    located(page)
-    before = scene(page)
-    page.locator(f"#{field}").fill(text)
-    expect(page.locator(f"#{field}-fault")).to_have_text(sentence)
-    settle(page)
-    assert scene(page) == before
+    ):
+        located(page)
+        before = scene(page)
+        page.locator(f"#{field}").fill(text)
+        expect(page.locator(f"#{field}-fault")).to_have_text(sentence)
+        settle(page)
+        assert scene(page) == before
 
 
 def test_the_aircraft_is_moved_to_a_place(page):
