@@ -27,7 +27,7 @@ SLOW = {
     "documents": "notebooks package site",
     "guidance": "campaign following identification jsbsim_aircraft loiter_entry",
     "kernel": "cell_bounds wind_search",
-    "mavlink": "guide guide_misbehaving peers upload watch",
+    "mavlink": "guide guide_misbehaving mavproxy peers upload watch",
     "mutation": "mutation",
     "native": "javascript javascript_mutants kernel mutants",
     "planning": "wind",
