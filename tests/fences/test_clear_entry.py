@@ -88,7 +88,7 @@ def box(name, west, south, east, north):
     return PolygonZone(name, ((west, south), (east, south), (east, north), (west, north)))
 
 
-def test_no_way_is_found_without_a_proof():
+def test_no_way_is_found_where_a_string_has_one():
     """A wall so near ahead that no turn avoids it, and that a string would."""
     wall = PolygonZone("wall", ((-590.0, -200.0), (-580.0, -200.0), (-580.0, 200.0), (-590.0, 200.0)))
     found = clear_entry(Fence((wall,)), POSE, ORBIT, UAV, margin_m=0.0)

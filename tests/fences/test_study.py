@@ -13,7 +13,7 @@ from fences.study import compare
 from loiter.errors import LoiterError
 from loiter.fences import distances, fence_check, model, pieces, search
 
-SCENES, TRIED = 100, 60
+SCENES, TRIED = 100, 90
 
 
 def test_dense_samples_find_the_same():
@@ -25,14 +25,14 @@ def test_dense_samples_find_the_same():
 
 # Wrong checkers: a place in the source, and what stands there instead.
 MUTANTS = {
-    "the vertex is forgotten": (distances, "arc_to_edge", "vx / r,", "-vx / r,"),
+    "the vertex is forgotten": (distances, "arc_edge_points", "vx / r,", "-vx / r,"),
     "the vertex beside a line is forgotten": (
         distances,
-        "chord_to_edge",
+        "chord_edge_points",
         "c.distance, d.distance",
         "c.distance + 9.0, d.distance + 9.0",
     ),
-    "the whole circle for the arc": (distances, "arc_to_edge", "share <= 1.0", "share < np.inf"),
+    "the whole circle for the arc": (distances, "arc_edge_points", "share <= 1.0", "share < np.inf"),
     "crossings are forgotten": (
         distances,
         "crossing_share",
@@ -64,6 +64,14 @@ MUTANTS = {
         "Signed._polygon_bounds",
         "found.from_b).min(axis=1)",
         "found.from_b).min(axis=1) * 0.0",
+    ),
+    "the last touch for the first": (distances, "first_within", "np.inf).min", "-np.inf).max"),
+    "crossings of circles are forgotten": (distances, "arc_circle_points", "<= 1.0", "< 0.0"),
+    "lines touch circles nearest": (
+        distances,
+        "chord_circle_points",
+        "radius**2 - across",
+        "0.0 * across",
     ),
     "the deepest place for the entry": (
         fence_check,
@@ -113,5 +121,5 @@ def test_arcs_taken_for_their_chords_are_refused(scenes, monkeypatch):
 
 def refused(scenes):
     """Fences remember nothing of earlier checks but their edges."""
-    with pytest.raises((AssertionError, LoiterError)):
+    with pytest.raises((AssertionError, LoiterError, ValueError, RuntimeWarning)):
         deque(starmap(compare, scenes), maxlen=0)

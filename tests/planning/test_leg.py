@@ -1,7 +1,7 @@
 """Legs: the way in, round and out, beside an independent enumeration, flown, and by laws."""
 
 from dataclasses import replace
-from math import acos, cos, degrees, hypot, pi, radians, sin, sqrt, tau
+from math import acos, cos, degrees, hypot, nextafter, pi, radians, sin, sqrt, tau
 
 import mpmath
 import numpy as np
@@ -174,6 +174,16 @@ def test_the_track_has_the_speed_of_the_air_and_ends_at_the_point():
 @given(st.floats(-40.0, 40.0), st.one_of(st.floats(0.0, 0.999), st.floats(1e-12, 0.1).map(lambda e: 1.0 - e)))
 def test_the_elliptic_integral(p, w):
     assert elliptic(p, w) == pytest.approx(float(mpmath.ellipe(p, mpmath.mpf(w) ** 2)), abs=4e-15 * (1.0 + abs(p)))
+
+
+@pytest.mark.parametrize("w", [0.0, 0.3, 0.999])
+def test_the_elliptic_integral_at_multiples_of_quarter_turns(w):
+    """There the rounded tangent has either sign."""
+    for k in range(-20, 21):
+        for p in (k * pi / 2.0, nextafter(k * pi / 2.0, 99.0), nextafter(k * pi / 2.0, -99.0)):
+            assert elliptic(p, w) == pytest.approx(
+                float(mpmath.ellipe(p, mpmath.mpf(w) ** 2)), abs=4e-15 * (1.0 + abs(p))
+            )
 
 
 @given(st.floats(-pi, pi), st.floats(0.0, 30.0), st.floats(0.0, 0.9))

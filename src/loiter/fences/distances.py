@@ -56,6 +56,13 @@ def chord_to_point(ax: Reals, ay: Reals, bx: Reals, by: Reals, x: Reals, y: Real
     return Nearest(np.hypot(ax + share * (bx - ax) - x, ay + share * (by - ay) - y), share)
 
 
+def first_within(distances: Any, shares: Any, within_m: float) -> Reals:
+    """The least share at which one of several distances, stacked or in a sequence, is at most `within_m`; else inf."""
+    import numpy as np
+
+    return np.where(np.stack(distances) <= within_m, np.stack(shares), np.inf).min(axis=0)
+
+
 class ChordToEdge(NamedTuple):
     """The distances of the two ends of chords from edges, and the least distance of chords and edges."""
 
@@ -65,7 +72,13 @@ class ChordToEdge(NamedTuple):
 
 
 def chord_to_edge(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> ChordToEdge:
-    """The distances of chords from a to b and edges.
+    """The distances of chords from a to b and edges."""
+    distances, shares = chord_edge_points(ax, ay, bx, by, edges)
+    return ChordToEdge(distances[0], distances[1], _least(distances, shares))
+
+
+def chord_edge_points(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> tuple[list[Reals], list[Reals]]:
+    """The distances from edges, and the shares, of the points of chords from a to b that can be nearest to them.
 
     Two segments that do not cross are nearest at an end of one of them.
     """
@@ -77,8 +90,7 @@ def chord_to_edge(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> C
     crossing = crossing_share(ax, ay, bx, by, edges)
     crosses = np.where(crossing >= 0.0, 0.0, np.inf)
     zero = np.zeros_like(from_a)
-    nearest = _least([from_a, from_b, c.distance, d.distance, crosses], [zero, zero + 1.0, c.share, d.share, crossing])
-    return ChordToEdge(from_a, from_b, nearest)
+    return [from_a, from_b, c.distance, d.distance, crosses], [zero, zero + 1.0, c.share, d.share, crossing]
 
 
 def _least(distances: Any, shares: Any) -> Nearest:
@@ -141,11 +153,16 @@ class Arcs(NamedTuple):
 
 
 def arc_to_edge(arcs: Arcs, edges: Edges) -> Nearest:
-    """The distance of arcs to edges: arcs (k, 1) and edges (n,) give (k, n).
+    """The distance of arcs to edges: arcs (k, 1) and edges (n,) give (k, n)."""
+    return _least(*arc_edge_points(arcs, edges))
 
-    It is attained at an end of the arc, towards an end a of an edge (its end b is the end a of the next one), where the
-    arc crosses the line of the edge or, if its circle does not reach that line, where it is nearest to it. Every such
-    point that is on the arc is tried.
+
+def arc_edge_points(arcs: Arcs, edges: Edges) -> tuple[Reals, Reals]:
+    """The distances from edges, and the shares, of the points of arcs that can be nearest to them; inf beyond an arc.
+
+    The distance is attained at an end of the arc, towards an end a of an edge (its end b is the end a of the next one),
+    where the arc crosses the line of the edge or, if its circle does not reach that line, where it is nearest to it.
+    Every such point that is on the arc is tried.
     """
     import numpy as np
 
@@ -171,7 +188,48 @@ def arc_to_edge(arcs: Arcs, edges: Edges) -> Nearest:
     share = arcs.share(qx, qy)
     share[0], share[1] = 0.0, 1.0
     distance = np.where(share <= 1.0, to_edge(arcs.x + arcs.radius * qx, arcs.y + arcs.radius * qy, edges), np.inf)
-    return _least(distance, share)
+    return distance, share
+
+
+def arc_circle_points(arcs: Arcs, x: float, y: float, radius: float) -> tuple[Reals, Reals]:
+    """The distances from a circle, and the shares, of the ends of arcs, their points nearest to it, and crossings."""
+    import numpy as np
+
+    vx, vy = x - arcs.x, y - arcs.y
+    apart = np.maximum(np.hypot(vx, vy), np.finfo(float).tiny)
+    towards_x, towards_y = vx / apart, vy / apart
+    # The angle between the centre of the circle and a crossing, at the centre of the arc.
+    c = np.clip((apart**2 + arcs.radius**2 - radius**2) / (2.0 * apart * arcs.radius), -1.0, 1.0)
+    s = np.sqrt((1.0 - c) * (1.0 + c))
+    directions = [
+        *[arcs.direction(share) for share in (0.0, 1.0)],
+        (towards_x, towards_y),
+        (-towards_x, -towards_y),
+        (towards_x * c - towards_y * s, towards_y * c + towards_x * s),
+        (towards_x * c + towards_y * s, towards_y * c - towards_x * s),
+    ]
+    qx, qy = (np.stack(values) for values in zip(*directions, strict=True))
+    share = arcs.share(qx, qy)
+    share[0], share[1] = 0.0, 1.0
+    from_centre = np.hypot(arcs.radius * qx - vx, arcs.radius * qy - vy)
+    return np.where(share <= 1.0, abs(from_centre - radius), np.inf), share
+
+
+def chord_circle_points(
+    ax: Reals, ay: Reals, bx: Reals, by: Reals, x: float, y: float, radius: float
+) -> tuple[Reals, Reals]:
+    """The distances from a circle, and the shares, of the ends of chords, the point nearest to it, and crossings."""
+    import numpy as np
+
+    near = chord_to_point(ax, ay, bx, by, x, y)
+    length = np.maximum(np.hypot(bx - ax, by - ay), np.finfo(float).tiny)
+    along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length
+    across = np.hypot(x - ax, y - ay) ** 2 - along**2
+    half = np.sqrt(np.maximum(radius**2 - across, 0.0))
+    zero = np.zeros_like(near.share)
+    share = np.stack([zero, zero + 1.0, near.share, (along - half) / length, (along + half) / length])
+    from_centre = np.hypot(ax + share * (bx - ax) - x, ay + share * (by - ay) - y)
+    return np.where((share >= 0.0) & (share <= 1.0), abs(from_centre - radius), np.inf), share
 
 
 class Extremes(NamedTuple):

@@ -14,7 +14,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from loiter.fences.distances import Arcs, Nearest, arc_to_edge, arc_to_point, chord_to_edge, chord_to_point, to_edge
+from loiter.fences.distances import (
+    Arcs,
+    Nearest,
+    arc_circle_points,
+    arc_edge_points,
+    arc_to_edge,
+    arc_to_point,
+    chord_circle_points,
+    chord_edge_points,
+    chord_to_edge,
+    chord_to_point,
+    first_within,
+    to_edge,
+)
 from loiter.fences.model import Circles, CircleZone, Edges, Fence, PolygonZone, Zone, edges_of, polygon_sign
 from loiter.fences.pieces import Pieces
 
@@ -351,13 +364,56 @@ def least_distance(pieces: Pieces, zone: Zone) -> PlaceInPath:
 def first_entry(pieces: Pieces, zone: Zone) -> PlaceInPath:
     """Where a path that enters a zone first does so; the time is exact to `TOUCH_M` over the speed.
 
-    The distance is infinite if no place was found that is closer than `TOUCH_M`.
+    Of arcs and straight lines it is in closed form; trochoids, and the disc of a circle that moves, are searched as far
+    as they come before. The distance is infinite if no place was found that is closer than `TOUCH_M`.
     """
     import numpy as np
 
-    signed, parts = Signed(zone), first_parts(pieces, np.arange(pieces.x.size))
+    simple = ((pieces.u == 0.0) | pieces.bent) & (pieces.widen == 0.0)
+    entry = _first_touch(pieces, simple, zone)
+    until_s = pieces.start_s[entry.piece] + entry.time_s if entry.distance < np.inf else np.inf
+    searched = (~simple & (pieces.start_s < until_s)).nonzero()[0]
+    return _searched_entry(pieces, searched, zone, entry, until_s) if searched.size else entry
+
+
+def _first_touch(pieces: Pieces, simple: Any, zone: Zone) -> PlaceInPath:
+    """Where the arcs and straight lines of a path first come within `TOUCH_M` of a zone's boundary."""
+    import numpy as np
+
+    share, edges = np.full(pieces.x.size, np.inf), edges_of([zone] if isinstance(zone, PolygonZone) else [])
+    bent, straight = ((simple & kind).nonzero()[0] for kind in (pieces.bent, pieces.u == 0.0))
+    if bent.size:
+        arcs = Arcs.of(pieces.take(bent))
+        if isinstance(zone, PolygonZone):
+            share[bent] = first_within(*arc_edge_points(arcs, edges), TOUCH_M).min(axis=-1)
+        else:
+            share[bent] = first_within(*arc_circle_points(arcs, *_disc(zone)), TOUCH_M).min(axis=-1)
+    if straight.size:
+        lines = pieces.take(straight)
+        (ax, ay), (bx, by) = ((v[:, None] for v in lines.position(t)) for t in (0.0, lines.duration_s))
+        if isinstance(zone, PolygonZone):
+            share[straight] = first_within(*chord_edge_points(ax, ay, bx, by, edges), TOUCH_M).min(axis=-1)
+        else:
+            share[straight] = first_within(*chord_circle_points(ax, ay, bx, by, *_disc(zone)), TOUCH_M).min(axis=-1)
+    touched = (share < np.inf).nonzero()[0]
+    if not touched.size:
+        return PlaceInPath(np.inf, 0, 0.0)
+    times = share[touched] * pieces.duration_s[touched]
+    i = int((pieces.start_s[touched] + times).argmin())
+    return PlaceInPath(0.0, int(touched[i]), float(times[i]))
+
+
+def _disc(zone: CircleZone) -> tuple[float, float, float]:
+    return zone.east_m, zone.north_m, zone.radius_m
+
+
+def _searched_entry(pieces: Pieces, searched: Any, zone: Zone, known: PlaceInPath, known_s: float) -> PlaceInPath:
+    """The first entry of some pieces by bounds, or the known one if none comes before."""
+    import numpy as np
+
+    signed, parts = Signed(zone), first_parts(pieces, searched)
     step_s = TOUCH_M / float((pieces.speed + np.hypot(pieces.wx, pieces.wy)).max())
-    entry, entry_s = PlaceInPath(np.inf, 0, 0.0), np.inf
+    entry, entry_s = known, known_s
     for _ in range(MOST_LEVELS):
         found = signed.bounds(Chords.of(pieces, parts), parts)
         times = np.where(found.upper <= TOUCH_M, pieces.start_s[parts.piece] + found.at, np.inf)

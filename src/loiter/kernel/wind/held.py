@@ -21,8 +21,10 @@ def elliptic(p: float, w: float) -> float:
     a, b, c = 1.0, sqrt((1.0 - w) * (1.0 + w)), w
     squares, sines, power = 0.5 * c * c, 0.0, 1.0
     for _ in range(MEANS):
-        # The arctangent's branch follows p, so that p doubles with each step.
-        p = p + atan(b / a * tan(p)) + pi * floor(p / pi + 0.5)
+        # The arctangent's branch follows p, so that p doubles with each step. It is that of the rounded tangent, whose
+        # sign is either one where p is an odd multiple of pi/2.
+        slope = tan(p)
+        p = p + atan(b / a * slope) + pi * floor((p - atan(slope)) / pi + 0.5)
         a, b, c = 0.5 * (a + b), sqrt(a * b), 0.5 * (a - b)
         power = 2.0 * power
         squares, sines = squares + 0.5 * power * c * c, sines + c * sin(p)
