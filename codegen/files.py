@@ -11,7 +11,7 @@ from codegen.unit import ROOT, Unit
 from loiter.arrays import partition  # noqa: F401
 from loiter.kernel import adjoint, entry, motion, rounding
 from loiter.kernel.still_air import extremals, switching_curves, synthesis, value_gradient
-from loiter.kernel.wind import hold, wind_search
+from loiter.kernel.wind import hold, slots, wind_search
 from loiter.version import __version__
 from loiter.web import problems  # noqa: F401
 from loiter.web.answers import exports, plans, race  # noqa: F401
@@ -34,6 +34,7 @@ SINGLE = (
     wind_search.sampled_times,
     wind_search.is_local_minimum,
     wind_search.entry_near_sample,
+    slots.first_in_slot,
 )
 
 # The state of a search, which would take longer to copy than a step of the search, is passed by address.

@@ -11,3 +11,6 @@ def fastest_in_wind(
 def local_minima_in_wind(
     x: float, y: float, c: float, s: float, R: float, side: int, wx: float, wy: float, tolerance: float, /
 ) -> list[_WindEntry]: ...
+def first_in_slot(
+    x: float, y: float, c: float, s: float, R: float, side: int, wx: float, wy: float, tolerance: float, phase: float, /
+) -> _WindEntry: ...

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from loiter.kernel.rebinding import rebound
-from loiter.kernel.wind import wind_search
+from loiter.kernel.wind import slots, wind_search
 from loiter.kernel.wind.wind_search import ENDED, JOINING, UNLIMITED, WindEntry, WindProblem, WindSearch
 
 try:
@@ -35,6 +35,13 @@ def local_minima(problem: WindProblem) -> list[WindEntry]:
     if single is None:
         return wind_search.local_minima(problem)
     return [WindEntry(*entry) for entry in single.local_minima_in_wind(*problem)]
+
+
+def first_in_slot(problem: WindProblem, phase: float) -> WindEntry:
+    """`slots.first_in_slot`."""
+    if single is None:
+        return slots.first_in_slot(problem, phase)
+    return WindEntry(*single.first_in_slot(*problem, phase))
 
 
 _SEARCH = {"fastest": fastest, "local_minima": local_minima}

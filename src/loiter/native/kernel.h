@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 5388f1cba30406691cebcea2d4c43db65745bfba4a6905b959582803075775e5
+ * SHA-256 of the source: c21e90035e97628757771ed072553d71834c03d3eb51504fde5da1a3d12406fc
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -214,6 +214,32 @@ typedef struct { Path a0; real a1; } Path_real;
 
 typedef struct { real a0; WindCandidate a1; } real_WindCandidate;
 
+/* A slot: the side on which the circle is held, and the phase (`hold`) of the slot at the time 0. */
+typedef struct { integer side; real phase; } Slot;
+
+/* The slot after an angle `width` of the circle: the time, and the point from the start, in the frame of the air.
+ *
+ * (c, s) is the heading there, `advance` the derivative of the time by the width, `turning` that of the size of the
+ * angle through which the heading has turned since the time 0, and `turned` this angle.
+ */
+typedef struct { real width, time, x, y, c, s, advance, turning, turned; } SlotPose;
+
+/* Bounds within `step` of a width: on V, on its derivative and on the rate at which the heading turns. */
+typedef struct { real step, speed, speed_change, turning; } Bounds;
+
+/* Length less time of a word with a straight piece, less whole turns, in [-pi, pi], and its derivative.
+ *
+ * `apart` is the square of the distance of the outer circles' centres less 4, and `apart_slope` its derivative: LSR
+ * and RSL exist where it is not negative.
+ */
+typedef struct { real value, slope, apart, apart_slope; } Excess;
+
+/* The function whose roots are the arrivals of LRL or RLR, and its derivative.
+ *
+ * With it the middle arc and the vector between the centres of the outer arcs.
+ */
+typedef struct { real value, slope, arc, dx, dy; } Middle;
+
 
 /* Beyond this many turn radii neighbouring doubles are a turn radius apart. */
 #define REACH 4503599627370496.0 /* 2.0 ** 52 */
@@ -373,6 +399,30 @@ static const WindCandidate NO_CANDIDATE = {0.0, 0, {INFINITY, 0, 0.0, 0.0, 0.0, 
 
 /* Points of joining around the circle between which `ranked` looks for local minima. */
 #define SAMPLES 128
+
+/* Halvings of the angle that is held until the circle can be reached. */
+#define BEGIN_HALVINGS 20
+
+/* Each step squares the difference of the two means: seven reach rounding from any wind that a double can tell from
+ * 1.
+ */
+#define MEANS 7
+
+/* Steps towards the slot while it is out of reach, and the time that remains when they end. */
+#define APPROACHES 200
+#define NEAR 0.01
+
+/* The ground speed changes by no more than a factor exp(GROWTH) within a step. */
+#define GROWTH 0.5
+
+/* Steps after which the search for one word gives up: a circle of 10,000 turn radii takes fewer. */
+#define MOST_STEPS 100000
+
+/* Next to a double root a step is at least this long, radians: there the function is within rounding of zero. */
+#define DOUBLE_ROOT 1e-08
+
+/* Halvings, or better steps, that shrink a bracket to rounding. */
+#define ROOT_STEPS 120
 
 /* The reduced state (2) of a vehicle at (x, y), relative to the circle's centre, with the unit heading (c, s). */
 static inline real_2 reduce(real x, real y, real c, real s) {
@@ -3174,6 +3224,414 @@ static inline WindEntry entry_near_sample(integer i, integer side, WindScene sce
     const real phase = TWO_PI / (real)SAMPLES * (real)i, width = TWO_PI / (real)SAMPLES;
     const WindCandidate start = (WindCandidate){phase, side, first_path(phase, side, scene, INFINITY)};
     return wind_entry(refined_minimum(start, width, scene), scene);
+}
+
+/* E(p | w^2) for any p and 0 <= w < 1, by arithmetic and geometric means (Abramowitz and Stegun, 17.6). */
+static inline real elliptic(real p, real w) {
+    real a = 1.0, b = sqrt((1.0 - w) * (1.0 + w)), c = w;
+    real squares = 0.5 * c * c, sines = 0.0, power = 1.0;
+    for (integer pass_1 = 0; pass_1 < MEANS; pass_1++) {
+        /* The arctangent's branch follows p, so that p doubles with each step. */
+        p = p + atan(b / a * tan(p)) + 3.141592653589793 * floor(p / 3.141592653589793 + 0.5);
+        const real new_a = 0.5 * (a + b);
+        const real new_b = sqrt(a * b);
+        const real new_c = 0.5 * (a - b);
+        a = new_a;
+        b = new_b;
+        c = new_c;
+        power = 2.0 * power;
+        squares = squares + 0.5 * power * c * c;
+        sines = sines + c * sin(p);
+    }
+    return p / (power * a) * (1.0 - squares) + sines;
+}
+
+/* The time to hold the circle from `phase` - `width` (zero or more) to `phase`. */
+static inline real time_held(real phase, real width, real R, real wx, real wy) {
+    const real wind = length(wx, wy);
+    const real before = phase - width;
+    if (wind == 0.0) {
+        return R * width;
+    }
+    const real along = 2.0 * wind * cos(0.5 * (phase + before)) * sin(0.5 * width);
+    return R * (elliptic(phase, wind) - elliptic(before, wind) + along) / ((1.0 - wind) * (1.0 + wind));
+}
+
+/* A width before which the slot is out of reach. */
+static inline real begin_width(Slot slot, WindScene scene) {
+    const real x = scene.x, y = scene.y, R = scene.R, wx = scene.wx, wy = scene.wy;
+    const real square = x * x + y * y - R * R;
+    if (square <= 0.0) {
+        return 0.0;
+    }
+    /* The circle is out of reach while |q + w t| > t + R. */
+    const real spare = 1.0 - wx * wx - wy * wy, half = R - (x * wx + y * wy);
+    const real root = sqrt(half * half + spare * square);
+    const real time = half > 0.0 ? square / (root + half) : (root - half) / spare;
+    if (wx == 0.0 && wy == 0.0) {
+        return time / R;
+    }
+    const real wind = length(wx, wy);
+    real least = (1.0 - wind) * time / R, most = (1.0 + wind) * time / R;
+    for (integer pass_1 = 0; pass_1 < BEGIN_HALVINGS; pass_1++) {
+        const real middle = 0.5 * (least + most);
+        if (time_held(slot.phase + middle, middle, R, wx, wy) < time) {
+            least = middle;
+        } else {
+            most = middle;
+        }
+    }
+    return least;
+}
+
+/* The angle between the heading and the track of a hold at a phase, zero against the wind. */
+static inline real crab_angle(real phase, real wx, real wy) {
+    const real across = length(wx, wy) * sin(phase);
+    return atan2(across, sqrt((1.0 - across) * (1.0 + across)));
+}
+
+/* The slot after an angle of the circle. */
+static inline SlotPose slot_pose(real width, Slot slot, WindScene scene) {
+    const real wx = scene.wx, wy = scene.wy;
+    const real phase = slot.phase + width;
+    const real_5 hold_pose_1 = hold_pose(phase, slot.side, scene.R, wx, wy);
+    const real px = hold_pose_1.a0, py = hold_pose_1.a1, c = hold_pose_1.a2, s = hold_pose_1.a3, g = hold_pose_1.a4;
+    const real time = time_held(phase, width, scene.R, wx, wy);
+    const real crab = g - (wx * (c + wx) + wy * (s + wy)) / g;
+    const real turned = width - (crab_angle(phase, wx, wy) - crab_angle(slot.phase, wx, wy));
+    return (SlotPose){width, time, px - wx * time - scene.x, py - wy * time - scene.y, c, s, scene.R / g, g / crab,
+            turned};
+}
+
+/* The bounds next to a width. */
+static inline Bounds bounds_at(integer last, SlotPose pose, Slot slot, WindScene scene) {
+    const real wind = length(scene.wx, scene.wy);
+    const real twist = wind / sqrt((1.0 - wind) * (1.0 + wind));
+    real step = 1.0, advance = pose.advance;
+    if (wind > 0.0) {
+        step = min_real(GROWTH / twist, 1.0);
+        advance = advance * exp(min_real(GROWTH, twist));
+    }
+    const real speed = max_real(advance + (last == slot.side ? 1.0 + wind : wind - 1.0), 0.0);
+    return (Bounds){step, speed, twist * (advance + 1.0), 1.0 + wind};
+}
+
+/* The slot at a width before which it is out of reach: further away than the time. */
+static inline SlotPose first_within_reach(Slot slot, WindScene scene) {
+    SlotPose pose = slot_pose(begin_width(slot, scene), slot, scene);
+    for (integer pass_1 = 0; pass_1 < APPROACHES; pass_1++) {
+        const real gap = length(pose.x, pose.y) - pose.time;
+        if (gap <= NEAR) {
+            break;
+        }
+        const Bounds limits = bounds_at(0, pose, slot, scene);
+        /* The distance falls at most as fast as the time grows: the slot flies at the speed 1 through the air. */
+        const real advance = limits.speed + 1.0;
+        pose = slot_pose(pose.width + min_real(0.5 * gap / advance, limits.step), slot, scene);
+    }
+    return pose;
+}
+
+/* The path that takes less time: a where they tie. */
+static inline WindCandidate earlier(WindCandidate a, WindCandidate b) {
+    return b.path.time < a.path.time ? b : a;
+}
+
+/* V, the derivative of the way of the centre of the last arc. */
+static inline real centre_speed(integer last, SlotPose pose, Slot slot) {
+    return max_real(pose.advance + (real)(last * slot.side) * pose.turning, 0.0);
+}
+
+/* An angle less whole turns, in [-pi, pi]. */
+static inline real less_whole_turns(real excess) {
+    return excess - TWO_PI * floor(excess / TWO_PI + 0.5);
+}
+
+/* The excess of the word with the first control u, a straight piece and the control `last`. */
+static inline Excess excess_at(integer u, integer last, SlotPose pose, Slot slot, WindScene scene) {
+    const real c0 = scene.c, s0 = scene.s, c = pose.c, s = pose.s;
+    const real dx = pose.x - (real)last * s + (real)u * s0, dy = pose.y + (real)last * c - (real)u * c0;
+    const real speed = centre_speed(last, pose, slot);
+    const real along = dx * c + dy * s;
+    real straight, arcs, ahead;
+    if (u == last) {
+        straight = length(dx, dy);
+        arcs = angle(arc_rotation(u, c0, s0, c, s));
+        ahead = straight > 0.0 ? along / straight : 1.0;
+        return (Excess){less_whole_turns(straight + arcs - pose.time), -speed * (1.0 - ahead), 1.0, 0.0};
+    }
+    const real apart = dx * dx + dy * dy - 4.0, apart_slope = 2.0 * speed * along;
+    if (apart <= -2.0) {
+        return (Excess){NAN, 0.0, apart, apart_slope};
+    }
+    const real_3 tangent_1 = tangent(u, dx, dy);
+    straight = tangent_1.a0;
+    const real q1 = tangent_1.a1, q2 = tangent_1.a2;
+    const real_2 arc_rotation_2 = arc_rotation(u, c0, s0, q1, q2);
+    const real across1 = arc_rotation_2.a0, along1 = arc_rotation_2.a1;
+    const real_2 arc_rotation_3 = arc_rotation(last, q1, q2, c, s);
+    const real across2 = arc_rotation_3.a0, along2 = arc_rotation_3.a1;
+    arcs = atan2(across1 * along2 + along1 * across2, along1 * along2 - across1 * across2);
+    ahead = min_real(q1 * c + q2 * s, 1.0);
+    return (Excess){less_whole_turns(straight + arcs - pose.time), -speed * (1.0 - ahead), apart, apart_slope};
+}
+
+/* The path with whole turns added to its first arc, so that it takes the time of the slot; `NO_PATH` if longer. */
+static inline Path with_turns(Path path, SlotPose pose) {
+    const real turns = floor((pose.time - path.time) / TWO_PI + 0.5);
+    if (turns < 0.0) {
+        return NO_PATH;
+    }
+    Path changed_1 = path;
+    changed_1.time = path.time + TWO_PI * turns;
+    changed_1.t1 = path.t1 + TWO_PI * turns;
+    return changed_1;
+}
+
+/* The path of a word with a straight piece to the slot, with as many whole turns first as the time leaves. */
+static inline Path path_with_straight(integer u, integer last, SlotPose pose, WindScene scene) {
+    const real c0 = scene.c, s0 = scene.s, c = pose.c, s = pose.s;
+    const real dx = pose.x - (real)last * s + (real)u * s0, dy = pose.y + (real)last * c - (real)u * c0;
+    real straight, q1, q2;
+    if (u == last) {
+        straight = length(dx, dy);
+        const bool chosen_1 = straight > 0.0;
+        q1 = chosen_1 ? dx / straight : c0;
+        q2 = chosen_1 ? dy / straight : s0;
+    } else {
+        const real_3 tangent_2 = tangent(u, dx, dy);
+        straight = tangent_2.a0;
+        q1 = tangent_2.a1;
+        q2 = tangent_2.a2;
+    }
+    const real first = arc_time(arc_rotation(u, c0, s0, q1, q2), 1.0 + straight, scene.arc_tolerance);
+    const real third = arc_time(arc_rotation(last, q1, q2, c, s), 1.0, scene.arc_tolerance);
+    return with_turns((Path){first + straight + third, encode(u, 0, last), first, straight, third, 1.0, q1, q2},
+            pose);
+}
+
+/* How far a function cannot come down to zero that has this value and derivative, if its second is >= -`bend`. */
+static inline real step_without_zero(real value, real slope, real bend) {
+    if (bend <= 0.0 && slope >= 0.0) {
+        return INFINITY;
+    }
+    return 2.0 * value / (sqrt(slope * slope + 2.0 * bend * value) - slope);
+}
+
+/* A step within which the excess falls by at most half a turn, and LSR and RSL neither begin nor cease to exist. */
+static inline real step_of_excess(integer u, integer last, SlotPose pose, Excess excess, Bounds limits, real
+        tolerance) {
+    real step = limits.step;
+    if (limits.speed > 0.0) {
+        step = min_real(step, 0.5 * 3.141592653589793 / limits.speed);
+    }
+    if (u == last) {
+        return step;
+    }
+    const real distance = sqrt(max_real(excess.apart + 4.0, 0.0)) + limits.speed * step;
+    const real low = 2.0 * (limits.speed * limits.turning + limits.speed_change) * distance;
+    const real high = low + 2.0 * limits.speed * limits.speed;
+    if (fabs(excess.apart) <= tolerance) {
+        return min_real(step, max_real(high > 0.0 ? fabs(excess.apart_slope) / high : step, DOUBLE_ROOT));
+    }
+    if (excess.apart > 0.0) {
+        return min_real(step, step_without_zero(excess.apart, excess.apart_slope, low));
+    }
+    return min_real(step, step_without_zero(-excess.apart, -excess.apart_slope, high));
+}
+
+/* The slot where the excess is zero, between a pose where it is not negative and one where it is. */
+static inline SlotPose root_of_excess(integer u, integer last, SlotPose a, SlotPose b, Slot slot, WindScene scene) {
+    real least = a.width, most = b.width;
+    real width = 0.5 * (least + most);
+    SlotPose best = a;
+    real best_value = INFINITY;
+    for (integer i = 0; i < ROOT_STEPS; i++) {
+        const SlotPose pose = slot_pose(width, slot, scene);
+        const Excess excess = excess_at(u, last, pose, slot, scene);
+        if (fabs(excess.value) < best_value) {
+            best = pose;
+            best_value = fabs(excess.value);
+        }
+        if (excess.value >= 0.0) {
+            least = width;
+        } else {
+            most = width;
+        }
+        const real newton = excess.slope < 0.0 ? width - excess.value / excess.slope : least;
+        /* Every third step bisects, since Newton's method is slow at a triple root. */
+        const bool is_newton = integer_modulo(i, 3) != 2 && (least < newton && newton < most);
+        const real following = is_newton ? newton : 0.5 * (least + most);
+        if (excess.value == 0.0 || (following == width || following == least || following == most)) {
+            break;
+        }
+        width = following;
+    }
+    return best;
+}
+
+/* The first arrival by the word with these outer controls and a straight piece; `NO_PATH` for none by `until`. */
+static inline WindCandidate first_with_straight(integer u, integer last, SlotPose begin, Slot slot, WindScene scene,
+        real until_) {
+    SlotPose pose = begin;
+    const WindCandidate none = (WindCandidate){0.0, slot.side, NO_PATH};
+    const real tolerance = 4.0 * scene.arc_tolerance;
+    Excess excess = excess_at(u, last, pose, slot, scene);
+    if (bounds_at(last, pose, slot, scene).speed <= ROUNDING) {
+        /* The last arc is on the circle itself: the vehicle would have been in the slot before. */
+        return none;
+    }
+    Path path;
+    if (fabs(excess.value) <= tolerance && excess.apart >= -tolerance) {
+        path = path_with_straight(u, last, pose, scene);
+        if (path.time < INFINITY) {
+            return (WindCandidate){slot.phase + pose.width, slot.side, path};
+        }
+    }
+    for (integer pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {
+        if (pose.time > until_) {
+            return none;
+        }
+        const Bounds limits = bounds_at(last, pose, slot, scene);
+        const real step = step_of_excess(u, last, pose, excess, limits, tolerance);
+        const SlotPose ahead = slot_pose(pose.width + step, slot, scene);
+        const Excess excess_ahead = excess_at(u, last, ahead, slot, scene);
+        const bool exists = excess.apart >= -tolerance && excess_ahead.apart >= -tolerance;
+        if (exists && (excess.value >= 0.0 && 0.0 > excess_ahead.value) && excess.value - excess_ahead.value <=
+                3.141592653589793 + 1.0) {
+            const SlotPose root = root_of_excess(u, last, pose, ahead, slot, scene);
+            path = path_with_straight(u, last, root, scene);
+            if (path.time < INFINITY) {
+                return (WindCandidate){slot.phase + root.width, slot.side, path};
+            }
+        }
+        pose = ahead;
+        excess = excess_ahead;
+    }
+    return none;
+}
+
+/* The function for LRL (u = +1) or RLR: `half`, plus half the time less the heading's turn, is the middle arc. */
+static inline Middle middle_at(integer u, real half, SlotPose pose, Slot slot, WindScene scene) {
+    const real dx = pose.x - (real)u * (pose.s - scene.s), dy = pose.y + (real)u * (pose.c - scene.c);
+    const real arc = half + 0.5 * (pose.time + (real)(u * slot.side) * pose.turned);
+    const real across = sin(0.5 * arc);
+    const real value = dx * dx + dy * dy - 16.0 * across * across;
+    const real slope = centre_speed(u, pose, slot) * (2.0 * (dx * pose.c + dy * pose.s) - 4.0 * sin(arc));
+    return (Middle){value, slope, arc - TWO_PI * floor(arc / TWO_PI), dx, dy};
+}
+
+/* The path of LRL or RLR to the slot, with as many whole turns first as the time leaves. */
+static inline Path path_of_three_arcs(integer u, Middle middle, SlotPose pose, WindScene scene) {
+    const Ends ends = (Ends){scene.c, scene.s, pose.c, pose.s, scene.wx, scene.wy, scene.arc_tolerance};
+    return with_turns(three_arcs(u, middle.arc, middle.dx, middle.dy, ends), pose);
+}
+
+/* The first arrival by LRL (u = +1) or RLR; `halves` 0 or 1 chooses between middle arcs half a turn apart. */
+static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotPose begin, Slot slot, WindScene
+        scene, real until_) {
+    const WindCandidate none = (WindCandidate){0.0, slot.side, NO_PATH};
+    if (bounds_at(u, begin, slot, scene).speed <= ROUNDING) {
+        return none;
+    }
+    const SlotPose origin = slot_pose(0.0, slot, scene);
+    SlotPose pose = begin;
+    const real tolerance = 12.0 * scene.arc_tolerance;
+    const real half = 3.141592653589793 * (real)halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c,
+            origin.s));
+    for (integer pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {
+        if (pose.time > until_) {
+            return none;
+        }
+        const Middle middle = middle_at(u, half, pose, slot, scene);
+        const real distance = length(middle.dx, middle.dy);
+        const Bounds limits = bounds_at(u, pose, slot, scene);
+        real limit = limits.speed > 0.0 ? min_real(limits.step, 1.0 / limits.speed) : limits.step;
+        const real furthest = distance + limits.speed * limit;
+        const real low = 2.0 * limits.speed * limits.turning * furthest + limits.speed_change * (2.0 * furthest +
+                4.0);
+        const real high = low + 4.0 * limits.speed * limits.speed;
+        const real spread = distance + 4.0 * sin(0.5 * middle.arc);
+        real step;
+        if (fabs(middle.value) <= tolerance * (spread + tolerance)) {
+            const Path path = path_of_three_arcs(u, middle, pose, scene);
+            if (path.time < INFINITY) {
+                return (WindCandidate){slot.phase + pose.width, slot.side, path};
+            }
+            step = max_real(fabs(middle.slope) / high, DOUBLE_ROOT);
+        } else if (middle.value > 0.0) {
+            step = step_without_zero(middle.value, middle.slope, low);
+            if (distance - 4.0 > limits.speed * limit) {
+                step = max_real(step, (distance - 4.0) / limits.speed);
+                limit = limits.step;
+            }
+        } else {
+            step = step_without_zero(-middle.value, -middle.slope, high);
+        }
+        pose = slot_pose(pose.width + min_real(step, limit), slot, scene);
+    }
+    return none;
+}
+
+/* The first arrival in a slot, the best of all words. */
+static inline WindCandidate first_arrival(Slot slot, WindScene scene) {
+    const SlotPose begin = first_within_reach(slot, scene);
+    WindCandidate best = (WindCandidate){slot.phase, slot.side, NO_PATH};
+    const integer each_u_1[2] = {1, -1};
+    for (int i_1 = 0; i_1 < 2; i_1++) {
+        const integer u = each_u_1[i_1];
+        const integer each_last_2[2] = {1, -1};
+        for (int i_2 = 0; i_2 < 2; i_2++) {
+            const integer last = each_last_2[i_2];
+            best = earlier(best, first_with_straight(u, last, begin, slot, scene, best.path.time));
+        }
+    }
+    const integer each_u_3[2] = {1, -1};
+    for (int i_3 = 0; i_3 < 2; i_3++) {
+        const integer u = each_u_3[i_3];
+        const integer each_halves_4[2] = {0, 1};
+        for (int i_4 = 0; i_4 < 2; i_4++) {
+            const integer halves = each_halves_4[i_4];
+            best = earlier(best, first_of_three_arcs(u, halves, begin, slot, scene, best.path.time));
+        }
+    }
+    return best;
+}
+
+/* An arrival as the maneuver flown, with its status. */
+static inline WindEntry arrival_of(WindCandidate found, WindScene scene) {
+    const Path path = found.path;
+    const integer side = found.side;
+    const integer_real_3 drop_short_pieces_1 = drop_short_pieces(path.word, path.t1, path.t2, path.t3,
+            rounding(scene.x, scene.y, scene.R), ROUNDING);
+    const integer word = drop_short_pieces_1.a0;
+    const real t1 = drop_short_pieces_1.a1, t2 = drop_short_pieces_1.a2, t3 = drop_short_pieces_1.a3;
+    const Entry entry = (Entry){side, word, t1, t2, t3};
+    const real miss = end_miss(entry, found.phase, scene);
+    return entry_at(entry, found.phase, miss, scene);
+}
+
+/* The first arrival in the slot that is at a phase at the time 0; nan, with a status, where there is none.
+ *
+ * The side of the problem must be 1 or -1. Its tolerance is not used.
+ */
+static inline WindEntry first_in_slot(WindProblem problem, real phase) {
+    const integer status = wind_search_status_of(problem);
+    if (status != STATUS_OK) {
+        return no_entry(status);
+    }
+    const WindScene scene = scene_of(problem);
+    const Slot slot = (Slot){problem.side, phase};
+    const Entry nothing = (Entry){slot.side, 0, 0.0, 0.0, 0.0};
+    const real miss = end_miss(nothing, phase, scene);
+    if (miss <= 3.0 * scene.arc_tolerance) {
+        return entry_at(nothing, phase, miss, scene);
+    }
+    const WindCandidate found = first_arrival(slot, scene);
+    if (found.path.time == INFINITY) {
+        return no_entry(code(STATUS_NOT_CONVERGED));
+    }
+    return arrival_of(found, scene);
 }
 
 #endif

@@ -58,6 +58,10 @@ loiter_wind_entry loiter_fastest_in_wind(const loiter_wind_problem *problem) {
     return exported(wind_search_fastest(imported(problem)));
 }
 
+loiter_wind_entry loiter_first_in_slot(const loiter_wind_problem *problem, double phase) {
+    return exported(first_in_slot(imported(problem), phase));
+}
+
 int loiter_local_minima(const loiter_wind_problem *problem, loiter_wind_entry entries[LOITER_SAMPLES]) {
     const WindScene scene = scene_of(imported(problem));
     double times[LOITER_SAMPLES];

@@ -65,6 +65,11 @@ loiter_wind_entry loiter_fastest_in_wind(const loiter_wind_problem *problem);
  * -1; their number. To be called only where the status of `loiter_fastest_in_wind` is 0. */
 int loiter_local_minima(const loiter_wind_problem *problem, loiter_wind_entry entries[LOITER_SAMPLES]);
 
+/* The first arrival in a slot, a point of the circle that moves round it with the hold: that at `phase` at the time 0,
+ * the angle flown since the heading was against the wind, or with the wind towards the direction of (1, 0) in still air.
+ * The side of the problem is 1 or -1. */
+loiter_wind_entry loiter_first_in_slot(const loiter_wind_problem *problem, double phase);
+
 #ifdef __cplusplus
 }
 #endif

@@ -43,6 +43,21 @@ static PyObject *fastest_in_wind(PyObject *module, PyObject *args) {
     return tuple_of(entry);
 }
 
+static PyObject *first_in_slot_of(PyObject *module, PyObject *args) {
+    loiter_wind_problem p;
+    loiter_wind_entry entry;
+    double phase;
+    (void)module;
+    if (!PyArg_ParseTuple(args, "dddddidddd", &p.x, &p.y, &p.c, &p.s, &p.R, &p.side, &p.wx, &p.wy, &p.tolerance,
+                          &phase)) {
+        return NULL;
+    }
+    Py_BEGIN_ALLOW_THREADS
+    entry = loiter_first_in_slot(&p, phase);
+    Py_END_ALLOW_THREADS
+    return tuple_of(entry);
+}
+
 static PyObject *local_minima_in_wind(PyObject *module, PyObject *args) {
     loiter_wind_problem problem;
     loiter_wind_entry entries[LOITER_SAMPLES];
@@ -70,6 +85,7 @@ static PyMethodDef FUNCTIONS[] = {
     {"optimum", optimum, METH_VARARGS, "`synthesis.optimum`: the fields of an `Entry`; None where there is none."},
     {"fastest_in_wind", fastest_in_wind, METH_VARARGS, "`wind_search.fastest`: the fields of a `WindEntry`."},
     {"local_minima_in_wind", local_minima_in_wind, METH_VARARGS, "`wind_search.local_minima`: a list of such fields."},
+    {"first_in_slot", first_in_slot_of, METH_VARARGS, "`slots.first_in_slot`: the fields of a `WindEntry`."},
     {NULL, NULL, 0, NULL},
 };
 

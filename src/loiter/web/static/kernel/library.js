@@ -803,10 +803,10 @@ return [track_deg, speed, ground_curvature];
 }
 
 function along(segment, length_m, aircraft, wind) {
-let u;
+let radius_m, u;
 
-u = item(CONTROLS, segment.letter);
-return tuple(np.broadcast_arrays(...iter(_flown(segment.start, u, length_m, aircraft, wind, arrays.fly_arrays()))));
+[u, radius_m] = iter([item(CONTROLS, segment.letter), radius_of(segment, aircraft)]);
+return tuple(np.broadcast_arrays(...iter(_flown(segment.start, u, length_m, radius_m, aircraft, wind, arrays.fly_arrays()))));
 }
 
 const AltitudeDatum = struct(class AltitudeDatum extends Values {
@@ -1060,9 +1060,14 @@ let wind_east, wind_north;
 return [add(mul(aircraft.airspeed_m_s, east), wind_east), add(mul(aircraft.airspeed_m_s, north), wind_north)];
 }
 
-function _flown(start, u, length_m, aircraft, wind, fly) {
-let _, east, heading, north, r, t, time_s, wind_east, wind_north;
+function radius_of(segment, aircraft) {
+let r;
 r = aircraft.turn_radius_m;
+return (has(abs(segment.curvature_per_m), [0.0, div(1.0, r)]) ? r : div(1.0, abs(segment.curvature_per_m)));
+}
+
+function _flown(start, u, length_m, r, aircraft, wind, fly) {
+let _, east, heading, north, t, time_s, wind_east, wind_north;
 [t, time_s] = iter([div(length_m, r), div(length_m, aircraft.airspeed_m_s)]);
 [east, north, _, _] = iter(fly(0.0, 0.0, ...iter(heading_vector(start.heading_deg)), u, t));
 [wind_east, wind_north] = iter(wind.velocity_m_s);
@@ -1790,8 +1795,9 @@ return new Map([["law", self.name], ["joined_s", (truth(self.monitor.settled) ? 
 }
 }, []);
 
-function flown_from(start, u, length_m, aircraft, wind) {
-return Pose(...iter(_flown(start, u, length_m, aircraft, wind, kernel.fly)));
+function flown_from(start, u, length_m, aircraft, wind, radius_m = null) {
+radius_m = ((radius_m == null) ? aircraft.turn_radius_m : radius_m);
+return Pose(...iter(_flown(start, u, length_m, radius_m, aircraft, wind, kernel.fly)));
 }
 
 const ReducedProblem = struct(class ReducedProblem extends Tuple {
@@ -2590,14 +2596,14 @@ this.time = time;
 }, ["maneuver", "time"]);
 
 function maneuver(problem, entry, miss) {
-let aircraft, here, letter, miss_m, now, segment, segments, t, wind;
+let aircraft, here, letter, miss_m, now, r, segments, t, wind;
 [aircraft, wind] = iter([problem.aircraft, problem.wind]);
 segments = [];
 [here, now] = iter([problem.pose, 0.0]);
 for ([letter, t] of rows(zip(letters(entry.word), sliced(entry, 2, null, null)))) {
-segment = scaling__segment(here, now, letter, t, aircraft, wind);
-append_(segments, segment);
-[here, now] = iter([segment.end, add(now, segment.duration_s)]);
+r = aircraft.turn_radius_m;
+append_(segments, segment(here, now, letter, mul(t, r), aircraft, wind, r));
+[here, now] = iter([item(segments, -1).end, add(now, item(segments, -1).duration_s)]);
 }
 miss_m = mul(miss, aircraft.turn_radius_m);
 return Maneuver(problem.pose, problem.orbit, aircraft, item(TURNS, entry.side), tuple(segments), miss_m, wind);
@@ -3104,12 +3110,11 @@ chord = mul(div(mul(2.0, speed), rate), sh);
 return PlanarPose(add(x, mul(chord, c)), add(y, mul(chord, s)), sub(mul(c, ch), mul(s, sh)), add(mul(s, ch), mul(c, sh)));
 }
 
-function scaling__segment(start, start_s, letter, t, aircraft, wind) {
-let end, length, r, u;
-[r, u] = iter([aircraft.turn_radius_m, item(CONTROLS, letter)]);
-length = mul(t, r);
-end = flown_from(start, u, length, aircraft, wind);
-return Segment(letter, start_s, div(length, aircraft.airspeed_m_s), length, div(u, r), start, end);
+function segment(start, start_s, letter, length_m, aircraft, wind, radius_m) {
+let end, u;
+u = item(CONTROLS, letter);
+end = flown_from(start, u, length_m, aircraft, wind, radius_m);
+return Segment(letter, start_s, div(length_m, aircraft.airspeed_m_s), length_m, div(u, radius_m), start, end);
 }
 
 const RelativeStart = struct(class RelativeStart extends Tuple {

@@ -1,0 +1,142 @@
+"""First arrivals in slots: beside Buzikov's step, and laws."""
+
+from math import cos, pi, sin, tau
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kernel.slots import REACHED, closest_between, flown_miss, fold_scenes, least_times, planned, random_scenes
+from loiter.compiled import wind_solver
+from loiter.kernel.statuses import Status
+from loiter.kernel.wind import slots
+from loiter.kernel.wind.held import time_held
+from loiter.kernel.wind.hold import hold_pose, phase_of
+from loiter.kernel.wind.wind_search import WindProblem, time_of
+from loiter.kernel.words import controls
+
+angles = st.floats(0.0, tau)
+places = st.floats(-12.0, 12.0)
+
+
+def problems(still=False):
+    """Problems with a circle that can be held, and a phase."""
+
+    def problem(x, y, heading, spare, side, w, towards, phase):
+        w = 0.0 if still else w
+        wx, wy = w * cos(towards), w * sin(towards)
+        R = (1.0 + w) ** 2 * (1.0 + 1e-9 + spare)
+        return WindProblem(x, y, cos(heading), sin(heading), R, side, wx, wy, 0.0), phase
+
+    sides = st.sampled_from([1, -1])
+    return st.builds(problem, places, places, angles, st.floats(0.01, 4.0), sides, st.floats(0.0, 0.6), angles, angles)
+
+
+@pytest.mark.parametrize("windy", [False, True])
+def test_an_arrival_is_that_of_an_independent_method(windy):
+    scenes = random_scenes(np.random.default_rng(7), 12, windy)
+    check(scenes)
+
+
+@pytest.mark.parametrize("windy", [False, True])
+def test_an_arrival_next_to_a_jump_is_that_of_an_independent_method(windy):
+    check(fold_scenes(np.random.default_rng(3), 2, windy))
+
+
+def check(scenes):
+    times, gaps, azimuths = least_times(scenes, 200)
+    for i, (time, gap, azimuth) in enumerate(zip(times, gaps, azimuths, strict=True)):
+        entry = planned(scenes, i)
+        assert flown_miss(scenes, i, entry) < 1e-9
+        assert time_of(entry) > time - 1e-9
+        if gap <= REACHED:
+            assert time_of(entry) < time + 1e-5
+        else:
+            assert closest_between(scenes, i, time, azimuth, time_of(entry)) > 1e-8
+
+
+@settings(max_examples=20, deadline=None)
+@given(problems())
+def test_machine_code_answers_as_python_does(scene):
+    assert wind_solver.first_in_slot(*scene) == slots.first_in_slot(*scene)
+
+
+@given(problems())
+def test_no_slot_is_reached_before_the_circle(scene):
+    problem, phase = scene
+    slot = time_of(wind_solver.first_in_slot(problem, phase))
+    assert slot >= time_of(wind_solver.fastest(problem)) - 1e-9 * (1.0 + slot)
+
+
+@given(problems())
+def test_the_slot_in_which_the_fastest_entry_joins_is_reached_then(scene):
+    problem, _ = scene
+    fastest = wind_solver.fastest(problem)
+    R, wx, wy, T = problem.R, problem.wx, problem.wy, time_of(fastest)
+    last = phase_of(cos(fastest.azimuth), sin(fastest.azimuth), problem.side, wx, wy)
+    least, most = 0.0, 2.0 * T / R + 1.0
+    for _ in range(60):
+        middle = 0.5 * (least + most)
+        least, most = (middle, most) if time_held(last, middle, R, wx, wy) < T else (least, middle)
+    found = wind_solver.first_in_slot(problem, last - most)
+    # A last arc that vanishes makes a triple root, known to the cube root of rounding.
+    assert time_of(found) == pytest.approx(T, abs=1e-4)
+
+
+@given(problems())
+def test_a_mirrored_scene_has_the_same_time(scene):
+    p, phase = scene
+    time = time_of(wind_solver.first_in_slot(p, phase))
+    px, py, *_ = hold_pose(phase, p.side, p.R, p.wx, p.wy)
+    mirrored = p._replace(y=-p.y, s=-p.s, side=-p.side, wy=-p.wy)
+    other = wind_solver.first_in_slot(mirrored, phase_of(px, -py, -p.side, p.wx, -p.wy))
+    assert time_of(other) == pytest.approx(time, abs=1e-7) or is_beside_jump(p, phase)
+
+
+@given(problems(), angles)
+def test_a_turned_scene_has_the_same_time(scene, by):
+    p, phase = scene
+    time = time_of(wind_solver.first_in_slot(p, phase))
+    px, py, *_ = hold_pose(phase, p.side, p.R, p.wx, p.wy)
+    (x, y), (c, s), (wx, wy), (px, py) = (turn(a, b, by) for a, b in ((p.x, p.y), (p.c, p.s), (p.wx, p.wy), (px, py)))
+    turned = p._replace(x=x, y=y, c=c, s=s, wx=wx, wy=wy)
+    other = wind_solver.first_in_slot(turned, phase_of(px, py, p.side, wx, wy))
+    assert time_of(other) == pytest.approx(time, abs=1e-7) or is_beside_jump(p, phase)
+
+
+def turn(x, y, by):
+    return x * cos(by) - y * sin(by), x * sin(by) + y * cos(by)
+
+
+def is_beside_jump(problem, phase):
+    """Whether the time changes much where the slot is displaced by rounding only."""
+    times = [time_of(wind_solver.first_in_slot(problem, phase + shift)) for shift in (-1e-9, 0.0, 1e-9)]
+    return max(times) - min(times) > 1e-6
+
+
+@given(problems(still=True))
+def test_a_wind_that_vanishes_gives_the_time_of_still_air(scene):
+    p, phase = scene
+    time = time_of(wind_solver.first_in_slot(p, phase))
+    light = time_of(wind_solver.first_in_slot(p._replace(wx=1e-12), phase))
+    assert light == pytest.approx(time, abs=1e-6) or is_beside_jump(p, phase)
+
+
+@given(problems())
+def test_who_is_in_the_slot_flies_nothing(scene):
+    p, phase = scene
+    x, y, c, s, _ = hold_pose(phase, p.side, p.R, p.wx, p.wy)
+    found = wind_solver.first_in_slot(p._replace(x=x, y=y, c=c, s=s), phase)
+    assert (found.status, found.word, time_of(found)) == (Status.OK, 0, 0.0)
+
+
+def test_a_slot_just_behind_the_start_needs_a_long_way_round():
+    found = wind_solver.first_in_slot(WindProblem(2.0, 0.0, 0.0, 1.0, 2.0, -1, 0.0, 0.0, 0.0), -1.0 - pi / 2.0)
+    assert found.status == Status.OK
+    assert controls(found.word)[1] != 0
+    assert time_of(found) > 3.0
+
+
+def test_what_cannot_be_held_has_a_status():
+    assert wind_solver.first_in_slot(WindProblem(2.0, 0.0, 0.0, 1.0, 0.5, -1, 0.0, 0.0, 0.0), 0.0).status != Status.OK
