@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from loiter.fences.model import Edges
     from loiter.fences.pieces import Pieces
 
+# A length that stands for none where something is divided by it: the quotient does not overflow.
+NO_LENGTH_M = 1e-100
+
 # Any real arrays that broadcast.
 Reals = Any
 
@@ -196,7 +199,7 @@ def arc_circle_points(arcs: Arcs, x: float, y: float, radius: float) -> tuple[Re
     import numpy as np
 
     vx, vy = x - arcs.x, y - arcs.y
-    apart = np.maximum(np.hypot(vx, vy), np.finfo(float).tiny)
+    apart = np.maximum(np.hypot(vx, vy), NO_LENGTH_M)
     towards_x, towards_y = vx / apart, vy / apart
     # The angle between the centre of the circle and a crossing, at the centre of the arc.
     c = np.clip((apart**2 + arcs.radius**2 - radius**2) / (2.0 * apart * arcs.radius), -1.0, 1.0)
@@ -222,7 +225,7 @@ def chord_circle_points(
     import numpy as np
 
     near = chord_to_point(ax, ay, bx, by, x, y)
-    length = np.maximum(np.hypot(bx - ax, by - ay), np.finfo(float).tiny)
+    length = np.maximum(np.hypot(bx - ax, by - ay), NO_LENGTH_M)
     along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length
     across = np.hypot(x - ax, y - ay) ** 2 - along**2
     half = np.sqrt(np.maximum(radius**2 - across, 0.0))
