@@ -32,7 +32,7 @@ from loiter.mavlink.connection.streams import TRIES, Streams, guide_streams, rat
 from loiter.mavlink.connection.telemetry import Telemetry
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
-from loiter.mavlink.guiding.preparation import is_held
+from loiter.mavlink.guiding.preparation import check_in_wind
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import MeanPosition, SteadyHoldDetector
 from loiter.mavlink.guiding.step_log import log_row, step_log
@@ -650,12 +650,12 @@ def test_the_last_bank_corrects_no_more_than_a_share():
 
 def test_an_estimated_wind_that_just_passes_what_can_be_held_counts_as_unknown():
     uav = Aircraft(18.0, max_bank_deg=35.0)
-    assert is_held(CIRCLE, uav, (4.0, 0.0))
-    assert not is_held(CIRCLE, uav, (6.0, 0.0))
+    assert check_in_wind(CIRCLE, uav, (4.0, 0.0))
+    assert not check_in_wind(CIRCLE, uav, (6.0, 0.0))
     with pytest.raises(RadiusTooSmall, match=r"^orbit radius 80 m cannot be held in a wind of 9 m/s"):
-        is_held(CIRCLE, uav, (9.0, 0.0))
+        check_in_wind(CIRCLE, uav, (9.0, 0.0))
     with pytest.raises(WindTooStrong, match="a wind of 20 m/s"):
-        is_held(CIRCLE, uav, (20.0, 0.0))
+        check_in_wind(CIRCLE, uav, (20.0, 0.0))
 
 
 def test_the_first_steps_of_a_law_load_nothing():

@@ -46,31 +46,35 @@ loiter COMMAND --help shows the options of a command.""",
     help_epilogue=program_epilogue("plan", "completion"),
 )  # fmt: skip
 
-# The module of a command is imported when the command runs.
-app.command(
-    "loiter.cli.commands.plan:plan",
-    group=planning,
-    sort_key=0,
-    help_epilogue=epilogue("plan"),
-    help="""Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off.
+
+def add_command(target: str, group: Group, sort_key: int, text: str, usage: str | None = None) -> None:
+    """Add the command of a function, "module:function"; the module is imported when the command runs."""
+    _, _, name = target.partition(":")
+    place = f"loiter.cli.commands.{target}"
+    app.command(place, group=group, sort_key=sort_key, usage=usage, help_epilogue=epilogue(name), help=text)
+
+
+add_command(
+    "plan:plan",
+    planning,
+    0,
+    """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off.
 
 It needs a start (--pose), a circle (--orbit), the airspeed, and one limit on the turn (--bank, --turn-radius or --turn-rate). Everything else is optional.""",
 )
-app.command(
-    "loiter.cli.commands.leg:leg",
-    group=planning,
-    sort_key=1,
-    help_epilogue=epilogue("leg"),
-    help="""Plan the fastest way in, round and out of a holding circle: the entry, how long to hold, and where to leave.
+add_command(
+    "leg:leg",
+    planning,
+    1,
+    """Plan the fastest way in, round and out of a holding circle: the entry, how long to hold, and where to leave.
 
 It needs what loiter plan needs, and the point to fly to afterwards (--exit-to). The aircraft leaves the circle on the tangent to that point, once the least hold, the turns and the altitude are reached; all of them together take the least time.""",
 )
-app.command(
-    "loiter.cli.commands.batch:batch",
-    group=planning,
-    sort_key=2,
-    help_epilogue=epilogue("batch"),
-    help="""Plan the fastest entry for every row of a table: Parquet or CSV, any size.
+add_command(
+    "batch:batch",
+    planning,
+    2,
+    """Plan the fastest entry for every row of a table: Parquet or CSV, any size.
 
 IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s; wind_speed_m_s and wind_from_deg; and orbit_velocity_east_m_s and orbit_velocity_north_m_s. Values without a column come from options; all are needed except the turn, the wind and the circle's velocity.
 
@@ -80,77 +84,66 @@ IN is a file, a folder of files, a pattern such as 'states-*.parquet' in quotes,
 
 A file is written whole or not at all. Until then finished parts are kept in OUT.parts. In a folder each part is written whole or not at all, and _SUCCESS says that all are there. Run the same command again to continue an interrupted job.""",
 )
-app.command(
-    "loiter.cli.commands.mavlink:upload",
-    group=flights,
+add_command(
+    "mavlink:upload",
+    flights,
+    4,
+    "Send the fastest entry to a vehicle as a mission, then read the mission back and compare it item by item.",
     usage="Usage: loiter upload --connect LINK [OPTIONS] [FILE]",
-    sort_key=4,
-    help_epilogue=epilogue("upload"),
-    help="Send the fastest entry to a vehicle as a mission, then read the mission back and compare it item by item.",
 )
-app.command(
-    "loiter.cli.commands.mavlink:watch",
-    group=flights,
-    sort_key=5,
-    help_epilogue=epilogue("watch"),
-    help="Listen to a vehicle and print, live, the fastest entry from its position.",
+add_command(
+    "mavlink:watch",
+    flights,
+    5,
+    "Listen to a vehicle and print, live, the fastest entry from its position.",
 )
-app.command(
-    "loiter.cli.commands.guide:guide",
-    group=flights,
-    sort_key=6,
-    help_epilogue=epilogue("guide"),
-    help="""Guide a vehicle in flight onto the circle in least time, then hand it over to its own hold of the circle.
+add_command(
+    "guide:guide",
+    flights,
+    6,
+    """Guide a vehicle in flight onto the circle in least time, then hand it over to its own hold of the circle.
 
 First the vehicle is commanded to hold the circle by its own guidance, the fall-back circle. Then its bank is commanded many times a second: ArduPlane's in GUIDED, PX4's in OFFBOARD; the autopilot holds altitude and airspeed. Once the circle is held steadily, the vehicle confirms that it holds it by its own guidance, and nothing more is sent. The vehicle must be in flight, and it and the circle at least 30 m above home: it is never armed, and never takes off or lands.
 
 Before the first command a summary shows what is taken over and what happens if the link dies, and a question is asked; --yes answers it. Guiding stops at once, and one sentence says why, if the link or the telemetry is lost, the pilot or a failsafe changes the mode, another station commands, the altitude departs, or at Ctrl-C; the vehicle then flies the fall-back circle, or what the pilot wants. Airspeed and bank limit are those of the autopilot's parameters unless options give them. docs/autopilots.md has the details.""",
 )
-app.command(
-    "loiter.cli.commands.fly:fly",
-    group=flights,
-    sort_key=3,
-    help_epilogue=epilogue("fly"),
-    help="""Simulate flights: a guidance law flies the fastest entry in closed loop, compared with the laws that autopilots use today.
+add_command(
+    "fly:fly",
+    flights,
+    3,
+    """Simulate flights: a guidance law flies the fastest entry in closed loop, compared with the laws that autopilots use today.
 
 One flight needs the same options as loiter plan; --runs flies from random starts. No vehicle is connected: for that there is loiter guide.""",
 )
-app.command(
-    "loiter.cli.commands.synthesis:synthesis",
-    group=theory,
-    sort_key=7,
-    help_epilogue=epilogue("synthesis"),
-    help="Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between the regions.",
+add_command(
+    "synthesis:synthesis",
+    theory,
+    7,
+    "Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between the regions.",
 )
-app.command(
-    "loiter.cli.commands.figures:figures",
-    group=theory,
-    sort_key=8,
-    help_epilogue=epilogue("figures"),
-    help="Draw the seven figures of the paper, and write their captions.",
+add_command(
+    "figures:figures",
+    theory,
+    8,
+    "Draw the seven figures of the paper, and write their captions.",
 )
-
-
-app.command(
-    "loiter.cli.commands.verify:verify",
-    group=theory,
-    sort_key=9,
-    help_epilogue=epilogue("verify"),
-    help="Compare plans with independent methods: search, 50 digits, collocation, reachability, and a search in wind.",
+add_command(
+    "verify:verify",
+    theory,
+    9,
+    "Compare plans with independent methods: search, 50 digits, collocation, reachability, and a search in wind.",
 )
-app.command(
-    "loiter.cli.commands.prove:prove",
-    group=theory,
-    sort_key=10,
-    help_epilogue=epilogue("prove"),
-    help="Check the lemmas of docs/proof.md on the kernel's own formulas, for all states and radii, in exact algebra and ball arithmetic. What docs/proof.md argues in words or cites is not checked.",
+add_command(
+    "prove:prove",
+    theory,
+    10,
+    "Check the lemmas of docs/proof.md on the kernel's own formulas, for all states and radii, in exact algebra and ball arithmetic. What docs/proof.md argues in words or cites is not checked.",
 )
-app.command(
-    "loiter.cli.commands.serve:serve",
-    group=planning,
-    sort_key=2,
-    help_epilogue=epilogue("serve"),
-    help="Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.",
+add_command(
+    "serve:serve",
+    planning,
+    2,
+    "Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.",
 )
 
 

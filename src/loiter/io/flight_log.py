@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from math import nan
+from math import isnan, nan
 from pathlib import Path
 from typing import NamedTuple, TextIO
 
@@ -101,7 +101,7 @@ def check_columns(path: Path, names: list[str]) -> None:
 def _text(value: object) -> str:
     if not isinstance(value, float):
         return str(value)
-    return "" if value != value else f"{value:.{DIGITS}f}"
+    return "" if isnan(value) else f"{value:.{DIGITS}f}"
 
 
 def _number(path: Path, name: str, text: str) -> float:

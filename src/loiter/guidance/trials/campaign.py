@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
-from math import cos, degrees, pi, sin, sqrt
+from math import cos, degrees, isnan, pi, sin, sqrt
 from multiprocessing import get_context
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
@@ -109,7 +109,7 @@ class Outcome(NamedTuple):
     @property
     def settled(self) -> bool:
         """Whether the aircraft settled."""
-        return self.settled_s == self.settled_s
+        return not isnan(self.settled_s)
 
 
 def trials(

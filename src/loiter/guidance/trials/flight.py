@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import nan
+from math import isnan, nan
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -86,7 +86,7 @@ class Flight:
     @property
     def settled(self) -> bool:
         """Whether the aircraft settled."""
-        return self.settled_s == self.settled_s
+        return not isnan(self.settled_s)
 
     @property
     def join_error_s(self) -> float:

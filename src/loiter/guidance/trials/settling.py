@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import nan, remainder
+from math import isnan, nan, remainder
 
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.circle import Band, CircleOffset, circle_offset
@@ -66,7 +66,7 @@ class SettlingMonitor:
         if not near:
             self._count_turn(self._counted_deg, state.heading_deg)
             self._since_joining_deg, self.joined_s = 0.0, nan
-        elif self.joined_s == self.joined_s:
+        elif not isnan(self.joined_s):
             self._since_joining_deg += flown_deg
         elif direction != 0:
             self.joined_s = state.time_s

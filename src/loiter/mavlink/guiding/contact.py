@@ -117,14 +117,10 @@ class Contact:
             return
         (c, s), V = heading_vector(state.heading_deg), state.airspeed_m_s
         measured = state.velocity_east_m_s - V * c, state.velocity_north_m_s - V * s, V
-        if self._air_s == -inf:
-            self._air = measured
-        share, (east, north, airspeed) = 1.0 - exp((self._air_s - state.time_s) / AIR_S), self._air
-        self._air = (
-            east + share * (measured[0] - east),
-            north + share * (measured[1] - north),
-            airspeed + share * (measured[2] - airspeed),
-        )
+        before = measured if self._air_s == -inf else self._air
+        share = 1.0 - exp((self._air_s - state.time_s) / AIR_S)
+        east, north, airspeed = (old + share * (new - old) for old, new in zip(before, measured, strict=True))
+        self._air = east, north, airspeed
         self._air_s = state.time_s
 
     def request_all(self, now: float) -> None:

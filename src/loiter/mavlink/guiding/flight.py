@@ -21,7 +21,7 @@ from loiter.mavlink.connection.link import ACTIVE
 from loiter.mavlink.guiding.contact import STEP_S, Contact
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.monitor import StopReason
-from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, choose, is_held, prepare
+from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, check_in_wind, choose, prepare
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import SteadyHoldDetector
 from loiter.mavlink.guiding.summary import loss_consequence, summary
@@ -307,7 +307,7 @@ class GuidedFlight:
         return f"{contact.name} flies the fall-back circle"
 
     def _observe_elsewhere(self) -> str | None:
-        """Where the vehicle flies by its own guidance if not on the circle, in words; None if it does not report that.
+        """Where the vehicle flies by its own guidance, in words; "" on the circle, None if it does not report that.
 
         Listens for a while, if the link is alive; nothing is commanded.
         """
@@ -423,7 +423,7 @@ class GuidedFlight:
         self._next_wind, estimates = now + WIND_S, self._law.estimates
         self._monitor.wind_problem = ""
         try:
-            is_held(self.orbit, self._setup.aircraft, (estimates.wind_east_m_s, estimates.wind_north_m_s))
+            check_in_wind(self.orbit, self._setup.aircraft, (estimates.wind_east_m_s, estimates.wind_north_m_s))
         except LoiterError as error:
             self._monitor.wind_problem = str(error)
 

@@ -112,6 +112,7 @@ class Measurements:
         """The true airspeed, metres per second, and its source; `wind` is the one that the vehicle reports, if any."""
         eas2tas = eas2tas_squared(self._telemetry.fix().altitude_m) ** 0.5
         measured = self._telemetry.airspeed_m_s(now) * eas2tas
+        # Before an airspeed is declared, which is nan then, every measured one counts.
         if isfinite(measured) and not measured < LEAST_SHARE * self.declared_m_s:
             return measured, AirspeedSource.MEASURED
         position = self._telemetry.last("GLOBAL_POSITION_INT")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, nan
+from math import inf, isnan, nan
 from typing import NamedTuple
 
 from loiter.mavlink.autopilots.modes import CRITICAL, TERMINATION, ModeWatch
@@ -143,7 +143,7 @@ class Monitor:
         if self._departed.update(off_m > self._nearest_m + DEPARTED_M, now) > DEPARTED_S:
             side = "above" if altitude_m > circle_m else "below"
             return StopReason(f"the vehicle is at {altitude_m:.0f} m, {off_m:.0f} m {side} the circle")
-        if circle_m == circle_m and height_m < LOWEST_HEIGHT_M:
+        if not isnan(circle_m) and height_m < LOWEST_HEIGHT_M:
             return StopReason(f"the vehicle is only {height_m:.0f} m above home", measured=False)
         return None
 

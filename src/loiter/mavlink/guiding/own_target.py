@@ -6,7 +6,7 @@ a place when it changes.
 
 from __future__ import annotations
 
-from math import hypot, inf, nan
+from math import hypot, inf, isnan, nan
 from typing import Any
 
 from loiter.geo import LocalFrame
@@ -38,10 +38,10 @@ class OwnTarget:
         A place out of the reach of the frame differs too.
         """
         off_m = hypot(self._east_m - orbit.east_m, self._north_m - orbit.north_m)
-        if not off_m <= ELSEWHERE_M:
-            return (
-                f"to a place {off_m:.0f} m from the centre of the circle" if off_m == off_m else "to a place far away"
-            )
+        if isnan(off_m):
+            return "to a place far away"
+        if off_m > ELSEWHERE_M:
+            return f"to a place {off_m:.0f} m from the centre of the circle"
         if abs(self._altitude_m - altitude_m) > OTHER_ALTITUDE_M:
             return f"to another altitude, {self._altitude_m:.0f} m"
         return ""

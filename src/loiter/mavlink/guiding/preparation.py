@@ -153,22 +153,22 @@ def _fence_sentence(contact: Contact, fence: Fence, maneuver: Maneuver, request:
 def _holdable_wind(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> Wind | None:
     """An estimated wind if the circle can be held in it, and None if it just cannot: the law then finds it out itself.
 
-    Raises `LoiterError` as `is_held` does.
+    Raises `LoiterError` as `check_in_wind` does.
     """
-    return wind if wind is not None and is_held(orbit, aircraft, wind.velocity_m_s) else None
+    return wind if wind is not None and check_in_wind(orbit, aircraft, wind.velocity_m_s) else None
 
 
-def is_held(orbit: Orbit, aircraft: Aircraft, wind: tuple[float, float]) -> bool:
-    """Whether the circle can be held in a wind, an estimated velocity, east and north, metres per second.
+def check_in_wind(orbit: Orbit, aircraft: Aircraft, wind: tuple[float, float]) -> bool:
+    """Raise `LoiterError` if a circle that is wider by `WIND_SLACK` cannot be held either in an estimated wind.
 
-    Raises `LoiterError` if one that is wider by `WIND_SLACK` cannot be held either.
+    Returns whether the circle itself can be held. The wind is a velocity, east and north, metres per second.
     """
     air = RelativeWind(*relative_velocity(wind, (0.0, 0.0), aircraft.airspeed_m_s))
-    held = is_holdable(orbit, aircraft, air)
-    if not held and not is_holdable(replace(orbit, radius_m=WIND_SLACK * orbit.radius_m), aircraft, air):
-        # The sentence is about the circle itself.
+    can_be_held = is_holdable(orbit, aircraft, air)
+    if not can_be_held and not is_holdable(replace(orbit, radius_m=WIND_SLACK * orbit.radius_m), aircraft, air):
+        # Raises: its sentence is about the circle itself.
         check_held(orbit, aircraft, air)
-    return held
+    return can_be_held
 
 
 def _fly_away_problem(settings: AutopilotSettings) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import degrees, exp, nan, remainder
+from math import degrees, exp, isnan, nan, remainder
 from typing import NamedTuple
 
 from loiter.guidance.protocol import State
@@ -71,13 +71,13 @@ class SteadyHoldDetector:
         """Process a state; returns its offset from the circle."""
         offset = circle_offset(state, self._orbit)
         turned_deg = abs(remainder(offset.azimuth_deg - self._azimuth_deg, 360.0))
-        turned_deg = turned_deg if turned_deg == turned_deg else 0.0
+        turned_deg = 0.0 if isnan(turned_deg) else turned_deg
         self._azimuth_deg = offset.azimuth_deg
         self._near_deg = self._near_deg + turned_deg if BAND.has(offset, self._side, NEAR) else 0.0
         self._average(state, MeanPosition(offset.outside_m, offset.course_error_deg(self._side)))
         if not BAND.has(offset, self._side, 2.0 if self._near_deg > GUSTY_DEG else 1.0):
             self._leave()
-        elif self._since_s != self._since_s:
+        elif isnan(self._since_s):
             self._since_s = state.time_s
         else:
             self._flown_deg += turned_deg

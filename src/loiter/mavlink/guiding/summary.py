@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import isnan
+
 from loiter.mavlink.autopilots.modes import GUIDED
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.preparation import FlightSetup
@@ -22,7 +24,7 @@ def summary(contact: Contact, setup: FlightSetup, *, turn_given: bool) -> tuple[
 
 def heights(altitude_m: float, home_m: float) -> str:
     """An altitude above mean sea level with the height above home, metres: "684 m (100 m above home)"."""
-    if home_m != home_m:
+    if isnan(home_m):
         return f"{altitude_m:.0f} m"
     height_m = altitude_m - home_m
     return f"{altitude_m:.0f} m ({abs(height_m):.0f} m {'above' if height_m >= 0.0 else 'below'} home)"
