@@ -24,7 +24,7 @@ from loiter.kernel.still_air.switching_curves import last_arc_abscissa, switchin
 from loiter.kernel.still_air.synthesis import optima, ranked
 from loiter.kernel.words import Side, Word, controls
 from loiter.planning.model import CONTROLS
-from loiter.plot.picture import CHORD_RAD, COLOURS, MARKS, draw_arrow
+from loiter.plot.picture import CHORD_RAD, COLOURS, MARK, MARKS, draw_arrow
 
 Floats = NDArray[np.float64]
 
@@ -252,7 +252,7 @@ START: dict[str, Any] = {"marker": "s", "markersize": 7, "markerfacecolor": "bla
 
 
 def _mark(axes: Axes, x: float, y: float, **style: Any) -> None:
-    axes.plot([x], [y], color="black", linestyle="none", zorder=5, **style)
+    axes.plot([x], [y], **MARK | {"zorder": 5} | style)
 
 
 def _note(axes: Axes, text: str, x: float, y: float, offset: tuple[float, float], **style: Any) -> None:
@@ -270,7 +270,7 @@ def _legend(axes: Axes, controls_flown: Sequence[int]) -> None:
     """Draw a legend of the controls flown, the marks, and everything with a label."""
     handles = [Line2D([], [], color=COLOURS[LETTERS[u]], linewidth=2.2, label=NAMES[u]) for u in controls_flown]
     marks = {"start": START, "switch": MARKS["switch"], "end": MARKS["join"]}
-    handles += [Line2D([], [], color="black", linestyle="none", label=name, **style) for name, style in marks.items()]
+    handles += [Line2D([], [], **MARK | {"label": name} | style) for name, style in marks.items()]
     _legend_below(axes, [*handles, *_labelled(axes)])
 
 
