@@ -80,7 +80,7 @@ def _draw_tracks(axes: Axes) -> None:
         colour = colormaps["viridis"](0.9 * speed / FASTEST_WIND)
         label = f"{speed:.2f}: {m.word} {m.turn.value}, T = {m.duration_s:.2f}"
         axes.plot(track.east_m, track.north_m, color=colour, linewidth=2.0, label=label, gid="track", zorder=3)
-        axes.plot([m.join.east_m], [m.join.north_m], color=colour, linestyle="none", gid="join", **JOIN, zorder=4)
+        axes.plot([m.join.east_m], [m.join.north_m], **JOIN | {"color": colour}, gid="join", zorder=4)
     axes.plot([START.east_m], [START.north_m], color="black", marker=">", markersize=9, linestyle="none", gid="start")
     axes.set_title("The fastest entry bends with the wind")
     axes.legend(title="wind from the south, in airspeeds", loc="center right", fontsize="small", title_fontsize="small")
