@@ -132,6 +132,8 @@ ELSEWHERE = {
     ("loiter.compiled.wind_solver", "ranked"): "kernel.wind_search_ranked",
     ("loiter.compiled.wind_solver", "optima"): "kernel.wind_search_optima",
     ("loiter.compiled.still_air_solver", "optimum"): "kernel.optimum",
+    # The page plans without slots.
+    ("loiter.planning.solve", "arrivals"): "arrays.refuse",
     ("loiter.kernel.words", "encode"): "arrays.encode",
     ("loiter.verify.trajectory", "word_of"): "arrays.word_of",
 }

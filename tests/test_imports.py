@@ -17,6 +17,7 @@ PUBLIC = [
     "Orbit",
     "Pose",
     "Segment",
+    "Slot",
     "Solution",
     "Turn",
     "Wind",

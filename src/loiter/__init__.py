@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from loiter.planning.leg import Leg, LegPlan, plan_leg
     from loiter.planning.maneuver import Maneuver
     from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
+    from loiter.planning.slot import Slot
     from loiter.planning.solve import candidates, plan, plan_all
 
 # What is public, by the module that has it. Each is imported when first used: the program handles an interrupt from its
@@ -47,6 +48,7 @@ _NAMES = {
         "planning.leg": "Leg LegPlan plan_leg",
         "planning.maneuver": "Maneuver",
         "planning.model": "Aircraft Orbit Pose Segment Turn Wind",
+        "planning.slot": "Slot",
         "planning.solve": "candidates plan plan_all",
     }.items()
     for name in names.split()
@@ -62,6 +64,7 @@ __all__ = [
     "Orbit",
     "Pose",
     "Segment",
+    "Slot",
     "Solution",
     "Turn",
     "Wind",

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: c21e90035e97628757771ed072553d71834c03d3eb51504fde5da1a3d12406fc
+ * SHA-256 of the source: 7f3181be6d3e0bf902511ca7c55fe49fdcc8bf54fe663e3b9e5fa0004eed26b4
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -3231,8 +3231,10 @@ static inline real elliptic(real p, real w) {
     real a = 1.0, b = sqrt((1.0 - w) * (1.0 + w)), c = w;
     real squares = 0.5 * c * c, sines = 0.0, power = 1.0;
     for (integer pass_1 = 0; pass_1 < MEANS; pass_1++) {
-        /* The arctangent's branch follows p, so that p doubles with each step. */
-        p = p + atan(b / a * tan(p)) + 3.141592653589793 * floor(p / 3.141592653589793 + 0.5);
+        /* The arctangent's branch follows p, so that p doubles with each step. It is that of the rounded tangent, whose */
+        /* sign is either one where p is an odd multiple of pi/2. */
+        const real slope = tan(p);
+        p = p + atan(b / a * slope) + 3.141592653589793 * floor((p - atan(slope)) / 3.141592653589793 + 0.5);
         const real new_a = 0.5 * (a + b);
         const real new_b = sqrt(a * b);
         const real new_c = 0.5 * (a - b);

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from loiter.compiled import still_air_solver, wind_solver
-from loiter.errors import NotConverged
+from loiter.errors import InvalidArgument, NotConverged, instance
 from loiter.kernel.entry import Entry, duration, is_tie_in_wind, miss
 from loiter.kernel.statuses import Status
 from loiter.kernel.still_air.synthesis import optima, ranked
@@ -15,10 +15,17 @@ from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
+from loiter.planning.slot import Slot
 
 
 def plan(
-    pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, tolerance_m: float = 0.0
+    pose: Pose,
+    orbit: Orbit,
+    aircraft: Aircraft,
+    wind: Wind | None = None,
+    *,
+    tolerance_m: float = 0.0,
+    slot: Slot | None = None,
 ) -> Maneuver:
     """The fastest maneuver from `pose` onto `orbit`, which it joins tangentially and in the direction `orbit.turn`.
 
@@ -34,10 +41,13 @@ def plan(
     that distance. In wind the time is steep there and does not jump; a start beyond the circle, or beyond its last arc,
     by less than the tolerance counts as on it.
 
+    With a `slot` the answer is the fastest maneuver that ends in that slot, a place on the circle that moves round it
+    with the hold: the first of all arrivals of the six words of Dubins (docs/slots.md). There is no tolerance then.
+
     Raises `RadiusTooSmall` where the aircraft cannot hold the circle, `WindTooStrong` where the wind relative to the
     circle is as fast as the aircraft, `OutOfRange` where coordinates are so large that doubles cannot tell one turn
-    from the next, `InvalidArgument` for a tolerance that is negative or not finite, `NotConverged` where no maneuver in
-    wind was found that ends on the circle.
+    from the next, `InvalidArgument` for a tolerance that is negative or not finite, or not 0 with a slot,
+    `NotConverged` where no maneuver in wind was found that ends on the circle.
 
     >>> from loiter import Aircraft, Orbit, Pose, Wind, plan
     >>> m = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0))
@@ -47,7 +57,30 @@ def plan(
     >>> m.word, m.turn.value, round(m.duration_s, 2)
     ('RSL', 'cw', 13.55)
     """
-    return fastest(Problem(pose, orbit, aircraft, CALM if wind is None else wind, tolerance_m))
+    problem = Problem(pose, orbit, aircraft, CALM if wind is None else wind, tolerance_m)
+    if slot is None:
+        return fastest(problem)
+    best, *_ = arrivals(problem, slot)
+    return best
+
+
+def arrivals(problem: Problem, slot: Slot) -> tuple[Maneuver, ...]:
+    """The fastest maneuvers into a slot in the directions of the problem, one each, the fastest first."""
+    instance("slot", slot, Slot)
+    if problem.tolerance_m != 0.0:
+        raise InvalidArgument("tolerance_m", "must be 0 with a slot: its entry ends in the slot")
+    turns = [Turn.CW, Turn.CCW] if problem.orbit.turn is Turn.EITHER else [problem.orbit.turn]
+    found = sorted((_arrival(problem, turn, slot) for turn in turns), key=lambda solved: solved.time)
+    return maneuvers(_with_orbit(one, problem.orbit) for one in found)
+
+
+def _arrival(problem: Problem, turn: Turn, slot: Slot) -> "Solved":
+    """The fastest maneuver into a slot in one direction."""
+    given = problem.with_turn(turn).in_wind()
+    entry = wind_solver.first_in_slot(given, slot.phase_at_start(given, problem.time_unit_s))
+    if entry.status != Status.OK:
+        raise _not_converged(problem)
+    return Solved(maneuver(problem, wind_search.entry_of(entry), entry.miss), wind_search.time_of(entry))
 
 
 def plan_all(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -29,6 +30,7 @@ from loiter.cli.options import (
 from loiter.cli.scenes import CheckedFence, check_fence, fit_proposed, read_options
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
+from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.io.document import answer
 from loiter.io.files import FILE_FORMATS, SaveArguments, file_content, is_mission
@@ -38,7 +40,9 @@ from loiter.io.missions.mission import stored_radius_remark
 from loiter.io.missions.site import Site
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
-from loiter.planning.solve import best_and_others
+from loiter.planning.problem import Problem
+from loiter.planning.slot import Slot
+from loiter.planning.solve import arrivals, best_and_others
 from loiter.writing import write_content
 
 # The options of the command, in the order of its help.
@@ -57,6 +61,22 @@ Lead = Annotated[
         group=scene,
         metavar="SECONDS",
         help="Plan from where the aircraft will be after this time, if it flies straight on until then, on its heading and in the wind; a circle that moves moves on too. Times in the plan count from then.",
+    ),
+]
+SlotBearing = Annotated[
+    float | None,
+    Parameter(
+        group=scene,
+        metavar="DEGREES",
+        help="Enter the slot that is at this bearing from the centre, a place that moves round the circle with the hold.",
+    ),
+]
+SlotTime = Annotated[
+    float | None,
+    Parameter(
+        group=scene,
+        metavar="SECONDS",
+        help="The time from the start at which the slot is at that bearing; 0 if absent.",
     ),
 ]
 All = Annotated[bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")]
@@ -101,6 +121,8 @@ def plan(
     fit: Fit = False,
     tolerance: Tolerance = 0.0,
     lead: Lead = 0.0,
+    slot: SlotBearing = None,
+    slot_at: SlotTime = None,
     all_: All = False,
     json: Json = False,
     pictures: PictureOptions = PictureOptions(),
@@ -119,7 +141,12 @@ def plan(
     _check_formats(save)
     along_path = any(map(is_mission, save)) and waypoints.along_path
     with fit_proposed():
-        best, others = best_and_others(problem)
+        if slot is None and slot_at is None:
+            best, others = best_and_others(problem)
+        else:
+            best, others = _in_slot(
+                problem, _slot(slot, slot_at, certify=certify, fenced=fence.placed(circle.site) is not None)
+            )
     first, *ties = best
     shown = best if all_ else [first]
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
@@ -157,6 +184,24 @@ def plan(
         report.write(*lines, *report.files_line(written))
     is_clear = fenced is None or fenced.check.clear
     return 0 if is_clear and all(certificate.valid for certificate in certified) else CHECK_FAILED
+
+
+def _slot(bearing_deg: float | None, at_s: float | None, *, certify: bool, fenced: bool) -> Slot:
+    """The slot of the options; raises `InvalidArgument` where they do not fit together or with others."""
+    if bearing_deg is None:
+        raise InvalidArgument("slot_at_s", "needs --slot, the bearing of the slot at that time")
+    if certify or fenced:
+        other = "--certify" if certify else "--fence"
+        raise InvalidArgument("slot", f"cannot be combined with {other}, which is for free entries")
+    with argument_names(**{"slot phase_deg": "slot", "slot at_s": "slot_at_s"}):
+        return Slot(bearing_deg, 0.0 if at_s is None else at_s)
+
+
+def _in_slot(problem: Problem, slot: Slot) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
+    """The fastest maneuver into a slot, and those in the other direction."""
+    both = [replace(m, orbit=problem.orbit) for m in arrivals(problem.with_turn(Turn.EITHER), slot)]
+    best = next(m for m in both if problem.orbit.turn in (Turn.EITHER, m.turn))
+    return (best,), tuple(m for m in both if m is not best)
 
 
 def _drawn(fenced: CheckedFence | None) -> dict[str, Any]:

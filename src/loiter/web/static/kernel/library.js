@@ -2943,8 +2943,14 @@ function bank_at_rate(rate, airspeed_m_s) {
 return math.degrees(math.atan(div(mul(rate, airspeed_m_s), STANDARD_GRAVITY_M_S2)));
 }
 
-function solve_plan(pose, orbit, aircraft, wind = null, tolerance_m = 0.0) {
-return fastest(Problem(pose, orbit, aircraft, ((wind == null) ? CALM : wind), tolerance_m));
+function solve_plan(pose, orbit, aircraft, wind = null, tolerance_m = 0.0, slot = null) {
+let _, best, problem;
+problem = Problem(pose, orbit, aircraft, ((wind == null) ? CALM : wind), tolerance_m);
+if ((slot == null)) {
+return fastest(problem);
+}
+[best, ..._] = iter(arrays.refuse(problem, slot));
+return best;
 }
 
 const Command = struct(class Command extends Tuple {

@@ -1,0 +1,51 @@
+"""Slots: places on the circle that move round it with the hold (docs/slots.md)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import fmod, isfinite
+
+from loiter.errors import OutOfRange, number
+from loiter.kernel.angles import TWO_PI
+from loiter.kernel.wind.held import time_held, width_held
+from loiter.kernel.wind.hold import phase_of
+from loiter.kernel.wind.wind_search import WindProblem
+from loiter.planning.compass import heading_vector
+
+# At most this many turns lie between the start and the time at which the place of a slot is given: beyond, rounding of
+# the angle displaces the slot by more than 1e-10 of the radius.
+MOST_TURNS = 1e5
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A place on the circle that moves round it as an aircraft does that holds the circle, in its direction.
+
+    `phase_deg` is its bearing from the centre, compass degrees, at the time `at_s`, seconds from the start.
+    Raises `InvalidArgument` for numbers that are not finite.
+
+    >>> Slot(phase_deg=90.0)
+    Slot(phase_deg=90.0, at_s=0.0)
+    """
+
+    phase_deg: float
+    at_s: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "phase_deg", number("slot phase_deg", self.phase_deg, "degrees"))
+        object.__setattr__(self, "at_s", number("slot at_s", self.at_s, "seconds"))
+
+    def phase_at_start(self, problem: WindProblem, time_unit_s: float) -> float:
+        """The phase (`kernel.wind.hold`) of the slot at the start, in the direction of the problem.
+
+        Raises `OutOfRange` where more than 100,000 turns lie between.
+        """
+        side, R, wx, wy = problem.side, problem.R, problem.wx, problem.wy
+        phase = phase_of(*heading_vector(self.phase_deg), side, wx, wy)
+        period = time_held(phase + TWO_PI, TWO_PI, R, wx, wy)
+        time = self.at_s / time_unit_s
+        if not isfinite(time) or abs(time) > MOST_TURNS * period:
+            raise OutOfRange(
+                f"slot at_s is {self.at_s:g}: more than {MOST_TURNS:g} turns lie between the start and then"
+            )
+        return phase - width_held(phase, fmod(time, period) % period, R, wx, wy)

@@ -1,0 +1,39 @@
+"""`loiter plan --slot`."""
+
+import json
+
+import pytest
+
+from loiter import Aircraft, Orbit, Pose, Slot, plan
+from loiter.cli.app import main
+
+PLAN = ["plan", "--pose", "-400", "120", "90", "--orbit", "0", "0", "120", "--airspeed", "18", "--bank", "35"]
+
+
+def test_json_has_the_plan_and_the_other_direction(capsys):
+    assert main([*PLAN, "--slot", "200", "--slot-at", "5", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    scene = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0)
+    assert found["duration_s"] == plan(*scene, slot=Slot(200.0, 5.0)).duration_s
+    assert {found["turn"], *(m["turn"] for m in found["alternatives"])} == {"cw", "ccw"}
+
+
+def test_the_direction_is_kept(capsys):
+    assert main([*PLAN, "--slot", "200", "--turn", "cw"]) == 0
+    assert "clockwise: joins in 31.7 s" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ("--slot 200 --certify", "--slot cannot be combined with --certify"),
+        ("--slot-at 3", "--slot-at needs --slot"),
+        ("--slot nan", "--slot is nan"),
+        ("--slot 20 --slot-at inf", "--slot-at is inf"),
+        ("--slot 20 --tolerance 2", "--tolerance must be 0 with a slot"),
+        ("--slot 20 --slot-at 1e9", "more than 100000 turns"),
+    ],
+)
+def test_what_does_not_fit_is_said(options, words, capsys):
+    assert main([*PLAN, *options.split()]) == 2
+    assert words in capsys.readouterr().err
