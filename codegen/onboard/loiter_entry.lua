@@ -11,8 +11,11 @@ local GUIDED, DO_REPOSITION, GUIDED_CHANGE_HEADING, ACCEPTED = 15, 192, 43002, 0
 local FRAME_GLOBAL, ABSOLUTE = 0, 0
 local GRAVITY = 9.80665
 
--- The time between two steps, and from a step to the search that follows it where one is due, milliseconds.
-local PERIOD_MS, SEARCH_MS = 50, 20
+-- The time between two steps, and between the callbacks for searches that follow a step where they are due, milliseconds.
+local PERIOD_MS, SEARCH_MS = 50, 10
+
+-- In wind the point of joining is improved in all of these callbacks until there have been so many, later in one.
+local MANY_SEARCHES = 60
 
 -- What GUIDED_CHANGE_HEADING does with a bank: a delay, seconds, then a quick response with a limited rate of roll.
 local DELAY_S, ROLL_TIME_S, ROLL_RATE_DEG_S = 0.2, 0.1, 90.0
@@ -31,6 +34,10 @@ local BAND, BAND_DEG, HELD_MS, HELD_DEG, LONGEST_MS = 0.05, 5.0, 8000, 90.0, 300
 
 -- A wind that changes by more than this, metres per second, is planned with.
 local WIND_CHANGED_M_S = 1.0
+
+-- The airspeed is averaged over the first time, seconds, before a flight, and over up to the second in one, where the
+-- prepared one counts for the third. One that differs from the planned one by more than this share is planned with.
+local AIRSPEED_S, AIRSPEED_MEMORY_S, PREPARED_S, AIRSPEED_CHANGED = 3.0, 20.0, 5.0, 0.03
 
 -- The turn rate over that of a coordinated turn is measured in turns with at least this bank, degrees, over this time,
 -- seconds; a measurement counts this much, and one outside of these bounds not at all.
@@ -112,9 +119,18 @@ do
 end
 
 -- The instructions of a callback are limited (SCR_VM_I_COUNT). So a search has callbacks of its own, between two steps
--- of the law. In wind the point of joining is remembered, and each of these callbacks improves it.
-local NO_JOIN = {side = 0, phase = 0.0, words = 0, shift = @FIRST_SHIFT@, calls = 0}
-local known_join = NO_JOIN
+-- of the law. In wind the point of joining is remembered, and each of these callbacks improves it: for the problem of
+-- the law's search, or for the last problem where the law makes none.
+local known_join = {side = 0, phase = 0.0, words = 0, shift = @FIRST_SHIFT@, calls = 0}
+local last_problem, searches = nil, 0
+
+local function improve_join(problem)
+    local entry
+    known_join, entry = law.track(known_join, problem)
+    last_problem, searches = problem, searches + 1
+    entry.status = entry.side == 0 and @NOT_CONVERGED@ or 0
+    return entry
+end
 
 begin_in_wind = function(problem)
     return {stage = 0, problem = problem}
@@ -123,8 +139,7 @@ end
 advance_in_wind = function(search)
     local entry = search.entry
     if search.stage ~= @ENDED@ then
-        known_join, entry = law.track(known_join, search.problem)
-        entry.status = entry.side == 0 and @NOT_CONVERGED@ or 0
+        entry = improve_join(search.problem)
     end
     return {stage = @ENDED@, left = 0, entry = entry}
 end
@@ -132,8 +147,11 @@ end
 -- The flight that is prepared or flown; and whether the switch must be moved before the next one.
 local flight, is_latched = nil, true
 
--- Whether the next callback is one of a search.
-local is_search_next = false
+-- How many callbacks for searches there have been since the last step.
+local slot = 0
+
+-- The mean equivalent airspeed in the present mode.
+local mean_airspeed = {}
 
 -- The turn rate over that of a coordinated turn, and what is measured of it at present.
 local turn_ratio = 1.0
@@ -196,10 +214,26 @@ local function measure_turning(now)
     end
 end
 
+-- Measure the airspeed that the present mode holds.
+local function measure_airspeed(now, mode)
+    local equivalent_m_s = now.airspeed_m_s / now.ratio
+    if mean_airspeed.mode ~= mode then
+        mean_airspeed = {mode = mode, value = equivalent_m_s, time_s = 0.0}
+    end
+    local dt = PERIOD_MS * 0.001
+    mean_airspeed.time_s = mean_airspeed.time_s + dt
+    local share = dt / math.min(mean_airspeed.time_s, AIRSPEED_S)
+    mean_airspeed.value = mean_airspeed.value + share * (equivalent_m_s - mean_airspeed.value)
+end
+
 -- What is believed of the plane, where something has changed.
 local function vehicle_with(now, vehicle)
     local known = vehicle.estimates
+    local dt = PERIOD_MS * 0.001
+    flight.known_s = math.min((flight.known_s or PREPARED_S) + dt, AIRSPEED_MEMORY_S)
+    flight.airspeed_m_s = flight.airspeed_m_s + dt / flight.known_s * (now.airspeed_m_s - flight.airspeed_m_s)
     local changed = math.abs(known.turn_ratio - turn_ratio) > 0.02
+        or math.abs(known.airspeed_m_s - flight.airspeed_m_s) > AIRSPEED_CHANGED * known.airspeed_m_s
     local east, north = now.wind_east_m_s - known.wind_east_m_s, now.wind_north_m_s - known.wind_north_m_s
     if not changed and east * east + north * north <= WIND_CHANGED_M_S * WIND_CHANGED_M_S then
         return vehicle
@@ -210,6 +244,8 @@ local function vehicle_with(now, vehicle)
     end
     estimates.turn_ratio, estimates.quick_turn_ratio = turn_ratio, turn_ratio
     estimates.wind_east_m_s, estimates.wind_north_m_s = now.wind_east_m_s, now.wind_north_m_s
+    estimates.airspeed_m_s, estimates.turn_airspeed_m_s = flight.airspeed_m_s, flight.airspeed_m_s
+    searches = 0
     return {revision = vehicle.revision + 1, bank_deg = vehicle.bank_deg, estimates = estimates}
 end
 
@@ -239,14 +275,22 @@ local function circle()
     return radius_m, bank_deg
 end
 
+-- The equivalent airspeed to plan with: that of GUIDED is kept where it is the present mode and has settled.
+local function planned_airspeed()
+    if mean_airspeed.mode == GUIDED and mean_airspeed.time_s >= AIRSPEED_S then
+        return mean_airspeed.value
+    end
+    return param:get("AIRSPEED_CRUISE") or 0.0
+end
+
 -- Prepare a flight onto the circle around the present target; nil where there is none.
 local function prepare(now)
-    local target, cruise_m_s = present_target(), param:get("AIRSPEED_CRUISE")
+    local target, equivalent_m_s = present_target(), planned_airspeed()
     local radius_m, bank_deg = circle()
-    if not target or not cruise_m_s or cruise_m_s <= 0.0 or bank_deg <= 5.0 then
+    if not target or equivalent_m_s <= 0.0 or bank_deg <= 5.0 then
         return nil
     end
-    local airspeed_m_s = cruise_m_s * now.ratio
+    local airspeed_m_s = equivalent_m_s * now.ratio
     local tightest_m = law.radius_at_bank(airspeed_m_s, bank_deg) / turn_ratio
     local east, north = now.wind_east_m_s / airspeed_m_s, now.wind_north_m_s / airspeed_m_s
     if east * east + north * north >= 0.9 or tightest_m * law.tightest_radius(east, north) > radius_m then
@@ -266,7 +310,7 @@ local function prepare(now)
         turn_airspeed_m_s = airspeed_m_s, overshoot_deg = 0.0, turns_unknown = 0.0, heading_bias_deg = 0.0,
         bank_bias_deg = 0.0,
     }
-    known_join = NO_JOIN
+    last_problem, searches = nil, 0
     local model = {revision = 0, bank_deg = now.bank_deg, estimates = estimates}
     return {
         centre = target, settings = settings, model = model, memory = law.first_memory(settings, model),
@@ -283,22 +327,23 @@ local function is_current(now)
         and settings.limit_deg == bank_deg and settings.side == SIDE:get()
         and east * east + north * north <= WIND_CHANGED_M_S * WIND_CHANGED_M_S
         and math.abs(known.turn_ratio - turn_ratio) <= 0.02
+        and math.abs(known.airspeed_m_s - planned_airspeed() * now.ratio) <= AIRSPEED_CHANGED * known.airspeed_m_s
 end
 
--- Improve the known point of joining, so that it is the best one when the switch is moved.
-local function improve(now)
+-- Begin to improve the known point of joining, so that it is the best one when the switch is moved.
+local function expect(now)
     local limits = flight.memory.sensing.limits
     if limits.wind_east_m_s == 0.0 and limits.wind_north_m_s == 0.0 then
+        last_problem = nil
         return
     end
     local state = relative(now)
     local heading = math.rad(state.heading_deg)
     local hx, hy = state.airspeed_m_s * math.sin(heading), state.airspeed_m_s * math.cos(heading)
-    local search = law.begin_in_air(law.search_from(flight.settings, limits, @FIRST_TURN@, {
+    last_problem = law.begin_in_air(law.search_from(flight.settings, limits, @FIRST_TURN@, {
         time_s = state.time_s, x = state.east_m, y = state.north_m, vx = state.velocity_east_m_s,
         vy = state.velocity_north_m_s, hx = hx, hy = hy,
-    }, true))
-    advance_in_wind(search.in_air)
+    }, true)).in_air.problem
 end
 
 -- Command the circle by ArduPlane's own guidance, which ends a command of heading; the result.
@@ -419,9 +464,24 @@ local function begin(now)
     say(SEVERITY.NOTICE, "begins")
 end
 
--- Whether a search goes on.
+-- Whether a search of the law goes on.
 local function is_searching()
     return flight and flight.is_flown and flight.memory.search.aim ~= @NOTHING@
+end
+
+-- Whether another callback for a search follows before the next step.
+local function is_search_due()
+    local is_improved = flight and last_problem and (slot == 0 or searches < MANY_SEARCHES)
+    return (slot + 1) * SEARCH_MS < PERIOD_MS and (is_searching() or is_improved)
+end
+
+-- A callback for a search.
+local function continue_search()
+    if is_searching() then
+        flight.memory = law.continue_search(flight.memory, flight.settings, 1)
+    elseif flight and last_problem then
+        improve_join(last_problem)
+    end
 end
 
 -- A callback in flight: one step of the law.
@@ -467,8 +527,11 @@ local function wait(now)
     if flight and is_current(now) then
         if is_high and not is_latched then
             begin(now)
+            if flight then
+                guide(now)
+            end
         else
-            improve(now)
+            expect(now)
         end
         return
     end
@@ -479,25 +542,33 @@ local function wait(now)
     end
 end
 
-local function update()
-    if is_search_next then
-        is_search_next = false
-        if is_searching() then
-            flight.memory = law.continue_search(flight.memory, flight.settings, 1)
-        end
-        return PERIOD_MS - SEARCH_MS
-    end
+-- A callback between searches: a step of the law, or a look at the switch.
+local function step()
     local now = measure()
     if now then
         measure_turning(now)
+        measure_airspeed(now, vehicle:get_mode())
     end
     if flight and flight.is_flown then
         guide(now)
     else
         wait(now)
     end
-    is_search_next = is_searching()
-    return is_search_next and SEARCH_MS or PERIOD_MS
+end
+
+local function update()
+    if slot > 0 then
+        continue_search()
+    else
+        step()
+    end
+    if is_search_due() then
+        slot = slot + 1
+        return SEARCH_MS
+    end
+    local passed_ms = slot * SEARCH_MS
+    slot = 0
+    return PERIOD_MS - passed_ms
 end
 
 -- An error, for instance of memory, ends a flight.

@@ -37,7 +37,7 @@ DELAY_S, ROLL = 0.2, Roll(0.08, 90.0)
 # which a tenth is left in reserve.
 PERIOD_S, MOST_INSTRUCTIONS = 0.05, 9_000
 
-# Callbacks before the switch is moved.
+# Steps before the switch is moved.
 WAITING = 40
 
 # What the applet says.
@@ -228,12 +228,13 @@ class Flown(NamedTuple):
     entered_s: float
 
 
-def flown(i, simulator=None, until_s=240.0):
-    """A flight from the start `i`, until the applet leaves the circle to the autopilot."""
+def flown(i, simulator=None, until_s=240.0, waiting=WAITING, mode=LOITER):
+    """A flight from the start `i`, from the mode, until the applet leaves the circle to the autopilot."""
     _, radius_m, wind = scene(i)
     world = World(point_mass(i) if simulator is None else simulator, radius_m, wind, AIRCRAFT)
+    world.now_mode = mode
     applet, monitor = Applet(world), SettlingMonitor(Orbit(0.0, 0.0, radius_m), Band())
-    for _ in range(WAITING):
+    while world.simulator.true_state().time_s < waiting * PERIOD_S:
         applet.callback()
     world.states.add("switch")
     begun_s = world.simulator.true_state().time_s
@@ -245,12 +246,12 @@ def flown(i, simulator=None, until_s=240.0):
     return Flown(world, applet, monitor.entered_s - begun_s)
 
 
-def least_s(i):
+def least_s(i, waiting=WAITING):
     """The least time from where the switch is moved, for an aircraft that banks at once."""
     _, radius_m, wind = scene(i)
     simulator = point_mass(i)
     world = World(simulator, radius_m, wind, AIRCRAFT)
-    for _ in range(WAITING):
+    for _ in range(waiting):
         world.advance(PERIOD_S)
     state = simulator.true_state()
     pose = Pose(state.east_m, state.north_m, state.heading_deg)

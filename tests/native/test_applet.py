@@ -21,8 +21,12 @@ from loiter.kernel.wind.wind_search import WindProblem, fastest, time_of
 from native import states
 from native.applet import (
     AIRCRAFT,
+    BEGINS,
+    GUIDED,
     HELD,
+    LOITER,
     MOST_INSTRUCTIONS,
+    ROLL,
     WAITING,
     Applet,
     World,
@@ -113,6 +117,29 @@ def test_every_binding_is_one_of_ardupilot(path):
 def test_every_start_settles(flights):
     assert all(HELD in one.world.said for one in flights)
     assert np.median([one.entered_s - least_s(i) for i, one in zip(STARTS, flights, strict=True)]) < 4.0
+
+
+@pytest.mark.parametrize("i", [7, 27])
+def test_in_wind_half_a_second_of_waiting_is_enough(i):
+    """With one search in each step before and in the flight these starts were 7.8 and 14.7 s late."""
+    done = flown(i, waiting=10)
+    assert HELD in done.world.said
+    assert done.entered_s - least_s(i, 10) < 3.0
+
+
+@pytest.mark.parametrize("mode", [GUIDED, LOITER])
+def test_the_airspeed_of_guided_is_planned_with(mode):
+    """At 17 m/s the plane can hold a circle that is too tight at the cruise airspeed."""
+    slow = Aircraft(airspeed_m_s=17.0, max_bank_deg=45.0)
+    world = World(PointMass(Pose(-300.0, 0.0, 0.0), slow, seed=1, roll=ROLL), 40.0, None, slow)
+    world.parameters["AIRSPEED_CRUISE"], world.now_mode = AIRCRAFT.airspeed_m_s, mode
+    applet = Applet(world)
+    for _ in range(80):
+        applet.callback()
+    world.states.add("switch")
+    for _ in range(3):
+        applet.callback()
+    assert world.said[-1] == (BEGINS if mode == GUIDED else "Entry: no circle that can be held")
 
 
 def test_no_callback_takes_more_instructions_than_ardupilot_allows_by_default(flights):

@@ -37,6 +37,7 @@ def starve(applet):
 
 
 def deny_memory(applet):
+    applet.lua.execute("collectgarbage()")
     applet.lua.set_max_memory(applet.lua.get_memory_used() // 2)
 
 
