@@ -65,7 +65,7 @@ def deepest(own, called, root, above=()):
 def output(folder, processor, sizes):
     """What arm_main.c prints in QEMU, or on the host where the processor is None."""
     macros = [f"-D{name}={value}" for name, value in sizes.items()]
-    sources = [str(FOLDER / "loiter.c"), str(HERE / "arm_main.c")]
+    sources = [str(FOLDER / "loiter.c"), str(FOLDER / "loiter_identification.c"), str(HERE / "arm_main.c")]
     program = folder / f"program-{processor}"
     if processor is None:
         flags = ["-std=c99", "-O2", "-ffp-contract=off", "-DLOITER_FLOAT"]

@@ -1,7 +1,7 @@
 /* Runs on a Cortex-M without an operating system: entries and a flight of the law, printed with all their digits, and
  * the instructions that they took. Built for the host, it prints the same lines but those.
  */
-#include "loiter.h"
+#include "loiter_identification.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -71,21 +71,29 @@ static void entries(int count, int windy) {
 }
 
 /* A flight with bank and turn as commanded. */
-static void flight(int steps, loiter_real wind_east_m_s, int search_steps) {
+static void flight(const char *name, int steps, loiter_real wind_east_m_s, int search_steps, int is_identified) {
     static loiter_law law;
+    static loiter_identification known;
     Counts counts = {0, 0, 0};
     loiter_law_config config = loiter_law_defaults(18.0f, 35.0f, 90.0f, LOITER_EITHER);
     loiter_real x = -250.0f, y = 70.0f, heading_deg = 70.0f, bank_deg = 0.0f;
     config.wind_east_m_s = wind_east_m_s;
     config.search_steps = search_steps;
     printf("%d\n", loiter_law_begin(&law, &config));
+    if (is_identified) {
+        loiter_identification_begin(&known, &law, 0);
+    }
     for (int i = 0; i < steps; i++) {
         const loiter_real c = sinf(heading_deg * 0.0174532925f), s = cosf(heading_deg * 0.0174532925f);
         const loiter_measurement m = {(uint32_t)i * 20000u,         x,        y, heading_deg, bank_deg,
                                       18.0f * c + wind_east_m_s, 18.0f * s, 18.0f};
         loiter_command command;
         const unsigned long begin = now();
-        loiter_law_step(&law, &m, 0.02f, &command);
+        if (is_identified) {
+            loiter_law_step_identified(&law, &known, &m, 0.02f, &command);
+        } else {
+            loiter_law_step(&law, &m, 0.02f, &command);
+        }
         counted(&counts, begin);
         if (i % 50 == 0) {
             printf("%d", command.phase);
@@ -98,13 +106,15 @@ static void flight(int steps, loiter_real wind_east_m_s, int search_steps) {
         x += (18.0f * c + wind_east_m_s) * 0.02f;
         y += 18.0f * s * 0.02f;
     }
-    print_counts(search_steps > 0 ? "law in wind by parts" : wind_east_m_s != 0.0f ? "law in wind" : "law", &counts);
+    print_counts(name, &counts);
 }
 
 int main(void) {
-    flight(FLIGHT_STEPS, 0.0f, 0);
-    flight(FLIGHT_STEPS, 4.0f, 0);
-    flight(FLIGHT_STEPS, 4.0f, 5);
+    flight("law", FLIGHT_STEPS, 0.0f, 0, 0);
+    flight("law in wind", FLIGHT_STEPS, 4.0f, 0, 0);
+    flight("law in wind by parts", FLIGHT_STEPS, 4.0f, 5, 0);
+    flight("identified law", FLIGHT_STEPS, 0.0f, 0, 1);
+    flight("identified law in wind by parts", FLIGHT_STEPS, 4.0f, 5, 1);
     entries(STILL_ENTRIES, 0);
     entries(WINDY_ENTRIES, 1);
     return 0;
