@@ -2671,8 +2671,8 @@ end
 -- The flight that is prepared or flown; and whether the switch must be moved before the next one.
 local flight, is_latched = nil, true
 
--- How many callbacks for searches there have been since the last step.
-local slot = 0
+-- When the last step began, and how many callbacks for searches there have been since then.
+local begun_ms, slot = nil, 0
 
 -- The mean equivalent airspeed in the present mode.
 local mean_airspeed = {}
@@ -2993,10 +2993,10 @@ local function is_searching()
     return flight and flight.is_flown and flight.memory.search.aim ~= 0
 end
 
--- Whether another callback for a search follows before the next step.
-local function is_search_due()
+-- Whether another callback for a search follows before the next step, which is due in so many milliseconds.
+local function is_search_due(left_ms)
     local is_improved = flight and last_problem and (slot == 0 or searches < MANY_SEARCHES)
-    return (slot + 1) * SEARCH_MS < PERIOD_MS and (is_searching() or is_improved)
+    return left_ms > SEARCH_MS and (is_searching() or is_improved)
 end
 
 -- A callback for a search.
@@ -3084,15 +3084,17 @@ local function update()
     if slot > 0 then
         continue_search()
     else
+        begun_ms = millis()
         step()
     end
-    if is_search_due() then
+    -- Callbacks come late: the next step is due after the last one began, not after this callback.
+    local left_ms = PERIOD_MS - (millis() - begun_ms):toint()
+    if is_search_due(left_ms) then
         slot = slot + 1
         return SEARCH_MS
     end
-    local passed_ms = slot * SEARCH_MS
     slot = 0
-    return PERIOD_MS - passed_ms
+    return math.max(left_ms, 1)
 end
 
 -- An error, for instance of memory, ends a flight.
