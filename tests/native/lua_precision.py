@@ -1,8 +1,8 @@
 """What Lua with numbers of 32 bits costs: `python -m native.lua_precision LUA kernel`, `law FOLDER`, in `tests`.
 
 LUA is an interpreter of Lua 5.3 that was compiled with -DLUA_32BITS, as ArduPilot's is. `kernel` compares times and
-words with those of Lua in double precision, for the states of `native.single_precision`. `law` gives the measurements of
-flights that `guidance.recorded` has recorded to the law of the applet in both, and in still air to the C in single
+words with those of Lua in double precision, for the states of `native.single_precision`. `law` gives the measurements
+of flights that `guidance.recorded` has recorded to the law of the applet in both, and in still air to the C in single
 precision too. Flights whose clock jumps are left out: the applet's does not.
 """
 
@@ -61,7 +61,9 @@ def written(values):
 
 
 def kernel(lua, count=3_000):
-    print("| distance | R | tolerance | median | largest | another turn | another word |\n|---|---|---|---|---|---|---|")
+    print(
+        "| distance | R | tolerance | median | largest | another turn | another word |\n|---|---|---|---|---|---|---|"
+    )
     cases = [(10.0**-k, RADII, tolerance) for tolerance in (0.0, TOLERANCE) for k in (1, 2, 3, 4, 5, 6, 7)]
     cases += [(1e-6, (1.0 + 10.0**-k,), tolerance) for tolerance in (0.0, TOLERANCE) for k in (2, 3, 4, 5, 6)]
     for distance, radii, tolerance in cases:
@@ -82,7 +84,7 @@ def kernel(lua, count=3_000):
 def in_lua(value):
     """A named tuple of numbers as text of Lua."""
     if hasattr(value, "_fields"):
-        return "{%s}" % ", ".join(f"{name} = {in_lua(each)}" for name, each in zip(value._fields, value, strict=True))
+        return "{" + ", ".join(f"{name} = {in_lua(each)}" for name, each in value._asdict().items()) + "}"
     return str(value).lower() if isinstance(value, (bool, int)) else float(np.float32(value)).hex()
 
 
@@ -113,7 +115,9 @@ def compare(title, pairs):
     bank = np.concatenate([np.abs(a[:, 0] - b[:, 0]) for a, b in pairs])
     join = np.concatenate([np.abs(a[:, 1] - b[:, 1]) for a, b in pairs])
     shares = ", ".join(f"{100 * (bank > limit).mean():.3f} % beyond {limit:g}" for limit in (0.01, 0.1, 1.0, 10.0))
-    print(f"{title}: {len(pairs)} flights, {len(bank)} steps; bank: median {np.median(bank):.1e} deg, {shares}, ", end="")
+    print(
+        f"{title}: {len(pairs)} flights, {len(bank)} steps; bank: median {np.median(bank):.1e} deg, {shares}, ", end=""
+    )
     print(f"largest {bank.max():.3g}; time to join: 99.9 % within {np.nanquantile(join, 0.999):.3g} s")
 
 

@@ -164,7 +164,7 @@ def library(single):
 class OnboardLaw(LoiterEntry):
     """The law whose step is in C, with the identification of Python; all is relative to the circle's centre."""
 
-    single = True
+    single, search_steps = True, 0
 
     def __init__(self, *arguments, **others):
         super().__init__(*arguments, **others)
@@ -178,7 +178,8 @@ class OnboardLaw(LoiterEntry):
     def relative_settings(self):
         s, (east, north) = self._settings, self.velocity
         wind = {"wind_east_m_s": s.wind_east_m_s - east, "wind_north_m_s": s.wind_north_m_s - north}
-        return s._replace(east_m=0.0, north_m=0.0, velocity_east_m_s=0.0, velocity_north_m_s=0.0, **wind)
+        s = s._replace(east_m=0.0, north_m=0.0, velocity_east_m_s=0.0, velocity_north_m_s=0.0, **wind)
+        return s._replace(search_steps=self.search_steps)
 
     def known(self):
         """What is known of the vehicle, with the wind relative to the circle."""

@@ -1,9 +1,10 @@
-"""What single precision costs: `python -m native.single_precision kernel`, `wind`, `law FOLDER`, `flown`, in `tests`.
+"""What single precision costs: `python -m native.single_precision kernel`, `wind`, `law FOLDER`, `flown`, `spread`.
 
 `kernel` compares times and words in single precision with those in double, for the same states, against the distance
 of the states from the circles where the word changes, and next to R = 1. `wind` does so for the search in wind. `law`
 gives the measurements of flights that `guidance.recorded` has recorded to the law in single and in double precision.
-`flown` flies both from the same starts, with varied aircraft in gusts of 5 %.
+`flown` flies both from the same starts, with varied aircraft in gusts of 5 %. `spread` flies the law in single
+precision in a wind of a third of the airspeed, with searches that are spread over steps. In the folder `tests`.
 """
 
 import pickle
@@ -17,9 +18,10 @@ import numpy as np
 
 from compiled.windy import drawn
 from guidance.recorded import LIMIT_DEG
+from loiter import Aircraft, Wind
 from loiter.guidance.protocol import State
-from loiter.guidance.trials.campaign import campaign
-from loiter.guidance.trials.settings import varied_setting
+from loiter.guidance.trials.campaign import campaign, trials
+from loiter.guidance.trials.settings import point_mass_setting, varied_setting
 from loiter.guidance.trials.summary import summary
 from loiter.guidance.trials.varied import varied_trials
 from loiter.kernel.wind.wind_search import time_of
@@ -143,9 +145,50 @@ def law_of(kind, trial):
     return kind(trial.ideal.orbit, trial.declared)
 
 
+class By5(OnboardLaw):
+    search_steps = 5
+
+
+class By10(OnboardLaw):
+    search_steps = 10
+
+
+class By20(OnboardLaw):
+    search_steps = 20
+
+
+def law_in_wind(kind, trial):
+    return kind(trial.ideal.orbit, trial.known_aircraft, trial.known_wind)
+
+
+def spread(count=100):
+    aircraft, setting = Aircraft(18.0, max_bank_deg=35.0), point_mass_setting(0.05)
+    laws = {str(kind.search_steps): partial(law_in_wind, kind) for kind in (OnboardLaw, By5, By10, By20)}
+    starts = trials(count, 0, aircraft, Wind(6.0, 250.0))
+    done = campaign(laws, setting.simulator, starts, band=setting.band, workers=1)
+    whole_s = np.array([one.settled_s for one in done["0"]])
+    print("| search_steps | settled | go-arounds | later than the plan: median | 90 % |", end="")
+    print(" than whole searches: median | 90 % | largest |")
+    print("|" + "---|" * 8)
+    for name, outcomes in done.items():
+        settled_s, ideal_s = (np.array([getattr(one, each) for one in outcomes]) for each in ("settled_s", "ideal_s"))
+        late_s, more_s = settled_s - ideal_s, settled_s - whole_s
+        found = [
+            np.nanmedian(late_s),
+            np.nanquantile(late_s, 0.9),
+            np.nanmedian(more_s),
+            np.nanquantile(more_s, 0.9),
+            np.nanmax(more_s),
+        ]
+        counts = sum(one.settled for one in outcomes), sum(one.round_again for one in outcomes)
+        print(
+            f"| {name} | {counts[0]} of {count} | {counts[1]} | " + " | ".join(f"{each:.2f} s" for each in found) + " |"
+        )
+
+
 if __name__ == "__main__":
     action, *others = sys.argv[1:]
     if action == "law":
         law(others[0], *map(int, others[1:]))
     else:
-        {"kernel": kernel, "wind": wind, "flown": flown}[action](*map(int, others))
+        {"kernel": kernel, "wind": wind, "flown": flown, "spread": spread}[action](*map(int, others))

@@ -187,8 +187,7 @@ def test_cmake_builds_it(more, tmp_path):
 class SpreadLaw(OnboardLaw):
     """The law that spreads its searches in wind over steps."""
 
-    def relative_settings(self):
-        return super().relative_settings()._replace(search_steps=10)
+    search_steps = 10
 
 
 @pytest.mark.parametrize("i", range(4))
