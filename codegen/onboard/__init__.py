@@ -33,7 +33,7 @@ from loiter.version import __version__
 FOLDER = ROOT / "onboard" / "c"
 
 # In the law the kernel's functions stand in for machine code that Python calls.
-# Its rings are apart from its memory, which is passed by value in places: within it a step takes 16.9 kB of stack, not 2.4.
+# Its rings are apart from its memory, which is passed by value in places: within it a step would take 16.9 kB of stack.
 ARITHMETIC = ONBOARD._replace(
     replaced={"entry_in_still_air": synthesis.optimum, "advance_in_wind": wind_search.advance_search}
 )
