@@ -20,6 +20,7 @@ PLACED = fences.PlacedFence(
     (fences.PlacedCircle("a", 47.0, 8.0, 9.0), fences.PlacedPolygon("b", ((47.0, 8.0), (47.0, 8.1), (47.1, 8.0))))
 )
 LEG = loiter.Leg(POSE, ORBIT, exit_to=(600.0, 0.0))
+LEG_PLAN = loiter.plan_leg(LEG, UAV)
 TABLE = {"columns": {"east_m": "x"}, "origin": FRAME, "orbit_velocity_m_s": (1.0, 0.0)}
 SCENE = {"orbit": ORBIT, "aircraft": UAV, "wind": WIND}
 SAVED = {"maneuver": MANEUVER, "frame": FRAME, "datum": io.AltitudeDatum(), "altitude_m": 900.0}
@@ -29,6 +30,8 @@ CALLS = [
     (loiter.plan, {"pose": POSE, "slot": loiter.Slot(90.0), **SCENE}, "pose orbit aircraft wind slot"),
     (loiter.plan_all, {"pose": POSE, **SCENE}, "pose orbit aircraft wind"),
     (loiter.candidates, {"pose": POSE, **SCENE}, "pose orbit aircraft wind"),
+    (io.leg_mission, {"plan": LEG_PLAN, "frame": FRAME}, "plan frame"),
+    (io.save_leg, {"plan": LEG_PLAN, "path": "leg.kml", "frame": FRAME}, "plan path frame"),
     (loiter.plan_leg, {"leg": LEG, "aircraft": UAV, "wind": WIND}, "leg aircraft wind"),
     (loiter.hold, {**SCENE, "turn": "cw"}, "orbit aircraft wind turn"),
     (loiter.reduce, {"east_m": 0, "north_m": 0, "heading_deg": 0, "orbit": ORBIT, "aircraft": UAV}, "orbit aircraft"),

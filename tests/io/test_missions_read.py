@@ -13,8 +13,21 @@ from pymavlink import mavwp
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from earth import SCENES, entry
+from loiter import Aircraft, Leg, Orbit, Pose, plan_leg
 from loiter.errors import InvalidArgument
-from loiter.io import AltitudeDatum, Autopilot, Frame, MavCommand, Mission, MissionItem, mission, read_mission, save
+from loiter.geo import LocalFrame
+from loiter.io import (
+    AltitudeDatum,
+    Autopilot,
+    Frame,
+    MavCommand,
+    Mission,
+    MissionItem,
+    mission,
+    read_mission,
+    save,
+    save_leg,
+)
 from loiter.io.missions.qgcplan import qgcplan
 from loiter.io.missions.wpl import wpl
 from loiter.io.reading import MAX_BYTES, Source
@@ -75,6 +88,21 @@ def test_mavsdk_reads_the_plan(peer, tmp_path, name):
         check_place(data.mission_items[0], *expected.home[:2])
         assert data.mission_items[0].z == 600.0
     assert (data.geofence_items, data.rally_items) == ([], [])
+
+
+def test_mavsdk_reads_a_leg_that_climbs(peer, tmp_path):
+    """The last items are a loiter that is left on the tangent at the altitude, and the point; by MAVLink's numbers."""
+    autopilot, plugin = peer
+    frame, uav = LocalFrame(47.0, 8.0), Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5)
+    start, circle = Pose(-400.0, 120.0, 90.0, altitude_m=500.0), Orbit(0.0, 0.0, 120.0, "ccw")
+    plan = plan_leg(Leg(start, circle, exit_to=(600.0, 0.0), altitude_m=700.0), uav)
+    save_leg(plan, tmp_path / "leg.plan", frame=frame, autopilot=autopilot)
+    loiter, end = plugin.import_qgroundcontrol_mission(str(tmp_path / "leg.plan")).mission_items[-2:]
+    assert (loiter.command, end.command) == (mavlink.MAV_CMD_NAV_LOITER_TO_ALT, mavlink.MAV_CMD_NAV_WAYPOINT)
+    assert (loiter.param1, loiter.param2, loiter.param4) == (1.0, -120.0, 1.0)
+    assert {(item.frame, item.z) for item in (loiter, end)} == {(mavlink.MAV_FRAME_GLOBAL, 700.0)}
+    check_place(loiter, 47.0, 8.0)
+    check_place(end, *map(float, frame.to_geodetic(600.0, 0.0)))
 
 
 @pytest.mark.parametrize("ending", [".plan", ".waypoints"])

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Group, Parameter
@@ -16,7 +19,10 @@ from loiter.cli.scenes import fit_proposed, read_options
 from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
+from loiter.io.legs import check_leg_format, leg_content
+from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
 from loiter.planning.leg import Leg, LegPlan, plan_leg
+from loiter.writing import write_content
 
 way_out = Group("The way out", sort_key=4)
 
@@ -60,6 +66,18 @@ DescentRate = Annotated[
     float | None,
     Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S", help="Rate at which it descends."),
 ]
+Save = Annotated[
+    tuple[Path, ...],
+    Parameter(
+        group=output,
+        metavar="FILE",
+        help="Write the leg to a file: .kml with its altitudes, .plan or .waypoints as a mission whose loiter ends on "
+        "the tangent; may be repeated. Altitudes are above mean sea level.",
+    ),
+]
+AutopilotChoice = Annotated[
+    AutopilotName, Parameter(group=output, help="The autopilot that a mission is for. PX4 takes .plan only.")
+]
 Json = Annotated[bool, Parameter(group=output, help="Print one JSON object.")]
 
 
@@ -77,12 +95,16 @@ def leg(
     to_altitude: ToAltitude = None,
     climb_rate: ClimbRate = None,
     descent_rate: DescentRate = None,
+    save: Save = (),
+    autopilot: AutopilotChoice = "ardupilot",
     json: Json = False,
     pictures: PictureOptions = PictureOptions(),
 ) -> None:
     """Plan the fastest way in, round and out of a holding circle towards a point."""
     (problem, frame), remark = read_options(start, circle, uav, air, fit=fit)
     pictures.check()
+    with argument_names(path="save"):
+        deque(map(check_leg_format, save), maxlen=0)
     pose, aircraft = problem.pose, problem.aircraft
     if to_altitude is not None and uav.altitude is None:
         raise InvalidArgument("altitude_m", "is needed with --to-altitude: it is the altitude at the start")
@@ -93,15 +115,27 @@ def leg(
         plan = plan_leg(
             asked, replace(aircraft, climb_rate_m_s=climb_rate, descent_rate_m_s=descent_rate), problem.wind
         )
+    _save(plan, save, frame, AUTOPILOTS[autopilot])
+    written = [*save, *pictures.plot]
     if pictures.plot:
         from loiter.plot.leg import draw
 
         pictures.save(draw(plan, frame=frame))
     if json:
-        report.print_json(plan.to_dict() | report.files_member(pictures.plot))
+        report.print_json(plan.to_dict() | report.files_member(written))
     else:
         lines = [remark] if remark else []
-        report.write(*lines, *leg_lines(plan, frame), *report.files_line(pictures.plot))
+        report.write(*lines, *leg_lines(plan, frame), *report.files_line(written))
+
+
+def _save(plan: LegPlan, paths: Sequence[Path], frame: LocalFrame | None, autopilot: Autopilot) -> None:
+    """Write the files, once the contents of all are known."""
+    if paths and frame is None:
+        raise InvalidArgument("save", "needs places on Earth: --pose-lla, --orbit-lla and --exit-to-lla")
+    if frame is not None:
+        contents = [(path, leg_content(plan, path, frame, autopilot)) for path in paths]
+        for path, content in contents:
+            write_content("save", path, content)
 
 
 def exit_place(

@@ -93,14 +93,14 @@ def mission(
     altitude_m = datum.checked(altitude_m)
     chord_error_m = positive("chord_error_m", chord_error_m, "metres")
     home_m = datum.planned_home_m(altitude_m)
-    orbit = _checked_orbit(maneuver.orbit)
+    orbit = checked_orbit(maneuver.orbit)
     if along_path or spacing_m is not None:
         waypoints = path_waypoints(maneuver, spacing_m, chord_error_m)
     else:
         waypoints = approach_waypoints(maneuver, autopilot)
     params = with_circle(MavCommand.NAV_LOITER_UNLIM, NO_PARAMS, orbit.radius_m, maneuver.turn)
     start, centre = Waypoint(maneuver.start.east_m, maneuver.start.north_m), Waypoint(orbit.east_m, orbit.north_m)
-    home_place, *places, centre_place = _in_degrees(frame, (start, *waypoints, centre))
+    home_place, *places, centre_place = places_in_degrees(frame, (start, *waypoints, centre))
     items = [
         MissionItem(MavCommand.NAV_WAYPOINT, datum.frame, (0.0, w.acceptance_m, 0.0, 0.0), *place, altitude_m)
         for w, place in zip(waypoints, places, strict=True)
@@ -169,12 +169,12 @@ def path_waypoints(maneuver: Maneuver, spacing_m: float | None, chord_error_m: f
     return tuple(map(Waypoint, track.east_m[1:].tolist(), track.north_m[1:].tolist()))
 
 
-def _in_degrees(frame: LocalFrame, places: tuple[Waypoint, ...]) -> list[tuple[float, float]]:
+def places_in_degrees(frame: LocalFrame, places: tuple[Waypoint, ...]) -> list[tuple[float, float]]:
     """Latitude and longitude, degrees, of each place."""
     return list(zip(*degrees(frame, [p.east_m for p in places], [p.north_m for p in places]), strict=True))
 
 
-def _checked_orbit(orbit: Orbit) -> Orbit:
+def checked_orbit(orbit: Orbit) -> Orbit:
     """The circle, if a loiter item can describe it."""
     if orbit.moves:
         raise InvalidArgument("orbit", "moves over the ground: the loiter of a mission stays where it is")

@@ -626,7 +626,7 @@ arrays.unchecked("datum", datum, AltitudeDatum);
 altitude_m = datum.checked(altitude_m);
 chord_error_m = positive("chord_error_m", chord_error_m, "metres");
 home_m = datum.planned_home_m(altitude_m);
-orbit = _checked_orbit(maneuver.orbit);
+orbit = checked_orbit(maneuver.orbit);
 if ((truth(along_path) || (spacing_m != null))) {
 waypoints = path_waypoints(maneuver, spacing_m, chord_error_m);
 } else {
@@ -634,7 +634,7 @@ waypoints = approach_waypoints(maneuver, autopilot);
 }
 params = with_circle(MavCommand.NAV_LOITER_UNLIM, NO_PARAMS, orbit.radius_m, maneuver.turn);
 [start, centre] = iter([Waypoint(maneuver.start.east_m, maneuver.start.north_m), Waypoint(orbit.east_m, orbit.north_m)]);
-[home_place, places, centre_place] = with_middle(_in_degrees(frame, [start, ...iter(waypoints), centre]), 1, 1);
+[home_place, places, centre_place] = with_middle(places_in_degrees(frame, [start, ...iter(waypoints), centre]), 1, 1);
 items = list(iter(zip(waypoints, places))).map((one) => iter(one)).map(([w, place]) => MissionItem(MavCommand.NAV_WAYPOINT, datum.frame, [0.0, w.acceptance_m, 0.0, 0.0], ...iter(place), altitude_m));
 loiter = MissionItem(MavCommand.NAV_LOITER_UNLIM, datum.frame, params, ...iter(centre_place), altitude_m);
 return Mission([...iter(items), loiter], [...iter(home_place), home_m]);
@@ -989,7 +989,7 @@ return errors.OutOfRange(`the place ${str(where)} is more than ${format(div(REAC
 }
 }, ["latitude_deg", "longitude_deg"]);
 
-function _checked_orbit(orbit) {
+function checked_orbit(orbit) {
 if (truth(orbit.moves)) {
 throw errors.InvalidArgument("orbit", "moves over the ground: the loiter of a mission stays where it is");
 }
@@ -1041,7 +1041,7 @@ this.acceptance_m = acceptance_m;
 }
 }, ["east_m", "north_m", "acceptance_m"]);
 
-function _in_degrees(frame, places) {
+function places_in_degrees(frame, places) {
 return list(zip(...iter(degrees(frame, list(iter(places)).map((p) => p.east_m), list(iter(places)).map((p) => p.north_m)))));
 }
 
@@ -2497,7 +2497,7 @@ if (!truth(near)) {
 self._count_turn(self._counted_deg, state.heading_deg);
 [self._since_joining_deg, self.joined_s] = iter([0.0, math.nan]);
 } else {
-if (eq(self.joined_s, self.joined_s)) {
+if (!truth(math.isnan(self.joined_s))) {
 self._since_joining_deg = add(self._since_joining_deg, flown_deg);
 } else {
 if (ne(direction, 0)) {

@@ -1,0 +1,64 @@
+"""A leg as KML 2.2: lines of the entry, the hold and the way out, with the altitudes of the climb or descent."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from loiter.geo.frame import LocalFrame
+from loiter.io.maps.markup import DEGREES, child, document, root
+from loiter.io.maps.places import degrees
+from loiter.planning.leg import LegPlan
+
+if TYPE_CHECKING:
+    import xml.etree.ElementTree as ET
+
+# A chord of the tightest turn spans this angle, radians: it is within 1/800 of the radius.
+CHORD_RAD = 0.1
+
+# The lines, and their colours as aabbggrr: vermilion, black and blue, as in the maps of an entry.
+PARTS = {"enter": "ff005ed5", "hold": "ff000000", "leave": "ffb27200"}
+
+
+def leg_kml(plan: LegPlan, frame: LocalFrame) -> bytes:
+    """The file: a line for each part, and placemarks where the circle is joined and left and at the end."""
+    outermost = root("kml", "http://www.opengis.net/kml/2.2")
+    top = child(outermost, "Document")
+    child(top, "name", str(plan))
+    aircraft = plan.entry.aircraft
+    track = plan.sample(CHORD_RAD * aircraft.turn_radius_m / aircraft.airspeed_m_s)
+    latitude, longitude = degrees(frame, track.east_m, track.north_m)
+    has_altitude = bool(np.isfinite(track.altitude_m).all())
+    ends_s = [0.0, plan.entry.duration_s, plan.exit_s, plan.duration_s]
+    places = [
+        f"{lon:{DEGREES}},{lat:{DEGREES}}" + (f",{altitude:.2f}" if has_altitude else "")
+        for lon, lat, altitude in zip(longitude, latitude, track.altitude_m.tolist(), strict=True)
+    ]
+    at = [int(np.abs(track.time_s - end_s).argmin()) for end_s in ends_s]
+    for (name, colour), first, last in zip(PARTS.items(), at, at[1:], strict=False):
+        style = child(child(top, "Style", id=name), "LineStyle")
+        child(style, "color", colour)
+        child(style, "width", "3")
+        mark = _placemark(top, f"{name}: {track.time_s[first]:.1f} s to {track.time_s[last]:.1f} s")
+        child(mark, "styleUrl", f"#{name}")
+        _geometry(mark, "LineString", " ".join(places[first : last + 1]), has_altitude=has_altitude)
+    for name, i in zip(("join", "exit", "end"), at[1:], strict=True):
+        mark = _placemark(top, f"{name}: {track.time_s[i]:.1f} s")
+        _geometry(mark, "Point", places[i], has_altitude=has_altitude)
+    return document(outermost)
+
+
+def _placemark(parent: ET.Element, title: str) -> ET.Element:
+    mark = child(parent, "Placemark")
+    child(mark, "name", title)
+    return mark
+
+
+def _geometry(mark: ET.Element, kind: str, coordinates: str, *, has_altitude: bool) -> None:
+    """A line or a point; altitudes are above the sea, and without them it lies on the ground."""
+    shape = child(mark, kind)
+    if kind == "LineString":
+        child(shape, "tessellate", "1")
+    child(shape, "altitudeMode", "absolute" if has_altitude else "clampToGround")
+    child(shape, "coordinates", coordinates)
