@@ -159,7 +159,11 @@ class Library:
                 lines.append(writer.method(one))
         names = ", ".join(f'"{name}"' for name, is_given in fields if is_given)
         base = "Values" if is_dataclass(cls) else "Tuple"
-        return f"const {title} = struct(class {title} extends {base} {{\n" + "\n".join(lines) + f"\n}}, [{names}]);"
+        return (
+            f"const {title} = struct(class {title} extends {base} {{\n"
+            + "\n".join(lines)
+            + f"\n}}, [{names}], {title!r});"
+        )
 
     def _plain_class(self, title: str, node: ast.ClassDef, cls: type, writer: Writer) -> str:
         """A class with a constructor, and with a base that is translated before it if the base is ours."""

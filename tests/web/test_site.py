@@ -114,6 +114,13 @@ def test_it_opens_from_a_folder(visit, folder):
     assert page.evaluate("location.hash").startswith("#pose=-400,120,90&orbit=0,0,120")
 
 
+def test_the_python_that_it_shows_runs(visit, served):
+    """Names of classes are shortened in the site, but not in this text."""
+    page, names = visit(served[0] + WINDY), {}
+    exec(page.locator("#python").text_content(), names)
+    assert names["m"].duration_s == pytest.approx(float(page.locator("#time").inner_text().split()[0]), abs=0.006)
+
+
 @pytest.mark.parametrize("device", [{}, PHONE], ids=["desk", "phone"])
 def test_embedded_it_is_the_plan_alone_with_a_link_to_the_page(visit, served, device):
     address, _ = served

@@ -49,8 +49,8 @@ export function exportPanel(store, actions, fields) {
 }
 
 /** @param {Format} format */
-function formatButton({ format, name, use }) {
-  const label = { title: use, "aria-label": `Save ${name}, ${use}` };
+function formatButton({ format, name, use, about }) {
+  const label = { title: about ? `${use}: ${about}` : use, "aria-label": `Save ${name}, ${use}` };
   return html("button", { type: "button", ...label, "data-format": format, "data-needs-plan": "" }, [name]);
 }
 
@@ -69,6 +69,9 @@ function download(content, name) {
   html("a", { href: address, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(address), KEPT_MS);
 }
+
+/** Where to find what a page is not allowed to copy. @type {Record<string, string>} */
+const WHERE = { Link: "the address of the page is the link", text: "select the text under Command and Python" };
 
 /** @param {Store} store @param {Actions} actions */
 export function copyButtons(store, actions) {
@@ -97,7 +100,7 @@ function copyButton(id, name, text, actions) {
     // Browsers have no clipboard for pages without https.
     (navigator.clipboard?.writeText(copied) ?? Promise.reject()).then(
       () => actions.say(`${name} copied.`),
-      () => actions.say("The browser does not let this page copy; select the text instead.", true),
+      () => actions.say(`The browser does not let this page copy: ${WHERE[name] ?? WHERE.text}.`, true),
     );
   });
 }

@@ -8,7 +8,7 @@
  * @typedef {import("../fields/fields.js").Fields} Fields
  *
  * @typedef {"map" | "table" | "mission" | "picture"} Kind
- * @typedef {{format: string, name: string, use: string, kind: Kind}} Format
+ * @typedef {{format: string, name: string, use: string, kind: Kind, about?: string}} Format
  */
 import { quantityText } from "../shared/units.js";
 import { altitudeText, mapAltitude, missingForMission, missionAltitude } from "../fields/altitude.js";
@@ -20,7 +20,7 @@ export const FORMATS = [
   { format: "gpx", name: "GPX", use: "for GPS receivers", kind: "map" },
   { format: "csv", name: "CSV", use: "samples along the track, in metres", kind: "table" },
   { format: "plan", name: "Plan", use: "mission for QGroundControl", kind: "mission" },
-  { format: "waypoints", name: "WPL", use: "waypoints for Mission Planner, MAVProxy and QGroundControl, in a text file", kind: "mission" },
+  { format: "waypoints", name: "WPL", use: "waypoints for Mission Planner", kind: "mission", about: "a text file that MAVProxy and QGroundControl read too" },
   { format: "png", name: "PNG", use: "picture", kind: "picture" },
   { format: "svg", name: "SVG", use: "picture", kind: "picture" },
 ];

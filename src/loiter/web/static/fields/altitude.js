@@ -28,7 +28,7 @@ export function missingForMission(altitude) {
   if (altitude_m === undefined) sentences.altitude = "A mission needs an altitude.";
   if (!altitude_reference) sentences["altitude-reference"] = "Choose what the altitude is measured from.";
   if (needsHome(altitude) && home_altitude_m === undefined)
-    sentences["home-altitude"] = "This mission also needs the altitude of home.";
+    sentences["home-altitude"] = "This mission also needs the altitude of home above mean sea level.";
   return sentences;
 }
 

@@ -190,7 +190,7 @@ toString() {
 const self = this;
 return `${str(join_(" or ", self.endings))} (${str(self.use)})`;
 }
-}, ["endings", "kind", "media_type", "name", "use", "content"]);
+}, ["endings", "kind", "media_type", "name", "use", "content"], 'Format');
 
 function _frame(ending, arguments_) {
 if ((arguments_.frame == null)) {
@@ -442,7 +442,7 @@ this.latitude_deg = latitude_deg;
 this.longitude_deg = longitude_deg;
 
 }
-}, ["segment", "latitude_deg", "longitude_deg"]);
+}, ["segment", "latitude_deg", "longitude_deg"], 'SegmentLine');
 
 function _marks(maneuver, frame, track, at, latitude, longitude) {
 let actions, headings, lat, lon, rows, tracks;
@@ -479,7 +479,7 @@ this.centre_longitude_deg = centre_longitude_deg;
 this.above_ground = above_ground;
 
 }
-}, ["maneuver", "altitude_m", "lines", "marks", "circle", "centre_latitude_deg", "centre_longitude_deg", "above_ground"]);
+}, ["maneuver", "altitude_m", "lines", "marks", "circle", "centre_latitude_deg", "centre_longitude_deg", "above_ground"], 'Chart');
 
 function cut_line(longitude_deg, latitude_deg) {
 let _, a, b, band, band_of_b, crossing, edge, line, part, parts, shifted, start, step;
@@ -526,7 +526,7 @@ this.longitude = longitude;
 this.latitude = latitude;
 
 }
-}, ["longitude", "latitude"]);
+}, ["longitude", "latitude"], 'Position');
 
 function cut_ring(longitude_deg, latitude_deg) {
 let _, bands, first, last, longitudes, parts, ring;
@@ -652,7 +652,7 @@ this.altitude_m = altitude_m;
 this.autocontinue = autocontinue;
 
 }
-}, ["command", "frame", "params", "latitude_deg", "longitude_deg", "altitude_m", "autocontinue"]);
+}, ["command", "frame", "params", "latitude_deg", "longitude_deg", "altitude_m", "autocontinue"], 'MissionItem');
 
 const MavCommand = enumeration({ NAV_WAYPOINT: 16, NAV_LOITER_UNLIM: 17, NAV_LOITER_TURNS: 18, NAV_LOITER_TIME: 19, NAV_LOITER_TO_ALT: 31, DO_ORBIT: 34, DO_REPOSITION: 192 });
 
@@ -693,7 +693,7 @@ this.track_deg = track_deg;
 this.ground_speed_m_s = ground_speed_m_s;
 
 }
-}, ["kind", "action", "time_s", "latitude_deg", "longitude_deg", "heading_deg", "track_deg", "ground_speed_m_s"]);
+}, ["kind", "action", "time_s", "latitude_deg", "longitude_deg", "heading_deg", "track_deg", "ground_speed_m_s"], 'Mark');
 
 function _unwrapped(longitude_deg, latitude_deg) {
 let longitudes;
@@ -784,7 +784,7 @@ this.ground_speed_m_s = ground_speed_m_s;
 this.ground_curvature_per_m = ground_curvature_per_m;
 
 }
-}, ["time_s", "east_m", "north_m", "heading_deg", "curvature_per_m", "track_deg", "ground_speed_m_s", "ground_curvature_per_m"]);
+}, ["time_s", "east_m", "north_m", "heading_deg", "curvature_per_m", "track_deg", "ground_speed_m_s", "ground_curvature_per_m"], 'Samples');
 
 function _over_ground(heading_deg, curvature_per_m, aircraft, wind) {
 let angles, east, ground_curvature, h_east, h_north, north, speed, track_deg, v;
@@ -866,7 +866,7 @@ return altitude_m;
 }
 throw errors.InvalidArgument("home_altitude_m", `is missing: a mission in ${str(self.unit)} needs that of home, ${str(item(UNITS, AltitudeReference.MSL))}`);
 }
-}, ["reference", "home_altitude_m"]);
+}, ["reference", "home_altitude_m"], 'AltitudeDatum');
 
 function number(argument, value, unit) {
 let x;
@@ -940,7 +940,7 @@ _drawing() {
 const self = this;
 return Drawing(str(self), self.start, self.segments, self.join, self.orbit_at_join, self.turn, self.aircraft, self.wind);
 }
-}, ["start", "orbit", "aircraft", "turn", "segments", "miss_m", "wind"]);
+}, ["start", "orbit", "aircraft", "turn", "segments", "miss_m", "wind"], 'Maneuver');
 
 const LocalFrame = struct(class LocalFrame extends Values {
 constructor(latitude_deg, longitude_deg) {
@@ -987,7 +987,7 @@ _too_far(where, hint = "") {
 const self = this;
 return errors.OutOfRange(`the place ${str(where)} is more than ${format(div(REACH_M, 1000.0), `g`)} km from the origin ${format(self.latitude_deg, `g`)} ${format(self.longitude_deg, `g`)}: the plane is not a good model of the Earth at that distance${str(hint)}`);
 }
-}, ["latitude_deg", "longitude_deg"]);
+}, ["latitude_deg", "longitude_deg"], 'LocalFrame');
 
 function checked_orbit(orbit) {
 if (truth(orbit.moves)) {
@@ -1039,7 +1039,7 @@ this.north_m = north_m;
 this.acceptance_m = acceptance_m;
 
 }
-}, ["east_m", "north_m", "acceptance_m"]);
+}, ["east_m", "north_m", "acceptance_m"], 'Waypoint');
 
 function places_in_degrees(frame, places) {
 return list(zip(...iter(degrees(frame, list(iter(places)).map((p) => p.east_m), list(iter(places)).map((p) => p.north_m)))));
@@ -1052,7 +1052,7 @@ this.items = items;
 this.home = home;
 
 }
-}, ["items", "home"]);
+}, ["items", "home"], 'Mission');
 
 function _velocity(east, north, aircraft, wind) {
 let wind_east, wind_north;
@@ -1091,7 +1091,7 @@ get velocity_m_s() {
 const self = this;
 return wind_velocity(self.speed_m_s, self.from_deg);
 }
-}, ["speed_m_s", "from_deg"]);
+}, ["speed_m_s", "from_deg"], 'Wind');
 
 function _keep(value, fields = new Map()) {
 let field, name;
@@ -1144,7 +1144,7 @@ heading_deg = wrapped(math.degrees(math.atan2(c, s)));
 bank_deg = self.aircraft.bank_deg(div(r, kernel.hold_rate(phase, side, ...iter(scene))));
 return HoldPoint(wrapped(math.degrees(math.atan2(x, y))), heading_deg, track_deg, speed, bank_deg);
 }
-}, ["orbit", "aircraft", "wind", "turn"]);
+}, ["orbit", "aircraft", "wind", "turn"], 'Hold');
 
 const Pose = struct(class Pose extends Values {
 constructor(east_m, north_m, heading_deg, altitude_m = null) {
@@ -1164,7 +1164,7 @@ if ((self.altitude_m != null)) {
 _keep(self, new Map([["altitude_m", number("pose altitude_m", self.altitude_m, "metres")]]));
 }
 }
-}, ["east_m", "north_m", "heading_deg", "altitude_m"]);
+}, ["east_m", "north_m", "heading_deg", "altitude_m"], 'Pose');
 
 function over_ground(heading_deg, aircraft, wind) {
 let east, north;
@@ -1215,7 +1215,7 @@ ring = `cx="${str(centre_x)}" cy="${str(centre_y)}" r="${format(mul(view.scale, 
 parts = [`<svg xmlns="http://www.w3.org/2000/svg" role="img" aria-label="${str(title)}" ${str(size)}>`, `<title>${str(title)}</title>`, "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>", `<circle ${str(ring)} fill="none" stroke="black" stroke-width="${str(THIN)}"/>`, ...iter(list(iter(range(4))).map((quarter) => _direction(view, self.circle, self.turn, quarter))), ...iter(list(iter(tracks)).map((one) => iter(one)).map(([letter, track]) => drawing__line(view, letter, track))), ...iter(list(iter(sliced(self.segments, 1, null, null))).map((segment) => _dot(view, segment.start, "white"))), _dot(view, self.join, "black"), _aircraft(view, self.start), "</svg>"];
 return join_("\n", parts);
 }
-}, ["title", "start", "segments", "join", "circle", "turn", "aircraft", "wind"]);
+}, ["title", "start", "segments", "join", "circle", "turn", "aircraft", "wind"], 'Drawing');
 
 function checked_place(argument, latitude_deg, longitude_deg) {
 let lat, lon, swapped;
@@ -1239,7 +1239,7 @@ this.longitude_deg = longitude_deg;
 this.heading_deg = heading_deg;
 
 }
-}, ["latitude_deg", "longitude_deg", "heading_deg"]);
+}, ["latitude_deg", "longitude_deg", "heading_deg"], 'Place');
 
 function _circle_parameters(command) {
 let known;
@@ -1286,7 +1286,7 @@ this.ground_speed_m_s = ground_speed_m_s;
 this.bank_deg = bank_deg;
 
 }
-}, ["azimuth_deg", "heading_deg", "track_deg", "ground_speed_m_s", "bank_deg"]);
+}, ["azimuth_deg", "heading_deg", "track_deg", "ground_speed_m_s", "bank_deg"], 'HoldPoint');
 
 const Setpoints = struct(class Setpoints extends Tuple {
 constructor(time_s, east_m, north_m, tangent_east, tangent_north, curvature_per_m, speed_m_s) {
@@ -1300,7 +1300,7 @@ this.curvature_per_m = curvature_per_m;
 this.speed_m_s = speed_m_s;
 
 }
-}, ["time_s", "east_m", "north_m", "tangent_east", "tangent_north", "curvature_per_m", "speed_m_s"]);
+}, ["time_s", "east_m", "north_m", "tangent_east", "tangent_north", "curvature_per_m", "speed_m_s"], 'Setpoints');
 
 function drawing__track(segment, aircraft, wind) {
 let _, east, north, points;
@@ -1358,7 +1358,7 @@ this.radius = radius;
 this.direction = direction;
 
 }
-}, ["radius", "direction"]);
+}, ["radius", "direction"], 'CircleParameters');
 
 function signs__counter_clockwise(turn) {
 if (!has(turn, [Turn.CW, Turn.CCW])) {
@@ -1415,7 +1415,7 @@ const self = this;
 arrays.unchecked("pose", pose, Pose);
 return math.hypot(sub(pose.east_m, self.east_m), sub(pose.north_m, self.north_m));
 }
-}, ["east_m", "north_m", "radius_m", "turn", "velocity_east_m_s", "velocity_north_m_s"]);
+}, ["east_m", "north_m", "radius_m", "turn", "velocity_east_m_s", "velocity_north_m_s"], 'Orbit');
 
 const Aircraft = struct(class Aircraft extends Values {
 constructor(airspeed_m_s, max_bank_deg = null, min_turn_radius_m = null, max_turn_rate_deg_s = null, climb_rate_m_s = null, descent_rate_m_s = null) {
@@ -1465,7 +1465,7 @@ bank_deg(radius_m) {
 const self = this;
 return math.degrees(math.atan2(mul(self.airspeed_m_s, self.airspeed_m_s), mul(STANDARD_GRAVITY_M_S2, radius_m)));
 }
-}, ["airspeed_m_s", "max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s", "climb_rate_m_s", "descent_rate_m_s"]);
+}, ["airspeed_m_s", "max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s", "climb_rate_m_s", "descent_rate_m_s"], 'Aircraft');
 
 const RelativeWind = struct(class RelativeWind extends Tuple {
 constructor(x, y) {
@@ -1478,7 +1478,7 @@ get still() {
 const self = this;
 return bit_and(eq(self.x, 0.0), eq(self.y, 0.0));
 }
-}, ["x", "y"]);
+}, ["x", "y"], 'RelativeWind');
 
 function relative_velocity(air, circle, airspeed) {
 let passes, wx, wy;
@@ -1503,7 +1503,7 @@ x = add(mul(0.5, WIDTH), mul(self.scale, sub(east_m, self.east)));
 y = sub(mul(0.5, self.height), mul(self.scale, sub(north_m, self.north)));
 return `${format(x, `.1f`)},${format(y, `.1f`)}`;
 }
-}, ["east", "north", "scale", "height"]);
+}, ["east", "north", "scale", "height"], '_View');
 
 function circle_radius_m(argument, radius_m) {
 if ((lt(neg(math.inf), float(radius_m)) && lt(float(radius_m), 0.0))) {
@@ -1534,7 +1534,7 @@ this.along_path = along_path;
 this.site = site;
 
 }
-}, ["maneuver", "frame", "altitude_m", "datum", "spacing_m", "chord_error_m", "autopilot", "along_path", "site"]);
+}, ["maneuver", "frame", "altitude_m", "datum", "spacing_m", "chord_error_m", "autopilot", "along_path", "site"], 'SaveArguments');
 
 const JsonField = struct(class JsonField extends Tuple {
 constructor(name, path) {
@@ -1543,7 +1543,7 @@ this.name = name;
 this.path = path;
 
 }
-}, ["name", "path"]);
+}, ["name", "path"], 'JsonField');
 
 const Problem = struct(class Problem extends Values {
 constructor(pose, orbit, aircraft, wind = CALM, tolerance_m = 0.0) {
@@ -1634,7 +1634,7 @@ _too_large() {
 const self = this;
 return errors.OutOfRange(`the scene is too large for double precision: ${format(self.orbit.distance_m(self.pose), `g`)} m from the centre of a circle of ${format(self.orbit.radius_m, `g`)} m, with a turn radius of ${format(self.aircraft.turn_radius_m, `.4g`)} m at an airspeed of ${format(self.aircraft.airspeed_m_s, `.4g`)} m/s; distances must stay below 2**52 turn radii`);
 }
-}, ["pose", "orbit", "aircraft", "wind", "tolerance_m"]);
+}, ["pose", "orbit", "aircraft", "wind", "tolerance_m"], 'Problem');
 
 function all_fastest(problem) {
 return maneuvers(solve_problem(problem, kernel.synthesis_optima, kernel.wind_search_optima));
@@ -1647,7 +1647,7 @@ this.problem = problem;
 this.frame = frame;
 
 }
-}, ["problem", "frame"]);
+}, ["problem", "frame"], 'PlacedProblem');
 
 function _kind(word, other, vanishes) {
 if (truth(vanishes)) {
@@ -1760,7 +1760,7 @@ this.psi1 = psi1;
 this.psi2 = psi2;
 
 }
-}, ["time_s", "u", "phi", "psi1", "psi2"]);
+}, ["time_s", "u", "phi", "psi1", "psi2"], 'Instant');
 
 function laws(problem) {
 let aircraft, orbit, period_s, wind;
@@ -1810,7 +1810,7 @@ this.side = side;
 this.tolerance = tolerance;
 
 }
-}, ["x", "y", "R", "side", "tolerance"]);
+}, ["x", "y", "R", "side", "tolerance"], 'ReducedProblem');
 
 function too_tight(orbit, aircraft) {
 let V, limit, need, needed, r, rate;
@@ -1856,7 +1856,7 @@ this.wy = wy;
 this.tolerance = tolerance;
 
 }
-}, ["x", "y", "c", "s", "R", "side", "wx", "wy", "tolerance"]);
+}, ["x", "y", "c", "s", "R", "side", "wx", "wy", "tolerance"], 'WindProblem');
 
 function maneuvers(found) {
 return tuple(list(iter(found)).map((candidate) => candidate.maneuver));
@@ -2019,7 +2019,7 @@ this.further = further;
 this.gradient = gradient;
 
 }
-}, ["arrival", "motion", "maximum_principle", "further", "gradient"]);
+}, ["arrival", "motion", "maximum_principle", "further", "gradient"], 'Formulation');
 
 const Condition = struct(class Condition extends Tuple {
 constructor(name, equation, violation) {
@@ -2029,7 +2029,7 @@ this.equation = equation;
 this.violation = violation;
 
 }
-}, ["name", "equation", "violation"]);
+}, ["name", "equation", "violation"], 'Condition');
 
 const EquationOfMotion = struct(class EquationOfMotion extends Tuple {
 constructor(name, equation, quantity, rate) {
@@ -2040,7 +2040,7 @@ this.quantity = quantity;
 this.rate = rate;
 
 }
-}, ["name", "equation", "quantity", "rate"]);
+}, ["name", "equation", "quantity", "rate"], 'EquationOfMotion');
 
 function* _crossings(arc) {
 let after, before, bounds, crossings, ends, heights, s;
@@ -2060,7 +2060,7 @@ this.gradient = gradient;
 this.bellman = bellman;
 
 }
-}, ["gradient", "bellman"]);
+}, ["gradient", "bellman"], 'GradientEquations');
 
 const Violation = struct(class Violation extends Tuple {
 constructor(value, bound) {
@@ -2069,7 +2069,7 @@ this.value = value;
 this.bound = bound;
 
 }
-}, ["value", "bound"]);
+}, ["value", "bound"], 'Violation');
 
 function distance_from_circle(trajectory, accuracy) {
 let _, q;
@@ -2167,7 +2167,7 @@ to_dict() {
 const self = this;
 return new Map([["valid", self.valid], ["proved_optimal", self.proved_optimal], ["basis", self.basis], ["word", self.maneuver.word], ["turn", self.maneuver.turn], ["duration_s", self.maneuver.duration_s], ["lambda", self.lam], ["psi", self.psi], ["choice", self.choice], ["switches", list(iter(self.switches)).map((switch_) => asdict(switch_))], ["residuals", list(iter(self.residuals)).map((residual) => _plain(residual))], ["candidates", list(iter(self.others)).map((other) => bit_or(asdict(other), new Map([["turn", other.turn]])))], ["runner_up", ((self.runner_up == null) ? null : self.runner_up.word)], ["margin_s", self.margin_s]]);
 }
-}, ["maneuver", "lam", "psi", "choice", "switches", "residuals", "others", "pieces", "tie_s", "complete"]);
+}, ["maneuver", "lam", "psi", "choice", "switches", "residuals", "others", "pieces", "tie_s", "complete"], 'Certificate');
 
 function _choice(trajectory) {
 let arc, single;
@@ -2543,7 +2543,7 @@ const self = this;
 near = le(abs(outside_m), mul(mul(factor, self.radial), radius_m));
 return and(near, () => le(abs(course_error_deg), mul(factor, self.course_deg)));
 }
-}, ["radial", "course_deg"]);
+}, ["radial", "course_deg"], 'Band');
 
 function _status(orbit, aircraft, air) {
 let R;
@@ -2593,7 +2593,7 @@ this.maneuver = maneuver;
 this.time = time;
 
 }
-}, ["maneuver", "time"]);
+}, ["maneuver", "time"], 'Solved');
 
 function maneuver(problem, entry, miss) {
 let aircraft, here, letter, miss_m, now, r, segments, t, wind;
@@ -2639,7 +2639,7 @@ this.duration_s = duration_s;
 this.later_s = later_s;
 
 }
-}, ["word", "turn", "duration_s", "later_s"]);
+}, ["word", "turn", "duration_s", "later_s"], 'Candidate');
 
 function _start(problem, side) {
 let R, _, c, s, wx, wy, x, y;
@@ -2749,7 +2749,7 @@ const self = this;
 off = self.violations;
 return max(off.multiplier, off.sign, off.hamiltonian, off.transversality);
 }
-}, ["maneuver", "problem", "start", "lam", "pieces"]);
+}, ["maneuver", "problem", "start", "lam", "pieces"], 'Trajectory');
 
 function _in_still_air(start, controls, durations) {
 let plan;
@@ -2829,7 +2829,7 @@ this.psi1 = psi1;
 this.psi2 = psi2;
 
 }
-}, ["time_s", "letters", "x", "y", "psi1", "psi2"]);
+}, ["time_s", "letters", "x", "y", "psi1", "psi2"], 'Switch');
 
 function* _check(conditions, trajectory, accuracy) {
 let condition, violation;
@@ -2877,7 +2877,7 @@ get verdict() {
 const self = this;
 return (truth(self.skipped) ? "skipped" : (truth(self.failed) ? "FAILED" : "holds"));
 }
-}, ["name", "equation", "value", "bound", "note"]);
+}, ["name", "equation", "value", "bound", "note"], 'Residual');
 
 function* gradient_residuals(equations, trajectory, accuracy) {
 let _, adjoint, by_east, by_motion, by_north, c, corner, gradient, note, off, skipped, slopes, start, times;
@@ -2931,7 +2931,7 @@ this.next_phase = next_phase;
 this.next_in_s = next_in_s;
 
 }
-}, ["right_m_s2", "phase", "time_to_join_s", "next_phase", "next_in_s"]);
+}, ["right_m_s2", "phase", "time_to_join_s", "next_phase", "next_in_s"], 'Demand');
 
 const Phase = enumeration({ LEFT: 'turn left', STRAIGHT: 'fly straight', RIGHT: 'turn right', HOLD: 'hold', NO_DATA: 'no data' });
 
@@ -2965,7 +2965,7 @@ this.next_phase = next_phase;
 this.next_in_s = next_in_s;
 
 }
-}, ["turn_rate_deg_s", "bank_deg", "phase", "time_to_join_s", "turn", "next_phase", "next_in_s"]);
+}, ["turn_rate_deg_s", "bank_deg", "phase", "time_to_join_s", "turn", "next_phase", "next_in_s"], 'Command');
 
 function rate_at_bank(bank_deg, airspeed_m_s) {
 return div(mul(STANDARD_GRAVITY_M_S2, math.tan(math.radians(bank_deg))), airspeed_m_s);
@@ -3024,7 +3024,7 @@ this.kappa = kappa;
 this.epsilon = epsilon;
 
 }
-}, ["k", "kappa", "epsilon"]);
+}, ["k", "kappa", "epsilon"], 'FieldGains');
 
 function commanded_course_rate(offset, side, gains) {
 let desired, error, forward, slope;
@@ -3046,7 +3046,7 @@ this.c = c;
 this.s = s;
 
 }
-}, ["u", "length_m", "east_m", "north_m", "c", "s"]);
+}, ["u", "length_m", "east_m", "north_m", "c", "s"], 'DubinsPiece');
 
 function offset_at(place, velocity, heading_deg, radius_m) {
 let clockwise, distance, east_m, north_m, out_east, out_north, outward, velocity_east, velocity_north;
@@ -3070,7 +3070,7 @@ this.crosstrack_m = crosstrack_m;
 this.right_m_s2 = right_m_s2;
 
 }
-}, ["along_m", "crosstrack_m", "right_m_s2"]);
+}, ["along_m", "crosstrack_m", "right_m_s2"], 'PieceProgress');
 
 function phase_of_control(control) {
 return ((control == null) ? Phase.HOLD : item(PHASES, control));
@@ -3085,7 +3085,7 @@ this.c = c;
 this.s = s;
 
 }
-}, ["x", "y", "c", "s"]);
+}, ["x", "y", "c", "s"], 'PlanarPose');
 
 const State = struct(class State extends Tuple {
 constructor(time_s, east_m, north_m, heading_deg, bank_deg, velocity_east_m_s, velocity_north_m_s, airspeed_m_s) {
@@ -3100,7 +3100,7 @@ this.velocity_north_m_s = velocity_north_m_s;
 this.airspeed_m_s = airspeed_m_s;
 
 }
-}, ["time_s", "east_m", "north_m", "heading_deg", "bank_deg", "velocity_east_m_s", "velocity_north_m_s", "airspeed_m_s"]);
+}, ["time_s", "east_m", "north_m", "heading_deg", "bank_deg", "velocity_east_m_s", "velocity_north_m_s", "airspeed_m_s"], 'State');
 
 function constant_turn(pose, speed, rate, time, air = STILL) {
 let c, ch, chord, east, half, north, s, sh, x, y;
@@ -3133,7 +3133,7 @@ this.R = R;
 this.side = side;
 
 }
-}, ["q", "e", "w", "R", "side"]);
+}, ["q", "e", "w", "R", "side"], 'RelativeStart');
 
 function end_rate(start, q, e, u) {
 let g, over_ground, radius;
@@ -3154,7 +3154,7 @@ this.psi1 = psi1;
 this.transversality = transversality;
 
 }
-}, ["norm", "multiplier", "sign", "hamiltonian", "psi1", "transversality"]);
+}, ["norm", "multiplier", "sign", "hamiltonian", "psi1", "transversality"], 'MaximumPrinciple');
 
 function _with_closed_form(start, controls, durations) {
 let lam, psi1, psi2, t1, t2, t3, x, y;
@@ -3225,7 +3225,7 @@ this.durations = durations;
 this.adjoint = adjoint;
 
 }
-}, ["start", "controls", "durations", "adjoint"]);
+}, ["start", "controls", "durations", "adjoint"], 'FlightPlan');
 
 const FlownPiece = struct(class FlownPiece extends Tuple {
 constructor(u, t, q, e, phi, p, w) {
@@ -3268,7 +3268,7 @@ get radius() {
 const self = this;
 return abs(add(self.start.reduced, mul(new Complex(0.0, 1.0), self.u)));
 }
-}, ["u", "t", "q", "e", "phi", "p", "w"]);
+}, ["u", "t", "q", "e", "phi", "p", "w"], 'FlownPiece');
 
 function _of_switch_at_centre(trajectory, length) {
 let distance;
@@ -3307,7 +3307,7 @@ this.gradient = gradient;
 this.tie = tie;
 
 }
-}, ["end", "length", "angle", "beside", "join", "motion", "maximum_principle", "gradient", "tie"]);
+}, ["end", "length", "angle", "beside", "join", "motion", "maximum_principle", "gradient", "tie"], 'Accuracy');
 
 function _heading_rounding(maneuver) {
 return mul(mul(6.0, pow(2.0, -52)), math.radians(add(abs(maneuver.start.heading_deg), 720.0)));
@@ -3461,7 +3461,7 @@ course_error_deg(side) {
 const self = this;
 return math.degrees(math.atan2(mul(neg(side), self.outward_m_s), mul(side, self.clockwise_m_s)));
 }
-}, ["radius_m", "distance_m", "out_east", "out_north", "outward_m_s", "clockwise_m_s"]);
+}, ["radius_m", "distance_m", "out_east", "out_north", "outward_m_s", "clockwise_m_s"], 'CircleOffset');
 
 const Segment = struct(class Segment extends Values {
 constructor(letter, start_s, duration_s, length_m, curvature_per_m, start, end) {
@@ -3475,7 +3475,7 @@ this.start = start;
 this.end = end;
 
 }
-}, ["letter", "start_s", "duration_s", "length_m", "curvature_per_m", "start", "end"]);
+}, ["letter", "start_s", "duration_s", "length_m", "curvature_per_m", "start", "end"], 'Segment');
 
 const Entry = struct(class Entry extends Tuple {
 constructor(side, word, t1, t2, t3) {
@@ -3487,7 +3487,7 @@ this.t2 = t2;
 this.t3 = t3;
 
 }
-}, ["side", "word", "t1", "t2", "t3"]);
+}, ["side", "word", "t1", "t2", "t3"], 'Entry');
 
 const InitialAdjoint = struct(class InitialAdjoint extends Tuple {
 constructor(p, lam, phi) {
@@ -3497,7 +3497,7 @@ this.lam = lam;
 this.phi = phi;
 
 }
-}, ["p", "lam", "phi"]);
+}, ["p", "lam", "phi"], 'InitialAdjoint');
 
 function _vanishing_at(start, pieces, piece, p, lam) {
 let elapsed;
@@ -3554,7 +3554,7 @@ get psi2() {
 const self = this;
 return self.psi.imag;
 }
-}, ["q", "e", "psi", "phi"]);
+}, ["q", "e", "psi", "phi"], 'PieceState');
 
 function least_times__in_still_air(trajectory) {
 let R, by_heading, fastest, not_smooth, problem, rounded, side, tolerance, x, y;
@@ -3610,7 +3610,7 @@ this.slopes = slopes;
 this.bound = bound;
 
 }
-}, ["slopes", "bound"]);
+}, ["slopes", "bound"], 'Gradient');
 
 function one_sided(times, later) {
 let T, best, bound, coarse, h, value;
@@ -3666,7 +3666,7 @@ this.motion_size = motion_size;
 this.not_smooth = not_smooth;
 
 }
-}, ["axes", "steps", "time", "after", "error", "by_heading", "motion_size", "not_smooth"]);
+}, ["axes", "steps", "time", "after", "error", "by_heading", "motion_size", "not_smooth"], 'LeastTimes');
 
 function _widest_step(trajectory, problem) {
 let _, parallel, turning;
@@ -3697,7 +3697,7 @@ this.value = value;
 this.bound = bound;
 
 }
-}, ["value", "bound"]);
+}, ["value", "bound"], 'Slope');
 
 const STYLES = new Map([["L", "ff739e00"], ["S", "ffb27200"], ["R", "ff005ed5"], ["circle", "ff000000"]]);
 const SCHEMA = "http://www.w3.org/2001/XMLSchema-instance";

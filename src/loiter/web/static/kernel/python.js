@@ -45,9 +45,11 @@ export class Tuple {
   }
 }
 
-/** A function that makes values of a class, as Python's classes do; it has the names of their fields. */
-export function struct(kind, fields) {
+/** A function that makes values of a class, as Python's classes do; it has the names of their fields. The name of the
+ * class is given: the site is built with shorter ones. */
+export function struct(kind, fields, title) {
   kind.fields = fields;
+  kind.title = title;
   return Object.assign((...given) => new kind(...given), { _fields: fields, kind });
 }
 
@@ -396,7 +398,7 @@ export function repr(value) {
   if (typeof value === "string") return value.includes("'") && !value.includes('"') ? `"${value}"` : `'${value.replaceAll("'", "\\'")}'`;
   if (value instanceof Values || value instanceof Tuple) {
     const fields = value.constructor.fields.map((name) => `${name}=${repr(value[name])}`);
-    return `${value.constructor.name}(${fields.join(", ")})`;
+    return `${value.constructor.title}(${fields.join(", ")})`;
   }
   return str(value);
 }
