@@ -17,6 +17,7 @@ from loiter.fences.contacts import (
     placed,
     rows_of,
     rows_on,
+    rows_on_tangents,
     rows_without_straight,
 )
 from loiter.fences.entries import ClearEntry, first_clear
@@ -116,6 +117,7 @@ class _Search:
         """Those of the best chains, which may be longer than a length by what their coarse steps cost."""
         r = self._problem.aircraft.turn_radius_m
         rows = [*rows_on(self._curves, r, refined), *rows_without_straight(self._curves, *self._start, r)]
+        rows += rows_on_tangents(self._curves, *self._start, r)
         for chain in self._chains(placed(self._curves, rows), most_m + SLACK * r, SLACK * r, MOST_CHAINS):
             yield self._maneuver(self._moved(chain, refined))
 

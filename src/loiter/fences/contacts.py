@@ -143,6 +143,45 @@ def rows_without_straight(curves: Sequence[Curve], x: float, y: float, angle: fl
     return rows
 
 
+def rows_on_tangents(curves: Sequence[Curve], x: float, y: float, angle: float, radius_m: float) -> list[Row]:
+    """Contacts of lines tangent to arcs that are wider than the tightest turn, from the start's turns and each other.
+
+    A path comes to such an arc straight, since a turn towards it would enter: close to its last turn few other contacts
+    can be reached.
+    """
+    wide = [(i, curve) for i, curve in enumerate(curves) if curve.radius > radius_m and curve.width > 0.0]
+    wide = [(i, curve) for i, curve in wide if not curve.joined]
+    rows = []
+    for i, curve in wide:
+        for way in curve.ways:
+            for u in (1, -1):
+                cx, cy = x - u * radius_m * sin(angle), y + u * radius_m * cos(angle)
+                rows += [(i, to, way) for _, to in _tangents(cx, cy, radius_m, u, curve, way)]
+            for k, other in wide:
+                for u in other.ways if k != i else ():
+                    for normal, to in _tangents(other.x, other.y, other.radius, u, curve, way):
+                        share = ((normal - other.a) % tau) / other.width
+                        rows += [(i, to, way), (k, share, u)] if share <= 1.0 else []
+    return rows
+
+
+def _tangents(cx: float, cy: float, radius: float, u: int, curve: Curve, way: int) -> list[tuple[float, float]]:
+    """Lines from a circle flown with control u to an arc: the angle of the normal where each begins, and the share."""
+    dx, dy = curve.x - cx, curve.y - cy
+    apart = hypot(dx, dy)
+    cosine = (u * way * radius - curve.radius) / apart if apart > 0.0 else inf
+    if abs(cosine) > 1.0:
+        return []
+    found = []
+    for side in (1.0, -1.0):
+        normal = atan2(dy, dx) + side * acos(cosine)
+        share = ((normal - curve.a) % tau) / curve.width
+        # The line leads from the circle to the arc.
+        if share <= 1.0 and way * (dy * cos(normal) - dx * sin(normal)) >= 0.0:
+            found.append((normal if u == way else normal + pi, share))
+    return found
+
+
 def _turns_at(
     curves: Sequence[Curve], u: int, cx: float, cy: float, distance: float, radius_m: float
 ) -> Iterator[tuple[Row, float, float]]:
