@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         solve,
         solve_in_wind,
     )
+    from loiter.planning.fleet import FleetPlan, fleet
     from loiter.planning.hold import hold
     from loiter.planning.leg import Leg, LegPlan, plan_leg
     from loiter.planning.maneuver import Maneuver
@@ -44,6 +45,7 @@ _NAMES = {
     for module, names in {
         "arrays": "Gradient Solution WindSolution control gradient min_time min_time_in_wind reduce solve "
         "solve_in_wind",
+        "planning.fleet": "FleetPlan fleet",
         "planning.hold": "hold",
         "planning.leg": "Leg LegPlan plan_leg",
         "planning.maneuver": "Maneuver",
@@ -57,6 +59,7 @@ _MODULES = {"batch", "errors", "fences", "geo", "guidance", "io", "mavlink", "pl
 
 __all__ = [
     "Aircraft",
+    "FleetPlan",
     "Gradient",
     "Leg",
     "LegPlan",
@@ -72,6 +75,7 @@ __all__ = [
     "candidates",
     "control",
     "errors",
+    "fleet",
     "gradient",
     "hold",
     "min_time",

@@ -1,0 +1,327 @@
+"""Fleets: several aircraft onto one circle, each into a slot of its own (docs/slots.md, section 5)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from importlib import import_module
+from math import ceil, inf, pi, tau
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from loiter.compiled import wind_solver
+from loiter.errors import InvalidArgument, MissingPackage, NotConverged, instance, not_negative
+from loiter.kernel.statuses import Status
+from loiter.kernel.wind import wind_search
+from loiter.kernel.wind.held import time_held
+from loiter.kernel.wind.hold import hold_pose
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
+from loiter.planning.problem import Problem
+from loiter.planning.scaling import maneuver
+from loiter.planning.sides import sign_of
+from loiter.planning.slot import Slot
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+# The most aircraft of a fleet.
+MOST_AIRCRAFT = 100
+
+# Places of slots that are tried round the circle: as many, or this many for each aircraft where that is more.
+PLACES, PLACES_EACH = 720, 4
+
+# The best common phases that are refined, the phases that are tried in each round between two tried before, and rounds.
+REFINED, FINER, ROUNDS = 4, 10, 4
+
+# Distances between aircraft are sampled this often while the fastest of them flies a turn radius.
+SAMPLES_PER_RADIUS = 10
+
+# The candidates whose separation is computed, the best first.
+MOST_SEPARATED = 40
+
+# Newton's steps from the interpolated place of a hold: each squares an error of 1e-5.
+NEWTON_STEPS = 2
+
+# Points round the circle between which the place of a hold is interpolated.
+HOLD_POINTS = 1440
+
+
+@dataclass(frozen=True)
+class FleetPlan:
+    """A fleet as planned: the entry and the slot of each aircraft, in the order of the poses.
+
+    `separation_m` is the least distance between two aircraft from the start until all are in their slots and one turn
+    of the circle later, horizontally, and `closest` the two aircraft and the time, seconds. `layers` counts the
+    altitude layer of each aircraft from 0: all 0 where the separation is kept.
+    """
+
+    entries: tuple[Maneuver, ...]
+    slots: tuple[Slot, ...]
+    layers: tuple[int, ...]
+    separation_m: float
+    closest: tuple[int, int, float] | None
+
+    @property
+    def duration_s(self) -> float:
+        """The time at which the last aircraft is in its slot, seconds."""
+        return max(entry.duration_s for entry in self.entries)
+
+    @property
+    def turn(self) -> Turn:
+        """The direction in which the circle is held."""
+        return self.entries[0].turn
+
+    def to_dict(self) -> dict[str, object]:
+        """The plan as plain values for JSON, in metres, seconds and degrees."""
+        return {
+            "duration_s": self.duration_s,
+            "turn": self.turn.value,
+            "separation_m": self.separation_m if self.closest else None,
+            "closest": self.closest,
+            "aircraft": [
+                {"slot": {"phase_deg": slot.phase_deg, "at_s": slot.at_s}, "layer": layer, "entry": entry.to_dict()}
+                for entry, slot, layer in zip(self.entries, self.slots, self.layers, strict=True)
+            ],
+        }
+
+
+class Candidate(NamedTuple):
+    """A common phase: the time of the last aircraft, the sum, the direction, the shift of the slots and their order."""
+
+    last: float
+    total: float
+    turn: Turn
+    shift: float
+    order: tuple[int, ...]
+
+
+def fleet(
+    poses: Sequence[Pose],
+    orbit: Orbit,
+    aircraft: Aircraft,
+    wind: Wind | None = None,
+    *,
+    separation_m: float = 0.0,
+) -> FleetPlan:
+    """The entries of up to 100 aircraft of one kind onto a circle, into slots that pass a place at equal intervals.
+
+    Which aircraft takes which slot, and the common phase of the slots, bring the last aircraft in soonest, and among
+    such plans with the least sum of times, as far as the phases that are tried resolve it (docs/slots.md, section 5).
+    Each entry is the fastest into its slot. Where two aircraft would come closer than `separation_m`, metres, the next
+    best phase is taken that keeps it; where none of those that were tried does, aircraft that come too close to each
+    other are in different altitude layers.
+    Raises the errors of `plan`, `InvalidArgument` for no poses or more than 100 or a negative separation, and
+    `MissingPackage` without SciPy.
+
+    >>> from loiter import Aircraft, Orbit, Pose, fleet
+    >>> poses = [Pose(-400.0, 120.0, 90.0), Pose(300.0, -500.0, 0.0), Pose(0.0, 700.0, 180.0)]
+    >>> f = fleet(poses, Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0))
+    >>> [entry.word for entry in f.entries], f.turn.value, round(f.duration_s, 1)
+    (['LSR', 'LSR', 'RSR'], 'ccw', 33.3)
+    """
+    instance("orbit", orbit, Orbit)
+    separation_m = not_negative("separation_m", separation_m, "metres")
+    if not 1 <= len(poses) <= MOST_AIRCRAFT:
+        raise InvalidArgument("poses", f"are {len(poses)}: a fleet has 1 to {MOST_AIRCRAFT} aircraft")
+    problems = [Problem(pose, orbit, aircraft, CALM if wind is None else wind) for pose in poses]
+    turns = [Turn.CW, Turn.CCW] if orbit.turn is Turn.EITHER else [orbit.turn]
+    found = sorted(candidate for turn in turns for candidate in candidates_of(Ring(problems, turn)))
+    best = None
+    for candidate in found[: MOST_SEPARATED if separation_m > 0.0 else 1]:
+        plan = _planned(Ring(problems, candidate.turn), candidate, separation_m)
+        best = plan if best is None else best
+        if max(plan.layers) == 0:
+            return plan
+    assert best is not None  # there is at least one candidate
+    return best
+
+
+class Ring:
+    """The slots of a fleet in one direction; a slot is given by the time at which it is north of the centre."""
+
+    def __init__(self, problems: Sequence[Problem], turn: Turn) -> None:
+        self.problems, self.turn = problems, turn
+        self.given = [problem.with_turn(turn).in_wind() for problem in problems]
+        first = self.given[0]
+        self.unit_s = problems[0].time_unit_s
+        self._widths: Any = ()
+        self._times: Any = ()
+        self.north = Slot(0.0).phase_at_start(first, self.unit_s)
+        self.period_s = time_held(self.north + tau, tau, first.R, first.wx, first.wy) * self.unit_s
+
+    def phase(self, at_s: float) -> float:
+        """The phase at the start of the slot that is north at a time: `Slot.phase_at_start`, faster."""
+        import numpy as np
+
+        R, wx, wy = self.given[0].R, self.given[0].wx, self.given[0].wy
+        time = at_s % self.period_s / self.unit_s
+        if not len(self._widths):
+            self._widths = np.linspace(0.0, tau, HOLD_POINTS + 1)
+            self._times = np.array([time_held(self.north, float(w), R, wx, wy) for w in self._widths])
+        width = float(np.interp(time, self._times, self._widths))
+        for _ in range(NEWTON_STEPS):
+            _, _, _, _, g = hold_pose(self.north - width, self.given[0].side, R, wx, wy)
+            width += (time - time_held(self.north, width, R, wx, wy)) * g / R
+        return self.north - width
+
+    @property
+    def spacing_s(self) -> float:
+        """The time between two slots."""
+        return self.period_s / len(self.problems)
+
+    def slot(self, at_s: float) -> Slot:
+        """The slot that is north of the centre at a time."""
+        return Slot(0.0, at_s % self.period_s)
+
+    def times(self, shifts: NDArray[Any]) -> NDArray[float64]:
+        """The times of all aircraft (rows) into the slots that are north at the given times, seconds."""
+        import numpy as np
+
+        phases = [self.phase(float(at_s)) for at_s in shifts]
+        return np.array([[self.time(i, phase) for phase in phases] for i in range(len(self.given))])
+
+    def time(self, i: int, phase: float) -> float:
+        """The time of one aircraft into the slot at a phase at the start, seconds."""
+        entry = wind_solver.first_in_slot(self.given[i], phase)
+        if entry.status != Status.OK:
+            raise NotConverged(f"no entry into a slot was found from {self.problems[i].pose}")
+        return wind_search.time_of(entry) * self.unit_s
+
+    def entry(self, i: int, slot: Slot) -> Maneuver:
+        """The fastest maneuver of one aircraft into a slot."""
+        entry = wind_solver.first_in_slot(self.given[i], slot.phase_at_start(self.given[i], self.unit_s))
+        found = maneuver(self.problems[i], wind_search.entry_of(entry), entry.miss)
+        return replace(found, orbit=self.problems[i].orbit)
+
+
+def candidates_of(ring: Ring) -> list[Candidate]:
+    """The candidates of one direction: the best of those tried round the circle, refined, and the others."""
+    import numpy as np
+
+    n = len(ring.problems)
+    each = max(ceil(PLACES / n), PLACES_EACH)
+    shifts = ring.period_s / (n * each) * np.arange(n * each)
+    table = ring.times(shifts)
+    found = sorted(assigned(table[:, k::each], float(shifts[k]), ring.turn) for k in range(each))
+    refined = [refine(candidate, ring, ring.spacing_s / each) for candidate in found[:REFINED]]
+    return sorted([*refined, *found])
+
+
+def refine(candidate: Candidate, ring: Ring, width: float) -> Candidate:
+    """The best candidate with the same assignment whose shift is within a width, and the best assignment there."""
+    import numpy as np
+
+    n = len(ring.problems)
+    steps = ring.spacing_s * np.array(candidate.order)
+    best = candidate
+    for _ in range(ROUNDS):
+        for shift in best.shift + width / FINER * np.arange(-FINER, FINER + 1):
+            times = [ring.time(i, ring.phase(shift + steps[i])) for i in range(n)]
+            best = min(best, Candidate(max(times), sum(times), ring.turn, float(shift), candidate.order))
+        width /= FINER
+    again = assigned(ring.times(best.shift + ring.spacing_s * np.arange(n)), best.shift, ring.turn)
+    return min(best, again)
+
+
+def assigned(times: NDArray[float64], shift: float, turn: Turn) -> Candidate:
+    """The assignment of aircraft (rows) to slots (columns) with the least largest time, and then the least sum."""
+    import numpy as np
+
+    solve = linear_sum_assignment()
+    levels = np.unique(times)
+    # No aircraft is in before its soonest slot, nor is a slot taken before its soonest aircraft.
+    least = int(np.searchsorted(levels, max(times.min(axis=1).max(), times.min(axis=0).max())))
+    most = len(levels) - 1
+    while least < most:
+        middle = (least + most) // 2
+        late = (times > levels[middle]).astype(float)
+        rows, columns = solve(late)
+        if late[rows, columns].sum() == 0.0:
+            most = middle
+        else:
+            least = middle + 1
+    allowed = np.where(times <= levels[most], times, len(times) * float(levels[-1]) + 1.0)
+    rows, columns = solve(allowed)
+    chosen = times[rows, columns]
+    return Candidate(float(chosen.max()), float(chosen.sum()), turn, shift, tuple(columns.tolist()))
+
+
+def linear_sum_assignment() -> Any:
+    """SciPy's solver of assignments."""
+    try:
+        solvers: Any = import_module("scipy.optimize")
+    except ImportError as error:
+        raise MissingPackage("fleets need SciPy: pip install 'loiter[fleet]' brings it") from error
+    return solvers.linear_sum_assignment
+
+
+def _planned(ring: Ring, candidate: Candidate, separation_m: float) -> FleetPlan:
+    """The plan of a candidate."""
+    import numpy as np
+
+    slots = [ring.slot(candidate.shift + ring.spacing_s * j) for j in candidate.order]
+    entries = [ring.entry(i, slot) for i, slot in enumerate(slots)]
+    if len(entries) == 1:
+        return FleetPlan(tuple(entries), tuple(slots), (0,), inf, None)
+    least, when_s = closest_approaches(entries, slots, ring)
+    i, j = divmod(int(np.argmin(least)), len(entries))
+    layers = layers_of(least < separation_m)
+    return FleetPlan(tuple(entries), tuple(slots), layers, float(least[i, j]), (i, j, float(when_s[i, j])))
+
+
+def layers_of(close: NDArray[Any]) -> tuple[int, ...]:
+    """The least free layer of each aircraft after the others: those that come too close have different ones."""
+    layers: list[int] = []
+    for i in range(len(close)):
+        taken = {layers[j] for j in range(i) if close[i, j]}
+        layers.append(min(set(range(i + 1)) - taken))
+    return tuple(layers)
+
+
+def closest_approaches(
+    entries: Sequence[Maneuver], slots: Sequence[Slot], ring: Ring
+) -> tuple[NDArray[float64], NDArray[float64]]:
+    """The least distances of all pairs, metres, from sampled times, `inf` to itself, and when, seconds."""
+    import numpy as np
+
+    last_s = max(entry.duration_s for entry in entries) + ring.period_s
+    times_s = np.linspace(0.0, last_s, ceil(last_s / ring.unit_s * SAMPLES_PER_RADIUS) + 1)
+    held = held_track(ring)
+    tracks = []
+    for entry, slot in zip(entries, slots, strict=True):
+        before = entry.sample(ring.unit_s / SAMPLES_PER_RADIUS) if entry.segments else None
+        on = held(times_s, slot)
+        if before is not None:
+            flying = times_s < entry.duration_s
+            east = np.interp(times_s, before.time_s, before.east_m)
+            north = np.interp(times_s, before.time_s, before.north_m)
+            on = np.where(flying, east + 1j * north, on)
+        tracks.append(on)
+    places = np.array(tracks)
+    least, when = np.full((len(places), len(places)), np.inf), np.zeros((len(places), len(places)))
+    for i, place in enumerate(places):
+        distances = np.abs(places - place)
+        least[i], when[i] = distances.min(axis=1), times_s[distances.argmin(axis=1)]
+        least[i, i] = np.inf
+    return least, when
+
+
+def held_track(ring: Ring) -> Any:
+    """A function of times and a slot: the places of the slot, complex, metres east and north."""
+    import numpy as np
+
+    problem, given = ring.problems[0], ring.given[0]
+    widths = np.linspace(0.0, 2.0 * pi, HOLD_POINTS + 1)
+    held_s = np.array([time_held(ring.north + w, w, given.R, given.wx, given.wy) for w in widths]) * ring.unit_s
+    side, r = sign_of(ring.turn), problem.aircraft.turn_radius_m
+    points = [hold_pose(ring.north + w, side, given.R, given.wx, given.wy) for w in widths]
+    places = r * np.array([complex(x, y) for x, y, *_ in points])
+
+    def at(times_s: NDArray[float64], slot: Slot) -> Any:
+        since = (times_s - slot.at_s) % ring.period_s
+        place = np.interp(since, held_s, places.real) + 1j * np.interp(since, held_s, places.imag)
+        east_m, north_m = problem.orbit.centre_after(times_s)
+        return place + east_m + 1j * north_m
+
+    return at

@@ -1,0 +1,54 @@
+"""Fleets beside every assignment at many common phases: `python -m planning.fleets 20`, run in the folder `tests`."""
+
+import sys
+from itertools import permutations
+
+import numpy as np
+
+from loiter import Aircraft, Orbit, Pose, Slot, Turn, Wind, fleet, hold, plan
+
+
+def random_fleet(random, n, windy=False):
+    """Poses, circle, aircraft and wind."""
+    uav = Aircraft(18.0, max_bank_deg=35.0)
+    wind = Wind(float(random.uniform(1.0, 6.0)), float(random.uniform(0.0, 360.0))) if windy else None
+    orbit = Orbit(0.0, 0.0, float(random.uniform(110.0, 300.0)))
+    span = 4.0 * orbit.radius_m
+    return [Pose(*random.uniform(-span, span, 2), random.uniform(0.0, 360.0)) for _ in range(n)], orbit, uav, wind
+
+
+def period_s(orbit, uav, wind):
+    """The time of one turn, by the midpoint rule."""
+    held = hold(orbit, uav, wind, turn="cw")
+    azimuths = np.arange(0.25, 360.0, 0.5)
+    return sum(2.0 * np.pi * orbit.radius_m / 720 / held.at(azimuth_deg=float(a)).ground_speed_m_s for a in azimuths)
+
+
+def least_s(poses, orbit, uav, wind, phases):
+    """The least time of the last aircraft over directions, common phases and assignments."""
+    n, whole_s, best = len(poses), period_s(orbit, uav, wind), np.inf
+    at_s = whole_s / (n * phases) * np.arange(n * phases)
+    for turn in (Turn.CW, Turn.CCW):
+        circle = Orbit(orbit.east_m, orbit.north_m, orbit.radius_m, turn)
+        times = np.array(
+            [[plan(pose, circle, uav, wind, slot=Slot(0.0, float(t))).duration_s for t in at_s] for pose in poses]
+        ).reshape(n, n, phases)
+        for order in permutations(range(n)):
+            best = min(best, times[range(n), order].max(axis=0).min())
+    return best
+
+
+def main(fleets, phases):
+    random, better = np.random.default_rng(4), []
+    for k in range(fleets):
+        scene = random_fleet(random, 2 + k % 5, windy=k % 2 == 1)
+        planned = fleet(*scene).duration_s
+        better.append(planned - least_s(*scene, max(phases // len(scene[0]), 1)))
+        if better[-1] > 1e-6:
+            print(f"{len(scene[0])} aircraft: {better[-1]:.3g} s sooner than {planned:.4f} s")
+    print(f"{fleets} fleets: every assignment is sooner by {max(better):.3g} s at most, later by {-min(better):.3g} s")
+    return max(better) > 1e-3
+
+
+if __name__ == "__main__":
+    sys.exit(main(int(sys.argv[1]), 3600))
