@@ -32,7 +32,7 @@ CALLS = [
     (loiter.candidates, {"pose": POSE, **SCENE}, "pose orbit aircraft wind"),
     (io.leg_mission, {"plan": LEG_PLAN, "frame": FRAME}, "plan frame"),
     (io.save_leg, {"plan": LEG_PLAN, "path": "leg.kml", "frame": FRAME}, "plan path frame"),
-    (loiter.fleet, {"poses": [POSE], **SCENE}, "orbit aircraft wind"),
+    (loiter.fleet, {"poses": [POSE], **SCENE}, "poses orbit aircraft wind"),
     (loiter.plan_leg, {"leg": LEG, "aircraft": UAV, "wind": WIND}, "leg aircraft wind"),
     (loiter.hold, {**SCENE, "turn": "cw"}, "orbit aircraft wind turn"),
     (loiter.reduce, {"east_m": 0, "north_m": 0, "heading_deg": 0, "orbit": ORBIT, "aircraft": UAV}, "orbit aircraft"),

@@ -122,9 +122,7 @@ def fleet(
     """
     instance("orbit", orbit, Orbit)
     separation_m = not_negative("separation_m", separation_m, "metres")
-    if not 1 <= len(poses) <= MOST_AIRCRAFT:
-        raise InvalidArgument("poses", f"are {len(poses)}: a fleet has 1 to {MOST_AIRCRAFT} aircraft")
-    problems = [Problem(pose, orbit, aircraft, CALM if wind is None else wind) for pose in poses]
+    problems = [Problem(pose, orbit, aircraft, CALM if wind is None else wind) for pose in _checked(poses)]
     turns = [Turn.CW, Turn.CCW] if orbit.turn is Turn.EITHER else [orbit.turn]
     found = sorted(candidate for turn in turns for candidate in candidates_of(Ring(problems, turn)))
     best = None
@@ -135,6 +133,17 @@ def fleet(
             return plan
     assert best is not None  # there is at least one candidate
     return best
+
+
+def _checked(poses: object) -> Sequence[Pose]:
+    """The poses; raises `InvalidArgument` for what is not a sequence of them, and for none or too many."""
+    if not isinstance(poses, Sequence):
+        raise InvalidArgument("poses", "must be a list of loiter.Pose")
+    for pose in poses:
+        instance("poses", pose, Pose)
+    if not 1 <= len(poses) <= MOST_AIRCRAFT:
+        raise InvalidArgument("poses", f"are {len(poses)}: a fleet has 1 to {MOST_AIRCRAFT} aircraft")
+    return poses
 
 
 class Ring:
