@@ -453,6 +453,8 @@ end
 local function begin(now)
     local _, state = nil, relative(now)
     flight.ratio, flight.begun_ms, flight.command_deg = now.ratio, now.now_ms, now.bank_deg
+    -- The bank has changed since the flight was prepared.
+    flight.model.bank_deg = now.bank_deg
     -- The nearer side, until the law has a plan.
     local cross = state.east_m * now.north_m_s - state.north_m * now.east_m_s
     flight.side = flight.settings.side ~= 0 and flight.settings.side or cross < 0.0 and 1 or -1
