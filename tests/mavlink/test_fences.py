@@ -9,6 +9,7 @@ from loiter import Aircraft, Orbit, Pose, plan
 from loiter.errors import LinkFailed
 from loiter.fences import CircleZone, Fence, PlacedCircle, PlacedFence, PlacedPolygon
 from loiter.mavlink import download, download_fence
+from loiter.mavlink.guiding import preparation
 from loiter.mavlink.guiding.preparation import _direction
 from mavlink.flyer import FRAME, ORBIT, Airframe, GuidedPlane, guided
 from mavlink.vehicle import OLD, Vehicle, flying, item
@@ -81,6 +82,20 @@ def test_a_vehicle_is_not_guided_into_its_fence(fence, end):
     outcome = guided_with(fence, fence="vehicle")
     assert end in outcome.end
     assert outcome.end.endswith("; nothing was commanded")
+
+
+@pytest.mark.parametrize(
+    ("fence", "end"),
+    [([ring(78.0)], "the vehicle has left the zone 'circle 1'"), ([ring(400.0)], "")],
+)
+def test_a_fence_is_watched_in_flight(fence, end, monkeypatch):
+    """The plan is called clear whatever it is, as where the vehicle does not fly it."""
+    monkeypatch.setattr(preparation, "_fence_sentence", lambda *arguments: "clear")
+    vehicle = FencedPlane(Airframe())
+    vehicle.fence = fence
+    outcome = guided(vehicle, seconds=25.0, coast_s=0.3, fence="vehicle")
+    assert outcome.end.startswith(end) or end in outcome.end
+    assert bool(end) == ("the zone" in outcome.end)
 
 
 def test_a_vehicle_is_guided_inside_its_fence():

@@ -508,7 +508,7 @@ class GuidedFenceOptions(FenceOptions):
         Parameter(
             group=scene,
             metavar="FILE",
-            help="Refuse a plan that does not stay clear of a fence: that of a file, as for loiter plan, or with --fence vehicle the one that the vehicle has. It is not watched in flight.",
+            help="Refuse a plan that does not stay clear of a fence: that of a file, as for loiter plan, or with --fence vehicle the one that the vehicle has. In flight the vehicle is handed back to its own hold where it enters a zone.",
         ),
     ] = None
 

@@ -167,6 +167,14 @@ class Fence:
         allowed = inside == [zone.inclusion for zone in self.polygons]
         return np.where(allowed, nearest, -nearest), self.circles.sign * outside
 
+    def violated(self, east_m: float, north_m: float) -> Zone | None:
+        """The zone on whose wrong side a point is farthest, metres; None where it is on none."""
+        distances = self.signed_distances(east_m, north_m)
+        zones: list[Zone] = [*self.polygons, *self.circle_zones]
+        sides = [side for each in distances for side in each.tolist()]
+        deepest = min(sides)
+        return zones[sides.index(deepest)] if deepest < 0.0 else None
+
     def check(self, maneuver: Maneuver, margin_m: float | None = None) -> FenceCheck:
         """Whether a maneuver and its hold stay farther from every zone than a margin, metres: `loiter.fences.check`."""
         from loiter.fences.fence_check import check

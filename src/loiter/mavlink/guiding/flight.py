@@ -438,7 +438,15 @@ class GuidedFlight:
 
     def _reason(self, now: float) -> StopReason | None:
         """The reason to stop, or None."""
-        return self._monitor.check(now) or self._other_commander()
+        return self._monitor.check(now) or self._other_commander() or self._beyond_fence()
+
+    def _beyond_fence(self) -> StopReason | None:
+        """That the vehicle is on the wrong side of a zone of the fence against which its plan was checked."""
+        fence = self._contact.fence
+        zone = None if fence is None else fence.violated(self._state.east_m, self._state.north_m)
+        if zone is None:
+            return None
+        return StopReason(f"the vehicle has {'left' if zone.inclusion else 'entered'} the zone {zone.name!r}")
 
     def _other_commander(self) -> StopReason | None:
         """That another station or program commands the vehicle as well."""

@@ -74,7 +74,8 @@ def guide(
     OFFBOARD, as a pilot may have wanted.
 
     `fence` is a fence, or "vehicle" for the one that the vehicle has: a plan that does not stay farther from it than
-    `margin_m` metres (`loiter.fences.check`) is refused before the first command. It is not watched in flight.
+    `margin_m` metres (`loiter.fences.check`) is refused before the first command, and guiding stops where
+    the vehicle enters a zone in flight.
 
     docs/autopilots.md lists what ends the flight early, and what the vehicle does then: at once it is commanded back to
     the fall-back circle, if the link is alive and neither the pilot nor a failsafe has changed its mode. `LinkFailed`
