@@ -609,6 +609,11 @@ def test_the_wind_arrow_points_where_the_air_goes(scene):
         assert label.get_text() == f"wind {wind.speed_m_s:g} m/s\nfrom {wind.from_deg:g} deg"
 
 
+def test_lengths_in_the_least_wind_are_those_through_the_air():
+    pose, orbit, uav, _ = WINDY["wind"]
+    assert draw([plan(pose, orbit, uav, Wind(0.1, 250.0))]).axes[0].get_title().endswith(" m through the air")
+
+
 @pytest.mark.parametrize("from_deg", [0.0, 90.0, 180.0, 270.0])
 def test_the_wind_arrow_is_not_cut_off_and_hides_nothing(from_deg):
     pose, orbit, uav, _ = WINDY["wind"]

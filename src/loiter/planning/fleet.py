@@ -19,7 +19,7 @@ from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
 from loiter.planning.sides import sign_of
-from loiter.planning.slot import Slot
+from loiter.planning.slot import Slot, phase_at_start
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -156,11 +156,11 @@ class Ring:
         self.unit_s = problems[0].time_unit_s
         self._widths: Any = ()
         self._times: Any = ()
-        self.north = Slot(0.0).phase_at_start(first, self.unit_s)
+        self.north = phase_at_start(Slot(0.0), first, self.unit_s)
         self.period_s = time_held(self.north + tau, tau, first.R, first.wx, first.wy) * self.unit_s
 
     def phase(self, at_s: float) -> float:
-        """The phase at the start of the slot that is north at a time: `Slot.phase_at_start`, faster."""
+        """The phase at the start of the slot that is north at a time: `slot.phase_at_start`, faster."""
         import numpy as np
 
         R, wx, wy = self.given[0].R, self.given[0].wx, self.given[0].wy
@@ -199,7 +199,7 @@ class Ring:
 
     def entry(self, i: int, slot: Slot) -> Maneuver:
         """The fastest maneuver of one aircraft into a slot."""
-        entry = wind_solver.first_in_slot(self.given[i], slot.phase_at_start(self.given[i], self.unit_s))
+        entry = wind_solver.first_in_slot(self.given[i], phase_at_start(slot, self.given[i], self.unit_s))
         found = maneuver(self.problems[i], wind_search.entry_of(entry), entry.miss)
         return replace(found, orbit=self.problems[i].orbit)
 

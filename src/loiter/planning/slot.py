@@ -35,17 +35,16 @@ class Slot:
         object.__setattr__(self, "phase_deg", number("slot phase_deg", self.phase_deg, "degrees"))
         object.__setattr__(self, "at_s", number("slot at_s", self.at_s, "seconds"))
 
-    def phase_at_start(self, problem: WindProblem, time_unit_s: float) -> float:
-        """The phase (`kernel.wind.hold`) of the slot at the start, in the direction of the problem.
 
-        Raises `OutOfRange` where more than 100,000 turns lie between.
-        """
-        side, R, wx, wy = problem.side, problem.R, problem.wx, problem.wy
-        phase = phase_of(*heading_vector(self.phase_deg), side, wx, wy)
-        period = time_held(phase + TWO_PI, TWO_PI, R, wx, wy)
-        time = self.at_s / time_unit_s
-        if not isfinite(time) or abs(time) > MOST_TURNS * period:
-            raise OutOfRange(
-                f"slot at_s is {self.at_s:g}: more than {MOST_TURNS:g} turns lie between the start and then"
-            )
-        return phase - width_held(phase, fmod(time, period) % period, R, wx, wy)
+def phase_at_start(slot: Slot, problem: WindProblem, time_unit_s: float) -> float:
+    """The phase (`kernel.wind.hold`) of a slot at the start, in the direction of the problem.
+
+    Raises `OutOfRange` where more than 100,000 turns lie between.
+    """
+    side, R, wx, wy = problem.side, problem.R, problem.wx, problem.wy
+    phase = phase_of(*heading_vector(slot.phase_deg), side, wx, wy)
+    period = time_held(phase + TWO_PI, TWO_PI, R, wx, wy)
+    time = slot.at_s / time_unit_s
+    if not isfinite(time) or abs(time) > MOST_TURNS * period:
+        raise OutOfRange(f"slot at_s is {slot.at_s:g}: more than {MOST_TURNS:g} turns lie between the start and then")
+    return phase - width_held(phase, fmod(time, period) % period, R, wx, wy)

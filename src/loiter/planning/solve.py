@@ -15,7 +15,7 @@ from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
-from loiter.planning.slot import Slot
+from loiter.planning.slot import Slot, phase_at_start
 
 
 def plan(
@@ -77,7 +77,7 @@ def arrivals(problem: Problem, slot: Slot) -> tuple[Maneuver, ...]:
 def _arrival(problem: Problem, turn: Turn, slot: Slot) -> "Solved":
     """The fastest maneuver into a slot in one direction."""
     given = problem.with_turn(turn).in_wind()
-    entry = wind_solver.first_in_slot(given, slot.phase_at_start(given, problem.time_unit_s))
+    entry = wind_solver.first_in_slot(given, phase_at_start(slot, given, problem.time_unit_s))
     if entry.status != Status.OK:
         raise _not_converged(problem)
     return Solved(maneuver(problem, wind_search.entry_of(entry), entry.miss), wind_search.time_of(entry))
