@@ -2,12 +2,13 @@
 
 import re
 import sys
+from dataclasses import replace
 
 import pytest
 
 import loiter
 from loiter.cli.app import main
-from loiter.evidence.checks import oracle_check, wind_scan_check
+from loiter.evidence.checks import oracle_check, rolling_check, wind_scan_check
 from loiter.evidence.checks.oracle_check import PLACES
 
 EIGHT = ["verify", "--witness", "search", "--states", "8", "--seed", "1"]
@@ -101,6 +102,21 @@ def test_a_missing_package_is_named_before_the_first_method_starts(capsys, monke
 def test_an_unknown_method_is_refused(capsys):
     assert main(["verify", "--witness", "oracle"]) == 2
     assert "--witness" in capsys.readouterr().err
+
+
+def test_what_a_rolling_aircraft_can_reach_is_a_row_for_each_roll_rate(capsys):
+    assert main(["verify", "--witness", "rolling", "--cases", "1", "--seed", "3"]) == 0
+    first, *rows = [line for line in capsys.readouterr().out.splitlines() if line]
+    assert first == "rolling: agrees"
+    assert [row.split()[:3] for row in rows[1:5]] == [[rate, "deg/s", "1"] for rate in ("45", "60", "90", "150")]
+
+
+def test_a_path_that_is_sooner_than_the_plan_is_reported(capsys, monkeypatch):
+    bound = next(rolling_check.compare_with_rolling(1, 0))
+    sooner = replace(bound, reached_s=bound.planned_s - 0.01)
+    monkeypatch.setattr(rolling_check, "compare_with_rolling", lambda cases, seed: iter([sooner]))
+    assert main(["verify", "--witness", "rolling"]) == 1
+    assert capsys.readouterr().out.startswith("rolling: DISAGREES")
 
 
 def test_the_search_in_wind_runs_when_it_is_named(capsys):

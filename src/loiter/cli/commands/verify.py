@@ -1,4 +1,4 @@
-"""`loiter verify`: the answers compared with independent methods, four in still air and one in wind."""
+"""`loiter verify`: the answers compared with independent methods, five in still air and one in wind."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Annotated, Any, Literal, NamedTuple
@@ -15,9 +15,9 @@ from loiter.cli.status import CHECK_FAILED
 # Grids of the reachability map: the finer one shows that the difference falls with the spacing.
 CELLS = (40, 80)
 
-Method = Literal["search", "digits", "collocation", "reachability", "wind"]
+Method = Literal["search", "digits", "collocation", "reachability", "wind", "rolling"]
 
-# The methods that run if none is named. The search in wind takes half a second per problem, so it must be named.
+# The methods that run if none is named. The others take half a second and more per problem.
 DEFAULTS: tuple[Method, ...] = ("search", "digits", "collocation", "reachability")
 
 # Number of random problems if none is given, in still air and in wind.
@@ -53,7 +53,7 @@ class Findings(NamedTuple):
 
 
 # Decimals of the numbers that are not tiny, by key; the others have an exponent.
-DECIMALS = {"spacing": 3, "mean_difference": 3, "share_of_allowed": 2}
+DECIMALS = {"later_by_s": 2, "at_most_s": 2, "at_least_s": 2, "spacing": 3, "mean_difference": 3, "share_of_allowed": 2}
 
 
 def _shown(key: str, value: str | int | float | bool) -> str:
@@ -76,7 +76,9 @@ def verify(
             f"({WINDY_STATES} if absent).",
         ),
     ] = None,
-    cases: Annotated[int, Parameter(metavar="N", converter=whole, help="Random problems for collocation.")] = 50,
+    cases: Annotated[
+        int, Parameter(metavar="N", converter=whole, help="Random problems for collocation and for rolling.")
+    ] = 50,
     seed: Annotated[int, Parameter(metavar="N", converter=whole, help="The same seed draws the same problems.")] = 0,
     witness: Annotated[
         list[Method] | None, Parameter(metavar="NAME", help="Compare with this method only; may be repeated.")
@@ -88,7 +90,9 @@ def verify(
     search: OMPL's Dubins distance, minimised over the point of joining. digits: the kernel's own functions in 50 digits
     (mpmath). collocation: time-optimal control as a nonlinear program (CasADi, IPOPT), for the paper's examples and
     random problems. reachability: the Hamilton-Jacobi equation on a grid of the reduced plane (hj-reachability). wind:
-    a search over points of joining and times in wind; it is slow, and runs only where it is named.
+    a search over points of joining and times in wind. rolling: what an aircraft can reach whose bank changes at a
+    limited rate, wings level at first; no entry may be sooner than its plan. These two are slow, and run only where
+    they are named.
     """
     names = witness or DEFAULTS
     # Each method raises where its packages are not installed, before the first one starts.
@@ -210,12 +214,35 @@ def _wind(states: int, cases: int, seed: int) -> Callable[[], Findings]:
     return _against_search("wind", results, states, RESOLUTION, note, ends_off_by="missed")
 
 
+def _rolling(states: int, cases: int, seed: int) -> Callable[[], Findings]:
+    from loiter.evidence.checks.rolling_check import AIRCRAFT, RATES_DEG_S, RollingBound, compare_with_rolling
+
+    results = compare_with_rolling(cases, seed)
+
+    def compare() -> Findings:
+        found: list[RollingBound] = list(_with_progress("rolling", results, cases * len(RATES_DEG_S)))
+        rows: list[Row] = []
+        for place in dict.fromkeys(bound.problem.place for bound in found):
+            here = sorted(bound.later_s for bound in found if bound.problem.place == place)
+            misses: Row = {"missed": float(max(bound.missed for bound in found if bound.problem.place == place))}
+            later: Row = {"later_by_s": here[len(here) // 2], "at_most_s": here[-1], "at_least_s": here[0]}
+            rows.append({"roll_rate": place, "entries": len(here), **later, **misses})
+        note = (
+            f"How much later than the plan an aircraft of {AIRCRAFT.airspeed_m_s:g} m/s can join with the bank of the "
+            "hold, median and extremes; missed: by how much the path misses when another integrator flies it."
+        )
+        return Findings(rows, note, all(bound.passed for bound in found))
+
+    return compare
+
+
 _METHODS: dict[str, Callable[[int, int, int], Callable[[], Findings]]] = {
     "search": _search,
     "digits": _digits,
     "collocation": _collocation,
     "reachability": _reachability,
     "wind": _wind,
+    "rolling": _rolling,
 }
 
 

@@ -1,0 +1,149 @@
+"""What an aircraft with a limited roll rate can reach, beside the plan, which no aircraft can beat."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from math import atan, cos, hypot, log, radians, sin, tan
+
+import numpy as np
+
+from loiter.errors import InvalidArgument
+from loiter.evidence.checks.collocation import check_installed
+from loiter.evidence.checks.oracle import Circle, Planar, from_compass
+from loiter.evidence.checks.oracle_check import CheckProblem
+from loiter.evidence.checks.rolling import BankProfile, Rolling, RollingPath, SettlingBand, Word, fastest_roll
+from loiter.guidance.trials.campaign import trials
+from loiter.guidance.vehicle.circle import Band
+from loiter.guidance.vehicle.rolling import Roll
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import Aircraft, Turn
+from loiter.planning.solve import candidates
+
+AIRCRAFT = Aircraft(22.0, max_bank_deg=45.0)
+
+# Roll rates of small aircraft, degrees per second: from sluggish to agile.
+RATES_DEG_S = (45.0, 60.0, 90.0, 150.0)
+
+# This many of the fastest candidates are tried as first guesses.
+GUESSES = 6
+
+CONTROLS = {"L": 1.0, "S": 0.0, "R": -1.0}
+
+# A path may miss by this many turn radii, or radians, when it is flown by another integrator, and exceed the limits of
+# its roll by this: what the rule of order six leaves on its intervals.
+MISS = 1e-6
+
+# Simpson's weights on an interval of length 1, and the rate of the bank below which the heading is that at its mean.
+SIMPSON = np.array([1.0, *[4.0, 2.0] * 31, 4.0, 1.0]) / (3.0 * 64.0)
+EVEN = 1e-6
+
+
+@dataclass(frozen=True)
+class RollingBound:
+    """The least time of one entry between two bounds, seconds: the plan, and a path that the aircraft can fly.
+
+    `missed` is by how much the path misses the circle, its tangent, the bank of the hold or the limits of its roll when
+    it is flown by another integrator: turn radii, radians.
+    """
+
+    problem: CheckProblem
+    rate_deg_s: float
+    planned_s: float
+    reached_s: float
+    missed: float
+
+    @property
+    def later_s(self) -> float:
+        """By how much the path takes longer than the plan."""
+        return self.reached_s - self.planned_s
+
+    @property
+    def passed(self) -> bool:
+        """Whether the path can be flown and takes no less time than the plan."""
+        return self.missed <= MISS and self.later_s >= -MISS
+
+
+def compare_with_rolling(cases: int, seed: int) -> Iterator[RollingBound]:
+    """Bound the least time of `cases` random entries at each roll rate, one by one; wings level at the start.
+
+    Raises at the call, not at the first result: `InvalidArgument` for fewer than one case, `MissingPackage` where
+    CasADi is not installed.
+    """
+    if cases < 1:
+        raise InvalidArgument("cases", f"is {cases}: it must be at least 1")
+    check_installed()
+    entries = [trial.ideal for trial in trials(cases, seed, AIRCRAFT)]
+    return (rolling_bound(entry, rate) for rate in RATES_DEG_S for entry in entries)
+
+
+def rolling_bound(entry: Maneuver, rate_deg_s: float) -> RollingBound:
+    """The bounds of one entry in still air, at one roll rate."""
+    unit_s = entry.aircraft.turn_radius_m / entry.aircraft.airspeed_m_s
+    start, circle, roll = scaled(entry, Roll(0.0, rate_deg_s))
+    path = fastest_roll(start, circle, roll, guesses(entry))
+    place = f"{rate_deg_s:g} deg/s"
+    problem = CheckProblem(place, entry.start, entry.orbit, entry.aircraft)
+    return RollingBound(problem, rate_deg_s, entry.duration_s, unit_s * path.time, missed(start, circle, roll, path))
+
+
+def settling_bound_s(entry: Maneuver, roll: Roll, band: Band) -> float:
+    """The least time found, seconds, in which an aircraft with a roll response is in a band for good.
+
+    In still air, in the direction of the entry, wings level at the start.
+    """
+    start, circle, rolling = scaled(entry, roll)
+    inside = SettlingBand(band.radial * circle.radius, radians(band.course_deg))
+    path = fastest_roll(start, circle, rolling, guesses(entry), inside)
+    return path.time * entry.aircraft.turn_radius_m / entry.aircraft.airspeed_m_s
+
+
+def scaled(entry: Maneuver, roll: Roll) -> tuple[Planar, Circle, Rolling]:
+    """The start, the circle in the direction of an entry, and a roll, in turn radii and turn radii over airspeed."""
+    pose, orbit, r = entry.start, entry.orbit, entry.aircraft.turn_radius_m
+    unit_s = r / entry.aircraft.airspeed_m_s
+    start = from_compass((pose.east_m - orbit.east_m) / r, (pose.north_m - orbit.north_m) / r, pose.heading_deg)
+    limit = radians(entry.aircraft.bank_deg(r))
+    rolling = Rolling(limit, radians(roll.rate_deg_s) * unit_s, roll.time_s / unit_s)
+    return start, Circle(orbit.radius_m / r, entry.turn == Turn.CW), rolling
+
+
+def guesses(entry: Maneuver) -> list[Word]:
+    """The fastest candidates of an entry with its direction."""
+    found = candidates(entry.start, entry.orbit, entry.aircraft)
+    same = [m for m in found if m.turn == entry.turn][:GUESSES]
+    r = entry.aircraft.turn_radius_m
+    return [[(CONTROLS[segment.letter], segment.length_m / r) for segment in m.segments] for m in same]
+
+
+def missed(start: Planar, circle: Circle, roll: Rolling, path: RollingPath) -> float:
+    """The largest fault of a path that joins, flown by `flown_end`."""
+    banks, lengths = path.profile
+    east, north, angle = flown_end(start, roll, path.profile)
+    side = -1.0 if circle.clockwise else 1.0
+    outward, along = east * cos(angle) + north * sin(angle), side * (east * sin(angle) - north * cos(angle))
+    hold = side * atan(tan(roll.limit) / circle.radius)
+    beyond = [abs(b - a) - roll.rate * h for (a, b), h in zip(pairwise(banks), lengths, strict=True)]
+    steep = [abs(bank) - roll.limit for bank in banks]
+    off = hypot(east, north) - circle.radius
+    return max(
+        abs(off), abs(outward), abs(along - circle.radius), abs(banks[0]), abs(banks[-1] - hold), *beyond, *steep
+    )
+
+
+def flown_end(start: Planar, roll: Rolling, profile: BankProfile) -> Planar:
+    """Where a path ends: headings in closed form, the integral of a tangent; positions by Simpson's rule."""
+    here, most = start, tan(roll.limit)
+    for (before, after), length in zip(pairwise(profile.banks), profile.lengths, strict=True):
+        times = np.linspace(0.0, length, SIMPSON.size)
+        banks, rate = np.linspace(before, after, SIMPSON.size), (after - before) / length if length else 0.0
+        # Where the bank hardly changes the difference of the logarithms would lose its digits.
+        is_even = abs(rate) < EVEN
+        turned = (
+            np.tan(0.5 * (before + banks)) * times if is_even else (log(cos(before)) - np.log(np.cos(banks))) / rate
+        )
+        angles, step = here.angle + turned / most, length * SIMPSON
+        east, north = here.east + step @ np.cos(angles), here.north + step @ np.sin(angles)
+        here = Planar(float(east), float(north), float(angles[-1]))
+    return here
