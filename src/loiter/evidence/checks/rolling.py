@@ -33,7 +33,7 @@ STAGES = (
 ENTRY, IN_BAND = 48, 12
 
 # The largest change of the bank on an interval: the rule of order six is accurate up to there.
-CHANGE = 0.25
+CHANGE = 0.2
 
 # A guess rolls at this share of the rate and the bank limit: an interior-point method starts badly from the bounds.
 INSIDE = 0.9
