@@ -25,7 +25,7 @@ SLOW = {
     "cli": "errors guide json man mavlink",
     "compiled": "ufuncs wind_solver",
     "documents": "notebooks package site",
-    "guidance": "campaign following identification jsbsim_aircraft loiter_entry",
+    "guidance": "campaign following identification jsbsim_aircraft law_in_javascript loiter_entry",
     "kernel": "cell_bounds wind_search",
     "mavlink": "guide guide_misbehaving mavproxy peers upload watch",
     "mutation": "mutation",
@@ -41,6 +41,8 @@ SLOW = {
 BUILDING = (
     "documents/test_package.py",
     "documents/test_site.py",
+    "guidance/test_law_in_c.py",
+    "guidance/test_law_in_javascript.py",
     "tests/test_types.py",
 )
 

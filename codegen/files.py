@@ -9,6 +9,9 @@ from codegen.kinds import NotTranslated
 from codegen.library import Library
 from codegen.unit import ROOT, Unit
 from loiter.arrays import partition  # noqa: F401
+from loiter.guidance.entry import law_step
+from loiter.guidance.estimation import identification_step
+from loiter.guidance.estimation.vehicle import fly_as_declared
 from loiter.kernel import adjoint, entry, motion, rounding
 from loiter.kernel.still_air import extremals, switching_curves, synthesis, value_gradient
 from loiter.kernel.wind import hold, slots, wind_search
@@ -82,6 +85,34 @@ PLANNING = (
     wind_search.optima,
     wind_search.ranked,
 )
+
+# In the law the kernel's functions stand in for machine code that Python calls.
+LAW_REPLACED = {"entry_in_still_air": synthesis.optimum, "advance_in_wind": wind_search.advance_search}
+LAW_ARITHMETIC = DOUBLE._replace(replaced=LAW_REPLACED)
+
+
+# The steps of the law and of the identification, and what stands in for the latter.
+STEPS = (
+    law_step.first_memory,
+    law_step.step,
+    identification_step.settings_of,
+    identification_step.begin_identification,
+    identification_step.identify,
+    fly_as_declared,
+)
+
+
+def law() -> str:
+    """The guidance law and the identification of the vehicle as C; it belongs to no package."""
+    return Unit("law.h", LAW_ARITHMETIC, STEPS).text()
+
+
+def law_module() -> str:
+    """What `law` has, as JavaScript; it belongs to no package. Its tangents and exponentials are the browser's."""
+    functions = PORTABLE.functions | {name: f"Math.{name}" for name in ("tan", "atan", "exp", "log")}
+    arithmetic = PORTABLE._replace(functions=functions, replaced=PORTABLE.replaced | LAW_REPLACED)
+    return Module("law.js", arithmetic, (*STEPS, identification_step.first_identification)).text()
+
 
 # What the page needs above the kernel, and what it has elsewhere than in Python.
 ABOVE_KERNEL = (

@@ -7,8 +7,8 @@ from math import nan
 from types import FunctionType
 
 import pytest
+from codegen.files import LAW_ARITHMETIC
 from codegen.kinds import NotTranslated
-from codegen.onboard import IDENTIFICATION_ARITHMETIC
 from codegen.unit import Unit
 
 from loiter import Aircraft, Orbit, Pose, Wind
@@ -134,7 +134,7 @@ def refusals(module):
     for name, function in vars(module).items():
         if isinstance(function, FunctionType) and function.__module__ == module.__name__:
             try:
-                Unit("law.h", IDENTIFICATION_ARITHMETIC, [function])
+                Unit("law.h", LAW_ARITHMETIC, [function])
             except NotTranslated as refused:
                 found[name] = str(refused)
     return found

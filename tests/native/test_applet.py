@@ -12,7 +12,8 @@ from codegen.lua import LUA
 from codegen.onboard.lua_files import APPLET, FOLDER, applet_files, law
 from lupa.lua53 import LuaRuntime
 
-from loiter import Aircraft, Orbit, Pose, Wind
+from guidance.test_law_in_c import START, UAV, same
+from loiter import Orbit, Wind
 from loiter.guidance.entry import join_tracking
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass
@@ -158,9 +159,8 @@ def test_times_in_still_air_are_those_of_python(lua):
 
 def test_the_law_gives_the_commands_of_python(lua):
     runtime, functions = lua
-    aircraft, dt = Aircraft(18.0, max_bank_deg=35.0), 0.02
-    law_ = LoiterEntry(Orbit(0.0, 0.0, 80.0), aircraft, identify=False)
-    mass = PointMass(Pose(-400.0, 120.0, 200.0), aircraft, seed=3)
+    law_, dt = LoiterEntry(Orbit(0.0, 0.0, 80.0), UAV, identify=False), 0.02
+    mass = PointMass(START, UAV, seed=3)
     settings, model = in_lua(runtime, law_._settings), in_lua(runtime, law_._vehicle)
     memory = functions.first_memory(settings, model)
     for _ in range(1500):
@@ -169,7 +169,7 @@ def test_the_law_gives_the_commands_of_python(lua):
         memory = functions.prepare(memory, settings, model, in_lua(runtime, state))
         memory = functions.conclude(functions.continue_search(memory, settings, 10), settings, model, dt)
         found, wanted = memory.command, law_.step(state, dt)
-        assert found.bank_deg == pytest.approx(wanted.bank_deg, abs=1e-7)
+        assert same(found.bank_deg, wanted.bank_deg)
         mass.advance(wanted, dt)
 
 
