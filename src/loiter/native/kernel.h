@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 7f3181be6d3e0bf902511ca7c55fe49fdcc8bf54fe663e3b9e5fa0004eed26b4
+ * SHA-256 of the source: c006a1e5711f70dfc1e56e31bfeb81e66fe43ae2626a049168bb7e78f226b805
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -3412,6 +3412,17 @@ static inline Path path_with_straight(integer u, integer last, SlotPose pose, Wi
             pose);
 }
 
+/* A bound on how negative the second derivative of |d|^2 is where |d| is at most `distance`. */
+static inline real bend_of_square(integer u, real distance, Bounds limits, WindScene scene) {
+    real bend = 2.0 * (limits.speed * limits.turning + limits.speed_change) * distance;
+    if (limits.speed_change == 0.0) {
+        /* In still air the last centre moves round the circle's: the square is a constant and a cosine. */
+        bend = min_real(bend, 2.0 * limits.speed * length(scene.x - (real)u * scene.s, scene.y + (real)u *
+                scene.c));
+    }
+    return bend;
+}
+
 /* How far a function cannot come down to zero that has this value and derivative, if its second is >= -`bend`. */
 static inline real step_without_zero(real value, real slope, real bend) {
     if (bend <= 0.0 && slope >= 0.0) {
@@ -3421,7 +3432,7 @@ static inline real step_without_zero(real value, real slope, real bend) {
 }
 
 /* A step within which the excess falls by at most half a turn, and LSR and RSL neither begin nor cease to exist. */
-static inline real step_of_excess(integer u, integer last, SlotPose pose, Excess excess, Bounds limits, real
+static inline real step_of_excess(integer u, integer last, Excess excess, Bounds limits, WindScene scene, real
         tolerance) {
     real step = limits.step;
     if (limits.speed > 0.0) {
@@ -3431,7 +3442,7 @@ static inline real step_of_excess(integer u, integer last, SlotPose pose, Excess
         return step;
     }
     const real distance = sqrt(max_real(excess.apart + 4.0, 0.0)) + limits.speed * step;
-    const real low = 2.0 * (limits.speed * limits.turning + limits.speed_change) * distance;
+    const real low = bend_of_square(u, distance, limits, scene);
     const real high = low + 2.0 * limits.speed * limits.speed;
     if (fabs(excess.apart) <= tolerance) {
         return min_real(step, max_real(high > 0.0 ? fabs(excess.apart_slope) / high : step, DOUBLE_ROOT));
@@ -3495,7 +3506,7 @@ static inline WindCandidate first_with_straight(integer u, integer last, SlotPos
             return none;
         }
         const Bounds limits = bounds_at(last, pose, slot, scene);
-        const real step = step_of_excess(u, last, pose, excess, limits, tolerance);
+        const real step = step_of_excess(u, last, excess, limits, scene, tolerance);
         const SlotPose ahead = slot_pose(pose.width + step, slot, scene);
         const Excess excess_ahead = excess_at(u, last, ahead, slot, scene);
         const bool exists = excess.apart >= -tolerance && excess_ahead.apart >= -tolerance;
@@ -3550,8 +3561,7 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
         const Bounds limits = bounds_at(u, pose, slot, scene);
         real limit = limits.speed > 0.0 ? min_real(limits.step, 1.0 / limits.speed) : limits.step;
         const real furthest = distance + limits.speed * limit;
-        const real low = 2.0 * limits.speed * limits.turning * furthest + limits.speed_change * (2.0 * furthest +
-                4.0);
+        const real low = bend_of_square(u, furthest, limits, scene) + 4.0 * limits.speed_change;
         const real high = low + 4.0 * limits.speed * limits.speed;
         const real spread = distance + 4.0 * sin(0.5 * middle.arc);
         real step;
@@ -3579,12 +3589,13 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
 static inline WindCandidate first_arrival(Slot slot, WindScene scene) {
     const SlotPose begin = first_within_reach(slot, scene);
     WindCandidate best = (WindCandidate){slot.phase, slot.side, NO_PATH};
-    const integer each_u_1[2] = {1, -1};
+    /* Words that end against the hold arrive within a turn or so; next to R = 1 the others may take forever. */
+    const integer each_last_1[2] = {slot.side, -slot.side};
     for (int i_1 = 0; i_1 < 2; i_1++) {
-        const integer u = each_u_1[i_1];
-        const integer each_last_2[2] = {1, -1};
+        const integer last = each_last_1[i_1];
+        const integer each_u_2[2] = {1, -1};
         for (int i_2 = 0; i_2 < 2; i_2++) {
-            const integer last = each_last_2[i_2];
+            const integer u = each_u_2[i_2];
             best = earlier(best, first_with_straight(u, last, begin, slot, scene, best.path.time));
         }
     }

@@ -212,7 +212,16 @@ def excess_at(u: int, last: int, pose: SlotPose, slot: Slot, scene: WindScene) -
     return Excess(less_whole_turns(straight + arcs - pose.time), -speed * (1.0 - ahead), apart, apart_slope)
 
 
-def step_of_excess(u: int, last: int, pose: SlotPose, excess: Excess, limits: Bounds, tolerance: float) -> float:
+def bend_of_square(u: int, distance: float, limits: Bounds, scene: WindScene) -> float:
+    """A bound on how negative the second derivative of |d|^2 is where |d| is at most `distance`."""
+    bend = 2.0 * (limits.speed * limits.turning + limits.speed_change) * distance
+    if limits.speed_change == 0.0:
+        # In still air the last centre moves round the circle's: the square is a constant and a cosine.
+        bend = min(bend, 2.0 * limits.speed * length(scene.x - u * scene.s, scene.y + u * scene.c))
+    return bend
+
+
+def step_of_excess(u: int, last: int, excess: Excess, limits: Bounds, scene: WindScene, tolerance: float) -> float:
     """A step within which the excess falls by at most half a turn, and LSR and RSL neither begin nor cease to exist."""
     step = limits.step
     if limits.speed > 0.0:
@@ -220,7 +229,7 @@ def step_of_excess(u: int, last: int, pose: SlotPose, excess: Excess, limits: Bo
     if u == last:
         return step
     distance = sqrt(max(excess.apart + 4.0, 0.0)) + limits.speed * step
-    low = 2.0 * (limits.speed * limits.turning + limits.speed_change) * distance
+    low = bend_of_square(u, distance, limits, scene)
     high = low + 2.0 * limits.speed * limits.speed
     if abs(excess.apart) <= tolerance:
         return min(step, max(abs(excess.apart_slope) / high if high > 0.0 else step, DOUBLE_ROOT))
@@ -247,7 +256,7 @@ def first_with_straight(
         if pose.time > until:
             return none
         limits = bounds_at(last, pose, slot, scene)
-        step = step_of_excess(u, last, pose, excess, limits, tolerance)
+        step = step_of_excess(u, last, excess, limits, scene, tolerance)
         ahead = slot_pose(pose.width + step, slot, scene)
         excess_ahead = excess_at(u, last, ahead, slot, scene)
         exists = excess.apart >= -tolerance and excess_ahead.apart >= -tolerance
@@ -332,7 +341,7 @@ def first_of_three_arcs(
         limits = bounds_at(u, pose, slot, scene)
         limit = min(limits.step, 1.0 / limits.speed) if limits.speed > 0.0 else limits.step
         furthest = distance + limits.speed * limit
-        low = 2.0 * limits.speed * limits.turning * furthest + limits.speed_change * (2.0 * furthest + 4.0)
+        low = bend_of_square(u, furthest, limits, scene) + 4.0 * limits.speed_change
         high = low + 4.0 * limits.speed * limits.speed
         spread = distance + 4.0 * sin(0.5 * middle.arc)
         if abs(middle.value) <= tolerance * (spread + tolerance):
@@ -360,8 +369,9 @@ def first_arrival(slot: Slot, scene: WindScene) -> WindCandidate:
     """The first arrival in a slot, the best of all words."""
     begin = first_within_reach(slot, scene)
     best = WindCandidate(slot.phase, slot.side, NO_PATH)
-    for u in (1, -1):
-        for last in (1, -1):
+    # Words that end against the hold arrive within a turn or so; next to R = 1 the others may take forever.
+    for last in (slot.side, -slot.side):
+        for u in (1, -1):
             best = earlier(best, first_with_straight(u, last, begin, slot, scene, best.path.time))
     for u in (1, -1):
         for halves in (0, 1):
