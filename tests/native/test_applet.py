@@ -13,7 +13,7 @@ from codegen.onboard.lua_files import APPLET, FOLDER, applet_files, law
 from lupa.lua53 import LuaRuntime
 
 from guidance.test_law_in_c import START, UAV, same
-from loiter import Aircraft, Orbit, Wind
+from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.guidance.entry import join_tracking
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass
