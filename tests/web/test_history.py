@@ -118,6 +118,8 @@ def test_the_view_comes_back_too_and_altitude_and_units_stay(page):
     page.locator("#units").select_option("aviation")
     page.get_by_role("button", name="Zoom in").click()
     zoomed = view(page)
+    # What changes without a pause is one step.
+    page.wait_for_timeout(300)
     press(page, "Far away")
     assert view(page) != zoomed
     page.locator("#undo").click()
