@@ -18,7 +18,7 @@ from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
-from loiter.planning.sides import sign_of
+from loiter.planning.sides import directions, sign_of
 from loiter.planning.slot import Slot, phase_at_start
 
 if TYPE_CHECKING:
@@ -123,8 +123,7 @@ def fleet(
     instance("orbit", orbit, Orbit)
     separation_m = not_negative("separation_m", separation_m, "metres")
     problems = [Problem(pose, orbit, aircraft, CALM if wind is None else wind) for pose in _checked(poses)]
-    turns = [Turn.CW, Turn.CCW] if orbit.turn is Turn.EITHER else [orbit.turn]
-    found = sorted(candidate for turn in turns for candidate in candidates_of(Ring(problems, turn)))
+    found = sorted(candidate for turn in directions(orbit.turn) for candidate in candidates_of(Ring(problems, turn)))
     best = None
     for candidate in found[: MOST_SEPARATED if separation_m > 0.0 else 1]:
         plan = _planned(Ring(problems, candidate.turn), candidate, separation_m)

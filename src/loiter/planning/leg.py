@@ -20,7 +20,7 @@ from loiter.planning.maneuver import MAX_SAMPLES, Maneuver, decimals_of, maneuve
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
-from loiter.planning.sides import sign_of
+from loiter.planning.sides import directions, sign_of
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -211,7 +211,7 @@ def plan_leg(leg: Leg, aircraft: Aircraft, wind: Wind | None = None) -> LegPlan:
     instance("leg", leg, Leg)
     problem = Problem(leg.pose, leg.orbit, aircraft, CALM if wind is None else wind)
     climb_s = climb_time_s(leg, aircraft)
-    turns = [leg.orbit.turn] if leg.orbit.turn is not Turn.EITHER else [Turn.CW, Turn.CCW]
+    turns = directions(leg.orbit.turn)
     return min((_planned(leg, problem.with_turn(turn), climb_s) for turn in turns), key=lambda plan: plan.duration_s)
 
 

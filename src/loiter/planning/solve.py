@@ -15,6 +15,7 @@ from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
+from loiter.planning.sides import directions
 from loiter.planning.slot import Slot, phase_at_start
 
 
@@ -69,8 +70,9 @@ def arrivals(problem: Problem, slot: Slot) -> tuple[Maneuver, ...]:
     instance("slot", slot, Slot)
     if problem.tolerance_m != 0.0:
         raise InvalidArgument("tolerance_m", "must be 0 with a slot: its entry ends in the slot")
-    turns = [Turn.CW, Turn.CCW] if problem.orbit.turn is Turn.EITHER else [problem.orbit.turn]
-    found = sorted((_arrival(problem, turn, slot) for turn in turns), key=lambda solved: solved.time)
+    found = sorted(
+        (_arrival(problem, turn, slot) for turn in directions(problem.orbit.turn)), key=lambda solved: solved.time
+    )
     return maneuvers(_with_orbit(one, problem.orbit) for one in found)
 
 

@@ -9,10 +9,11 @@ from random import Random
 
 from loiter.errors import InvalidArgument
 from loiter.evidence.checks.collocation import CollocatedPath, check_installed, collocate, letter
-from loiter.evidence.checks.oracle import Circle, from_compass
-from loiter.evidence.checks.oracle_check import CheckProblem
+from loiter.evidence.checks.oracle import Circle
+from loiter.evidence.checks.oracle_check import CheckProblem, start_about
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn
+from loiter.planning.sides import directions
 from loiter.planning.solve import plan_all
 
 AIRCRAFT = Aircraft(18.0, min_turn_radius_m=50.0)
@@ -93,9 +94,8 @@ def collocation_difference(problem: CheckProblem) -> CollocationDifference:
     """One problem planned and collocated."""
     r, orbit, pose = problem.aircraft.turn_radius_m, problem.orbit, problem.pose
     plans = plan_all(pose, orbit, problem.aircraft)
-    start = from_compass((pose.east_m - orbit.east_m) / r, (pose.north_m - orbit.north_m) / r, pose.heading_deg)
-    turns = (Turn.CW, Turn.CCW) if orbit.turn == Turn.EITHER else (orbit.turn,)
-    path = collocate(start, [Circle(orbit.radius_m / r, turn == Turn.CW) for turn in turns])
+    start = start_about(pose, orbit, r)
+    path = collocate(start, [Circle(orbit.radius_m / r, turn == Turn.CW) for turn in directions(orbit.turn)])
     flown = [(letter(u), h) for u, h in zip(path.controls, path.lengths, strict=True)]
     apart = min(differing(flown, pieces(m)) for m in plans)
     first, *_ = plans

@@ -10,6 +10,7 @@ from random import Random
 from loiter.errors import InvalidArgument, check_installed
 from loiter.evidence.checks.oracle import Circle, OraclePath, Planar, Search, from_compass
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn
+from loiter.planning.sides import directions
 from loiter.planning.solve import plan
 
 # The resolution of the search, over turn radius plus length. The end of OMPL's path and its moved start are accurate to
@@ -102,11 +103,18 @@ def compare_with_oracle(states: int, seed: int) -> Iterator[OracleDifference]:
     return map(oracle_difference, random_problems(states, seed))
 
 
+def start_about(pose: Pose, orbit: Orbit, unit_m: float = 1.0) -> Planar:
+    """A pose about the centre of a circle, in units of `unit_m` metres."""
+    return from_compass(
+        (pose.east_m - orbit.east_m) / unit_m, (pose.north_m - orbit.north_m) / unit_m, pose.heading_deg
+    )
+
+
 def oracle_difference(problem: CheckProblem) -> OracleDifference:
     """One problem planned and searched; while the plan is shorter, the search tries ten times as many points."""
     r, pose, orbit = problem.aircraft.turn_radius_m, problem.pose, problem.orbit
     planned = plan(pose, orbit, problem.aircraft).length_m
-    start = from_compass(pose.east_m - orbit.east_m, pose.north_m - orbit.north_m, pose.heading_deg)
+    start = start_about(pose, orbit)
     search, joins = Search(r), JOINS
     circle, found = shortest(search, start, orbit, joins)
     while found.length - planned > RESOLUTION * (r + planned) and joins < MOST_JOINS:
@@ -126,7 +134,6 @@ def oracle_difference(problem: CheckProblem) -> OracleDifference:
 
 def shortest(search: Search, start: Planar, orbit: Orbit, joins: int) -> tuple[Circle, OraclePath]:
     """The search's best path onto the circle, and the circle with the direction; for *either* the best of both."""
-    turns = (Turn.CW, Turn.CCW) if orbit.turn == Turn.EITHER else (orbit.turn,)
-    circles = [Circle(orbit.radius_m, turn == Turn.CW) for turn in turns]
+    circles = [Circle(orbit.radius_m, turn == Turn.CW) for turn in directions(orbit.turn)]
     found = [(circle, search.shortest(start, circle, joins)) for circle in circles]
     return min(found, key=lambda pair: pair[1].length)
