@@ -80,7 +80,7 @@ def wrong_paths(start, circle, roll, path):
 
 
 def test_paths_that_cannot_be_flown_are_noticed():
-    start, circle, roll = scaled(ENTRY, Roll(0.0, 60.0))
+    start, circle, roll, _ = scaled(ENTRY, Roll(0.0, 60.0))
     path = fastest_roll(start, circle, roll, guesses(ENTRY))
     assert missed(start, circle, roll, path) < MISS
     found = {

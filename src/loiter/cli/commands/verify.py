@@ -223,9 +223,10 @@ def _rolling(states: int, cases: int, seed: int) -> Callable[[], Findings]:
         found: list[RollingBound] = list(_with_progress("rolling", results, cases * len(RATES_DEG_S)))
         rows: list[Row] = []
         for place in dict.fromkeys(bound.problem.place for bound in found):
-            here = sorted(bound.later_s for bound in found if bound.problem.place == place)
-            misses: Row = {"missed": float(max(bound.missed for bound in found if bound.problem.place == place))}
-            later: Row = {"later_by_s": here[len(here) // 2], "at_most_s": here[-1], "at_least_s": here[0]}
+            here = [bound for bound in found if bound.problem.place == place]
+            later_s = sorted(bound.later_s for bound in here)
+            later: Row = {"later_by_s": later_s[len(later_s) // 2], "at_most_s": later_s[-1], "at_least_s": later_s[0]}
+            misses: Row = {"missed": max(bound.missed for bound in here)}
             rows.append({"roll_rate": place, "entries": len(here), **later, **misses})
         note = (
             f"How much later than the plan an aircraft of {AIRCRAFT.airspeed_m_s:g} m/s can join with the bank of the "

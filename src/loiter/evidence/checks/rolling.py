@@ -1,7 +1,7 @@
 """What an aircraft that must roll can reach: the entry with a limited bank rate, as a nonlinear program.
 
-The vehicle of the theory banks at once. Here the bank is a state: it begins at a given value, changes at a limited
-rate, and ends as that of the hold. No finite synthesis of this problem is known. Every solution of the program is a
+The vehicle of the theory banks at once. Here the bank is a state: it begins level, changes at a limited rate, and ends
+as that of the hold. No finite synthesis of this problem is known. Every solution of the program is a
 path that such an aircraft can fly, so its time bounds the least time from above; the least time of the vehicle of the
 theory, which may do more, bounds it from below.
 
@@ -42,8 +42,9 @@ INSIDE = 0.9
 # quicker one too, and a guess from which its program converges.
 SHARES = (0.5, 1.0)
 
-# The band of a guess is entered this long before it joins, turn radii over airspeed.
-BEFORE_JOINING = 0.3
+# Turn radii over airspeed: a guess lasts at least `SHORTEST`; one with a band enters it `BEFORE_JOINING` before it
+# joins, or half-way, and holds for `HELD`.
+SHORTEST, BEFORE_JOINING, HELD = 0.5, 0.3, 1.0
 
 
 class Rolling(NamedTuple):
@@ -79,7 +80,6 @@ class RollingPath(NamedTuple):
     """
 
     time: float
-    clockwise: bool
     profile: BankProfile
 
 
@@ -129,13 +129,13 @@ def _improve(
     if solver.stats()["success"]:
         banks, lengths = np.split(found["x"].full().ravel()[free.size :], [n + 1])
         profile = BankProfile(tuple(banks.tolist()), tuple(lengths.tolist()))
-        yield RollingPath(sum(profile.lengths[:ENTRY]), circle.clockwise, profile)
+        yield RollingPath(sum(profile.lengths[:ENTRY]), profile)
 
 
 def _guess(word: Word, roll: Rolling) -> BankProfile:
     """The bank of an aircraft that follows the controls of a word as it can, over even intervals."""
     ends = np.cumsum([length for _, length in word])
-    length = max(float(ends[-1]), 0.5) / ENTRY
+    length = max(float(ends[-1]), SHORTEST) / ENTRY
     banks, most = [0.0], min(INSIDE * roll.rate * length, INSIDE * CHANGE)
     for k in range(ENTRY):
         control, _ = word[min(int(np.searchsorted(ends, (k + 0.5) * length)), len(word) - 1)]
@@ -147,7 +147,7 @@ def _guess(word: Word, roll: Rolling) -> BankProfile:
 def _held(path: RollingPath, roll: Rolling) -> BankProfile:
     """A path that joins, in the intervals of one with a band: it enters the band before it joins, and holds then."""
     before = max(path.time - BEFORE_JOINING, 0.5 * path.time)
-    lengths = [before / ENTRY] * ENTRY + [(path.time - before + 1.0) / IN_BAND] * IN_BAND
+    lengths = [before / ENTRY] * ENTRY + [(path.time - before + HELD) / IN_BAND] * IN_BAND
     times = np.cumsum([0.0, *path.profile.lengths])
     banks = np.interp(np.cumsum([0.0, *lengths]), times, path.profile.banks)
     return BankProfile(tuple(np.clip(banks, -INSIDE * roll.limit, INSIDE * roll.limit).tolist()), tuple(lengths))

@@ -6,19 +6,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import atan, cos, hypot, log, radians, sin, tan
+from typing import NamedTuple
 
 import numpy as np
 
 from loiter.errors import InvalidArgument
 from loiter.evidence.checks.collocation import check_installed
-from loiter.evidence.checks.oracle import Circle, Planar, from_compass
-from loiter.evidence.checks.oracle_check import CheckProblem
+from loiter.evidence.checks.oracle import Circle, Planar
+from loiter.evidence.checks.oracle_check import CheckProblem, start_about
 from loiter.evidence.checks.rolling import BankProfile, Rolling, RollingPath, SettlingBand, Word, fastest_roll
 from loiter.guidance.trials.campaign import trials
 from loiter.guidance.vehicle.circle import Band
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Aircraft, Turn
+from loiter.planning.model import CONTROLS, Aircraft, Turn
 from loiter.planning.solve import candidates
 
 AIRCRAFT = Aircraft(22.0, max_bank_deg=45.0)
@@ -29,10 +30,8 @@ RATES_DEG_S = (45.0, 60.0, 90.0, 150.0)
 # This many of the fastest candidates are tried as first guesses.
 GUESSES = 6
 
-CONTROLS = {"L": 1.0, "S": 0.0, "R": -1.0}
-
 # A path may miss by this many turn radii, or radians, when it is flown by another integrator, and exceed the limits of
-# its roll by this: what the rule of order six leaves on its intervals.
+# its roll by this: what the rule of order six leaves on its intervals. Times are compared to as many seconds.
 MISS = 1e-6
 
 # Simpson's weights on an interval of length 1, and the rate of the bank below which the heading is that at its mean.
@@ -80,8 +79,7 @@ def compare_with_rolling(cases: int, seed: int) -> Iterator[RollingBound]:
 
 def rolling_bound(entry: Maneuver, rate_deg_s: float) -> RollingBound:
     """The bounds of one entry in still air, at one roll rate."""
-    unit_s = entry.aircraft.turn_radius_m / entry.aircraft.airspeed_m_s
-    start, circle, roll = scaled(entry, Roll(0.0, rate_deg_s))
+    start, circle, roll, unit_s = scaled(entry, Roll(0.0, rate_deg_s))
     path = fastest_roll(start, circle, roll, guesses(entry))
     place = f"{rate_deg_s:g} deg/s"
     problem = CheckProblem(place, entry.start, entry.orbit, entry.aircraft)
@@ -93,20 +91,30 @@ def settling_bound_s(entry: Maneuver, roll: Roll, band: Band) -> float:
 
     In still air, in the direction of the entry, wings level at the start.
     """
-    start, circle, rolling = scaled(entry, roll)
+    start, circle, rolling, unit_s = scaled(entry, roll)
     inside = SettlingBand(band.radial * circle.radius, radians(band.course_deg))
-    path = fastest_roll(start, circle, rolling, guesses(entry), inside)
-    return path.time * entry.aircraft.turn_radius_m / entry.aircraft.airspeed_m_s
+    return unit_s * fastest_roll(start, circle, rolling, guesses(entry), inside).time
 
 
-def scaled(entry: Maneuver, roll: Roll) -> tuple[Planar, Circle, Rolling]:
-    """The start, the circle in the direction of an entry, and a roll, in turn radii and turn radii over airspeed."""
-    pose, orbit, r = entry.start, entry.orbit, entry.aircraft.turn_radius_m
+class ScaledEntry(NamedTuple):
+    """An entry in turn radii and turn radii over airspeed: the start, the circle in its direction, and the roll.
+
+    `unit_s` is a turn radius over the airspeed, seconds.
+    """
+
+    start: Planar
+    circle: Circle
+    roll: Rolling
+    unit_s: float
+
+
+def scaled(entry: Maneuver, roll: Roll) -> ScaledEntry:
+    """An entry, flown with a roll response."""
+    orbit, r = entry.orbit, entry.aircraft.turn_radius_m
     unit_s = r / entry.aircraft.airspeed_m_s
-    start = from_compass((pose.east_m - orbit.east_m) / r, (pose.north_m - orbit.north_m) / r, pose.heading_deg)
-    limit = radians(entry.aircraft.bank_deg(r))
-    rolling = Rolling(limit, radians(roll.rate_deg_s) * unit_s, roll.time_s / unit_s)
-    return start, Circle(orbit.radius_m / r, entry.turn == Turn.CW), rolling
+    rolling = Rolling(radians(entry.aircraft.bank_deg(r)), radians(roll.rate_deg_s) * unit_s, roll.time_s / unit_s)
+    circle = Circle(orbit.radius_m / r, entry.turn == Turn.CW)
+    return ScaledEntry(start_about(entry.start, orbit, r), circle, rolling, unit_s)
 
 
 def guesses(entry: Maneuver) -> list[Word]:
