@@ -151,10 +151,11 @@ class LoiterModule(mp_module.MPModule):  # type: ignore[misc]
 
     def _circle(self, arguments: list[str]) -> Circle:
         """The circle of a command's arguments, of the map's last click, and of the settings."""
-        place = [float(word) for word in arguments[:2]] or list(self.mpstate.click_location or [])
+        given = [_number(name, word) for name, word in zip(("LAT", "LON", "RADIUS"), arguments, strict=False)]
+        place = given[:2] or list(self.mpstate.click_location or [])
         if len(place) != 2:
             raise InvalidArgument("centre", "is needed: LAT LON, or a click on the map")
-        radius_m = float(arguments[2]) if len(arguments) > 2 else self.options.radius or self._parameter("loiter")
+        radius_m = given[2] if len(given) > 2 else self.options.radius or self._parameter("loiter")
         if not radius_m:
             raise InvalidArgument("radius", "is needed: the vehicle's parameters are not known")
         return Circle(Orbit(0.0, 0.0, abs(radius_m), self.options.turn), LocalFrame(*place))
@@ -273,6 +274,14 @@ class LoiterModule(mp_module.MPModule):  # type: ignore[misc]
         line = SlipPolygon(NAME, np.transpose(places).tolist(), LAYER, COLOUR, WIDTH, showcircles=False)
         for each in maps:
             each.map.add_object(line)
+
+
+def _number(name: str, word: str) -> float:
+    """A number of the console; raises `InvalidArgument` for another word."""
+    try:
+        return float(word)
+    except ValueError:
+        raise InvalidArgument(name, f"is {word!r}: it must be a number") from None
 
 
 COMMANDS: dict[str, Callable[[LoiterModule, list[str]], None]] = {

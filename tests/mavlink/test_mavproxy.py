@@ -131,7 +131,7 @@ def test_wrong_commands_get_a_sentence_and_a_watch_goes_on_until_it_is_stopped(f
     for line, sentence in [
         ("loiter", "loiter plan .*the fastest entry from where the vehicle is"),
         ("loiter plan", "loiter: centre is needed: LAT LON, or a click on the map"),
-        ("loiter plan 47 north", "loiter: could not convert"),
+        ("loiter plan 47 north", "loiter: LON is 'north': it must be a number"),
         ("loiter plan 97 8 80", "loiter: origin"),
         ("loiter watch 47 8", "loiter: radius is needed: the vehicle's parameters are not known"),
     ]:
