@@ -1,6 +1,6 @@
 # make demo   plan a real entry: the table on the screen, the picture in demo.png
 # make check  format, lint, types, import contracts and the quick tests, in two minutes: for every day
-# make test   the same with all tests, and the page in a browser: about twenty-five minutes on two cores
+# make test   the same with all tests, and the page in a browser: some eighteen minutes on two cores
 # make bench  times of the answers and of other methods: table and plot in benchmarks/results; ROWS=0 skips the tables
 # make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
 # make docs   the documentation site, in build/docs, with the page in try/: every warning and every broken link is an error
