@@ -30,6 +30,16 @@ def test_brute_force_finds_nothing_faster():
     assert found >= 1
 
 
+def test_a_search_follows_where_there_is_one_candidate_alone():
+    """A start inside the circle, from which one candidate leads onto it, into a mast."""
+    circle, uav = Orbit(0.0, 0.0, 180.0, Turn.CW), Aircraft(19.8, max_bank_deg=41.5)
+    start, mast = Pose(-1.2, -60.4, 60.7), CircleZone("mast", 57.8, -59.8, 8.2)
+    assert len(candidates(start, circle, uav)) == 1
+    found = clear_entry(Fence((mast,)), start, circle, uav, margin_m=7.0)
+    assert found.maneuver is not None
+    assert found.sentence.startswith("The fastest clear entry found joins 0.9 s later: ")
+
+
 def test_round_a_circle_that_is_wider_than_the_turn():
     """A zone on the way is passed along its circle, from one straight line to another, both tangents."""
     found = clear_entry(Fence((CircleZone("mast", -300.0, -70.0, 60.0),)), POSE, ORBIT, UAV, margin_m=10.0)

@@ -73,7 +73,7 @@ def clear_entry(
     margin_m = default_margin_m(orbit) if margin_m is None else not_negative("margin_m", margin_m, "metres")
     known = extremals(problem)
     found = first_clear(fence, known, margin_m)
-    if found.tried == 1 or orbit.moves:
+    if found.is_fastest or orbit.moves:
         return found
     if blocking := zones_on_circle(fence, known[0], margin_m):
         return found._replace(blocking=blocking, least_s=inf)

@@ -33,11 +33,16 @@ class ClearEntry(NamedTuple):
     searched: bool = False
 
     @property
+    def is_fastest(self) -> bool:
+        """Whether the fastest entry is clear itself."""
+        return self.maneuver is not None and self.tried == 1 and not self.searched
+
+    @property
     def sentence(self) -> str:
         """The answer in a sentence."""
         if self.maneuver is None:
             return self._refusal
-        if self.tried == 1:
+        if self.is_fastest:
             return "The fastest entry is clear."
         later = f"joins {self.later_s:.1f} s later" if self.later_s >= SAME_TIME_S else "is as fast"
         what = "The fastest clear entry found" if self.searched else "The first candidate that is clear"
