@@ -11,6 +11,7 @@ from loiter.cli.app import main
 COMMANDS = [
     "plan",
     "leg",
+    "fleet",
     "batch",
     "fly",
     "upload",

@@ -21,7 +21,12 @@ def test_it_is_that_of_the_help():
 
 
 # Options that are parsed, to be refused with a sentence, but not shown.
-HIDDEN = {"upload": {"--pose", "--orbit"}, "watch": {"--orbit"}, "guide": {"--orbit", "--orbit-velocity"}}
+HIDDEN = {
+    "fleet": {"--path"},
+    "upload": {"--pose", "--orbit"},
+    "watch": {"--orbit"},
+    "guide": {"--orbit", "--orbit-velocity"},
+}
 
 
 @pytest.mark.parametrize("command", sorted(options()))

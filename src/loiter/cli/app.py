@@ -71,6 +71,14 @@ add_command(
 It needs what loiter plan needs, and the point to fly to afterwards (--exit-to). The aircraft leaves the circle on the tangent to that point, once the least hold, the turns and the altitude are reached; all of them together take the least time.""",
 )
 add_command(
+    "fleet:fleet",
+    planning,
+    2,
+    """Plan the entries of several aircraft onto one circle, each into a slot: a place that moves round the circle with the hold.
+
+FILE is a CSV file with a row for each aircraft: its position and heading, in the columns of loiter batch, and a name if it has a column name. They are of one kind, and share the circle, the airspeed, the turn limit and the wind. Their slots pass a place at equal intervals; which aircraft takes which slot brings the last one in soonest.""",
+)
+add_command(
     "batch:batch",
     planning,
     2,

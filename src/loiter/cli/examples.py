@@ -18,6 +18,11 @@ EXAMPLES = {
   loiter leg --pose -400 120 90 --orbit 0 0 120 --exit-to 600 0 \
       --airspeed 18 --bank 35 --wind 8 250 \
       --altitude 100 --to-altitude 300 --climb-rate 2.5""",
+    "fleet": r"""
+  loiter fleet fleet.csv --orbit 0 0 120 --airspeed 18 --bank 35 \
+      --separation 100 --plot fleet.png --animate fleet.gif
+  loiter fleet fleet.csv --orbit-lla 47.11 8.23 120 --airspeed 18 \
+      --bank 35 --wind 8 250 --altitude 900 --save fleet.kml""",
     "batch": r"""
   loiter batch states.parquet entries/ --orbit 0 0 80 \
       --airspeed 18 --bank 35

@@ -184,6 +184,19 @@ def values_given(count: int) -> str:
     return f"{count} {'was' if count == 1 else 'were'} given"
 
 
+def column_mapping(texts: list[str]) -> dict[str, str]:
+    """Columns by the quantities that they hold, from texts such as "east_m=X_East [ft]"."""
+    mapped: dict[str, str] = {}
+    for text in texts:
+        quantity, _, column = text.partition("=")
+        if not (quantity and column):
+            raise InvalidArgument("columns", f"is {text!r}: it must be like east_m='X_East [ft]'")
+        if quantity in mapped:
+            raise InvalidArgument("columns", f"gives {quantity} twice")
+        mapped[quantity] = column
+    return mapped
+
+
 def refusal(token: Token, need: str) -> CoercionError:
     """The error for a value that cannot be read; `need` says what it must be."""
     return CoercionError(token=token, target_type=float, msg=need)

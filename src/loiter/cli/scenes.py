@@ -14,7 +14,7 @@ from loiter.geo.frame import degrees_of
 from loiter.geo.placed import PlacedProblem
 from loiter.io.document import maneuver_values
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
-from loiter.planning.model import Orbit, Pose
+from loiter.planning.model import Aircraft, Orbit, Pose, Wind
 from loiter.planning.problem import Problem
 
 if TYPE_CHECKING:
@@ -62,6 +62,35 @@ def read_options(
         _fit_remark(circle, planned),
     ]
     return OptionsRead(PlacedProblem(problem, frame), "\n".join(filter(None, remarks)))
+
+
+class CircleRead(NamedTuple):
+    """The circle, the aircraft and the wind that the options of a command describe, with a remark, or ""."""
+
+    orbit: Orbit
+    aircraft: Aircraft
+    wind: Wind
+    frame: LocalFrame | None
+    remark: str
+
+
+def read_circle(
+    orbit: OrbitOptions,
+    aircraft: AircraftOptions,
+    wind: WindOptions,
+    *,
+    fit: bool = False,
+    datum: AltitudeDatum = MEAN_SEA_LEVEL,
+) -> CircleRead:
+    """What the options describe, without a start; otherwise like `read_options`."""
+    preset = aircraft.preset()
+    aircraft = aircraft.above_sea(preset, datum)
+    wind.check_declination()
+    circle, frame = orbit.circle(preset)
+    uav = aircraft.aircraft(preset)
+    planned = circle.fitted(uav, wind.moving_air) if fit else circle
+    remarks = [orbit.site_remark(), aircraft.remark(preset), _fit_remark(circle, planned)]
+    return CircleRead(planned, uav, wind.moving_air, frame, "\n".join(filter(None, remarks)))
 
 
 def _places_remark(start: StartOptions, frame: LocalFrame | None) -> str:

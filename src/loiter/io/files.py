@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -38,6 +38,7 @@ class SaveArguments(NamedTuple):
     autopilot: Autopilot
     along_path: bool = False
     site: Site | None = None
+    name: str = ""
 
 
 def check_format(path: str | Path) -> None:
@@ -87,6 +88,10 @@ def file_content(path: Path, arguments: SaveArguments) -> bytes:
     """The content that `save` writes to `path`; it raises the errors of `save`, but for those of writing."""
     content = file_format(path, FILE_FORMATS).content
     assert content is not None  # only pictures have none
+    return content(path.suffix.lower(), _checked(arguments))
+
+
+def _checked(arguments: SaveArguments) -> SaveArguments:
     instance("maneuver", arguments.maneuver, Maneuver)
     instance("datum", arguments.datum, AltitudeDatum)
     for name, value, kind in (("frame", arguments.frame, LocalFrame), ("site", arguments.site, Site)):
@@ -97,7 +102,25 @@ def file_content(path: Path, arguments: SaveArguments) -> bytes:
     if arguments.autopilot not in tuple(Autopilot):
         known = " or ".join(f"Autopilot.{known.name}" for known in Autopilot)
         raise InvalidArgument("autopilot", f"is {arguments.autopilot!r}: it must be {known}")
-    return content(path.suffix.lower(), arguments)
+    return arguments
+
+
+def fleet_contents(path: Path, aircraft: Sequence[SaveArguments]) -> list[tuple[Path, bytes]]:
+    """The files for several aircraft, each with its name: one map, or a mission for each, whose name ends in its own.
+
+    Raises the errors of `file_content`, and `InvalidArgument` for a table, which has one track.
+    """
+    known = file_format(path, FILE_FORMATS)
+    if known.kind == "table":
+        raise InvalidArgument("path", f"is {str(path)!r}: a {path.suffix} file has a single track")
+    checked = [_checked(arguments) for arguments in aircraft]
+    assert known.content is not None  # only pictures have none
+    if known.kind == "map":
+        return [(path, known.content(path.suffix.lower(), *checked))]
+    return [
+        (path.with_stem(f"{path.stem}-{arguments.name}"), known.content(path.suffix.lower(), arguments))
+        for arguments in checked
+    ]
 
 
 def read_mission(path: str | Path) -> Mission:
@@ -126,13 +149,20 @@ def _table(ending: str, arguments: SaveArguments) -> bytes:
     return table(vertices(arguments.maneuver, counts), arguments.frame, _above_sea_m(arguments))
 
 
-def _map(draw: Callable[[Chart], bytes], ending: str, arguments: SaveArguments, *, has_ground: bool = False) -> bytes:
-    """A map; with `has_ground`, the format can give altitudes above the ground, and does where they were given so."""
+def _map(draw: Callable[..., bytes], ending: str, *shown: SaveArguments, has_ground: bool = False) -> bytes:
+    """A map of one or several maneuvers.
+
+    With `has_ground`, the format can give altitudes above the ground, and does where they were given so.
+    """
+    return draw(*(_chart(ending, arguments, has_ground=has_ground) for arguments in shown))
+
+
+def _chart(ending: str, arguments: SaveArguments, *, has_ground: bool) -> Chart:
     frame = _frame(ending, arguments)
     above_ground = has_ground and arguments.datum.reference == AltitudeReference.GROUND
     altitude_m = arguments.altitude_m if above_ground else _above_sea_m(arguments)
     shown = chart(arguments.maneuver, frame, altitude_m, arguments.spacing_m, arguments.chord_error_m)
-    return draw(shown._replace(above_ground=above_ground))
+    return shown._replace(above_ground=above_ground, name=arguments.name)
 
 
 def _above_sea_m(arguments: SaveArguments) -> float | None:

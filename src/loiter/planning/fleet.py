@@ -16,7 +16,7 @@ from loiter.kernel.wind.held import time_held
 from loiter.kernel.wind.hold import hold_pose
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
-from loiter.planning.problem import Problem
+from loiter.planning.problem import Problem, problem_of
 from loiter.planning.scaling import maneuver
 from loiter.planning.sides import directions, sign_of
 from loiter.planning.slot import Slot, phase_at_start
@@ -47,20 +47,40 @@ NEWTON_STEPS = 2
 HOLD_POINTS = 1440
 
 
+class Approach(NamedTuple):
+    """Where an aircraft comes closest to another: which one, the horizontal distance, metres, and when, seconds."""
+
+    other: int
+    distance_m: float
+    time_s: float
+
+
 @dataclass(frozen=True)
 class FleetPlan:
     """A fleet as planned: the entry and the slot of each aircraft, in the order of the poses.
 
-    `separation_m` is the least distance between two aircraft from the start until all are in their slots and one turn
-    of the circle later, horizontally, and `closest` the two aircraft and the time, seconds. `layers` counts the
-    altitude layer of each aircraft from 0: all 0 where the separation is kept.
+    `approaches` says of each where it comes closest to another, from the start until all are in their slots and one
+    turn of the circle later; it is empty for a single aircraft. `layers` counts the altitude layer of each aircraft
+    from 0: all 0 where the separation is kept.
     """
 
     entries: tuple[Maneuver, ...]
     slots: tuple[Slot, ...]
     layers: tuple[int, ...]
-    separation_m: float
-    closest: tuple[int, int, float] | None
+    approaches: tuple[Approach, ...]
+
+    @property
+    def separation_m(self) -> float:
+        """The least horizontal distance between two aircraft, metres; infinite for a single one."""
+        return min((approach.distance_m for approach in self.approaches), default=inf)
+
+    @property
+    def closest(self) -> tuple[int, int, float] | None:
+        """The two aircraft that come closest to each other and when, seconds; None for a single one."""
+        if not self.approaches:
+            return None
+        i, (j, _, time_s) = min(enumerate(self.approaches), key=lambda item: item[1].distance_m)
+        return i, j, time_s
 
     @property
     def duration_s(self) -> float:
@@ -266,16 +286,15 @@ def linear_sum_assignment() -> Any:
 
 def _planned(ring: Ring, candidate: Candidate, separation_m: float) -> FleetPlan:
     """The plan of a candidate."""
-    import numpy as np
-
     slots = [ring.slot(candidate.shift + ring.spacing_s * j) for j in candidate.order]
     entries = [ring.entry(i, slot) for i, slot in enumerate(slots)]
     if len(entries) == 1:
-        return FleetPlan(tuple(entries), tuple(slots), (0,), inf, None)
+        return FleetPlan(tuple(entries), tuple(slots), (0,), ())
     least, when_s = closest_approaches(entries, slots, ring)
-    i, j = divmod(int(np.argmin(least)), len(entries))
-    layers = layers_of(least < separation_m)
-    return FleetPlan(tuple(entries), tuple(slots), layers, float(least[i, j]), (i, j, float(when_s[i, j])))
+    approaches = [
+        Approach(j, float(least[i, j]), float(when_s[i, j])) for i, j in enumerate(least.argmin(axis=1).tolist())
+    ]
+    return FleetPlan(tuple(entries), tuple(slots), layers_of(least < separation_m), tuple(approaches))
 
 
 def layers_of(close: NDArray[Any]) -> tuple[int, ...]:
@@ -295,24 +314,50 @@ def closest_approaches(
 
     last_s = max(entry.duration_s for entry in entries) + ring.period_s
     times_s = np.linspace(0.0, last_s, ceil(last_s / ring.unit_s * SAMPLES_PER_RADIUS) + 1)
-    held = held_track(ring)
-    tracks = []
-    for entry, slot in zip(entries, slots, strict=True):
-        before = entry.sample(ring.unit_s / SAMPLES_PER_RADIUS) if entry.segments else None
-        on = held(times_s, slot)
-        if before is not None:
-            flying = times_s < entry.duration_s
-            east = np.interp(times_s, before.time_s, before.east_m)
-            north = np.interp(times_s, before.time_s, before.north_m)
-            on = np.where(flying, east + 1j * north, on)
-        tracks.append(on)
-    places = np.array(tracks)
+    places = _tracks(entries, slots, ring, times_s)
     least, when = np.full((len(places), len(places)), np.inf), np.zeros((len(places), len(places)))
     for i, place in enumerate(places):
         distances = np.abs(places - place)
         least[i], when[i] = distances.min(axis=1), times_s[distances.argmin(axis=1)]
         least[i, i] = np.inf
     return least, when
+
+
+def fleet_period_s(plan: FleetPlan) -> float:
+    """The time of one turn of the circle, seconds."""
+    return _ring_of(plan).period_s
+
+
+def fleet_tracks(plan: FleetPlan, times_s: NDArray[float64]) -> Any:
+    """The places of all aircraft (rows) at times, seconds, in the hold too: east + 1j north, metres."""
+    return _tracks(plan.entries, plan.slots, _ring_of(plan), times_s)
+
+
+def slot_tracks(plan: FleetPlan, times_s: NDArray[float64]) -> Any:
+    """The places of all slots (rows) at times, seconds: east + 1j north, metres."""
+    import numpy as np
+
+    held = held_track(_ring_of(plan))
+    return np.array([held(times_s, slot) for slot in plan.slots])
+
+
+def _ring_of(plan: FleetPlan) -> Ring:
+    return Ring([problem_of(entry) for entry in plan.entries], plan.turn)
+
+
+def _tracks(entries: Sequence[Maneuver], slots: Sequence[Slot], ring: Ring, times_s: NDArray[float64]) -> Any:
+    """The places of all aircraft (rows) at times: on their entries, then in their slots."""
+    import numpy as np
+
+    held, tracks = held_track(ring), []
+    for entry, slot in zip(entries, slots, strict=True):
+        places = held(times_s, slot)
+        if entry.segments:
+            before = entry.sample(ring.unit_s / SAMPLES_PER_RADIUS)
+            east, north = (np.interp(times_s, before.time_s, each) for each in (before.east_m, before.north_m))
+            places = np.where(times_s < entry.duration_s, east + 1j * north, places)
+        tracks.append(places)
+    return np.array(tracks)
 
 
 def held_track(ring: Ring) -> Any:

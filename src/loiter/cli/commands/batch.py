@@ -16,7 +16,7 @@ from rich.table import Column
 from rich.text import Text
 
 import loiter
-from loiter.cli.numbers import check_declination, metres, one, whole
+from loiter.cli.numbers import check_declination, column_mapping, metres, one, whole
 from loiter.cli.options import (
     CIRCLE_DEGREES,
     CIRCLE_METRES,
@@ -158,7 +158,7 @@ def batch(
             wind=moving_air(wind, declination),
             orbit_velocity_m_s=orbit_velocity,
             origin=origin,
-            columns=_mapping(map_ or []),
+            columns=column_mapping(map_ or []),
             tolerance_m=tolerance,
             workers=workers,
             scheduler=scheduler,
@@ -181,19 +181,6 @@ def _circle(
         raise InvalidArgument("orbit", "and --orbit-lla are given: one of them is needed")
     lat, lon, radius = orbit_lla
     return Orbit(0.0, 0.0, circle_radius_m("origin radius_m", radius)), LocalFrame(lat, lon)
-
-
-def _mapping(texts: list[str]) -> dict[str, str]:
-    """Columns by the quantities that they hold, from texts such as "east_m=X_East [ft]"."""
-    mapped: dict[str, str] = {}
-    for text in texts:
-        quantity, _, column = text.partition("=")
-        if not (quantity and column):
-            raise InvalidArgument("columns", f"is {text!r}: it must be like east_m='X_East [ft]'")
-        if quantity in mapped:
-            raise InvalidArgument("columns", f"gives {quantity} twice")
-        mapped[quantity] = column
-    return mapped
 
 
 @contextmanager

@@ -42,7 +42,8 @@ class Chart(NamedTuple):
     """A maneuver on the Earth, in WGS84 degrees.
 
     `circle` has the latitudes and longitudes of a closed polygon that runs counter-clockwise; a circle that moves is
-    shown where it is joined. `altitude_m` is above mean sea level or, with `above_ground`, above the ground.
+    shown where it is joined. `altitude_m` is above mean sea level or, with `above_ground`, above the ground. `name` is
+    that of the aircraft where a map has several.
     """
 
     maneuver: Maneuver
@@ -53,6 +54,7 @@ class Chart(NamedTuple):
     centre_latitude_deg: float
     centre_longitude_deg: float
     above_ground: bool = False
+    name: str = ""
 
 
 def chart(

@@ -1,4 +1,4 @@
-"""A maneuver as GeoJSON (RFC 7946): WGS84, longitude first, cut at the antimeridian.
+"""Maneuvers as GeoJSON (RFC 7946): WGS84, longitude first, cut at the antimeridian.
 
 A third coordinate would be a height above the ellipsoid, so the altitude above the sea is a property instead.
 """
@@ -17,15 +17,26 @@ from loiter.planning.vocabulary import ACTIONS
 DECIMALS = 9
 
 
-def geojson(chart: Chart) -> bytes:
-    """A feature collection: "segment" lines, "start", "switch", "peel-off" and "join" points, the "circle"."""
-    features = [*map(_segment, chart.lines), *map(_mark, chart.marks), _circle(chart)]
-    if chart.altitude_m is not None:
-        for feature in features:
-            feature["properties"]["altitude_m"] = chart.altitude_m
+def geojson(*charts: Chart) -> bytes:
+    """A feature collection: "segment" lines, "start", "switch", "peel-off" and "join" points, the "circle".
+
+    Those of several aircraft have the property "aircraft".
+    """
+    features = [feature for chart in charts for feature in _features(chart)]
     # One feature per line: `indent` would put every number on a line of its own.
     lines = ",\n".join(json.dumps(feature, allow_nan=False) for feature in features)
     return f'{{"type": "FeatureCollection", "features": [\n{lines}\n]}}\n'.encode()
+
+
+def _features(chart: Chart) -> list[dict[str, Any]]:
+    """The features of a maneuver, with the name of the aircraft and the altitude where they are known."""
+    features = [*map(_segment, chart.lines), *map(_mark, chart.marks), _circle(chart)]
+    shared: dict[str, Any] = {"aircraft": chart.name} if chart.name else {}
+    if chart.altitude_m is not None:
+        shared["altitude_m"] = chart.altitude_m
+    for feature in features:
+        feature["properties"].update(shared)
+    return features
 
 
 def segment_properties(line: SegmentLine) -> dict[str, Any]:

@@ -1,9 +1,9 @@
-"""A maneuver as KML 2.2 (OGC 07-147r2), for Google Earth and similar programs."""
+"""Maneuvers as KML 2.2 (OGC 07-147r2), for Google Earth and similar programs."""
 
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from loiter.io.maps.chart import Chart
 from loiter.io.maps.geojson import circle_properties, mark_properties, segment_properties
@@ -16,32 +16,51 @@ STYLES = {"L": "ff739e00", "S": "ffb27200", "R": "ff005ed5", "circle": "ff000000
 VIEW_DISTANCE = 3.0
 
 
-def kml(chart: Chart) -> bytes:
-    """The file: a view, a line for each segment and the circle, a placemark for each mark, with their properties."""
+def kml(*charts: Chart) -> bytes:
+    """The file: a view, a line for each segment and the circle, a placemark for each mark, with their properties.
+
+    Those of each of several aircraft are in a folder.
+    """
     outermost = root("kml", "http://www.opengis.net/kml/2.2")
     top = child(outermost, "Document")
-    maneuver = chart.maneuver
-    child(top, "name", f"{maneuver.word}, {maneuver.turn.described}" if maneuver.word else maneuver.turn.described)
+    first, *others = charts
+    child(top, "name", f"{len(charts)} aircraft, {first.maneuver.turn.described}" if others else _name(first))
     child(top, "open", "1")
-    _view(top, chart)
+    _view(top, charts)
     for name, colour in STYLES.items():
         style = child(child(top, "Style", id=name), "LineStyle")
         child(style, "color", colour)
         child(style, "width", "3")
+    for chart in charts:
+        parent = top
+        if chart.name:
+            parent = child(top, "Folder")
+            child(parent, "name", f"{chart.name}: {_name(chart)}")
+        _placemarks(parent, chart)
+    return document(outermost)
+
+
+def _name(chart: Chart) -> str:
+    maneuver = chart.maneuver
+    return f"{maneuver.word}, {maneuver.turn.described}" if maneuver.word else maneuver.turn.described
+
+
+def _placemarks(top: ET.Element, chart: Chart) -> None:
+    """Add the lines and marks of a maneuver."""
     for line in chart.lines:
         properties = segment_properties(line)
         mark = _placemark(top, properties["does"], line.segment.letter, properties, chart)
         _line(mark, chart, zip(line.longitude_deg, line.latitude_deg, strict=True))
-    mark = _placemark(top, f"hold {maneuver.turn.described}", "circle", circle_properties(chart), chart)
+    mark = _placemark(top, f"hold {chart.maneuver.turn.described}", "circle", circle_properties(chart), chart)
     _line(mark, chart, zip(*reversed(chart.circle), strict=True))
     for place in chart.marks:
         mark = _placemark(top, f"{place.kind}: {place.action}", None, mark_properties(place), chart)
         _point(mark, chart, place.longitude_deg, place.latitude_deg)
-    return document(outermost)
 
 
-def _view(parent: ET.Element, chart: Chart) -> None:
-    """Add a view from above the circle's centre that shows the whole maneuver."""
+def _view(parent: ET.Element, charts: Sequence[Chart]) -> None:
+    """Add a view from above the circle's centre that shows all maneuvers."""
+    chart = max(charts, key=lambda each: each.maneuver.orbit_at_join.distance_m(each.maneuver.start))
     maneuver = chart.maneuver
     view = child(parent, "LookAt")
     child(view, "longitude", format(chart.centre_longitude_deg, DEGREES))
