@@ -28,6 +28,7 @@ SAVED = {"maneuver": MANEUVER, "frame": FRAME, "datum": io.AltitudeDatum(), "alt
 # A function, arguments that it accepts, and those of them that may be of a wrong class.
 CALLS = [
     (loiter.plan, {"pose": POSE, "slot": loiter.Slot(90.0), **SCENE}, "pose orbit aircraft wind slot"),
+    (loiter.plan_at, {"pose": POSE, "time_s": 60.0, "bearing_deg": 90.0, **SCENE}, "pose orbit aircraft wind"),
     (loiter.plan_all, {"pose": POSE, **SCENE}, "pose orbit aircraft wind"),
     (loiter.candidates, {"pose": POSE, **SCENE}, "pose orbit aircraft wind"),
     (io.leg_mission, {"plan": LEG_PLAN, "frame": FRAME}, "plan frame"),

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         solve,
         solve_in_wind,
     )
+    from loiter.planning.arrival import plan_at
     from loiter.planning.fleet import FleetPlan, fleet
     from loiter.planning.hold import hold
     from loiter.planning.leg import Leg, LegPlan, plan_leg
@@ -45,6 +46,7 @@ _NAMES = {
     for module, names in {
         "arrays": "Gradient Solution WindSolution control gradient min_time min_time_in_wind reduce solve "
         "solve_in_wind",
+        "planning.arrival": "plan_at",
         "planning.fleet": "FleetPlan fleet",
         "planning.hold": "hold",
         "planning.leg": "Leg LegPlan plan_leg",
@@ -82,6 +84,7 @@ __all__ = [
     "min_time_in_wind",
     "plan",
     "plan_all",
+    "plan_at",
     "plan_leg",
     "reduce",
     "solve",

@@ -3,7 +3,7 @@
 import os
 import sys
 from importlib.util import find_spec
-from math import inf, isfinite, nan
+from math import ceil, floor, inf, isfinite, nan
 from numbers import Real
 from typing import Any, NoReturn, Self
 
@@ -42,6 +42,27 @@ class WindTooStrong(LoiterError):
 
 class NotConverged(LoiterError):
     """No maneuver was found that ends on the circle when flown."""
+
+
+class ImpossibleTime(LoiterError):
+    """No path arrives at a place on the circle at exactly the time asked for.
+
+    `next_s` is the next time at which one does, seconds from the start, and `last_s` the last one before, nan where
+    there is none.
+    """
+
+    def __init__(self, bearing_deg: float, time_s: float, last_s: float, next_s: float) -> None:
+        super().__init__(bearing_deg, time_s, last_s, next_s)
+        self.last_s, self.next_s = last_s, next_s
+
+    def __str__(self) -> str:
+        bearing_deg, time_s, last_s, next_s = self.args
+        # Rounded into the times that are possible.
+        earlier = f"the last one before is {floor(last_s * 1e3) / 1e3:.10g} s" if isfinite(last_s) else "none is sooner"
+        return (
+            f"no path arrives at bearing {bearing_deg:g} deg of the circle exactly {time_s:.10g} s from the start: "
+            f"the next possible time is {ceil(next_s * 1e3) / 1e3:.10g} s, {earlier}"
+        )
 
 
 class OutOfRange(LoiterError):

@@ -1,10 +1,10 @@
-"""`loiter plan --slot`."""
+"""`loiter plan --slot` and `loiter plan --arrive`."""
 
 import json
 
 import pytest
 
-from loiter import Aircraft, Orbit, Pose, Slot, plan
+from loiter import Aircraft, Orbit, Pose, Slot, plan, plan_at
 from loiter.cli.app import main
 
 PLAN = ["plan", "--pose", "-400", "120", "90", "--orbit", "0", "0", "120", "--airspeed", "18", "--bank", "35"]
@@ -23,6 +23,15 @@ def test_the_direction_is_kept(capsys):
     assert "clockwise: joins in 31.7 s" in capsys.readouterr().out
 
 
+def test_a_place_at_a_time(capsys):
+    assert main([*PLAN, "--arrive", "60", "--bearing", "200", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    scene = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0)
+    assert found["duration_s"] == plan_at(*scene, time_s=60.0, bearing_deg=200.0).duration_s
+    assert main([*PLAN, "--arrive", "60", "--bearing", "200", "--turn", "ccw"]) == 0
+    assert "turn right, radius 2" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
@@ -32,6 +41,13 @@ def test_the_direction_is_kept(capsys):
         ("--slot 20 --slot-at inf", "--slot-at is inf"),
         ("--slot 20 --tolerance 2", "--tolerance must be 0 with a slot"),
         ("--slot 20 --slot-at 1e9", "more than 100000 turns"),
+        ("--arrive 60", "--arrive needs --bearing"),
+        ("--bearing 60", "--bearing needs --arrive"),
+        ("--arrive 0 --bearing 60", "--arrive is 0"),
+        ("--arrive 60 --bearing nan", "--bearing is nan"),
+        ("--arrive 60 --bearing 60 --slot 3", "--arrive cannot be combined with --slot"),
+        ("--arrive 60 --bearing 60 --certify", "--arrive cannot be combined with --certify"),
+        ("--arrive 5 --bearing 200", "the next possible time is 23.861 s, none is sooner"),
     ],
 )
 def test_what_does_not_fit_is_said(options, words, capsys):

@@ -17,9 +17,10 @@ from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
 from loiter.io.missions.altitudes import AltitudeDatum, AltitudeReference
 from loiter.planning.compass import wrapped
+from loiter.planning.flight import radius_of
 from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver, decimals_of
-from loiter.planning.model import Orbit, Pose
+from loiter.planning.model import Orbit, Pose, Segment
 from loiter.planning.vocabulary import ACTIONS
 
 if TYPE_CHECKING:
@@ -175,8 +176,15 @@ def _entry_table(maneuver: Maneuver, frame: LocalFrame | None) -> Table:
         rows.add_column(heading, justify="right")
     for segment in maneuver.segments:
         flown = segment.duration_s, segment.length_m
-        _add_row(rows, maneuver, segment.start_s, ACTIONS[segment.letter], flown, segment.start, frame)
+        _add_row(rows, maneuver, segment.start_s, action(segment, maneuver), flown, segment.start, frame)
     return rows
+
+
+def action(segment: Segment, maneuver: Maneuver) -> str:
+    """What is flown: "turn left", and the radius of a turn that is wider than the tightest."""
+    text, radius_m = ACTIONS[segment.letter], radius_of(segment, maneuver.aircraft)
+    wide = segment.curvature_per_m != 0.0 and radius_m > maneuver.aircraft.turn_radius_m
+    return f"{text}, radius {_metres(maneuver, radius_m)}" if wide else text
 
 
 def _add_row(
@@ -266,13 +274,15 @@ def peel_off(maneuver: Maneuver, frame: LocalFrame | None = None) -> str:
     when = f"in {_seconds(maneuver, last.start_s)}" if before else "now"
     distance = _metres(maneuver, maneuver.orbit.after(last.start_s).distance_m(last.start))
     where = _place(maneuver, last.start, frame)
-    return f"Peel off: {ACTIONS[last.letter]} {when}, {distance} from the centre, at {where}."
+    return f"Peel off: {action(last, maneuver)} {when}, {distance} from the centre, at {where}."
 
 
 def other_direction(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> str:
     """One line: how much later or sooner the best maneuver of the other direction joins."""
     first, *rest = *best, *others
-    other = next(m for m in rest if m.turn != first.turn)
+    other = next((m for m in rest if m.turn != first.turn), None)
+    if other is None:
+        return f"{first.turn.other.described.capitalize()}, no path arrives there at that time."
     later = other.duration_s - first.duration_s
     subject = other.turn.described.capitalize()
     if other in best or abs(later) <= SAME_DURATION * other.duration_s:

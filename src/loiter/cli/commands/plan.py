@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
@@ -30,7 +31,7 @@ from loiter.cli.options import (
 from loiter.cli.scenes import CheckedFence, check_fence, fit_proposed, read_options
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
-from loiter.errors import InvalidArgument
+from loiter.errors import ImpossibleTime, InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.io.document import answer
 from loiter.io.files import FILE_FORMATS, SaveArguments, file_content, is_mission
@@ -38,6 +39,7 @@ from loiter.io.missions.altitudes import AltitudeReference
 from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
 from loiter.io.missions.mission import stored_radius_remark
 from loiter.io.missions.site import Site
+from loiter.planning.arrival import arrivals_at
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.problem import Problem
@@ -77,6 +79,22 @@ SlotTime = Annotated[
         group=scene,
         metavar="SECONDS",
         help="The time from the start at which the slot is at that bearing; 0 if absent.",
+    ),
+]
+ArrivalTime = Annotated[
+    float | None,
+    Parameter(
+        group=scene,
+        metavar="SECONDS",
+        help="Join the circle exactly this time from the start, at the place of --bearing, by a path that is as much longer as it must be.",
+    ),
+]
+ArrivalBearing = Annotated[
+    float | None,
+    Parameter(
+        group=scene,
+        metavar="DEGREES",
+        help="The bearing from the centre at which --arrive joins the circle.",
     ),
 ]
 All = Annotated[bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")]
@@ -123,6 +141,8 @@ def plan(
     lead: Lead = 0.0,
     slot: SlotBearing = None,
     slot_at: SlotTime = None,
+    arrive: ArrivalTime = None,
+    bearing: ArrivalBearing = None,
     all_: All = False,
     json: Json = False,
     pictures: PictureOptions = PictureOptions(),
@@ -141,12 +161,14 @@ def plan(
     _check_formats(save)
     along_path = any(map(is_mission, save)) and waypoints.along_path
     with fit_proposed():
-        if slot is None and slot_at is None:
+        if slot is None and slot_at is None and arrive is None and bearing is None:
             best, others = best_and_others(problem)
         else:
-            best, others = _in_slot(
-                problem, _slot(slot, slot_at, certify=certify, fenced=fence.placed(circle.site) is not None)
-            )
+            _check_free(arrive, slot, tolerance, certify=certify, fenced=fence.placed(circle.site) is not None)
+            if arrive is None and bearing is None:
+                best, others = _in_slot(problem, _slot(slot, slot_at))
+            else:
+                best, others = _at_time(problem, arrive, bearing)
     first, *ties = best
     shown = best if all_ else [first]
     certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
@@ -186,15 +208,40 @@ def plan(
     return 0 if is_clear and all(certificate.valid for certificate in certified) else CHECK_FAILED
 
 
-def _slot(bearing_deg: float | None, at_s: float | None, *, certify: bool, fenced: bool) -> Slot:
-    """The slot of the options; raises `InvalidArgument` where they do not fit together or with others."""
+def _check_free(arrive: float | None, slot: float | None, tolerance: float, *, certify: bool, fenced: bool) -> None:
+    """Raise `InvalidArgument` for options that do not fit a slot or a prescribed time."""
+    one = "slot" if arrive is None else "arrive_s"
+    for other, given in {"--certify": certify, "--fence": fenced}.items():
+        if given:
+            raise InvalidArgument(one, f"cannot be combined with {other}, which is for free entries")
+    if arrive is not None and (slot is not None or tolerance != 0.0):
+        other = "--slot" if slot is not None else "--tolerance"
+        raise InvalidArgument(one, f"cannot be combined with {other}")
+
+
+def _slot(bearing_deg: float | None, at_s: float | None) -> Slot:
+    """The slot of the options; raises `InvalidArgument` where they do not fit together."""
     if bearing_deg is None:
         raise InvalidArgument("slot_at_s", "needs --slot, the bearing of the slot at that time")
-    if certify or fenced:
-        other = "--certify" if certify else "--fence"
-        raise InvalidArgument("slot", f"cannot be combined with {other}, which is for free entries")
     with argument_names(**{"slot phase_deg": "slot", "slot at_s": "slot_at_s"}):
         return Slot(bearing_deg, 0.0 if at_s is None else at_s)
+
+
+def _at_time(
+    problem: Problem, time_s: float | None, bearing_deg: float | None
+) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
+    """The maneuver that arrives at a place at a time, and that in the other direction if there is one."""
+    if bearing_deg is None:
+        raise InvalidArgument("arrive_s", "needs --bearing, the place at which the circle is joined")
+    if time_s is None:
+        raise InvalidArgument("bearing_deg", "needs --arrive, the time at which the circle is joined there")
+    with argument_names(time_s="arrive_s"):
+        best, *others = arrivals_at(problem, time_s, bearing_deg)
+    if problem.orbit.turn is not Turn.EITHER:
+        with suppress(ImpossibleTime):
+            found = arrivals_at(problem.with_turn(best.turn.other), time_s, bearing_deg)
+            others = [replace(m, orbit=problem.orbit) for m in found]
+    return (best,), tuple(others)
 
 
 def _in_slot(problem: Problem, slot: Slot) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:

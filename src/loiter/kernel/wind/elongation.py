@@ -1,0 +1,378 @@
+"""Paths of a given length between two poses: two arcs of radius 1 and a middle piece of any curvature (docs/slots.md).
+
+A path leaves its first circle, of control `first`, where the left normal of the heading is n. The circle that touches
+the path there and the last circle has the curvature
+
+    k = 2 (z - first + last) / (2 first z - |d|^2),    z = d . n,
+
+where d leads from the centre of the last circle to that of the first. So n, one angle, gives the whole path. Along such
+a family the length has no other extremes than those with a straight middle piece or with |k| = 1: between them it is
+monotone, so that bisection finds every path of a given length.
+"""
+
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from math import acos, asin, atan2, ceil, cos, floor, inf, nan, pi, sin, sqrt
+from typing import NamedTuple
+
+from loiter.kernel.angles import TWO_PI, angle, arc_rotation, length
+from loiter.kernel.rounding import ROUNDING
+from loiter.kernel.wind.moving_target import interception, time_within
+from loiter.kernel.wind.paths import WindScene
+from loiter.kernel.wind.slots import Slot, SlotPose, excess_at, less_whole_turns
+
+# Halvings that shrink an interval of angles to rounding.
+HALVINGS = 70
+
+# The arcs at the end of an interval are those next to it: this share of its width inside.
+BESIDE = 1e-7
+
+# The span of times in which crossings are sought at once, and the most of them that are tried.
+WINDOW, MOST_WINDOWS = 8.0, 10_000
+
+OUTER_CONTROLS = ((1, 1), (-1, -1), (1, -1), (-1, 1))
+
+
+class Ends(NamedTuple):
+    """The poses in the frame of the air: the heading (c0, s0) at the start, the end (x, y) from there, (c, s)."""
+
+    c0: float
+    s0: float
+    x: float
+    y: float
+    c: float
+    s: float
+
+
+class ThreeArcs(NamedTuple):
+    """A path: the outer controls, the curvature of the middle piece, and the durations of the three pieces."""
+
+    first: int
+    curvature: float
+    last: int
+    t1: float
+    t2: float
+    t3: float
+
+    @property
+    def length(self) -> float:
+        """The length of the path, and its duration."""
+        return self.t1 + self.t2 + self.t3
+
+    @property
+    def turning(self) -> float:
+        """The sum of the angles of its arcs."""
+        return self.t1 + abs(self.curvature) * self.t2 + self.t3
+
+
+class Family(NamedTuple):
+    """The paths with two outer controls between two poses. d is `distance` long in the direction `azimuth`."""
+
+    first: int
+    last: int
+    ends: Ends
+    distance: float
+    azimuth: float
+
+
+class Stretch(NamedTuple):
+    """Paths of a family between two angles, `shorter` and `longer`, along which the length is monotone."""
+
+    family: Family
+    shorter: float
+    longer: float
+    shortest: ThreeArcs
+    longest: ThreeArcs
+
+
+def families(ends: Ends) -> Iterator[Family]:
+    """The families between two poses, those of LSR and RSL where their circles touch, up to rounding, or are apart."""
+    tolerance = ROUNDING * (1.0 + abs(ends.x) + abs(ends.y))
+    for first, last in OUTER_CONTROLS:
+        dx = -first * ends.s0 - (ends.x - last * ends.s)
+        dy = first * ends.c0 - (ends.y + last * ends.c)
+        distance = length(dx, dy)
+        if first == last or distance >= 2.0 - tolerance:
+            yield Family(first, last, ends, distance, atan2(dy, dx))
+
+
+def beside_axis(first: int, alpha: float) -> float:
+    """1 - `first` cos(alpha), without cancellation."""
+    half = sin(0.5 * alpha) if first > 0 else cos(0.5 * alpha)
+    return 2.0 * half * half
+
+
+def curvature_at(family: Family, alpha: float) -> float:
+    """The curvature of the middle piece."""
+    first, last, _, distance, _ = family
+    if first == last:
+        return 2.0 * cos(alpha) / ((2.0 * first * cos(alpha) - distance) or -inf)
+    spare, beside = distance - 2.0, beside_axis(first, alpha)
+    # Both vanish at |d| = 2 on the axis: the outer circles touch there, and any circle is between them.
+    return -2.0 * first * (spare - distance * beside) / ((distance * (spare + 2.0 * beside)) or inf)
+
+
+def last_normal(first: int, last: int, distance: float, alpha: float) -> float:
+    """The angle from d to the normal where the last arc begins, if `alpha` is that to the one where the first ends."""
+    if first == last:
+        return pi - alpha
+    spare, beside = distance - 2.0, beside_axis(first, alpha)
+    along = first * ((distance * distance + 4.0) * beside - spare * spare)
+    return atan2(spare * (distance + 2.0) * sin(alpha), along)
+
+
+def path_at(family: Family, alpha: float) -> ThreeArcs:
+    """The path that leaves the first circle where the normal is at the angle `alpha` from d."""
+    first, last, ends, distance, azimuth = family
+    c1, s1 = cos(alpha), sin(alpha)
+    beta = last_normal(first, last, distance, alpha)
+    c3, s3 = cos(beta), sin(beta)
+    # From the end of the first arc to the beginning of the last one, in the frame of d.
+    chord_x, chord_y = first * c1 - last * c3 - distance, first * s1 - last * s3
+    ahead, left = chord_x * s1 - chord_y * c1, chord_x * c1 + chord_y * s1
+    chord, half = length(chord_x, chord_y), atan2(abs(left), ahead)
+    t2 = inf if left == 0.0 > ahead else chord if left == 0.0 else chord * chord * half / abs(left)
+    # From the direction of d to the normals at the ends.
+    t1 = first * (alpha + azimuth - atan2(ends.c0, -ends.s0))
+    t3 = last * (atan2(ends.c, -ends.s) - azimuth - beta)
+    return ThreeArcs(first, curvature_at(family, alpha), last, t1 % TWO_PI, t2, t3 % TWO_PI)
+
+
+def without_first_arc(family: Family) -> float:
+    """The angle of the path whose first arc vanishes."""
+    return atan2(family.ends.c0, -family.ends.s0) - family.azimuth
+
+
+def without_last_arc(family: Family) -> float:
+    """The angle of the path whose last arc vanishes: that of the reversed path whose first arc does."""
+    first, last, ends, distance, azimuth = family
+    return last_normal(last, first, distance, atan2(ends.c, -ends.s) - azimuth - pi) + pi
+
+
+def breaks(family: Family) -> list[float]:
+    """The angles between which the length is monotone and no arc vanishes, from one end of the family to the other."""
+    first, last, _, distance, _ = family
+    axis = 0.0 if first > 0 else pi
+    straight, tightest = 0.5 * pi, acos(min(0.25 * distance, 1.0))
+    if first != last:
+        straight, tightest = 2.0 * asin(sqrt(0.5 * (distance - 2.0) / distance)), 0.0
+    # Nearer the axis than `tightest` the middle circle is too tight.
+    low, high = axis + tightest, axis + TWO_PI - tightest
+    inside = [axis + straight, axis - straight, without_first_arc(family), without_last_arc(family)]
+    turned = sorted(low + (a - low) % TWO_PI for a in inside)
+    return [low, *(a for a in turned if low < a < high), high]
+
+
+def at_end(family: Family, alpha: float, inside: float) -> ThreeArcs:
+    """The path at the end of an interval, its arcs continued from a path inside."""
+    path, near = path_at(family, alpha), path_at(family, alpha + BESIDE * (inside - alpha))
+    t1 = near.t1 + less_whole_turns(path.t1 - near.t1)
+    t3 = near.t3 + less_whole_turns(path.t3 - near.t3)
+    t2 = inf if near.t2 > 1.0 / BESIDE else path.t2
+    return path._replace(t1=max(t1, 0.0), t2=t2, t3=max(t3, 0.0))
+
+
+def stretches(ends: Ends) -> Iterator[Stretch]:
+    """All paths between two poses without whole turns more, each stretch with its shortest and its longest."""
+    for family in families(ends):
+        spare = family.distance if family.first == family.last else family.distance - 2.0
+        if spare <= ROUNDING * (1.0 + abs(ends.x) + abs(ends.y)):
+            arcs = on_one_circle(family) if family.first == family.last else on_touching_circles(family)
+            yield Stretch(family, 0.0, 0.0, arcs, arcs)
+        if spare <= 0.0:
+            continue
+        for a, b in pairwise(breaks(family)):
+            middle = 0.5 * (a + b)
+            if b - a <= ROUNDING:
+                continue
+            one, other = at_end(family, a, middle), at_end(family, b, middle)
+            if one.length <= other.length:
+                yield Stretch(family, a, b, one, other)
+            else:
+                yield Stretch(family, b, a, other, one)
+
+
+def on_one_circle(family: Family) -> ThreeArcs:
+    """The single arc between poses on one circle."""
+    first, ends = family.first, family.ends
+    arc = angle(arc_rotation(first, ends.c0, ends.s0, ends.c, ends.s))
+    return ThreeArcs(first, float(first), first, arc, 0.0, 0.0)
+
+
+def on_touching_circles(family: Family) -> ThreeArcs:
+    """The two arcs between poses on circles that touch."""
+    first, last, ends, _, azimuth = family
+    # Opposite arcs meet where both normals point along d, or against it.
+    nx, ny = first * cos(azimuth), first * sin(azimuth)
+    t1 = angle(arc_rotation(first, -ends.s0, ends.c0, nx, ny))
+    return ThreeArcs(first, 0.0, last, t1, 0.0, angle(arc_rotation(last, nx, ny, -ends.s, ends.c)))
+
+
+def turns_more(stretch: Stretch, wanted: float, tolerance: float) -> int:
+    """The least number of whole turns with which a stretch has a path of a length; -1 where it has none."""
+    short = wanted - stretch.longest.length - tolerance
+    turns = ceil(short / TWO_PI) if short > 0.0 else 0
+    return turns if wanted - TWO_PI * turns >= stretch.shortest.length - tolerance else -1
+
+
+def is_reachable(ends: Ends, wanted: float) -> bool:
+    """Whether there is a path of a length."""
+    return any(turns_more(stretch, wanted, 0.0) >= 0 for stretch in stretches(ends))
+
+
+def path_of_length(ends: Ends, wanted: float, tolerance: float) -> ThreeArcs | None:
+    """The path of a length that turns least; None where there is none, up to a tolerance."""
+    found = []
+    for stretch in stretches(ends):
+        turns = turns_more(stretch, wanted, tolerance)
+        if turns >= 0:
+            path = path_within(stretch, wanted - TWO_PI * turns)
+            found.append(path._replace(t1=path.t1 + TWO_PI * turns))
+    return min(found, key=lambda path: path.turning, default=None)
+
+
+def path_within(stretch: Stretch, wanted: float) -> ThreeArcs:
+    """The path of a stretch with a length; its shortest or longest one where it has none."""
+    if wanted <= stretch.shortest.length:
+        return stretch.shortest
+    if wanted >= stretch.longest.length:
+        return stretch.longest
+    low, high = stretch.shorter, stretch.longer
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if path_at(stretch.family, middle).length < wanted:
+            low = middle
+        else:
+            high = middle
+    return path_at(stretch.family, low)
+
+
+class Arrival(NamedTuple):
+    """A pose that moves through the air with -w and keeps its heading: where it is at the time 0, and w."""
+
+    ends: Ends
+    wx: float
+    wy: float
+
+    def at(self, time: float) -> Ends:
+        """The pose at a time."""
+        return self.ends._replace(x=self.ends.x - self.wx * time, y=self.ends.y - self.wy * time)
+
+
+def is_in_time(arrival: Arrival, time: float) -> bool:
+    """Whether the pose can be reached at a time."""
+    return is_reachable(arrival.at(time), time)
+
+
+def next_time(arrival: Arrival, time: float) -> float:
+    """The first time after an impossible one at which the pose can be reached.
+
+    Between two times at which a word has exactly that length, either all or none are possible.
+    """
+    begin = max(time, interception(arrival.ends.x, arrival.ends.y, arrival.wx, arrival.wy) * (1.0 - ROUNDING))
+    for _ in range(MOST_WINDOWS):
+        crossings = [begin, *crossing_times(arrival, begin, begin + WINDOW), begin + WINDOW]
+        for before, after in pairwise(crossings):
+            if is_in_time(arrival, 0.5 * (before + after)):
+                return before
+        begin += WINDOW
+    return inf
+
+
+def last_time(arrival: Arrival, time: float) -> float:
+    """The last time before an impossible one at which the pose can be reached; nan for none."""
+    least = interception(arrival.ends.x, arrival.ends.y, arrival.wx, arrival.wy)
+    end = time
+    while end > least:
+        begin = max(end - WINDOW, 0.0)
+        crossings = [begin, *crossing_times(arrival, begin, end), end]
+        for after, before in pairwise(reversed(crossings)):
+            if is_in_time(arrival, 0.5 * (before + after)):
+                return after
+        end = begin
+    return nan
+
+
+def crossing_times(arrival: Arrival, begin: float, end: float) -> list[float]:
+    """The times in an interval, in order, at which a word has exactly that length, or LSR or RSL begins or ends."""
+    found: list[float] = []
+    for first, last in OUTER_CONTROLS:
+        found += straight_crossings(arrival, first, last, begin, end)
+    for first in (1, -1):
+        for halves in (0, 1):
+            found += arc_crossings(arrival, first, halves, begin, end)
+    return sorted(found)
+
+
+def straight_crossings(arrival: Arrival, first: int, last: int, begin: float, end: float) -> list[float]:
+    """Those of the word with these outer controls and a straight piece, whose length less the time falls."""
+    ends, wx, wy = arrival
+    scene = WindScene(0.0, 0.0, ends.c0, ends.s0, 1.0, wx, wy, 0.0)
+    slot = Slot(1, 0.0)
+
+    def excess(time: float) -> float:
+        x, y = ends.x - wx * time, ends.y - wy * time
+        return excess_at(first, last, SlotPose(time, time, x, y, ends.c, ends.s, 1.0, 0.0, 0.0), slot, scene).value
+
+    within = [begin, end]
+    if first != last:
+        dx, dy = ends.x - last * ends.s + first * ends.s0, ends.y + last * ends.c - first * ends.c0
+        within += [time for time in time_within(dx, dy, wx, wy, 2.0) if begin < time < end]
+    found = sorted(within)[1:-1]
+    for a, b in pairwise(sorted(within)):
+        if first != last and apart_at(arrival, first, last, 0.5 * (a + b)) < 2.0:
+            continue
+        steps = ceil(2.0 * (b - a))
+        times = [a + (b - a) * i / steps for i in range(steps + 1)]
+        values = [excess(time) for time in times]
+        for i in range(steps):
+            if values[i] >= 0.0 > values[i + 1] > values[i] - pi:
+                found.append(root_between(excess, times[i], times[i + 1]))
+    return found
+
+
+def apart_at(arrival: Arrival, first: int, last: int, time: float) -> float:
+    """The distance between the centres of the first and the last circle at a time."""
+    c0, s0, x, y, c, s = arrival.at(time)
+    return length(x - last * s + first * s0, y + last * c - first * c0)
+
+
+def arc_crossings(arrival: Arrival, first: int, halves: int, begin: float, end: float) -> list[float]:
+    """Those of LRL (`first` = 1) or RLR, with middle arcs half a turn apart for `halves` 0 and 1.
+
+    They are roots of h = |d|^2 - 16 sin(m/2)^2, where m is the middle arc and h'' = 2 (w^2 - cos m).
+    """
+    ends, wx, wy = arrival
+    dx, dy = ends.x - first * (ends.s - ends.s0), ends.y + first * (ends.c - ends.c0)
+    half = pi * halves - 0.5 * angle(arc_rotation(first, ends.c0, ends.s0, ends.c, ends.s))
+
+    def value(time: float) -> float:
+        x, y, across = dx - wx * time, dy - wy * time, sin(0.5 * half + 0.25 * time)
+        return x * x + y * y - 16.0 * across * across
+
+    def slope(time: float) -> float:
+        return -2.0 * (wx * (dx - wx * time) + wy * (dy - wy * time)) - 4.0 * sin(half + 0.5 * time)
+
+    inflection = acos(wx * wx + wy * wy)
+    first_turn = floor((half + 0.5 * begin) / TWO_PI)
+    turns = range(first_turn - 1, first_turn + ceil(0.5 * (end - begin) / TWO_PI) + 2)
+    bends = [2.0 * (m + TWO_PI * k - half) for m in (-inflection, inflection) for k in turns]
+    splits = [begin, *sorted(time for time in bends if begin < time < end), end]
+    for a, b in pairwise(tuple(splits)):
+        if slope(a) * slope(b) < 0.0:
+            splits.append(root_between(slope, a, b))
+    return [
+        root_between(value, a, b) for a, b in pairwise(sorted(splits)) if value(a) * value(b) <= 0.0 and value(b) != 0.0
+    ]
+
+
+def root_between(function: Callable[[float], float], a: float, b: float) -> float:
+    """A root of a function between two places where its signs differ."""
+    rises = function(a) < 0.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (a + b)
+        if (function(middle) < 0.0) == rises:
+            a = middle
+        else:
+            b = middle
+    return b
