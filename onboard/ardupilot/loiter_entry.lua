@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: e87425f769e7fc25cfe8813e5f3f1b5a48a28ae368bcf5851e609d206077ad29
+-- SHA-256 of the source: fbfff3ead7584193b5a579614b6b3c56080ecaead547dc7193bd0f93295a8137
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -220,7 +220,10 @@ law.LAGUERRE_WEIGHTS = {0.711093009929173, 0.27851773356924087, 0.01038925650158
 -- SAMPLES = 64
 law.NO_ESTIMATE = {time_s = -huge, pose = {x = 0.0, y = 0.0, c = 1.0, s = 0.0}, airspeed_m_s = 0.0, turn_rate = 0.0, bank_deg = 0.0, air_east_m_s = 0.0, air_north_m_s = 0.0, turning = {ratio = 1.0, lead_s = 0.0}}
 law.FIRST_CLOCK = {time_s = -huge, since_s = 0.0, gap_s = huge, jump_s = 0.0, first_s = (0.0 / 0.0), latest_s = (0.0 / 0.0)}
-law.NO_PLAN = {route = {side = 0, current = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0}, second = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0}, third = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0}, last_u = -2, start_s = 0.0, turn_radius_m = 1.0, speed_m_s = 1.0, wind_east_m_s = 0.0, wind_north_m_s = 0.0}, remaining_s = 0.0, join_s = huge, planned_join_s = huge, searched_s = -huge}
+law.NO_PLAN = {route = {side = 0, current = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0, radius_m = 1.0}, second = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0, radius_m = 1.0}, third = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0, radius_m = 1.0}, more_s = 0.0, last_u = -2, start_s = 0.0, turn_radius_m = 1.0, speed_m_s = 1.0, wind_east_m_s = 0.0, wind_north_m_s = 0.0}, remaining_s = 0.0, join_s = huge, planned_join_s = huge, searched_s = -huge}
+
+-- The control of a piece that the word does not have.
+-- ABSENT = -2
 law.NO_LEADS = {bank = -1000000000, current = 0, next = 0, last = 0, current_s = 0.0, next_s = 0.0, last_s = 0.0}
 law.NO_RESPONSE = {state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, offset = {crosstrack = 0.0, course_error = 0.0, path_rate = 0.0}, early_s = 0.0}
 law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, wind_east_m_s = 0.0, wind_north_m_s = 0.0, radius_m = 1.0, wide_m = 1.0, side = 0, reversing = false, is_second = false, is_begun = false, in_air = {stage = 0, sides = 0, one = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}}
@@ -275,10 +278,7 @@ law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.
 -- The least speed along the heading, as a share of the airspeed, from which a course is taken: below it the
 -- measured velocity is not that of an aircraft in flight.
 -- LEAST_SPEED = 0.05
-
--- The control of a piece that the word does not have.
--- ABSENT = -2
-law.NO_PIECE = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0}
+law.NO_PIECE = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0, radius_m = 1.0}
 
 -- A flight that begins on the circle, within half of the reserve and this angle, radians, holds it at once.
 -- ON_COURSE = 0.09
@@ -631,15 +631,21 @@ function law.constant_history(bank_deg)
     return {current_deg = bank_deg, entries = with_last(unused, {end_s = 0.0, bank_deg = bank_deg, integral = 0.0})}
 end
 
+-- No path.
+function law.no_path()
+    return {pieces = filled({u = -2--[[ABSENT]], time_s = 0.0, radius_m = 1.0}, 12), total = 0, taken = 0, c = 1.0,
+            s = 0.0}
+end
+
 -- The memory before the first measurement, with wings level.
 function law.first_memory(settings, vehicle)
     local limits = law.limits_of(settings, vehicle, law.NO_LIMITS)
     local observer, history = law.first_observer(settings.smoothing_s), law.constant_history(vehicle.bank_deg)
     return {sensing = {clock = law.FIRST_CLOCK, observer = observer, history = history, limits = limits, present =
-            law.NO_ESTIMATE, elapsed_s = 0.0, model_error_deg = 0.0, is_known = false}, plan = law.NO_PLAN, leads =
-            law.NO_LEADS, response = law.NO_RESPONSE, search = law.NO_ENTRY_SEARCH, trim = 0.0, command =
-            {turn_rate_deg_s = 0.0, bank_deg = 0.0, phase = 3--[[NO_DATA]], time_to_join_s = (0.0 / 0.0), side =
-            settings.side, next_phase = 3--[[NO_DATA]], next_in_s = (0.0 / 0.0)}, step_s = 0.0}
+            law.NO_ESTIMATE, elapsed_s = 0.0, model_error_deg = 0.0, is_known = false}, plan = law.NO_PLAN, path =
+            law.no_path(), leads = law.NO_LEADS, response = law.NO_RESPONSE, search = law.NO_ENTRY_SEARCH, trim =
+            0.0, command = {turn_rate_deg_s = 0.0, bank_deg = 0.0, phase = 3--[[NO_DATA]], time_to_join_s = (0.0 /
+            0.0), side = settings.side, next_phase = 3--[[NO_DATA]], next_in_s = (0.0 / 0.0)}, step_s = 0.0}
 end
 
 -- The clock `dt` seconds later.
@@ -1058,11 +1064,7 @@ end
 
 -- The route by a clock that has jumped.
 function law.by_clock(route, jump_s)
-    local side, first, second, third, last_u, start_s, r, speed, east, north = route.side, route.current,
-            route.second, route.third, route.last_u, route.start_s, route.turn_radius_m, route.speed_m_s,
-            route.wind_east_m_s, route.wind_north_m_s
-    return {side = side, current = first, second = second, third = third, last_u = last_u, start_s = start_s +
-            jump_s, turn_radius_m = r, speed_m_s = speed, wind_east_m_s = east, wind_north_m_s = north}
+    return with_fields(route, {start_s = route.start_s + jump_s})
 end
 
 -- The plan by a clock that has jumped by `jump_s`.
@@ -1118,7 +1120,7 @@ function law._piece(u, x, y, c, s, time_s, r, speed)
     local dx, dy, end_c, end_s = law.fly(0.0, 0.0, c, s, u, time_s * speed / r)
     local centre_x, centre_y = x - u * r * s, y + u * r * c
     return {u = u, x = centre_x, y = centre_y, c = c, s = s, end_x = x + r * dx, end_y = y + r * dy, time_s =
-            time_s}, end_c, end_s
+            time_s, radius_m = r}, end_c, end_s
 end
 
 -- The route of an entry that begins at a state.
@@ -1133,8 +1135,8 @@ function law.route_of(state, entry)
     second, c, s = law._piece(u2, first.end_x, first.end_y, c, s, t2_s, r, speed)
     local third = law._piece(u3, second.end_x, second.end_y, c, s, t3_s, r, speed)
     local last_u = u3 ~= -2--[[ABSENT]] and u3 or u2 ~= -2--[[ABSENT]] and u2 or u1
-    return {side = side, current = first, second = second, third = third, last_u = last_u, start_s = state.time_s,
-            turn_radius_m = r, speed_m_s = speed, wind_east_m_s = east, wind_north_m_s = north}
+    return {side = side, current = first, second = second, third = third, more_s = 0.0, last_u = last_u, start_s =
+            state.time_s, turn_radius_m = r, speed_m_s = speed, wind_east_m_s = east, wind_north_m_s = north}
 end
 
 -- Whether only the circle is left.
@@ -1184,7 +1186,7 @@ function law.offset_of(route, state, radius_m)
     if piece.u == 0 then
         return law.line_offset(x - piece.x, y - piece.y, piece.c, piece.s, vx, vy)
     end
-    return law.arc_offset(piece.u, route.turn_radius_m, x - piece.x, y - piece.y, vx, vy)
+    return law.arc_offset(piece.u, piece.radius_m, x - piece.x, y - piece.y, vx, vy)
 end
 
 -- The plan that holds the circle at once, if the flight begins on it; otherwise the plan as it is.
@@ -1257,13 +1259,26 @@ function law.last_control(route)
     return route.second.u == -2--[[ABSENT]] and route.current.u or route.last_u
 end
 
+-- The bank of a piece in half degrees, of the circle where it is absent; wide arcs need less than planned turns.
+function law.half_deg_on(limits, route, piece)
+    if piece.u == -2--[[ABSENT]] then
+        return route.side * limits.hold_half_deg
+    end
+    if piece.radius_m == route.turn_radius_m then
+        return -piece.u * limits.planned_half_deg
+    end
+    local V, planned_deg = limits.turns.airspeed_m_s, 0.5 * limits.planned_half_deg
+    local rate = law.rate_at_bank(planned_deg, V) * route.turn_radius_m / piece.radius_m
+    return -piece.u * law.half_degrees(law.bank_at_rate(rate, V))
+end
+
 -- The delays of changes from a bank to those of the pieces of a route; those that are known are not recomputed.
 function law.leads_to(limits, leads, bank_deg, route)
     local bank, side, hold, planned = law.half_degrees(bank_deg), route.side, limits.hold_half_deg,
             limits.planned_half_deg
-    local u1, u2, u3 = route.current.u, route.second.u, law.last_control(route)
-    local first = u1 == -2--[[ABSENT]] and side * hold or -u1 * planned
-    local second = u2 == -2--[[ABSENT]] and side * hold or -u2 * planned
+    local u3 = law.last_control(route)
+    local first, second = law.half_deg_on(limits, route, route.current), law.half_deg_on(limits, route,
+            route.second)
     local last = u3 == -2--[[ABSENT]] and side * hold or -u3 * planned
     if leads.bank == bank and leads.current == first and leads.next == second and leads.last == last then
         return leads
@@ -1318,7 +1333,7 @@ function law.remaining_s(route, state, previous_s)
     end
     local left = law.angle({law.arc_rotation(piece.u, x - piece.x, y - piece.y, piece.end_x - piece.x, piece.end_y -
             piece.y)})
-    local rate = route.speed_m_s / route.turn_radius_m
+    local rate = route.speed_m_s / piece.radius_m
     return (left + 6.283185307179586--[[TWO_PI]] * integer_of((previous_s * rate - left) /
             6.283185307179586--[[TWO_PI]] - 0.5)) / rate
 end
@@ -1333,18 +1348,28 @@ function law.early_end_s(route, leads)
     return max(early_s, 0.0)
 end
 
--- The route without its current piece.
-function law.without_current(route)
-    local side, second, third, last_u, start_s, r, speed, east, north = route.side, route.second, route.third,
-            route.last_u, route.start_s, route.turn_radius_m, route.speed_m_s, route.wind_east_m_s,
-            route.wind_north_m_s
-    return {side = side, current = second, second = third, third = law.NO_PIECE, last_u = last_u, start_s = start_s,
-            turn_radius_m = r, speed_m_s = speed, wind_east_m_s = east, wind_north_m_s = north}
+-- A path without its next piece, that, which begins at the end of the last one, and the time of those after it.
+function law._next_piece(path, last, speed, more_s)
+    if path.taken == path.total then
+        return path, law.NO_PIECE, 0.0
+    end
+    local parts_1 = path.pieces[path.taken + 1]
+    local u, time_s, radius_m = parts_1.u, parts_1.time_s, parts_1.radius_m
+    local piece, c, s = law._piece(u, last.end_x, last.end_y, path.c, path.s, time_s, radius_m, speed)
+    local taken = path.taken + 1
+    return with_fields(path, {taken = taken, c = c, s = s}), piece, taken == path.total and 0.0 or more_s - time_s
+end
+
+-- A path and the route along it, without the current piece of that.
+function law.next_on(path, route)
+    local third, more_s
+    path, third, more_s = law._next_piece(path, route.third, route.speed_m_s, route.more_s)
+    return path, with_fields(route, {current = route.second, second = route.third, third = third, more_s = more_s})
 end
 
 -- The time from the end of the current piece to the circle.
 function law.later_s(route)
-    return route.second.time_s + route.third.time_s
+    return route.second.time_s + route.third.time_s + route.more_s
 end
 
 -- The memory with the plan at the response: without the pieces that are complete when a command takes effect.
@@ -1354,7 +1379,8 @@ function law.advance_plan(memory, settings)
     local limits, estimate, leads = memory.sensing.limits, memory.sensing.present, memory.leads
     local route, left_s, join_s, planned_join_s, searched_s = memory.plan.route, memory.plan.remaining_s,
             memory.plan.join_s, memory.plan.planned_join_s, memory.plan.searched_s
-    -- At most three pieces are dropped.
+    local path = memory.path
+    -- Pieces are dropped that are complete, in a plan of its own at most three.
     local state, early_s
     while true do
         leads = law.leads_to(limits, leads, estimate.bank_deg, route)
@@ -1364,17 +1390,22 @@ function law.advance_plan(memory, settings)
         if law.is_holding(route) or left_s > early_s + 0.000131072--[[ROUNDING_S]] then
             break
         end
-        route = law.without_current(route)
+        path, route = law.next_on(path, route)
         left_s = route.current.time_s
     end
     if law.is_holding(route) then
         early_s = 0.0
     else
         join_s = state.time_s + left_s + law.later_s(route)
+        if path.total > 0 then
+            -- A given path stays where it is over the ground: in wind it does not drift on where it is flown late.
+            route = law.by_clock(route, join_s - planned_join_s)
+            planned_join_s = join_s
+        end
     end
-    return with_fields(memory, {plan = {route = route, remaining_s = left_s, join_s = join_s, planned_join_s =
-            planned_join_s, searched_s = searched_s}, leads = leads, response = {state = state, offset =
-            law.offset_of(route, state, settings.radius_m), early_s = early_s}})
+    return with_fields(memory, {path = path, plan = {route = route, remaining_s = left_s, join_s = join_s,
+            planned_join_s = planned_join_s, searched_s = searched_s}, leads = leads, response = {state = state,
+            offset = law.offset_of(route, state, settings.radius_m), early_s = early_s}})
 end
 
 -- Whether the last turn of the plan is opposite to that of the circle.
@@ -1396,7 +1427,9 @@ end
 
 -- The memory with a search for another plan, if that is due.
 function law.reconsider(memory, settings)
-    if memory.search.aim ~= 0--[[NOTHING]] or not law.is_search_due(memory.sensing.clock, memory.plan) then
+    local is_given = memory.path.total > 0
+    if is_given or memory.search.aim ~= 0--[[NOTHING]] or not law.is_search_due(memory.sensing.clock, memory.plan)
+            then
         return memory
     end
     local limits, offset, plan = memory.sensing.limits, memory.response.offset, memory.plan
@@ -2164,11 +2197,12 @@ end
 
 -- The bank that follows the route, and the trim; on a turn before the last piece it is the bank limit.
 --
--- Such a turn is planned again before it ends; flying it as wide as planned would only cost time.
+-- Such a turn is planned again before it ends, unless the path is given; flying it as wide as planned would only
+-- cost time.
 function law.target_bank(settings, memory, known, dt)
     local limits, route, trim = memory.sensing.limits, memory.plan.route, memory.trim
     local u = memory.plan.route.current.u
-    if u ~= 0 and route.second.u ~= -2--[[ABSENT]] then
+    if u ~= 0 and route.second.u ~= -2--[[ABSENT]] and memory.path.total == 0 then
         return -u * limits.limit_deg, trim
     end
     local state, offset = memory.response.state, memory.response.offset

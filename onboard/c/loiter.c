@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 81f68a68ded1687b4fd462e1af1f2ff3609392a73d1289ef6f4359f7bf2f05f8
+ * SHA-256 of the source: b4c77351cca68894ed4af14b352597170d1dbb40371afa41aea1ab9557a13a73
  */
 #include "loiter.h"
 
@@ -296,6 +296,32 @@ typedef loiter_Route Route;
 
 typedef loiter_Plan Plan;
 
+typedef loiter_PathPiece PathPiece;
+
+typedef loiter_PathPiece_ring_12 *PathPiece_ring_12;
+
+static inline PathPiece_ring_12 PathPiece_ring_12_filled(PathPiece_ring_12 ring, PathPiece one) {
+    for (int i = 0; i < 12; i++) {
+        ring->at[i] = one;
+    }
+    return ring;
+}
+
+static inline PathPiece_ring_12 PathPiece_ring_12_with_last(PathPiece_ring_12 ring, PathPiece last) {
+    ring->at[11] = last;
+    return ring;
+}
+
+static inline PathPiece_ring_12 PathPiece_ring_12_appended(PathPiece_ring_12 ring, PathPiece last) {
+    for (int i = 0; i < 11; i++) {
+        ring->at[i] = ring->at[i + 1];
+    }
+    ring->at[11] = last;
+    return ring;
+}
+
+typedef loiter_GivenPath GivenPath;
+
 typedef loiter_Leads Leads;
 
 typedef loiter_RelativeState RelativeState;
@@ -341,6 +367,10 @@ typedef struct { RoutePiece a0; real a1, a2; } RoutePiece_real_2;
 
 /* Position and velocity, relative to the steady wind of a plan, as if the air were still. */
 typedef struct { real x, y, vx, vy; } Motion;
+
+typedef struct { GivenPath a0; Route a1; } GivenPath_Route;
+
+typedef struct { GivenPath a0; RoutePiece a1; real a2; } GivenPath_RoutePiece_real;
 
 
 /* Rounding error of a length of order one: the reduction (2) costs 2 roundings a coordinate, a difference of
@@ -622,7 +652,7 @@ static const real_3 LAGUERRE_WEIGHTS = {REAL(0.711093009929173), REAL(0.27851773
 #define SAMPLES 64
 static const Estimate NO_ESTIMATE = {-REAL_INFINITY, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(0.0)}};
 static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
-static const Plan NO_PLAN = {{0, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, -2, REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY, REAL_INFINITY, -REAL_INFINITY};
+static const Plan NO_PLAN = {{0, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, REAL(0.0), -2, REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY, REAL_INFINITY, -REAL_INFINITY};
 static const Leads NO_LEADS = {-1000000000, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 static const ResponsePoint NO_RESPONSE = {{REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(0.0)};
 static const EntrySearch NO_ENTRY_SEARCH = {0, {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), 0, false, false, false, {0, 0, 1, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), 0, {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}}, {{0, 0, REAL_INFINITY, REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY}, {0, 0, 63}, {-2, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}}, {0, 0, 0, 0}, {0, 0, 0, 0}, {REAL(0.0), 0, REAL(0.0), REAL(0.0)}, REAL_INFINITY, 0, {0, 0, REAL(0.0), {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, 0, false, 0, 0}, {0, REAL(0.0), REAL(0.0)}, 0, {12, 0, 0, REAL_NAN, REAL_NAN, REAL_NAN, REAL_NAN, REAL_NAN}}};
@@ -687,7 +717,7 @@ static const EntrySearch NO_ENTRY_SEARCH = {0, {REAL(0.0), REAL(0.0), REAL(0.0),
  * measured velocity is not that of an aircraft in flight.
  */
 #define LEAST_SPEED REAL(0.05)
-static const RoutePiece NO_PIECE = {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+static const RoutePiece NO_PIECE = {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)};
 
 /* A flight that begins on the circle, within half of the reserve and this angle, radians, holds it at once. */
 #define ON_COURSE REAL(0.09)
@@ -3653,24 +3683,27 @@ static inline BankHistory constant_history(Rings *rings, real bank_deg) {
             REAL(0.0)})};
 }
 
+/* No path. */
+static inline GivenPath no_path(Rings *rings) {
+    return MAKE(GivenPath){PathPiece_ring_12_filled(&rings->PathPiece_ring_12, MAKE(PathPiece){ABSENT, REAL(0.0),
+            REAL(1.0)}), 0, 0, REAL(1.0), REAL(0.0)};
+}
+
 /* The memory before the first measurement, with wings level. */
 static inline Memory first_memory(Rings *rings, const Settings *settings, const VehicleModel *vehicle) {
     const Limits limits = limits_of(settings, vehicle, &NO_LIMITS);
     const Observer observer = first_observer(rings, settings->smoothing_s);
     const BankHistory history = constant_history(rings, vehicle->bank_deg);
     return MAKE(Memory){MAKE(Sensing){FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, REAL(0.0), REAL(0.0),
-            false}, NO_PLAN, NO_LEADS, NO_RESPONSE, NO_ENTRY_SEARCH, REAL(0.0), MAKE(LawCommand){REAL(0.0),
-            REAL(0.0), NO_DATA, REAL_NAN, settings->side, NO_DATA, REAL_NAN}, REAL(0.0)};
+            false}, NO_PLAN, no_path(rings), NO_LEADS, NO_RESPONSE, NO_ENTRY_SEARCH, REAL(0.0),
+            MAKE(LawCommand){REAL(0.0), REAL(0.0), NO_DATA, REAL_NAN, settings->side, NO_DATA, REAL_NAN},
+            REAL(0.0)};
 }
 
 /* The route by a clock that has jumped. */
-static inline Route by_clock(const Route *route, real jump_s) {
-    const integer side = route->side;
-    const RoutePiece first = route->current, second = route->second, third = route->third;
-    const integer last_u = route->last_u;
-    const real start_s = route->start_s, r = route->turn_radius_m, speed = route->speed_m_s, east =
-            route->wind_east_m_s, north = route->wind_north_m_s;
-    return MAKE(Route){side, first, second, third, last_u, start_s + jump_s, r, speed, east, north};
+static inline void by_clock(Route *route, real jump_s) {
+    route->start_s = route->start_s + jump_s;
+    return;
 }
 
 /* The plan by a clock that has jumped by `jump_s`. */
@@ -3678,8 +3711,9 @@ static inline void plan_by_clock(Plan *plan, real jump_s) {
     const Route route = plan->route;
     const real left_s = plan->remaining_s, join_s = plan->join_s, planned_join_s = plan->planned_join_s,
             searched_s = plan->searched_s;
-    *plan = MAKE(Plan){by_clock(&route, jump_s), left_s, join_s + jump_s, planned_join_s + jump_s, searched_s +
-            jump_s};
+    Route changed_1 = route;
+    by_clock(&changed_1, jump_s);
+    *plan = MAKE(Plan){changed_1, left_s, join_s + jump_s, planned_join_s + jump_s, searched_s + jump_s};
     return;
 }
 
@@ -4157,7 +4191,7 @@ static inline RoutePiece_real_2 _piece(integer u, real x, real y, real c, real s
     const real_4 fly_1 = fly(REAL(0.0), REAL(0.0), c, s, u, time_s * speed / r);
     const real dx = fly_1.a0, dy = fly_1.a1, end_c = fly_1.a2, end_s = fly_1.a3;
     const real centre_x = x - (real)u * r * s, centre_y = y + (real)u * r * c;
-    return MAKE(RoutePiece_real_2){MAKE(RoutePiece){u, centre_x, centre_y, c, s, x + r * dx, y + r * dy, time_s},
+    return MAKE(RoutePiece_real_2){MAKE(RoutePiece){u, centre_x, centre_y, c, s, x + r * dx, y + r * dy, time_s, r},
             end_c, end_s};
 }
 
@@ -4182,7 +4216,7 @@ static inline Route route_of(const RelativeState *state, const PlannedEntry *ent
     const RoutePiece_real_2 _piece_5 = _piece(u3, second.end_x, second.end_y, c, s, t3_s, r, speed);
     const RoutePiece third = _piece_5.a0;
     const integer last_u = u3 != ABSENT ? u3 : u2 != ABSENT ? u2 : u1;
-    return MAKE(Route){side, first, second, third, last_u, state->time_s, r, speed, east, north};
+    return MAKE(Route){side, first, second, third, REAL(0.0), last_u, state->time_s, r, speed, east, north};
 }
 
 /* Whether only the circle is left. */
@@ -4241,7 +4275,7 @@ static inline PathOffset offset_of(const Route *route, const RelativeState *stat
     if (piece.u == 0) {
         return line_offset(x - piece.x, y - piece.y, piece.c, piece.s, vx, vy);
     }
-    return arc_offset(piece.u, route->turn_radius_m, x - piece.x, y - piece.y, vx, vy);
+    return arc_offset(piece.u, piece.radius_m, x - piece.x, y - piece.y, vx, vy);
 }
 
 /* The plan that holds the circle at once, if the flight begins on it; otherwise the plan as it is. */
@@ -4327,13 +4361,26 @@ static inline integer last_control(const Route *route) {
     return route->second.u == ABSENT ? route->current.u : route->last_u;
 }
 
+/* The bank of a piece in half degrees, of the circle where it is absent; wide arcs need less than planned turns. */
+static inline integer half_deg_on(const Limits *limits, const Route *route, const RoutePiece *piece) {
+    if (piece->u == ABSENT) {
+        return route->side * limits->hold_half_deg;
+    }
+    if (piece->radius_m == route->turn_radius_m) {
+        return -piece->u * limits->planned_half_deg;
+    }
+    const real V = limits->turns.airspeed_m_s, planned_deg = REAL(0.5) * (real)limits->planned_half_deg;
+    const real rate = rate_at_bank(planned_deg, V) * route->turn_radius_m / piece->radius_m;
+    return -piece->u * half_degrees(bank_at_rate(rate, V));
+}
+
 /* The delays of changes from a bank to those of the pieces of a route; those that are known are not recomputed. */
 static inline Leads leads_to(const Limits *limits, const Leads *leads, real bank_deg, const Route *route) {
     const integer bank = half_degrees(bank_deg), side = route->side, hold = limits->hold_half_deg, planned =
             limits->planned_half_deg;
-    const integer u1 = route->current.u, u2 = route->second.u, u3 = last_control(route);
-    const integer first = u1 == ABSENT ? side * hold : -u1 * planned;
-    const integer second = u2 == ABSENT ? side * hold : -u2 * planned;
+    const integer u3 = last_control(route);
+    const integer first = half_deg_on(limits, route, &route->current), second = half_deg_on(limits, route,
+            &route->second);
     const integer last = u3 == ABSENT ? side * hold : -u3 * planned;
     if (leads->bank == bank && leads->current == first && leads->next == second && leads->last == last) {
         return (*leads);
@@ -4366,7 +4413,7 @@ static inline real remaining_s(const Route *route, const RelativeState *state, r
     }
     const real left = angle(arc_rotation(piece.u, x - piece.x, y - piece.y, piece.end_x - piece.x, piece.end_y -
             piece.y));
-    const real rate = route->speed_m_s / route->turn_radius_m;
+    const real rate = route->speed_m_s / piece.radius_m;
     return (left + TWO_PI * (real)integer_of(real_ceil((previous_s * rate - left) / TWO_PI - REAL(0.5)))) / rate;
 }
 
@@ -4380,19 +4427,45 @@ static inline real early_end_s(const Route *route, const Leads *leads) {
     return max_real(early_s, REAL(0.0));
 }
 
-/* The route without its current piece. */
-static inline Route without_current(const Route *route) {
-    const integer side = route->side;
-    const RoutePiece second = route->second, third = route->third;
-    const integer last_u = route->last_u;
-    const real start_s = route->start_s, r = route->turn_radius_m, speed = route->speed_m_s, east =
-            route->wind_east_m_s, north = route->wind_north_m_s;
-    return MAKE(Route){side, second, third, NO_PIECE, last_u, start_s, r, speed, east, north};
+/* A path without its next piece, that, which begins at the end of the last one, and the time of those after it. */
+static inline GivenPath_RoutePiece_real _next_piece(GivenPath path, const RoutePiece *last, real speed, real more_s)
+        {
+    if (path.taken == path.total) {
+        return MAKE(GivenPath_RoutePiece_real){path, NO_PIECE, REAL(0.0)};
+    }
+    const PathPiece parts_1 = path.pieces->at[path.taken];
+    const integer u = parts_1.u;
+    const real time_s = parts_1.time_s, radius_m = parts_1.radius_m;
+    const RoutePiece_real_2 _piece_2 = _piece(u, last->end_x, last->end_y, path.c, path.s, time_s, radius_m,
+            speed);
+    const RoutePiece piece = _piece_2.a0;
+    const real c = _piece_2.a1, s = _piece_2.a2;
+    const integer taken = path.taken + 1;
+    GivenPath changed_3 = path;
+    changed_3.taken = taken;
+    changed_3.c = c;
+    changed_3.s = s;
+    return MAKE(GivenPath_RoutePiece_real){changed_3, piece, taken == path.total ? REAL(0.0) : more_s - time_s};
+}
+
+/* A path and the route along it, without the current piece of that. */
+static inline GivenPath_Route next_on(GivenPath path, const Route *route) {
+    const GivenPath_RoutePiece_real _next_piece_1 = _next_piece(path, &route->third, route->speed_m_s,
+            route->more_s);
+    path = _next_piece_1.a0;
+    const RoutePiece third = _next_piece_1.a1;
+    const real more_s = _next_piece_1.a2;
+    Route changed_2 = (*route);
+    changed_2.current = route->second;
+    changed_2.second = route->third;
+    changed_2.third = third;
+    changed_2.more_s = more_s;
+    return MAKE(GivenPath_Route){path, changed_2};
 }
 
 /* The time from the end of the current piece to the circle. */
 static inline real later_s(const Route *route) {
-    return route->second.time_s + route->third.time_s;
+    return route->second.time_s + route->third.time_s + route->more_s;
 }
 
 /* The memory with the plan at the response: without the pieces that are complete when a command takes effect.
@@ -4404,9 +4477,11 @@ static inline void advance_plan(Memory *memory, const Settings *settings) {
     const Estimate estimate = memory->sensing.present;
     Leads leads = memory->leads;
     Route route = memory->plan.route;
-    real left_s = memory->plan.remaining_s, join_s = memory->plan.join_s;
-    const real planned_join_s = memory->plan.planned_join_s, searched_s = memory->plan.searched_s;
-    /* At most three pieces are dropped. */
+    real left_s = memory->plan.remaining_s, join_s = memory->plan.join_s, planned_join_s =
+            memory->plan.planned_join_s;
+    const real searched_s = memory->plan.searched_s;
+    GivenPath path = memory->path;
+    /* Pieces are dropped that are complete, in a plan of its own at most three. */
     RelativeState state;
     real early_s;
     while (true) {
@@ -4418,14 +4493,24 @@ static inline void advance_plan(Memory *memory, const Settings *settings) {
         if (is_holding(&route) || left_s > early_s + ROUNDING_S) {
             break;
         }
-        route = without_current(&route);
+        const GivenPath_Route next_on_2 = next_on(path, &route);
+        path = next_on_2.a0;
+        route = next_on_2.a1;
         left_s = route.current.time_s;
     }
     if (is_holding(&route)) {
         early_s = REAL(0.0);
     } else {
         join_s = state.time_s + left_s + later_s(&route);
+        if (path.total > 0) {
+            /* A given path stays where it is over the ground: in wind it does not drift on where it is flown late. */
+            Route changed_3 = route;
+            by_clock(&changed_3, join_s - planned_join_s);
+            route = changed_3;
+            planned_join_s = join_s;
+        }
     }
+    memory->path = path;
     memory->plan = MAKE(Plan){route, left_s, join_s, planned_join_s, searched_s};
     memory->leads = leads;
     memory->response = MAKE(ResponsePoint){state, offset_of(&route, &state, settings->radius_m), early_s};
@@ -4454,7 +4539,8 @@ static inline void begin_plan_search(Memory *memory, const Settings *settings, i
 
 /* The memory with a search for another plan, if that is due. */
 static inline void reconsider(Memory *memory, const Settings *settings) {
-    if (memory->search.aim != NOTHING || !is_search_due(&memory->sensing.clock, &memory->plan)) {
+    const bool is_given = memory->path.total > 0;
+    if (is_given || memory->search.aim != NOTHING || !is_search_due(&memory->sensing.clock, &memory->plan)) {
         return;
     }
     const Limits limits = memory->sensing.limits;
@@ -4806,7 +4892,8 @@ static inline real air_rate(real rate, real vx, real vy, real hx, real hy) {
 
 /* The bank that follows the route, and the trim; on a turn before the last piece it is the bank limit.
  *
- * Such a turn is planned again before it ends; flying it as wide as planned would only cost time.
+ * Such a turn is planned again before it ends, unless the path is given; flying it as wide as planned would only
+ * cost time.
  */
 static inline real_2 target_bank(const Settings *settings, const Memory *memory, const VehicleEstimates *known, real
         dt) {
@@ -4814,7 +4901,7 @@ static inline real_2 target_bank(const Settings *settings, const Memory *memory,
     const Route route = memory->plan.route;
     real trim = memory->trim;
     const integer u = memory->plan.route.current.u;
-    if (u != 0 && route.second.u != ABSENT) {
+    if (u != 0 && route.second.u != ABSENT && memory->path.total == 0) {
         return MAKE(real_2){(real)-u * limits.limit_deg, trim};
     }
     const RelativeState state = memory->response.state;

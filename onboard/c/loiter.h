@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 81f68a68ded1687b4fd462e1af1f2ff3609392a73d1289ef6f4359f7bf2f05f8
+ * SHA-256 of the source: b4c77351cca68894ed4af14b352597170d1dbb40371afa41aea1ab9557a13a73
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
@@ -185,10 +185,14 @@ typedef struct { loiter_integer revision; bool wind_differs; loiter_real wind_ea
         planned_half_deg; loiter_real lead_s, reversal_s2, reversal_m, lag_s; } loiter_Limits;
 typedef struct { loiter_Clock clock; loiter_Observer observer; loiter_BankHistory history; loiter_Limits limits;
         loiter_Estimate present; loiter_real elapsed_s, model_error_deg; bool is_known; } loiter_Sensing;
-typedef struct { loiter_integer u; loiter_real x, y, c, s, end_x, end_y, time_s; } loiter_RoutePiece;
-typedef struct { loiter_integer side; loiter_RoutePiece current, second, third; loiter_integer last_u; loiter_real
-        start_s, turn_radius_m, speed_m_s, wind_east_m_s, wind_north_m_s; } loiter_Route;
+typedef struct { loiter_integer u; loiter_real x, y, c, s, end_x, end_y, time_s, radius_m; } loiter_RoutePiece;
+typedef struct { loiter_integer side; loiter_RoutePiece current, second, third; loiter_real more_s; loiter_integer
+        last_u; loiter_real start_s, turn_radius_m, speed_m_s, wind_east_m_s, wind_north_m_s; } loiter_Route;
 typedef struct { loiter_Route route; loiter_real remaining_s, join_s, planned_join_s, searched_s; } loiter_Plan;
+typedef struct { loiter_integer u; loiter_real time_s, radius_m; } loiter_PathPiece;
+typedef struct { loiter_PathPiece at[12]; } loiter_PathPiece_ring_12;
+typedef struct { loiter_PathPiece_ring_12 *pieces; loiter_integer total, taken; loiter_real c, s; }
+        loiter_GivenPath;
 typedef struct { loiter_integer bank, current, next, last; loiter_real current_s, next_s, last_s; } loiter_Leads;
 typedef struct { loiter_real time_s, x, y, vx, vy, hx, hy; } loiter_RelativeState;
 typedef struct { loiter_real crosstrack, course_error, path_rate; } loiter_PathOffset;
@@ -198,9 +202,10 @@ typedef struct { loiter_integer aim; loiter_RelativeState state; loiter_TurnLimi
         loiter_WindSearch in_air; } loiter_EntrySearch;
 typedef struct { loiter_real turn_rate_deg_s, bank_deg; loiter_integer phase; loiter_real time_to_join_s;
         loiter_integer side, next_phase; loiter_real next_in_s; } loiter_LawCommand;
-typedef struct { loiter_Sensing sensing; loiter_Plan plan; loiter_Leads leads; loiter_ResponsePoint response;
-        loiter_EntrySearch search; loiter_real trim; loiter_LawCommand command; loiter_real step_s; } loiter_Memory;
-typedef struct { loiter_AirSample_ring_64 AirSample_ring_64; loiter_BankEntry_ring_128 BankEntry_ring_128; } loiter_Rings;
+typedef struct { loiter_Sensing sensing; loiter_Plan plan; loiter_GivenPath path; loiter_Leads leads;
+        loiter_ResponsePoint response; loiter_EntrySearch search; loiter_real trim; loiter_LawCommand command;
+        loiter_real step_s; } loiter_Memory;
+typedef struct { loiter_AirSample_ring_64 AirSample_ring_64; loiter_BankEntry_ring_128 BankEntry_ring_128; loiter_PathPiece_ring_12 PathPiece_ring_12; } loiter_Rings;
 
 /* The state of a law; it contains no pointers, so that it may be copied and moved. `estimates` of `vehicle` are what is
  * known of the vehicle; a program that identifies more than is declared writes it there and adds 1 to `revision`. */

@@ -238,10 +238,11 @@ def main():
     parser = argparse.ArgumentParser(prog="python -m fences.brute", description=__doc__)
     parser.add_argument("--scenes", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--more", type=int, default=0, help="up to so many zones more")
     arguments = parser.parse_args()
     rows = []
-    for k in range(arguments.scenes):
+    for k in range(arguments.first, arguments.first + arguments.scenes):
         rng = np.random.default_rng([arguments.seed, k])
         row, brute, _ = compare(*blocked_scene(rng, arguments.more), rng)
         rows.append(row)

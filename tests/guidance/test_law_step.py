@@ -61,8 +61,8 @@ def test_the_memory_is_numbers_of_a_fixed_size(identify):
         assert len(numbers_in(settings)) < 20
         sizes.add(len(numbers_in(memory)))
     (size,) = sizes
-    # In double precision 7 kB, of which the rings are 5 and a search is 1.
-    assert size < 900
+    # In double precision 7.5 kB, of which the rings are 5, a search is 1 and a given path 0.3.
+    assert size < 940
 
 
 def test_a_step_changes_nothing_and_depends_on_nothing_else():

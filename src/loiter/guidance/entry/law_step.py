@@ -26,17 +26,20 @@ from loiter.guidance.entry.entry_planner import (
 from loiter.guidance.entry.path_tracking import PathOffset, air_rate, course_rate
 from loiter.guidance.entry.route import (
     NO_ROUTE,
+    GivenPath,
     Route,
+    RoutePiece,
     by_clock,
     is_holding,
     last_control,
     later_s,
+    next_on,
+    no_path,
     offset_of,
     path_velocity,
     remaining_s,
     reverses,
     route_of,
-    without_current,
 )
 from loiter.guidance.estimation.bank_history import (
     BankHistory,
@@ -311,11 +314,12 @@ class Memory(NamedTuple):
 
     `response` is where the last command took effect, and `search` a search for another plan that goes on. `trim` is the
     correction of the rate of turn that cancels a steady crosstrack error on the circle, radians per second. The last
-    command was given for `step_s` seconds.
+    command was given for `step_s` seconds. `path` is a path that is followed in place of plans of its own, if any.
     """
 
     sensing: Sensing
     plan: Plan
+    path: GivenPath
     leads: Leads
     response: ResponsePoint
     search: EntrySearch
@@ -331,6 +335,7 @@ def first_memory(settings: Settings, vehicle: VehicleModel) -> Memory:
     return Memory(
         sensing=Sensing(FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, 0.0, 0.0, False),
         plan=NO_PLAN,
+        path=no_path(),
         leads=NO_LEADS,
         response=NO_RESPONSE,
         search=NO_ENTRY_SEARCH,
@@ -565,9 +570,8 @@ def is_other_roll(limits: Limits, before: Limits) -> bool:
 def leads_to(limits: Limits, leads: Leads, bank_deg: float, route: Route) -> Leads:
     """The delays of changes from a bank to those of the pieces of a route; those that are known are not recomputed."""
     bank, side, hold, planned = half_degrees(bank_deg), route.side, limits.hold_half_deg, limits.planned_half_deg
-    u1, u2, u3 = route.current.u, route.second.u, last_control(route)
-    first = side * hold if u1 == ABSENT else -u1 * planned
-    second = side * hold if u2 == ABSENT else -u2 * planned
+    u3 = last_control(route)
+    first, second = half_deg_on(limits, route, route.current), half_deg_on(limits, route, route.second)
     last = side * hold if u3 == ABSENT else -u3 * planned
     if leads.bank == bank and leads.current == first and leads.next == second and leads.last == last:
         return leads
@@ -578,6 +582,17 @@ def leads_to(limits: Limits, leads: Leads, bank_deg: float, route: Route) -> Lea
         return Leads(bank, first, second, last, first_s, second_s, first_s if last == first else second_s)
     last_s = turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * last, limit_deg).lead_s
     return Leads(bank, first, second, last, first_s, second_s, last_s)
+
+
+def half_deg_on(limits: Limits, route: Route, piece: RoutePiece) -> int:
+    """The bank of a piece in half degrees, of the circle where it is absent; wide arcs need less than planned turns."""
+    if piece.u == ABSENT:
+        return route.side * limits.hold_half_deg
+    if piece.radius_m == route.turn_radius_m:
+        return -piece.u * limits.planned_half_deg
+    V, planned_deg = limits.turns.airspeed_m_s, 0.5 * limits.planned_half_deg
+    rate = rate_at_bank(planned_deg, V) * route.turn_radius_m / piece.radius_m
+    return -piece.u * half_degrees(bank_at_rate(rate, V))
 
 
 def relative_state(settings: Settings, estimate: Estimate) -> RelativeState:
@@ -621,20 +636,25 @@ def advance_plan(memory: Memory, settings: Settings) -> Memory:
     """
     limits, estimate, leads = memory.sensing.limits, memory.sensing.present, memory.leads
     route, left_s, join_s, planned_join_s, searched_s = memory.plan
-    # At most three pieces are dropped.
+    path = memory.path
+    # Pieces are dropped that are complete, in a plan of its own at most three.
     while True:
         leads = leads_to(limits, leads, estimate.bank_deg, route)
         state = relative_state(settings, estimate_after(estimate, leads.current_s))
         left_s, early_s = remaining_s(route, state, left_s), early_end_s(route, leads)
         if is_holding(route) or left_s > early_s + ROUNDING_S:
             break
-        route = without_current(route)
+        path, route = next_on(path, route)
         left_s = route.current.time_s
     if is_holding(route):
         early_s = 0.0
     else:
         join_s = state.time_s + left_s + later_s(route)
+        if path.total > 0:
+            # A given path stays where it is over the ground: in wind it does not drift on where it is flown late.
+            route, planned_join_s = by_clock(route, join_s - planned_join_s), join_s
     return memory._replace(
+        path=path,
         plan=Plan(route, left_s, join_s, planned_join_s, searched_s),
         leads=leads,
         response=ResponsePoint(state, offset_of(route, state, settings.radius_m), early_s),
@@ -652,7 +672,8 @@ def early_end_s(route: Route, leads: Leads) -> float:
 
 def reconsider(memory: Memory, settings: Settings) -> Memory:
     """The memory with a search for another plan, if that is due."""
-    if memory.search.aim != NOTHING or not is_search_due(memory.sensing.clock, memory.plan):
+    is_given = memory.path.total > 0
+    if is_given or memory.search.aim != NOTHING or not is_search_due(memory.sensing.clock, memory.plan):
         return memory
     limits, offset, plan = memory.sensing.limits, memory.response.offset, memory.plan
     r, V = limits.turns.planned_m, limits.turns.airspeed_m_s
@@ -790,10 +811,11 @@ def is_rest(entry: PlannedEntry, left: int, bend_s: float) -> bool:
 def target_bank(settings: Settings, memory: Memory, known: VehicleEstimates, dt: float) -> tuple[float, float]:
     """The bank that follows the route, and the trim; on a turn before the last piece it is the bank limit.
 
-    Such a turn is planned again before it ends; flying it as wide as planned would only cost time.
+    Such a turn is planned again before it ends, unless the path is given; flying it as wide as planned would only cost
+    time.
     """
     limits, route, trim, u = memory.sensing.limits, memory.plan.route, memory.trim, memory.plan.route.current.u
-    if u != 0 and route.second.u != ABSENT:
+    if u != 0 and route.second.u != ABSENT and memory.path.total == 0:
         return -u * limits.limit_deg, trim
     state, offset, _ = memory.response
     vx, vy = path_velocity(route, state)

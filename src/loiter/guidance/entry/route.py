@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import ceil
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from loiter.guidance.entry.entry_planner import PlannedEntry, RelativeState
 from loiter.guidance.entry.path_tracking import PathOffset, arc_offset, flight_velocity, line_offset
@@ -15,7 +15,8 @@ from loiter.kernel.words import ABSENT, controls
 class RoutePiece(NamedTuple):
     """One arc or straight line of a route: its control u, `ABSENT` for none, its path, end and duration.
 
-    An arc has the centre (x, y); a line passes through (x, y) along the unit vector (c, s). Metres and seconds.
+    An arc has the centre (x, y) and a radius; a line passes through (x, y) along the unit vector (c, s). Metres and
+    seconds.
     """
 
     u: int
@@ -26,22 +27,25 @@ class RoutePiece(NamedTuple):
     end_x: float
     end_y: float
     time_s: float
+    radius_m: float
 
 
-NO_PIECE = RoutePiece(ABSENT, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+NO_PIECE = RoutePiece(ABSENT, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 class Route(NamedTuple):
-    """The rest of a plan: at most three pieces, the current one first, then the circle, held on `side`.
+    """The rest of a plan: its next three pieces, the current one first, then the circle, held on `side`.
 
-    `side` is 0 where there is no plan. `last_u` is the control of the last piece of the whole plan, and `start_s` the
-    time at which that began. The pieces are at rest in the steady wind of the plan.
+    `side` is 0 where there is no plan. `more_s` is how long the pieces after these take, which only a given path has.
+    `last_u` is the control of the last piece of the whole plan, and `start_s` the time at which that began. The pieces
+    are at rest in the steady wind of the plan.
     """
 
     side: int
     current: RoutePiece
     second: RoutePiece
     third: RoutePiece
+    more_s: float
     last_u: int
     start_s: float
     turn_radius_m: float
@@ -50,7 +54,33 @@ class Route(NamedTuple):
     wind_north_m_s: float
 
 
-NO_ROUTE = Route(0, NO_PIECE, NO_PIECE, NO_PIECE, ABSENT, 0.0, 1.0, 1.0, 0.0, 0.0)
+NO_ROUTE = Route(0, NO_PIECE, NO_PIECE, NO_PIECE, 0.0, ABSENT, 0.0, 1.0, 1.0, 0.0, 0.0)
+
+
+# The largest number of pieces of a given path.
+MOST_PIECES = 12
+
+
+class PathPiece(NamedTuple):
+    """A piece of a given path: its control, duration and radius; seconds and metres."""
+
+    u: int
+    time_s: float
+    radius_m: float
+
+
+class GivenPath(NamedTuple):
+    """A path to be followed as it is given, without searches for other plans, for instance one clear of a fence.
+
+    It has `total` pieces, 0 where no path is given, of which `taken` have been in the route. The next one begins along
+    the unit vector (c, s).
+    """
+
+    pieces: Annotated[tuple[PathPiece, ...], MOST_PIECES]
+    total: int
+    taken: int
+    c: float
+    s: float
 
 
 class Motion(NamedTuple):
@@ -72,7 +102,40 @@ def route_of(state: RelativeState, entry: PlannedEntry) -> Route:
     second, c, s = _piece(u2, first.end_x, first.end_y, c, s, t2_s, r, speed)
     third, _, _ = _piece(u3, second.end_x, second.end_y, c, s, t3_s, r, speed)
     last_u = u3 if u3 != ABSENT else u2 if u2 != ABSENT else u1
-    return Route(side, first, second, third, last_u, state.time_s, r, speed, east, north)
+    return Route(side, first, second, third, 0.0, last_u, state.time_s, r, speed, east, north)
+
+
+def no_path() -> GivenPath:
+    """No path."""
+    return GivenPath((PathPiece(ABSENT, 0.0, 1.0),) * MOST_PIECES, 0, 0, 1.0, 0.0)
+
+
+def route_on(path: GivenPath, x: float, y: float, plan: Route) -> tuple[GivenPath, Route]:
+    """The route along a path that begins at (x, y), and the path after its first pieces.
+
+    `plan` has no pieces, and `more_s` is the time of all.
+    """
+    here = NO_PIECE._replace(end_x=x, end_y=y)
+    path, first, more_s = _next_piece(path, here, plan.speed_m_s, plan.more_s)
+    path, second, more_s = _next_piece(path, first, plan.speed_m_s, more_s)
+    path, third, more_s = _next_piece(path, second, plan.speed_m_s, more_s)
+    return path, plan._replace(current=first, second=second, third=third, more_s=more_s)
+
+
+def next_on(path: GivenPath, route: Route) -> tuple[GivenPath, Route]:
+    """A path and the route along it, without the current piece of that."""
+    path, third, more_s = _next_piece(path, route.third, route.speed_m_s, route.more_s)
+    return path, route._replace(current=route.second, second=route.third, third=third, more_s=more_s)
+
+
+def _next_piece(path: GivenPath, last: RoutePiece, speed: float, more_s: float) -> tuple[GivenPath, RoutePiece, float]:
+    """A path without its next piece, that, which begins at the end of the last one, and the time of those after it."""
+    if path.taken == path.total:
+        return path, NO_PIECE, 0.0
+    u, time_s, radius_m = path.pieces[path.taken]
+    piece, c, s = _piece(u, last.end_x, last.end_y, path.c, path.s, time_s, radius_m, speed)
+    taken = path.taken + 1
+    return path._replace(taken=taken, c=c, s=s), piece, 0.0 if taken == path.total else more_s - time_s
 
 
 def _piece(
@@ -83,7 +146,7 @@ def _piece(
         return NO_PIECE, c, s
     dx, dy, end_c, end_s = fly(0.0, 0.0, c, s, u, time_s * speed / r)
     centre_x, centre_y = x - u * r * s, y + u * r * c
-    return RoutePiece(u, centre_x, centre_y, c, s, x + r * dx, y + r * dy, time_s), end_c, end_s
+    return RoutePiece(u, centre_x, centre_y, c, s, x + r * dx, y + r * dy, time_s, r), end_c, end_s
 
 
 def is_holding(route: Route) -> bool:
@@ -91,16 +154,9 @@ def is_holding(route: Route) -> bool:
     return route.current.u == ABSENT
 
 
-def without_current(route: Route) -> Route:
-    """The route without its current piece."""
-    side, _, second, third, last_u, start_s, r, speed, east, north = route
-    return Route(side, second, third, NO_PIECE, last_u, start_s, r, speed, east, north)
-
-
 def by_clock(route: Route, jump_s: float) -> Route:
     """The route by a clock that has jumped."""
-    side, first, second, third, last_u, start_s, r, speed, east, north = route
-    return Route(side, first, second, third, last_u, start_s + jump_s, r, speed, east, north)
+    return route._replace(start_s=route.start_s + jump_s)
 
 
 def last_control(route: Route) -> int:
@@ -115,7 +171,7 @@ def reverses(route: Route) -> bool:
 
 def later_s(route: Route) -> float:
     """The time from the end of the current piece to the circle."""
-    return route.second.time_s + route.third.time_s
+    return route.second.time_s + route.third.time_s + route.more_s
 
 
 def in_air(route: Route, state: RelativeState) -> Motion:
@@ -143,7 +199,7 @@ def offset_of(route: Route, state: RelativeState, radius_m: float) -> PathOffset
     x, y, vx, vy = in_air(route, state)
     if piece.u == 0:
         return line_offset(x - piece.x, y - piece.y, piece.c, piece.s, vx, vy)
-    return arc_offset(piece.u, route.turn_radius_m, x - piece.x, y - piece.y, vx, vy)
+    return arc_offset(piece.u, piece.radius_m, x - piece.x, y - piece.y, vx, vy)
 
 
 def remaining_s(route: Route, state: RelativeState, previous_s: float) -> float:
@@ -157,5 +213,5 @@ def remaining_s(route: Route, state: RelativeState, previous_s: float) -> float:
     if piece.u == 0:
         return ((piece.end_x - x) * piece.c + (piece.end_y - y) * piece.s) / route.speed_m_s
     left = angle(arc_rotation(piece.u, x - piece.x, y - piece.y, piece.end_x - piece.x, piece.end_y - piece.y))
-    rate = route.speed_m_s / route.turn_radius_m
+    rate = route.speed_m_s / piece.radius_m
     return (left + TWO_PI * ceil((previous_s * rate - left) / TWO_PI - 0.5)) / rate
