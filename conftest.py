@@ -41,6 +41,8 @@ SLOW = {
 BUILDING = (
     "documents/test_package.py",
     "documents/test_site.py",
+    "guidance/test_biased.py",
+    "guidance/test_flights_in_c.py",
     "guidance/test_law_in_c.py",
     "guidance/test_law_in_javascript.py",
     "tests/test_types.py",

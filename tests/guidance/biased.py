@@ -8,65 +8,21 @@ and 5.
 
 import sys
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
-from functools import partial
 from math import cos, inf, pi, radians, sin
 
 import numpy as np
 
 from guidance.biased_trials import biased_trials
+from guidance.flights_in_c import fly_in_c
 from loiter import Pose, plan
-from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.estimation.vehicle import VehicleModel
-from loiter.guidance.protocol import State
-from loiter.guidance.simulators.roll_dynamics import (
-    FirstOrderRoll,
-    RollDynamics,
-    SecondOrderRoll,
-    damping,
-    rise_time,
-)
 from loiter.guidance.trials.campaign import LAWS
 from loiter.guidance.trials.flight import fly
 from loiter.guidance.trials.varied import VariedTrial, varied_point_mass
-from loiter.guidance.vehicle.rolling import Roll, RollValues
+from loiter.guidance.vehicle.rolling import Roll
 
 # A flight that settles later than the first number of durations of the plan counts as not settled. Nine of ten should
 # settle within the second.
 PLANS, GOAL = 10.0, 1.4
-
-
-class KnownRoll(LoiterEntry):
-    """The law with the roll of its aircraft known from the start: the bank that follows a command, and the delay.
-
-    Delays of changes of bank are those of a first-order lag, as always: of the same mean delay, where it is of second
-    order. All else is identified.
-    """
-
-    def __init__(self, trial: VariedTrial) -> None:
-        super().__init__(trial.ideal.orbit, trial.declared, trial.known_wind)
-        roll, dead_time_s = trial.response, 0.0
-        if isinstance(roll, Roll):
-            self._modelled: RollDynamics = FirstOrderRoll(roll)
-            lag_s = roll.time_s
-        else:
-            zeta, dead_time_s = damping(roll.overshoot), roll.dead_time_s
-            self._modelled = SecondOrderRoll(replace(roll, dead_time_s=0.0))
-            lag_s = 2.0 * zeta / rise_time(zeta) * roll.time_s
-        self._roll, self._delay_s = RollValues(lag_s, roll.rate_deg_s), trial.noise.delay_s + dead_time_s
-
-    def _vehicle_at(self, state: State) -> VehicleModel:
-        command_deg, step_s = self._memory.command.bank_deg, self._memory.step_s
-        if step_s > 0.0:
-            self._modelled.advance(command_deg, step_s)
-        revision, _, identified = super()._vehicle_at(state)
-        known = identified._replace(roll=self._roll, delay_s=self._delay_s)
-        return VehicleModel(revision, self._modelled.bank_deg, known)
-
-
-# The laws that the campaign flies.
-FLOWN = {**LAWS, "known-roll": KnownRoll}
 
 
 def ratio(trial: VariedTrial, law: str = "optimal") -> float:
@@ -75,8 +31,11 @@ def ratio(trial: VariedTrial, law: str = "optimal") -> float:
     # The turn of the circle that proves it takes longest against the wind.
     turn_s = 2.0 * pi * 1.05 * m.orbit.radius_m / (trial.declared.airspeed_m_s - m.wind.speed_m_s)
     limit_s = PLANS * m.duration_s + turn_s + 1.0
-    flown = fly(FLOWN[law](trial), varied_point_mass(trial, 0.0), m.orbit, limit_s=limit_s)
-    share = flown.settled_s / m.duration_s
+    if law in ("optimal", "known-roll"):
+        settled_s = fly_in_c(trial, limit_s=limit_s, knows_roll=law == "known-roll").settled_s
+    else:
+        settled_s = fly(LAWS[law](trial), varied_point_mass(trial, 0.0), m.orbit, limit_s=limit_s).settled_s
+    share = settled_s / m.duration_s
     return share if share <= PLANS else inf
 
 
@@ -135,8 +94,7 @@ def report(trials: Sequence[VariedTrial], ratios: Sequence[float]) -> None:
 def main() -> None:
     runs, seed, law = int(sys.argv[1]), int(sys.argv[2]), (sys.argv[3:] or ["optimal"])[0]
     trials = biased_trials(runs, seed)
-    with ProcessPoolExecutor() as pool:
-        report(trials, list(pool.map(partial(ratio, law=law), trials)))
+    report(trials, [ratio(trial, law) for trial in trials])
 
 
 if __name__ == "__main__":

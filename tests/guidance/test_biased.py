@@ -1,22 +1,20 @@
 """Aircraft whose headings and banks are measured with constant biases, in calm air: `guidance.biased`."""
 
-from dataclasses import replace
 from math import inf
 
 import numpy as np
 import pytest
 
-from guidance.biased import KnownRoll, ratio
+from guidance.biased import ratio
 from guidance.biased_trials import biased_trials
 from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.downlink import Downlink, WithDownlink
 from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.trials.flight import STEP_S, fly
-from loiter.guidance.trials.varied import varied_point_mass
+from loiter.guidance.trials.flight import fly
 from loiter.guidance.vehicle.rolling import Roll
+from native.library import needs_compiler
 
 SLOW_ROLL, BIASED = Roll(0.53, 30.0), Noise(heading_bias_deg=-4.0, bank_bias_deg=2.7)
 
@@ -41,6 +39,7 @@ def test_a_slow_roll_biases_and_an_unknown_wind_do_not_keep_an_aircraft_off_its_
     assert flown.settled_s < 6.0 * plan(start, orbit, uav, wind).duration_s
 
 
+@needs_compiler
 def test_biased_aircraft_of_a_seed_that_nothing_was_tuned_with_settle():
     """The first 30 of seed 211 but those with plans of more than a minute, which are the easy ones.
 
@@ -58,20 +57,3 @@ def test_biased_trials_do_not_depend_on_their_number():
     assert sum(isinstance(trial.response, Roll) for trial in trials) == pytest.approx(30, abs=12)
     assert max(abs(trial.noise.heading_bias_deg) for trial in trials) > 4.0
     assert max(trial.ideal.orbit.radius_m for trial in trials) > 600.0
-
-
-@pytest.mark.parametrize("roll", [Roll(0.8, 40.0), RollResponse(0.8, 10 * STEP_S, 0.2, 40.0)])
-def test_a_law_that_knows_the_roll_knows_each_bank_before_it_is_flown(roll):
-    """The bank that it models is that of the aircraft a dead time later, but for rounding."""
-    (trial,) = biased_trials(1, 5)
-    trial = replace(trial, response=roll)
-    law, aircraft, ahead = KnownRoll(trial), varied_point_mass(trial, 0.0), 10 * isinstance(roll, RollResponse)
-    modelled, flown = [], []
-    for _ in range(400):
-        command = law.step(aircraft.measured_state(), STEP_S)
-        modelled.append(law._vehicle.bank_deg)
-        flown.append(aircraft.true_state().bank_deg)
-        aircraft.advance(command, STEP_S)
-    assert max(np.abs(flown)) > 20.0
-    assert law.estimates.delay_s == pytest.approx(trial.noise.delay_s + ahead * STEP_S)
-    assert modelled[: 400 - ahead] == pytest.approx(flown[ahead:], abs=1e-9)

@@ -13,7 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from loiter.guidance.trials.campaign import LAWS, is_go_around
+from guidance.flights_in_c import FlightInC, fly_in_c
+from loiter.guidance.trials.campaign import GO_AROUND_DEG, LAWS, arcs_deg
 from loiter.guidance.trials.flight import LIMIT_S, fly
 from loiter.guidance.trials.varied import VariedTrial, varied_point_mass, varied_trials
 
@@ -39,27 +40,40 @@ class Result(NamedTuple):
         return self.settled_s / self.ideal_s if self.settled_s == self.settled_s else np.inf
 
 
+def flown(trial: VariedTrial, law: str, gust: float, limit_s: float) -> FlightInC:
+    """The flight of a law; that of the fastest entry by machine code, in a hundredth of the time."""
+    if law == "optimal":
+        return fly_in_c(trial, gust, limit_s=limit_s, track=True)
+    python = fly(LAWS[law](trial), varied_point_mass(trial, gust), trial.ideal.orbit, limit_s=limit_s)
+    columns = python.track._asdict() | {"command_deg": python.track.commanded_bank_deg}
+    return FlightInC(python.settled_s, python.joined_s, python.turned_deg, columns)
+
+
 def result(trial: VariedTrial, law: str, gust: float, limit_s: float = LIMIT_S) -> Result:
     orbit = trial.ideal.orbit
-    flight = fly(LAWS[law](trial), varied_point_mass(trial, gust), orbit, limit_s=limit_s)
-    track, turn = flight.track, flight.track.elapsed_s >= flight.settled_s
-    if not flight.settled:
-        turn = track.elapsed_s >= track.elapsed_s[-1] - 60.0
-    distance = np.hypot(track.east_m, track.north_m)[turn]
-    outward = (track.velocity_east_m_s * track.east_m + track.velocity_north_m_s * track.north_m)[turn] / distance
-    speed = np.hypot(track.velocity_east_m_s, track.velocity_north_m_s)[turn]
+    settled_s, joined_s, turned_deg, track = flown(trial, law, gust, limit_s)
+    is_settled, time_s = settled_s == settled_s, track["time_s"]
+    turn = time_s >= (settled_s if is_settled else time_s[-1] - 60.0)
+    east, north, velocity_east, velocity_north, command_deg = (
+        track[name][turn] for name in ("east_m", "north_m", "velocity_east_m_s", "velocity_north_m_s", "command_deg")
+    )
+    distance = np.hypot(east, north)
+    outward = (velocity_east * east + velocity_north * north) / distance
+    speed = np.hypot(velocity_east, velocity_north)
     return Result(
-        flight.settled_s,
-        flight.joined_s,
+        settled_s,
+        joined_s,
         trial.ideal.duration_s,
         float(np.mean(distance) / orbit.radius_m - 1.0),
         float(np.std(np.degrees(np.arcsin(outward / speed)))),
-        float(np.std(track.commanded_bank_deg[turn])),
-        is_go_around(flight, trial.ideal),
+        float(np.std(command_deg)),
+        is_settled and turned_deg > arcs_deg(trial.ideal) + GO_AROUND_DEG,
     )
 
 
 def results(trials: Sequence[VariedTrial], law: str, gust: float) -> list[Result]:
+    if law == "optimal":
+        return [result(trial, law, gust) for trial in trials]
     with ProcessPoolExecutor() as pool:
         return list(pool.map(partial(result, law=law, gust=gust), trials))
 

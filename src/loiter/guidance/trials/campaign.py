@@ -224,8 +224,12 @@ def outcome(
 
 def is_go_around(flight: Flight, ideal: Maneuver) -> bool:
     """Whether a flight that settled turned by `GO_AROUND_DEG` more, off the circle, than the fastest entry."""
-    arcs_deg = degrees(sum(abs(segment.curvature_per_m) * segment.length_m for segment in ideal.segments))
-    return flight.settled and flight.turned_deg > arcs_deg + GO_AROUND_DEG
+    return flight.settled and flight.turned_deg > arcs_deg(ideal) + GO_AROUND_DEG
+
+
+def arcs_deg(ideal: Maneuver) -> float:
+    """The angle that a maneuver turns, in both directions."""
+    return degrees(sum(abs(segment.curvature_per_m) * segment.length_m for segment in ideal.segments))
 
 
 def campaign(
