@@ -1,8 +1,7 @@
 """A campaign with aircraft drawn at random, of which the law knows airspeed and bank limit alone.
 
-`python -m guidance.varied 500 17`, run in the folder `tests` with the library on the path, flies 500 aircraft of seed
-17, each in gusts of 5 % and again in calm air, and prints a table and the ten latest. The laws were tuned with the
-seeds 3, 7, 11 and 13.
+`PYTHONPATH=src:tests:. python -m guidance.varied 500 17` flies 500 aircraft of seed 17, each in gusts of 5 % and again
+in calm air, and prints a table and the ten latest. The laws were tuned with the seeds 3, 7, 11 and 13.
 """
 
 import sys
