@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 
 from kernel.slots import REACHED, closest_between, flown_miss, fold_scenes, least_times, planned, random_scenes
 from loiter.compiled import wind_solver
+from loiter.kernel.angles import angle, arc_rotation
 from loiter.kernel.statuses import Status
-from loiter.kernel.wind import slots
+from loiter.kernel.wind import slots, wind_search
 from loiter.kernel.wind.held import time_held
 from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.kernel.wind.wind_search import WindProblem, time_of
@@ -54,6 +55,54 @@ def check(scenes):
             assert time_of(entry) < time + 1e-5
         else:
             assert closest_between(scenes, i, time, azimuth, time_of(entry)) > 1e-8
+
+
+@pytest.mark.parametrize("w", [0.0, 0.1])
+def test_no_arrival_of_three_arcs_is_stepped_over_from_turns_about_the_centre(w):
+    # Here h bends down as fast as its bound allows.
+    random, arrivals = np.random.default_rng(5), 0
+    for _ in range(25):
+        u, side = (int(random.choice([1, -1])) for _ in range(2))
+        heading, towards, phase = random.uniform(0.0, tau, 3)
+        centre = 0.02 * np.exp(1j * towards)
+        x, y = float(centre.real + u * sin(heading)), float(centre.imag - u * cos(heading))
+        R = (1.0 + w) ** 2 * random.uniform(1.0, 4.0)
+        problem = WindProblem(x, y, cos(heading), sin(heading), float(R), side, w, 0.0, 0.0)
+        for halves in (0, 1):
+            sampled = first_sampled(u, halves, slots.Slot(side, float(phase)), wind_search.scene_of(problem))
+            arrivals += sampled < np.inf
+            found = first_found(u, halves, slots.Slot(side, float(phase)), wind_search.scene_of(problem))
+            assert found <= sampled + 1e-7
+    assert arrivals > 20
+
+
+def first_found(u, halves, slot, scene):
+    """The time of the first arrival of three arcs that the kernel finds."""
+    begin = slots.first_within_reach(slot, scene)
+    return slots.first_of_three_arcs(u, halves, begin, slot, scene, 20.0).path.time
+
+
+def first_sampled(u, halves, slot, scene, n=400):
+    """The time of the first arrival of three arcs between samples of h whose signs differ."""
+    origin = slots.slot_pose(0.0, slot, scene)
+    half = pi * halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c, origin.s))
+
+    def middle(width):
+        pose = slots.slot_pose(width, slot, scene)
+        return pose, slots.middle_at(u, half, pose, slot, scene)
+
+    widths = [slots.begin_width(slot, scene) + 20.0 / scene.R * k / n for k in range(n)]
+    values = [middle(width)[1].value for width in widths]
+    for a, b, before, after in zip(widths, widths[1:], values, values[1:], strict=False):
+        if before * after < 0.0:
+            for _ in range(50):
+                c = 0.5 * (a + b)
+                a, b = (c, b) if middle(c)[1].value * before > 0.0 else (a, c)
+            pose, at = middle(b)
+            path = slots.path_of_three_arcs(u, at, pose, scene)
+            if path.time < 20.0:
+                return path.time
+    return np.inf
 
 
 @settings(max_examples=20, deadline=None)

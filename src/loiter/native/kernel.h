@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: c006a1e5711f70dfc1e56e31bfeb81e66fe43ae2626a049168bb7e78f226b805
+ * SHA-256 of the source: 3239cdbe839047a7f7955833011b48dde82162d3a90ffff140ba485f4d5015fb
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -233,6 +233,9 @@ typedef struct { real step, speed, speed_change, turning; } Bounds;
  * and RSL exist where it is not negative.
  */
 typedef struct { real value, slope, apart, apart_slope; } Excess;
+
+/* Bounds on the second derivative of |d|^2: it is at least -`down`, at most `up`, and no larger than `size`. */
+typedef struct { real down, up, size; } Bends;
 
 /* The function whose roots are the arrivals of LRL or RLR, and its derivative.
  *
@@ -3412,15 +3415,16 @@ static inline Path path_with_straight(integer u, integer last, SlotPose pose, Wi
             pose);
 }
 
-/* A bound on how negative the second derivative of |d|^2 is where |d| is at most `distance`. */
-static inline real bend_of_square(integer u, real distance, Bounds limits, WindScene scene) {
-    real bend = 2.0 * (limits.speed * limits.turning + limits.speed_change) * distance;
-    if (limits.speed_change == 0.0) {
-        /* In still air the last centre moves round the circle's: the square is a constant and a cosine. */
-        bend = min_real(bend, 2.0 * limits.speed * length(scene.x - (real)u * scene.s, scene.y + (real)u *
-                scene.c));
+/* Bounds on the second derivative of |d|^2 where |d| is at most `distance`. */
+static inline Bends bends_of_square(integer u, real distance, Bounds limits, WindScene scene) {
+    const real general = 2.0 * (limits.speed * limits.turning + limits.speed_change) * distance, rise = 2.0 *
+            limits.speed * limits.speed;
+    if (limits.speed_change > 0.0) {
+        return (Bends){general, general + rise, INFINITY};
     }
-    return bend;
+    /* In still air the last centre moves round the circle's: the square is a constant and a cosine. */
+    return (Bends){general, general + rise, 2.0 * limits.speed * length(scene.x - (real)u * scene.s, scene.y +
+            (real)u * scene.c)};
 }
 
 /* How far a function cannot come down to zero that has this value and derivative, if its second is >= -`bend`. */
@@ -3442,8 +3446,8 @@ static inline real step_of_excess(integer u, integer last, Excess excess, Bounds
         return step;
     }
     const real distance = sqrt(max_real(excess.apart + 4.0, 0.0)) + limits.speed * step;
-    const real low = bend_of_square(u, distance, limits, scene);
-    const real high = low + 2.0 * limits.speed * limits.speed;
+    const Bends bends = bends_of_square(u, distance, limits, scene);
+    const real low = min_real(bends.down, bends.size), high = min_real(bends.up, bends.size);
     if (fabs(excess.apart) <= tolerance) {
         return min_real(step, max_real(high > 0.0 ? fabs(excess.apart_slope) / high : step, DOUBLE_ROOT));
     }
@@ -3561,8 +3565,11 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
         const Bounds limits = bounds_at(u, pose, slot, scene);
         real limit = limits.speed > 0.0 ? min_real(limits.step, 1.0 / limits.speed) : limits.step;
         const real furthest = distance + limits.speed * limit;
-        const real low = bend_of_square(u, furthest, limits, scene) + 4.0 * limits.speed_change;
-        const real high = low + 4.0 * limits.speed * limits.speed;
+        const Bends bends = bends_of_square(u, furthest, limits, scene);
+        const real square = 2.0 * limits.speed * limits.speed;
+        /* To h'' the middle arc adds -2 V^2 cos(m) - 4 V' sin(m). |d|^2 adds 2 V^2 to its own, which `down` leaves out. */
+        const real low = min_real(bends.down + 4.0 * limits.speed_change, bends.size + square);
+        const real high = min_real(bends.up + square + 4.0 * limits.speed_change, bends.size + square);
         const real spread = distance + 4.0 * sin(0.5 * middle.arc);
         real step;
         if (fabs(middle.value) <= tolerance * (spread + tolerance)) {
@@ -3589,11 +3596,12 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
 static inline WindCandidate first_arrival(Slot slot, WindScene scene) {
     const SlotPose begin = first_within_reach(slot, scene);
     WindCandidate best = (WindCandidate){slot.phase, slot.side, NO_PATH};
-    /* Words that end against the hold arrive within a turn or so; next to R = 1 the others may take forever. */
+    /* LSL or RSR that ends against the hold exists at all times and arrives within a turn or so; next to R = 1 others */
+    /* may take forever. */
     const integer each_last_1[2] = {slot.side, -slot.side};
     for (int i_1 = 0; i_1 < 2; i_1++) {
         const integer last = each_last_1[i_1];
-        const integer each_u_2[2] = {1, -1};
+        const integer each_u_2[2] = {last, -last};
         for (int i_2 = 0; i_2 < 2; i_2++) {
             const integer u = each_u_2[i_2];
             best = earlier(best, first_with_straight(u, last, begin, slot, scene, best.path.time));

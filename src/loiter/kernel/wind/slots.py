@@ -80,6 +80,14 @@ class Bounds(NamedTuple):
     turning: float
 
 
+class Bends(NamedTuple):
+    """Bounds on the second derivative of |d|^2: it is at least -`down`, at most `up`, and no larger than `size`."""
+
+    down: float
+    up: float
+    size: float
+
+
 class Excess(NamedTuple):
     """Length less time of a word with a straight piece, less whole turns, in [-pi, pi], and its derivative.
 
@@ -212,13 +220,16 @@ def excess_at(u: int, last: int, pose: SlotPose, slot: Slot, scene: WindScene) -
     return Excess(less_whole_turns(straight + arcs - pose.time), -speed * (1.0 - ahead), apart, apart_slope)
 
 
-def bend_of_square(u: int, distance: float, limits: Bounds, scene: WindScene) -> float:
-    """A bound on how negative the second derivative of |d|^2 is where |d| is at most `distance`."""
-    bend = 2.0 * (limits.speed * limits.turning + limits.speed_change) * distance
-    if limits.speed_change == 0.0:
-        # In still air the last centre moves round the circle's: the square is a constant and a cosine.
-        bend = min(bend, 2.0 * limits.speed * length(scene.x - u * scene.s, scene.y + u * scene.c))
-    return bend
+def bends_of_square(u: int, distance: float, limits: Bounds, scene: WindScene) -> Bends:
+    """Bounds on the second derivative of |d|^2 where |d| is at most `distance`."""
+    general, rise = (
+        2.0 * (limits.speed * limits.turning + limits.speed_change) * distance,
+        2.0 * limits.speed * limits.speed,
+    )
+    if limits.speed_change > 0.0:
+        return Bends(general, general + rise, inf)
+    # In still air the last centre moves round the circle's: the square is a constant and a cosine.
+    return Bends(general, general + rise, 2.0 * limits.speed * length(scene.x - u * scene.s, scene.y + u * scene.c))
 
 
 def step_of_excess(u: int, last: int, excess: Excess, limits: Bounds, scene: WindScene, tolerance: float) -> float:
@@ -229,8 +240,8 @@ def step_of_excess(u: int, last: int, excess: Excess, limits: Bounds, scene: Win
     if u == last:
         return step
     distance = sqrt(max(excess.apart + 4.0, 0.0)) + limits.speed * step
-    low = bend_of_square(u, distance, limits, scene)
-    high = low + 2.0 * limits.speed * limits.speed
+    bends = bends_of_square(u, distance, limits, scene)
+    low, high = min(bends.down, bends.size), min(bends.up, bends.size)
     if abs(excess.apart) <= tolerance:
         return min(step, max(abs(excess.apart_slope) / high if high > 0.0 else step, DOUBLE_ROOT))
     if excess.apart > 0.0:
@@ -341,8 +352,10 @@ def first_of_three_arcs(
         limits = bounds_at(u, pose, slot, scene)
         limit = min(limits.step, 1.0 / limits.speed) if limits.speed > 0.0 else limits.step
         furthest = distance + limits.speed * limit
-        low = bend_of_square(u, furthest, limits, scene) + 4.0 * limits.speed_change
-        high = low + 4.0 * limits.speed * limits.speed
+        bends, square = bends_of_square(u, furthest, limits, scene), 2.0 * limits.speed * limits.speed
+        # To h'' the middle arc adds -2 V^2 cos(m) - 4 V' sin(m). |d|^2 adds 2 V^2 to its own, which `down` leaves out.
+        low = min(bends.down + 4.0 * limits.speed_change, bends.size + square)
+        high = min(bends.up + square + 4.0 * limits.speed_change, bends.size + square)
         spread = distance + 4.0 * sin(0.5 * middle.arc)
         if abs(middle.value) <= tolerance * (spread + tolerance):
             path = path_of_three_arcs(u, middle, pose, scene)
@@ -369,9 +382,10 @@ def first_arrival(slot: Slot, scene: WindScene) -> WindCandidate:
     """The first arrival in a slot, the best of all words."""
     begin = first_within_reach(slot, scene)
     best = WindCandidate(slot.phase, slot.side, NO_PATH)
-    # Words that end against the hold arrive within a turn or so; next to R = 1 the others may take forever.
+    # LSL or RSR that ends against the hold exists at all times and arrives within a turn or so; next to R = 1 others
+    # may take forever.
     for last in (slot.side, -slot.side):
-        for u in (1, -1):
+        for u in (last, -last):
             best = earlier(best, first_with_straight(u, last, begin, slot, scene, best.path.time))
     for u in (1, -1):
         for halves in (0, 1):
