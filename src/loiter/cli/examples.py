@@ -50,6 +50,8 @@ EXAMPLES = {
       --compare --plot flight.png
   loiter fly --pose -400 120 90 --orbit 0 0 200 --sim jsbsim
   loiter fly --runs 100 --compare --airspeed 18 --bank 35 --save runs.csv
+  loiter fly --pose -400 120 90 --orbit 0 0 120 --airspeed 18 --bank 35 \
+      --slot 200
   loiter fly --replay flight.csv --plot flight.png""",
     "synthesis": r"""
   loiter synthesis --radius 1.5 --turn cw --plot map.png

@@ -17,6 +17,7 @@ from loiter.guidance.trials.summary import CampaignSummary, summary
 from loiter.io.document import maneuver_values
 
 if TYPE_CHECKING:
+    from loiter.guidance.entry.slot_entry import SlotEntry
     from loiter.guidance.trials.campaign import Outcome, Trial
     from loiter.guidance.trials.flight import Flight
 
@@ -106,6 +107,44 @@ def time_line(name: str, flight: Flight) -> Iterator[str]:
         if flight.settled
         else "Not settled."
     )
+
+
+# An aircraft is in its slot within this error of phase, degrees, and then stays within twice that.
+PHASE_DEG = 5.0
+
+
+class SlotKept(NamedTuple):
+    """When an aircraft on its circle was within 5 degrees of its slot for good, and the largest error since then.
+
+    "For good" is within 10 degrees until the end of the flight.
+
+    Seconds and degrees, None where it never was.
+    """
+
+    joined_s: float | None
+    largest_deg: float | None
+
+    @property
+    def line(self) -> str:
+        """One line."""
+        if self.joined_s is None:
+            return "Not in its slot."
+        return f"{self.joined_s:6.1f} s  in its slot; from then on within {self.largest_deg:.1f} degrees of it"
+
+
+def slot_kept(law: SlotEntry, flight: Flight) -> SlotKept:
+    """How an aircraft kept its slot."""
+    track = flight.track
+    places = zip(track.time_s.tolist(), track.east_m.tolist(), track.north_m.tolist(), strict=True)
+    errors = [abs(law.phase_error_deg(*place)) for place in places]
+    if not flight.settled:
+        return SlotKept(None, None)
+    since = next((len(errors) - i for i, error in enumerate(reversed(errors)) if error > 2.0 * PHASE_DEG), 0)
+    since = max(since, int((track.elapsed_s < flight.joined_s).sum()))
+    first = next((i for i in range(since, len(errors)) if errors[i] <= PHASE_DEG), None)
+    if first is None:
+        return SlotKept(None, None)
+    return SlotKept(float(track.elapsed_s[first]), max(errors[first:]))
 
 
 def flights_table(trial: Trial, flights: Mapping[str, Flight]) -> Table:

@@ -116,6 +116,24 @@ WindChoice = Annotated[
 Metres = Annotated[float | None, Parameter(converter=one(metres), metavar="METRES")]
 
 
+SlotBearing = Annotated[
+    float | None,
+    Parameter(
+        group=scene,
+        metavar="DEGREES",
+        help="Enter the slot that is at this bearing from the centre, a place that moves round the circle with the hold.",
+    ),
+]
+SlotTime = Annotated[
+    float | None,
+    Parameter(
+        group=scene,
+        metavar="SECONDS",
+        help="The time from the start at which the slot is at that bearing; 0 if absent.",
+    ),
+]
+
+
 @Parameter(name="*")
 @dataclass(frozen=True)
 class StartOptions:

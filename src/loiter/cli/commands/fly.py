@@ -23,22 +23,29 @@ from loiter.cli.options import (
     OrbitOptions,
     Output,
     PictureOptions,
+    SlotBearing,
+    SlotTime,
     StartOptions,
     WindOptions,
     output,
+    scene,
 )
 from loiter.cli.scenes import place_scene
+from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
+from loiter.planning.slot import Slot
 from loiter.plot.sizes import LEAST_FLIGHT_HEIGHT_MM
 from loiter.writing import check_writable, write_content
 
 if TYPE_CHECKING:
     from loiter.cli.flights import Conditions
+    from loiter.guidance.protocol import Law
     from loiter.guidance.simulators.airframes import Airframe
     from loiter.guidance.trials.campaign import Outcome, Trial
     from loiter.guidance.trials.flight import Flight
     from loiter.guidance.trials.settings import Setting
+    from loiter.guidance.vehicle.circle import Band
 
 SimulatorName = Literal["kinematic", "point", "varied", "jsbsim"]
 LawName = Literal["optimal", "l1", "vector-field", "tangent"]
@@ -194,6 +201,60 @@ class SimulationOptions:
         return AIRFRAMES[self.airframe or AIRFRAME]
 
 
+@Parameter(name="*")
+@dataclass(frozen=True)
+class SlotOptions:
+    """A slot that the law enters and keeps."""
+
+    slot: SlotBearing = None
+    slot_at: SlotTime = None
+    slot_band: Annotated[
+        float | None,
+        Parameter(
+            group=scene,
+            metavar="SHARE",
+            help="The largest share by which the radius of the hold may differ from that of the circle, to keep the slot; 0.15 if absent.",
+        ),
+    ] = None
+
+    def slot_for(self, simulated: SimulationOptions) -> Slot | None:
+        """The slot; None without one. Raises `InvalidArgument` where the options do not fit together."""
+        if self.slot is None:
+            self.check_absent("no --slot")
+            return None
+        if simulated.laws != ["optimal"]:
+            raise InvalidArgument("slot", "is for the law optimal alone: the others keep no slot")
+        with argument_names(**{"slot phase_deg": "slot", "slot at_s": "slot_at_s"}):
+            return Slot(self.slot, 0.0 if self.slot_at is None else self.slot_at)
+
+    def check_absent(self, where: str) -> None:
+        """Raise `InvalidArgument` for an option that has no effect."""
+        for name, value in (("slot", self.slot), ("slot_at_s", self.slot_at), ("slot_band", self.slot_band)):
+            if value is not None:
+                raise InvalidArgument(name, f"has no effect with {where}")
+
+    @property
+    def band(self) -> float:
+        """The band of the hold."""
+        from loiter.guidance.entry.slot_entry import BAND
+
+        return BAND if self.slot_band is None else self.slot_band
+
+    @property
+    def settling_band(self) -> Band:
+        """What counts as on the circle: the band of the hold more than elsewhere, and courses in and out of it."""
+        from loiter.guidance.trials.settings import HEAVY_GUST_BAND, STANDARD_BAND
+        from loiter.guidance.vehicle.circle import Band
+
+        return Band(STANDARD_BAND.radial + self.band, HEAVY_GUST_BAND.course_deg)
+
+    def law(self, trial: Trial, slot: Slot) -> Law:
+        """The law for the start of a trial, in the direction of its plan."""
+        from loiter.guidance.entry.slot_entry import SlotEntry
+
+        return SlotEntry(trial.orbit, trial.known_aircraft, trial.known_wind, slot=slot, band=self.band)
+
+
 def fly(
     *,
     replay: Annotated[
@@ -205,6 +266,7 @@ def fly(
         ),
     ] = None,
     simulated: SimulationOptions = SimulationOptions(),
+    slotted: SlotOptions = SlotOptions(),
     start: StartOptions = StartOptions(),
     circle: OrbitOptions = OrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
@@ -218,15 +280,17 @@ def fly(
 
     wanted = Output(json, pictures, save)
     if replay is not None:
-        _replay(replay, (simulated, start, circle, uav, air), wanted)
+        _replay(replay, (simulated, slotted, start, circle, uav, air), wanted)
         return
     simulated.check()
     _check_files(wanted, simulated.runs)
     if simulated.runs is None:
         pose, orbit, _ = place_scene(start, circle, air, uav.preset())
-        trial = campaign.Trial(loiter.plan(pose, orbit, simulated.aircraft(uav), air.moving_air), simulated.seed)
-        _fly_once(trial, simulated, wanted)
+        aimed = slotted.slot_for(simulated)
+        ideal = loiter.plan(pose, orbit, simulated.aircraft(uav), air.moving_air, slot=aimed)
+        _fly_once(campaign.Trial(ideal, simulated.seed), simulated, wanted, slotted)
         return
+    slotted.check_absent("--runs")
     if (start, circle) != (StartOptions(), OrbitOptions()):
         raise InvalidArgument("runs", "selects random starts and circles: --pose and --orbit have no effect")
     air.check_declination()
@@ -261,21 +325,21 @@ def _check_files(wanted: Output, runs: int | None) -> None:
         check_writable("save", path)
 
 
-def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output) -> None:
+def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output, slotted: SlotOptions) -> None:
     """Fly laws from one start: write the time line of the first law, and a table with a row for each."""
     from loiter.cli import flights as shown
+    from loiter.guidance.entry.slot_entry import SlotEntry
     from loiter.guidance.trials.flight import fly as fly_law
 
     setting, conditions = simulated.setting(), simulated.conditions
+    aimed = slotted.slot_for(simulated)
+    laws = {name: slotted.law(trial, aimed) if aimed else setting.laws[name](trial) for name in simulated.laws}
+    band = slotted.settling_band if aimed else setting.band
     flights = {
         name: fly_law(
-            setting.laws[name](trial),
-            setting.simulator(trial),
-            trial.ideal.orbit,
-            band=setting.band,
-            exact_switches=setting.exact_switches,
+            law, setting.simulator(trial), trial.ideal.orbit, band=band, exact_switches=setting.exact_switches
         )
-        for name in simulated.laws
+        for name, law in laws.items()
     }
     if wanted.pictures.plot:
         from loiter.plot.flown import draw
@@ -286,6 +350,10 @@ def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output) -> Non
     first, *_ = flights
     lines = [f"Fastest entry: {trial.ideal}", conditions.line, *shown.time_line(first, flights[first])]
     document = shown.flights_document(trial, flights) | {"simulation": conditions._asdict()}
+    if isinstance(law := laws[first], SlotEntry):
+        kept = shown.slot_kept(law, flights[first])
+        document |= {"slot": kept._asdict()}
+        lines.append(kept.line)
     wanted.show(document, *lines, shown.flights_table(trial, flights))
 
 

@@ -22,6 +22,8 @@ from loiter.cli.options import (
     OrbitOptions,
     PictureOptions,
     PlannedAircraftOptions,
+    SlotBearing,
+    SlotTime,
     StartOptions,
     WindOptions,
     missions,
@@ -63,22 +65,6 @@ Lead = Annotated[
         group=scene,
         metavar="SECONDS",
         help="Plan from where the aircraft will be after this time, if it flies straight on until then, on its heading and in the wind; a circle that moves moves on too. Times in the plan count from then.",
-    ),
-]
-SlotBearing = Annotated[
-    float | None,
-    Parameter(
-        group=scene,
-        metavar="DEGREES",
-        help="Enter the slot that is at this bearing from the centre, a place that moves round the circle with the hold.",
-    ),
-]
-SlotTime = Annotated[
-    float | None,
-    Parameter(
-        group=scene,
-        metavar="SECONDS",
-        help="The time from the start at which the slot is at that bearing; 0 if absent.",
     ),
 ]
 ArrivalTime = Annotated[

@@ -148,9 +148,13 @@ class LoiterEntry:
         dt = positive("dt", dt, "seconds")
         instance("state", state, State)
         self._vehicle = self._vehicle_at(state)
-        self._memory, command = law_step.step(self._settings, self._memory, self._vehicle, state, dt)
-        rate, bank_deg, phase, join_s, side, next_phase, next_s = command
+        self._memory = self._advance(state, dt)
+        rate, bank_deg, phase, join_s, side, next_phase, next_s = self._memory.command
         return Command(rate, bank_deg, NAMED_PHASES[phase], join_s, NAMED_TURNS[side], NAMED_PHASES[next_phase], next_s)
+
+    def _advance(self, state: State, dt: float) -> law_step.Memory:
+        """The memory with the command for the next `dt` seconds."""
+        return law_step.advance(self._memory, self._settings, self._vehicle, state, dt)
 
     def _vehicle_at(self, state: State) -> VehicleModel:
         """What is known of the vehicle at a measurement, after the last command."""

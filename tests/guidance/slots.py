@@ -1,0 +1,181 @@
+"""Fleets flown in closed loop, each aircraft into its slot, in gusts, beside a published formation law.
+
+`python -m guidance.slots 100` flies 100 fleets of 5 from random starts, and prints as it goes; `100 20` flies the
+published law for the first 20 of them.
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from math import radians, sin, tau
+from typing import NamedTuple
+
+import numpy as np
+
+from guidance.formation import bank_deg, phase_along, radius_m
+from loiter import Aircraft, Orbit, Pose, fleet
+from loiter.guidance.entry.slot_entry import BAND, SlotEntry
+from loiter.guidance.protocol import Command, Phase
+from loiter.guidance.simulators.point_mass import PointMass
+from loiter.guidance.simulators.sensors import Noise
+
+UAV, STEP_S, GUST = Aircraft(18.0, max_bank_deg=35.0), 0.05, 0.05
+
+# An aircraft is in its slot within these, of the radius and degrees; the radius may differ by the band of the law too.
+NEAR, PHASE_DEG = BAND + 0.05, 5.0
+
+# A flight ends so many turns after the plan of the last aircraft; the published law takes longer.
+TURNS, RIVAL_TURNS = 3.0, 8.0
+
+
+class Scene(NamedTuple):
+    """A fleet with its plan, and the side of the hold."""
+
+    poses: list[Pose]
+    orbit: Orbit
+    plan: object
+    side: int
+
+
+def scene(seed, count=5):
+    """Random starts within 6 radii of a circle of 1.5 to 4 turn radii."""
+    random = np.random.default_rng([seed, count])
+    r = UAV.turn_radius_m * random.uniform(1.5, 4.0)
+    places = random.uniform(1.0, 6.0, count) * r * np.exp(1j * random.uniform(0.0, tau, count))
+    headings = random.uniform(0.0, 360.0, count)
+    poses = [Pose(p.real, p.imag, h) for p, h in zip(places.tolist(), headings.tolist(), strict=True)]
+    plan = fleet(poses, Orbit(0.0, 0.0, r), UAV)
+    return Scene(poses, replace(Orbit(0.0, 0.0, r), turn=plan.turn), plan, 1 if plan.turn == "cw" else -1)
+
+
+def turn_s(orbit):
+    """The time of a turn."""
+    return tau * orbit.radius_m / UAV.airspeed_m_s
+
+
+def fly_into_slots(given, seed, gust=GUST, wind=None):
+    """The places of all aircraft, east + 1j north: (n, steps)."""
+    steps = int((given.plan.duration_s + TURNS * turn_s(given.orbit)) / STEP_S)
+    return np.array(
+        [
+            _fly_one(
+                PointMass(pose, UAV, wind, seed=1000 * seed + i, gust=gust, noise=Noise()),
+                SlotEntry(given.orbit, UAV, wind, slot=slot),
+                steps,
+            )
+            for i, (pose, slot) in enumerate(zip(given.poses, given.plan.slots, strict=True))
+        ]
+    )
+
+
+def _fly_one(simulator, law, steps):
+    track = []
+    for _ in range(steps):
+        simulator.advance(law.step(simulator.measured_state(), STEP_S), STEP_S)
+        state = simulator.true_state()
+        track.append(complex(state.east_m, state.north_m))
+    return track
+
+
+def fly_formation(given, seed, gust=GUST):
+    """The same by the published law, whose order round the circle is that of the phases at the start."""
+    side, R, limit_deg = given.side, given.orbit.radius_m, UAV.bank_deg(UAV.turn_radius_m)
+    steps = int((given.plan.duration_s + RIVAL_TURNS * turn_s(given.orbit)) / STEP_S)
+    begin = [phase_along(pose.east_m, pose.north_m, side) % tau for pose in given.poses]
+    order = np.argsort(begin).tolist()
+    flown = [PointMass(given.poses[i], UAV, seed=1000 * seed + i, gust=gust, noise=Noise()) for i in order]
+    track = []
+    for _ in range(steps):
+        states = [simulator.measured_state() for simulator in flown]
+        phases = [phase_along(state.east_m, state.north_m, side) for state in states]
+        for i, (simulator, state) in enumerate(zip(flown, states, strict=True)):
+            r = max(radius_m(phases, i, R), 1.02 * UAV.turn_radius_m)
+            bank = bank_deg(state, side, r, limit_deg)
+            simulator.advance(Command(0.0, bank, Phase.HOLD, 0.0, given.orbit.turn, Phase.HOLD, 0.0), STEP_S)
+        track.append([complex(s.east_m, s.north_m) for s in (simulator.true_state() for simulator in flown)])
+    return np.array(track).T
+
+
+class Result(NamedTuple):
+    """When all are in their slots, then within twice the limits for a turn, and within the limits; seconds or nan."""
+
+    joined_s: float
+    settled_s: float
+
+
+def in_slots(given, tracks):
+    """Each aircraft beside its own slot, which moves in still air with the airspeed of the aircraft."""
+    R, side = given.orbit.radius_m, given.side
+    times = STEP_S * np.arange(1, tracks.shape[1] + 1)
+    errors = []
+    for track, slot in zip(tracks, given.plan.slots, strict=True):
+        # A compass bearing is 90 degrees less the angle from the east.
+        at_s = phase_along(sin(radians(slot.phase_deg)), np.cos(radians(slot.phase_deg)), side)
+        phase = at_s + (times - slot.at_s) * UAV.airspeed_m_s / R
+        errors.append(np.angle(np.exp(1j * (-side * np.angle(track) - phase))))
+    return _result(given, tracks, np.array(errors))
+
+
+def in_formation(given, tracks):
+    """All aircraft at equal intervals, wherever that is, in the order of the rows."""
+    n = len(tracks)
+    phases = -given.side * np.angle(tracks) - tau / n * np.arange(n)[:, None]
+    mean = np.angle(np.exp(1j * phases).sum(axis=0))
+    return _result(given, tracks, np.angle(np.exp(1j * (phases - mean))))
+
+
+def in_order(given, tracks):
+    """The tracks in the order of the slots round the circle, along the hold."""
+    order = np.argsort([-slot.at_s % turn_s(given.orbit) for slot in given.plan.slots])
+    return tracks[order]
+
+
+def _result(given, tracks, errors):
+    off = np.maximum(
+        np.abs(np.degrees(errors)) / PHASE_DEG, np.abs(np.abs(tracks) / given.orbit.radius_m - 1.0) / NEAR
+    ).max(axis=0)
+    return Result(_first(off, 1.0, 2.0, given), _first(off, 1.0, 1.0, given))
+
+
+def _first(off, entered, kept, given):
+    """The first time within `entered` from which on all stay within `kept` for a turn."""
+    turn = int(turn_s(given.orbit) / STEP_S)
+    outside = np.flatnonzero(off > kept)
+    for i in np.flatnonzero(off <= entered):
+        k = np.searchsorted(outside, i)
+        following = outside[k] if k < len(outside) else len(off)
+        if following - i >= turn:
+            return STEP_S * float(i + 1)
+    return float("nan")
+
+
+def main(count, rivals=None, size=5):
+    """Print the results of fleets, those of the published law for the first of them, and a table."""
+    rows = []
+    for seed in range(count):
+        given = scene(seed, size)
+        tracks = fly_into_slots(given, seed)
+        results = [in_slots(given, tracks), in_formation(given, in_order(given, tracks))]
+        if rivals is None or seed < rivals:
+            results.append(in_formation(given, fly_formation(given, seed)))
+        ideal_s = given.plan.duration_s
+        rows.append([each / ideal_s for result in results for each in result])
+        text = ", ".join(f"{value:.2f}" for value in rows[-1])
+        print(f"{seed}: R {given.orbit.radius_m:.0f}, plan {ideal_s:.1f} s; over it: {text}", flush=True)
+        if seed + 1 == count or (seed + 1) % 10 == 0:
+            _print_table(rows)
+
+
+def _print_table(rows):
+    for name, i in {"own slot": 0, "equal intervals": 2, "rival, equal intervals": 4}.items():
+        for what, j in (("in, then within twice", i), ("within for a turn", i + 1)):
+            column = np.array([row[j] for row in rows if j < len(row)])
+            known = np.nan_to_num(column, nan=np.inf)
+            low, high = np.median(known), np.quantile(known, 0.9, method="higher")
+            settled = f"{np.isfinite(column).sum()} of {len(column)}"
+            print(f"{name}, {what}: {settled}, median {low:.3f}, 90 % {high:.2f}", flush=True)
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))
