@@ -54,6 +54,7 @@ from loiter.guidance.estimation.observer import (
     Estimate,
     Observer,
     Turning,
+    along_roughness,
     estimate_after,
     estimate_at_present,
     estimate_with_bank,
@@ -61,6 +62,7 @@ from loiter.guidance.estimation.observer import (
     is_usable,
     observe,
     restart,
+    restart_gusts,
     roughness,
 )
 from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, remove_bias
@@ -94,9 +96,10 @@ GAIN, PLACE_GAIN = 4.0, 0.25
 CALM_GAIN, ROUGH_AIR = 0.75, 0.02
 
 # On the circle it falls so far that course errors are corrected at this rate, 1/s, or at this multiple of that at which
-# crosstrack errors are, but not below the last share. It rises with weaker gusts already. A vehicle that turns more
-# quickly than its bank says where that changes would swing about the circle otherwise.
-HOLD_RATE, HOLD_MULTIPLE, CALM_HOLD_GAIN, ROUGH_HOLD = 1.3, 4.0, 0.35, 0.015
+# crosstrack errors are, but not below the last share. It rises with the square of the gusts, to the whole where they
+# change the course by `ROUGH_HOLD` in a second. A vehicle that turns more quickly than its bank says where that changes
+# would swing about the circle otherwise.
+HOLD_RATE, HOLD_MULTIPLE, CALM_HOLD_GAIN, ROUGH_HOLD = 1.3, 4.0, 0.35, 0.02
 
 # In heavy gusts it rises in proportion to them, from this angle on and up to this multiple.
 HEAVY_GUSTS, HEAVY_GAIN = 0.04, 1.5
@@ -148,10 +151,10 @@ WIND_DIFFERS, WIND_KEPT = 0.1, 0.05
 # time, and make up for the drift.
 NEGLIGIBLE_WIND = 0.03
 
-# On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn, at this share of the
-# gain at which it would begin to oscillate, up to the second share of the circle's rate of turn, and only while the
-# error is less than the third, in radii.
-TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.12, 0.15, 0.05
+# On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn: at this share of the
+# gain of course corrections, but no more than the second number, 1/s, which suits gusts. It is at most the third share
+# of the circle's rate of turn, and changes only while the error is less than the fourth, in radii.
+TRIM_GAIN, LARGEST_TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.25, 0.4, 0.15, 0.05
 
 # What a command does: the control that it flies, +1 to the left; or one of these.
 HOLD, NO_DATA = 2, 3
@@ -648,6 +651,8 @@ def advance_plan(memory: Memory, settings: Settings) -> Memory:
         left_s = route.current.time_s
     if is_holding(route):
         early_s = 0.0
+        if not is_holding(memory.plan.route):
+            memory = memory._replace(sensing=measure_gusts_anew(memory.sensing))
     else:
         join_s = state.time_s + left_s + later_s(route)
         if path.total > 0:
@@ -659,6 +664,11 @@ def advance_plan(memory: Memory, settings: Settings) -> Memory:
         leads=leads,
         response=ResponsePoint(state, offset_of(route, state, settings.radius_m), early_s),
     )
+
+
+def measure_gusts_anew(sensing: Sensing) -> Sensing:
+    """What is known, without the gusts: the turns before the circle look like gusts."""
+    return sensing._replace(observer=restart_gusts(sensing.observer))
 
 
 def early_end_s(route: Route, leads: Leads) -> float:
@@ -842,12 +852,12 @@ def corrections_gain(
     """
     gain = settings.gain
     if holding:
-        rough = roughness(observer, 1.0)
+        rough = along_roughness(observer)
         calm_rate = max(HOLD_RATE, HOLD_MULTIPLE * HOLD_GAIN * turn_rate)
         calm_share = max(min(calm_rate * response_s / gain, CALM_GAIN), CALM_HOLD_GAIN)
-        share = max(min(rough / ROUGH_HOLD, 1.0), calm_share)
+        share = max(min((rough / ROUGH_HOLD) * (rough / ROUGH_HOLD), 1.0), calm_share)
     else:
-        rough = roughness(observer, 0.0)
+        rough = roughness(observer)
         share = max(min(rough / ROUGH_AIR, 1.0), CALM_GAIN)
     lively = max(known.quick_turn_ratio / known.turn_ratio, 1.0)
     return gain * max(share, min(rough / HEAVY_GUSTS, HEAVY_GAIN)) / lively
@@ -859,5 +869,5 @@ def next_trim(settings: Settings, trim: float, crosstrack: float, course_gain: f
     if abs(crosstrack) >= TRIMMED_OFFSET * R:
         return trim
     place_gain = HOLD_GAIN * turn_rate
-    integral_gain = TRIM_GAIN * place_gain * place_gain * course_gain / V
+    integral_gain = min(TRIM_GAIN * course_gain, LARGEST_TRIM_GAIN) * place_gain * place_gain / V
     return clip(trim + integral_gain * crosstrack * dt, LARGEST_TRIM * turn_rate)

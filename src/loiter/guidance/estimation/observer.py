@@ -19,9 +19,9 @@ GUST_LAG_S, GUST_AVERAGE_S = 1.0, 10.0
 # airspeed, as the mean square change of each component in a second, and noise of 0.4 m/s; (m/s)^2.
 FIRST_GUST, FIRST_NOISE, ASSUMED_S = 0.6, 0.16, 1.0
 
-# A change of the turn rate changes the slip. What that changes in the velocity of the air, with an error of this much,
-# seconds, in the time by which the direction of flight leads the heading, is no gust.
-SLIP_ERROR_S = 0.2
+# On the circle gusts are measured anew, as if none had been measured for the first time, seconds. Differences over
+# which the turn rate changes by the second, radians per second, count half: the slip changes with it, like a gust.
+CALM_S, TURN_CHANGE = 3.0, 0.1
 
 # In calm air, where gusts turn the course by less than `CALM_COURSE` in a second, radians, only noise is left: averages
 # take longer, up to this multiple. They have at least this many measurements; of their mean interval each is this
@@ -125,20 +125,41 @@ SAMPLE_GAP_S = GUST_LAG_S / (SAMPLES - 2)
 
 
 class AirSample(NamedTuple):
-    """A measured velocity of the air, and what an error of the slip may account for; seconds and metres per second."""
+    """A measured velocity of the air, and the turn rate then; seconds, metres and radians per second."""
 
     time_s: float
     east_m_s: float
     north_m_s: float
-    slip_m_s: float
+    turn_rate: float
 
 
 class Difference(NamedTuple):
-    """The mean square difference of measurements, that of the slip's part, and the mean time between them."""
+    """The mean time between measurements, and the mean square difference of each component."""
 
     time_s: float
     square: float
-    slip_square: float
+
+
+class AlongFlight(NamedTuple):
+    """The mean square differences along the flight of neighbours and over `GUST_LAG_S`, and for how long measured."""
+
+    near_square: float
+    far_square: float
+    known_s: float
+
+
+CALM_ALONG = AlongFlight(0.0, 0.0, CALM_S)
+
+
+class AirMotion(NamedTuple):
+    """The direction of flight (c, s), a unit vector, and the turn rate, radians per second."""
+
+    c: float
+    s: float
+    turn_rate: float
+
+
+STRAIGHT_ON = AirMotion(1.0, 0.0, 0.0)
 
 
 class AirAverage(NamedTuple):
@@ -149,7 +170,8 @@ class AirAverage(NamedTuple):
     best average is that of the Kalman filter: exponential over sqrt(noise dt/gust) seconds, dt apart.
 
     `recent` is a ring of the last measurements, oldest first, of which `lag_index` is `GUST_LAG_S` old, or the first.
-    `known_s` is for how long both means are known.
+    `known_s` is for how long both means are known. `along` is what has been measured on the circle of the component
+    along the flight, which no slip touches.
     """
 
     east_m_s: float
@@ -157,36 +179,36 @@ class AirAverage(NamedTuple):
     known_s: float
     near: Difference
     far: Difference
+    along: AlongFlight
     recent: Annotated[tuple[AirSample, ...], SAMPLES]
     lag_index: int
 
 
 def first_air() -> AirAverage:
     """The average before the first measurement."""
-    near = Difference(0.02, 2.0 * FIRST_NOISE, 0.0)
-    far = Difference(GUST_LAG_S, 2.0 * FIRST_NOISE + FIRST_GUST * GUST_LAG_S, 0.0)
+    near = Difference(0.02, 2.0 * FIRST_NOISE)
+    far = Difference(GUST_LAG_S, 2.0 * FIRST_NOISE + FIRST_GUST * GUST_LAG_S)
     recent = (AirSample(0.0, 0.0, 0.0, 0.0),) * SAMPLES
-    return AirAverage(0.0, 0.0, ASSUMED_S, near, far, recent, SAMPLES - 2)
+    return AirAverage(0.0, 0.0, ASSUMED_S, near, far, CALM_ALONG, recent, SAMPLES - 2)
 
 
 def restart_air(air: AirAverage, east_m_s: float, north_m_s: float) -> AirAverage:
     """The average restarted from a velocity; what is known of gusts and noise stays."""
     sample = AirSample(air.recent[-1].time_s, east_m_s, north_m_s, 0.0)
-    return AirAverage(east_m_s, north_m_s, air.known_s, air.near, air.far, (sample,) * SAMPLES, SAMPLES - 2)
+    recent = (sample,) * SAMPLES
+    return AirAverage(east_m_s, north_m_s, air.known_s, air.near, air.far, air.along, recent, SAMPLES - 2)
 
 
 def average_air(
-    air: AirAverage, east_m_s: float, north_m_s: float, dt: float, longest_s: float, slip_m_s: float = 0.0
+    air: AirAverage, east_m_s: float, north_m_s: float, dt: float, longest_s: float, motion: AirMotion = STRAIGHT_ON
 ) -> AirAverage:
-    """The average, over `longest_s` at most, including a velocity measured `dt` seconds after the last.
-
-    `slip_m_s` is how much an error of the slip may account for, with the sign of the turn.
-    """
-    east, north, known_s, near, far, recent, lag_index = air
+    """The average, over `longest_s` at most, including a velocity measured `dt` seconds after the last."""
+    east, north, known_s, near, far, along, recent, lag_index = air
     now_s, known_s = recent[-1].time_s + dt, min(known_s + dt, GUST_AVERAGE_S)
     while lag_index < SAMPLES - 1 and now_s - recent[lag_index + 1].time_s >= GUST_LAG_S:
         lag_index += 1
-    sample, weight = AirSample(now_s, east_m_s, north_m_s, slip_m_s), 1.0 - exp(-dt / known_s)
+    sample, weight = AirSample(now_s, east_m_s, north_m_s, motion.turn_rate), 1.0 - exp(-dt / known_s)
+    along = _along(along, recent[-1], recent[lag_index], sample, motion, dt)
     near, far = _mean(near, recent[-1], sample, weight), _mean(far, recent[lag_index], sample, weight)
     if lag_index == 0 and recent[-1].time_s - recent[-2].time_s < SAMPLE_GAP_S:
         recent = (*recent[:-1], sample)
@@ -195,34 +217,43 @@ def average_air(
     averaging_s = _averaging_s(near, far, longest_s)
     share = 1.0 - exp(-dt / averaging_s) if averaging_s > 0.0 else 1.0
     east, north = east + share * (east_m_s - east), north + share * (north_m_s - north)
-    return AirAverage(east, north, known_s, near, far, recent, lag_index)
+    return AirAverage(east, north, known_s, near, far, along, recent, lag_index)
 
 
 def _mean(mean: Difference, before: AirSample, now: AirSample, weight: float) -> Difference:
     """A mean with the difference of two measurements."""
-    time_s, square, slip_square = mean
-    then_s, then_east, then_north, then_slip = before
-    now_s, now_east, now_north, now_slip = now
-    east, north, slip = now_east - then_east, now_north - then_north, now_slip - then_slip
+    time_s, square = mean
+    east, north = now.east_m_s - before.east_m_s, now.north_m_s - before.north_m_s
     return Difference(
-        time_s + weight * (now_s - then_s - time_s),
+        time_s + weight * (now.time_s - before.time_s - time_s),
         square + weight * (0.5 * (east * east + north * north) - square),
-        slip_square + weight * (0.5 * slip * slip - slip_square),
     )
 
 
-def gust(near: Difference, far: Difference, slip: float) -> float:
-    """The mean square change of each component of the air's velocity in a second, (m/s)^2.
+def _along(
+    along: AlongFlight, last: AirSample, before: AirSample, now: AirSample, motion: AirMotion, dt: float
+) -> AlongFlight:
+    """The means along the flight with a measurement, the last one, and the one `GUST_LAG_S` before."""
+    near_square, far_square, known_s = along
+    change = (now.turn_rate - before.turn_rate) / TURN_CHANGE
+    counted_s = dt / (1.0 + change * change)
+    known_s = min(known_s + counted_s, GUST_AVERAGE_S)
+    weight = counted_s / known_s
+    near = motion.c * (now.east_m_s - last.east_m_s) + motion.s * (now.north_m_s - last.north_m_s)
+    far = motion.c * (now.east_m_s - before.east_m_s) + motion.s * (now.north_m_s - before.north_m_s)
+    return AlongFlight(
+        near_square + weight * (near * near - near_square), far_square + weight * (far * far - far_square), known_s
+    )
 
-    From it `slip` times what an error of the slip may account for is subtracted.
-    """
-    near_square, far_square = near.square - slip * near.slip_square, far.square - slip * far.slip_square
-    return max(far_square - near_square, 0.0) / max(far.time_s - near.time_s, 0.1)
+
+def gust(near: Difference, far: Difference) -> float:
+    """The mean square change of each component of the air's velocity in a second, (m/s)^2."""
+    return max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
 
 
 def _averaging_s(near: Difference, far: Difference, longest_s: float) -> float:
     """The averaging time that suits gusts and noise, `longest_s` at most."""
-    change = gust(near, far, 0.0)
+    change = gust(near, far)
     noise = max(near.square - change * near.time_s, 0.0) / 2.0
     if noise * near.time_s >= change * longest_s * longest_s:
         return longest_s
@@ -254,13 +285,22 @@ def restart(observer: Observer) -> Observer:
     return Observer(observer.smoothing_s, observer.interval_s, observer.air, NO_ESTIMATE)
 
 
-def roughness(observer: Observer, slip: float = 0.0) -> float:
-    """The root mean square change of course that gusts cause in a second, radians.
+def restart_gusts(observer: Observer) -> Observer:
+    """The observer that measures the gusts along the flight anew."""
+    return observer._replace(air=observer.air._replace(along=CALM_ALONG))
 
-    With `slip` 1 this excludes what an error of the slip may account for: swings of the bank do not count as gusts.
-    """
+
+def roughness(observer: Observer) -> float:
+    """The root mean square change of course that gusts cause in a second, radians."""
     V = observer.estimate.airspeed_m_s
-    return sqrt(gust(observer.air.near, observer.air.far, slip)) / V if V > 0.0 else 0.0
+    return sqrt(gust(observer.air.near, observer.air.far)) / V if V > 0.0 else 0.0
+
+
+def along_roughness(observer: Observer) -> float:
+    """The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count."""
+    V, air = observer.estimate.airspeed_m_s, observer.air
+    change = max(air.along.far_square - air.along.near_square, 0.0) / max(air.far.time_s - air.near.time_s, 0.1)
+    return sqrt(change) / V if V > 0.0 else 0.0
 
 
 def observe(
@@ -287,7 +327,7 @@ def observe(
     predicted = constant_turn(pose, V, turn_rate, dt, (air_east, air_north))
     pose = _blended(predicted, _flight_pose(state, turning), share)
     east, north = state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s
-    air = average_air(air, east, north, dt, shortest_s, SLIP_ERROR_S * V * turn_rate)
+    air = average_air(air, east, north, dt, shortest_s, AirMotion(pose.c, pose.s, turn_rate))
     estimate = Estimate(state.time_s, pose, V, turn_rate, bank_deg, air.east_m_s, air.north_m_s, turning)
     return Observer(smoothing_s, interval_s, air, estimate)
 
