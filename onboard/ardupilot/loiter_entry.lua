@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: fbfff3ead7584193b5a579614b6b3c56080ecaead547dc7193bd0f93295a8137
+-- SHA-256 of the source: 25f7c06ad966c2d7877f7036dbf63d2747f72e4f9fc17cad210ae5f1261e1c34
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -214,6 +214,7 @@ law.LAGUERRE_WEIGHTS = {0.711093009929173, 0.27851773356924087, 0.01038925650158
 -- GUST_LAG_S = 1.0
 -- FIRST_GUST = 0.6
 -- ASSUMED_S = 1.0
+law.CALM_ALONG = {near_square = 0.0, far_square = 0.0, known_s = 3.0}
 
 -- The ring of the last measurements. Where it would not cover the lag, those that follow each other sooner than
 -- this, seconds, are left out.
@@ -265,11 +266,11 @@ law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.
 -- CALM_COURSE = 0.02
 -- CALM_MULTIPLE = 1.6
 -- LEAST_COUNT = 5.0
-
--- A change of the turn rate changes the slip. What that changes in the velocity of the air, with an error of this
--- much, seconds, in the time by which the direction of flight leads the heading, is no gust.
--- SLIP_ERROR_S = 0.2
 -- GUST_AVERAGE_S = 10.0
+
+-- On the circle gusts are measured anew, as if none had been measured for the first time, seconds. Differences over
+-- which the turn rate changes by the second, radians per second, count half: the slip changes with it, like a gust.
+-- TURN_CHANGE = 0.1
 -- SAMPLE_GAP_S = 0.016129032258064516 -- GUST_LAG_S / (SAMPLES - 2)
 
 -- The aim of no search.
@@ -343,8 +344,9 @@ law.NONE = {side = 0, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
 -- BLIND_S = 1.0
 
 -- On the circle it falls so far that course errors are corrected at this rate, 1/s, or at this multiple of that at
--- which crosstrack errors are, but not below the last share. It rises with weaker gusts already. A vehicle that
--- turns more quickly than its bank says where that changes would swing about the circle otherwise.
+-- which crosstrack errors are, but not below the last share. It rises with the square of the gusts, to the whole
+-- where they change the course by `ROUGH_HOLD` in a second. A vehicle that turns more quickly than its bank says
+-- where that changes would swing about the circle otherwise.
 -- HOLD_RATE = 1.3
 -- HOLD_MULTIPLE = 4.0
 
@@ -356,7 +358,7 @@ law.NONE = {side = 0, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
 -- where gusts change the course by this angle in a second, radians (root mean square).
 -- CALM_GAIN = 0.75
 -- CALM_HOLD_GAIN = 0.35
--- ROUGH_HOLD = 0.015
+-- ROUGH_HOLD = 0.02
 -- ROUGH_AIR = 0.02
 
 -- In heavy gusts it rises in proportion to them, from this angle on and up to this multiple.
@@ -372,11 +374,12 @@ law.NONE = {side = 0, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
 -- round.
 -- STEEPEST_INTERCEPT = 0.6
 
--- On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn, at this share of
--- the gain at which it would begin to oscillate, up to the second share of the circle's rate of turn, and only
--- while the error is less than the third, in radii.
+-- On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn: at this share of
+-- the gain of course corrections, but no more than the second number, 1/s, which suits gusts. It is at most the
+-- third share of the circle's rate of turn, and changes only while the error is less than the fourth, in radii.
 -- TRIMMED_OFFSET = 0.05
--- TRIM_GAIN = 0.12
+-- TRIM_GAIN = 0.25
+-- LARGEST_TRIM_GAIN = 0.4
 -- LARGEST_TRIM = 0.15
 -- HOLD = 2
 
@@ -612,12 +615,12 @@ end
 
 -- The average before the first measurement.
 function law.first_air()
-    local near = {time_s = 0.02, square = 2.0 * 0.16--[[FIRST_NOISE]], slip_square = 0.0}
+    local near = {time_s = 0.02, square = 2.0 * 0.16--[[FIRST_NOISE]]}
     local far = {time_s = 1.0--[[GUST_LAG_S]], square = 2.0 * 0.16--[[FIRST_NOISE]] + 0.6--[[FIRST_GUST]] *
-            1.0--[[GUST_LAG_S]], slip_square = 0.0}
-    local recent = filled({time_s = 0.0, east_m_s = 0.0, north_m_s = 0.0, slip_m_s = 0.0}, 64)
-    return {east_m_s = 0.0, north_m_s = 0.0, known_s = 1.0--[[ASSUMED_S]], near = near, far = far, recent = recent,
-            lag_index = 64--[[SAMPLES]] - 2}
+            1.0--[[GUST_LAG_S]]}
+    local recent = filled({time_s = 0.0, east_m_s = 0.0, north_m_s = 0.0, turn_rate = 0.0}, 64)
+    return {east_m_s = 0.0, north_m_s = 0.0, known_s = 1.0--[[ASSUMED_S]], near = near, far = far, along =
+            law.CALM_ALONG, recent = recent, lag_index = 64--[[SAMPLES]] - 2}
 end
 
 -- The observer before the first measurement.
@@ -860,25 +863,21 @@ end
 
 -- The average restarted from a velocity; what is known of gusts and noise stays.
 function law.restart_air(air, east_m_s, north_m_s)
-    local sample = {time_s = air.recent[64].time_s, east_m_s = east_m_s, north_m_s = north_m_s, slip_m_s = 0.0}
-    return {east_m_s = east_m_s, north_m_s = north_m_s, known_s = air.known_s, near = air.near, far = air.far,
-            recent = filled(sample, 64), lag_index = 64--[[SAMPLES]] - 2}
+    local sample = {time_s = air.recent[64].time_s, east_m_s = east_m_s, north_m_s = north_m_s, turn_rate = 0.0}
+    local recent = filled(sample, 64)
+    return {east_m_s = east_m_s, north_m_s = north_m_s, known_s = air.known_s, near = air.near, far = air.far, along
+            = air.along, recent = recent, lag_index = 64--[[SAMPLES]] - 2}
 end
 
 -- The mean square change of each component of the air's velocity in a second, (m/s)^2.
---
--- From it `slip` times what an error of the slip may account for is subtracted.
-function law.gust(near, far, slip)
-    local near_square, far_square = near.square - slip * near.slip_square, far.square - slip * far.slip_square
-    return max(far_square - near_square, 0.0) / max(far.time_s - near.time_s, 0.1)
+function law.gust(near, far)
+    return max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
 end
 
 -- The root mean square change of course that gusts cause in a second, radians.
---
--- With `slip` 1 this excludes what an error of the slip may account for: swings of the bank do not count as gusts.
-function law.roughness(observer, slip)
+function law.roughness(observer)
     local V = observer.estimate.airspeed_m_s
-    return V > 0.0 and sqrt(law.gust(observer.air.near, observer.air.far, slip)) / V or 0.0
+    return V > 0.0 and sqrt(law.gust(observer.air.near, observer.air.far)) / V or 0.0
 end
 
 -- The smoothing time for the present air and the interval of the measurements.
@@ -897,20 +896,30 @@ function law._blended(pose, measured, share)
     return {x = x + share * (measured.x - x), y = y + share * (measured.y - y), c = c / size, s = s / size}
 end
 
+-- The means along the flight with a measurement, the last one, and the one `GUST_LAG_S` before.
+function law._along(along, last, before, now, motion, dt)
+    local near_square, far_square, known_s = along.near_square, along.far_square, along.known_s
+    local change = (now.turn_rate - before.turn_rate) / 0.1--[[TURN_CHANGE]]
+    local counted_s = dt / (1.0 + change * change)
+    known_s = min(known_s + counted_s, 10.0--[[GUST_AVERAGE_S]])
+    local weight = counted_s / known_s
+    local near = motion.c * (now.east_m_s - last.east_m_s) + motion.s * (now.north_m_s - last.north_m_s)
+    local far = motion.c * (now.east_m_s - before.east_m_s) + motion.s * (now.north_m_s - before.north_m_s)
+    return {near_square = near_square + weight * (near * near - near_square), far_square = far_square + weight *
+            (far * far - far_square), known_s = known_s}
+end
+
 -- A mean with the difference of two measurements.
 function law._mean(mean, before, now, weight)
-    local time_s, square, slip_square = mean.time_s, mean.square, mean.slip_square
-    local then_s, then_east, then_north, then_slip = before.time_s, before.east_m_s, before.north_m_s,
-            before.slip_m_s
-    local now_s, now_east, now_north, now_slip = now.time_s, now.east_m_s, now.north_m_s, now.slip_m_s
-    local east, north, slip = now_east - then_east, now_north - then_north, now_slip - then_slip
-    return {time_s = time_s + weight * (now_s - then_s - time_s), square = square + weight * (0.5 * (east * east +
-            north * north) - square), slip_square = slip_square + weight * (0.5 * slip * slip - slip_square)}
+    local time_s, square = mean.time_s, mean.square
+    local east, north = now.east_m_s - before.east_m_s, now.north_m_s - before.north_m_s
+    return {time_s = time_s + weight * (now.time_s - before.time_s - time_s), square = square + weight * (0.5 *
+            (east * east + north * north) - square)}
 end
 
 -- The averaging time that suits gusts and noise, `longest_s` at most.
 function law._averaging_s(near, far, longest_s)
-    local change = law.gust(near, far, 0.0)
+    local change = law.gust(near, far)
     local noise = max(near.square - change * near.time_s, 0.0) / 2.0
     if noise * near.time_s >= change * longest_s * longest_s then
         return longest_s
@@ -919,18 +928,17 @@ function law._averaging_s(near, far, longest_s)
 end
 
 -- The average, over `longest_s` at most, including a velocity measured `dt` seconds after the last.
---
--- `slip_m_s` is how much an error of the slip may account for, with the sign of the turn.
-function law.average_air(air, east_m_s, north_m_s, dt, longest_s, slip_m_s)
-    local east, north, known_s, near, far, recent, lag_index = air.east_m_s, air.north_m_s, air.known_s, air.near,
-            air.far, air.recent, air.lag_index
+function law.average_air(air, east_m_s, north_m_s, dt, longest_s, motion)
+    local east, north, known_s, near, far, along, recent, lag_index = air.east_m_s, air.north_m_s, air.known_s,
+            air.near, air.far, air.along, air.recent, air.lag_index
     local now_s = recent[64].time_s + dt
     known_s = min(known_s + dt, 10.0--[[GUST_AVERAGE_S]])
     while lag_index < 64--[[SAMPLES]] - 1 and now_s - recent[lag_index + 1 + 1].time_s >= 1.0--[[GUST_LAG_S]] do
         lag_index = lag_index + 1
     end
-    local sample, weight = {time_s = now_s, east_m_s = east_m_s, north_m_s = north_m_s, slip_m_s = slip_m_s}, 1.0 -
-            exp(-dt / known_s)
+    local sample, weight = {time_s = now_s, east_m_s = east_m_s, north_m_s = north_m_s, turn_rate =
+            motion.turn_rate}, 1.0 - exp(-dt / known_s)
+    along = law._along(along, recent[64], recent[lag_index + 1], sample, motion, dt)
     near = law._mean(near, recent[64], sample, weight)
     far = law._mean(far, recent[lag_index + 1], sample, weight)
     if lag_index == 0 and recent[64].time_s - recent[63].time_s < 0.016129032258064516--[[SAMPLE_GAP_S]] then
@@ -943,8 +951,8 @@ function law.average_air(air, east_m_s, north_m_s, dt, longest_s, slip_m_s)
     local share = averaging_s > 0.0 and 1.0 - exp(-dt / averaging_s) or 1.0
     east = east + share * (east_m_s - east)
     north = north + share * (north_m_s - north)
-    return {east_m_s = east, north_m_s = north, known_s = known_s, near = near, far = far, recent = recent,
-            lag_index = lag_index}
+    return {east_m_s = east, north_m_s = north, known_s = known_s, near = near, far = far, along = along, recent =
+            recent, lag_index = lag_index}
 end
 
 -- The observer after a usable measurement that is later than the last one.
@@ -963,7 +971,7 @@ function law.observe(observer, state, bank_deg, shortest_s, turning)
     local dt = state.time_s - last_s
     interval_s = interval_s + (interval_s > 0.0 and 0.05--[[INTERVAL_SHARE]] or 1.0) * (min(dt,
             0.3--[[LONGEST_INTERVAL_S]]) - interval_s)
-    smoothing_s = law._smoothing_s(law.roughness(observer, 0.0), interval_s, shortest_s)
+    smoothing_s = law._smoothing_s(law.roughness(observer), interval_s, shortest_s)
     local share = 1.0 - exp(-dt / smoothing_s)
     V = V + share * (state.airspeed_m_s - V)
     bank_deg = bank_deg + share * (state.bank_deg - bank_deg)
@@ -972,7 +980,7 @@ function law.observe(observer, state, bank_deg, shortest_s, turning)
     local predicted = law.constant_turn(pose, V, turn_rate, dt, {air_east, air_north})
     pose = law._blended(predicted, law._flight_pose(state, turning), share)
     local east, north = state.velocity_east_m_s - V * pose.c, state.velocity_north_m_s - V * pose.s
-    air = law.average_air(air, east, north, dt, shortest_s, 0.2--[[SLIP_ERROR_S]] * V * turn_rate)
+    air = law.average_air(air, east, north, dt, shortest_s, {c = pose.c, s = pose.s, turn_rate = turn_rate})
     local estimate = {time_s = state.time_s, pose = pose, airspeed_m_s = V, turn_rate = turn_rate, bank_deg =
             bank_deg, air_east_m_s = air.east_m_s, air_north_m_s = air.north_m_s, turning = turning}
     return {smoothing_s = smoothing_s, interval_s = interval_s, air = air, estimate = estimate}
@@ -1367,6 +1375,16 @@ function law.next_on(path, route)
     return path, with_fields(route, {current = route.second, second = route.third, third = third, more_s = more_s})
 end
 
+-- The observer that measures the gusts along the flight anew.
+function law.restart_gusts(observer)
+    return with_fields(observer, {air = with_fields(observer.air, {along = law.CALM_ALONG})})
+end
+
+-- What is known, without the gusts: the turns before the circle look like gusts.
+function law.measure_gusts_anew(sensing)
+    return with_fields(sensing, {observer = law.restart_gusts(sensing.observer)})
+end
+
 -- The time from the end of the current piece to the circle.
 function law.later_s(route)
     return route.second.time_s + route.third.time_s + route.more_s
@@ -1395,6 +1413,9 @@ function law.advance_plan(memory, settings)
     end
     if law.is_holding(route) then
         early_s = 0.0
+        if not law.is_holding(memory.plan.route) then
+            memory = with_fields(memory, {sensing = law.measure_gusts_anew(memory.sensing)})
+        end
     else
         join_s = state.time_s + left_s + law.later_s(route)
         if path.total > 0 then
@@ -2146,6 +2167,14 @@ function law.path_velocity(route, state)
     return law.flight_velocity(state.vx - east, state.vy - north, state.hx, state.hy)
 end
 
+-- The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count.
+function law.along_roughness(observer)
+    local V, air = observer.estimate.airspeed_m_s, observer.air
+    local change = max(air.along.far_square - air.along.near_square, 0.0) / max(air.far.time_s - air.near.time_s,
+            0.1)
+    return V > 0.0 and sqrt(change) / V or 0.0
+end
+
 -- The gain of course corrections in the present air; on the circle, which turns at `turn_rate`, it is smaller.
 --
 -- It is larger in heavy gusts, and smaller where quick turns are quicker than the bank says.
@@ -2153,12 +2182,12 @@ function law.corrections_gain(settings, known, observer, response_s, turn_rate, 
     local gain = settings.gain
     local rough, share
     if holding then
-        rough = law.roughness(observer, 1.0)
+        rough = law.along_roughness(observer)
         local calm_rate = max(1.3--[[HOLD_RATE]], 4.0--[[HOLD_MULTIPLE]] * 1.2--[[HOLD_GAIN]] * turn_rate)
         local calm_share = max(min(calm_rate * response_s / gain, 0.75--[[CALM_GAIN]]), 0.35--[[CALM_HOLD_GAIN]])
-        share = max(min(rough / 0.015--[[ROUGH_HOLD]], 1.0), calm_share)
+        share = max(min(rough / 0.02--[[ROUGH_HOLD]] * (rough / 0.02--[[ROUGH_HOLD]]), 1.0), calm_share)
     else
-        rough = law.roughness(observer, 0.0)
+        rough = law.roughness(observer)
         share = max(min(rough / 0.02--[[ROUGH_AIR]], 1.0), 0.75--[[CALM_GAIN]])
     end
     local lively = max(known.quick_turn_ratio / known.turn_ratio, 1.0)
@@ -2182,7 +2211,8 @@ function law.next_trim(settings, trim, crosstrack, course_gain, V, dt)
         return trim
     end
     local place_gain = 1.2--[[HOLD_GAIN]] * turn_rate
-    local integral_gain = 0.12--[[TRIM_GAIN]] * place_gain * place_gain * course_gain / V
+    local integral_gain = min(0.25--[[TRIM_GAIN]] * course_gain, 0.4--[[LARGEST_TRIM_GAIN]]) * place_gain *
+            place_gain / V
     return law.clip(trim + integral_gain * crosstrack * dt, 0.15--[[LARGEST_TRIM]] * turn_rate)
 end
 

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: b4c77351cca68894ed4af14b352597170d1dbb40371afa41aea1ab9557a13a73
+ * SHA-256 of the source: 2f3b57a16c0d3a126cd81536e631f4c06d5356d89543e415614e5e92a1ccc5fa
  */
 #include "loiter.h"
 
@@ -224,6 +224,8 @@ typedef loiter_Clock Clock;
 
 typedef loiter_Difference Difference;
 
+typedef loiter_AlongFlight AlongFlight;
+
 typedef loiter_AirSample AirSample;
 
 typedef loiter_AirSample_ring_64 *AirSample_ring_64;
@@ -354,6 +356,9 @@ typedef struct { real time_s, east_m, north_m, heading_deg, bank_deg, velocity_e
         airspeed_m_s; } State;
 
 typedef struct { Clock a0; bool a1; } Clock_bool;
+
+/* The direction of flight (c, s), a unit vector, and the turn rate, radians per second. */
+typedef struct { real c, s, turn_rate; } AirMotion;
 
 /* An entry to fly: side, word and durations, the turn radius and the speed, and the velocity of the air.
  *
@@ -645,6 +650,7 @@ static const real_3 LAGUERRE_WEIGHTS = {REAL(0.711093009929173), REAL(0.27851773
 #define GUST_LAG_S REAL(1.0)
 #define FIRST_GUST REAL(0.6)
 #define ASSUMED_S REAL(1.0)
+static const AlongFlight CALM_ALONG = {REAL(0.0), REAL(0.0), REAL(3.0)};
 
 /* The ring of the last measurements. Where it would not cover the lag, those that follow each other sooner than
  * this, seconds, are left out.
@@ -703,12 +709,12 @@ static const EntrySearch NO_ENTRY_SEARCH = {0, {REAL(0.0), REAL(0.0), REAL(0.0),
 #define CALM_MULTIPLE REAL(1.6)
 #define LEAST_COUNT REAL(5.0)
 #define GUST_AVERAGE_S REAL(10.0)
-#define SAMPLE_GAP_S REAL(0.016129032258064516) /* GUST_LAG_S / (SAMPLES - 2) */
 
-/* A change of the turn rate changes the slip. What that changes in the velocity of the air, with an error of this
- * much, seconds, in the time by which the direction of flight leads the heading, is no gust.
+/* On the circle gusts are measured anew, as if none had been measured for the first time, seconds. Differences over
+ * which the turn rate changes by the second, radians per second, count half: the slip changes with it, like a gust.
  */
-#define SLIP_ERROR_S REAL(0.2)
+#define TURN_CHANGE REAL(0.1)
+#define SAMPLE_GAP_S REAL(0.016129032258064516) /* GUST_LAG_S / (SAMPLES - 2) */
 
 /* The aim of no search. */
 #define NOTHING 0
@@ -770,8 +776,9 @@ static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 #define BLIND_S REAL(1.0)
 
 /* On the circle it falls so far that course errors are corrected at this rate, 1/s, or at this multiple of that at
- * which crosstrack errors are, but not below the last share. It rises with weaker gusts already. A vehicle that
- * turns more quickly than its bank says where that changes would swing about the circle otherwise.
+ * which crosstrack errors are, but not below the last share. It rises with the square of the gusts, to the whole
+ * where they change the course by `ROUGH_HOLD` in a second. A vehicle that turns more quickly than its bank says
+ * where that changes would swing about the circle otherwise.
  */
 #define HOLD_RATE REAL(1.3)
 #define HOLD_MULTIPLE REAL(4.0)
@@ -786,7 +793,7 @@ static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
  */
 #define CALM_GAIN REAL(0.75)
 #define CALM_HOLD_GAIN REAL(0.35)
-#define ROUGH_HOLD REAL(0.015)
+#define ROUGH_HOLD REAL(0.02)
 #define ROUGH_AIR REAL(0.02)
 
 /* In heavy gusts it rises in proportion to them, from this angle on and up to this multiple. */
@@ -804,12 +811,13 @@ static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
  */
 #define STEEPEST_INTERCEPT REAL(0.6)
 
-/* On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn, at this share of
- * the gain at which it would begin to oscillate, up to the second share of the circle's rate of turn, and only
- * while the error is less than the third, in radii.
+/* On the circle the mean crosstrack error is driven to zero by a correction of the rate of turn: at this share of
+ * the gain of course corrections, but no more than the second number, 1/s, which suits gusts. It is at most the
+ * third share of the circle's rate of turn, and changes only while the error is less than the fourth, in radii.
  */
 #define TRIMMED_OFFSET REAL(0.05)
-#define TRIM_GAIN REAL(0.12)
+#define TRIM_GAIN REAL(0.25)
+#define LARGEST_TRIM_GAIN REAL(0.4)
 #define LARGEST_TRIM REAL(0.15)
 #define HOLD 2
 
@@ -3662,12 +3670,11 @@ static inline Limits limits_of(const Settings *settings, const VehicleModel *veh
 
 /* The average before the first measurement. */
 static inline AirAverage first_air(Rings *rings) {
-    const Difference near = MAKE(Difference){REAL(0.02), REAL(2.0) * FIRST_NOISE, REAL(0.0)};
-    const Difference far = MAKE(Difference){GUST_LAG_S, REAL(2.0) * FIRST_NOISE + FIRST_GUST * GUST_LAG_S,
-            REAL(0.0)};
+    const Difference near = MAKE(Difference){REAL(0.02), REAL(2.0) * FIRST_NOISE};
+    const Difference far = MAKE(Difference){GUST_LAG_S, REAL(2.0) * FIRST_NOISE + FIRST_GUST * GUST_LAG_S};
     const AirSample_ring_64 recent = AirSample_ring_64_filled(&rings->AirSample_ring_64, MAKE(AirSample){REAL(0.0),
             REAL(0.0), REAL(0.0), REAL(0.0)});
-    return MAKE(AirAverage){REAL(0.0), REAL(0.0), ASSUMED_S, near, far, recent, SAMPLES - 2};
+    return MAKE(AirAverage){REAL(0.0), REAL(0.0), ASSUMED_S, near, far, CALM_ALONG, recent, SAMPLES - 2};
 }
 
 /* The observer before the first measurement. */
@@ -3927,27 +3934,20 @@ static inline Estimate _estimate_from(const State *state, Turning turning) {
 /* The average restarted from a velocity; what is known of gusts and noise stays. */
 static inline AirAverage restart_air(Rings *rings, const AirAverage *air, real east_m_s, real north_m_s) {
     const AirSample sample = MAKE(AirSample){air->recent->at[63].time_s, east_m_s, north_m_s, REAL(0.0)};
-    return MAKE(AirAverage){east_m_s, north_m_s, air->known_s, air->near, air->far,
-            AirSample_ring_64_filled(&rings->AirSample_ring_64, sample), SAMPLES - 2};
+    const AirSample_ring_64 recent = AirSample_ring_64_filled(&rings->AirSample_ring_64, sample);
+    return MAKE(AirAverage){east_m_s, north_m_s, air->known_s, air->near, air->far, air->along, recent,
+            SAMPLES - 2};
 }
 
-/* The mean square change of each component of the air's velocity in a second, (m/s)^2.
- *
- * From it `slip` times what an error of the slip may account for is subtracted.
- */
-static inline real gust(Difference near, Difference far, real slip) {
-    const real near_square = near.square - slip * near.slip_square, far_square = far.square - slip *
-            far.slip_square;
-    return max_real(far_square - near_square, REAL(0.0)) / max_real(far.time_s - near.time_s, REAL(0.1));
+/* The mean square change of each component of the air's velocity in a second, (m/s)^2. */
+static inline real gust(Difference near, Difference far) {
+    return max_real(far.square - near.square, REAL(0.0)) / max_real(far.time_s - near.time_s, REAL(0.1));
 }
 
-/* The root mean square change of course that gusts cause in a second, radians.
- *
- * With `slip` 1 this excludes what an error of the slip may account for: swings of the bank do not count as gusts.
- */
-static inline real roughness(const Observer *observer, real slip) {
+/* The root mean square change of course that gusts cause in a second, radians. */
+static inline real roughness(const Observer *observer) {
     const real V = observer->estimate.airspeed_m_s;
-    return V > REAL(0.0) ? real_sqrt(gust(observer->air.near, observer->air.far, slip)) / V : REAL(0.0);
+    return V > REAL(0.0) ? real_sqrt(gust(observer->air.near, observer->air.far)) / V : REAL(0.0);
 }
 
 /* The smoothing time for the present air and the interval of the measurements. */
@@ -3967,20 +3967,32 @@ static inline PlanarPose _blended(PlanarPose pose, PlanarPose measured, real sha
     return MAKE(PlanarPose){x + share * (measured.x - x), y + share * (measured.y - y), c / size, s / size};
 }
 
+/* The means along the flight with a measurement, the last one, and the one `GUST_LAG_S` before. */
+static inline AlongFlight _along(AlongFlight along, AirSample last, AirSample before, AirSample now, AirMotion
+        motion, real dt) {
+    const real near_square = along.near_square, far_square = along.far_square;
+    real known_s = along.known_s;
+    const real change = (now.turn_rate - before.turn_rate) / TURN_CHANGE;
+    const real counted_s = dt / (REAL(1.0) + change * change);
+    known_s = min_real(known_s + counted_s, GUST_AVERAGE_S);
+    const real weight = counted_s / known_s;
+    const real near = motion.c * (now.east_m_s - last.east_m_s) + motion.s * (now.north_m_s - last.north_m_s);
+    const real far = motion.c * (now.east_m_s - before.east_m_s) + motion.s * (now.north_m_s - before.north_m_s);
+    return MAKE(AlongFlight){near_square + weight * (near * near - near_square), far_square + weight * (far * far -
+            far_square), known_s};
+}
+
 /* A mean with the difference of two measurements. */
 static inline Difference _mean(Difference mean, AirSample before, AirSample now, real weight) {
-    const real time_s = mean.time_s, square = mean.square, slip_square = mean.slip_square;
-    const real then_s = before.time_s, then_east = before.east_m_s, then_north = before.north_m_s, then_slip =
-            before.slip_m_s;
-    const real now_s = now.time_s, now_east = now.east_m_s, now_north = now.north_m_s, now_slip = now.slip_m_s;
-    const real east = now_east - then_east, north = now_north - then_north, slip = now_slip - then_slip;
-    return MAKE(Difference){time_s + weight * (now_s - then_s - time_s), square + weight * (REAL(0.5) * (east * east
-            + north * north) - square), slip_square + weight * (REAL(0.5) * slip * slip - slip_square)};
+    const real time_s = mean.time_s, square = mean.square;
+    const real east = now.east_m_s - before.east_m_s, north = now.north_m_s - before.north_m_s;
+    return MAKE(Difference){time_s + weight * (now.time_s - before.time_s - time_s), square + weight * (REAL(0.5) *
+            (east * east + north * north) - square)};
 }
 
 /* The averaging time that suits gusts and noise, `longest_s` at most. */
 static inline real _averaging_s(Difference near, Difference far, real longest_s) {
-    const real change = gust(near, far, REAL(0.0));
+    const real change = gust(near, far);
     const real noise = max_real(near.square - change * near.time_s, REAL(0.0)) / REAL(2.0);
     if (noise * near.time_s >= change * longest_s * longest_s) {
         return longest_s;
@@ -3988,14 +4000,12 @@ static inline real _averaging_s(Difference near, Difference far, real longest_s)
     return real_sqrt(noise * near.time_s / change);
 }
 
-/* The average, over `longest_s` at most, including a velocity measured `dt` seconds after the last.
- *
- * `slip_m_s` is how much an error of the slip may account for, with the sign of the turn.
- */
+/* The average, over `longest_s` at most, including a velocity measured `dt` seconds after the last. */
 static inline AirAverage average_air(const AirAverage *air, real east_m_s, real north_m_s, real dt, real longest_s,
-        real slip_m_s) {
+        AirMotion motion) {
     real east = air->east_m_s, north = air->north_m_s, known_s = air->known_s;
     Difference near = air->near, far = air->far;
+    AlongFlight along = air->along;
     AirSample_ring_64 recent = air->recent;
     integer lag_index = air->lag_index;
     const real now_s = recent->at[63].time_s + dt;
@@ -4003,8 +4013,9 @@ static inline AirAverage average_air(const AirAverage *air, real east_m_s, real 
     while (lag_index < SAMPLES - 1 && now_s - recent->at[lag_index + 1].time_s >= GUST_LAG_S) {
         lag_index += 1;
     }
-    const AirSample sample = MAKE(AirSample){now_s, east_m_s, north_m_s, slip_m_s};
+    const AirSample sample = MAKE(AirSample){now_s, east_m_s, north_m_s, motion.turn_rate};
     const real weight = REAL(1.0) - real_exp(-dt / known_s);
+    along = _along(along, recent->at[63], recent->at[lag_index], sample, motion, dt);
     near = _mean(near, recent->at[63], sample, weight);
     far = _mean(far, recent->at[lag_index], sample, weight);
     if (lag_index == 0 && recent->at[63].time_s - recent->at[62].time_s < SAMPLE_GAP_S) {
@@ -4017,7 +4028,7 @@ static inline AirAverage average_air(const AirAverage *air, real east_m_s, real 
     const real share = averaging_s > REAL(0.0) ? REAL(1.0) - real_exp(-dt / averaging_s) : REAL(1.0);
     east = east + share * (east_m_s - east);
     north = north + share * (north_m_s - north);
-    return MAKE(AirAverage){east, north, known_s, near, far, recent, lag_index};
+    return MAKE(AirAverage){east, north, known_s, near, far, along, recent, lag_index};
 }
 
 /* The observer after a usable measurement that is later than the last one.
@@ -4041,7 +4052,7 @@ static inline Observer observe(Rings *rings, const Observer *observer, const Sta
     const real dt = state->time_s - last_s;
     interval_s += (interval_s > REAL(0.0) ? INTERVAL_SHARE : REAL(1.0)) * (min_real(dt, LONGEST_INTERVAL_S) -
             interval_s);
-    smoothing_s = _smoothing_s(roughness(observer, (real)0.0), interval_s, shortest_s);
+    smoothing_s = _smoothing_s(roughness(observer), interval_s, shortest_s);
     const real share = REAL(1.0) - real_exp(-dt / smoothing_s);
     V += share * (state->airspeed_m_s - V);
     bank_deg += share * (state->bank_deg - bank_deg);
@@ -4050,7 +4061,7 @@ static inline Observer observe(Rings *rings, const Observer *observer, const Sta
     const PlanarPose predicted = constant_turn(pose, V, turn_rate, dt, MAKE(real_2){air_east, air_north});
     pose = _blended(predicted, _flight_pose(state, turning), share);
     const real east = state->velocity_east_m_s - V * pose.c, north = state->velocity_north_m_s - V * pose.s;
-    air = average_air(&air, east, north, dt, shortest_s, SLIP_ERROR_S * V * turn_rate);
+    air = average_air(&air, east, north, dt, shortest_s, MAKE(AirMotion){pose.c, pose.s, turn_rate});
     const Estimate estimate = MAKE(Estimate){state->time_s, pose, V, turn_rate, bank_deg, air.east_m_s,
             air.north_m_s, turning};
     return MAKE(Observer){smoothing_s, interval_s, air, estimate};
@@ -4463,6 +4474,21 @@ static inline GivenPath_Route next_on(GivenPath path, const Route *route) {
     return MAKE(GivenPath_Route){path, changed_2};
 }
 
+/* The observer that measures the gusts along the flight anew. */
+static inline Observer restart_gusts(const Observer *observer) {
+    AirAverage changed_1 = observer->air;
+    changed_1.along = CALM_ALONG;
+    Observer changed_2 = (*observer);
+    changed_2.air = changed_1;
+    return changed_2;
+}
+
+/* What is known, without the gusts: the turns before the circle look like gusts. */
+static inline void measure_gusts_anew(Sensing *sensing) {
+    sensing->observer = restart_gusts(&sensing->observer);
+    return;
+}
+
 /* The time from the end of the current piece to the circle. */
 static inline real later_s(const Route *route) {
     return route->second.time_s + route->third.time_s + route->more_s;
@@ -4500,6 +4526,9 @@ static inline void advance_plan(Memory *memory, const Settings *settings) {
     }
     if (is_holding(&route)) {
         early_s = REAL(0.0);
+        if (!is_holding(&memory->plan.route)) {
+            measure_gusts_anew(&memory->sensing);
+        }
     } else {
         join_s = state.time_s + left_s + later_s(&route);
         if (path.total > 0) {
@@ -4836,6 +4865,15 @@ static inline real_2 path_velocity(const Route *route, const RelativeState *stat
     return flight_velocity(state->vx - east, state->vy - north, state->hx, state->hy);
 }
 
+/* The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count. */
+static inline real along_roughness(const Observer *observer) {
+    const real V = observer->estimate.airspeed_m_s;
+    const AirAverage air = observer->air;
+    const real change = max_real(air.along.far_square - air.along.near_square, REAL(0.0)) / max_real(air.far.time_s
+            - air.near.time_s, REAL(0.1));
+    return V > REAL(0.0) ? real_sqrt(change) / V : REAL(0.0);
+}
+
 /* The gain of course corrections in the present air; on the circle, which turns at `turn_rate`, it is smaller.
  *
  * It is larger in heavy gusts, and smaller where quick turns are quicker than the bank says.
@@ -4845,12 +4883,12 @@ static inline real corrections_gain(const Settings *settings, const VehicleEstim
     const real gain = settings->gain;
     real rough, share;
     if (holding) {
-        rough = roughness(observer, REAL(1.0));
+        rough = along_roughness(observer);
         const real calm_rate = max_real(HOLD_RATE, HOLD_MULTIPLE * HOLD_GAIN * turn_rate);
         const real calm_share = max_real(min_real(calm_rate * response_s / gain, CALM_GAIN), CALM_HOLD_GAIN);
-        share = max_real(min_real(rough / ROUGH_HOLD, REAL(1.0)), calm_share);
+        share = max_real(min_real(rough / ROUGH_HOLD * (rough / ROUGH_HOLD), REAL(1.0)), calm_share);
     } else {
-        rough = roughness(observer, REAL(0.0));
+        rough = roughness(observer);
         share = max_real(min_real(rough / ROUGH_AIR, REAL(1.0)), CALM_GAIN);
     }
     const real lively = max_real(known->quick_turn_ratio / known->turn_ratio, REAL(1.0));
@@ -4876,7 +4914,7 @@ static inline real next_trim(const Settings *settings, real trim, real crosstrac
         return trim;
     }
     const real place_gain = HOLD_GAIN * turn_rate;
-    const real integral_gain = TRIM_GAIN * place_gain * place_gain * course_gain / V;
+    const real integral_gain = min_real(TRIM_GAIN * course_gain, LARGEST_TRIM_GAIN) * place_gain * place_gain / V;
     return clip(trim + integral_gain * crosstrack * dt, LARGEST_TRIM * turn_rate);
 }
 

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: b4c77351cca68894ed4af14b352597170d1dbb40371afa41aea1ab9557a13a73
+ * SHA-256 of the source: 2f3b57a16c0d3a126cd81536e631f4c06d5356d89543e415614e5e92a1ccc5fa
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
@@ -165,11 +165,12 @@ typedef struct { loiter_RollValues roll; loiter_real delay_s, turn_ratio, quick_
 typedef struct { loiter_integer revision; loiter_real bank_deg; loiter_VehicleEstimates estimates; }
         loiter_VehicleModel;
 typedef struct { loiter_real time_s, since_s, gap_s, jump_s, first_s, latest_s; } loiter_Clock;
-typedef struct { loiter_real time_s, square, slip_square; } loiter_Difference;
-typedef struct { loiter_real time_s, east_m_s, north_m_s, slip_m_s; } loiter_AirSample;
+typedef struct { loiter_real time_s, square; } loiter_Difference;
+typedef struct { loiter_real near_square, far_square, known_s; } loiter_AlongFlight;
+typedef struct { loiter_real time_s, east_m_s, north_m_s, turn_rate; } loiter_AirSample;
 typedef struct { loiter_AirSample at[64]; } loiter_AirSample_ring_64;
-typedef struct { loiter_real east_m_s, north_m_s, known_s; loiter_Difference near, far; loiter_AirSample_ring_64
-        *recent; loiter_integer lag_index; } loiter_AirAverage;
+typedef struct { loiter_real east_m_s, north_m_s, known_s; loiter_Difference near, far; loiter_AlongFlight along;
+        loiter_AirSample_ring_64 *recent; loiter_integer lag_index; } loiter_AirAverage;
 typedef struct { loiter_real x, y, c, s; } loiter_PlanarPose;
 typedef struct { loiter_real ratio, lead_s; } loiter_Turning;
 typedef struct { loiter_real time_s; loiter_PlanarPose pose; loiter_real airspeed_m_s, turn_rate, bank_deg,

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 9981b255fa59350ec514796d4b43ffdefaa424d64b244cc9eb67d8b9ebc33e53
+ * SHA-256 of the source: c3bc84e8fe894bc8e6ff0ec07c262d8aff3a0e02d91f1be0fb1a385fdac8c903
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

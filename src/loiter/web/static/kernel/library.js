@@ -81,76 +81,64 @@ throw errors.InvalidArgument(name, `is ${format(options[name], `g`)}: the file w
 }
 }
 
-function _map(draw, ending, arguments_, has_ground = false) {
-let above_ground, altitude_m, frame, shown;
-frame = _frame(ending, arguments_);
-above_ground = and(has_ground, () => eq(arguments_.datum.reference, AltitudeReference.GROUND));
-altitude_m = (truth(above_ground) ? arguments_.altitude_m : _above_sea_m(arguments_));
-shown = chart(arguments_.maneuver, frame, altitude_m, arguments_.spacing_m, arguments_.chord_error_m);
-return draw(replace(shown, { above_ground: above_ground }));
+function _map(draw, ending, ...shown, has_ground = false) {
+return draw(...iter(list(iter(shown)).map((arguments_) => _chart(ending, arguments_, has_ground))));
 }
 
-function geojson(chart) {
-let feature, features, lines;
-features = [...iter(map(_segment, chart.lines)), ...iter(map(_mark, chart.marks)), _circle(chart)];
-if ((chart.altitude_m != null)) {
-for (feature of iter(features)) {
-set_item(item(feature, "properties"), "altitude_m", chart.altitude_m);
-}
-}
+function geojson(...charts) {
+let features, lines;
+features = list(iter(charts)).flatMap((chart) => list(iter(_features(chart))).map((feature) => feature));
 lines = join_(",\n", list(iter(features)).map((feature) => json.dumps(feature, { allow_nan: false })));
 return encode_(`{"type": "FeatureCollection", "features": [\n${str(lines)}\n]}\n`);
 }
 
-function kml(chart) {
-let colour, line, maneuver, mark, name, outermost, place, properties, style, top;
+function kml(...charts) {
+let chart, colour, first, name, others, outermost, parent, style, top;
 outermost = root("kml", "http://www.opengis.net/kml/2.2");
 top = child(outermost, "Document", undefined, new Map([]));
-maneuver = chart.maneuver;
-child(top, "name", (truth(maneuver.word) ? `${str(maneuver.word)}, ${str(Turn_described(maneuver.turn))}` : Turn_described(maneuver.turn)), new Map([]));
+[first, ...others] = iter(charts);
+child(top, "name", (truth(others) ? `${len(charts)} aircraft, ${str(Turn_described(first.maneuver.turn))}` : _name(first)), new Map([]));
 child(top, "open", "1", new Map([]));
-_view(top, chart);
+_view(top, charts);
 for ([name, colour] of rows(items_(STYLES))) {
 style = child(child(top, "Style", undefined, new Map([["id", name]])), "LineStyle", undefined, new Map([]));
 child(style, "color", colour, new Map([]));
 child(style, "width", "3", new Map([]));
 }
-for (line of iter(chart.lines)) {
-properties = segment_properties(line);
-mark = _placemark(top, item(properties, "does"), line.segment.letter, properties, chart);
-_line(mark, chart, zip(line.longitude_deg, line.latitude_deg));
+for (chart of iter(charts)) {
+parent = top;
+if (truth(chart.name)) {
+parent = child(top, "Folder", undefined, new Map([]));
+child(parent, "name", `${str(chart.name)}: ${str(_name(chart))}`, new Map([]));
 }
-mark = _placemark(top, `hold ${str(Turn_described(maneuver.turn))}`, "circle", circle_properties(chart), chart);
-_line(mark, chart, zip(...iter(reversed(chart.circle))));
-for (place of iter(chart.marks)) {
-mark = _placemark(top, `${str(place.kind)}: ${str(place.action)}`, null, mark_properties(place), chart);
-_point(mark, chart, place.longitude_deg, place.latitude_deg);
+_placemarks(parent, chart);
 }
 return document(outermost);
 }
 
-function gpx(chart) {
-let centre, here, latitude, location, longitude, maneuver, mark, name, points, top, track;
+function gpx(...charts) {
+let chart, first, here, latitude, location, longitude, mark, metadata, others, points, top, track;
 location = new Map([["xmlns:xsi", SCHEMA], ["xsi:schemaLocation", `${str(NAMESPACE)} ${str(NAMESPACE)}/gpx.xsd`]]);
 top = root("gpx", NAMESPACE, new Map([...iter_items(location), ["version", "1.1"], ["creator", "loiter"]]));
-maneuver = chart.maneuver;
-name = `${str(or(maneuver.word, () => "on the circle"))}, ${str(Turn_described(maneuver.turn))}`;
-child(child(top, "metadata", undefined, new Map([])), "name", name, new Map([]));
+[first, ...others] = iter(charts);
+metadata = (truth(others) ? `${len(charts)} aircraft, ${str(Turn_described(first.maneuver.turn))}` : gpx__name(first));
+child(child(top, "metadata", undefined, new Map([])), "name", metadata, new Map([]));
+for (chart of iter(charts)) {
 for (mark of iter(chart.marks)) {
 here = _place(top, "wpt", chart, mark.latitude_deg, mark.longitude_deg);
-child(here, "name", mark.kind, new Map([]));
+child(here, "name", `${str(chart.name)} ${str(mark.kind)}`.strip(), new Map([]));
 child(here, "desc", `${str(mark.action)} at ${format(mark.time_s, `.2f`)} s, heading ${format(mark.heading_deg, `.1f`)} deg`, new Map([]));
 child(here, "type", mark.kind, new Map([]));
 }
-centre = _place(top, "wpt", chart, chart.centre_latitude_deg, chart.centre_longitude_deg);
-child(centre, "name", "centre", new Map([]));
-child(centre, "desc", `hold ${str(Turn_described(maneuver.turn))}, radius ${format(maneuver.orbit.radius_m, `g`)} m`, new Map([]));
-child(centre, "type", "centre", new Map([]));
+}
+_centre(top, max(charts, { key: ((chart) => chart.maneuver.duration_s) }));
+for (chart of iter(charts)) {
 track = child(top, "trk", undefined, new Map([]));
-child(track, "name", name, new Map([]));
+child(track, "name", (truth(chart.name) ? `${str(chart.name)}: ${str(gpx__name(chart))}` : gpx__name(chart)), new Map([]));
 points = child(track, "trkseg", undefined, new Map([]));
 for ([latitude, longitude] of rows(_track(chart))) {
 _place(points, "trkpt", chart, latitude, longitude);
+}
 }
 return document(top);
 }
@@ -192,51 +180,26 @@ return `${str(join_(" or ", self.endings))} (${str(self.use)})`;
 }
 }, ["endings", "kind", "media_type", "name", "use", "content"], 'Format');
 
-function _frame(ending, arguments_) {
-if ((arguments_.frame == null)) {
-throw errors.InvalidArgument("frame", `is missing: a ${str(ending)} file needs places on Earth; .csv does not`);
-}
-return arguments_.frame;
-}
-
-const AltitudeReference = enumeration({ MSL: 'msl', HOME: 'home', GROUND: 'ground' });
-
-function _above_sea_m(arguments_) {
-return ((arguments_.altitude_m == null) ? null : arguments_.datum.above_sea_m(arguments_.altitude_m));
+function _chart(ending, arguments_, has_ground) {
+let above_ground, altitude_m, frame, shown;
+frame = _frame(ending, arguments_);
+above_ground = and(has_ground, () => eq(arguments_.datum.reference, AltitudeReference.GROUND));
+altitude_m = (truth(above_ground) ? arguments_.altitude_m : _above_sea_m(arguments_));
+shown = chart(arguments_.maneuver, frame, altitude_m, arguments_.spacing_m, arguments_.chord_error_m);
+return replace(shown, { above_ground: above_ground, name: arguments_.name });
 }
 
-function chart(maneuver, frame, altitude_m, spacing_m, chord_error_m) {
-let bend, centre_latitude, centre_longitude, counts, latitude, lines, longitude, marks, orbit, polygon, switches, track;
-orbit = maneuver.orbit_at_join;
-bend = _bend_per_m(maneuver, frame, orbit);
-counts = step_counts(maneuver, spacing_m, chord_error_m, bend);
-track = vertices(maneuver, counts);
-[latitude, longitude] = iter(degrees(frame, track.east_m, track.north_m));
-switches = list(iter(range(add(len(counts), 1)))).map((i) => sum(sliced(counts, null, i, null)));
-lines = list(iter(zip(maneuver.segments, switches, sliced(switches, 1, null, null)))).map((one) => iter(one)).map(([segment, first, last]) => SegmentLine(segment, sliced(latitude, first, add(last, 1), null), sliced(longitude, first, add(last, 1), null)));
-marks = _marks(maneuver, frame, track, switches, latitude, longitude);
-[[centre_latitude], [centre_longitude]] = iter(degrees(frame, [orbit.east_m], [orbit.north_m]));
-polygon = degrees(frame, ...iter(circle_polygon(orbit, chord_error_m, bend)));
-return Chart(maneuver, altitude_m, lines, marks, polygon, centre_latitude, centre_longitude);
+function _features(chart) {
+let feature, features, shared;
+features = [...iter(map(_segment, chart.lines)), ...iter(map(_mark, chart.marks)), _circle(chart)];
+shared = (truth(chart.name) ? new Map([["aircraft", chart.name]]) : new Map([]));
+if ((chart.altitude_m != null)) {
+set_item(shared, "altitude_m", chart.altitude_m);
 }
-
-function _segment(line) {
-let parts;
-parts = list(iter(cut_line(line.longitude_deg, line.latitude_deg))).map((part) => _coordinates(part));
-return _feature(...iter(_geometry("LineString", parts)), segment_properties(line));
+for (feature of iter(features)) {
+item(feature, "properties").update(shared);
 }
-
-function _mark(mark) {
-let coordinates;
-[coordinates] = iter(_coordinates([Position(mark.longitude_deg, mark.latitude_deg)]));
-return _feature("Point", coordinates, mark_properties(mark));
-}
-
-function _circle(chart) {
-let latitude, longitude, parts;
-[latitude, longitude] = iter(chart.circle);
-parts = list(iter(cut_ring(longitude, latitude))).map((part) => [_coordinates(part)]);
-return _feature(...iter(_geometry("Polygon", parts)), circle_properties(chart));
+return features;
 }
 
 function root(tag, namespace, attributes = null) {
@@ -260,8 +223,15 @@ function Turn_described(self) {
 return get_(new Map([[Turn.CW, "clockwise"], [Turn.CCW, "counter-clockwise"]]), self, "either way");
 }
 
-function _view(parent, chart) {
-let away_m, maneuver, view;
+function _name(chart) {
+let maneuver;
+maneuver = chart.maneuver;
+return (truth(maneuver.word) ? `${str(maneuver.word)}, ${str(Turn_described(maneuver.turn))}` : Turn_described(maneuver.turn));
+}
+
+function _view(parent, charts) {
+let away_m, chart, maneuver, view;
+chart = max(charts, { key: ((each) => each.maneuver.orbit_at_join.distance_m(each.maneuver.start)) });
 maneuver = chart.maneuver;
 view = child(parent, "LookAt", undefined, new Map([]));
 child(view, "longitude", format(chart.centre_longitude_deg, DEGREES), new Map([]));
@@ -274,51 +244,19 @@ child(view, "range", `${format(mul(VIEW_DISTANCE, away_m), `.1f`)}`, new Map([])
 child(view, "altitudeMode", _mode(chart), new Map([]));
 }
 
-function segment_properties(line) {
-let segment;
-segment = line.segment;
-return new Map([["kind", "segment"], ["letter", segment.letter], ["does", item(ACTIONS, segment.letter)], ["start_s", segment.start_s], ["duration_s", segment.duration_s], ["length_m", segment.length_m], ["curvature_per_m", segment.curvature_per_m]]);
+function _placemarks(top, chart) {
+let line, mark, place, properties;
+for (line of iter(chart.lines)) {
+properties = segment_properties(line);
+mark = _placemark(top, item(properties, "does"), line.segment.letter, properties, chart);
+_line(mark, chart, zip(line.longitude_deg, line.latitude_deg));
 }
-
-function _placemark(parent, title, style, properties, chart) {
-let altitude, data, key, mark, name, value;
-mark = child(parent, "Placemark", undefined, new Map([]));
-child(mark, "name", title, new Map([]));
-if ((style != null)) {
-child(mark, "styleUrl", `#${str(style)}`, new Map([]));
+mark = _placemark(top, `hold ${str(Turn_described(chart.maneuver.turn))}`, "circle", circle_properties(chart), chart);
+_line(mark, chart, zip(...iter(reversed(chart.circle))));
+for (place of iter(chart.marks)) {
+mark = _placemark(top, `${str(place.kind)}: ${str(place.action)}`, null, mark_properties(place), chart);
+_point(mark, chart, place.longitude_deg, place.latitude_deg);
 }
-data = child(mark, "ExtendedData", undefined, new Map([]));
-name = (truth(chart.above_ground) ? "altitude_above_ground_m" : "altitude_m");
-altitude = ((chart.altitude_m == null) ? new Map([]) : new Map([[name, chart.altitude_m]]));
-for ([key, value] of rows(items_(new Map([...iter_items(properties), ...iter_items(altitude)])))) {
-child(child(data, "Data", undefined, new Map([["name", key]])), "value", value, new Map([]));
-}
-return mark;
-}
-
-function _line(mark, chart, positions) {
-let line;
-line = child(mark, "LineString", undefined, new Map([]));
-child(line, "tessellate", "1", new Map([]));
-child(line, "altitudeMode", _mode(chart), new Map([]));
-child(line, "coordinates", join_(" ", list(iter(positions)).map((position) => _position(chart, ...iter(position)))), new Map([]));
-}
-
-function circle_properties(chart) {
-let maneuver;
-maneuver = chart.maneuver;
-return new Map([["kind", "circle"], ["turn", maneuver.turn], ["radius_m", maneuver.orbit.radius_m], ["centre_latitude_deg", round(chart.centre_latitude_deg, DECIMALS)], ["centre_longitude_deg", round(chart.centre_longitude_deg, DECIMALS)], ["word", maneuver.word], ["duration_s", maneuver.duration_s], ["length_m", maneuver.length_m]]);
-}
-
-function mark_properties(mark) {
-return new Map([["kind", mark.kind], ["does", mark.action], ["time_s", mark.time_s], ["heading_deg", mark.heading_deg], ["track_deg", mark.track_deg], ["ground_speed_m_s", mark.ground_speed_m_s]]);
-}
-
-function _point(mark, chart, longitude, latitude) {
-let point;
-point = child(mark, "Point", undefined, new Map([]));
-child(point, "altitudeMode", _mode(chart), new Map([]));
-child(point, "coordinates", _position(chart, longitude, latitude), new Map([]));
 }
 
 function document(element) {
@@ -326,6 +264,10 @@ let text;
 ElementTree.indent(element);
 text = ElementTree.tostring(element, { encoding: "UTF-8", xml_declaration: true });
 return add(text, "\n");
+}
+
+function gpx__name(chart) {
+return `${str(or(chart.maneuver.word, () => "on the circle"))}, ${str(Turn_described(chart.maneuver.turn))}`;
 }
 
 function _place(parent, tag, chart, latitude, longitude) {
@@ -337,6 +279,15 @@ if ((chart.altitude_m != null)) {
 child(place, "ele", chart.altitude_m, new Map([]));
 }
 return place;
+}
+
+function _centre(top, chart) {
+let centre, maneuver;
+maneuver = chart.maneuver;
+centre = _place(top, "wpt", chart, chart.centre_latitude_deg, chart.centre_longitude_deg);
+child(centre, "name", "centre", new Map([]));
+child(centre, "desc", `hold ${str(Turn_described(maneuver.turn))}, radius ${format(maneuver.orbit.radius_m, `g`)} m`, new Map([]));
+child(centre, "type", "centre", new Map([]));
 }
 
 function _track(chart) {
@@ -384,6 +335,10 @@ append_(times, np.array([((last == null) ? 0.0 : add(last.start_s, last.duration
 return samples_at(np.concatenate(times), maneuver.start, maneuver.segments, maneuver.aircraft, maneuver.wind);
 }
 
+function _above_sea_m(arguments_) {
+return ((arguments_.altitude_m == null) ? null : arguments_.datum.above_sea_m(arguments_.altitude_m));
+}
+
 function qgcplan(mission, autopilot, airspeed_m_s, fence = null) {
 let document;
 document = new Map([["fileType", "Plan"], ["version", 1], ["groundStation", "QGroundControl"], ["geoFence", ((fence == null) ? NO_FENCE : fence)], ["rallyPoints", new Map([["points", []], ["version", 2]])], ["mission", new Map([["version", 2], ["firmwareType", int(autopilot)], ["vehicleType", FIXED_WING], ["cruiseSpeed", airspeed_m_s], ["hoverSpeed", airspeed_m_s], ["globalPlanAltitudeMode", _common_mode(mission)], ["plannedHomePosition", list(mission.home)], ["items", list(iter(enumerate(mission.items, { start: 1 }))).map((one) => iter(one)).map(([number, item]) => _written(number, item))]])]]);
@@ -415,130 +370,47 @@ lines = list(iter(enumerate([home, ...iter(mission.items)]))).map((one) => iter(
 return encode_(join_("\n", [HEADER, ...iter(lines), ""]));
 }
 
-function _bend_per_m(maneuver, frame, orbit) {
-let away_m, largest_latitude, places;
-places = [maneuver.start, ...iter(list(iter(maneuver.segments)).map((segment) => segment.end))];
-away_m = add(max(list(iter(places)).map((pose) => math.hypot(pose.east_m, pose.north_m))), mul(4.0, maneuver.aircraft.turn_radius_m));
-away_m = max(away_m, add(math.hypot(orbit.east_m, orbit.north_m), orbit.radius_m));
-largest_latitude = add(math.radians(abs(frame.latitude_deg)), div(away_m, LEAST_EARTH_RADIUS_M));
-return add(div(mul(1.09, math.tan(min(math.radians(LARGEST_LATITUDE_DEG), largest_latitude))), LEAST_EARTH_RADIUS_M), BEND_PER_M);
+function _frame(ending, arguments_) {
+if ((arguments_.frame == null)) {
+throw errors.InvalidArgument("frame", `is missing: a ${str(ending)} file needs places on Earth; .csv does not`);
+}
+return arguments_.frame;
 }
 
-function degrees(frame, east_m, north_m) {
-let latitude, longitude;
+const AltitudeReference = enumeration({ MSL: 'msl', HOME: 'home', GROUND: 'ground' });
 
-[latitude, longitude] = iter(frame.to_geodetic(east_m, north_m));
-if (truth(any_(np.isnan(latitude)))) {
-throw errors.OutOfRange(`the maneuver goes more than ${format(div(REACH_M, 1000.0), `g`)} km from the frame's origin ${format(frame.latitude_deg, `g`)} ${format(frame.longitude_deg, `g`)}: take the circle's centre as the origin`);
-}
-return [tolist_(round_(latitude, places_DECIMALS)), tolist_(round_(longitude, places_DECIMALS))];
-}
-
-const SegmentLine = struct(class SegmentLine extends Tuple {
-constructor(segment, latitude_deg, longitude_deg) {
-super();
-this.segment = segment;
-this.latitude_deg = latitude_deg;
-this.longitude_deg = longitude_deg;
-
-}
-}, ["segment", "latitude_deg", "longitude_deg"], 'SegmentLine');
-
-function _marks(maneuver, frame, track, at, latitude, longitude) {
-let actions, headings, lat, lon, rows, tracks;
-[lat, lon] = iter([list(iter(at)).map((i) => item(latitude, i)), list(iter(at)).map((i) => item(longitude, i))]);
-headings = true_headings(frame, item(track.heading_deg, at), lat, lon);
-tracks = true_headings(frame, item(track.track_deg, at), lat, lon);
-actions = list(iter(maneuver.segments)).map((segment) => item(ACTIONS, segment.letter));
-rows = zip(_kinds(len(maneuver.segments)), [...iter(actions), `hold ${str(Turn_described(maneuver.turn))}`], tolist_(item(track.time_s, at)), lat, lon, headings, tracks, tolist_(item(track.ground_speed_m_s, at)));
-return list(iter(rows)).map((row) => Mark(...iter(row)));
+function chart(maneuver, frame, altitude_m, spacing_m, chord_error_m) {
+let bend, centre_latitude, centre_longitude, counts, latitude, lines, longitude, marks, orbit, polygon, switches, track;
+orbit = maneuver.orbit_at_join;
+bend = _bend_per_m(maneuver, frame, orbit);
+counts = step_counts(maneuver, spacing_m, chord_error_m, bend);
+track = vertices(maneuver, counts);
+[latitude, longitude] = iter(degrees(frame, track.east_m, track.north_m));
+switches = list(iter(range(add(len(counts), 1)))).map((i) => sum(sliced(counts, null, i, null)));
+lines = list(iter(zip(maneuver.segments, switches, sliced(switches, 1, null, null)))).map((one) => iter(one)).map(([segment, first, last]) => SegmentLine(segment, sliced(latitude, first, add(last, 1), null), sliced(longitude, first, add(last, 1), null)));
+marks = _marks(maneuver, frame, track, switches, latitude, longitude);
+[[centre_latitude], [centre_longitude]] = iter(degrees(frame, [orbit.east_m], [orbit.north_m]));
+polygon = degrees(frame, ...iter(circle_polygon(orbit, chord_error_m, bend)));
+return Chart(maneuver, altitude_m, lines, marks, polygon, centre_latitude, centre_longitude);
 }
 
-function circle_polygon(orbit, chord_error_m, bend_per_m = 0.0) {
-let angle, curvature, sides;
-
-curvature = add(div(1.0, orbit.radius_m), bend_per_m);
-sides = max(LEAST_SIDES, math.ceil(mul(mul(mul(2.0, math.pi), orbit.radius_m), math.sqrt(div(curvature, mul(8.0, chord_error_m))))));
-if (gt(sides, MAX_VERTICES)) {
-throw errors.InvalidArgument("circle", `would have more than ${format(MAX_VERTICES, `,`)} points with a chord error of ${format(chord_error_m, `g`)} m`);
-}
-angle = div(mul(mul(2.0, math.pi), mod(np.arange(add(sides, 1)), sides)), sides);
-return [add(orbit.east_m, mul(orbit.radius_m, np.cos(angle))), add(orbit.north_m, mul(orbit.radius_m, np.sin(angle)))];
+function _segment(line) {
+let parts;
+parts = list(iter(cut_line(line.longitude_deg, line.latitude_deg))).map((part) => _coordinates(part));
+return _feature(...iter(_geometry("LineString", parts)), segment_properties(line));
 }
 
-const Chart = struct(class Chart extends Tuple {
-constructor(maneuver, altitude_m, lines, marks, circle, centre_latitude_deg, centre_longitude_deg, above_ground = false) {
-super();
-this.maneuver = maneuver;
-this.altitude_m = altitude_m;
-this.lines = lines;
-this.marks = marks;
-this.circle = circle;
-this.centre_latitude_deg = centre_latitude_deg;
-this.centre_longitude_deg = centre_longitude_deg;
-this.above_ground = above_ground;
-
-}
-}, ["maneuver", "altitude_m", "lines", "marks", "circle", "centre_latitude_deg", "centre_longitude_deg", "above_ground"], 'Chart');
-
-function cut_line(longitude_deg, latitude_deg) {
-let _, a, b, band, band_of_b, crossing, edge, line, part, parts, shifted, start, step;
-line = _unwrapped(longitude_deg, latitude_deg);
-[start, ..._] = iter(line);
-[part, band] = iter([[start], _band(start.longitude)]);
-parts = [[part, band]];
-for ([a, b] of rows(pairwise(line))) {
-while (ne(band, (band_of_b = _band(b.longitude)))) {
-step = (gt(band_of_b, band) ? 1 : -1);
-edge = add(180.0, mul(360.0, (gt(step, 0) ? band : sub(band, 1))));
-crossing = _crossing(a, b, edge);
-append_(part, crossing);
-[part, band] = iter([[crossing], add(band, step)]);
-append_(parts, [part, band]);
-}
-append_(part, b);
-}
-shifted = list(iter(parts)).map((one) => iter(one)).map(([part, band]) => _shifted(part, band));
-return or(list(iter(shifted)).filter((part) => gt(len(set(part)), 1)).map((part) => part), () => sliced(shifted, null, 1, null));
+function _mark(mark) {
+let coordinates;
+[coordinates] = iter(_coordinates([Position(mark.longitude_deg, mark.latitude_deg)]));
+return _feature("Point", coordinates, mark_properties(mark));
 }
 
-function _coordinates(part) {
-return list(iter(part)).map((one) => iter(one)).map(([longitude, latitude]) => [round(longitude, DECIMALS), round(latitude, DECIMALS)]);
-}
-
-function _feature(kind, coordinates, properties) {
-return new Map([["type", "Feature"], ["geometry", new Map([["type", kind], ["coordinates", coordinates]])], ["properties", properties]]);
-}
-
-function _geometry(kind, parts) {
-let part;
-if (gt(len(parts), 1)) {
-return [`Multi${str(kind)}`, parts];
-}
-[part] = iter(parts);
-return [kind, part];
-}
-
-const Position = struct(class Position extends Tuple {
-constructor(longitude, latitude) {
-super();
-this.longitude = longitude;
-this.latitude = latitude;
-
-}
-}, ["longitude", "latitude"], 'Position');
-
-function cut_ring(longitude_deg, latitude_deg) {
-let _, bands, first, last, longitudes, parts, ring;
-ring = _unwrapped(longitude_deg, latitude_deg);
-[first, _, last] = with_middle(ring, 1, 1);
-if (gt(abs(sub(last.longitude, first.longitude)), 180.0)) {
-return [_counter_clockwise(_closed_at_pole(ring))];
-}
-longitudes = list(iter(ring)).map((position) => position.longitude);
-bands = range(_band(min(longitudes)), add(_band(max(longitudes)), 1));
-parts = list(iter(bands)).map((k) => _shifted(_clipped(_clipped(ring, sub(mul(360.0, k), 180.0), 1), add(mul(360.0, k), 180.0), -1), k));
-return or(list(iter(parts)).filter((part) => ne(_area(part), 0.0)).map((part) => _counter_clockwise(part)), () => [_shifted(ring, bands.start)]);
+function _circle(chart) {
+let latitude, longitude, parts;
+[latitude, longitude] = iter(chart.circle);
+parts = list(iter(cut_ring(longitude, latitude))).map((part) => [_coordinates(part)]);
+return _feature(...iter(_geometry("Polygon", parts)), circle_properties(chart));
 }
 
 function _mode(chart) {
@@ -548,10 +420,51 @@ return "clampToGround";
 return (truth(chart.above_ground) ? "relativeToGround" : "absolute");
 }
 
-function _position(chart, longitude, latitude) {
-let place;
-place = `${format(longitude, `${String(DEGREES)}`)},${format(latitude, `${String(DEGREES)}`)}`;
-return ((chart.altitude_m == null) ? place : `${str(place)},${str(chart.altitude_m)}`);
+function segment_properties(line) {
+let segment;
+segment = line.segment;
+return new Map([["kind", "segment"], ["letter", segment.letter], ["does", item(ACTIONS, segment.letter)], ["start_s", segment.start_s], ["duration_s", segment.duration_s], ["length_m", segment.length_m], ["curvature_per_m", segment.curvature_per_m]]);
+}
+
+function _placemark(parent, title, style, properties, chart) {
+let altitude, data, key, mark, name, value;
+mark = child(parent, "Placemark", undefined, new Map([]));
+child(mark, "name", title, new Map([]));
+if ((style != null)) {
+child(mark, "styleUrl", `#${str(style)}`, new Map([]));
+}
+data = child(mark, "ExtendedData", undefined, new Map([]));
+name = (truth(chart.above_ground) ? "altitude_above_ground_m" : "altitude_m");
+altitude = ((chart.altitude_m == null) ? new Map([]) : new Map([[name, chart.altitude_m]]));
+for ([key, value] of rows(items_(new Map([...iter_items(properties), ...iter_items(altitude)])))) {
+child(child(data, "Data", undefined, new Map([["name", key]])), "value", value, new Map([]));
+}
+return mark;
+}
+
+function _line(mark, chart, positions) {
+let line;
+line = child(mark, "LineString", undefined, new Map([]));
+child(line, "tessellate", "1", new Map([]));
+child(line, "altitudeMode", _mode(chart), new Map([]));
+child(line, "coordinates", join_(" ", list(iter(positions)).map((position) => _position(chart, ...iter(position)))), new Map([]));
+}
+
+function circle_properties(chart) {
+let maneuver;
+maneuver = chart.maneuver;
+return new Map([["kind", "circle"], ["turn", maneuver.turn], ["radius_m", maneuver.orbit.radius_m], ["centre_latitude_deg", round(chart.centre_latitude_deg, DECIMALS)], ["centre_longitude_deg", round(chart.centre_longitude_deg, DECIMALS)], ["word", maneuver.word], ["duration_s", maneuver.duration_s], ["length_m", maneuver.length_m]]);
+}
+
+function mark_properties(mark) {
+return new Map([["kind", mark.kind], ["does", mark.action], ["time_s", mark.time_s], ["heading_deg", mark.heading_deg], ["track_deg", mark.track_deg], ["ground_speed_m_s", mark.ground_speed_m_s]]);
+}
+
+function _point(mark, chart, longitude, latitude) {
+let point;
+point = child(mark, "Point", undefined, new Map([]));
+child(point, "altitudeMode", _mode(chart), new Map([]));
+child(point, "coordinates", _position(chart, longitude, latitude), new Map([]));
 }
 
 function positive(argument, value, unit) {
@@ -666,91 +579,144 @@ fields = [...iter(list(iter(integers)).map((n) => `${format(n, `d`)}`)), ...iter
 return join_("\t", [...iter(fields), `${format(int(item.autocontinue), `d`)}`]);
 }
 
+function _bend_per_m(maneuver, frame, orbit) {
+let away_m, largest_latitude, places;
+places = [maneuver.start, ...iter(list(iter(maneuver.segments)).map((segment) => segment.end))];
+away_m = add(max(list(iter(places)).map((pose) => math.hypot(pose.east_m, pose.north_m))), mul(4.0, maneuver.aircraft.turn_radius_m));
+away_m = max(away_m, add(math.hypot(orbit.east_m, orbit.north_m), orbit.radius_m));
+largest_latitude = add(math.radians(abs(frame.latitude_deg)), div(away_m, LEAST_EARTH_RADIUS_M));
+return add(div(mul(1.09, math.tan(min(math.radians(LARGEST_LATITUDE_DEG), largest_latitude))), LEAST_EARTH_RADIUS_M), BEND_PER_M);
+}
+
+function degrees(frame, east_m, north_m) {
+let latitude, longitude;
+
+[latitude, longitude] = iter(frame.to_geodetic(east_m, north_m));
+if (truth(any_(np.isnan(latitude)))) {
+throw errors.OutOfRange(`the maneuver goes more than ${format(div(REACH_M, 1000.0), `g`)} km from the frame's origin ${format(frame.latitude_deg, `g`)} ${format(frame.longitude_deg, `g`)}: take the circle's centre as the origin`);
+}
+return [tolist_(round_(latitude, places_DECIMALS)), tolist_(round_(longitude, places_DECIMALS))];
+}
+
+const SegmentLine = struct(class SegmentLine extends Tuple {
+constructor(segment, latitude_deg, longitude_deg) {
+super();
+this.segment = segment;
+this.latitude_deg = latitude_deg;
+this.longitude_deg = longitude_deg;
+
+}
+}, ["segment", "latitude_deg", "longitude_deg"], 'SegmentLine');
+
+function _marks(maneuver, frame, track, at, latitude, longitude) {
+let actions, headings, lat, lon, rows, tracks;
+[lat, lon] = iter([list(iter(at)).map((i) => item(latitude, i)), list(iter(at)).map((i) => item(longitude, i))]);
+headings = true_headings(frame, item(track.heading_deg, at), lat, lon);
+tracks = true_headings(frame, item(track.track_deg, at), lat, lon);
+actions = list(iter(maneuver.segments)).map((segment) => item(ACTIONS, segment.letter));
+rows = zip(_kinds(len(maneuver.segments)), [...iter(actions), `hold ${str(Turn_described(maneuver.turn))}`], tolist_(item(track.time_s, at)), lat, lon, headings, tracks, tolist_(item(track.ground_speed_m_s, at)));
+return list(iter(rows)).map((row) => Mark(...iter(row)));
+}
+
+function circle_polygon(orbit, chord_error_m, bend_per_m = 0.0) {
+let angle, curvature, sides;
+
+curvature = add(div(1.0, orbit.radius_m), bend_per_m);
+sides = max(LEAST_SIDES, math.ceil(mul(mul(mul(2.0, math.pi), orbit.radius_m), math.sqrt(div(curvature, mul(8.0, chord_error_m))))));
+if (gt(sides, MAX_VERTICES)) {
+throw errors.InvalidArgument("circle", `would have more than ${format(MAX_VERTICES, `,`)} points with a chord error of ${format(chord_error_m, `g`)} m`);
+}
+angle = div(mul(mul(2.0, math.pi), mod(np.arange(add(sides, 1)), sides)), sides);
+return [add(orbit.east_m, mul(orbit.radius_m, np.cos(angle))), add(orbit.north_m, mul(orbit.radius_m, np.sin(angle)))];
+}
+
+const Chart = struct(class Chart extends Tuple {
+constructor(maneuver, altitude_m, lines, marks, circle, centre_latitude_deg, centre_longitude_deg, above_ground = false, name = "") {
+super();
+this.maneuver = maneuver;
+this.altitude_m = altitude_m;
+this.lines = lines;
+this.marks = marks;
+this.circle = circle;
+this.centre_latitude_deg = centre_latitude_deg;
+this.centre_longitude_deg = centre_longitude_deg;
+this.above_ground = above_ground;
+this.name = name;
+
+}
+}, ["maneuver", "altitude_m", "lines", "marks", "circle", "centre_latitude_deg", "centre_longitude_deg", "above_ground", "name"], 'Chart');
+
+function cut_line(longitude_deg, latitude_deg) {
+let _, a, b, band, band_of_b, crossing, edge, line, part, parts, shifted, start, step;
+line = _unwrapped(longitude_deg, latitude_deg);
+[start, ..._] = iter(line);
+[part, band] = iter([[start], _band(start.longitude)]);
+parts = [[part, band]];
+for ([a, b] of rows(pairwise(line))) {
+while (ne(band, (band_of_b = _band(b.longitude)))) {
+step = (gt(band_of_b, band) ? 1 : -1);
+edge = add(180.0, mul(360.0, (gt(step, 0) ? band : sub(band, 1))));
+crossing = _crossing(a, b, edge);
+append_(part, crossing);
+[part, band] = iter([[crossing], add(band, step)]);
+append_(parts, [part, band]);
+}
+append_(part, b);
+}
+shifted = list(iter(parts)).map((one) => iter(one)).map(([part, band]) => _shifted(part, band));
+return or(list(iter(shifted)).filter((part) => gt(len(set(part)), 1)).map((part) => part), () => sliced(shifted, null, 1, null));
+}
+
+function _coordinates(part) {
+return list(iter(part)).map((one) => iter(one)).map(([longitude, latitude]) => [round(longitude, DECIMALS), round(latitude, DECIMALS)]);
+}
+
+function _feature(kind, coordinates, properties) {
+return new Map([["type", "Feature"], ["geometry", new Map([["type", kind], ["coordinates", coordinates]])], ["properties", properties]]);
+}
+
+function _geometry(kind, parts) {
+let part;
+if (gt(len(parts), 1)) {
+return [`Multi${str(kind)}`, parts];
+}
+[part] = iter(parts);
+return [kind, part];
+}
+
+const Position = struct(class Position extends Tuple {
+constructor(longitude, latitude) {
+super();
+this.longitude = longitude;
+this.latitude = latitude;
+
+}
+}, ["longitude", "latitude"], 'Position');
+
+function cut_ring(longitude_deg, latitude_deg) {
+let _, bands, first, last, longitudes, parts, ring;
+ring = _unwrapped(longitude_deg, latitude_deg);
+[first, _, last] = with_middle(ring, 1, 1);
+if (gt(abs(sub(last.longitude, first.longitude)), 180.0)) {
+return [_counter_clockwise(_closed_at_pole(ring))];
+}
+longitudes = list(iter(ring)).map((position) => position.longitude);
+bands = range(_band(min(longitudes)), add(_band(max(longitudes)), 1));
+parts = list(iter(bands)).map((k) => _shifted(_clipped(_clipped(ring, sub(mul(360.0, k), 180.0), 1), add(mul(360.0, k), 180.0), -1), k));
+return or(list(iter(parts)).filter((part) => ne(_area(part), 0.0)).map((part) => _counter_clockwise(part)), () => [_shifted(ring, bands.start)]);
+}
+
+function _position(chart, longitude, latitude) {
+let place;
+place = `${format(longitude, `${String(DEGREES)}`)},${format(latitude, `${String(DEGREES)}`)}`;
+return ((chart.altitude_m == null) ? place : `${str(place)},${str(chart.altitude_m)}`);
+}
+
 function true_headings(frame, heading_deg, latitude, longitude) {
 let true_deg;
 
 true_deg = sub(np.asarray(heading_deg, float), frame.convergence_deg(latitude, longitude));
 return list(iter(tolist_(true_deg))).map((heading) => wrapped(heading));
-}
-
-function _kinds(segments) {
-if (eq(segments, 0)) {
-return ["join"];
-}
-return ["start", ...iter(mul(["switch"], sub(segments, 2))), ...iter(mul(["peel-off"], gt(segments, 1))), "join"];
-}
-
-const Mark = struct(class Mark extends Tuple {
-constructor(kind, action, time_s, latitude_deg, longitude_deg, heading_deg, track_deg, ground_speed_m_s) {
-super();
-this.kind = kind;
-this.action = action;
-this.time_s = time_s;
-this.latitude_deg = latitude_deg;
-this.longitude_deg = longitude_deg;
-this.heading_deg = heading_deg;
-this.track_deg = track_deg;
-this.ground_speed_m_s = ground_speed_m_s;
-
-}
-}, ["kind", "action", "time_s", "latitude_deg", "longitude_deg", "heading_deg", "track_deg", "ground_speed_m_s"], 'Mark');
-
-function _unwrapped(longitude_deg, latitude_deg) {
-let longitudes;
-longitudes = accumulate(longitude_deg, ((before, after) => add(after, mul(360.0, math.floor(add(div(sub(before, after), 360.0), 0.5))))));
-return list(iter(zip(longitudes, latitude_deg))).map((one) => iter(one)).map(([longitude, latitude]) => Position(longitude, latitude));
-}
-
-function _band(longitude) {
-return math.floor(div(add(longitude, 180.0), 360.0));
-}
-
-function _crossing(a, b, longitude) {
-let share;
-share = div(sub(longitude, a.longitude), sub(b.longitude, a.longitude));
-return Position(longitude, add(a.latitude, mul(share, sub(b.latitude, a.latitude))));
-}
-
-function _shifted(part, band) {
-return list(iter(part)).map((one) => iter(one)).map(([longitude, latitude]) => Position(min(180.0, max(-180.0, sub(longitude, mul(360.0, band)))), latitude));
-}
-
-function _counter_clockwise(ring) {
-return (gt(_area(ring), 0.0) ? ring : sliced(ring, null, null, -1));
-}
-
-function _closed_at_pole(ring) {
-let _, east, edge, first, last, line, pole, west;
-line = sorted(list(iter(sliced(ring, null, -1, null))).map((one) => iter(one)).map(([longitude, latitude]) => Position(sub(longitude, mul(360.0, _band(longitude))), latitude)));
-[first, _, last] = with_middle(line, 1, 1);
-[_, edge] = iter(_crossing(last, replace(first, { longitude: add(first.longitude, 360.0) }), 180.0));
-pole = math.copysign(90.0, edge);
-[west, east] = iter([Position(-180.0, edge), Position(180.0, edge)]);
-return [west, ...iter(line), east, Position(180.0, pole), Position(-180.0, pole), west];
-}
-
-function _clipped(ring, edge, side) {
-let a, a_inside, b, b_inside, kept;
-kept = [];
-for ([a, b] of rows(pairwise(ring))) {
-[a_inside, b_inside] = iter([ge(mul(side, sub(a.longitude, edge)), 0.0), ge(mul(side, sub(b.longitude, edge)), 0.0)]);
-if (truth(a_inside)) {
-append_(kept, a);
-}
-if (ne(a_inside, b_inside)) {
-append_(kept, _crossing(a, b, edge));
-}
-}
-return [...iter(kept), ...iter(sliced(kept, null, 1, null))];
-}
-
-function _area(ring) {
-let _, x, y;
-if (!truth(ring)) {
-return 0.0;
-}
-[[x, y], ..._] = iter(ring);
-return sum(list(iter(pairwise(ring))).map((one) => iter(one)).map(([a, b]) => sub(mul(sub(a.longitude, x), sub(b.latitude, y)), mul(sub(b.longitude, x), sub(a.latitude, y)))));
 }
 
 function heading_vector(heading_deg) {
@@ -1053,6 +1019,86 @@ this.home = home;
 
 }
 }, ["items", "home"], 'Mission');
+
+function _kinds(segments) {
+if (eq(segments, 0)) {
+return ["join"];
+}
+return ["start", ...iter(mul(["switch"], sub(segments, 2))), ...iter(mul(["peel-off"], gt(segments, 1))), "join"];
+}
+
+const Mark = struct(class Mark extends Tuple {
+constructor(kind, action, time_s, latitude_deg, longitude_deg, heading_deg, track_deg, ground_speed_m_s) {
+super();
+this.kind = kind;
+this.action = action;
+this.time_s = time_s;
+this.latitude_deg = latitude_deg;
+this.longitude_deg = longitude_deg;
+this.heading_deg = heading_deg;
+this.track_deg = track_deg;
+this.ground_speed_m_s = ground_speed_m_s;
+
+}
+}, ["kind", "action", "time_s", "latitude_deg", "longitude_deg", "heading_deg", "track_deg", "ground_speed_m_s"], 'Mark');
+
+function _unwrapped(longitude_deg, latitude_deg) {
+let longitudes;
+longitudes = accumulate(longitude_deg, ((before, after) => add(after, mul(360.0, math.floor(add(div(sub(before, after), 360.0), 0.5))))));
+return list(iter(zip(longitudes, latitude_deg))).map((one) => iter(one)).map(([longitude, latitude]) => Position(longitude, latitude));
+}
+
+function _band(longitude) {
+return math.floor(div(add(longitude, 180.0), 360.0));
+}
+
+function _crossing(a, b, longitude) {
+let share;
+share = div(sub(longitude, a.longitude), sub(b.longitude, a.longitude));
+return Position(longitude, add(a.latitude, mul(share, sub(b.latitude, a.latitude))));
+}
+
+function _shifted(part, band) {
+return list(iter(part)).map((one) => iter(one)).map(([longitude, latitude]) => Position(min(180.0, max(-180.0, sub(longitude, mul(360.0, band)))), latitude));
+}
+
+function _counter_clockwise(ring) {
+return (gt(_area(ring), 0.0) ? ring : sliced(ring, null, null, -1));
+}
+
+function _closed_at_pole(ring) {
+let _, east, edge, first, last, line, pole, west;
+line = sorted(list(iter(sliced(ring, null, -1, null))).map((one) => iter(one)).map(([longitude, latitude]) => Position(sub(longitude, mul(360.0, _band(longitude))), latitude)));
+[first, _, last] = with_middle(line, 1, 1);
+[_, edge] = iter(_crossing(last, replace(first, { longitude: add(first.longitude, 360.0) }), 180.0));
+pole = math.copysign(90.0, edge);
+[west, east] = iter([Position(-180.0, edge), Position(180.0, edge)]);
+return [west, ...iter(line), east, Position(180.0, pole), Position(-180.0, pole), west];
+}
+
+function _clipped(ring, edge, side) {
+let a, a_inside, b, b_inside, kept;
+kept = [];
+for ([a, b] of rows(pairwise(ring))) {
+[a_inside, b_inside] = iter([ge(mul(side, sub(a.longitude, edge)), 0.0), ge(mul(side, sub(b.longitude, edge)), 0.0)]);
+if (truth(a_inside)) {
+append_(kept, a);
+}
+if (ne(a_inside, b_inside)) {
+append_(kept, _crossing(a, b, edge));
+}
+}
+return [...iter(kept), ...iter(sliced(kept, null, 1, null))];
+}
+
+function _area(ring) {
+let _, x, y;
+if (!truth(ring)) {
+return 0.0;
+}
+[[x, y], ..._] = iter(ring);
+return sum(list(iter(pairwise(ring))).map((one) => iter(one)).map(([a, b]) => sub(mul(sub(a.longitude, x), sub(b.latitude, y)), mul(sub(b.longitude, x), sub(a.latitude, y)))));
+}
 
 function _velocity(east, north, aircraft, wind) {
 let wind_east, wind_north;
@@ -1521,7 +1567,7 @@ return div(mul(airspeed_m_s, airspeed_m_s), mul(STANDARD_GRAVITY_M_S2, math.tan(
 }
 
 const SaveArguments = struct(class SaveArguments extends Tuple {
-constructor(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path = false, site = null) {
+constructor(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path = false, site = null, name = "") {
 super();
 this.maneuver = maneuver;
 this.frame = frame;
@@ -1532,9 +1578,10 @@ this.chord_error_m = chord_error_m;
 this.autopilot = autopilot;
 this.along_path = along_path;
 this.site = site;
+this.name = name;
 
 }
-}, ["maneuver", "frame", "altitude_m", "datum", "spacing_m", "chord_error_m", "autopilot", "along_path", "site"], 'SaveArguments');
+}, ["maneuver", "frame", "altitude_m", "datum", "spacing_m", "chord_error_m", "autopilot", "along_path", "site", "name"], 'SaveArguments');
 
 const JsonField = struct(class JsonField extends Tuple {
 constructor(name, path) {
@@ -3704,25 +3751,25 @@ const SCHEMA = "http://www.w3.org/2001/XMLSchema-instance";
 const NAMESPACE = "http://www.topografix.com/GPX/1/1";
 const DEGREES = ".9f";
 const VIEW_DISTANCE = 3.0;
-const ACTIONS = new Map([["L", "turn left"], ["S", "fly straight"], ["R", "turn right"]]);
-const DECIMALS = 9;
 const MAX_VERTICES = 1000000;
 const NO_FENCE = new Map([["circles", []], ["polygons", []], ["version", 2]]);
 const FIXED_WING = 1;
 const MARK = "QGC WPL";
 const HEADER = `${str(MARK)} 110`;
-const LEAST_EARTH_RADIUS_M = 6335439.0;
-const LARGEST_LATITUDE_DEG = 89.99;
-const REACH_M = 100000.0;
-const BEND_PER_M = div(mul(div(2.0, 3.0), REACH_M), pow(LEAST_EARTH_RADIUS_M, 2));
-const places_DECIMALS = 12;
-const LEAST_SIDES = 72;
+const ACTIONS = new Map([["L", "turn left"], ["S", "fly straight"], ["R", "turn right"]]);
+const DECIMALS = 9;
 const ALTITUDE_MODES = new Map([[Frame.ABOVE_SEA, 2], [Frame.ABOVE_HOME, 1], [Frame.ABOVE_TERRAIN, 4]]);
 const UNITS = new Map([[AltitudeReference.MSL, "metres above mean sea level"], [AltitudeReference.HOME, "metres above home"], [AltitudeReference.GROUND, "metres above the ground"]]);
 const FRAMES = new Map([[AltitudeReference.MSL, Frame.ABOVE_SEA], [AltitudeReference.HOME, Frame.ABOVE_HOME], [AltitudeReference.GROUND, Frame.ABOVE_TERRAIN]]);
 const HIGHEST_ITEM_M = 83000.0;
 const MEAN_SEA_LEVEL = AltitudeDatum();
 const NO_PARAMS = [0.0, 0.0, 0.0, 0.0];
+const LEAST_EARTH_RADIUS_M = 6335439.0;
+const LARGEST_LATITUDE_DEG = 89.99;
+const REACH_M = 100000.0;
+const BEND_PER_M = div(mul(div(2.0, 3.0), REACH_M), pow(LEAST_EARTH_RADIUS_M, 2));
+const places_DECIMALS = 12;
+const LEAST_SIDES = 72;
 const CONTROLS = new Map([["L", 1], ["S", 0], ["R", -1]]);
 const CALM = Wind(0.0, 0.0);
 const LEAST_RADIUS_M = 1.0;
