@@ -1,0 +1,60 @@
+"""The theorem in formal/: nothing is left open, docs/formal.md states it, and the kernel computes what is proved.
+
+With Coq installed it is also built, and the axioms on which it rests are read off; without it that test is skipped.
+"""
+
+import re
+import shutil
+
+import numpy as np
+import pytest
+
+import loiter
+from evidence import formal
+
+STANDARD_AXIOMS = {
+    "ClassicalDedekindReals.sig_not_dec",
+    "ClassicalDedekindReals.sig_forall_dec",
+    "FunctionalExtensionality.functional_extensionality_dep",
+    "Classical_Prop.classic",
+}
+
+
+@pytest.mark.parametrize("path", sorted(formal.FOLDER.glob("*.v")), ids=lambda path: path.name)
+def test_nothing_is_admitted(path):
+    open_ends = re.compile(r"\b(Admitted|admit|Abort|Axioms?|Parameters?|Conjecture|give_up)\b")
+    without_comments = re.sub(r"\(\*.*?\*\)", "", path.read_text(), flags=re.S)
+    assert re.findall(open_ends, without_comments.replace("Print Assumptions", "")) == []
+    assert path.name in (formal.FOLDER / "_CoqProject").read_text().split()
+
+
+def test_page_states_what_is_proved():
+    page = (formal.FOLDER.parent / "docs" / "formal.md").read_text()
+    (block,) = re.findall(r"```coq\n(.*?)```", page, flags=re.S)
+    proved = " ".join((formal.FOLDER / "Synthesis.v").read_text().split())
+    statements = [" ".join(statement.split()) for statement in block.split("\n\n")]
+    assert len(statements) == 4
+    assert [statement for statement in statements if statement not in proved] == []
+
+
+def test_kernel_computes_the_least_time():
+    """The definitions of formal/, read and evaluated as they stand there, beside the kernel."""
+    definitions = formal.definitions()
+    states = np.random.default_rng(3).uniform(-5.0, 5.0, (3000, 2))
+    states[1000:] *= 0.3  # most of these are near the last circle and the switching curve
+    regions = {}
+    for x, y in states:
+        region, time = formal.least_time(definitions, x, abs(y))
+        regions[region] = regions.get(region, 0) + 1
+        assert time == pytest.approx(float(loiter.min_time(x, y)), abs=1e-9), (x, y)
+    assert min(regions.get(name, 0) for name in ("time_rsl", "time_rl", "time_lrl")) > 50
+
+
+@pytest.mark.skipif(shutil.which("coqc") is None, reason="needs Coq (docs/formal.md)")
+def test_proof_is_complete(tmp_path):
+    printed = formal.build(formal.FOLDER, tmp_path)
+    assert printed.returncode == 0, printed.stderr
+    axioms = set(re.findall(r"^([A-Z]\w*(?:\.\w+)+) ?:", printed.stdout, flags=re.M))
+    axioms |= set(re.findall(r"^([A-Z]\w*(?:\.\w+)+)\n  :", printed.stdout, flags=re.M))
+    assert printed.stdout.count("Axioms:") == 2
+    assert axioms == STANDARD_AXIOMS
