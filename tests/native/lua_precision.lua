@@ -34,17 +34,30 @@ function actions.kernel(lines, out)
     end
 end
 
--- Settings and vehicle, the time between steps, then measurements; bank and time to join.
-function actions.law(lines, out)
-    local settings, model = load(lines())()
-    local dt = tonumber(lines())
+-- The law with settings and vehicle, and the time between steps: a function from a measurement to bank and time to join.
+local function flight(begin, dt_text)
+    local settings, model = load(begin)()
+    local dt = tonumber(dt_text)
     local memory = law.first_memory(settings, model)
-    for line in lines do
+    return function(line)
         model = law.fly_as_declared(model, memory.command.bank_deg, memory.step_s)
         memory = law.prepare(memory, settings, model, fields(STATE, numbers(line)))
         memory = law.conclude(law.continue_search(memory, settings, 10), settings, model, dt)
-        out:write(string.format("%.9g %.9g\n", memory.command.bank_deg, memory.command.time_to_join_s))
+        return memory.command.bank_deg, memory.command.time_to_join_s
     end
+end
+
+-- Two lines that begin a flight, then measurements; bank and time to join.
+function actions.law(lines, out)
+    local step = flight(lines(), lines())
+    for line in lines do
+        out:write(string.format("%.9g %.9g\n", step(line)))
+        out:flush()
+    end
+end
+
+if action == "flight" then
+    return flight
 end
 
 local out = assert(io.open(to, "w"))

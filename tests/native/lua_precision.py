@@ -1,14 +1,17 @@
-"""What Lua with numbers of 32 bits costs: `python -m native.lua_precision LUA kernel`, `law FOLDER`, in `tests`.
+"""What Lua with numbers of 32 bits costs: `python -m native.lua_precision LUA kernel`, in the folder `tests`.
 
 LUA is an interpreter of Lua 5.3 that was compiled with -DLUA_32BITS, as ArduPilot's is. `kernel` compares times and
-words with those of Lua in double precision, for the states of `native.single_precision`. `law` gives the measurements
-of flights that `guidance.recorded` has recorded to the law of the applet in both, and in still air to the C in single
-precision too. Flights whose clock jumps are left out: the applet's does not.
+words with those of Lua in double precision, for the states of `native.single_precision`. `law FOLDER` gives the
+measurements of flights that `guidance.recorded` has recorded to the law of the applet in both, and in still air to the
+C in single precision too. Flights whose clock jumps are left out: the applet's does not. `flown` flies both from the
+same starts, with the same noise.
 """
 
 import pickle
 import subprocess
 import sys
+from functools import partial
+from math import nan
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -17,7 +20,10 @@ from codegen.lua import LUA, LUA_32BITS
 from codegen.onboard.lua_files import law as law_chunk
 from lupa.lua53 import LuaRuntime
 
-from loiter.guidance.protocol import State
+from loiter import Aircraft, Turn, Wind
+from loiter.guidance.protocol import Command, Phase, State
+from loiter.guidance.trials.campaign import outcome, trials
+from loiter.guidance.trials.settings import point_mass_setting
 from native.onboard import OnboardLaw
 from native.single_precision import RADII, TOLERANCE, beside, library
 from native.test_applet import SOLVERS
@@ -33,16 +39,16 @@ def text_of(arithmetic):
     return f"local law, begin_in_wind, advance_in_wind = {{}}\n{law_chunk(arithmetic).body()}\n{SOLVERS}"
 
 
-def in_double(action, source, target):
+def in_double(action, source="", target=""):
     runtime = LuaRuntime(unpack_returned_tuples=True)
-    runtime.eval("load")(DRIVER.read_text("utf-8"))(runtime.execute(text_of(LUA)), action, str(source), str(target))
+    driver = runtime.eval("load")(DRIVER.read_text("utf-8"))
+    return driver(runtime.execute(text_of(LUA)), action, str(source), str(target))
 
 
-def in_single(lua, action, source, target):
-    folder = target.parent
+def single_command(lua, folder, action, source, target):
+    """The command that runs the driver with numbers of 32 bits."""
     (folder / "law.lua").write_text(text_of(LUA_32BITS), "utf-8")
-    call = f'loadfile("{DRIVER}")(dofile("{folder / "law.lua"}"), "{action}", "{source}", "{target}")'
-    subprocess.run([lua, "-e", call], check=True)
+    return [lua, "-e", f'loadfile("{DRIVER}")(dofile("{folder / "law.lua"}"), "{action}", "{source}", "{target}")']
 
 
 def both(lua, action, lines):
@@ -50,7 +56,7 @@ def both(lua, action, lines):
     with TemporaryDirectory() as name:
         source, single, double = (Path(name) / each for each in ("source", "single", "double"))
         source.write_text("".join(f"{line}\n" for line in lines), "utf-8")
-        in_single(lua, action, source, single)
+        subprocess.run(single_command(lua, Path(name), action, source, single), check=True)
         in_double(action, source, double)
         return np.loadtxt(single, ndmin=2), np.loadtxt(double, ndmin=2)
 
@@ -92,23 +98,67 @@ def replayed(lua, path):
     """Bank and time to join of a recorded flight, in Lua of 32 bits, in double, and in the C of single precision."""
     (orbit, aircraft, told, others), dt, _, rows, _ = pickle.loads(path.read_bytes())
     law = OnboardLaw(orbit, aircraft, told, **{**others, "identify": False})
-    settings, (east, north) = law.relative_settings(), law.velocity
-    known = law._vehicle.estimates
-    known = known._replace(wind_east_m_s=known.wind_east_m_s - east, wind_north_m_s=known.wind_north_m_s - north)
-    lines = [f"return {in_lua(settings)}, {in_lua(law._vehicle._replace(estimates=known))}", float(dt).hex()]
-    commands = []
-    for row in rows[:, :8].tolist():
-        state, t = State(*row), row[0]
-        measured = law.measurement(state)
-        values = [getattr(measured, name) for name in STATE_FIELDS]
-        lines.append(written([t, *values]))
-        command = law.step(state, dt)
-        commands.append((command.bank_deg, command.time_to_join_s))
+    states = [State(*row) for row in rows[:, :8].tolist()]
+    lines = [*beginning(law, dt), *(measured(law, state) for state in states)]
+    commands = [(command.bank_deg, command.time_to_join_s) for command in law.steps(states, dt)]
+    known = law.relative_vehicle().estimates
     is_still = known.wind_east_m_s == known.wind_north_m_s == 0.0
     return *both(lua, "law", lines), np.array(commands) if is_still else None
 
 
-STATE_FIELDS = State._fields[1:]
+def beginning(law, dt):
+    """The lines that begin a flight in Lua."""
+    return f"return {in_lua(law.relative_settings())}, {in_lua(law.relative_vehicle())}", float(dt).hex()
+
+
+def measured(law, state):
+    """The line of a measurement."""
+    given = law.measurement(state)
+    return written([state.time_s, *(getattr(given, name) for name in State._fields[1:])])
+
+
+class LuaLaw(OnboardLaw):
+    """The law of the applet as it is flown: in double precision in this process, with 32 bits in one of its own."""
+
+    def __init__(self, lua, trial):
+        super().__init__(trial.ideal.orbit, trial.known_aircraft, trial.known_wind, identify=False)
+        begin = beginning(self, STEP_S)
+        if lua is None:
+            self.answer = in_double("flight")(*begin)
+            return
+        self.folder = TemporaryDirectory()
+        command = single_command(lua, Path(self.folder.name), "law", "/dev/stdin", "/dev/stdout")
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1)
+        self.process.stdin.write("".join(f"{line}\n" for line in begin))
+        self.answer = self.asked
+
+    def asked(self, line):
+        self.process.stdin.write(f"{line}\n")
+        return map(float, self.process.stdout.readline().split())
+
+    def step(self, state, dt):
+        bank_deg, join_s = self.answer(measured(self, state))
+        return Command(nan, bank_deg, Phase.HOLD, join_s, Turn.EITHER, Phase.HOLD, nan)
+
+
+# Seconds between two steps of the applet, and the wind in which every other flight is flown.
+STEP_S, WIND = 0.05, Wind(6.0, 250.0)
+
+
+def flown(lua, count=24):
+    """Later than in double precision, from the same starts."""
+    aircraft, setting, late_s = Aircraft(18.0, max_bank_deg=35.0), point_mass_setting(0.05), []
+    pairs = zip(trials(int(count), 0, aircraft), trials(int(count), 0, aircraft, WIND), strict=True)
+    for i, trial in enumerate(pair[k % 2] for k, pair in enumerate(pairs)):
+        done = [
+            outcome(i, trial, partial(LuaLaw, kind), setting.simulator, setting.band, STEP_S) for kind in (lua, None)
+        ]
+        late_s.append([one.settled_s - one.ideal_s for one in done])
+        print(f"{i}: {late_s[-1][0]:.2f} s, in double precision {late_s[-1][1]:.2f} s", flush=True)
+    off = np.diff(np.array(late_s)[:, ::-1], axis=1)
+    settled = np.isfinite(late_s).sum(axis=0)
+    print(f"{settled} settled; later than in double precision: median {np.nanmedian(off):.2f}", end=" ")
+    print(f"s, 90 % {np.nanquantile(off, 0.9):.2f}, largest {np.nanmax(off):.2f}, least {np.nanmin(off):.2f}")
 
 
 def compare(title, pairs):
@@ -130,4 +180,4 @@ def law(lua, folder, first=0, last=None):
 
 if __name__ == "__main__":
     interpreter, action, *others = sys.argv[1:]
-    {"kernel": kernel, "law": law}[action](interpreter, *others)
+    {"kernel": kernel, "law": law, "flown": flown}[action](interpreter, *others)

@@ -1,7 +1,20 @@
 """The C for autopilots of onboard/c as a library, in double and in single precision, and a law that calls it."""
 
 import subprocess
-from ctypes import CDLL, POINTER, Structure, byref, c_bool, c_double, c_float, c_int, c_int32, c_int64, c_uint32
+from ctypes import (
+    CDLL,
+    POINTER,
+    Structure,
+    byref,
+    c_bool,
+    c_double,
+    c_float,
+    c_int,
+    c_int32,
+    c_int64,
+    c_uint32,
+    c_void_p,
+)
 from functools import cache
 from pathlib import Path
 from tempfile import mkdtemp
@@ -12,8 +25,7 @@ from codegen.onboard import FOLDER
 
 from loiter.guidance.entry.law_step import LawCommand, Settings
 from loiter.guidance.entry.loiter_entry import NAMED_PHASES, NAMED_TURNS, LoiterEntry
-from loiter.guidance.estimation.identification_step import identify
-from loiter.guidance.estimation.vehicle import VehicleModel, fly_as_declared
+from loiter.guidance.estimation.vehicle import VehicleModel
 from loiter.guidance.protocol import Command, State
 from loiter.kernel.entry import Entry
 from loiter.kernel.wind.wind_search import WindEntry, WindProblem
@@ -24,6 +36,7 @@ WARNINGS = ["-Wpedantic", "-Wconversion", "-Wdouble-promotion"]
 # Functions that are not exported, for the tests.
 EXPORTS = """
 #include "loiter.c"
+#include "loiter_identification.h"
 int test_optimum(real x, real y, real R, integer side, real tolerance, Entry *entry) {
     const WindProblem p = {x, y, REAL(1.0), REAL(0.0), rounded_radius(R), side, REAL(0.0), REAL(0.0), tolerance};
     const int status = (int)status_of(&p);
@@ -57,7 +70,6 @@ int test_search(const WindProblem *problem, int steps, int most, WindEntry *entr
     return calls;
 }
 loiter_law *test_law(void) { return (loiter_law *)malloc(sizeof(loiter_law)); }
-void test_limit(loiter_law *law, double limit_deg) { law->settings.command_limit_deg = (real)limit_deg; }
 void test_begin(loiter_law *law, const Settings *settings, const VehicleModel *vehicle) {
     law->settings = *settings;
     law->begin_us = 0;
@@ -68,10 +80,29 @@ void test_step(loiter_law *law, const VehicleModel *vehicle, const State *state,
     law_step_advance(&law->rings, &law->memory, &law->settings, vehicle, state, *dt);
     *command = law->memory.command;
 }
-void test_step_with(loiter_law *law, const VehicleModel *vehicle, const loiter_measurement *m, const real *dt,
-                    loiter_command *command) {
-    law->vehicle = *vehicle;
-    step_with(law, m, *dt, command);
+typedef struct { loiter_law law; loiter_identification known; bool identifies; } Flight;
+Flight *test_flight(const Settings *settings, const VehicleModel *vehicle, bool identifies, bool is_wind_known) {
+    Flight *flight = malloc(sizeof(Flight));
+    flight->law.settings = *settings;
+    flight->law.vehicle = *vehicle;
+    flight->law.begin_us = 0;
+    flight->identifies = identifies;
+    if (identifies) {
+        loiter_identification_begin(&flight->known, &flight->law, is_wind_known);
+    }
+    flight->law.memory = first_memory(&flight->law.rings, &flight->law.settings, &flight->law.vehicle);
+    return flight;
+}
+void test_end(Flight *flight) { free(flight); }
+void test_limit(Flight *flight, double limit_deg) { flight->law.settings.command_limit_deg = (real)limit_deg; }
+void test_steps(Flight *flight, int count, const loiter_measurement *m, double dt, loiter_command *command) {
+    for (int i = 0; i < count; i++) {
+        if (flight->identifies) {
+            loiter_law_step_identified(&flight->law, &flight->known, &m[i], (real)dt, &command[i]);
+        } else {
+            loiter_law_step(&flight->law, &m[i], (real)dt, &command[i]);
+        }
+    }
 }
 """
 
@@ -118,6 +149,7 @@ class OnboardLibrary:
         real, integer = types.real, types.integer
         self.c.test_optimum.argtypes = [real, real, real, integer, real, POINTER(types.of[Entry])]
         self.c.test_law.restype = POINTER(c_double)
+        self.c.test_flight.argtypes, self.c.test_flight.restype = [c_void_p, c_void_p, c_bool, c_bool], c_void_p
 
     def optimum(self, x, y, R, side, tolerance):
         """Status and maneuver; None for that where there is nothing to solve."""
@@ -150,7 +182,8 @@ def build(folder, single, flags=()):
     source, library = folder / "exports.c", folder / f"onboard{32 if single else 64}.so"
     source.write_text(f"#include <stdlib.h>\n{EXPORTS}", "utf-8")
     macros = ["-DLOITER_FLOAT"] if single else []
-    command = [COMPILER, *FLAGS, *macros, *flags, f"-I{FOLDER}", str(source), "-o", str(library), "-lm"]
+    command = [COMPILER, *FLAGS, *macros, *flags, f"-I{FOLDER}", str(source), str(FOLDER / "loiter_identification.c")]
+    command += ["-o", str(library), "-lm"]
     subprocess.run(command, check=True)
     return OnboardLibrary(library, types)
 
@@ -162,7 +195,7 @@ def library(single):
 
 
 class OnboardLaw(LoiterEntry):
-    """The law whose step is in C, with the identification of Python; all is relative to the circle's centre."""
+    """The law in C, with its identification; all is relative to the circle's centre."""
 
     single, search_steps = True, 0
 
@@ -170,25 +203,31 @@ class OnboardLaw(LoiterEntry):
         super().__init__(*arguments, **others)
         self.library, self.types = library(self.single), library(self.single).types
         s = self._settings
-        self.velocity, self.last_east = (s.velocity_east_m_s, s.velocity_north_m_s), None
-        self.law = self.library.c.test_law()
-        settings = self.types.in_c(self.relative_settings())
-        self.library.c.test_begin(self.law, byref(settings), byref(self.known()))
+        self.velocity = s.velocity_east_m_s, s.velocity_north_m_s
+        begun = [byref(self.types.in_c(each)) for each in (self.relative_settings(), self.relative_vehicle())]
+        self.flight = c_void_p(
+            self.library.c.test_flight(*begun, self._identifies, self._declared.wind_known_s > 0.0),
+        )
+
+    def __del__(self):
+        self.library.c.test_end(self.flight)
 
     def relative_settings(self):
+        """The settings in coordinates in which the circle rests at the origin."""
         s, (east, north) = self._settings, self.velocity
         wind = {"wind_east_m_s": s.wind_east_m_s - east, "wind_north_m_s": s.wind_north_m_s - north}
         s = s._replace(east_m=0.0, north_m=0.0, velocity_east_m_s=0.0, velocity_north_m_s=0.0, **wind)
         return s._replace(search_steps=self.search_steps)
 
-    def known(self):
-        """What is known of the vehicle, with the wind relative to the circle."""
+    def relative_vehicle(self):
+        """What is declared of the vehicle, with the wind relative to the circle."""
         model, (east, north) = self._vehicle, self.velocity
         known = model.estimates
         known = known._replace(wind_east_m_s=known.wind_east_m_s - east, wind_north_m_s=known.wind_north_m_s - north)
-        return self.types.in_c(model._replace(estimates=known))
+        return model._replace(estimates=known)
 
     def measurement(self, state):
+        """A measured state as the C takes it."""
         s, (east, north) = self._settings, self.velocity
         time_us = round(state.time_s * 1e6) % 2**32
         x, y = state.east_m - s.east_m - east * state.time_s, state.north_m - s.north_m - north * state.time_s
@@ -203,21 +242,15 @@ class OnboardLaw(LoiterEntry):
             state.airspeed_m_s,
         )
 
+    def steps(self, states, dt):
+        """The commands after measurements, as structures of C."""
+        measured = (self.types.measurement * len(states))(*map(self.measurement, states))
+        given = (self.types.command * len(states))()
+        self.library.c.test_steps(self.flight, len(states), measured, c_double(dt), given)
+        return given
+
     def step(self, state, dt):
-        before = self._memory
-        if self._identifies:
-            self._identification, self._vehicle = identify(
-                self._declared, self._identification, state, before.command.bank_deg, before.step_s
-            )
-        else:
-            self._vehicle = fly_as_declared(self._vehicle, before.command.bank_deg, before.step_s)
-        given = self.types.command()
-        measured = self.measurement(state)
-        self.library.c.test_step_with(
-            self.law, byref(self.known()), byref(measured), byref(self.types.real(dt)), byref(given)
-        )
-        said = before.command._replace(bank_deg=given.bank_deg, side=given.side)
-        self._memory = before._replace(command=said, step_s=dt)
+        (given,) = self.steps([state], dt)
         return Command(
             given.turn_rate_deg_s,
             given.bank_deg,
@@ -230,5 +263,4 @@ class OnboardLaw(LoiterEntry):
 
     def set_limit(self, limit_deg):
         """Change the limit of commanded banks."""
-        self._settings = self._settings._replace(command_limit_deg=limit_deg)
-        self.library.c.test_limit(self.law, c_double(limit_deg))
+        self.library.c.test_limit(self.flight, c_double(limit_deg))

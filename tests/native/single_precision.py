@@ -20,9 +20,8 @@ from compiled.windy import drawn
 from guidance.recorded import LIMIT_DEG
 from loiter import Aircraft, Wind
 from loiter.guidance.protocol import State
-from loiter.guidance.trials.campaign import campaign, trials
+from loiter.guidance.trials.campaign import campaign, outcome, trials
 from loiter.guidance.trials.settings import point_mass_setting, varied_setting
-from loiter.guidance.trials.summary import summary
 from loiter.guidance.trials.varied import varied_trials
 from loiter.kernel.wind.wind_search import time_of
 from native.onboard import OnboardLaw, library
@@ -101,44 +100,74 @@ class DoubleLaw(OnboardLaw):
     single = False
 
 
-def replayed(path):
-    """The banks that both laws command in a recorded flight, and what both say of the time to join."""
+# The numbers of a command that are compared.
+COMPARED = "bank_deg", "time_to_join_s", "side", "phase"
+
+
+def commands(kind, path):
+    """What a law commands in a recorded flight: a row of `COMPARED` for each step."""
     (orbit, aircraft, told, others), dt, limit_step, rows, _ = pickle.loads(path.read_bytes())
-    if "exact" in others:
-        return None
-    laws = [kind(orbit, aircraft, told, **others) for kind in (OnboardLaw, DoubleLaw)]
-    found = []
-    for step, state in enumerate(State(*row) for row in rows[:, :8].tolist()):
-        if step == limit_step:
-            for law in laws:
-                law.set_limit(LIMIT_DEG)
-        commands = [law.step(state, dt) for law in laws]
-        found.append([value for one in commands for value in (one.bank_deg, one.time_to_join_s)])
-    return np.array(found)
+    flown = kind.exact(orbit, aircraft, told) if "exact" in others else kind(orbit, aircraft, told, **others)
+    states = [State(*row) for row in rows[:, :8].tolist()]
+    before = states if limit_step < 0 else states[:limit_step]
+    given = [*flown.steps(before, dt)]
+    flown.set_limit(LIMIT_DEG)
+    given += flown.steps(states[len(before) :], dt)
+    return np.array([[getattr(one, name) for name in COMPARED] for one in given])
+
+
+def situations(single, double):
+    """Whether both laws do the same, by what that is, or different things: a row of truths for each name."""
+    same = single[:, 3] == double[:, 3]
+    phases = {"turns": (-1, 1), "straight": (0,), "holds": (2,), "no data": (3,)}
+    found = {name: same & np.isin(single[:, 3], codes) for name, codes in phases.items()}
+    return found | {"another phase": ~same, "another direction": single[:, 2] != double[:, 2]}
 
 
 def law(folder, first=0, last=None):
-    flights = [found for path in sorted(Path(folder).iterdir())[first:last] if (found := replayed(path)) is not None]
-    rows = np.concatenate(flights)
-    bank, join = np.abs(rows[:, 0] - rows[:, 2]), np.abs(rows[:, 1] - rows[:, 3])
-    largest = np.array([np.abs(each[:, 0] - each[:, 2]).max() for each in flights])
-    print(f"{len(flights)} flights, {len(rows)} steps")
+    paths = sorted(Path(folder).iterdir())[first:last]
+    flights = [tuple(commands(kind, path) for kind in (OnboardLaw, DoubleLaw)) for path in paths]
+    single, double = (np.concatenate(rows) for rows in zip(*flights, strict=True))
+    bank, join = np.abs(single[:, :2] - double[:, :2]).T
+    largest = np.array([np.abs(a[:, 0] - b[:, 0]).max() for a, b in flights])
+    print(f"{len(flights)} flights, {len(bank)} steps")
     print(f"bank: median {np.median(bank):.1e} deg, largest {bank.max():.3g} deg")
+    found = situations(single, double)
     for limit in (0.01, 0.1, 1.0, 10.0):
-        steps, some = 100 * (bank > limit).mean(), 100 * (largest > limit).mean()
-        print(f"beyond {limit} deg: {steps:.3f} % of steps, {some:.1f} % of flights")
+        far = bank > limit
+        steps, some = 100 * far.mean(), 100 * (largest > limit).mean()
+        shares = ", ".join(f"{name} {100 * each[far].mean():.1f} %" for name, each in found.items())
+        lengths = np.concatenate([runs(np.abs(a[:, 0] - b[:, 0]) > limit) for a, b in flights])
+        print(f"beyond {limit} deg: {steps:.3f} % of steps, {some:.1f} % of flights; {shares};", end=" ")
+        print(f"in a row {np.median(lengths):g} steps (median), {np.quantile(lengths, 0.9):g} (90 %)")
     print(f"time to join: median {np.nanmedian(join):.1e} s, 99.9 % within {np.nanquantile(join, 0.999):.3g} s")
 
 
-def flown(count=100):
-    setting = varied_setting(0.05)
-    laws = {str(kind.single): partial(law_of, kind) for kind in (OnboardLaw, DoubleLaw)}
-    done = campaign(laws, setting.simulator, varied_trials(count, 0), band=setting.band, workers=1)
-    for name, outcomes in done.items():
-        found = summary(outcomes)
-        print(f"single precision {name}: {found.settled} of {found.flights} settled, go-arounds {found.round_again}")
-        print(f"median ratio {found.median_ratio:.4f}, 90 % {found.ninth_decile_ratio:.4f}")
-        print(f"rate of the bank {found.bank_rate_deg_s:.2f} deg/s")
+def runs(far):
+    """The numbers of steps in a row that are far."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], far, [False]]).astype(int)))
+    return edges[1::2] - edges[::2]
+
+
+def flown(count=100, seed=0):
+    """Later than the law in double precision, from the same starts with the same noise."""
+    setting, late_s, went_round = varied_setting(0.05), [], np.zeros(2, int)
+    settled = np.zeros(2, int)
+    for i, trial in enumerate(varied_trials(count, seed)):
+        pair = [
+            outcome(i, trial, partial(law_of, kind), setting.simulator, setting.band)
+            for kind in (OnboardLaw, DoubleLaw)
+        ]
+        settled += [one.settled for one in pair]
+        went_round += [one.round_again for one in pair]
+        late_s.append([one.settled_s - one.ideal_s for one in pair])
+        if (i + 1) % 25 == 0 or i + 1 == count:
+            single, double = np.array(late_s).T
+            print(f"{i + 1} flights; settled {settled}, go-arounds {went_round} (single and double precision)")
+            for name, late in (("single", single), ("double", double), ("single later than double", single - double)):
+                shares = np.nanquantile(late, [0.05, 0.5, 0.9, 0.95])
+                print(f"  {name}: 5 % {shares[0]:.2f}, median {shares[1]:.2f}, 90 % {shares[2]:.2f},", end=" ")
+                print(f"95 % {shares[3]:.2f}, largest {np.nanmax(late):.2f}, mean {np.nanmean(late):.3f} s", flush=True)
 
 
 def law_of(kind, trial):
