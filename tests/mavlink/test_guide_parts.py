@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Wind, hold
 from loiter.batch.tables.flight_logs import read_parquet, to_parquet
+from loiter.cli.app import main
 from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
 from loiter.geo import LocalFrame
 from loiter.guidance.protocol import State
@@ -751,3 +752,21 @@ def test_a_log_with_a_word_for_a_number_is_refused(tmp_path):
         writer.writerow(row)
     with pytest.raises(InvalidArgument, match=r"bank_deg is 'steep', not a number"):
         read_log(path)
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ("--slot 90", "--slot-at is needed with --slot: the Unix time at which the slot is at that bearing"),
+        ("--slot-at 1e9", "--slot-at has no effect without --slot"),
+        ("--slot-band 0.1", "--slot-band has no effect without --slot"),
+        ("--slot nan --slot-at 1e9", "--slot is nan"),
+        ("--slot 90 --slot-at 1e9", "--turn is needed with a slot, which moves cw or ccw"),
+        ("--slot 90 --slot-at 1e9 --turn cw", "--airspeed is needed with a slot, which moves with it"),
+        ("--slot 90 --slot-at 1e9 --turn cw --airspeed 22 --slot-band 2", "--slot-band is 2.0: it must be at least 0"),
+    ],
+)
+def test_a_slot_needs_what_defines_its_motion(capsys, options, sentence):
+    command = f"guide --connect udpin:127.0.0.1:1 --orbit-lla 47 8 120 --yes {options}"
+    assert main(command.split()) == 2
+    assert capsys.readouterr().err.startswith(f"loiter: {sentence}")

@@ -124,6 +124,14 @@ SlotBearing = Annotated[
         help="Enter the slot that is at this bearing from the centre, a place that moves round the circle with the hold.",
     ),
 ]
+SlotBand = Annotated[
+    float | None,
+    Parameter(
+        group=scene,
+        metavar="SHARE",
+        help="The largest share by which the radius of the hold may differ from that of the circle, to keep the slot; 0.15 if absent.",
+    ),
+]
 SlotTime = Annotated[
     float | None,
     Parameter(

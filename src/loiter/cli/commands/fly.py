@@ -23,12 +23,12 @@ from loiter.cli.options import (
     OrbitOptions,
     Output,
     PictureOptions,
+    SlotBand,
     SlotBearing,
     SlotTime,
     StartOptions,
     WindOptions,
     output,
-    scene,
 )
 from loiter.cli.scenes import place_scene
 from loiter.cli.sentences import argument_names
@@ -208,14 +208,7 @@ class SlotOptions:
 
     slot: SlotBearing = None
     slot_at: SlotTime = None
-    slot_band: Annotated[
-        float | None,
-        Parameter(
-            group=scene,
-            metavar="SHARE",
-            help="The largest share by which the radius of the hold may differ from that of the circle, to keep the slot; 0.15 if absent.",
-        ),
-    ] = None
+    slot_band: SlotBand = None
 
     def slot_for(self, simulated: SimulationOptions) -> Slot | None:
         """The slot; None without one. Raises `InvalidArgument` where the options do not fit together."""

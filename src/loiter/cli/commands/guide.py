@@ -11,7 +11,7 @@ from math import isnan
 from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
@@ -22,14 +22,19 @@ from loiter.cli.options import (
     GuidedFenceOptions,
     GuidedOrbitOptions,
     GuidedVehicleOptions,
+    SlotBand,
+    SlotBearing,
     WindOptions,
     output,
+    scene,
     written_altitude,
 )
+from loiter.cli.sentences import argument_names
 from loiter.cli.status import abandon_output
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.mavlink.connection.link import TIMEOUT_S
 from loiter.planning.model import wind_from_velocity
+from loiter.planning.slot import Slot
 
 if TYPE_CHECKING:
     from loiter.mavlink import GuideReport
@@ -83,6 +88,16 @@ def guide(
     uav: GuidedVehicleOptions = GuidedVehicleOptions(),
     air: WindOptions = WindOptions(),
     fence: GuidedFenceOptions = GuidedFenceOptions(),
+    slot: SlotBearing = None,
+    slot_at: Annotated[
+        float | None,
+        Parameter(
+            group=scene,
+            metavar="UNIX",
+            help="The Unix time, seconds, at which the slot is at that bearing, by the clock of this computer: date +%s prints it. Needed with --slot.",
+        ),
+    ] = None,
+    slot_band: SlotBand = None,
     log: Annotated[
         Path | None,
         Parameter(
@@ -119,6 +134,7 @@ def guide(
         log=log,
         fence=fence.of_flight(),
         margin_m=fence.margin,
+        **_slot_arguments(slot, slot_at, slot_band),
     )
     with _ending_signals(), closing(reports):
         try:
@@ -137,6 +153,20 @@ def guide(
                 raise
             # It came between two reports: the vehicle is commanded back, and the interrupt says so.
             reports.throw(KeyboardInterrupt)
+
+
+def _slot_arguments(bearing_deg: float | None, at_s: float | None, band: float | None) -> dict[str, Any]:
+    """The slot of the options as arguments of `guide`; raises `InvalidArgument` where they do not fit together."""
+    if bearing_deg is None:
+        for name, value in (("slot_at_s", at_s), ("slot_band", band)):
+            if value is not None:
+                raise InvalidArgument(name, "has no effect without --slot")
+        return {}
+    if at_s is None:
+        raise InvalidArgument("slot_at_s", "is needed with --slot: the Unix time at which the slot is at that bearing")
+    with argument_names(**{"slot phase_deg": "slot", "slot at_s": "slot_at_s"}):
+        slot = Slot(bearing_deg, at_s)
+    return {"slot": slot} | ({} if band is None else {"slot_band": band})
 
 
 def _question() -> Callable[[], bool]:
@@ -175,7 +205,8 @@ def _ending_signals() -> Iterator[None]:
 
 def line(vehicle: GuideReport) -> str:
     """A report in a line: "  12.0 s: joining clockwise in 8.2 s; bank 44 of 45 deg; 600 m, 100 above home; ..."."""
-    parts = [_progress(vehicle), *_bank(vehicle), *_altitude(vehicle), *_offset(vehicle), *_wind(vehicle)]
+    parts = [_progress(vehicle), *_bank(vehicle), *_altitude(vehicle), *_offset(vehicle), *_slot(vehicle)]
+    parts += _wind(vehicle)
     return f"{vehicle.time_s:6.1f} s: {'; '.join(parts)}"
 
 
@@ -215,6 +246,14 @@ def _offset(vehicle: GuideReport) -> list[str]:
     place = "circle" if on_circle else "path"
     beside = side if on_circle else f"{side} of path"
     return [f"on {place}" if abs(offset_m) < LEAST_OFFSET_M else f"{abs(offset_m):.1f} m {beside}"]
+
+
+def _slot(vehicle: GuideReport) -> list[str]:
+    """How far the slot is ahead or behind."""
+    ahead_deg = vehicle.slot_ahead_deg
+    if isnan(ahead_deg):
+        return []
+    return [f"slot {abs(ahead_deg):.1f} deg {'ahead' if ahead_deg >= 0.0 else 'behind'}"]
 
 
 def _wind(vehicle: GuideReport) -> list[str]:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from contextlib import suppress
-from math import inf, isfinite
-from time import monotonic
+from dataclasses import replace
+from math import inf, isfinite, nan
+from time import monotonic, time
 
 from loiter.errors import LinkFailed, LoiterError
 from loiter.guidance.entry.loiter_entry import LoiterEntry
+from loiter.guidance.entry.slot_entry import SlotEntry
 from loiter.guidance.estimation.turn_fits import bounded_turn_ratio
 from loiter.guidance.estimation.vehicle import VehicleEstimates
 from loiter.guidance.protocol import Command, Phase, State
@@ -26,6 +28,7 @@ from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import SteadyHoldDetector
 from loiter.mavlink.guiding.summary import loss_consequence, summary
 from loiter.planning.model import Turn
+from loiter.planning.slot import Slot
 
 # Seconds for a command to be confirmed: the fall-back circle, PX4's offboard mode, the hand-over.
 CONFIRM_S = 4.0
@@ -149,7 +152,16 @@ class GuidedFlight:
     def _new_law(self) -> LoiterEntry:
         p = self._setup
         delay_s = DELAY_S + self._contact.round_trip.seconds
+        if self._request.slot is not None:
+            slot, band = self._slot_by_vehicle(self._request.slot), self._request.slot_band
+            aimed = p.aircraft, self._request.wind
+            return SlotEntry(self.orbit, *aimed, slot=slot, band=band, roll=p.settings.roll, delay_s=delay_s)
         return LoiterEntry(self.orbit, p.aircraft, p.wind, roll=p.settings.roll, delay_s=delay_s)
+
+    def _slot_by_vehicle(self, slot: Slot) -> Slot:
+        """The slot by the clock of the vehicle: the newest measurement arrived at a Unix time."""
+        arrived_s = time() - (monotonic() - self._contact.measurements.arrived)
+        return replace(slot, at_s=slot.at_s - (arrived_s - self._state.time_s))
 
     def _new_steering(self) -> Steering:
         vehicle, p = self._contact.link.vehicle, self._setup
@@ -413,6 +425,7 @@ class GuidedFlight:
             rate_hz=m.rate_hz(now),
             age_s=now - m.arrived,
             estimates=self._law.estimates,
+            slot_ahead_deg=self._law.behind_deg if isinstance(self._law, SlotEntry) else nan,
         )
         self.record(self._report)
 

@@ -9,9 +9,10 @@ from pathlib import Path
 from time import monotonic
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument, LinkFailed, file_path, instance, not_negative, number, positive
+from loiter.errors import InvalidArgument, LinkFailed, file_path, instance, not_negative, number, positive, share
 from loiter.fences import PlacedFence
 from loiter.geo import LocalFrame
+from loiter.guidance.entry.slot_entry import BAND
 from loiter.mavlink.connection.link import TIMEOUT_S, check_target, open_link
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.flight import GuidedFlight, GuidingStopped
@@ -19,7 +20,8 @@ from loiter.mavlink.guiding.monitor import StopReason
 from loiter.mavlink.guiding.preparation import GuideRequest, OwnFence
 from loiter.mavlink.guiding.report import GuideReport
 from loiter.mavlink.guiding.step_log import check_log, step_log
-from loiter.planning.model import Orbit, Wind
+from loiter.planning.model import Orbit, Turn, Wind
+from loiter.planning.slot import Slot
 
 INTERRUPTED = StopReason("guiding was interrupted")
 OUTPUT_CLOSED = StopReason("standard output was closed")
@@ -49,6 +51,8 @@ def guide(
     log: str | Path | None = None,
     fence: PlacedFence | OwnFence | None = None,
     margin_m: float | None = None,
+    slot: Slot | None = None,
+    slot_band: float = BAND,
 ) -> Generator[GuideReport, None, None]:
     """Guide a vehicle in flight onto a circle by bank commands, and hand it over to its own hold of that circle.
 
@@ -77,6 +81,11 @@ def guide(
     `margin_m` metres (`loiter.fences.check`) is refused before the first command, and guiding stops where
     the vehicle enters a zone in flight.
 
+    With `slot` the vehicle enters that slot and keeps it until the generator is closed, by a radius that differs from
+    that of the circle by a share of `slot_band` at most. The times of the slot are Unix times, seconds, by the clock of
+    this computer, and it moves as an aircraft of `airspeed_m_s` holds the circle in `wind`, in still air if that is
+    not given: several vehicles need the same values. The circle needs a direction.
+
     docs/autopilots.md lists what ends the flight early, and what the vehicle does then: at once it is commanded back to
     the fall-back circle, if the link is alive and neither the pilot nor a failsafe has changed its mode. `LinkFailed`
     then says why. It is also raised if the vehicle is not found, is not fit to be guided, or refuses a command;
@@ -95,6 +104,8 @@ def guide(
         instance(name, value, kind)
     if wind is not None:
         instance("wind", wind, Wind)
+    if slot is not None:
+        check_slot(slot, slot_band, orbit, airspeed_m_s)
     if orbit.moves:
         raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
     if fence is not None and fence != "vehicle":
@@ -110,15 +121,27 @@ def guide(
         max_bank_deg=max_bank_deg,
         wind=wind,
         altitude_m=altitude_m,
-        keep=keep,
+        keep=keep or slot is not None,
         dry_run=dry_run,
         accept_fly_away=accept_fly_away,
         confirm=confirm,
         fence=fence,
         margin_m=margin_m,
+        slot=slot,
+        slot_band=slot_band,
     )
     target = _Target(connection, system, component, timeout_s)
     return _guide(target, request, period_s, path, resume=resume)
+
+
+def check_slot(slot: Slot, slot_band: float, orbit: Orbit, airspeed_m_s: float | None) -> None:
+    """Raise `InvalidArgument` for a slot without what defines its motion."""
+    instance("slot", slot, Slot)
+    share("slot_band", slot_band)
+    if orbit.turn == Turn.EITHER:
+        raise InvalidArgument("turn", "is needed with a slot, which moves cw or ccw")
+    if airspeed_m_s is None:
+        raise InvalidArgument("airspeed_m_s", "is needed with a slot, which moves with it")
 
 
 class _Target(NamedTuple):

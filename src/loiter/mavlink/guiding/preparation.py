@@ -12,6 +12,7 @@ from loiter.errors import InvalidArgument, LinkFailed
 from loiter.fences import Fence, PlacedFence, first_clear
 from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
+from loiter.guidance.entry.slot_entry import BAND
 from loiter.guidance.protocol import State
 from loiter.mavlink.autopilots.readiness import refusal
 from loiter.mavlink.autopilots.settings import AutopilotSettings, Need, autopilot_settings, missing
@@ -25,6 +26,7 @@ from loiter.planning.compass import wrapped
 from loiter.planning.feasibility import RelativeWind, check_held, is_holdable, relative_velocity
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
+from loiter.planning.slot import Slot
 from loiter.planning.solve import plan
 
 # Seconds to listen for other vehicles and stations: heartbeats come once a second.
@@ -46,7 +48,10 @@ OwnFence: TypeAlias = Literal["vehicle"]
 
 
 class GuideRequest(NamedTuple):
-    """The arguments of `guide`: the circle and its frame, the aircraft and the wind if they are given, the options."""
+    """The arguments of `guide`: the circle and its frame, the aircraft and the wind if they are given, the options.
+
+    The times of the slot are Unix times.
+    """
 
     orbit: Orbit
     frame: LocalFrame
@@ -60,6 +65,8 @@ class GuideRequest(NamedTuple):
     confirm: Callable[[], bool] | None
     fence: PlacedFence | OwnFence | None = None
     margin_m: float | None = None
+    slot: Slot | None = None
+    slot_band: float = BAND
 
 
 class FlightSetup(NamedTuple):

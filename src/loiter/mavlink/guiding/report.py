@@ -33,7 +33,8 @@ class GuideReport(NamedTuple):
     `command_deg` is the commanded bank, positive to the right. `crosstrack_m` is the distance from the planned path,
     positive to its left, `outside_m` the distance from the circle, positive outside. `rate_hz` and `age_s` are the rate
     of measurements and the age of the last one. `estimates` are those of the law: roll response, delay, ratio of turn
-    rates and wind. Unknown values are nan or None. `notices` are sentences that are reported once.
+    rates and wind. `slot_ahead_deg` is how far the slot is ahead of the vehicle on the circle, degrees. Unknown values
+    are nan or None. `notices` are sentences that are reported once.
     """
 
     time_s: float
@@ -51,4 +52,5 @@ class GuideReport(NamedTuple):
     rate_hz: float = 0.0
     age_s: float = nan
     estimates: VehicleEstimates | None = None
+    slot_ahead_deg: float = nan
     notices: tuple[str, ...] = ()
