@@ -171,6 +171,8 @@ def _print_table(rows):
     for name, i in {"own slot": 0, "equal intervals": 2, "rival, equal intervals": 4}.items():
         for what, j in (("in, then within twice", i), ("within for a turn", i + 1)):
             column = np.array([row[j] for row in rows if j < len(row)])
+            if not len(column):
+                continue
             known = np.nan_to_num(column, nan=np.inf)
             low, high = np.median(known), np.quantile(known, 0.9, method="higher")
             settled = f"{np.isfinite(column).sum()} of {len(column)}"
