@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 3239cdbe839047a7f7955833011b48dde82162d3a90ffff140ba485f4d5015fb
+ * SHA-256 of the source: 38a6e920ba6e882bfbe8ba6445405831fdbe51aa2379d2a339f6fb183c3705f4
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
