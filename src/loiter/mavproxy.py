@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Generator
 from contextlib import closing
+from dataclasses import replace
 from socket import AF_INET, SOCK_DGRAM, socket
 from threading import Event, Thread
 from typing import Any, NamedTuple
@@ -44,6 +45,17 @@ GUIDE_PERIOD_S, PRINTED = 0.25, 4
 # The layer, colour and width of what is drawn on the map, and the distance of its points, seconds and degrees.
 LAYER, COLOUR, WIDTH, STEP_S, STEP_DEG = "loiter", (255, 128, 0), 2, 0.25, 5.0
 
+# The names of the console for arguments of the library.
+WORDS = {
+    "origin latitude_deg": "LAT",
+    "origin longitude_deg": "LON",
+    "orbit radius_m": "RADIUS",
+    "airspeed_m_s": "airspeed",
+    "max_bank_deg": "bank",
+    "altitude_m": "altitude",
+    "accept_fly_away": "another COM_OBL_RC_ACT",
+}
+
 
 class Circle(NamedTuple):
     """A circle and the frame of its metres, whose origin is its centre."""
@@ -74,7 +86,7 @@ class LoiterModule(mp_module.MPModule):  # type: ignore[misc]
         try:
             action(self, arguments)
         except (LoiterError, ValueError) as error:
-            self.say(f"loiter: {error}")
+            self.say(_sentence(error))
 
     def say(self, text: str) -> None:
         """Print on the console."""
@@ -121,7 +133,7 @@ class LoiterModule(mp_module.MPModule):  # type: ignore[misc]
     def _begin(self, job: Callable[..., None], *arguments: Any) -> None:
         """Run a job in the thread."""
         if self._thread is not None and self._thread.is_alive():
-            raise InvalidArgument("loiter", 'is busy: "loiter stop" ends what runs')
+            raise InvalidArgument("another command", 'runs: "loiter stop" ends it')
         self._stop.clear()
         self._agreed.clear()
         connection = self._connection()
@@ -130,7 +142,7 @@ class LoiterModule(mp_module.MPModule):  # type: ignore[misc]
             try:
                 job(connection, *arguments)
             except LoiterError as error:
-                self.say(f"loiter: {error}")
+                self.say(_sentence(error))
 
         self._thread = Thread(target=run, name=NAME, daemon=True)
         self._thread.start()
@@ -151,14 +163,17 @@ class LoiterModule(mp_module.MPModule):  # type: ignore[misc]
 
     def _circle(self, arguments: list[str]) -> Circle:
         """The circle of a command's arguments, of the map's last click, and of the settings."""
+        if len(arguments) > 3:
+            raise InvalidArgument(" ".join(arguments[3:]), "is too much: a circle is LAT LON RADIUS")
         given = [_number(name, word) for name, word in zip(("LAT", "LON", "RADIUS"), arguments, strict=False)]
         place = given[:2] or list(self.mpstate.click_location or [])
         if len(place) != 2:
             raise InvalidArgument("centre", "is needed: LAT LON, or a click on the map")
+        frame = LocalFrame(*place)
         radius_m = given[2] if len(given) > 2 else self.options.radius or self._parameter("loiter")
         if not radius_m:
             raise InvalidArgument("radius", "is needed: the vehicle's parameters are not known")
-        return Circle(Orbit(0.0, 0.0, abs(radius_m), self.options.turn), LocalFrame(*place))
+        return Circle(Orbit(0.0, 0.0, abs(radius_m), self.options.turn), frame)
 
     def _aircraft(self) -> Aircraft:
         """The aircraft of the settings, and of the vehicle's parameters."""
@@ -188,7 +203,10 @@ class LoiterModule(mp_module.MPModule):  # type: ignore[misc]
         return float(self.options.altitude or (position.alt / 1e3 if position else 0.0))
 
     def _reports(self, connection: str, circle: Circle) -> Generator[Report, None, None]:
-        return watch(connection, circle.orbit, circle.frame, self._aircraft(), system=self.target_system or None)
+        system = self.target_system or None
+        with closing(watch(connection, circle.orbit, circle.frame, self._aircraft(), system=system)) as reports:
+            for report in reports:
+                yield replace(report, problem=_in_words(report.problem))
 
     def _planned(self, connection: str, circle: Circle, then: Callable[[Report, Circle], None]) -> None:
         """Wait for a plan, print and draw it, and go on with it."""
@@ -282,6 +300,18 @@ def _number(name: str, word: str) -> float:
         return float(word)
     except ValueError:
         raise InvalidArgument(name, f"is {word!r}: it must be a number") from None
+
+
+def _sentence(error: Exception) -> str:
+    """The message of an error, in the words of the console."""
+    if isinstance(error, InvalidArgument):
+        return f"loiter: {WORDS.get(error.argument, error.argument)} {error.problem}"
+    return f"loiter: {_in_words(str(error))}"
+
+
+def _in_words(problem: str) -> str:
+    """A problem in the words of the console, where the origin of the plane is the centre of the circle."""
+    return problem.replace("the origin", "the centre")
 
 
 COMMANDS: dict[str, Callable[[LoiterModule, list[str]], None]] = {

@@ -132,22 +132,29 @@ def test_wrong_commands_get_a_sentence_and_a_watch_goes_on_until_it_is_stopped(f
         ("loiter", "loiter plan .*the fastest entry from where the vehicle is"),
         ("loiter plan", "loiter: centre is needed: LAT LON, or a click on the map"),
         ("loiter plan 47 north", "loiter: LON is 'north': it must be a number"),
-        ("loiter plan 97 8 80", "loiter: origin"),
+        ("loiter plan 97 8", "loiter: LAT is 97.0: .*; are latitude and longitude swapped?"),
+        ("loiter plan 47 8 nan", "loiter: RADIUS is nan"),
+        ("loiter plan 47 8 80 90", "loiter: 90 is too much: a circle is LAT LON RADIUS"),
         ("loiter watch 47 8", "loiter: radius is needed: the vehicle's parameters are not known"),
     ]:
         console.type(line)
         console.wait(sentence)
-    console.type("loiter set airspeed 18")
+    console.type("loiter set airspeed -5")
     console.type("loiter set bank 45")
+    console.type("loiter plan 47 8 80")
+    console.wait("loiter: airspeed is -5.0: it must be a positive")
+    console.type("loiter set airspeed 18")
     console.type("loiter watch 47 8 80")
     console.wait(r"(?s)s: joins .*\n.*s: joins ")
     console.type("loiter guide 47 8 80")
-    console.wait('loiter is busy: "loiter stop" ends what runs')
+    console.wait('loiter: another command runs: "loiter stop" ends it')
     console.type("loiter stop")
     time.sleep(1.1)
     lines = console.text.count("s: joins")
     time.sleep(1.1)
     assert console.text.count("s: joins") == lines
+    console.type("loiter watch 49 8 80")
+    console.wait("more than 100 km from the centre 49 8")
     console.type("module unload loiter.mavproxy")
     console.wait("Unloaded module loiter.mavproxy")
 
