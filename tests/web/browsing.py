@@ -148,9 +148,19 @@ def fly_at(page, altitude, reference, home=None):
     """Say how high missions are flown."""
     page.locator("#earth").evaluate("details => (details.open = true)")
     page.locator("#altitude").fill(altitude)
-    page.locator("#altitude-reference").select_option(reference)
+    measure_from(page, reference)
     if home is not None:
         page.locator("#home-altitude").fill(home)
+
+
+def measure_from(page, reference):
+    """Choose what altitudes are measured from."""
+    page.locator(f"#altitude-reference [value={reference}]").check()
+
+
+def reference_of(page):
+    """What altitudes are measured from; None while nothing is chosen."""
+    return page.evaluate("document.querySelector('#altitude-reference :checked')?.value ?? null")
 
 
 def grave(page):

@@ -10,7 +10,19 @@ from loiter.geo import LocalFrame
 from loiter.io import save
 from loiter.planning.problem import Problem
 from loiter.web.answers.race import race
-from web.browsing import DESK, PHONE, assert_shows_the_plan, grave, press, scene, settle, time_text, values
+from web.browsing import (
+    DESK,
+    PHONE,
+    assert_shows_the_plan,
+    grave,
+    measure_from,
+    press,
+    reference_of,
+    scene,
+    settle,
+    time_text,
+    values,
+)
 from web.test_drawing import boxes, overlap
 
 WIDE = {"width": 1920, "height": 1080}
@@ -92,7 +104,7 @@ def test_on_a_phone_the_dial_lies_beside_the_circle(opened, preset):
 def test_no_label_is_cut(opened, size):
     page = opened(viewport=size)
     page.evaluate("for (const each of document.querySelectorAll('details')) each.open = true")
-    page.locator("#altitude-reference").select_option("home")
+    measure_from(page, "home")
     cut = page.locator(".column :is(label, legend) span:visible:not(.sr, .box), .column button:visible").evaluate_all(
         """all => all.filter(({ scrollWidth, clientWidth }) => clientWidth > 0 && scrollWidth > clientWidth + 1)
             .map(one => one.outerHTML)"""
@@ -201,7 +213,7 @@ def test_a_plan_that_is_dropped_gives_circle_aircraft_and_altitude(page, tmp_pat
     east, north = LocalFrame(**found["origin"]).to_local(*last)
     assert (found["pose"]["east_m"], found["pose"]["north_m"]) == pytest.approx((float(east), float(north)), abs=0.02)
     assert page.locator("#altitude").input_value() == "620"
-    assert page.locator("#altitude-reference").input_value() == "msl"
+    assert reference_of(page) == "msl"
     assert_shows_the_plan(page)
 
 

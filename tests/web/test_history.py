@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import expect
 
-from web.browsing import assert_shows_the_plan, drag, fly_at, located, press, settle
+from web.browsing import assert_shows_the_plan, drag, fly_at, located, press, reference_of, settle
 
 
 def returned(page, expected):
@@ -126,7 +126,7 @@ def test_the_view_comes_back_too_and_altitude_and_units_stay(page):
     page.wait_for_function("scale => plan.dataset.scale === scale", arg=zoomed[2])
     settle(page)
     assert view(page) == zoomed
-    assert page.locator("#altitude-reference").input_value() == "msl"
+    assert reference_of(page) == "msl"
     assert page.locator("#latitude").input_value() == "47.1"
     assert page.locator("#units").input_value() == "aviation"
 

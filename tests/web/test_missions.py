@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from loiter.io import read_mission
-from web.browsing import fly_at, located, scene, settle
+from web.browsing import PHONE, fly_at, located, measure_from, reference_of, scene, settle
 
 FORMATS = ["plan", "waypoints"]
 OLD_LINK = "#pose=90,60,100&orbit=0,0,80&turn=either&airspeed=18&bank=35&origin=47.1,8.2"
@@ -35,22 +35,62 @@ def asked_for(page, format_):
         assert page.locator(f"#{field.get_attribute('id')}-fault").inner_text() != ""
         assert field.is_visible()
     names = [field.get_attribute("id") for field in marked]
-    assert page.evaluate("document.activeElement.id") == names[0]
+    assert page.evaluate("document.activeElement.closest('[aria-invalid]').id") == names[0]
     return names
 
 
 @pytest.mark.parametrize("format_", FORMATS)
 def test_a_mission_is_not_written_at_an_altitude_that_nobody_gave(page, format_):
-    assert asked_for(page, format_) == ["latitude", "longitude", "altitude", "altitude-reference"]
+    assert asked_for(page, format_) == ["latitude", "longitude", "altitude-reference", "altitude"]
     located(page)
-    assert asked_for(page, format_) == ["altitude", "altitude-reference"]
+    assert asked_for(page, format_) == ["altitude-reference", "altitude"]
     page.locator("#altitude").fill("120")
     assert asked_for(page, format_) == ["altitude-reference"]
-    page.locator("#altitude-reference").select_option("home")
+    measure_from(page, "home")
     assert asked_for(page, format_) == ["home-altitude"]
     page.locator("#altitude").fill("")
-    page.locator("#altitude-reference").select_option("msl")
+    measure_from(page, "msl")
     assert asked_for(page, format_) == ["altitude"]
+
+
+@pytest.mark.parametrize("device", [{}, PHONE], ids=["desk", "phone"])
+def test_two_taps_lead_to_a_mission_above_home(opened, device):
+    page = opened(**device)
+    tap = "tap" if device else "click"
+    getattr(page.locator("[data-format=plan]"), tap)()
+    page.keyboard.type("47.1, 8.2")
+    page.keyboard.press("Enter")
+    # Arrow keys choose without leading on.
+    page.keyboard.press("ArrowDown")
+    assert reference_of(page) == "home"
+    assert page.evaluate("document.activeElement.value") == "home"
+    page.keyboard.press("ArrowUp")
+    getattr(page.locator("#altitude-reference label", has_text="home"), tap)()
+    page.keyboard.type("120")
+    page.keyboard.press("Enter")
+    page.keyboard.type("450")
+    with page.expect_download() as download:
+        page.keyboard.press("Enter")
+    said = "entry.plan saved: 120 m above home, home at 450 m."
+    expect(page.locator("#message")).to_have_text(said)
+    assert download.value.suggested_filename == "entry.plan"
+    # Nothing more is saved, unless it is asked for.
+    more = []
+    page.on("download", lambda file: more.append(file))
+    page.locator("#altitude").fill("130")
+    page.keyboard.press("Enter")
+    page.wait_for_timeout(300)
+    assert more == []
+    assert page.evaluate("document.activeElement.id") == "altitude"
+
+
+def test_a_tap_elsewhere_ends_the_questions_of_a_mission(page):
+    page.locator("[data-format=plan]").click()
+    page.locator("#presets").get_by_text("Far away").click()
+    page.locator("#latitude").focus()
+    page.keyboard.type("47.1, 8.2")
+    page.keyboard.press("Enter")
+    assert page.evaluate("document.activeElement.id") == "latitude"
 
 
 def test_a_mission_has_the_altitude_and_the_reference(page, tmp_path, subtests):
@@ -80,7 +120,7 @@ def test_a_radius_that_arduplane_cannot_store_is_reported(page, tmp_path):
 def test_what_is_hidden_is_not_written(page, tmp_path):
     located(page)
     fly_at(page, "620", "home", "450")
-    page.locator("#altitude-reference").select_option("msl")
+    measure_from(page, "msl")
     assert not page.locator("#home-altitude").is_visible()
     flown, _ = saved(page, "plan", tmp_path)
     assert flown.home[2] == 620.0
@@ -131,7 +171,7 @@ def test_a_map_has_an_altitude_where_it_is_known_above_the_sea(page):
     path, said = pressed(page, "kml")
     assert said == "entry.kml saved."
     assert b",570.0" in path.read_bytes()
-    page.locator("#altitude-reference").select_option("ground")
+    measure_from(page, "ground")
     path, said = pressed(page, "kml")
     assert said == "entry.kml saved without the altitude: it is not known above mean sea level."
     assert b"clampToGround" in path.read_bytes()
@@ -156,7 +196,7 @@ def test_a_link_keeps_the_altitude_and_what_it_is_measured_from(page, opened, ad
 def test_an_old_link_opens_without_an_altitude(opened):
     page = opened(OLD_LINK)
     assert scene(page)["origin"] == {"latitude_deg": 47.1, "longitude_deg": 8.2}
-    assert asked_for(page, "plan") == ["altitude", "altitude-reference"]
+    assert asked_for(page, "plan") == ["altitude-reference", "altitude"]
 
 
 def test_a_link_with_an_unknown_reference_gets_a_sentence(opened):
@@ -171,11 +211,11 @@ def test_a_link_opened_on_the_page_takes_the_place_of_the_altitude(page):
     page.evaluate("link => (location.hash = link)", f"{OLD_LINK}&altitude=120&altitude-reference=home")
     expect(page.locator("#altitude")).to_have_value("120")
     settle(page)
-    expect(page.locator("#altitude-reference")).to_have_value("home")
+    assert reference_of(page) == "home"
     page.evaluate("link => (location.hash = link)", OLD_LINK)
     expect(page.locator("#altitude")).to_have_value("")
     settle(page)
-    expect(page.locator("#altitude-reference")).to_have_value("")
+    assert reference_of(page) is None
 
 
 def test_a_preset_keeps_place_and_altitude(page, tmp_path):

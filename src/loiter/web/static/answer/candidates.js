@@ -8,7 +8,7 @@
  * @typedef {import("../shared/types.js").Maneuver} Maneuver
  * @typedef {import("../shared/types.js").Scene} Scene
  */
-import { byId, html } from "../shared/dom.js";
+import { byId, fill, part, watchPointed } from "../shared/dom.js";
 import { DIRECTIONS, DIRECTION_ARROWS, isAllowed, splitAnswer, wordLabel } from "../shared/maneuver.js";
 import { roving } from "../shared/roving.js";
 import { signedTimeDifference, timeText } from "../shared/units.js";
@@ -17,10 +17,11 @@ import { signedTimeDifference, timeText } from "../shared/units.js";
 export function candidatesView(store, actions) {
   const list = byId("candidates", HTMLElement);
   const markStop = roving(list);
+  watchPointed(list, "button", actions.highlight);
   store.watch(
     ({ answer }) => [answer],
     (state) => {
-      list.replaceChildren(...rowsOf(state, actions.highlight));
+      fill(list, rowsOf(state));
       markStop();
     },
   );
@@ -31,21 +32,19 @@ export function candidatesView(store, actions) {
   );
 }
 
-/** @param {PageState} state @param {(index: number | null) => void} highlight */
-function rowsOf({ answer, scene }, highlight) {
+/** @param {PageState} state */
+function rowsOf({ answer, scene }) {
   if (!answer) return [];
   const { best, others } = splitAnswer(answer);
   return [
     ...best.map((maneuver) => {
-      const row = html("span", { class: "row" }, cells(maneuver, scene, "optimal"));
-      return html("li", { class: "best" }, [row]);
+      const row = part("span", { class: "row" }, cells(maneuver, scene, "optimal"));
+      return part("li", { class: "best" }, [row]);
     }),
-    ...others.map((other, index) => {
+    ...others.map((other) => {
       const later = signedTimeDifference(other.later_s, scene);
-      const button = html("button", { type: "button", class: "row" }, cells(other, scene, later));
-      for (const event of ["pointerenter", "focus"]) button.addEventListener(event, () => highlight(index));
-      for (const event of ["pointerleave", "blur"]) button.addEventListener(event, () => highlight(null));
-      return html("li", { class: isAllowed(scene, other) ? "" : "disallowed" }, [button]);
+      const button = part("button", { type: "button", class: "row", tabindex: -1 }, cells(other, scene, later));
+      return part("li", { class: isAllowed(scene, other) ? "" : "disallowed" }, [button]);
     }),
   ];
 }
@@ -54,11 +53,11 @@ function rowsOf({ answer, scene }, highlight) {
 function cells({ word, turn, duration_s }, scene, later) {
   return [
     wordLabel(word),
-    html("span", { title: DIRECTIONS[turn] }, [
-      html("span", { "aria-hidden": "true" }, [DIRECTION_ARROWS[turn]]),
-      html("span", { class: "sr" }, [DIRECTIONS[turn]]),
+    part("span", { title: DIRECTIONS[turn] }, [
+      part("span", { "aria-hidden": "true" }, [DIRECTION_ARROWS[turn]]),
+      part("span", { class: "sr" }, [DIRECTIONS[turn]]),
     ]),
-    html("span", { class: "duration" }, [timeText(duration_s, scene)]),
-    html("span", { class: "later" }, [later]),
+    part("span", { class: "duration" }, [timeText(duration_s, scene)]),
+    part("span", { class: "later" }, [later]),
   ];
 }

@@ -7,7 +7,7 @@
  * @typedef {import("../shared/types.js").Answer} Answer
  * @typedef {import("../shared/types.js").Scene} Scene
  */
-import { byId, html } from "../shared/dom.js";
+import { byId, fill, part } from "../shared/dom.js";
 import { DIRECTIONS, DIRECTION_ARROWS, splitAnswer, wordLabel } from "../shared/maneuver.js";
 import { clockText, decimalsFor, fixed, quantityText, signedTimeDifference, timeText } from "../shared/units.js";
 
@@ -52,9 +52,8 @@ function drawHeadline(state) {
   const headline = byId("instruction", HTMLElement);
   const text = failure?.headline ?? (countdownOf(state) || inMinutes(answer?.instruction ?? ""));
   // What to do, then how to hold, each on lines of its own; a unit stays beside its number.
-  const parts = text.replaceAll(/(\d) (s|min)\b/g, "$1\u00a0$2").split(/(?<=\.) (?=Hold )/);
-  const hold = (/** @type {string} */ part) => html("span", { class: "hold" }, [part + (failure ? "" : tieText(answer))]);
-  headline.replaceChildren(...parts.flatMap((part, i) => (i ? [" ", hold(part)] : [part])));
+  const [now, hold] = text.replaceAll(/(\d) (s|min)\b/g, "$1\u00a0$2").split(/(?<=\.) (?=Hold )/);
+  fill(headline, hold ? [now, " ", part("span", { class: "hold" }, [hold + (failure ? "" : tieText(answer))])] : [now]);
   headline.classList.toggle("bad", failure !== null);
 }
 
@@ -77,9 +76,9 @@ function drawFacts({ answer, scene, units }) {
   setFact("bank-on-circle", bankText(answer));
 }
 
-/** @param {string} id @param {string | Element} value @param {string} [note] */
+/** @param {string} id @param {string | ReturnType<typeof part>} value @param {string} [note] */
 function setFact(id, value, note = "") {
-  byId(id, HTMLElement).replaceChildren(value, ...(note ? [html("small", {}, [note])] : []));
+  fill(byId(id, HTMLElement), [value, ...(note ? [part("small", {}, [note])] : [])]);
 }
 
 /** How much later a hold in the other direction is joined. @param {Answer} answer @param {Scene} scene */

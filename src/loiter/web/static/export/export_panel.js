@@ -26,7 +26,8 @@ export function exportPanel(store, actions, fields) {
   function askFor(missing) {
     mark(missing);
     const [[first, sentence]] = Object.entries(missing);
-    byId(first, HTMLElement).focus();
+    const field = byId(first, HTMLElement);
+    (field.querySelector("input") ?? field).focus();
     actions.say(sentence, true);
   }
 
@@ -37,15 +38,37 @@ export function exportPanel(store, actions, fields) {
     actions.say(refusal.sentence, true);
   }
 
+  /** @type {Format | null} */
+  let waiting = null; // the file that is saved once nothing is missing
+
+  /** @param {Format} format */
+  function save(format) {
+    const missing = missingFor(format.kind, store.get(), fields);
+    const isReady = Object.keys(missing).length === 0;
+    waiting = isReady ? null : format;
+    if (isReady) saveFile(format, store, actions).catch(refuse);
+    else askFor(missing);
+  }
+
   for (const format of FORMATS) {
     const button = formatButton(format);
-    button.addEventListener("click", () => {
-      const missing = missingFor(format.kind, store.get(), fields);
-      if (Object.keys(missing).length > 0) askFor(missing);
-      else saveFile(format, store, actions).catch(refuse);
-    });
+    button.addEventListener("click", () => save(format));
     byId("formats", HTMLElement).append(button);
   }
+  // Enter in a field, and a tap on a choice, lead to the next one that is missing, and at last to the file.
+  const earth = byId("earth", HTMLElement);
+  let isTapped = false; // arrow keys choose too, and do not lead on
+  addEventListener("pointerdown", ({ target }) => {
+    isTapped = earth.contains(/** @type {Node} */ (target));
+    if (!isTapped) waiting = null;
+  });
+  earth.addEventListener("keydown", ({ key, target }) => {
+    isTapped = false;
+    if (key === "Enter" && waiting && target instanceof HTMLInputElement) save(waiting);
+  });
+  earth.addEventListener("change", ({ target }) => {
+    if (isTapped && waiting && target instanceof HTMLInputElement && target.type === "radio") save(waiting);
+  });
 }
 
 /** @param {Format} format */

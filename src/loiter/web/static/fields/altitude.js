@@ -25,8 +25,8 @@ export function missingForMission(altitude) {
   const { altitude_m, altitude_reference, home_altitude_m } = altitude;
   /** @type {FieldErrors} */
   const sentences = {};
-  if (altitude_m === undefined) sentences.altitude = "A mission needs an altitude.";
   if (!altitude_reference) sentences["altitude-reference"] = "Choose what the altitude is measured from.";
+  if (altitude_m === undefined) sentences.altitude = "A mission needs an altitude.";
   if (needsHome(altitude) && home_altitude_m === undefined)
     sentences["home-altitude"] = "This mission also needs the altitude of home above mean sea level.";
   return sentences;

@@ -13,7 +13,6 @@
  *
  * @typedef {Record<string, Field>} Fields  by their ids
  */
-import { REFERENCES } from "../scene/link.js";
 import { byId, show } from "../shared/dom.js";
 import { remember } from "../shared/storage.js";
 import { asUnits, tidy } from "../shared/units.js";
@@ -100,7 +99,7 @@ export function originFields(store, actions) {
       const { scene, fieldErrors } = store.get();
       const { latitude, longitude, ...file } = fieldErrors.file;
       actions.changeScene({ ...scene, origin: pair }, event, { place: pair, fieldErrors: { ...fieldErrors, file } });
-      for (const field of Object.values(fields)) field.redraw?.();
+      (name === "latitude_deg" ? fields.longitude : fields.latitude).redraw?.();
       return true;
     },
     set(value, event) {
@@ -142,9 +141,9 @@ export function altitudeFields(store, actions) {
   const fields = {
     altitude: numberField(byId("altitude", HTMLInputElement), sourceOf("altitude_m")),
     "altitude-reference": choiceField(
-      byId("altitude-reference", HTMLSelectElement),
+      byId("altitude-reference", HTMLElement),
       () => store.get().altitude.altitude_reference ?? "",
-      (value) => change({ altitude_reference: REFERENCES.find((reference) => reference === value) }),
+      (altitude_reference) => change({ altitude_reference }),
     ),
     "home-altitude": numberField(byId("home-altitude", HTMLInputElement), sourceOf("home_altitude_m")),
   };

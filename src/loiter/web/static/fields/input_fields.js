@@ -22,7 +22,7 @@
  * @property {() => string} typo  the error in the text, or nothing
  * @property {() => void} [redraw]  show the present number in place of the text
  */
-import { html } from "../shared/dom.js";
+import { html, setAttributes, setText } from "../shared/dom.js";
 import { sixDigits, unitOf } from "../shared/units.js";
 import { nameOf } from "./field_names.js";
 import { parseNumber } from "./number_text.js";
@@ -36,7 +36,7 @@ export function errorLine(field) {
 }
 
 /** @param {HTMLElement} field @param {boolean} invalid */
-export const markInvalid = (field, invalid) => field.setAttribute("aria-invalid", String(invalid));
+export const markInvalid = (field, invalid) => setAttributes(field, { "aria-invalid": String(invalid) });
 
 const TYPING_PAUSE_MS = 500; // an error is shown when the typing pauses: "12 k" may become "12 km"
 
@@ -64,7 +64,7 @@ class NumberField {
     const { input, source } = this;
     const { name, size } = unitOf(source.quantity(), source.units());
     const suffix = input.nextElementSibling;
-    if (suffix) suffix.textContent = name;
+    if (suffix) setText(suffix, name);
     const value = source.get();
     // While a text is being typed, or is wrong, it stays until something else changes the number.
     if (value === this.known && (this.textError !== "" || this.hasFocus())) return this.mark();
@@ -90,7 +90,11 @@ class NumberField {
   /** Use the number that is typed. @param {Event} event */
   read(event) {
     const { input, source } = this;
-    if (source.takeAll?.(input.value, event)) return this.redraw();
+    if (source.takeAll?.(input.value, event)) {
+      // The text stays while it is typed: "47.1, 8" may become "47.1, 8.2".
+      [this.textError, this.numberError, this.known] = ["", "", source.get()];
+      return this.mark();
+    }
     const isEmpty = source.optional && input.value.trim() === "";
     const entry = isEmpty ? { value: undefined } : this.parse(input.value);
     this.textError = "problem" in entry ? `${nameOf(input)} ${entry.problem}` : "";
@@ -127,8 +131,9 @@ class NumberField {
   mark() {
     const sentence = this.textError || this.numberError;
     markInvalid(this.input, sentence !== "");
-    clearTimeout(this.timer);
-    const write = () => (this.line.textContent = sentence);
+    if (this.timer) clearTimeout(this.timer);
+    this.timer = 0;
+    const write = () => setText(this.line, sentence);
     const isNew = this.textError !== "" && this.hasFocus() && this.line.textContent === "";
     if (isNew) this.timer = window.setTimeout(write, TYPING_PAUSE_MS);
     else write();
@@ -139,21 +144,24 @@ class NumberField {
 export const numberField = (input, source) => new NumberField(input, source);
 
 /**
- * @param {HTMLSelectElement} select
+ * A choice among radio buttons.
+ *
+ * @param {HTMLElement} group
  * @param {() => string} get
- * @param {(value: string) => void} set
+ * @param {(value: any, event: Event) => void} set
  * @returns {Field}
  */
-export function choiceField(select, get, set) {
-  const line = errorLine(select);
+export function choiceField(group, get, set) {
+  const line = errorLine(group);
+  const inputs = group.querySelectorAll("input");
   /** @param {string | null} sentence */
   function refuse(sentence) {
-    line.textContent = sentence ?? "";
-    markInvalid(select, sentence !== null);
+    setText(line, sentence ?? "");
+    markInvalid(group, sentence !== null);
   }
-  select.addEventListener("change", () => {
+  group.addEventListener("change", (event) => {
     refuse(null);
-    set(select.value);
+    set(/** @type {HTMLInputElement} */ (event.target).value, event);
   });
-  return { draw: () => (select.value = get()), refuse, typo: () => "" };
+  return { draw: () => inputs.forEach((input) => (input.checked = input.value === get())), refuse, typo: () => "" };
 }

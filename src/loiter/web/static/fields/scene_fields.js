@@ -4,7 +4,6 @@
  *
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Limit} Limit
- * @typedef {import("../shared/types.js").Turn} Turn
  * @typedef {import("../shared/units.js").Quantity} Quantity
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("./input_fields.js").Source} Source
@@ -17,10 +16,10 @@
  * @property {(scene: Scene, value: number) => Scene} set
  */
 import { LIMITS, limitOf, withOrbit, withPose, withWind } from "../scene/scene.js";
-import { byId } from "../shared/dom.js";
+import { byId, setText } from "../shared/dom.js";
 import { wrapped } from "../shared/geometry.js";
 import { tidy } from "../shared/units.js";
-import { numberField } from "./input_fields.js";
+import { choiceField, numberField } from "./input_fields.js";
 import { parseNumber } from "./number_text.js";
 import { limitFor, turnRadiusOf } from "../shared/turning.js";
 
@@ -87,12 +86,17 @@ export function sceneFields(store, change) {
     ids.map((id) => [id, numberField(byId(id, HTMLInputElement), sourceOf(id, store, change))]),
   );
   limitChoice(store, change);
-  turnChoice(store, change);
+  const turn = choiceField(
+    byId("turn", HTMLElement),
+    () => store.get().scene.orbit.turn,
+    (turn, event) => change(withOrbit(store.get().scene, { turn }), event),
+  );
+  store.watch(({ scene }) => [scene.orbit.turn], turn.draw);
   store.watch(
     ({ scene, units }) => [scene, units],
     ({ scene }) => {
       byId("wind-from", HTMLInputElement).disabled = scene.wind === null;
-      byId("wind-calm", HTMLElement).textContent = scene.wind ? "" : CALM;
+      setText(byId("wind-calm", HTMLElement), scene.wind ? "" : CALM);
       for (const field of Object.values(fields)) field.draw();
     },
   );
@@ -144,22 +148,6 @@ function limitChoice(store, change) {
     ({ scene }) => {
       select.value = limitOf(scene.aircraft);
       byId("limit", HTMLInputElement).setAttribute("aria-label", select.selectedOptions[0].text);
-    },
-  );
-}
-
-/** The choice of the direction of the hold. @param {Store} store @param {Change} change */
-function turnChoice(store, change) {
-  /** @type {NodeListOf<HTMLInputElement>} */
-  const inputs = document.querySelectorAll("input[name=turn]");
-  for (const input of inputs)
-    input.addEventListener("change", (event) =>
-      change(withOrbit(store.get().scene, { turn: /** @type {Turn} */ (input.value) }), event),
-    );
-  store.watch(
-    ({ scene }) => [scene.orbit.turn],
-    ({ scene }) => {
-      for (const input of inputs) input.checked = input.value === scene.orbit.turn;
     },
   );
 }

@@ -81,7 +81,8 @@ export function plain(value) {
   if (value instanceof Map) return Object.fromEntries([...value].map(([key, one]) => [key, plain(one)]));
   if (value instanceof Tuple) return Array.from(value, plain);
   if (!isList(value)) return value;
-  return typeof value[0] === "number" ? Array.from(value) : Array.from(value, plain);
+  if (typeof value[0] !== "number") return Array.from(value, plain);
+  return value instanceof Vector ? Array.from(value) : value;
 }
 
 // Operators
@@ -93,8 +94,12 @@ const complex = (a) => (a instanceof Complex ? a : new Complex(number(a), 0));
 function operator(ofNumbers, ofComplex) {
   return function apply(a, b) {
     if (typeof a === "number" && typeof b === "number") return ofNumbers(a, b);
-    if (a instanceof Vector) return vector(a.length, b instanceof Vector ? (i) => ofNumbers(a[i], b[i]) : (i) => ofNumbers(a[i], number(b)));
-    if (b instanceof Vector) return vector(b.length, (i) => ofNumbers(number(a), b[i]));
+    if (a instanceof Vector || b instanceof Vector) {
+      const found = new Vector((a instanceof Vector ? a : b).length);
+      const [ones, others] = [a instanceof Vector ? a : found.fill(number(a)), b instanceof Vector ? b : found.fill(number(b))];
+      for (let i = 0; i < found.length; i++) found[i] = ofNumbers(ones[i], others[i]);
+      return found;
+    }
     if (a instanceof Complex || b instanceof Complex) return ofComplex(complex(a), complex(b));
     return ofNumbers(number(a), number(b));
   };
@@ -327,10 +332,18 @@ export const np = {
   arange: (count) => vector(count, (i) => i),
   full: (count, value) => vector(count, () => value),
   full_like: (all, value) => vector(all.length, () => value),
-  searchsorted: (all, found) => found.map((one) => all.filter((other) => other < one).length),
+  searchsorted: (all, found) => found.map((one) => all.findLastIndex((other) => other < one) + 1),
   broadcast_arrays: (...all) => all,
   linspace: (start, end, count) => vector(count, (i) => (i === count - 1 ? end : start + (i * (end - start)) / (count - 1))),
-  concatenate: (all) => Vector.from(all.flatMap((one) => Array.from(one))),
+  concatenate(all) {
+    const found = new Vector(sum(all.map(len)));
+    let end = 0;
+    for (const one of all) {
+      found.set(one, end);
+      end += one.length;
+    }
+    return found;
+  },
 };
 
 // Words and statuses of the kernel, which are numbers there

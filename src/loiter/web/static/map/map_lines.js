@@ -7,7 +7,7 @@
  * @typedef {import("../shared/types.js").Maneuver} Maneuver
  * @typedef {import("../shared/types.js").Synthesis} Synthesis
  */
-import { polyline, svg } from "../shared/dom.js";
+import { part, polyline } from "../shared/dom.js";
 import { toScreen } from "../shared/geometry.js";
 import { piecesOf } from "../shared/maneuver.js";
 import { decimalsOfStep, fixed, roundStep } from "../shared/units.js";
@@ -38,10 +38,10 @@ export function drawAxes(view) {
   const count = Math.floor(width / 2 / scale / step);
   const numbers = Array.from({ length: 2 * count + 1 }, (_, i) => (i - count) * step);
   return [
-    svg("path", { d: `M${cx} 0V${height}M0 ${cy}H${width}` }),
+    part("path", { d: `M${cx} 0V${height}M0 ${cy}H${width}` }),
     ...numbers.flatMap((number) => drawNumber(view, number, fixed(number, decimalsOfStep(step)))),
-    svg("text", { x: width - 6, y: cy - 6, "text-anchor": "end", class: "axisname" }, ["x"]),
-    svg("text", { x: cx + 7, y: 13, class: "axisname" }, ["y"]),
+    part("text", { x: width - 6, y: cy - 6, "text-anchor": "end", class: "axisname" }, ["x"]),
+    part("text", { x: cx + 7, y: 13, class: "axisname" }, ["y"]),
   ];
 }
 
@@ -50,8 +50,8 @@ function drawNumber(view, number, text) {
   const [x, y] = toScreen(view, number, number);
   if (number === 0 || x < EDGE_PX || x > view.width - EDGE_PX) return [];
   return [
-    svg("text", { x, y: view.height - 6, "text-anchor": "middle" }, [text]),
-    svg("text", { x: 5, y: y + 4 }, [text]),
+    part("text", { x, y: view.height - 6, "text-anchor": "middle" }, [text]),
+    part("text", { x: 5, y: y + 4 }, [text]),
   ];
 }
 
@@ -61,7 +61,7 @@ export function drawCurve(view, { kind, x, y }) {
     const other = y[i];
     return value === null || other === null ? null : toScreen(view, value, other);
   });
-  return svg("path", { d: polyline(points), class: `curve ${kind}` });
+  return part("path", { d: polyline(points), class: `curve ${kind}` });
 }
 
 /** An optimal path, in the colours of its controls. @param {View} view @param {Maneuver} maneuver */
@@ -72,8 +72,8 @@ export function drawReducedPath(view, maneuver) {
     d: polyline(indices.map((i) => toScreen(view, x[i], y[i]))),
   }));
   return [
-    ...lines.map(({ d }) => svg("path", { d, class: "casing" })),
-    ...lines.map(({ d, letter }) => svg("path", { d, class: `piece ${letter}` })),
+    ...lines.map(({ d }) => part("path", { d, class: "casing" })),
+    ...lines.map(({ d, letter }) => part("path", { d, class: `piece ${letter}` })),
   ];
 }
 
@@ -92,6 +92,6 @@ export function drawTargets(view, { radius, turn }) {
     .filter(({ direction }) => turn === "either" || turn === direction)
     .map(({ y }) => {
       const [cx, cy] = toScreen(view, 0, y);
-      return svg("circle", { cx, cy, r: 4.5 });
+      return part("circle", { cx, cy, r: 4.5 });
     });
 }

@@ -8,7 +8,7 @@
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../shared/geometry.js").Point} Point
  */
-import { byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
+import { byId, fill, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { toScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
 import { ghostOf } from "../state/page_state.js";
@@ -50,9 +50,9 @@ function drawSynthesis(layers, store) {
       const { synthesis } = state;
       if (!synthesis) return;
       const view = mapViewOf(state);
-      layers.axes.replaceChildren(...drawAxes(view));
-      layers.curves.replaceChildren(...synthesis.curves.map((curve) => drawCurve(view, curve)));
-      layers.targets.replaceChildren(...drawTargets(view, synthesis));
+      fill(layers.axes, drawAxes(view));
+      fill(layers.curves, synthesis.curves.map((curve) => drawCurve(view, curve)));
+      fill(layers.targets, drawTargets(view, synthesis));
     },
   );
 }
@@ -63,7 +63,7 @@ function drawPlan(layers, ghost, store) {
     ({ answer, synthesis, mapSide }) => [answer, synthesis, mapSide],
     (state) => {
       const best = state.answer ? splitAnswer(state.answer).best : [];
-      layers.way.replaceChildren(...best.flatMap((maneuver) => drawReducedPath(mapViewOf(state), maneuver)));
+      fill(layers.way, best.flatMap((maneuver) => drawReducedPath(mapViewOf(state), maneuver)));
     },
   );
   store.watch(
@@ -100,7 +100,7 @@ function drawWords(layer, store) {
   );
   store.watch(
     ({ answer, synthesis, mapSide }) => [answer, synthesis, mapSide],
-    (state) => layer.replaceChildren(...drawRegionLabels(labels, statePoint(state), pathPoints(state))),
+    (state) => fill(layer, drawRegionLabels(labels, statePoint(state), pathPoints(state))),
   );
 }
 

@@ -9,7 +9,7 @@
  *
  * @typedef {[number, number, number, number]} Colour  red, green, blue, alpha; 0 to 255
  */
-import { svg } from "../shared/dom.js";
+import { part } from "../shared/dom.js";
 import { toScreen } from "../shared/geometry.js";
 
 const STRENGTH = /** @type {Record<string, number>} */ ({
@@ -107,7 +107,7 @@ export function drawRegionLabels(labels, state, paths) {
   return labels.flatMap(({ word, places }) => {
     const beside = places.filter((place) => state === null || isClear(place, state, STATE_PX));
     const place = beside.find((one) => paths.every((point) => isClear(one, point, 0))) ?? beside[0];
-    return place ? [svg("text", { x: place[0], y: place[1] + 4, "text-anchor": "middle" }, [word])] : [];
+    return place ? [part("text", { x: place[0], y: place[1] + 4, "text-anchor": "middle" }, [word])] : [];
   });
 }
 

@@ -10,7 +10,7 @@
  * @typedef {import("../shared/geometry.js").Point} Point
  */
 import { orbitMoves } from "../scene/scene.js";
-import { polyline, svg } from "../shared/dom.js";
+import { part, polyline } from "../shared/dom.js";
 import { positionToScreen, toScreen, toWorld, unitVector } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
 import { decimalsOfStep, fixed, lengthUnit, roundStep } from "../shared/units.js";
@@ -40,19 +40,19 @@ export function drawGrid(view, units) {
   const columns = multiples(west / size, east / size, step).flatMap((k) => {
     const x = Math.round(toScreen(view, k * step * size, 0)[0]) + 0.5;
     const hasLabel = x > LABELS.left && x < view.width - LABELS.right;
-    const text = svg("text", { x, y: view.height - 8, "text-anchor": "middle" }, [label(k)]);
+    const text = part("text", { x, y: view.height - 8, "text-anchor": "middle" }, [label(k)]);
     return [line(`M${x} 0V${view.height}`, k), ...(hasLabel ? [text] : [])];
   });
   const rows = multiples(south / size, north / size, step).flatMap((k) => {
     const y = Math.round(toScreen(view, 0, k * step * size)[1]) + 0.5;
     const hasLabel = y > LABELS.top && y < view.height - LABELS.bottom;
-    return [line(`M0 ${y}H${view.width}`, k), ...(hasLabel ? [svg("text", { x: 8, y: y + 4 }, [label(k)])] : [])];
+    return [line(`M0 ${y}H${view.width}`, k), ...(hasLabel ? [part("text", { x: 8, y: y + 4 }, [label(k)])] : [])];
   });
-  return [...columns, ...rows, svg("text", { x: 8, y: view.height - 8, class: "unit" }, [name])];
+  return [...columns, ...rows, part("text", { x: 8, y: view.height - 8, class: "unit" }, [name])];
 }
 
 /** @param {string} d @param {number} k number of the line; 0 is an axis */
-const line = (d, k) => svg("path", { d, class: k === 0 ? "axis" : "" });
+const line = (d, k) => part("path", { d, class: k === 0 ? "axis" : "" });
 
 /**
  * The whole numbers k with k * step between two values: none where neighbours cannot be distinguished in floating
@@ -89,12 +89,12 @@ export function drawCircle(view, scene, answer) {
   if (!answer) return [ring(start, r, "start")];
   const { centre_east_m, centre_north_m } = answer.join_over_ground;
   const end = toScreen(view, centre_east_m, centre_north_m);
-  const way = svg("path", { d: polyline([start, end]), class: "drift" });
+  const way = part("path", { d: polyline([start, end]), class: "drift" });
   return [ring(start, r, "start"), ring(end, r, ""), way, ...holdArrows(end, r, turns)];
 }
 
 /** @param {Point} centre @param {number} r @param {string} kind */
-const ring = ([cx, cy], r, kind) => svg("circle", { cx, cy, r, class: kind });
+const ring = ([cx, cy], r, kind) => part("circle", { cx, cy, r, class: kind });
 
 /**
  * Arrows round the circle for each direction of the hold.
@@ -111,7 +111,7 @@ function holdArrows([cx, cy], r, turns) {
       const [east, north] = unitVector(bearing);
       const angle = turn === "cw" ? bearing : bearing + 180;
       const transform = `translate(${cx + r * east} ${cy - r * north}) rotate(${angle})`;
-      return svg("path", { d: ARROWHEAD, class: "hold", transform });
+      return part("path", { d: ARROWHEAD, class: "hold", transform });
     }),
   );
 }

@@ -8,7 +8,7 @@
  * @typedef {import("./handles.js").Handle} Handle
  * @typedef {import("./handles.js").Stage} Stage
  */
-import { polyline, svg } from "../shared/dom.js";
+import { polyline, setAttributes, svg } from "../shared/dom.js";
 import { makeHandle, placeHandle } from "../shared/draggable.js";
 import { pointAt, positionToScreen } from "../shared/geometry.js";
 import { AIRCRAFT, CENTRE, HEADING, HEADING_HANDLE_PX, radiusHandle } from "./handles.js";
@@ -34,7 +34,7 @@ export function createHandles(root, layer, store, actions) {
       rotate(layer, "#aircraft .aeroplane", scene.pose.heading_deg);
       rotate(layer, "#wind .tip", (scene.wind?.from_deg ?? 180) + 180);
       layer.querySelector("#wind")?.classList.toggle("calm", scene.wind === null);
-      lever.setAttribute("d", leverOf(stage()));
+      setAttributes(lever, { d: leverOf(stage()) });
       dial.draw(stage());
     },
   );
@@ -49,7 +49,9 @@ export function stageAt({ camera, scene, units, radiusBearing_deg }) {
 }
 
 /** @param {SVGGElement} layer @param {string} selector @param {number} deg */
-const rotate = (layer, selector, deg) => layer.querySelector(selector)?.setAttribute("transform", `rotate(${deg})`);
+function rotate(layer, selector, deg) {
+  setAttributes(/** @type {Element} */ (layer.querySelector(selector)), { transform: `rotate(${deg})` });
+}
 
 /**
  * Let a handle change the scene.

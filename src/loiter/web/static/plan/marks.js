@@ -9,9 +9,9 @@
  * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("../shared/geometry.js").View} View
  */
-import { svg } from "../shared/dom.js";
+import { part } from "../shared/dom.js";
 import { overlaps, pointAt, positionToScreen, toScreen, unitVector } from "../shared/geometry.js";
-import { stateAt } from "../shared/maneuver.js";
+import { poseAt } from "../shared/maneuver.js";
 import { timeText } from "../shared/units.js";
 
 // Pixels: a label at the start of the last segment is left out if its point is nearer than this to another.
@@ -85,7 +85,7 @@ function numberStrips({ width, height }) {
 }
 
 /** @param {Point} point @param {number} r @param {string} kind */
-const dot = ([cx, cy], r, kind) => svg("circle", { cx, cy, r, class: kind });
+const dot = ([cx, cy], r, kind) => part("circle", { cx, cy, r, class: kind });
 
 /** @param {Point} point @param {Point} joined @param {Point} aircraft */
 function isCrowded([x, y], joined, aircraft) {
@@ -107,7 +107,7 @@ function coveredPoints(view, { track, duration_s, join, join_over_ground }, { po
   const r = Math.hypot(joined[0] - centre[0], joined[1] - centre[1]);
   const aircraft = positionToScreen(view, pose);
   return [
-    ...Array.from({ length: 81 }, (_, i) => positionToScreen(view, stateAt(track, (i / 80) * duration_s))),
+    ...Array.from({ length: 81 }, (_, i) => positionToScreen(view, poseAt(track, (i / 80) * duration_s))),
     ...Array.from({ length: 72 }, (_, k) => pointAt(centre, 5 * k, r)),
     ...Array.from({ length: 16 }, (_, k) => pointAt(aircraft, pose.heading_deg, 5 * k - 12)),
   ];
@@ -131,16 +131,18 @@ function coveredPoints(view, { track, duration_s, join, join_over_ground }, { po
  */
 function label(view, { point, text, most, kind = "" }, covered, taken) {
   const width = (kind ? LETTER_PX : CHARACTER_PX) * text.length;
+  // No place of the label reaches farther.
+  const near = covered.filter(([x, y]) => Math.abs(x - point[0]) < width + 32 && Math.abs(y - point[1]) < 48);
   const places = [1, 2].flatMap((far) =>
     [0, 45, 90, 135, 180, 225, 270, 315].map((bearing) => {
       const box = placeAt(point, bearing, width, far);
-      return { box, cost: costOf(box, view, covered, taken) + far / 100 };
+      return { box, cost: costOf(box, view, near, taken) + far / 100 };
     }),
   );
   const { box, cost } = places.reduce((least, place) => (place.cost < least.cost ? place : least));
   if (cost >= most) return [];
   taken.push(box);
-  return [svg("text", { x: box.left, y: box.top + HALF_HEIGHT_PX + 4, class: `halo ${kind}` }, [text])];
+  return [part("text", { x: box.left, y: box.top + HALF_HEIGHT_PX + 4, class: `halo ${kind}` }, [text])];
 }
 
 /**

@@ -10,7 +10,7 @@
  * @typedef {import("../shared/geometry.js").Point} Point
  * @typedef {import("../shared/geometry.js").View} View
  */
-import { polyline, setAttributes, svg } from "../shared/dom.js";
+import { part, polyline, setAttributes } from "../shared/dom.js";
 import { DEGREE, toScreen } from "../shared/geometry.js";
 import { isAllowed, piecesOf } from "../shared/maneuver.js";
 import { timeDifference } from "../shared/units.js";
@@ -41,9 +41,9 @@ export function drawBest(view, maneuver) {
     points: pointsOf(view, maneuver.track, indices),
   }));
   return [
-    svg("path", { d: polyline(pointsOf(view, maneuver.track)), class: "casing" }),
+    part("path", { d: polyline(pointsOf(view, maneuver.track)), class: "casing" }),
     ...pieces.map(({ letter, points }) =>
-      svg("path", { d: polyline(points), class: `piece ${letter}`, "data-letter": letter }),
+      part("path", { d: polyline(points), class: `piece ${letter}`, "data-letter": letter }),
     ),
     ...pieces.flatMap(({ letter, points }) => drawArrow(letter, points)),
   ];
@@ -62,7 +62,7 @@ function drawArrow(letter, points) {
   const share = (half - sums[j - 1]) / (sums[j] - sums[j - 1] || 1);
   const [x, y] = [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
   const angle = Math.atan2(to[1] - from[1], to[0] - from[0]) / DEGREE;
-  return [svg("path", { d: ARROWHEAD, class: `arrow ${letter}`, transform: `translate(${x} ${y}) rotate(${angle})` })];
+  return [part("path", { d: ARROWHEAD, class: `arrow ${letter}`, transform: `translate(${x} ${y}) rotate(${angle})` })];
 }
 
 /** The length of a polyline up to each point. @param {Point[]} points */
@@ -79,19 +79,12 @@ function cumulativeLengths(points) {
  *
  * @param {View} view
  * @param {Alternative} other
- * @param {number} index
  * @param {Scene} scene
- * @param {(index: number | null) => void} highlight
  */
-export function drawOther(view, other, index, scene, highlight) {
+export function drawOther(view, other, scene) {
   const d = polyline(pointsOf(view, other.track));
-  const group = svg("g", { class: isAllowed(scene, other) ? "other" : "other disallowed" }, [
-    svg("path", { d, class: "line" }),
-    svg("path", { d, class: "reach" }),
-  ]);
-  group.addEventListener("pointerenter", () => highlight(index));
-  group.addEventListener("pointerleave", () => highlight(null));
-  return group;
+  const parts = [part("path", { d, class: "line" }), part("path", { d, class: "reach" })];
+  return part("g", { class: isAllowed(scene, other) ? "other" : "other disallowed" }, parts);
 }
 
 /**

@@ -8,7 +8,7 @@
  * @typedef {import("../shared/geometry.js").Box} Box
  * @typedef {import("./camera.js").PlanCamera} PlanCamera
  */
-import { boxWithin, byId, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
+import { boxWithin, byId, fill, observeSize, setAttributes, setSize, show, svg, svgLayers, watchPointed } from "../shared/dom.js";
 import { orbitMoves } from "../scene/scene.js";
 import { positionToScreen, toScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
@@ -45,7 +45,8 @@ export function planView(store, actions, camera) {
   gestures(root, camera);
   zoomButtons(store, camera);
   createHandles(root, handles, store, actions);
-  watchScene(root, layers, store, actions, () => overlays);
+  watchScene(root, layers, store, () => overlays);
+  watchPointed(layers.others, ".other", actions.highlight);
   watchHighlight(root, layers.others, callout, store);
   watchGhost(ghost, moving, store);
   raceLayer(layers.rivals, store, actions);
@@ -71,48 +72,46 @@ function zoomButtons(store, camera) {
  * @param {SVGSVGElement} root
  * @param {Record<string, SVGGElement>} layers
  * @param {Store} store
- * @param {Actions} actions
  * @param {() => Box[]} overlays
  */
-function watchScene(root, layers, store, actions, overlays) {
+function watchScene(root, layers, store, overlays) {
   store.watch(
     ({ camera, units }) => [camera, units],
     ({ camera: { view }, units }) => {
       setAttributes(root, { "data-scale": view.scale, "data-east": view.east, "data-north": view.north });
-      layers.grid.replaceChildren(...drawGrid(view, units));
+      fill(layers.grid, drawGrid(view, units));
     },
   );
   store.watch(
     ({ camera, scene, answer }) => [camera, scene, answer],
     ({ camera, scene, answer }) => {
       root.setAttribute("data-scene", JSON.stringify(scene));
-      layers.circle.replaceChildren(...drawCircle(camera.view, scene, answer));
+      fill(layers.circle, drawCircle(camera.view, scene, answer));
     },
   );
   // Not after a change of the scene: the paths are drawn when its answer arrives.
   store.watch(
     ({ camera, answer }) => [camera, answer],
-    (state) => drawPaths(layers, state, actions.highlight, overlays),
+    (state) => drawPaths(layers, state, overlays),
   );
 }
 
 /**
  * @param {Record<string, SVGGElement>} layers
  * @param {PageState} state
- * @param {(index: number | null) => void} highlight
  * @param {() => Box[]} overlays
  */
-function drawPaths(layers, state, highlight, overlays) {
+function drawPaths(layers, state, overlays) {
   const {
     camera: { view },
     scene,
     answer,
   } = state;
-  if (!answer) return [layers.best, layers.others, layers.marks].forEach((layer) => layer.replaceChildren());
+  if (!answer) return [layers.best, layers.others, layers.marks].forEach((layer) => fill(layer, []));
   const { best, others } = splitAnswer(answer);
-  layers.best.replaceChildren(...best.flatMap((maneuver) => drawBest(view, maneuver)));
-  layers.others.replaceChildren(...others.map((other, i) => drawOther(view, other, i, scene, highlight)));
-  layers.marks.replaceChildren(...drawMarks(view, best, others, scene, [dialBox(stageAt(state)), ...overlays()]));
+  fill(layers.best, best.flatMap((maneuver) => drawBest(view, maneuver)));
+  fill(layers.others, others.map((other) => drawOther(view, other, scene)));
+  fill(layers.marks, drawMarks(view, best, others, scene, [dialBox(stageAt(state)), ...overlays()]));
 }
 
 /**

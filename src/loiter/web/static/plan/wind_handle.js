@@ -10,7 +10,7 @@
  * @typedef {import("./handles.js").Stage} Stage
  */
 import { withWind } from "../scene/scene.js";
-import { polyline, setAttributes, svg } from "../shared/dom.js";
+import { polyline, setAttributes, setText, svg } from "../shared/dom.js";
 import { headingOf, overlaps, pointAt, positionToScreen, unitVector } from "../shared/geometry.js";
 import { fixed, quantityText, tidy } from "../shared/units.js";
 import { handleParts, handlePoints } from "./handles.js";
@@ -143,12 +143,12 @@ export function windDial() {
   function draw(stage) {
     const [x, y] = dialMiddle(stage);
     const r = dialRadius(stage.view);
-    rings.forEach((ring, i) => ring.setAttribute("r", String(r / (i + 1))));
-    dial.setAttribute("transform", `translate(${x} ${y})`);
-    shaft.setAttribute("d", polyline([[x, y], WIND.position(stage)]));
+    rings.forEach((ring, i) => setAttributes(ring, { r: r / (i + 1) }));
+    setAttributes(dial, { transform: `translate(${x} ${y})` });
+    setAttributes(shaft, { d: polyline([[x, y], WIND.position(stage)]) });
     setAttributes(title, { x, y: y - r - 8 });
     setAttributes(text, { x, y: y + r + 18 });
-    text.textContent = WIND.text(stage.scene, stage.units);
+    setText(text, WIND.text(stage.scene, stage.units));
   }
   return { group: svg("g", { class: "air" }, [dial, title, text, shaft]), draw };
 }

@@ -24,7 +24,7 @@ import { turnRadiusOf } from "../shared/turning.js";
 const LIMIT_KEYS = { max_bank_deg: "bank", min_turn_radius_m: "turn-radius", max_turn_rate_deg_s: "turn-rate" };
 
 /** @type {Reference[]} */
-export const REFERENCES = ["msl", "home", "ground"];
+const REFERENCES = ["msl", "home", "ground"];
 
 /** The fragment of a link. Altitudes that are not given are left out. @param {Linked} linked @returns {string} */
 export function toLink({ scene, units, altitude, view }) {

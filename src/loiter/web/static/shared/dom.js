@@ -37,9 +37,72 @@ export function html(name, attributes = {}, children = []) {
   return element;
 }
 
-/** @param {Element} element @param {Attributes} attributes */
+/** Set the attributes that differ: to set an equal one costs a browser a layout. @param {Element} element @param {Attributes} attributes */
 export function setAttributes(element, attributes) {
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  for (const name in attributes) {
+    const value = String(attributes[name]);
+    if (element.getAttribute(name) !== value) element.setAttribute(name, value);
+  }
+}
+
+/**
+ * An element to draw, as a description: to compare it with the last one is cheaper than to read the document.
+ *
+ * @typedef {{name: string, attributes: Attributes, children: (Part | string)[]}} Part
+ *
+ * @param {string} name
+ * @param {Attributes} [attributes]
+ * @param {(Part | string)[]} [children]
+ * @returns {Part}
+ */
+export const part = (name, attributes = {}, children = []) => ({ name, attributes, children });
+
+/** What `fill` has put into elements. @type {WeakMap<Element, (Part | string)[]>} */
+const FILLED = new WeakMap();
+
+/**
+ * Give an element these children, and nothing else. What has not changed since the last time is left alone, so that the
+ * browser neither lays it out nor paints it again, and it keeps its focus.
+ *
+ * @param {Element} parent
+ * @param {(Part | string)[]} children
+ */
+export function fill(parent, children) {
+  const before = FILLED.get(parent) ?? [];
+  FILLED.set(parent, children);
+  let node = parent.firstChild;
+  children.forEach((child, i) => {
+    const old = /** @type {ChildNode} */ (node);
+    node = node?.nextSibling ?? null;
+    if (i < before.length) adapt(old, before[i], child);
+    else parent.append(made(child, parent));
+  });
+  for (let i = children.length; i < before.length; i++) parent.lastChild?.remove();
+}
+
+/** @param {ChildNode} node @param {Part | string} before @param {Part | string} wanted */
+function adapt(node, before, wanted) {
+  if (typeof before === "string" && typeof wanted === "string") {
+    if (before !== wanted) node.nodeValue = wanted;
+  } else if (typeof before === "string" || typeof wanted === "string" || before.name !== wanted.name) {
+    node.replaceWith(made(wanted, /** @type {Element} */ (node.parentNode)));
+  } else {
+    const element = /** @type {Element} */ (node);
+    const [old, attributes] = [before.attributes, wanted.attributes];
+    for (const name in old) if (!(name in attributes)) element.removeAttribute(name);
+    for (const name in attributes)
+      if (old[name] !== attributes[name]) element.setAttribute(name, String(attributes[name]));
+    fill(element, wanted.children);
+  }
+}
+
+/** @param {Part | string} wanted @param {Element} parent */
+function made(wanted, parent) {
+  if (typeof wanted === "string") return document.createTextNode(wanted);
+  const element = document.createElementNS(parent.namespaceURI, wanted.name);
+  setAttributes(element, wanted.attributes);
+  fill(element, wanted.children);
+  return element;
 }
 
 /**
@@ -93,10 +156,31 @@ export function polyline(points) {
     .join("");
 }
 
+/**
+ * Tell which part of a group is under the pointer or has the focus: its index, or null.
+ *
+ * @param {Element} group
+ * @param {string} selector  of the parts
+ * @param {(index: number | null) => void} tell
+ */
+export function watchPointed(group, selector, tell) {
+  for (const event of ["pointerover", "focusin"])
+    group.addEventListener(event, ({ target }) => {
+      const part = /** @type {Element} */ (target).closest(selector);
+      if (part) tell(Array.from(group.querySelectorAll(selector)).indexOf(part));
+    });
+  for (const event of ["pointerout", "focusout"]) group.addEventListener(event, () => tell(null));
+}
+
+/** Set a text, if it is another. @param {Element} element @param {string} text */
+export function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 /** Show or hide an element. @param {Element} element @param {boolean} shown */
 export function show(element, shown) {
   element.toggleAttribute("hidden", !shown);
-  if (element instanceof SVGElement) element.setAttribute("visibility", shown ? "visible" : "hidden");
+  if (element instanceof SVGElement) setAttributes(element, { visibility: shown ? "visible" : "hidden" });
 }
 
 /**

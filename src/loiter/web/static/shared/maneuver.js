@@ -12,7 +12,7 @@
  *
  * @typedef {{east_m: number, north_m: number, heading_deg: number, x: number, y: number}} Instant
  */
-import { html } from "./dom.js";
+import { part } from "./dom.js";
 
 /** @type {Record<Letter, string>} */
 export const CONTROLS = { L: "left", S: "straight", R: "right" };
@@ -25,8 +25,8 @@ export const DIRECTION_ARROWS = { cw: "↻", ccw: "↺" };
 
 /** A word with each letter in the colour of its control; "hold" for the empty word. @param {string} word */
 export function wordLabel(word) {
-  const letters = Array.from(word, (letter) => html("span", { class: letter }, [letter]));
-  return html("span", { class: "word" }, letters.length > 0 ? letters : ["hold"]);
+  const letters = Array.from(word, (letter) => part("span", { class: letter }, [letter]));
+  return part("span", { class: "word" }, letters.length > 0 ? letters : ["hold"]);
 }
 
 /**

@@ -3,6 +3,8 @@
  * Groups of buttons with one tab stop: Tab reaches the group, arrow keys, Home and End move inside it.
  */
 
+import { setAttributes } from "./dom.js";
+
 /** @type {Record<string, (index: number, count: number) => number>} */
 const MOVES = {
   ArrowRight: (index, count) => (index + 1) % count,
@@ -28,7 +30,7 @@ export function roving(group) {
   function mark() {
     const all = buttons();
     current = Math.min(current, Math.max(0, all.length - 1));
-    all.forEach((button, i) => button.setAttribute("tabindex", i === current ? "0" : "-1"));
+    all.forEach((button, i) => setAttributes(button, { tabindex: i === current ? 0 : -1 }));
   }
   group.addEventListener("focusin", ({ target }) => {
     const index = indexOf(target);

@@ -8,7 +8,7 @@
  * @typedef {{top: number, height: number}} Band
  * @typedef {ReturnType<typeof timeScale>} TimeScale
  */
-import { polyline, svg } from "../shared/dom.js";
+import { part, polyline } from "../shared/dom.js";
 import { CONTROLS, interpolator } from "../shared/maneuver.js";
 import { clock, decimalsOfStep, fixed, roundStep } from "../shared/units.js";
 
@@ -53,17 +53,17 @@ export function drawControls(segments, { x }) {
 function drawBar(letter, from, to) {
   const width = to - from;
   const box = { x: from, y: STRIP.top, width: Math.max(0.5, width), height: STRIP.height };
-  const bar = svg("rect", { ...box, class: `bar ${letter}` });
+  const bar = part("rect", { ...box, class: `bar ${letter}` });
   if (width < LEAST_WIDTH.letter) return [bar];
   const text = width < LEAST_WIDTH.word ? letter : CONTROLS[letter];
   const middle = { x: (from + to) / 2, y: STRIP.top + 15.5, "text-anchor": "middle" };
-  return [bar, svg("text", { ...middle, class: "barname" }, [text])];
+  return [bar, part("text", { ...middle, class: "barname" }, [text])];
 }
 
 /** Lines at the switching times. @param {Segment[]} segments @param {TimeScale} scale */
 export function drawSwitches(segments, { x, axis }) {
   const line = (/** @type {number} */ time) => `M${x(time)} ${STRIP.top}V${axis - 12}`;
-  return segments.slice(1).map(({ start_s }) => svg("path", { d: line(start_s), class: "switchline" }));
+  return segments.slice(1).map(({ start_s }) => part("path", { d: line(start_s), class: "switchline" }));
 }
 
 /** The spacing of times: whole parts of a minute, or whole minutes, from ten seconds on. @param {number} least */
@@ -79,7 +79,7 @@ export function drawAxis({ x, end, length, axis }) {
   const text = (/** @type {number} */ k) =>
     (end < 60 ? fixed(k * step, decimalsOfStep(step)) : clock(k * step, 0)) + (k === count ? unit : "");
   return Array.from({ length: count + 1 }, (_, k) =>
-    svg("text", { x: x(k * step), y: axis + 3, "text-anchor": "middle", class: "tick" }, [text(k)]),
+    part("text", { x: x(k * step), y: axis + 3, "text-anchor": "middle", class: "tick" }, [text(k)]),
   );
 }
 
@@ -99,15 +99,15 @@ export function drawSeries({ series, certificate: { lambda } }, { x, right }) {
   const level = (/** @type {number} */ y) => `M${LEFT} ${y}H${right}`;
   return {
     back: [
-      svg("path", { d: level(phiY(0)), class: "zero" }),
-      svg("path", { d: level(psiY(0)), class: "zero" }),
+      part("path", { d: level(phiY(0)), class: "zero" }),
+      part("path", { d: level(psiY(0)), class: "zero" }),
       ...drawNames(),
     ],
     lines: [
-      svg("path", { d: line(phi, phiY), class: "phi" }),
-      svg("path", { d: line(psi1, psiY), class: "psi1" }),
-      svg("path", { d: line(psi2, psiY), class: "psi2" }),
-      ...lambdas.map((value) => svg("path", { d: level(psiY(value)), class: "lambda" })),
+      part("path", { d: line(phi, phiY), class: "phi" }),
+      part("path", { d: line(psi1, psiY), class: "psi1" }),
+      part("path", { d: line(psi2, psiY), class: "psi2" }),
+      ...lambdas.map((value) => part("path", { d: level(psiY(value)), class: "lambda" })),
     ],
   };
 }
@@ -126,9 +126,9 @@ function valueScale(values, { top, height }) {
 
 function drawNames() {
   return [
-    svg("text", { x: 6, y: STRIP.top + 16 }, ["u"]),
-    svg("text", { x: 6, y: PHI.top + 30 }, ["φ"]),
-    svg("text", { x: 6, y: PSI.top + 30 }, ["ψ"]),
+    part("text", { x: 6, y: STRIP.top + 16 }, ["u"]),
+    part("text", { x: 6, y: PHI.top + 30 }, ["φ"]),
+    part("text", { x: 6, y: PSI.top + 30 }, ["ψ"]),
   ];
 }
 
@@ -143,7 +143,7 @@ export function drawReadings({ series, certificate: { lambda } }, time, { right 
   if (series.time_s.length === 0) return [];
   const read = interpolator(series.time_s, time);
   const text = (/** @type {number} */ y, /** @type {string} */ content, kind = "") =>
-    svg("text", { x: right + 8, y, class: kind }, [content]);
+    part("text", { x: right + 8, y, class: kind }, [content]);
   return [
     text(STRIP.top + 16, time < 60 ? `${fixed(time, 2)} s` : clock(time, 1)),
     text(PHI.top + 30, `φ ${fixed(read(series.phi), 3)}`, "phi"),

@@ -7,7 +7,7 @@
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/actions.js").Actions} Actions
  */
-import { byId, observeSize, setSize, show, svg, svgLayers } from "../shared/dom.js";
+import { byId, fill, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { pointOf } from "../shared/draggable.js";
 import { durationOf, shownTime } from "../state/page_state.js";
 import { drawAxis, drawControls, drawReadings, drawSeries, drawSwitches, heightOf, timeScale } from "./bands.js";
@@ -48,8 +48,8 @@ function watchPlan(root, { back, strip, lines, ticks }, store) {
     ({ answer, timelineWidth, theory }) => [answer, timelineWidth, theory],
     ({ answer }) => {
       if (!answer) return;
-      strip.replaceChildren(...drawControls(answer.segments, scaleNow(store)));
-      ticks.replaceChildren(...drawAxis(scaleNow(store)), ...drawSwitches(answer.segments, scaleNow(store)));
+      fill(strip, drawControls(answer.segments, scaleNow(store)));
+      fill(ticks, [...drawAxis(scaleNow(store)), ...drawSwitches(answer.segments, scaleNow(store))]);
     },
   );
   store.watch(
@@ -59,8 +59,8 @@ function watchPlan(root, { back, strip, lines, ticks }, store) {
       root.classList.toggle("unproved", proof === null);
       if (!proof) return;
       const drawn = drawSeries(proof, scaleNow(store));
-      back.replaceChildren(...drawn.back);
-      lines.replaceChildren(...drawn.lines);
+      fill(back, drawn.back);
+      fill(lines, drawn.lines);
     },
   );
 }
@@ -71,9 +71,9 @@ function watchTime(cursor, reads, store) {
     (state) => [shownTime(state), state.answer, state.proof, state.timelineWidth, state.theory],
     (state) => {
       const time = shownTime(state);
-      cursor.setAttribute("d", `M${scaleNow(store).x(time).toFixed(1)} 0V${scaleNow(store).axis - 10}`);
+      setAttributes(cursor, { d: `M${scaleNow(store).x(time).toFixed(1)} 0V${scaleNow(store).axis - 10}` });
       show(reads, state.proof !== null);
-      if (state.proof) reads.replaceChildren(...drawReadings(state.proof, time, scaleNow(store)));
+      if (state.proof) fill(reads, drawReadings(state.proof, time, scaleNow(store)));
     },
   );
 }
