@@ -1,21 +1,20 @@
 """Drag the aircraft on the page in a browser, and print the delay from a move of the pointer to its path.
 
 `python -m benchmarks.page --moves 200` starts a server and drags in each of the scenes of PRESETS, a move every 16 ms.
-Two delays are printed, each from the time stamp of the pointer event, on the page's clock: until path and candidates
-are in the document, and until the frame that shows them is painted. With several addresses of running servers, for
-example of two versions, their pages take turns, so that other load on the machine affects all of them.
+Three delays are printed, each from the time stamp of the pointer event, on the page's clock: until the browser hands
+the event to the page, until path and candidates are in the document, and until the frame that shows them is painted.
+Beside them stands the processor time of the page's thread, which other load on the machine changes less. With several
+addresses of running servers, for example of two versions, their pages take turns.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections import Counter
 from contextlib import nullcontext
 from typing import NamedTuple
-from urllib.parse import urlsplit
 
 import numpy as np
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, CDPSession, Page
 
 from benchmarks.browsing import browsing, served, settle
 
@@ -25,9 +24,12 @@ FRAME_MS, DRAG_PX = 16, 60.0
 # The page measures "move to path" when path and candidates are in the document. A message that is posted in the next
 # frame's callback arrives after the frame is painted.
 RECORD = """
-window.delays = { drawn: [], painted: [] };
+window.delays = { handed: [], drawn: [], painted: [] };
+let handed_ms = 0;
+addEventListener("pointermove", () => (handed_ms = performance.now()), { capture: true });
 const measure = performance.measure.bind(performance);
 performance.measure = (name, options) => {
+  delays.handed.push(handed_ms - options.start);
   delays.drawn.push(performance.now() - options.start);
   requestAnimationFrame(() => {
     const { port1, port2 } = new MessageChannel();
@@ -40,11 +42,10 @@ performance.measure = (name, options) => {
 
 
 class Drag(NamedTuple):
-    """The delays of the moves of one drag, milliseconds, and the number of requests to each path of the service."""
+    """The delays of the moves of one drag and the processor time of the page's thread meanwhile, milliseconds."""
 
-    drawn: list[float]
-    painted: list[float]
-    requests: Counter[str]
+    delays: dict[str, list[float]]
+    processor_ms: float
 
 
 def opened(browser: Browser, address: str) -> Page:
@@ -61,26 +62,29 @@ def drag(page: Page, preset: str, moves: int) -> Drag:
     page.bring_to_front()
     page.get_by_role("button", name=preset, exact=True).click()
     settle(page)
-    page.evaluate("delays = { drawn: [], painted: [] }")
+    page.evaluate("for (const name in delays) delays[name] = []")
     box = page.locator("#aircraft .touch").bounding_box()
     assert box is not None
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    requests: Counter[str] = Counter()
-
-    def count(request: object) -> None:
-        requests[urlsplit(request.url).path] += 1  # type: ignore[attr-defined]
-
     page.mouse.move(x, y)
     page.mouse.down()
-    page.on("request", count)
+    session = page.context.new_cdp_session(page)
+    session.send("Performance.enable")
+    before = processor_ms(session)
     for angle in np.linspace(0.0, 4.0 * np.pi, moves):
         page.mouse.move(x + DRAG_PX * np.sin(angle), y + DRAG_PX * (1.0 - np.cos(angle)) / 2.0)
         page.wait_for_timeout(FRAME_MS)
-    page.remove_listener("request", count)
+    spent = processor_ms(session) - before
+    session.detach()
     page.mouse.up()
     settle(page)
-    delays = page.evaluate("delays")
-    return Drag(delays["drawn"], delays["painted"], requests)
+    return Drag(page.evaluate("delays"), spent)
+
+
+def processor_ms(session: CDPSession) -> float:
+    """The processor time of the page's thread so far, milliseconds."""
+    metrics = session.send("Performance.getMetrics")["metrics"]
+    return next(1e3 * one["value"] for one in metrics if one["name"] == "ThreadTime")
 
 
 def describe(name: str, delays: list[float]) -> str:
@@ -90,12 +94,11 @@ def describe(name: str, delays: list[float]) -> str:
 
 
 def report(title: str, drags: list[Drag]) -> None:
-    """Print the delays of some drags together, and how many requests they made."""
-    drawn = [delay for one in drags for delay in one.drawn]
-    painted = [delay for one in drags for delay in one.painted]
-    requests = sum((one.requests for one in drags), Counter())
-    print(f"{title}: {len(drawn)} moves; {describe('drawn', drawn)}; {describe('painted', painted)}")
-    print("   requests: " + ", ".join(f"{count} {path}" for path, count in requests.most_common()))
+    """Print the delays of some drags together, and the processor time of a move."""
+    delays = {name: [delay for one in drags for delay in one.delays[name]] for name in drags[0].delays}
+    moves = len(delays["drawn"])
+    spent = sum(one.processor_ms for one in drags) / moves
+    print(f"{title}: {moves} moves; {'; '.join(describe(*each) for each in delays.items())}; processor {spent:.1f} ms")
 
 
 def measure(addresses: list[str], moves: int, rounds: int) -> None:

@@ -1,6 +1,7 @@
 """The page's engine beside the library: the same scenes answered by both, and in what the answers differ.
 
-`PYTHONPATH=src:tests:. python -m web.engine 10000` compares that many scenes and counts the differences.
+`PYTHONPATH=src:tests:. python -m web.engine 10000` compares that many scenes and counts the differences; with a second
+number it begins after that many scenes.
 """
 
 import json
@@ -193,17 +194,15 @@ def differences(scene, page):
     return found
 
 
-def main(count):
-    """Compare `count` scenes, some hundred at a time, and print what differs how often."""
+def main(count, first=0):
+    """Compare the scenes from `first` to `count`, some hundred at a time, and print what differs how often."""
     found = Counter()
-    for start in range(0, count, 200):
+    for start in range(first, count, 200):
         scenes = drawn(min(200, count - start), seed=start)
         for scene, page in zip(scenes, of_the_page(scenes), strict=True):
             found += differences(scene, page)
-    print(f"{count} scenes")
-    for what, times in found.most_common():
-        print(f"{times:6} {what}")
+        print(f"{start + len(scenes)} scenes: {dict(found.most_common())}", flush=True)
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(*map(int, sys.argv[1:]))
