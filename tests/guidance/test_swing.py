@@ -11,7 +11,18 @@ import pytest
 
 from loiter import Aircraft, Orbit
 from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.estimation.observer import along_roughness, first_observer, observe, restart_gusts, roughness
+from loiter.guidance.estimation.observer import (
+    CALM_ALONG,
+    TURN_CHANGE,
+    AirMotion,
+    along_roughness,
+    average_air,
+    first_air,
+    first_observer,
+    observe,
+    restart_gusts,
+    roughness,
+)
 from loiter.guidance.protocol import Phase, State
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
@@ -67,6 +78,7 @@ def test_the_circle_is_held_without_a_swing(start):
         command = law.step(aircraft.state(), STEP_S)
         if joined_s is None and command.phase == Phase.HOLD:
             joined_s = aircraft.time_s
+            assert law._memory.sensing.observer.air.along == CALM_ALONG
         if joined_s is not None and aircraft.time_s > joined_s + 3.0:
             banks.append(aircraft.bank_deg)
             outside.append(hypot(aircraft.east_m, aircraft.north_m) - orbit.radius_m)
@@ -101,3 +113,11 @@ def test_a_swing_of_the_slip_is_no_gust_along_the_flight():
     both, along = rough(0.0, 0.0, swing_deg=2.0)
     assert both > 0.4
     assert along < 0.05
+
+
+def test_a_difference_over_which_the_turn_rate_changes_counts_half():
+    air = first_air()
+    for _ in range(80):
+        air = average_air(air, 1.0, 2.0, STEP_S, 0.5)
+    turning = average_air(air, 1.0, 2.0, STEP_S, 0.5, AirMotion(1.0, 0.0, TURN_CHANGE))
+    assert turning.along.known_s - air.along.known_s == pytest.approx(0.5 * STEP_S)
