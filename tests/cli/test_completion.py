@@ -12,6 +12,7 @@ COMMANDS = [
     "plan",
     "leg",
     "fleet",
+    "land",
     "batch",
     "fly",
     "upload",

@@ -138,7 +138,7 @@ def test_a_picture_shows_the_fence(fence, capsys, tmp_path):
         (
             [(0.0, 0.0, 900.0, True), (2000.0, 0.0, 9.0, True)],
             "",
-            "--fence cannot be used: fence has the inclusion zones 'circle 1' and 'circle 2' with no common point",
+            "--fence has the inclusion zones 'circle 1' and 'circle 2' with no common point",
         ),
     ],
 )

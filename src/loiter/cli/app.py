@@ -79,9 +79,17 @@ add_command(
 FILE is a CSV file with a row for each aircraft: its position and heading, in the columns of loiter batch, and a name if it has a column name. They are of one kind, and share the circle, the airspeed, the turn limit and the wind. Their slots pass a place at equal intervals; which aircraft takes which slot brings the last one in soonest.""",
 )
 add_command(
+    "land:land",
+    planning,
+    3,
+    """Plan the fastest landing by a circle beside the final approach: the entry, the way down, and the approach.
+
+It needs a start with --pose and --altitude, the runway (--runway, --elevation), the circle's --radius, the least length of the final approach (--final), the airspeed, one limit on the turn, and the --descent-rate. The circle touches the final approach, to its right or to its left, and is left at the altitude of the glide slope; side, place, turns and entry are those with the least time over the threshold.""",
+)
+add_command(
     "batch:batch",
     planning,
-    2,
+    4,
     """Plan the fastest entry for every row of a table: Parquet or CSV, any size.
 
 IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s; wind_speed_m_s and wind_from_deg; and orbit_velocity_east_m_s and orbit_velocity_north_m_s. Values without a column come from options; all are needed except the turn, the wind and the circle's velocity.
@@ -150,7 +158,7 @@ add_command(
 add_command(
     "serve:serve",
     planning,
-    2,
+    5,
     "Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.",
 )
 

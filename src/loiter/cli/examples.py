@@ -23,6 +23,13 @@ EXAMPLES = {
       --separation 100 --plot fleet.png --animate fleet.gif
   loiter fleet fleet.csv --orbit-lla 47.11 8.23 120 --airspeed 18 \
       --bank 35 --wind 8 250 --altitude 900 --save fleet.kml""",
+    "land": r"""
+  loiter land --pose -400 900 90 --altitude 650 --runway 0 0 90 \
+      --elevation 500 --radius 120 --final 500 \
+      --airspeed 18 --bank 35 --descent-rate 3
+  loiter land --pose-lla 47.01 8.02 270 --altitude 700 \
+      --runway-lla 47.0 8.0 90 --elevation 500 --radius 120 --final 800 \
+      --airspeed 18 --bank 35 --descent-rate 3 --save landing.plan""",
     "batch": r"""
   loiter batch states.parquet entries/ --orbit 0 0 80 \
       --airspeed 18 --bank 35

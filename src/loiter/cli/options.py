@@ -39,7 +39,7 @@ from loiter.plot import files
 from loiter.plot.sizes import PictureFormat
 
 if TYPE_CHECKING:
-    from loiter.fences import PlacedFence
+    from loiter.fences import Fence, PlacedFence
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
     from loiter.mavlink.guiding.preparation import OwnFence
@@ -50,6 +50,11 @@ vehicle_limits = Group("Aircraft: what is absent comes from the vehicle's parame
 air = Group("Wind, and circles that move", sort_key=3)
 output = Group("Output", sort_key=5)
 missions = Group("Missions", sort_key=6)
+
+# The problem of a fence in metres where places are in degrees.
+METRES_ONLY = (
+    "is a table in local metres, which goes with --pose and --orbit: give a file with latitudes and longitudes"
+)
 
 # Default chord error, metres, the same as that of the library.
 CHORD_ERROR_M = 1.0
@@ -501,7 +506,7 @@ class FenceOptions:
         Parameter(
             group=scene,
             metavar="FILE",
-            help="Fence of polygons and circles: .plan of QGroundControl, QGC WPL 110 with fence items, or latitudes and longitudes as ArduPilot's fence.txt. A line says whether the plan and its hold stay clear, and if not, where and when they enter which zone, and the fastest clear entry found, which files and pictures then have: exit status 1. That of --orbit-from if absent.",
+            help="Fence of polygons and circles: .plan of QGroundControl, QGC WPL 110 with fence items, latitudes and longitudes as ArduPilot's fence.txt, or for scenes in metres a .csv with the columns zone, rule (in or out), east_m, north_m and radius_m. A line says whether the plan and its hold stay clear, and if not, where and when they enter which zone, and the fastest clear entry found, which files and pictures then have: exit status 1. That of --orbit-from if absent.",
         ),
     ] = None
     margin: Annotated[
@@ -512,8 +517,15 @@ class FenceOptions:
         ),
     ] = None
 
-    def placed(self, site: Site | None) -> PlacedFence | None:
-        """The fence of the file, or that of an existing mission; None without one. Raises `InvalidArgument`."""
+    def read(self, site: Site | None) -> PlacedFence | Fence | None:
+        """The fence of the file, or that of an existing mission; None without one. Raises `InvalidArgument`.
+
+        A .csv is a table in local metres; all other files have places in degrees.
+        """
+        if self.fence is not None and self.fence.suffix.lower() == ".csv":
+            from loiter.io.fence_table import read_fence_table
+
+            return read_fence_table(self.fence)
         if self.fence is not None:
             from loiter.io.missions.fences import read_fence
 
@@ -522,6 +534,21 @@ class FenceOptions:
         if found is None and self.margin is not None:
             raise InvalidArgument("margin_m", "has no effect without --fence")
         return found
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class LegFenceOptions(FenceOptions):
+    """A fence, of which a whole leg is checked."""
+
+    fence: Annotated[
+        Path | None,
+        Parameter(
+            group=scene,
+            metavar="FILE",
+            help="Fence of polygons and circles, in the formats of loiter plan. A line says whether the way in, the whole circle and the way out stay clear, and if not, where and when they enter which zone: exit status 1. A .plan has the fence too.",
+        ),
+    ] = None
 
 
 @Parameter(name="*")
@@ -540,7 +567,14 @@ class GuidedFenceOptions(FenceOptions):
 
     def of_flight(self) -> PlacedFence | OwnFence | None:
         """The fence of the file, or "vehicle"; None without one. Raises `InvalidArgument`."""
-        return "vehicle" if self.fence == Path("vehicle") else self.placed(None)
+        if self.fence == Path("vehicle"):
+            return "vehicle"
+        from loiter.fences import Fence
+
+        found = self.read(None)
+        if isinstance(found, Fence):
+            raise InvalidArgument("fence", METRES_ONLY)
+        return found
 
 
 Fit = Annotated[

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from math import isfinite
 from typing import TYPE_CHECKING, NamedTuple
 
-from loiter.cli.options import AircraftOptions, FenceOptions, OrbitOptions, StartOptions, WindOptions
+from loiter.cli.options import METRES_ONLY, AircraftOptions, FenceOptions, OrbitOptions, StartOptions, WindOptions
 from loiter.errors import InvalidArgument, RadiusTooSmall
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
@@ -18,9 +18,10 @@ from loiter.planning.model import Aircraft, Orbit, Pose, Wind
 from loiter.planning.problem import Problem
 
 if TYPE_CHECKING:
-    from loiter.fences import ClearEntry, Fence, FenceCheck
+    from loiter.fences import ClearEntry, Fence, FenceCheck, PlacedFence
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
+    from loiter.planning.leg import LegPlan
     from loiter.planning.maneuver import Maneuver
 
 # Places in degrees that are read as metres lie no further apart than this.
@@ -137,12 +138,17 @@ def place_scene(
     circle, frame = orbit.circle(preset)
     if (start.pose_lla is None) != (frame is None):
         raise InvalidArgument("pose_lla", "and --orbit-lla go together: places in degrees, or both in metres")
+    return start_pose(start, air, frame), circle, frame
+
+
+def start_pose(start: StartOptions, air: WindOptions, frame: LocalFrame | None) -> Pose:
+    """The start in local metres: in a frame if it is in degrees; `air` has the declination."""
     if frame is not None and start.pose_lla is not None:
         lat, lon, heading_deg = start.pose_lla
-        return frame.pose(lat, lon, air.true_heading("pose true heading_deg", heading_deg)), circle, frame
+        return frame.pose(lat, lon, air.true_heading("pose true heading_deg", heading_deg))
     assert start.pose is not None  # one of them is given
     east_m, north_m, heading_deg = start.pose
-    return Pose(east_m, north_m, air.true_heading("pose heading_deg", heading_deg)), circle, None
+    return Pose(east_m, north_m, air.true_heading("pose heading_deg", heading_deg))
 
 
 class CheckedFence(NamedTuple):
@@ -150,6 +156,7 @@ class CheckedFence(NamedTuple):
 
     fence: Fence
     check: FenceCheck
+    placed: PlacedFence | None = None
 
     def clear_entry(self, problem: Problem) -> ClearEntry | None:
         """The fastest entry found that is clear; None where the plan is."""
@@ -171,16 +178,24 @@ class CheckedFence(NamedTuple):
 
 
 def check_fence(
-    options: FenceOptions, site: Site | None, maneuver: Maneuver, frame: LocalFrame | None
+    options: FenceOptions, site: Site | None, maneuver: Maneuver | LegPlan, frame: LocalFrame | None
 ) -> CheckedFence | None:
-    """Whether a plan stays clear of the fence of the options or of an existing mission; None without a fence."""
-    placed = options.placed(site)
-    if placed is None:
-        return None
-    if frame is None:
-        raise InvalidArgument("fence", "goes with --pose-lla and --orbit-lla: its places are in degrees")
+    """Whether a plan or a leg stays clear of the fence of the options or of a mission; None without a fence."""
+    from loiter.fences import Fence
+
     try:
-        fence = placed.local(frame)
+        found = options.read(site)
+        if found is None:
+            return None
+        if isinstance(found, Fence):
+            if frame is not None:
+                raise InvalidArgument("fence", METRES_ONLY)
+            return CheckedFence(found, found.check(maneuver, options.margin))
+        if frame is None:
+            raise InvalidArgument("fence", "goes with --pose-lla and --orbit-lla: its places are in degrees")
+        fence = found.local(frame)
     except InvalidArgument as error:
-        raise InvalidArgument("fence", f"cannot be used: {error}") from error
-    return CheckedFence(fence, fence.check(maneuver, options.margin))
+        if error.argument.startswith("zone "):
+            raise InvalidArgument("fence", f"cannot be used: {error}") from error
+        raise
+    return CheckedFence(fence, fence.check(maneuver, options.margin), found)

@@ -10,6 +10,7 @@ from loiter.fences.model import CircleZone, Fence, Zone
 from loiter.fences.pieces import FlownPath, flown_path, time_in_hold
 from loiter.fences.search import TOUCH_M, PlaceInPath, approach, first_entry, least_distance
 from loiter.geo.frame import LocalFrame, degrees_of
+from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver, decimals_of
 from loiter.planning.model import Orbit, Pose
 
@@ -80,17 +81,19 @@ class FenceCheck(NamedTuple):
         }
 
 
-def check(fence: Fence, maneuver: Maneuver, margin_m: float | None = None) -> FenceCheck:
+def check(fence: Fence, maneuver: Maneuver | LegPlan, margin_m: float | None = None) -> FenceCheck:
     """Whether a maneuver and its hold stay farther from every zone of a fence than a margin, metres.
 
-    The margin is that of `default_margin_m` if it is absent. What comes within a micrometre of the margin does not keep
-    it. A circle that moves is checked as a disc, for the longest that one round can take. Raises `InvalidArgument` for
-    a margin that is negative or not finite, and for a start outside an inclusion zone or inside another one.
+    Of a leg the way out is checked too. The margin is that of `default_margin_m` if it is absent. What comes within a
+    micrometre of the margin does not keep it. A circle that moves is checked as a disc, for the longest that one round
+    can take. Raises `InvalidArgument` for a margin that is negative or not finite, and for a start outside an inclusion
+    zone or inside another one.
     """
     instance("fence", fence, Fence)
+    flown, maneuver = maneuver, maneuver.entry if isinstance(maneuver, LegPlan) else maneuver
     instance("maneuver", maneuver, Maneuver)
     margin_m = default_margin_m(maneuver.orbit) if margin_m is None else not_negative("margin_m", margin_m, "metres")
-    path = flown_path(maneuver)
+    path = flown_path(flown)
     _check_start(fence, maneuver.start)
     approaches: list[tuple[Zone, PlaceInPath]] = []
     for zones, closest in zip(_by_kind(fence), approach(fence, path.pieces, margin_m), strict=True):
@@ -106,7 +109,8 @@ def check(fence: Fence, maneuver: Maneuver, margin_m: float | None = None) -> Fe
 
 def zones_on_circle(fence: Fence, maneuver: Maneuver, margin_m: float) -> tuple[str, ...]:
     """The names of the zones to which the circle of a hold, wherever it is joined, is closer than a margin."""
-    hold = flown_path(maneuver).pieces.take([-1])
+    path = flown_path(maneuver)
+    hold = path.pieces.take([path.hold])
     sides = fence.signed_distances(float(hold.x[0]), float(hold.y[0]))
     names = []
     for zones, closest, side in zip(_by_kind(fence), approach(fence, hold, margin_m), sides, strict=True):
@@ -149,7 +153,7 @@ def _at(zone: Zone, clearance_m: float, place: PlaceInPath, path: FlownPath, man
     """The place and the time of a point of the path."""
     pieces = path.pieces
     x, y = pieces.take(place.piece).position(place.time_s)
-    holding = place.piece == pieces.x.size - 1
+    holding = place.piece == path.hold
     time_s = float(pieces.start_s[place.piece]) + place.time_s
     if holding and not maneuver.orbit.moves:
         flown_rad = float(place.time_s * pieces.speed[place.piece] / pieces.radius[place.piece])

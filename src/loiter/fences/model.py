@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from loiter.fences.fence_check import FenceCheck
+    from loiter.planning.leg import LegPlan
     from loiter.planning.maneuver import Maneuver
 
 # East and north of a corner, metres.
@@ -175,8 +176,8 @@ class Fence:
         deepest = min(sides)
         return zones[sides.index(deepest)] if deepest < 0.0 else None
 
-    def check(self, maneuver: Maneuver, margin_m: float | None = None) -> FenceCheck:
-        """Whether a maneuver and its hold stay farther from every zone than a margin, metres: `loiter.fences.check`."""
+    def check(self, maneuver: Maneuver | LegPlan, margin_m: float | None = None) -> FenceCheck:
+        """Whether a maneuver or a leg, and its hold, stay farther from every zone than a margin: `fences.check`."""
         from loiter.fences.fence_check import check
 
         return check(self, maneuver, margin_m)

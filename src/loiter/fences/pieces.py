@@ -1,4 +1,4 @@
-"""What is flown, over the ground, as pieces: straight lines, arcs, trochoids (arcs in wind), and the hold.
+"""What is flown, over the ground, as pieces: straight lines, arcs, trochoids (arcs in wind), the hold, the way out.
 
 A piece is flown through the air at the speed V with the control u, and the air moves with a constant velocity w. After
 a time t its position is p(t) = p(0) + flown(t) + w t. The acceleration of a turn of radius r is V^2/r, whatever the
@@ -15,6 +15,7 @@ from loiter.kernel.wind.hold import phase_of
 from loiter.planning.compass import heading_vector
 from loiter.planning.feasibility import radius_in_turns, relative_wind
 from loiter.planning.flight import radius_of
+from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Orbit, Segment
 from loiter.planning.sides import sign_of
@@ -71,19 +72,26 @@ class Pieces(NamedTuple):
 
 
 class FlownPath(NamedTuple):
-    """The pieces of a maneuver and, last, of its hold; `hold_s` is the time at which the hold begins."""
+    """The pieces of a maneuver, of its hold, and of the way out of a leg.
+
+    `hold` is the number of the piece of the hold, `hold_s` the time at which that begins.
+    """
 
     pieces: Pieces
+    hold: int
     hold_s: float
 
 
-def flown_path(maneuver: Maneuver) -> FlownPath:
-    """The path of a maneuver over the ground and one round of its hold (docs/fences.md, "The hold")."""
+def flown_path(flown: Maneuver | LegPlan) -> FlownPath:
+    """The path of a maneuver or a leg over the ground, with one round of its hold (docs/fences.md, "The hold")."""
     import numpy as np
 
+    maneuver = flown.entry if isinstance(flown, LegPlan) else flown
     rows = [_segment_row(segment, maneuver) for segment in maneuver.segments]
     rows.append(_moving_hold_row(maneuver) if maneuver.orbit.moves else _hold_row(maneuver))
-    return FlownPath(Pieces(*np.array(rows, float).T), maneuver.duration_s)
+    if isinstance(flown, LegPlan):
+        rows.append(_way_out_row(flown))
+    return FlownPath(Pieces(*np.array(rows, float).T), len(maneuver.segments), maneuver.duration_s)
 
 
 def _segment_row(segment: Segment, maneuver: Maneuver) -> tuple[float, ...]:
@@ -91,6 +99,14 @@ def _segment_row(segment: Segment, maneuver: Maneuver) -> tuple[float, ...]:
     uav, start = maneuver.aircraft, segment.start
     motion = (CONTROLS[segment.letter], radius_of(segment, uav), uav.airspeed_m_s, *maneuver.wind.velocity_m_s)
     return segment.start_s, segment.duration_s, start.east_m, start.north_m, c, s, *motion, 0.0
+
+
+def _way_out_row(leg: LegPlan) -> tuple[float, ...]:
+    """The straight line from the exit, whose wind is that of the entry."""
+    c, s = heading_vector(leg.exit.heading_deg)
+    uav, place = leg.entry.aircraft, (leg.exit.east_m, leg.exit.north_m)
+    motion = (0.0, uav.turn_radius_m, uav.airspeed_m_s, *leg.entry.wind.velocity_m_s)
+    return leg.exit_s, leg.straight_s, *place, c, s, *motion, 0.0
 
 
 def _hold_row(maneuver: Maneuver) -> tuple[float, ...]:

@@ -1,5 +1,6 @@
 """Write maneuvers as files for maps, ground stations and autopilots; read missions and parameter files."""
 
+from loiter.io.fence_table import read_fence_table
 from loiter.io.files import FORMATS, check_format, read_mission, save
 from loiter.io.legs import save_leg
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
@@ -27,6 +28,7 @@ __all__ = [
     "leg_mission",
     "mission",
     "read_fence",
+    "read_fence_table",
     "read_mission",
     "read_parameters",
     "read_site",

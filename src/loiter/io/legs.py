@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from loiter.errors import InvalidArgument, file_path, instance
+from loiter.fences.places import PlacedFence
 from loiter.geo.frame import LocalFrame
 from loiter.io.maps.leg_kml import leg_kml
+from loiter.io.missions.fences import fence_document
 from loiter.io.missions.items import Autopilot
 from loiter.io.missions.legs import leg_mission
 from loiter.io.missions.qgcplan import qgcplan
@@ -18,15 +20,22 @@ from loiter.writing import write_content
 LEG_FORMATS = (".kml", ".plan", ".waypoints", ".txt")
 
 
-def save_leg(plan: LegPlan, path: str | Path, *, frame: LocalFrame, autopilot: Autopilot = Autopilot.ARDUPILOT) -> None:
+def save_leg(
+    plan: LegPlan,
+    path: str | Path,
+    *,
+    frame: LocalFrame,
+    autopilot: Autopilot = Autopilot.ARDUPILOT,
+    fence: PlacedFence | None = None,
+) -> None:
     """Write the plan of a leg to `path`: .kml for maps, .plan (QGroundControl) or .waypoints and .txt as missions.
 
     `frame` says where on Earth it is; altitudes are metres above mean sea level. Missions are those of `leg_mission`;
-    for PX4 only .plan is. Raises `InvalidArgument` like that, for another ending, and for a file that cannot be
-    written: it appears whole or not at all.
+    for PX4 only .plan is. A .plan has the `fence` too. Raises `InvalidArgument` like that, for another ending, and for
+    a file that cannot be written: it appears whole or not at all.
     """
     path = Path(file_path("path", path))
-    write_content("path", path, leg_content(plan, path, frame, autopilot))
+    write_content("path", path, leg_content(plan, path, frame, autopilot, fence))
 
 
 def check_leg_format(path: Path) -> None:
@@ -35,9 +44,13 @@ def check_leg_format(path: Path) -> None:
         raise InvalidArgument("path", f"is {str(path)!r}: the file name must end in {', '.join(LEG_FORMATS)}")
 
 
-def leg_content(plan: LegPlan, path: Path, frame: LocalFrame, autopilot: Autopilot) -> bytes:
+def leg_content(
+    plan: LegPlan, path: Path, frame: LocalFrame, autopilot: Autopilot, fence: PlacedFence | None = None
+) -> bytes:
     """The content of a file of `save_leg`."""
     instance("plan", plan, LegPlan)
+    if fence is not None:
+        instance("fence", fence, PlacedFence)
     check_leg_format(path)
     ending = path.suffix.lower()
     if ending == ".kml":
@@ -46,4 +59,6 @@ def leg_content(plan: LegPlan, path: Path, frame: LocalFrame, autopilot: Autopil
     if ending != ".plan" and autopilot == Autopilot.PX4:
         raise InvalidArgument("autopilot", f"is px4, which takes no {ending} file: write a .plan file for PX4")
     found = leg_mission(plan, frame, autopilot=autopilot)
-    return qgcplan(found, autopilot, plan.entry.aircraft.airspeed_m_s) if ending == ".plan" else wpl(found)
+    if ending != ".plan":
+        return wpl(found)
+    return qgcplan(found, autopilot, plan.entry.aircraft.airspeed_m_s, fence and fence_document(fence))

@@ -1,24 +1,32 @@
-"""A plan view, in metres, of a leg: the entry, the part of the circle that is held, and the way out."""
+"""A plan view, in metres, of a leg: the entry, the hold, the way out, and below it the altitude in time."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import degrees
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from loiter.fences import Breach, Fence
 from loiter.geo import LocalFrame
+from loiter.planning.landing import LandingPlan, Runway
 from loiter.planning.leg import LegPlan
+from loiter.plot.flown import prepare_timeline
 from loiter.plot.picture import (
     CHORD_RAD,
+    FENCE_STYLES,
     LEAST_TRACK,
     MARK,
     MARKS,
     SEGMENTS,
+    Box,
     draw_aircraft,
     draw_arrow,
     draw_bearings,
+    draw_fence,
     draw_legend,
     draw_orbit,
     draw_path,
@@ -32,16 +40,27 @@ OUT: dict[str, Any] = {"color": "#CC79A7", "linewidth": 2.6}
 HELD: dict[str, Any] = {"color": "#E69F00", "linewidth": 2.6}
 EXIT: dict[str, Any] = MARK | {"marker": "s", "markersize": 8, "markerfacecolor": "white"}
 POINT: dict[str, Any] = MARK | {"marker": "*", "markersize": 13}
+RUNWAY: dict[str, Any] = {"color": "#707070", "linewidth": 6.0, "solid_capstyle": "butt"}
+
+# The least length of the runway that is drawn, metres, and the steps of the altitude in time.
+LEAST_RUNWAY_M, PROFILE_STEPS = 200.0, 300
 
 
-def draw(plan: LegPlan, *, frame: LocalFrame | None = None) -> Figure:
+def draw(
+    plan: LegPlan, *, frame: LocalFrame | None = None, fence: Fence | None = None, breaches: Sequence[Breach] = ()
+) -> Figure:
     """Draw a leg: its entry coloured by segment, the hold up to the exit, and the straight way to the point.
 
     East is to the right, north up, axes equal, in metres; with a frame the axes name its origin on Earth. In wind
-    tracks are ground tracks, and an arrow beside the title shows the direction in which the air moves.
+    tracks are ground tracks, and an arrow beside the title shows the direction in which the air moves. Of a `fence` the
+    zones are drawn, and crosses mark its `breaches`. A leg with an altitude has a second panel with it.
     """
     figure = Figure(figsize=(8.0, 6.4), layout="constrained")
-    axes = figure.add_subplot()
+    if plan.leg.altitude_m is None:
+        axes = figure.add_subplot()
+    else:
+        axes, below = figure.subplots(2, height_ratios=(4.0, 1.0))
+        _draw_altitude(below, plan)
     axes.set_title(_title(plan))
     prepare_plan(axes)
     entry, orbit = plan.entry, plan.leg.orbit
@@ -61,15 +80,39 @@ def draw(plan: LegPlan, *, frame: LocalFrame | None = None) -> Figure:
     mark(axes, plan.exit, gid="exit", **EXIT)
     mark(axes, end, gid="point", **POINT)
     draw_aircraft(axes, plan.leg.pose)
+    flown = plan.sample(plan.duration_s / PROFILE_STEPS)
+    draw_fence(axes, fence, breaches, Box.around([(flown.east_m, flown.north_m)]))
     draw_bearings(axes, entry.wind, frame)
-    lines = {"hold": HELD | {"label": f"hold, {plan.held_deg / 360.0:.2f} turns"}, "way out": OUT}
-    draw_legend(figure, axes, SEGMENTS | lines | MARKS | {"exit": EXIT, "point": POINT})
+    lines: dict[str, Any] = {"hold": HELD | {"label": f"hold, {plan.held_deg / 360.0:.2f} turns"}, "way out": OUT}
+    if isinstance(plan, LandingPlan):
+        _draw_runway(axes, plan.runway)
+        lines |= {"runway": RUNWAY}
+    draw_legend(figure, axes, SEGMENTS | lines | MARKS | {"exit": EXIT, "point": POINT} | FENCE_STYLES)
     return figure
+
+
+def _draw_runway(axes: Axes, runway: Runway) -> None:
+    """The runway from its threshold to where the glide slope meets it, or farther."""
+    length_m = max(2.0 * runway.threshold_height_m / runway.descent, LEAST_RUNWAY_M)
+    east, north = np.transpose([runway.before(0.0), runway.before(-length_m)])
+    axes.plot(east, north, zorder=1.5, gid="runway", **RUNWAY)
+
+
+def _draw_altitude(axes: Axes, plan: LegPlan) -> None:
+    """The altitude in time, with the times at which the circle is joined and left."""
+    prepare_timeline(axes)
+    step_s = plan.duration_s / PROFILE_STEPS
+    track = plan.sample(step_s)
+    axes.plot(track.time_s, track.altitude_m, color="black", linewidth=1.6, gid="altitude")
+    for time_s, style in ((plan.entry.duration_s, MARKS["join"]), (plan.exit_s, EXIT), (plan.duration_s, POINT)):
+        axes.plot(time_s, np.interp(time_s, track.time_s, track.altitude_m), **style)
+    axes.set(xlabel="time (s)", ylabel="altitude (m)")
 
 
 def _title(plan: LegPlan) -> str:
     word = plan.entry.word or "on the circle already"
+    end = "over the threshold" if isinstance(plan, LandingPlan) else "at the point"
     return (
         f"{word}, {plan.turn.described}: joins in {plan.entry.duration_s:.4g} s, holds for {plan.held_s:.4g} s\n"
-        f"leaves after {plan.exit_s:.4g} s, at the point after {plan.duration_s:.4g} s"
+        f"leaves after {plan.exit_s:.4g} s, {end} after {plan.duration_s:.4g} s"
     )

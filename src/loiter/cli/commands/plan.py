@@ -150,7 +150,7 @@ def plan(
         if slot is None and slot_at is None and arrive is None and bearing is None:
             best, others = best_and_others(problem)
         else:
-            _check_free(arrive, slot, tolerance, certify=certify, fenced=fence.placed(circle.site) is not None)
+            _check_free(arrive, slot, tolerance, certify=certify, fenced=fence.read(circle.site) is not None)
             if arrive is None and bearing is None:
                 best, others = _in_slot(problem, _slot(slot, slot_at))
             else:

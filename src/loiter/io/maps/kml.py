@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from loiter.io.maps.chart import Chart
 from loiter.io.maps.geojson import circle_properties, mark_properties, segment_properties
-from loiter.io.maps.markup import DEGREES, child, document, root
+from loiter.io.maps.markup import DEGREES, add_geometry, add_styles, child, document, placemark, root
 
 # Line colours, aabbggrr, as in the pictures: the green, blue and vermilion of Okabe and Ito, black for the circle.
 STYLES = {"L": "ff739e00", "S": "ffb27200", "R": "ff005ed5", "circle": "ff000000"}
@@ -27,10 +27,7 @@ def kml(*charts: Chart) -> bytes:
     child(top, "name", f"{len(charts)} aircraft, {first.maneuver.turn.described}" if others else _name(first))
     child(top, "open", "1")
     _view(top, charts)
-    for name, colour in STYLES.items():
-        style = child(child(top, "Style", id=name), "LineStyle")
-        child(style, "color", colour)
-        child(style, "width", "3")
+    add_styles(top, STYLES)
     for chart in charts:
         parent = top
         if chart.name:
@@ -50,12 +47,12 @@ def _placemarks(top: ET.Element, chart: Chart) -> None:
     for line in chart.lines:
         properties = segment_properties(line)
         mark = _placemark(top, properties["does"], line.segment.letter, properties, chart)
-        _line(mark, chart, zip(line.longitude_deg, line.latitude_deg, strict=True))
+        _geometry(mark, "LineString", chart, zip(line.longitude_deg, line.latitude_deg, strict=True))
     mark = _placemark(top, f"hold {chart.maneuver.turn.described}", "circle", circle_properties(chart), chart)
-    _line(mark, chart, zip(*reversed(chart.circle), strict=True))
+    _geometry(mark, "LineString", chart, zip(*reversed(chart.circle), strict=True))
     for place in chart.marks:
         mark = _placemark(top, f"{place.kind}: {place.action}", None, mark_properties(place), chart)
-        _point(mark, chart, place.longitude_deg, place.latitude_deg)
+        _geometry(mark, "Point", chart, [(place.longitude_deg, place.latitude_deg)])
 
 
 def _view(parent: ET.Element, charts: Sequence[Chart]) -> None:
@@ -76,11 +73,8 @@ def _view(parent: ET.Element, charts: Sequence[Chart]) -> None:
 def _placemark(
     parent: ET.Element, title: str, style: str | None, properties: Mapping[str, object], chart: Chart
 ) -> ET.Element:
-    """A new placemark at the end of `parent`, without a geometry."""
-    mark = child(parent, "Placemark")
-    child(mark, "name", title)
-    if style is not None:
-        child(mark, "styleUrl", f"#{style}")
+    """A new placemark at the end of `parent` with properties, without a geometry."""
+    mark = placemark(parent, title, style)
     data = child(mark, "ExtendedData")
     name = "altitude_above_ground_m" if chart.above_ground else "altitude_m"
     altitude = {} if chart.altitude_m is None else {name: chart.altitude_m}
@@ -89,17 +83,8 @@ def _placemark(
     return mark
 
 
-def _line(mark: ET.Element, chart: Chart, positions: Iterable[tuple[float, float]]) -> None:
-    line = child(mark, "LineString")
-    child(line, "tessellate", "1")
-    child(line, "altitudeMode", _mode(chart))
-    child(line, "coordinates", " ".join(_position(chart, *position) for position in positions))
-
-
-def _point(mark: ET.Element, chart: Chart, longitude: float, latitude: float) -> None:
-    point = child(mark, "Point")
-    child(point, "altitudeMode", _mode(chart))
-    child(point, "coordinates", _position(chart, longitude, latitude))
+def _geometry(mark: ET.Element, kind: str, chart: Chart, positions: Iterable[tuple[float, float]]) -> None:
+    add_geometry(mark, kind, _mode(chart), [_position(chart, *position) for position in positions])
 
 
 def _position(chart: Chart, longitude: float, latitude: float) -> str:

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from loiter.geo.frame import LocalFrame
-from loiter.io.maps.markup import DEGREES, child, document, root
+from loiter.io.maps.markup import DEGREES, add_geometry, add_styles, child, document, placemark, root
 from loiter.io.maps.places import degrees
 from loiter.planning.leg import LegPlan
-
-if TYPE_CHECKING:
-    import xml.etree.ElementTree as ET
 
 # A chord of the tightest turn spans this angle, radians: it is within 1/800 of the radius.
 CHORD_RAD = 0.1
@@ -30,35 +25,17 @@ def leg_kml(plan: LegPlan, frame: LocalFrame) -> bytes:
     track = plan.sample(CHORD_RAD * aircraft.turn_radius_m / aircraft.airspeed_m_s)
     latitude, longitude = degrees(frame, track.east_m, track.north_m)
     has_altitude = bool(np.isfinite(track.altitude_m).all())
+    mode = "absolute" if has_altitude else "clampToGround"
     ends_s = [0.0, plan.entry.duration_s, plan.exit_s, plan.duration_s]
     places = [
         f"{lon:{DEGREES}},{lat:{DEGREES}}" + (f",{altitude:.2f}" if has_altitude else "")
         for lon, lat, altitude in zip(longitude, latitude, track.altitude_m.tolist(), strict=True)
     ]
     at = [int(np.abs(track.time_s - end_s).argmin()) for end_s in ends_s]
-    for (name, colour), first, last in zip(PARTS.items(), at, at[1:], strict=False):
-        style = child(child(top, "Style", id=name), "LineStyle")
-        child(style, "color", colour)
-        child(style, "width", "3")
-        mark = _placemark(top, f"{name}: {track.time_s[first]:.1f} s to {track.time_s[last]:.1f} s")
-        child(mark, "styleUrl", f"#{name}")
-        _geometry(mark, "LineString", " ".join(places[first : last + 1]), has_altitude=has_altitude)
+    add_styles(top, PARTS)
+    for name, first, last in zip(PARTS, at, at[1:], strict=False):
+        mark = placemark(top, f"{name}: {track.time_s[first]:.1f} s to {track.time_s[last]:.1f} s", name)
+        add_geometry(mark, "LineString", mode, places[first : last + 1])
     for name, i in zip(("join", "exit", "end"), at[1:], strict=True):
-        mark = _placemark(top, f"{name}: {track.time_s[i]:.1f} s")
-        _geometry(mark, "Point", places[i], has_altitude=has_altitude)
+        add_geometry(placemark(top, f"{name}: {track.time_s[i]:.1f} s"), "Point", mode, [places[i]])
     return document(outermost)
-
-
-def _placemark(parent: ET.Element, title: str) -> ET.Element:
-    mark = child(parent, "Placemark")
-    child(mark, "name", title)
-    return mark
-
-
-def _geometry(mark: ET.Element, kind: str, coordinates: str, *, has_altitude: bool) -> None:
-    """A line or a point; altitudes are above the sea, and without them it lies on the ground."""
-    shape = child(mark, kind)
-    if kind == "LineString":
-        child(shape, "tessellate", "1")
-    child(shape, "altitudeMode", "absolute" if has_altitude else "clampToGround")
-    child(shape, "coordinates", coordinates)

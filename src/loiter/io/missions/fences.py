@@ -79,6 +79,36 @@ def plan_zones(source: Source, fence: Any) -> list[PlacedZone]:
     return [*polygons, *circles]
 
 
+def fence_document(fence: PlacedFence) -> dict[str, Any]:
+    """The geoFence of a plan for a fence: the counterpart of `plan_zones`. Corners are in clockwise order there."""
+    circles = [
+        {
+            "circle": {"center": [zone.latitude_deg, zone.longitude_deg], "radius": zone.radius_m},
+            "inclusion": zone.inclusion,
+            "version": AREA_VERSION,
+        }
+        for zone in fence.zones
+        if isinstance(zone, PlacedCircle)
+    ]
+    polygons = [
+        {
+            "polygon": [list(corner) for corner in _clockwise(zone.corners)],
+            "inclusion": zone.inclusion,
+            "version": AREA_VERSION,
+        }
+        for zone in fence.zones
+        if isinstance(zone, PlacedPolygon)
+    ]
+    return {"circles": circles, "polygons": polygons, "version": FENCE_VERSION}
+
+
+def _clockwise(corners: Sequence[tuple[float, float]]) -> Sequence[tuple[float, float]]:
+    """The corners of a polygon, latitude and longitude, in clockwise order, from the same first one."""
+    pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
+    twice_area = sum((lon - after_lon) * (lat + after_lat) for (lat, lon), (after_lat, after_lon) in pairs)
+    return [corners[0], *reversed(corners[1:])] if twice_area > 0.0 else corners
+
+
 def _areas(source: Source, fence: dict[str, Any], name: str) -> Iterator[tuple[int, dict[str, Any]]]:
     areas = qgcplan.kind(source, f"geoFence: {name}", fence.get(name, []), list, "a list")
     for number, area in enumerate(areas, start=1):

@@ -36,14 +36,16 @@ AUTOPILOTS: dict[AutopilotName, Autopilot] = {"ardupilot": Autopilot.ARDUPILOT, 
 
 
 class MavCommand(IntEnum):
-    """The commands that fly to a place or round it: MAVLink's MAV_CMD."""
+    """The commands that fly to a place or round it, and the mark of a landing: MAVLink's MAV_CMD."""
 
     NAV_WAYPOINT = 16
     NAV_LOITER_UNLIM = 17
     NAV_LOITER_TURNS = 18
     NAV_LOITER_TIME = 19
+    NAV_LAND = 21
     NAV_LOITER_TO_ALT = 31
     DO_ORBIT = 34
+    DO_LAND_START = 189
     DO_REPOSITION = 192
 
 
