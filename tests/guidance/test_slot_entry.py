@@ -8,7 +8,7 @@ import pytest
 
 from guidance.formation import radius_m
 from guidance.slots import STEP_S, UAV, Result, _first, fly_into_slots, in_slots, scene
-from loiter import Orbit, Pose, Slot, Turn, Wind, plan
+from loiter import Aircraft, Orbit, Pose, Slot, Turn, Wind, plan
 from loiter.errors import InvalidArgument
 from loiter.guidance.entry.slot_entry import SlotEntry
 from loiter.guidance.entry.slot_step import SlotSettings, closing_s, phase_behind, slot_direction
@@ -44,10 +44,10 @@ def test_the_error_of_phase_is_positive_behind():
     assert closing_s(slot, -0.01) == 0.0
 
 
-def flight(pose, orbit, slot, wind=None, gust=0.0, seed=1, time_s=90.0, **options):
+def flight(pose, orbit, slot, wind=None, gust=0.0, seed=1, time_s=90.0, flown=UAV, **options):
     """The errors of phase, the distances from the centre and the phases of a law in a simulation."""
     law, noise = SlotEntry(orbit, UAV, wind, slot=slot, **options), Noise()
-    simulator = PointMass(pose, UAV, wind, seed=seed, gust=gust, noise=noise)
+    simulator = PointMass(pose, flown, wind, seed=seed, gust=gust, noise=noise)
     rows = []
     for _ in range(round(time_s / STEP_S)):
         command = law.step(simulator.measured_state(), STEP_S)
@@ -81,6 +81,13 @@ def test_a_slot_that_was_missed_is_closed_up_to_within_the_band():
     assert 20.0 < rows[0][1] < 27.0
     assert abs(rows[-1][1]) < 3.0
     assert min(row[2] for row in rows) > 0.88 * 120.0
+
+
+def test_a_faster_aircraft_holds_the_slot_on_a_wider_circle():
+    """With a correction by the error of phase alone it would stay 4 degrees ahead."""
+    rows = flight(Pose(120.0, 0.0, 0.0), ORBIT, Slot(90.0), time_s=50.0, flown=Aircraft(19.4, max_bank_deg=35.0))
+    assert abs(rows[-1][1]) < 1.5
+    assert rows[-1][2] == pytest.approx(120.0 * 19.4 / 18.0, rel=0.02)
 
 
 def test_a_fleet_settles_in_gusts():
