@@ -134,4 +134,4 @@ def compare(n, seed, say=print):
 
 if __name__ == "__main__":
     seed = int(sys.argv[2]) if sys.argv[2:] else 1
-    sys.exit(compare(int(sys.argv[1]), seed) > 0)
+    sys.exit(bool(compare(int(sys.argv[1]), seed) > 0))
