@@ -20,6 +20,10 @@ class InvalidArgument(LoiterError):
         self.argument = argument
         self.problem = problem
 
+    def __reduce__(self) -> tuple[type, tuple[str, str]]:
+        """How to pickle it, for other processes."""
+        return type(self), (self.argument, self.problem)
+
 
 class RadiusTooSmall(LoiterError):
     """The circle is tighter than the aircraft can turn, or than it can hold in this wind.

@@ -9,7 +9,8 @@ from loiter.cli.app import main
 from loiter.geo import LocalFrame
 
 FRAME = LocalFrame(47.11, 8.23)
-SCENE = "--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35"
+UAV = "--airspeed 18 --bank 35"
+SCENE = f"--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 {UAV}"
 
 
 @pytest.fixture
@@ -105,6 +106,24 @@ def test_files_have_the_clear_entry(beside_a_mast, capsys, tmp_path):
     assert "".join(line["properties"]["letter"] for line in lines) == entry["word"]
     assert len(json.loads(mission.read_text())["mission"]["items"]) > len(entry["segments"])
     assert 'id="stay out' in picture.read_text()
+
+
+def test_a_flight_stays_clear(beside_a_mast, capsys, tmp_path):
+    """The margin is 1 m there: gusts use more of it, and 8 m are kept."""
+    picture, flown = tmp_path / "flown.svg", beside_a_mast.replace("plan", "fly", 1).replace("--margin 1", "--margin 8")
+    status, out, _ = run(f"{flown} --plot {picture} --json", capsys)
+    document = json.loads(out)
+    assert status == 0
+    assert document["fence"]["margin_m"] == 8.0
+    assert 0.0 < document["fence"]["clearance_m"]["optimal"] < 10.0
+    assert document["laws"][0]["settled_s"] is not None
+    assert 'id="stay out' in picture.read_text()
+    for options, problem in (
+        ("--sim kinematic", "goes with --sim point, not with"),
+        ("--runs 3", "not with the random starts of --runs"),
+    ):
+        status, _, err = run(f"{flown} {options}", capsys)
+        assert (status, problem in err) == (2, True)
 
 
 def test_the_margin_is_asked_for(fence, capsys):

@@ -5,12 +5,13 @@ from types import SimpleNamespace
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
-from loiter import Aircraft, Orbit, Pose, plan
+from loiter import Aircraft, Pose, plan
 from loiter.errors import LinkFailed
-from loiter.fences import CircleZone, Fence, PlacedCircle, PlacedFence, PlacedPolygon
+from loiter.fences import PlacedCircle, PlacedFence, PlacedPolygon
+from loiter.guidance.entry import fenced_entry
 from loiter.mavlink import download, download_fence
 from loiter.mavlink.guiding import preparation
-from loiter.mavlink.guiding.preparation import _direction
+from loiter.mavlink.guiding.flight import GuidedFlight
 from mavlink.flyer import FRAME, ORBIT, Airframe, GuidedPlane, guided
 from mavlink.vehicle import OLD, Vehicle, flying, item
 
@@ -62,6 +63,13 @@ class FencedPlane(GuidedPlane):
     on_mission_request_list, on_mission_request_int = Fenced.on_mission_request_list, Fenced.on_mission_request_int
 
 
+@pytest.fixture(autouse=True)
+def _searches_at_once(monkeypatch):
+    """These vehicles have a clock of their own, which another process does not know."""
+    for module in (preparation, fenced_entry):
+        monkeypatch.setattr(module, "search_process", lambda: SimpleNamespace(submit=fenced_entry._at_once))
+
+
 def guided_with(own_fence, **options):
     """A flight from near the middle of the circle, which is inside."""
     vehicle = FencedPlane(Airframe())
@@ -90,7 +98,8 @@ def test_a_vehicle_is_not_guided_into_its_fence(fence, end):
 )
 def test_a_fence_is_watched_in_flight(fence, end, monkeypatch):
     """The plan is called clear whatever it is, as where the vehicle does not fly it."""
-    monkeypatch.setattr(preparation, "_fence_sentence", lambda *arguments: "clear")
+    monkeypatch.setattr(preparation, "_fenced", lambda contact, zones, request, chosen: chosen)
+    monkeypatch.setattr(GuidedFlight, "_blocked", lambda flight: None)
     vehicle = FencedPlane(Airframe())
     vehicle.fence = fence
     outcome = guided(vehicle, seconds=25.0, coast_s=0.3, fence="vehicle")
@@ -108,16 +117,14 @@ def test_a_fence_of_a_file_is_kept():
     assert "cannot be guided: its pose is inside the zone 'mast'" in guided_with([], fence=mast).end
 
 
-def test_the_direction_that_is_clear_is_taken():
-    """The fastest entry, clockwise, passes a mast on its last turn; the other one does not."""
-    start, orbit, uav = Pose(-300.0, -50.0, 40.0), Orbit(0.0, 0.0, 100.0), Aircraft(18.0, max_bank_deg=35.0)
-    fastest = plan(start, orbit, uav)
-    east_m, north_m = fastest.sample(0.85 * fastest.duration_s)[1:3]
-    mast = Fence((CircleZone("mast", float(east_m[1]), float(north_m[1]), 1.0),))
-    chosen = _direction(SimpleNamespace(fence=mast, name="it"), SimpleNamespace(margin_m=0.5), start, orbit, uav, None)
-    assert chosen == fastest.turn.other
-    none = SimpleNamespace(fence=None)
-    assert _direction(none, SimpleNamespace(), start, orbit, uav, None) == fastest.turn
+def test_a_vehicle_is_guided_round_a_mast():
+    """It stands on the fastest entry from the middle of the circle, before the circle."""
+    fastest = plan(Pose(0.0, 0.0, 0.0), ORBIT, Aircraft(18.0, max_bank_deg=44.0))
+    east_m, north_m = (column[1] for column in fastest.sample(0.5 * fastest.duration_s)[1:3])
+    place = FRAME.place(Pose(float(east_m), float(north_m), 0.0))
+    mast = PlacedFence((PlacedCircle("mast", place.latitude_deg, place.longitude_deg, 4.0),))
+    outcome = guided_with([], fence=mast, margin_m=3.0, dry_run=True)
+    assert any(notice.startswith("The fastest clear entry found joins ") for notice in outcome.notices), outcome
 
 
 @pytest.mark.parametrize("kind", [Fenced, Ardu])

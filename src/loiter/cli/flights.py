@@ -182,6 +182,13 @@ def _flight(trial: Trial, name: str, flight: Flight) -> dict[str, object]:
     }
 
 
+def kept_sentence(least_m: float, margin_m: float) -> str:
+    """How far a flight stayed from a fence."""
+    if least_m < 0.0:
+        return f"enters a zone of the fence by up to {-least_m:.1f} m."
+    return f"stays {least_m:.1f} m from the fence at least; the margin of plans is {margin_m:g} m."
+
+
 def campaign_table(outcomes: Mapping[str, Sequence[Outcome]]) -> Table:
     """A row for each law: its settling times relative to the fastest entries, and how often the first law is sooner."""
     names = ["law", "settled", "round again", "of the fastest", "90 %", "late", "99 %", "overshoot", "bank activity"]

@@ -553,6 +553,21 @@ class LegFenceOptions(FenceOptions):
 
 @Parameter(name="*")
 @dataclass(frozen=True)
+class FlownFenceOptions(FenceOptions):
+    """A fence that a simulated flight stays clear of."""
+
+    fence: Annotated[
+        Path | None,
+        Parameter(
+            group=scene,
+            metavar="FILE",
+            help="The optimal law stays clear of a fence: that of a file, as for loiter plan. Lines say how far each law stayed from it.",
+        ),
+    ] = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
 class GuidedFenceOptions(FenceOptions):
     """A fence, which may be that of the vehicle."""
 
@@ -561,7 +576,7 @@ class GuidedFenceOptions(FenceOptions):
         Parameter(
             group=scene,
             metavar="FILE",
-            help="Refuse a plan that does not stay clear of a fence: that of a file, as for loiter plan, or with --fence vehicle the one that the vehicle has. In flight the vehicle is handed back to its own hold where it enters a zone.",
+            help="Stay clear of a fence: that of a file, as for loiter plan, or with --fence vehicle the one that the vehicle has. The fastest clear entry that is found is flown, and a flight without any refused. In flight the vehicle is handed back to its own hold where it enters a zone.",
         ),
     ] = None
 

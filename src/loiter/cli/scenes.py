@@ -18,6 +18,9 @@ from loiter.planning.model import Aircraft, Orbit, Pose, Wind
 from loiter.planning.problem import Problem
 
 if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
     from loiter.fences import ClearEntry, Fence, FenceCheck, PlacedFence
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
@@ -166,6 +169,11 @@ class CheckedFence(NamedTuple):
         if self.check.clear:
             return None
         return clear_entry(self.fence, p.pose, p.orbit, p.aircraft, p.wind, self.check.margin_m)
+
+    def least_m(self, east_m: NDArray[float64], north_m: NDArray[float64]) -> float:
+        """The least distance of points (n,) from the fence, metres, negative on the wrong side of a zone."""
+        points = zip(east_m.tolist(), north_m.tolist(), strict=True)
+        return min(float(side.min()) for at in points for side in self.fence.signed_distances(*at) if side.size)
 
     def document(self, entry: ClearEntry | None, frame: LocalFrame | None) -> dict[str, object]:
         """The check and, where the plan is not clear, the entry that is, for JSON."""

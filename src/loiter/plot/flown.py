@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from loiter.fences import Fence
 from loiter.guidance.trials.flight import Flight
 from loiter.planning.compass import wrapped
 from loiter.planning.maneuver import Maneuver
@@ -22,6 +23,7 @@ from loiter.plot.picture import (
     corners,
     draw_aircraft,
     draw_arrow,
+    draw_fence,
     draw_orbit,
     draw_turns,
     drawn_gids,
@@ -44,20 +46,22 @@ TRACK_WIDTH = 1.3
 ARROW_SHARES = (0.3, 0.4, 0.5, 0.6)
 
 
-def draw(ideal: Maneuver, flights: Mapping[str, Flight], *, conditions: str = "") -> Figure:
+def draw(ideal: Maneuver, flights: Mapping[str, Flight], *, conditions: str = "", fence: Fence | None = None) -> Figure:
     """A figure with the tracks of laws from one start and the fastest entry; below, bank and reported time to join.
 
     A dot marks the beginning of the full turn in which the aircraft settled. A moving circle is drawn where the fastest
     entry joins it. From a start so far away that the turns are specks, another panel enlarges the circle.
-    `conditions`, such as the simulator and its seed, are the last line of the title.
+    The zones of a `fence` are drawn. `conditions`, such as the simulator and its seed, are the last line of the title.
     """
     figure = Figure(figsize=(8.0, 8.6), layout="constrained")
     enlarged = _enlarged(ideal, flights)
+    whole = Box.around([(flight.track.east_m, flight.track.north_m) for flight in flights.values()])
     above = ["tracks"] if enlarged is None else ["tracks", "circle"]
     layout: Any = [above, ["bank"] * len(above), ["join"] * len(above)]
     axes = figure.subplot_mosaic(layout, height_ratios=[6, 2, 2])
     title = "\n".join(filter(None, [_title(ideal, list(flights)), conditions]))
     _draw_tracks(axes["tracks"], ideal, flights, elsewhere=enlarged)
+    draw_fence(axes["tracks"], fence, (), whole)
     if enlarged is None:
         axes["tracks"].set_title(title, fontsize="medium")
     else:

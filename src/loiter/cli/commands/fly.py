@@ -7,7 +7,7 @@ import io
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -20,6 +20,7 @@ from loiter.cli.commands.replay import replay as show_log
 from loiter.cli.numbers import whole
 from loiter.cli.options import (
     AircraftOptions,
+    FlownFenceOptions,
     OrbitOptions,
     Output,
     PictureOptions,
@@ -30,10 +31,11 @@ from loiter.cli.options import (
     WindOptions,
     output,
 )
-from loiter.cli.scenes import place_scene
+from loiter.cli.scenes import CheckedFence, check_fence, place_scene
 from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
+from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot
 from loiter.plot.sizes import LEAST_FLIGHT_HEIGHT_MM
 from loiter.writing import check_writable, write_content
@@ -46,6 +48,7 @@ if TYPE_CHECKING:
     from loiter.guidance.trials.flight import Flight
     from loiter.guidance.trials.settings import Setting
     from loiter.guidance.vehicle.circle import Band
+    from loiter.planning.maneuver import Maneuver
 
 SimulatorName = Literal["kinematic", "point", "varied", "jsbsim"]
 LawName = Literal["optimal", "l1", "vector-field", "tangent"]
@@ -139,6 +142,15 @@ class SimulationOptions:
         from loiter.guidance.trials.campaign import LAWS
 
         return list(LAWS) if self.compare else [self.law]
+
+    def fenced_law(self, trial: Trial, fenced: CheckedFence) -> Law:
+        """The optimal law that stays clear of a fence; for the point mass alone."""
+        from loiter.guidance.entry.fenced_entry import FencedEntry
+
+        if self.sim != "point":
+            raise InvalidArgument("fence", f"goes with --sim point, not with --sim {self.sim}")
+        known = trial.orbit, trial.known_aircraft, trial.known_wind
+        return FencedEntry(*known, fence=fenced.fence, margin_m=fenced.check.margin_m)
 
     def check(self) -> None:
         """Raise `InvalidArgument` for an option that would have no effect."""
@@ -264,6 +276,7 @@ def fly(
     circle: OrbitOptions = OrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
+    fence: FlownFenceOptions = FlownFenceOptions(),
     json: Json = False,
     pictures: PictureOptions = PictureOptions(),
     save: Save = (),
@@ -273,17 +286,22 @@ def fly(
 
     wanted = Output(json, pictures, save)
     if replay is not None:
-        _replay(replay, (simulated, slotted, start, circle, uav, air), wanted)
+        _replay(replay, (simulated, slotted, start, circle, uav, air, fence), wanted)
         return
     simulated.check()
     _check_files(wanted, simulated.runs)
     if simulated.runs is None:
-        pose, orbit, _ = place_scene(start, circle, air, uav.preset())
+        pose, orbit, frame = place_scene(start, circle, air, uav.preset())
         aimed = slotted.slot_for(simulated)
+        if aimed and fence.fence is not None:
+            raise InvalidArgument("fence", "does not go with --slot")
         ideal = loiter.plan(pose, orbit, simulated.aircraft(uav), air.moving_air, slot=aimed)
-        _fly_once(campaign.Trial(ideal, simulated.seed), simulated, wanted, slotted)
+        fenced = None if aimed else check_fence(fence, circle.site, ideal, frame)
+        _fly_once(campaign.Trial(ideal, simulated.seed), simulated, wanted, slotted, fenced)
         return
     slotted.check_absent("--runs")
+    if fence != FlownFenceOptions():
+        raise InvalidArgument("fence", "goes with --pose-lla and --orbit-lla, not with the random starts of --runs")
     if (start, circle) != (StartOptions(), OrbitOptions()):
         raise InvalidArgument("runs", "selects random starts and circles: --pose and --orbit have no effect")
     air.check_declination()
@@ -318,15 +336,24 @@ def _check_files(wanted: Output, runs: int | None) -> None:
         check_writable("save", path)
 
 
-def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output, slotted: SlotOptions) -> None:
-    """Fly laws from one start: write the time line of the first law, and a table with a row for each."""
+def _fly_once(
+    trial: Trial, simulated: SimulationOptions, wanted: Output, slotted: SlotOptions, fenced: CheckedFence | None
+) -> None:
+    """Fly laws from one start: write the time line of the first law, and a table with a row for each.
+
+    With a fence the optimal law stays clear of it, and flights are compared with the clear entry.
+    """
     from loiter.cli import flights as shown
     from loiter.guidance.entry.slot_entry import SlotEntry
     from loiter.guidance.trials.flight import fly as fly_law
 
     setting, conditions = simulated.setting(), simulated.conditions
-    aimed = slotted.slot_for(simulated)
+    aimed, entry = slotted.slot_for(simulated), "Fastest entry"
+    if fenced is not None and (clear := _clear_entry(trial.ideal, fenced)) is not None:
+        trial, entry = replace(trial, ideal=clear), "Clear entry"
     laws = {name: slotted.law(trial, aimed) if aimed else setting.laws[name](trial) for name in simulated.laws}
+    if fenced is not None and "optimal" in laws:
+        laws["optimal"] = simulated.fenced_law(trial, fenced)
     band = slotted.settling_band if aimed else setting.band
     flights = {
         name: fly_law(
@@ -337,17 +364,31 @@ def _fly_once(trial: Trial, simulated: SimulationOptions, wanted: Output, slotte
     if wanted.pictures.plot:
         from loiter.plot.flown import draw
 
-        figure = draw(trial.ideal, flights, conditions=conditions.title)
+        zones = None if fenced is None else fenced.fence
+        figure = draw(trial.ideal, flights, conditions=conditions.title, fence=zones)
         wanted.pictures.save(figure)
     _save(wanted.save, _steps(flights))
     first, *_ = flights
-    lines = [f"Fastest entry: {trial.ideal}", conditions.line, *shown.time_line(first, flights[first])]
+    lines = [f"{entry}: {trial.ideal}", conditions.line, *shown.time_line(first, flights[first])]
     document = shown.flights_document(trial, flights) | {"simulation": conditions._asdict()}
     if isinstance(law := laws[first], SlotEntry):
         kept = shown.slot_kept(law, flights[first])
         document |= {"slot": kept._asdict()}
         lines.append(kept.line)
+    if fenced is not None:
+        margin_m = fenced.check.margin_m
+        least_m = {name: fenced.least_m(flight.track.east_m, flight.track.north_m) for name, flight in flights.items()}
+        lines += [f"Law {name}: {shown.kept_sentence(least, margin_m)}" for name, least in least_m.items()]
+        document |= {"fence": {"margin_m": margin_m, "clearance_m": least_m}}
     wanted.show(document, *lines, shown.flights_table(trial, flights))
+
+
+def _clear_entry(ideal: Maneuver, fenced: CheckedFence) -> Maneuver | None:
+    """The fastest clear entry found; None where the fastest entry is clear. Raises `InvalidArgument` without any."""
+    found = fenced.clear_entry(Problem(ideal.start, ideal.orbit, ideal.aircraft, ideal.wind))
+    if found is not None and found.maneuver is None:
+        raise InvalidArgument("fence", f"leaves no way: {found.sentence[0].lower()}{found.sentence[1:].rstrip('.')}")
+    return None if found is None else found.maneuver
 
 
 def _steps(flights: Mapping[str, Flight]) -> Iterator[Sequence[object]]:

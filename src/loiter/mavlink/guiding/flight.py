@@ -9,6 +9,7 @@ from math import inf, isfinite, nan
 from time import monotonic, time
 
 from loiter.errors import LinkFailed, LoiterError
+from loiter.guidance.entry.fenced_entry import FencedEntry
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.entry.slot_entry import SlotEntry
 from loiter.guidance.estimation.turn_fits import bounded_turn_ratio
@@ -136,6 +137,8 @@ class GuidedFlight:
             contact.request_heartbeat(now)
         # Meanwhile the vehicle has flown on; the altitude is the one that was confirmed.
         request = self._request._replace(altitude_m=self._setup.altitude_m)
+        if contact.fence is not None:
+            request = request._replace(orbit=self.orbit)
         self._begin(choose(contact, request, self._setup.settings)._replace(notices=()))
         self._stage = Stage.FALL_BACK
         self._plan_report(monotonic())
@@ -151,12 +154,23 @@ class GuidedFlight:
 
     def _new_law(self) -> LoiterEntry:
         p = self._setup
-        delay_s = DELAY_S + self._contact.round_trip.seconds
+        delay_s, fence = DELAY_S + self._contact.round_trip.seconds, self._contact.fence
         if self._request.slot is not None:
             slot, band = self._slot_by_vehicle(self._request.slot), self._request.slot_band
             aimed = p.aircraft, self._request.wind
             return SlotEntry(self.orbit, *aimed, slot=slot, band=band, roll=p.settings.roll, delay_s=delay_s)
-        return LoiterEntry(self.orbit, p.aircraft, p.wind, roll=p.settings.roll, delay_s=delay_s)
+        if fence is None or self._request.dry_run:
+            return LoiterEntry(self.orbit, p.aircraft, p.wind, roll=p.settings.roll, delay_s=delay_s)
+        return FencedEntry(
+            self.orbit,
+            p.aircraft,
+            p.wind,
+            fence=fence,
+            margin_m=self._request.margin_m,
+            background=True,
+            roll=p.settings.roll,
+            delay_s=delay_s,
+        )
 
     def _slot_by_vehicle(self, slot: Slot) -> Slot:
         """The slot by the clock of the vehicle: the newest measurement arrived at a Unix time."""
@@ -451,7 +465,12 @@ class GuidedFlight:
 
     def _reason(self, now: float) -> StopReason | None:
         """The reason to stop, or None."""
-        return self._monitor.check(now) or self._other_commander() or self._beyond_fence()
+        return self._monitor.check(now) or self._other_commander() or self._beyond_fence() or self._blocked()
+
+    def _blocked(self) -> StopReason | None:
+        """That no entry is found that stays clear of the fence."""
+        problem = self._law.problem if self._steered and isinstance(self._law, FencedEntry) else ""
+        return StopReason(problem[0].lower() + problem[1:].rstrip(".")) if problem else None
 
     def _beyond_fence(self) -> StopReason | None:
         """That the vehicle is on the wrong side of a zone of the fence against which its plan was checked."""

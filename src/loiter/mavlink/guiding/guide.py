@@ -77,9 +77,9 @@ def guide(
     heard again, still in ArduPlane's GUIDED and on its way to the circle, guiding begins anew. PX4 has then left
     OFFBOARD, as a pilot may have wanted.
 
-    `fence` is a fence, or "vehicle" for the one that the vehicle has: a plan that does not stay farther from it than
-    `margin_m` metres (`loiter.fences.check`) is refused before the first command, and guiding stops where
-    the vehicle enters a zone in flight.
+    `fence` is a fence, or "vehicle" for the one that the vehicle has: the fastest entry found that stays farther from
+    it than `margin_m` metres (`loiter.fences.clear_entry`) is flown, and a flight without any is refused before the
+    first command. Guiding stops where the vehicle enters a zone in flight.
 
     With `slot` the vehicle enters that slot and keeps it until the generator is closed, by a radius that differs from
     that of the circle by a share of `slot_band` at most. The times of the slot are Unix times, seconds, by the clock of
@@ -106,6 +106,8 @@ def guide(
         instance("wind", wind, Wind)
     if slot is not None:
         check_slot(slot, slot_band, orbit, airspeed_m_s)
+        if fence is not None:
+            raise InvalidArgument("fence", "does not go with a slot")
     if orbit.moves:
         raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
     if fence is not None and fence != "vehicle":

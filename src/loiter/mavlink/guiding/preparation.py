@@ -9,9 +9,11 @@ from time import monotonic
 from typing import Literal, NamedTuple, TypeAlias
 
 from loiter.errors import InvalidArgument, LinkFailed
-from loiter.fences import Fence, PlacedFence, first_clear
+from loiter.fences import ClearEntry, Fence, PlacedFence, clear_entry
 from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
+from loiter.guidance.entry.fenced_entry import search_process
+from loiter.guidance.entry.law_step import NEGLIGIBLE_WIND
 from loiter.guidance.entry.slot_entry import BAND
 from loiter.guidance.protocol import State
 from loiter.mavlink.autopilots.readiness import refusal
@@ -24,7 +26,6 @@ from loiter.mavlink.guiding.monitor import LEAST_HEIGHT_M, LEAST_HZ
 from loiter.mavlink.missions.fences import receive_fence
 from loiter.planning.compass import wrapped
 from loiter.planning.feasibility import RelativeWind, check_held, is_holdable, relative_velocity
-from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.slot import Slot
 from loiter.planning.solve import plan
@@ -99,7 +100,8 @@ def prepare(contact: Contact, request: GuideRequest, timeout_s: float, *, only_v
     if contact.flies_px4 and settings.flies_away and not (request.accept_fly_away or request.dry_run):
         raise InvalidArgument("accept_fly_away", _fly_away_problem(settings))
     contact.fence = _local_fence(contact, request, timeout_s)
-    return choose(contact, request, settings)
+    chosen = choose(contact, request, settings)
+    return chosen if contact.fence is None else _fenced(contact, contact.fence, request, chosen)
 
 
 def choose(contact: Contact, request: GuideRequest, settings: AutopilotSettings) -> FlightSetup:
@@ -114,9 +116,7 @@ def choose(contact: Contact, request: GuideRequest, settings: AutopilotSettings)
     wind = request.wind or _holdable_wind(orbit, aircraft, contact.likely_wind(airspeed))
     start = Pose(state.east_m, state.north_m, wrapped(state.heading_deg))
     if orbit.turn == Turn.EITHER:
-        orbit = replace(orbit, turn=_direction(contact, request, start, orbit, aircraft, wind))
-    if contact.fence is not None:
-        notices += (_fence_sentence(contact, contact.fence, plan(start, orbit, aircraft, wind), request),)
+        orbit = replace(orbit, turn=plan(start, orbit, aircraft, wind).turn)
     return FlightSetup(orbit, aircraft, settings, altitude_m, state, wind, notices)
 
 
@@ -130,31 +130,38 @@ def _local_fence(contact: Contact, request: GuideRequest, timeout_s: float) -> F
     return None if placed is None else placed.local(request.frame)
 
 
-def _direction(
-    contact: Contact, request: GuideRequest, start: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None
-) -> Turn:
-    """The direction of the faster plan or, where that is not clear of the fence, of the other one if it is."""
-    either = plan(start, orbit, aircraft, wind)
-    if contact.fence is None:
-        return either.turn
+def _fenced(contact: Contact, fence: Fence, request: GuideRequest, chosen: FlightSetup) -> FlightSetup:
+    """What a flight begins with, in the direction of the fastest entry found that stays clear of the fence.
+
+    Raises `LinkFailed` where none is found.
+    """
+    state = chosen.state
+    wind = chosen.wind
+    if wind is not None and wind.speed_m_s < NEGLIGIBLE_WIND * chosen.aircraft.airspeed_m_s:
+        wind = None  # the law plans as in still air too
+    start, scene = Pose(state.east_m, state.north_m, wrapped(state.heading_deg)), (chosen.aircraft, wind)
     try:
-        other = plan(start, replace(orbit, turn=either.turn.other), aircraft, wind)
-        clear = first_clear(contact.fence, [either, other], request.margin_m).maneuver
+        found = _while_listening(contact, clear_entry, fence, start, request.orbit, *scene, request.margin_m)
+        refused = fence.check(plan(start, request.orbit, *scene), request.margin_m)
     except InvalidArgument as error:
         raise LinkFailed(f"{contact.name} cannot be guided: its {error}") from error
-    return either.turn if clear is None else clear.turn
+    if found.maneuver is None or found.check is None:
+        reasons = [
+            sentence[0].lower() + sentence[1:].rstrip(".")
+            for sentence in (refused.sentence(request.frame), found.sentence)
+        ]
+        raise LinkFailed(f"{contact.name} cannot be guided: {'; '.join(reasons)}")
+    more = () if found.is_fastest else (found.sentence,)
+    orbit = replace(chosen.orbit, turn=found.maneuver.turn)
+    return chosen._replace(orbit=orbit, notices=(*chosen.notices, found.check.sentence(request.frame), *more))
 
 
-def _fence_sentence(contact: Contact, fence: Fence, maneuver: Maneuver, request: GuideRequest) -> str:
-    """That a plan stays clear of the fence; raises `LinkFailed` for one that does not."""
-    try:
-        found = fence.check(maneuver, request.margin_m)
-    except InvalidArgument as error:
-        raise LinkFailed(f"{contact.name} cannot be guided: its {error}") from error
-    sentence = found.sentence(request.frame)
-    if not found.clear:
-        raise LinkFailed(f"{contact.name} cannot be guided: {sentence[0].lower()}{sentence[1:].rstrip('.')}")
-    return sentence
+def _while_listening(contact: Contact, search: Callable[..., ClearEntry], *arguments: object) -> ClearEntry:
+    """The answer of a search, which may take a second or more: messages are received meanwhile."""
+    found = search_process().submit(search, *arguments)
+    while not found.done():
+        contact.request_in_flight(contact.listen())
+    return found.result()
 
 
 def _holdable_wind(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> Wind | None:

@@ -93,18 +93,14 @@ return encode_(`{"type": "FeatureCollection", "features": [\n${str(lines)}\n]}\n
 }
 
 function kml(...charts) {
-let chart, colour, first, name, others, outermost, parent, style, top;
+let chart, first, others, outermost, parent, top;
 outermost = root("kml", "http://www.opengis.net/kml/2.2");
 top = child(outermost, "Document", undefined, new Map([]));
 [first, ...others] = iter(charts);
 child(top, "name", (truth(others) ? `${len(charts)} aircraft, ${str(Turn_described(first.maneuver.turn))}` : _name(first)), new Map([]));
 child(top, "open", "1", new Map([]));
 _view(top, charts);
-for ([name, colour] of rows(items_(STYLES))) {
-style = child(child(top, "Style", undefined, new Map([["id", name]])), "LineStyle", undefined, new Map([]));
-child(style, "color", colour, new Map([]));
-child(style, "width", "3", new Map([]));
-}
+add_styles(top, STYLES);
 for (chart of iter(charts)) {
 parent = top;
 if (truth(chart.name)) {
@@ -244,18 +240,27 @@ child(view, "range", `${format(mul(VIEW_DISTANCE, away_m), `.1f`)}`, new Map([])
 child(view, "altitudeMode", _mode(chart), new Map([]));
 }
 
+function add_styles(parent, colours) {
+let colour, name, style;
+for ([name, colour] of rows(items_(colours))) {
+style = child(child(parent, "Style", undefined, new Map([["id", name]])), "LineStyle", undefined, new Map([]));
+child(style, "color", colour, new Map([]));
+child(style, "width", "3", new Map([]));
+}
+}
+
 function _placemarks(top, chart) {
 let line, mark, place, properties;
 for (line of iter(chart.lines)) {
 properties = segment_properties(line);
 mark = _placemark(top, item(properties, "does"), line.segment.letter, properties, chart);
-_line(mark, chart, zip(line.longitude_deg, line.latitude_deg));
+_geometry(mark, "LineString", chart, zip(line.longitude_deg, line.latitude_deg));
 }
 mark = _placemark(top, `hold ${str(Turn_described(chart.maneuver.turn))}`, "circle", circle_properties(chart), chart);
-_line(mark, chart, zip(...iter(reversed(chart.circle))));
+_geometry(mark, "LineString", chart, zip(...iter(reversed(chart.circle))));
 for (place of iter(chart.marks)) {
 mark = _placemark(top, `${str(place.kind)}: ${str(place.action)}`, null, mark_properties(place), chart);
-_point(mark, chart, place.longitude_deg, place.latitude_deg);
+_geometry(mark, "Point", chart, [[place.longitude_deg, place.latitude_deg]]);
 }
 }
 
@@ -366,7 +371,7 @@ return item(new Map([[Autopilot.ARDUPILOT, "ArduPilot"], [Autopilot.PX4, "PX4"]]
 function wpl(mission) {
 let home, lines;
 home = MissionItem(MavCommand.NAV_WAYPOINT, Frame.ABOVE_SEA, [0.0, 0.0, 0.0, 0.0], ...iter(mission.home));
-lines = list(iter(enumerate([home, ...iter(mission.items)]))).map((one) => iter(one)).map(([number, item]) => wpl__line(number, item));
+lines = list(iter(enumerate([home, ...iter(mission.items)]))).map((one) => iter(one)).map(([number, item]) => _line(number, item));
 return encode_(join_("\n", [HEADER, ...iter(lines), ""]));
 }
 
@@ -397,7 +402,7 @@ return Chart(maneuver, altitude_m, lines, marks, polygon, centre_latitude, centr
 function _segment(line) {
 let parts;
 parts = list(iter(cut_line(line.longitude_deg, line.latitude_deg))).map((part) => _coordinates(part));
-return _feature(...iter(_geometry("LineString", parts)), segment_properties(line));
+return _feature(...iter(geojson__geometry("LineString", parts)), segment_properties(line));
 }
 
 function _mark(mark) {
@@ -410,7 +415,7 @@ function _circle(chart) {
 let latitude, longitude, parts;
 [latitude, longitude] = iter(chart.circle);
 parts = list(iter(cut_ring(longitude, latitude))).map((part) => [_coordinates(part)]);
-return _feature(...iter(_geometry("Polygon", parts)), circle_properties(chart));
+return _feature(...iter(geojson__geometry("Polygon", parts)), circle_properties(chart));
 }
 
 function _mode(chart) {
@@ -428,11 +433,7 @@ return new Map([["kind", "segment"], ["letter", segment.letter], ["does", item(A
 
 function _placemark(parent, title, style, properties, chart) {
 let altitude, data, key, mark, name, value;
-mark = child(parent, "Placemark", undefined, new Map([]));
-child(mark, "name", title, new Map([]));
-if ((style != null)) {
-child(mark, "styleUrl", `#${str(style)}`, new Map([]));
-}
+mark = placemark(parent, title, style);
 data = child(mark, "ExtendedData", undefined, new Map([]));
 name = (truth(chart.above_ground) ? "altitude_above_ground_m" : "altitude_m");
 altitude = ((chart.altitude_m == null) ? new Map([]) : new Map([[name, chart.altitude_m]]));
@@ -442,12 +443,8 @@ child(child(data, "Data", undefined, new Map([["name", key]])), "value", value, 
 return mark;
 }
 
-function _line(mark, chart, positions) {
-let line;
-line = child(mark, "LineString", undefined, new Map([]));
-child(line, "tessellate", "1", new Map([]));
-child(line, "altitudeMode", _mode(chart), new Map([]));
-child(line, "coordinates", join_(" ", list(iter(positions)).map((position) => _position(chart, ...iter(position)))), new Map([]));
+function _geometry(mark, kind, chart, positions) {
+add_geometry(mark, kind, _mode(chart), list(iter(positions)).map((position) => _position(chart, ...iter(position))));
 }
 
 function circle_properties(chart) {
@@ -458,13 +455,6 @@ return new Map([["kind", "circle"], ["turn", maneuver.turn], ["radius_m", maneuv
 
 function mark_properties(mark) {
 return new Map([["kind", mark.kind], ["does", mark.action], ["time_s", mark.time_s], ["heading_deg", mark.heading_deg], ["track_deg", mark.track_deg], ["ground_speed_m_s", mark.ground_speed_m_s]]);
-}
-
-function _point(mark, chart, longitude, latitude) {
-let point;
-point = child(mark, "Point", undefined, new Map([]));
-child(point, "altitudeMode", _mode(chart), new Map([]));
-child(point, "coordinates", _position(chart, longitude, latitude), new Map([]));
 }
 
 function positive(argument, value, unit) {
@@ -567,11 +557,11 @@ this.autocontinue = autocontinue;
 }
 }, ["command", "frame", "params", "latitude_deg", "longitude_deg", "altitude_m", "autocontinue"], 'MissionItem');
 
-const MavCommand = enumeration({ NAV_WAYPOINT: 16, NAV_LOITER_UNLIM: 17, NAV_LOITER_TURNS: 18, NAV_LOITER_TIME: 19, NAV_LOITER_TO_ALT: 31, DO_ORBIT: 34, DO_REPOSITION: 192 });
+const MavCommand = enumeration({ NAV_WAYPOINT: 16, NAV_LOITER_UNLIM: 17, NAV_LOITER_TURNS: 18, NAV_LOITER_TIME: 19, NAV_LAND: 21, NAV_LOITER_TO_ALT: 31, DO_ORBIT: 34, DO_LAND_START: 189, DO_REPOSITION: 192 });
 
 const Frame = enumeration({ ABOVE_SEA: 0, NOWHERE: 2, ABOVE_HOME: 3, ABOVE_TERRAIN: 10 });
 
-function wpl__line(number, item) {
+function _line(number, item) {
 let fields, integers, numbers;
 numbers = [...iter(item.params), item.latitude_deg, item.longitude_deg, item.altitude_m];
 integers = [number, int(eq(number, 0)), int(item.frame), int(item.command)];
@@ -675,7 +665,7 @@ function _feature(kind, coordinates, properties) {
 return new Map([["type", "Feature"], ["geometry", new Map([["type", kind], ["coordinates", coordinates]])], ["properties", properties]]);
 }
 
-function _geometry(kind, parts) {
+function geojson__geometry(kind, parts) {
 let part;
 if (gt(len(parts), 1)) {
 return [`Multi${str(kind)}`, parts];
@@ -704,6 +694,26 @@ longitudes = list(iter(ring)).map((position) => position.longitude);
 bands = range(_band(min(longitudes)), add(_band(max(longitudes)), 1));
 parts = list(iter(bands)).map((k) => _shifted(_clipped(_clipped(ring, sub(mul(360.0, k), 180.0), 1), add(mul(360.0, k), 180.0), -1), k));
 return or(list(iter(parts)).filter((part) => ne(_area(part), 0.0)).map((part) => _counter_clockwise(part)), () => [_shifted(ring, bands.start)]);
+}
+
+function placemark(parent, title, style = null) {
+let mark;
+mark = child(parent, "Placemark", undefined, new Map([]));
+child(mark, "name", title, new Map([]));
+if ((style != null)) {
+child(mark, "styleUrl", `#${str(style)}`, new Map([]));
+}
+return mark;
+}
+
+function add_geometry(mark, kind, mode, positions) {
+let shape;
+shape = child(mark, kind, undefined, new Map([]));
+if (eq(kind, "LineString")) {
+child(shape, "tessellate", "1", new Map([]));
+}
+child(shape, "altitudeMode", mode, new Map([]));
+child(shape, "coordinates", join_(" ", positions), new Map([]));
 }
 
 function _position(chart, longitude, latitude) {
