@@ -51,7 +51,7 @@ EXAMPLES = {
   loiter guide --connect tcp:127.0.0.1:5762 --dry-run \
       --orbit-lla 47.11 8.23 120 --turn ccw --bank 40
   loiter guide --connect udpin:127.0.0.1:14550 --orbit-lla 47.11 8.23 120 \
-      --turn cw --airspeed 22 --slot 90 --slot-at $(date +%s)
+      --turn cw --airspeed 22 --slot 90 --slot-at 1790000000
   loiter guide --connect /dev/ttyUSB0,57600 --orbit-lla 47.11 8.23 120 \
       --altitude 900 --keep --log flight.csv""",
     "fly": r"""
