@@ -87,7 +87,8 @@ def draw(
     if isinstance(plan, LandingPlan):
         _draw_runway(axes, plan.runway)
         lines |= {"runway": RUNWAY}
-    draw_legend(figure, axes, SEGMENTS | lines | MARKS | {"exit": EXIT, "point": POINT} | FENCE_STYLES)
+    point = POINT | {"label": "threshold"} if isinstance(plan, LandingPlan) else POINT
+    draw_legend(figure, axes, SEGMENTS | lines | MARKS | {"exit": EXIT, "point": point} | FENCE_STYLES)
     return figure
 
 
@@ -106,6 +107,7 @@ def _draw_altitude(axes: Axes, plan: LegPlan) -> None:
     axes.plot(track.time_s, track.altitude_m, color="black", linewidth=1.6, gid="altitude")
     for time_s, style in ((plan.entry.duration_s, MARKS["join"]), (plan.exit_s, EXIT), (plan.duration_s, POINT)):
         axes.plot(time_s, np.interp(time_s, track.time_s, track.altitude_m), **style)
+    axes.margins(y=0.15)  # the marks at the ends are whole
     axes.set(xlabel="time (s)", ylabel="altitude (m)")
 
 
