@@ -149,7 +149,7 @@ def _table(ending: str, arguments: SaveArguments) -> bytes:
     return table(vertices(arguments.maneuver, counts), arguments.frame, _above_sea_m(arguments))
 
 
-def _map(draw: Callable[..., bytes], ending: str, *shown: SaveArguments, has_ground: bool = False) -> bytes:
+def _map(draw: Callable[..., bytes], has_ground: bool, ending: str, *shown: SaveArguments) -> bytes:
     """A map of one or several maneuvers.
 
     With `has_ground`, the format can give altitudes above the ground, and does where they were given so.
@@ -206,16 +206,16 @@ def _mission(ending: str, arguments: SaveArguments) -> Mission:
 
 # All formats that `save` writes. The command line, the service and the page know them from here.
 FILE_FORMATS = (
-    Format((".geojson",), "map", "application/geo+json", "GeoJSON", "for maps", partial(_map, geojson)),
+    Format((".geojson",), "map", "application/geo+json", "GeoJSON", "for maps", partial(_map, geojson, False)),
     Format(
         (".kml",),
         "map",
         "application/vnd.google-earth.kml+xml",
         "KML",
         "for Google Earth",
-        partial(_map, kml, has_ground=True),
+        partial(_map, kml, True),
     ),
-    Format((".gpx",), "map", "application/gpx+xml", "GPX", "for GPS receivers", partial(_map, gpx)),
+    Format((".gpx",), "map", "application/gpx+xml", "GPX", "for GPS receivers", partial(_map, gpx, False)),
     Format((".csv",), "table", "text/csv; charset=utf-8", "CSV", "samples along the track, in metres", _table),
     Format((".plan",), "mission", "application/json", "Plan", "mission for QGroundControl", _plan),
     Format(

@@ -34,9 +34,7 @@ def _features(chart: Chart) -> list[dict[str, Any]]:
     shared: dict[str, Any] = {"aircraft": chart.name} if chart.name else {}
     if chart.altitude_m is not None:
         shared["altitude_m"] = chart.altitude_m
-    for feature in features:
-        feature["properties"].update(shared)
-    return features
+    return [{**feature, "properties": {**feature["properties"], **shared}} for feature in features]
 
 
 def segment_properties(line: SegmentLine) -> dict[str, Any]:

@@ -24,7 +24,7 @@ def gpx(*charts: Chart) -> bytes:
     for chart in charts:
         for mark in chart.marks:
             here = _place(top, "wpt", chart, mark.latitude_deg, mark.longitude_deg)
-            child(here, "name", f"{chart.name} {mark.kind}".strip())
+            child(here, "name", f"{chart.name} {mark.kind}" if chart.name else mark.kind)
             child(here, "desc", f"{mark.action} at {mark.time_s:.2f} s, heading {mark.heading_deg:.1f} deg")
             child(here, "type", mark.kind)
     # The circle of a fleet is drawn where the last aircraft joins it.

@@ -81,7 +81,7 @@ throw errors.InvalidArgument(name, `is ${format(options[name], `g`)}: the file w
 }
 }
 
-function _map(draw, ending, ...shown, has_ground = false) {
+function _map(draw, has_ground, ending, ...shown) {
 return draw(...iter(list(iter(shown)).map((arguments_) => _chart(ending, arguments_, has_ground))));
 }
 
@@ -122,7 +122,7 @@ child(child(top, "metadata", undefined, new Map([])), "name", metadata, new Map(
 for (chart of iter(charts)) {
 for (mark of iter(chart.marks)) {
 here = _place(top, "wpt", chart, mark.latitude_deg, mark.longitude_deg);
-child(here, "name", `${str(chart.name)} ${str(mark.kind)}`.strip(), new Map([]));
+child(here, "name", (truth(chart.name) ? `${str(chart.name)} ${str(mark.kind)}` : mark.kind), new Map([]));
 child(here, "desc", `${str(mark.action)} at ${format(mark.time_s, `.2f`)} s, heading ${format(mark.heading_deg, `.1f`)} deg`, new Map([]));
 child(here, "type", mark.kind, new Map([]));
 }
@@ -186,16 +186,13 @@ return replace(shown, { above_ground: above_ground, name: arguments_.name });
 }
 
 function _features(chart) {
-let feature, features, shared;
+let features, shared;
 features = [...iter(map(_segment, chart.lines)), ...iter(map(_mark, chart.marks)), _circle(chart)];
 shared = (truth(chart.name) ? new Map([["aircraft", chart.name]]) : new Map([]));
 if ((chart.altitude_m != null)) {
 set_item(shared, "altitude_m", chart.altitude_m);
 }
-for (feature of iter(features)) {
-item(feature, "properties").update(shared);
-}
-return features;
+return list(iter(features)).map((feature) => new Map([...iter_items(feature), ["properties", new Map([...iter_items(item(feature, "properties")), ...iter_items(shared)])]]));
 }
 
 function root(tag, namespace, attributes = null) {
@@ -3806,7 +3803,7 @@ const AIRCRAFT = 18.0;
 const TURN_LIMITS = new Map([["max_bank_deg", "degrees"], ["min_turn_radius_m", "metres"], ["max_turn_rate_deg_s", "degrees per second"]]);
 const STANDARD_GRAVITY_M_S2 = 9.80665;
 const ROUNDING = mul(64.0, pow(2.0, -52));
-const FILE_FORMATS = [Format([".geojson"], "map", "application/geo+json", "GeoJSON", "for maps", partial(_map, geojson)), Format([".kml"], "map", "application/vnd.google-earth.kml+xml", "KML", "for Google Earth", partial(_map, kml, { has_ground: true })), Format([".gpx"], "map", "application/gpx+xml", "GPX", "for GPS receivers", partial(_map, gpx)), Format([".csv"], "table", "text/csv; charset=utf-8", "CSV", "samples along the track, in metres", _table), Format([".plan"], "mission", "application/json", "Plan", "mission for QGroundControl", _plan), Format([".waypoints", ".txt"], "mission", "text/plain; charset=utf-8", "WPL", "waypoints for Mission Planner", _waypoints)];
+const FILE_FORMATS = [Format([".geojson"], "map", "application/geo+json", "GeoJSON", "for maps", partial(_map, geojson, false)), Format([".kml"], "map", "application/vnd.google-earth.kml+xml", "KML", "for Google Earth", partial(_map, kml, true)), Format([".gpx"], "map", "application/gpx+xml", "GPX", "for GPS receivers", partial(_map, gpx, false)), Format([".csv"], "table", "text/csv; charset=utf-8", "CSV", "samples along the track, in metres", _table), Format([".plan"], "mission", "application/json", "Plan", "mission for QGroundControl", _plan), Format([".waypoints", ".txt"], "mission", "text/plain; charset=utf-8", "WPL", "waypoints for Mission Planner", _waypoints)];
 const AUTOPILOTS = new Map([["ardupilot", Autopilot.ARDUPILOT], ["px4", Autopilot.PX4]]);
 const JSON_FIELDS = bit_or(new Map(list(iter(["airspeed_m_s", ...iter(TURN_LIMITS)])).map((name) => [name, JsonField(`aircraft.${str(name)}`, `aircraft/${str(name)}`)])), new Map([["turn", JsonField("orbit.turn", "orbit/turn")], ["turn limit", JsonField("the turn limit of the aircraft", "aircraft")], ["turn radius", JsonField("the turn radius of the aircraft", "aircraft")], ["frame", JsonField("origin", "origin")]]));
 const NARROW = 1e-06;

@@ -68,6 +68,8 @@ const FILLED = new WeakMap();
  * @param {(Part | string)[]} children
  */
 export function fill(parent, children) {
+  // What stands there at first is that of the page's file.
+  if (!FILLED.has(parent)) parent.replaceChildren();
   const before = FILLED.get(parent) ?? [];
   FILLED.set(parent, children);
   let node = parent.firstChild;
@@ -164,12 +166,14 @@ export function polyline(points) {
  * @param {(index: number | null) => void} tell
  */
 export function watchPointed(group, selector, tell) {
-  for (const event of ["pointerover", "focusin"])
+  // An SVG group that listens to the focus would be reached by Tab itself.
+  const focus = !(group instanceof SVGElement);
+  for (const event of ["pointerover", ...(focus ? ["focusin"] : [])])
     group.addEventListener(event, ({ target }) => {
       const part = /** @type {Element} */ (target).closest(selector);
       if (part) tell(Array.from(group.querySelectorAll(selector)).indexOf(part));
     });
-  for (const event of ["pointerout", "focusout"]) group.addEventListener(event, () => tell(null));
+  for (const event of ["pointerout", ...(focus ? ["focusout"] : [])]) group.addEventListener(event, () => tell(null));
 }
 
 /** Set a text, if it is another. @param {Element} element @param {string} text */
