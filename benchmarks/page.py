@@ -97,6 +97,8 @@ def report(title: str, drags: list[Drag]) -> None:
     """Print the delays of some drags together, and the processor time of a move."""
     delays = {name: [delay for one in drags for delay in one.delays[name]] for name in drags[0].delays}
     moves = len(delays["drawn"])
+    # The browser hands a move over at its next frame; what follows is the page's own share, and the painting.
+    delays["handed to painted"] = [b - a for a, b in zip(delays["handed"], delays["painted"], strict=True)]
     spent = sum(one.processor_ms for one in drags) / moves
     print(f"{title}: {moves} moves; {'; '.join(describe(*each) for each in delays.items())}; processor {spent:.1f} ms")
 
