@@ -121,6 +121,17 @@ WindChoice = Annotated[
 Metres = Annotated[float | None, Parameter(converter=one(metres), metavar="METRES")]
 
 
+def column_map(group: Group) -> Parameter:
+    """The option --map of commands that read a table, in a group of their help."""
+    return Parameter(
+        name="--map",
+        group=group,
+        metavar="NAME=COLUMN",
+        negative=(),
+        help="The column of the table that holds a quantity, if it has another name or unit: east_m='X_East [ft]'; may be repeated. Its unit is at the end of its name, or added in brackets.",
+    )
+
+
 SlotBearing = Annotated[
     float | None,
     Parameter(

@@ -8,6 +8,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.cli.options import METRES_ONLY, AircraftOptions, FenceOptions, OrbitOptions, StartOptions, WindOptions
+from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, RadiusTooSmall
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
@@ -16,6 +17,7 @@ from loiter.io.document import maneuver_values
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
 from loiter.planning.model import Aircraft, Orbit, Pose, Wind
 from loiter.planning.problem import Problem
+from loiter.planning.slot import Slot
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -112,6 +114,12 @@ def _metres_remark(pose: Pose, circle: Orbit) -> str:
     if not looks_like_degrees or circle.distance_m(pose) > FEW_DEGREES:
         return ""
     return "These positions are metres: --pose-lla and --orbit-lla take latitudes and longitudes."
+
+
+def read_slot(bearing_deg: float, at_s: float) -> Slot:
+    """The slot of the options --slot, degrees, and --slot-at, seconds; raises `InvalidArgument`, which names them."""
+    with argument_names(**{"slot phase_deg": "slot", "slot at_s": "slot_at_s"}):
+        return Slot(bearing_deg, at_s)
 
 
 @contextmanager

@@ -30,6 +30,7 @@ from loiter.cli.options import (
     TurnRadius,
     TurnRate,
     WindChoice,
+    column_map,
     moving_air,
 )
 from loiter.cli.report import print_json
@@ -97,13 +98,7 @@ def batch(
     ] = None,
     map_: Annotated[
         list[str] | None,
-        Parameter(
-            name="--map",
-            group=shared,
-            metavar="NAME=COLUMN",
-            negative=(),
-            help="The column of the table that holds a quantity, if it has another name or unit: east_m='X_East [ft]'; may be repeated. Its unit is at the end of its name, or added in brackets.",
-        ),
+        column_map(shared),
     ] = None,
     tolerance: Annotated[
         float,

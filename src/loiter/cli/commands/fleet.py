@@ -21,6 +21,7 @@ from loiter.cli.options import (
     PictureOptions,
     PlannedAircraftOptions,
     WindOptions,
+    column_map,
     missions,
     output,
     scene,
@@ -64,13 +65,7 @@ LayerHeight = Annotated[
 ]
 Mapped = Annotated[
     list[str] | None,
-    Parameter(
-        name="--map",
-        group=scene,
-        metavar="NAME=COLUMN",
-        negative=(),
-        help="The column of the table that holds a quantity, if it has another name or unit: east_m='X_East [ft]'; may be repeated.",
-    ),
+    column_map(scene),
 ]
 Animate = Annotated[
     Path | None,

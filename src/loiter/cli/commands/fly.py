@@ -31,8 +31,7 @@ from loiter.cli.options import (
     WindOptions,
     output,
 )
-from loiter.cli.scenes import CheckedFence, check_fence, place_scene
-from loiter.cli.sentences import argument_names
+from loiter.cli.scenes import CheckedFence, check_fence, place_scene, read_slot
 from loiter.errors import InvalidArgument
 from loiter.planning.model import Aircraft
 from loiter.planning.problem import Problem
@@ -229,8 +228,7 @@ class SlotOptions:
             return None
         if simulated.laws != ["optimal"]:
             raise InvalidArgument("slot", "is for the law optimal alone: the others keep no slot")
-        with argument_names(**{"slot phase_deg": "slot", "slot at_s": "slot_at_s"}):
-            return Slot(self.slot, 0.0 if self.slot_at is None else self.slot_at)
+        return read_slot(self.slot, 0.0 if self.slot_at is None else self.slot_at)
 
     def check_absent(self, where: str) -> None:
         """Raise `InvalidArgument` for an option that has no effect."""
@@ -297,7 +295,7 @@ def fly(
             raise InvalidArgument("fence", "does not go with --slot")
         ideal = loiter.plan(pose, orbit, simulated.aircraft(uav), air.moving_air, slot=aimed)
         fenced = None if aimed else check_fence(fence, circle.site, ideal, frame)
-        _fly_once(campaign.Trial(ideal, simulated.seed), simulated, wanted, slotted, fenced)
+        _fly_once(campaign.Trial(ideal, simulated.seed), simulated, wanted, slotted, aimed, fenced)
         return
     slotted.check_absent("--runs")
     if fence != FlownFenceOptions():
@@ -337,18 +335,23 @@ def _check_files(wanted: Output, runs: int | None) -> None:
 
 
 def _fly_once(
-    trial: Trial, simulated: SimulationOptions, wanted: Output, slotted: SlotOptions, fenced: CheckedFence | None
+    trial: Trial,
+    simulated: SimulationOptions,
+    wanted: Output,
+    slotted: SlotOptions,
+    aimed: Slot | None,
+    fenced: CheckedFence | None,
 ) -> None:
     """Fly laws from one start: write the time line of the first law, and a table with a row for each.
 
-    With a fence the optimal law stays clear of it, and flights are compared with the clear entry.
+    `aimed` is the slot of `slotted`, if it has one. With a fence the optimal law stays clear of it, and flights are compared with the clear entry.
     """
     from loiter.cli import flights as shown
     from loiter.guidance.entry.slot_entry import SlotEntry
     from loiter.guidance.trials.flight import fly as fly_law
 
     setting, conditions = simulated.setting(), simulated.conditions
-    aimed, entry = slotted.slot_for(simulated), "Fastest entry"
+    entry = "Fastest entry"
     if fenced is not None and (clear := _clear_entry(trial.ideal, fenced)) is not None:
         trial, entry = replace(trial, ideal=clear), "Clear entry"
     laws = {name: slotted.law(trial, aimed) if aimed else setting.laws[name](trial) for name in simulated.laws}

@@ -29,12 +29,11 @@ from loiter.cli.options import (
     scene,
     written_altitude,
 )
-from loiter.cli.sentences import argument_names
+from loiter.cli.scenes import read_slot
 from loiter.cli.status import abandon_output
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.mavlink.connection.link import TIMEOUT_S
 from loiter.planning.model import wind_from_velocity
-from loiter.planning.slot import Slot
 
 if TYPE_CHECKING:
     from loiter.mavlink import GuideReport
@@ -164,9 +163,7 @@ def _slot_arguments(bearing_deg: float | None, at_s: float | None, band: float |
         return {}
     if at_s is None:
         raise InvalidArgument("slot_at_s", "is needed with --slot: the Unix time at which the slot is at that bearing")
-    with argument_names(**{"slot phase_deg": "slot", "slot at_s": "slot_at_s"}):
-        slot = Slot(bearing_deg, at_s)
-    return {"slot": slot} | ({} if band is None else {"slot_band": band})
+    return {"slot": read_slot(bearing_deg, at_s)} | ({} if band is None else {"slot_band": band})
 
 
 def _question() -> Callable[[], bool]:

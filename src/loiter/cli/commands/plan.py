@@ -30,7 +30,7 @@ from loiter.cli.options import (
     output,
     scene,
 )
-from loiter.cli.scenes import CheckedFence, check_fence, fit_proposed, read_options
+from loiter.cli.scenes import CheckedFence, check_fence, fit_proposed, read_options, read_slot
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
 from loiter.errors import ImpossibleTime, InvalidArgument
@@ -209,8 +209,7 @@ def _slot(bearing_deg: float | None, at_s: float | None) -> Slot:
     """The slot of the options; raises `InvalidArgument` where they do not fit together."""
     if bearing_deg is None:
         raise InvalidArgument("slot_at_s", "needs --slot, the bearing of the slot at that time")
-    with argument_names(**{"slot phase_deg": "slot", "slot at_s": "slot_at_s"}):
-        return Slot(bearing_deg, 0.0 if at_s is None else at_s)
+    return read_slot(bearing_deg, 0.0 if at_s is None else at_s)
 
 
 def _at_time(
