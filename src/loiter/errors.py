@@ -150,6 +150,11 @@ MOST_LETTERS = 160
 PINT_UNITS = {"degrees Celsius": "degC"}
 
 
+def clause(sentence: str) -> str:
+    """A sentence as a part of another: it begins small, and has no full stop."""
+    return sentence[0].lower() + sentence[1:].rstrip(".")
+
+
 def instance(argument: str, value: object, kind: type) -> None:
     """Raise `InvalidArgument` for a value that is not of a class of this package, such as a tuple for a pose."""
     if not isinstance(value, kind):

@@ -32,7 +32,7 @@ from loiter.cli.options import (
     output,
 )
 from loiter.cli.scenes import CheckedFence, check_fence, place_scene, read_slot
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, clause
 from loiter.planning.model import Aircraft
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot
@@ -390,7 +390,7 @@ def _clear_entry(ideal: Maneuver, fenced: CheckedFence) -> Maneuver | None:
     """The fastest clear entry found; None where the fastest entry is clear. Raises `InvalidArgument` without any."""
     found = fenced.clear_entry(Problem(ideal.start, ideal.orbit, ideal.aircraft, ideal.wind))
     if found is not None and found.maneuver is None:
-        raise InvalidArgument("fence", f"leaves no way: {found.sentence[0].lower()}{found.sentence[1:].rstrip('.')}")
+        raise InvalidArgument("fence", f"leaves no way: {clause(found.sentence)}")
     return None if found is None else found.maneuver
 
 

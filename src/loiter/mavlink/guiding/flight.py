@@ -8,7 +8,7 @@ from dataclasses import replace
 from math import inf, isfinite, nan
 from time import monotonic, time
 
-from loiter.errors import LinkFailed, LoiterError
+from loiter.errors import LinkFailed, LoiterError, clause
 from loiter.guidance.entry.fenced_entry import FencedEntry
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.entry.slot_entry import SlotEntry
@@ -470,7 +470,7 @@ class GuidedFlight:
     def _blocked(self) -> StopReason | None:
         """That no entry is found that stays clear of the fence."""
         problem = self._law.problem if self._steered and isinstance(self._law, FencedEntry) else ""
-        return StopReason(problem[0].lower() + problem[1:].rstrip(".")) if problem else None
+        return StopReason(clause(problem)) if problem else None
 
     def _beyond_fence(self) -> StopReason | None:
         """That the vehicle is on the wrong side of a zone of the fence against which its plan was checked."""

@@ -8,7 +8,7 @@ from math import isfinite
 from time import monotonic
 from typing import Literal, NamedTuple, TypeAlias
 
-from loiter.errors import InvalidArgument, LinkFailed
+from loiter.errors import InvalidArgument, LinkFailed, clause
 from loiter.fences import ClearEntry, Fence, PlacedFence, clear_entry
 from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
@@ -146,10 +146,7 @@ def _fenced(contact: Contact, fence: Fence, request: GuideRequest, chosen: Fligh
     except InvalidArgument as error:
         raise LinkFailed(f"{contact.name} cannot be guided: its {error}") from error
     if found.maneuver is None or found.check is None:
-        reasons = [
-            sentence[0].lower() + sentence[1:].rstrip(".")
-            for sentence in (refused.sentence(request.frame), found.sentence)
-        ]
+        reasons = [clause(sentence) for sentence in (refused.sentence(request.frame), found.sentence)]
         raise LinkFailed(f"{contact.name} cannot be guided: {'; '.join(reasons)}")
     more = () if found.is_fastest else (found.sentence,)
     orbit = replace(chosen.orbit, turn=found.maneuver.turn)
