@@ -7,7 +7,9 @@ import pytest
 
 from loiter import Aircraft, Landing, Pose, Runway, Wind, plan_landing
 from loiter.cli.app import main
+from loiter.geo import true_airspeed
 from loiter.io import read_mission
+from loiter.planning.model import radius_at_bank
 
 UAV = "--airspeed 18 --bank 35 --descent-rate 3"
 SCENE = f"land --pose -400 900 90 --altitude 650 --runway 0 0 90 --elevation 500 --radius 120 --final 500 {UAV}"
@@ -103,3 +105,11 @@ def test_what_is_missing_gets_a_sentence(capsys):
         assert f"{missing.split()[0]} " in capsys.readouterr().err
     assert main(PLACED.replace("--runway-lla 47.0", "--runway-lla 97.0").split()) == 2
     assert "--runway-lla LAT is 97" in capsys.readouterr().err
+
+
+def test_an_indicated_airspeed_is_that_halfway_down(shown, capsys):
+    indicated = SCENE.replace("--airspeed", "--indicated-airspeed").replace("--altitude 650", "--altitude 2500")
+    middle, top = (true_airspeed(18.0, altitude_m) for altitude_m in (1500.0, 2500.0))
+    assert f"Planned with that halfway between both altitudes, {middle:.4g} m/s." in shown(indicated)
+    assert main(shlex.split(indicated.replace("--radius 120", "--radius 55"))) == 2
+    assert f"tighter than the aircraft can turn: {radius_at_bank(top, 35.0):.4g} m" in capsys.readouterr().err

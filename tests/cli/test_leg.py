@@ -7,6 +7,7 @@ import pytest
 
 from loiter import Aircraft, Leg, Orbit, Pose, Wind, plan_leg
 from loiter.cli.app import main
+from loiter.geo import true_airspeed
 
 UAV = "--airspeed 18 --bank 35"
 SCENE = f"leg --pose -400 120 90 --orbit 0 0 120 {UAV} --wind 8 250"
@@ -59,3 +60,35 @@ def test_bad_input_gets_a_sentence(capsys, options, sentence):
     out, err = capsys.readouterr()
     assert out == ""
     assert err.startswith(f"loiter: {sentence}")
+
+
+CLIMB = "leg --pose -400 120 90 --orbit-velocity 0 0 --bank 35 --indicated-airspeed 18 --exit-to 600 0 --climb-rate 5"
+TURN_AT_TOP = Aircraft(true_airspeed(18.0, 1300.0), max_bank_deg=35.0).turn_radius_m
+
+
+def test_a_climb_is_planned_at_the_true_airspeed_halfway_and_the_circle_held_at_the_top(shown, capsys):
+    """A circle of 60 m can be held at 100 m and halfway up, at 700 m, but not at 1,300 m."""
+    answer = json.loads(shown(f"{CLIMB} --orbit 0 0 80 --altitude 100 --to-altitude 1300 --json"))
+    uav = Aircraft(true_airspeed(18.0, 700.0), max_bank_deg=35.0, climb_rate_m_s=5.0)
+    leg = Leg(Pose(-400.0, 120.0, 90.0, 100.0), Orbit(0.0, 0.0, 80.0), (600.0, 0.0), altitude_m=1300.0)
+    assert answer == json.loads(json.dumps(plan_leg(leg, uav).to_dict()))
+    tight = f"{CLIMB} --orbit 0 0 52 --altitude 100 --to-altitude"
+    assert f"True airspeed {true_airspeed(18.0, 700.0):.4g} m/s" in shown(f"{tight} 700")
+    assert main(shlex.split(f"{tight} 1300")) == 2
+    assert f"{TURN_AT_TOP:.4g} m at 19.18 m/s and 35 deg of bank" in capsys.readouterr().err
+    assert f"planned for {TURN_AT_TOP:.4g} m" in shown(f"{tight} 1300 --fit")
+
+
+def test_a_temperature_falls_on_the_way_up(shown):
+    """By 6.5 degrees in a kilometre, as in the standard atmosphere."""
+    said = shown(f"{CLIMB} --orbit 0 0 80 --altitude 0 --to-altitude 2000 --temperature 30")
+    top, middle = true_airspeed(18.0, 2000.0, 17.0), true_airspeed(18.0, 1000.0, 23.5)
+    assert f"True airspeed {top:.4g} m/s: 18 indicated" in said
+    assert f"Planned with that halfway between both altitudes, {middle:.4g} m/s." in said
+
+
+def test_a_descent_begins_where_turns_are_widest(shown, capsys):
+    down = f"{CLIMB} --descent-rate 5 --altitude 1300 --to-altitude 100".replace("--climb-rate 5 ", "")
+    assert main(shlex.split(f"{down} --orbit 0 0 52")) == 2
+    assert f"{TURN_AT_TOP:.4g} m at 19.18 m/s" in capsys.readouterr().err
+    assert "Planned with that halfway between both altitudes, 18.62 m/s." in shown(f"{down} --orbit 0 0 54")

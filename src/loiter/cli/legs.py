@@ -12,12 +12,13 @@ from rich.console import RenderableType
 
 from loiter.cli import report
 from loiter.cli.numbers import metres_per_second, one
-from loiter.cli.options import PictureOptions, output
+from loiter.cli.options import AircraftOptions, PictureOptions, output
 from loiter.cli.scenes import CheckedFence
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
+from loiter.geo.atmosphere import LAPSE_K_PER_M
 from loiter.io.legs import check_leg_format, leg_content
 from loiter.io.missions.items import AUTOPILOTS, AutopilotName
 from loiter.planning.landing import LandingPlan
@@ -92,9 +93,29 @@ class LegOutput(NamedTuple):
                 write_content("save", path, content)
 
 
-def with_rates(aircraft: Aircraft, climb_rate_m_s: float | None, descent_rate_m_s: float | None) -> Aircraft:
-    """The aircraft with the rates of the options."""
-    return replace(aircraft, climb_rate_m_s=climb_rate_m_s, descent_rate_m_s=descent_rate_m_s)
+def at_highest(uav: AircraftOptions, altitude_m: float | None) -> AircraftOptions:
+    """The aircraft at the higher of its altitude and another one: turns at an indicated airspeed are widest there."""
+    return uav if altitude_m is None or uav.altitude is None or altitude_m < uav.altitude else _at(uav, altitude_m)
+
+
+def halfway(
+    uav: AircraftOptions, altitude_m: float | None, climb_rate_m_s: float | None, descent_rate_m_s: float | None
+) -> tuple[Aircraft, str]:
+    """The aircraft with its rates, at the true airspeed that it has halfway to another altitude; a remark, or ""."""
+    preset, remark = uav.preset(), ""
+    altitudes = {each for each in (uav.altitude, altitude_m) if each is not None}
+    if len(altitudes) == 2 and uav.indicated(preset) is not None:
+        uav = _at(uav, sum(altitudes) / 2.0)
+        remark = f"Planned with that halfway between both altitudes, {uav.aircraft(preset).airspeed_m_s:.4g} m/s."
+    return replace(uav.aircraft(preset), climb_rate_m_s=climb_rate_m_s, descent_rate_m_s=descent_rate_m_s), remark
+
+
+def _at(uav: AircraftOptions, altitude_m: float) -> AircraftOptions:
+    """The aircraft at another altitude; a temperature falls with it as in the standard atmosphere."""
+    temperature = uav.temperature
+    if temperature is not None and uav.altitude is not None:
+        temperature -= LAPSE_K_PER_M * (altitude_m - uav.altitude)
+    return replace(uav, altitude=altitude_m, temperature=temperature)
 
 
 def leg_lines(plan: LegPlan, frame: LocalFrame | None) -> list[RenderableType]:

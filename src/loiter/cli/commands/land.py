@@ -8,7 +8,7 @@ from typing import Annotated
 from cyclopts import Group, Parameter
 
 from loiter.cli.coordinates import latitude, longitude
-from loiter.cli.legs import AutopilotChoice, ClimbRate, DescentRate, Json, LegOutput, Save, with_rates
+from loiter.cli.legs import AutopilotChoice, ClimbRate, DescentRate, Json, LegOutput, Save, at_highest, halfway
 from loiter.cli.numbers import altitude, angle, check_declination, direction, metres, one, several, turn_name
 from loiter.cli.options import (
     AircraftOptions,
@@ -25,6 +25,7 @@ from loiter.geo import LocalFrame
 from loiter.io.missions.parameters import Preset
 from loiter.planning.landing import Landing, Runway, plan_landing
 from loiter.planning.model import Turn, TurnName
+from loiter.planning.problem import Problem
 
 runway_group = Group("The runway and the circle beside its final approach", sort_key=1)
 
@@ -126,8 +127,12 @@ def land(
     )
     begun = replace(start_pose(start, air, frame), altitude_m=written_altitude(uav.altitude))
     landing = Landing(begun, target, _radius_m(radius, preset), final, Turn(turn))
-    plan = plan_landing(landing, with_rates(uav.aircraft(preset), climb_rate, descent_rate), air.moving_air)
-    return shown.show(plan, frame, check_fence(fence, None, plan, frame), uav.remark(preset))
+    planned, airspeed_remark = halfway(uav, elevation, climb_rate, descent_rate)
+    highest = at_highest(uav, elevation)
+    plan = plan_landing(landing, planned, air.moving_air)
+    # Raises where the circle cannot be held in the thinnest air of the landing.
+    Problem(begun, plan.leg.orbit, highest.aircraft(preset), air.moving_air).in_wind()
+    return shown.show(plan, frame, check_fence(fence, None, plan, frame), highest.remark(preset), airspeed_remark)
 
 
 def _threshold(

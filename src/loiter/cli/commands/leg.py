@@ -8,7 +8,17 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from loiter.cli.coordinates import latitude, longitude
-from loiter.cli.legs import AutopilotChoice, ClimbRate, DescentRate, Json, LegOutput, Save, way_out, with_rates
+from loiter.cli.legs import (
+    AutopilotChoice,
+    ClimbRate,
+    DescentRate,
+    Json,
+    LegOutput,
+    Save,
+    at_highest,
+    halfway,
+    way_out,
+)
 from loiter.cli.numbers import altitude, metres, one, several
 from loiter.cli.options import (
     AircraftOptions,
@@ -80,7 +90,7 @@ def leg(
     pictures: PictureOptions = PictureOptions(),
 ) -> int:
     """Plan the fastest way in, round and out of a holding circle towards a point."""
-    (problem, frame), remark = read_options(start, circle, uav, air, fit=fit)
+    (problem, frame), remark = read_options(start, circle, at_highest(uav, to_altitude), air, fit=fit)
     shown = LegOutput(save, autopilot, json, pictures)
     shown.check()
     if to_altitude is not None and uav.altitude is None:
@@ -88,9 +98,11 @@ def leg(
     start_at, point = replace(problem.pose, altitude_m=uav.altitude), exit_place(exit_to, exit_to_lla, frame)
     with argument_names(altitude_m="to_altitude_m"):
         asked = Leg(start_at, problem.orbit, point, hold_s=hold, turns=turns, altitude_m=to_altitude)
+    planned, airspeed_remark = halfway(uav, to_altitude, climb_rate, descent_rate)
     with fit_proposed():
-        plan = plan_leg(asked, with_rates(problem.aircraft, climb_rate, descent_rate), problem.wind)
-    return shown.show(plan, frame, check_fence(fence, circle.site, plan, frame), remark)
+        problem.in_wind()  # raises where the circle cannot be held in the thinnest air of the leg
+        plan = plan_leg(asked, planned, problem.wind)
+    return shown.show(plan, frame, check_fence(fence, circle.site, plan, frame), remark, airspeed_remark)
 
 
 def exit_place(
