@@ -11,7 +11,7 @@ import pytest
 from fences.scenes import scene
 from fences.study import compare
 from loiter.errors import LoiterError
-from loiter.fences import distances, fence_check, model, pieces, search
+from loiter.fences import distances, fence, fence_check, model, pieces, search
 
 SCENES, TRIED = 100, 90
 
@@ -43,7 +43,7 @@ MUTANTS = {
     "the wind is forgotten": (pieces, "Pieces.position", "self.wx * time_s", "0.0"),
     "the margin has the wrong sign": (
         fence_check,
-        "check",
+        "check_zones",
         "near.distance <= margin_m + TOUCH_M",
         "near.distance <= -margin_m + TOUCH_M",
     ),
@@ -96,7 +96,7 @@ def replace(monkeypatch, module, name, old, new):
     exec("from __future__ import annotations\n" + source.replace(old, new), scope)
     changed, before = scope[last], getattr(owner, last)
     monkeypatch.setattr(owner, last, changed)
-    for other in (fence_check, distances, model, pieces, search):
+    for other in (fence, fence_check, distances, model, pieces, search):
         if getattr(other, last, None) is before:
             monkeypatch.setattr(other, last, scope[last])
 

@@ -2,8 +2,9 @@
 
 from loiter.fences.clear_entry import clear_entry
 from loiter.fences.entries import ClearEntry, first_clear
-from loiter.fences.fence_check import Breach, FenceCheck, check, default_margin_m
-from loiter.fences.model import CircleZone, Fence, PolygonZone
+from loiter.fences.fence import Fence, check
+from loiter.fences.fence_check import Breach, FenceCheck, default_margin_m
+from loiter.fences.model import CircleZone, PolygonZone
 from loiter.fences.places import PlacedCircle, PlacedFence, PlacedPolygon
 
 __all__ = [

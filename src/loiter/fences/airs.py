@@ -13,9 +13,9 @@ from loiter.arrays import min_time, min_time_in_wind
 from loiter.compiled import wind_solver
 from loiter.fences.contacts import Contacts, Curve
 from loiter.fences.distances import Arcs, arc_to_edge, arc_to_point, chord_to_edge, chord_to_point
-from loiter.fences.model import Fence
+from loiter.fences.fence import Fence
 from loiter.fences.search import TOUCH_M
-from loiter.fences.words import Words, words_between
+from loiter.fences.words import Word, Words, words_between
 from loiter.kernel import motion
 from loiter.kernel.entry import Entry
 from loiter.kernel.rounding import ROUNDING, rounded_radius, rounding
@@ -154,17 +154,13 @@ class StillAir:
 
 def _onto_circle(entries: Sequence[Entry], contacts: Contacts, radius_m: float) -> Words:
     """Entries as paths to the contact that is anywhere on the circle, in their direction."""
-    import numpy as np
-
     ends = {int(contacts.way[i]): i for i in contacts.anywhere.nonzero()[0].tolist()}
     rows = []
     for entry in entries:
         if -entry.side in ends:
-            letters = [float(u) if u != ABSENT else 0.0 for u in controls(entry.word)]
-            rows.append((ends[-entry.side], *letters, *entry[2:]))
-    table = np.array(rows, float).reshape(-1, 7)
-    length = table[:, 4:] * radius_m
-    return Words(table[:, 0].astype(np.intp), table[:, 1:4], length, np.full(length.shape, radius_m))
+            control = tuple(float(u) if u != ABSENT else 0.0 for u in controls(entry.word))
+            rows.append(Word(ends[-entry.side], control, (entry.t1, entry.t2, entry.t3)))
+    return Words.of(rows, radius_m)
 
 
 def _clear_arcs(fence: Fence, arcs: Arcs, margin_m: float) -> NDArray[bool_]:
@@ -231,8 +227,6 @@ class SteadyWind:
 
     def words(self, start: Pose2, at: int | None, contacts: Contacts, headings: NDArray[float64]) -> Words:
         """The first path of each of the six words to each contact."""
-        import numpy as np
-
         r, rows = self._radius_m, []
         heading = cos(start.heading), sin(start.heading)
         placed = (~contacts.anywhere).nonzero()[0]
@@ -246,11 +240,8 @@ class SteadyWind:
             for word in SIX:
                 path = first_path_of(word, phase, -1, scene, inf)
                 if path.time < inf:
-                    rows.append((i, *controls(path.word), path.t1, path.t2, path.t3))
-        table = np.array(rows, float).reshape(-1, 7)
-        length = table[:, 4:] * r
-        found = Words(table[:, 0].astype(np.intp), table[:, 1:4], length, np.full(length.shape, r))
-        return Words.joined([found, _onto_circle(self._entries(start), contacts, r)])
+                    rows.append(Word(i, controls(path.word), (path.t1, path.t2, path.t3)))
+        return Words.joined([Words.of(rows, r), _onto_circle(self._entries(start), contacts, r)])
 
     def _entries(self, start: Pose2) -> list[Entry]:
         """The candidates from a pose."""

@@ -21,8 +21,9 @@ from loiter.fences.contacts import (
     rows_without_straight,
 )
 from loiter.fences.entries import ClearEntry, first_clear
-from loiter.fences.fence_check import check, default_margin_m, zones_on_circle
-from loiter.fences.model import Fence, clear_points
+from loiter.fences.fence import Fence
+from loiter.fences.fence_check import default_margin_m, zones_on_circle
+from loiter.fences.model import clear_points
 from loiter.fences.taut import least_length_m
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
@@ -84,7 +85,7 @@ def clear_entry(
         return found._replace(searched=True, least_s=least_s)
     later_s = best.duration_s - known[0].duration_s
     return found._replace(
-        maneuver=best, check=check(fence, best, margin_m), later_s=later_s, searched=True, least_s=least_s
+        maneuver=best, check=fence.check(best, margin_m), later_s=later_s, searched=True, least_s=least_s
     )
 
 
@@ -107,7 +108,7 @@ class _Search:
         for refined in REFINED:
             for maneuver in self._maneuvers(refined, inf if known is None else known.length_m):
                 faster = best is None or maneuver.duration_s < best.duration_s
-                if faster and check(self._fence, maneuver, self._margin_m).clear:
+                if faster and self._fence.check(maneuver, self._margin_m).clear:
                     best = maneuver
             if best is not None:
                 break

@@ -10,7 +10,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import acos, atan2, ceil, cos, hypot, inf, pi, sin, sqrt, tau
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from loiter.fences.model import CircleZone, Corner, Fence, PolygonZone
+from loiter.fences.fence import Fence
+from loiter.fences.model import CircleZone, Corner, PolygonZone
 from loiter.planning.model import Orbit, Turn
 
 if TYPE_CHECKING:

@@ -9,17 +9,29 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from numpy import float64
+    from numpy import float64, intp
     from numpy.typing import NDArray
-
-    from loiter.fences.model import Edges
-    from loiter.fences.pieces import Pieces
 
 # A length that stands for none where something is divided by it: the quotient does not overflow.
 NO_LENGTH_M = 1e-100
 
 # Any real arrays that broadcast.
 Reals = Any
+
+
+class Edges(NamedTuple):
+    """The edges of all polygons: from (ax, ay) to (bx, by), metres; `first` is the index of the first of each zone."""
+
+    ax: NDArray[float64]
+    ay: NDArray[float64]
+    bx: NDArray[float64]
+    by: NDArray[float64]
+    first: NDArray[intp]
+    zone: NDArray[intp]
+
+    def take(self, i: Any) -> Edges:
+        """The edges with the indices `i`, without their zones' first ones."""
+        return self._replace(ax=self.ax[i], ay=self.ay[i], bx=self.bx[i], by=self.by[i], zone=self.zone[i])
 
 
 class Nearest(NamedTuple):
@@ -131,14 +143,6 @@ class Arcs(NamedTuple):
     ny: NDArray[float64]
     u: NDArray[float64]
     angle: NDArray[float64]
-
-    @classmethod
-    def of(cls, pieces: Pieces) -> Arcs:
-        """The arcs of pieces that are arcs of circles over the ground, as columns, to broadcast with edges."""
-        p = pieces.take((slice(None), None))
-        nx, ny = p.u * p.s, -p.u * p.c
-        angle = p.duration_s * p.speed / p.radius
-        return cls(p.x - p.radius * nx, p.y - p.radius * ny, p.radius, nx, ny, p.u, angle)
 
     def share(self, qx: Reals, qy: Reals) -> Reals:
         """Where on the arc the direction q from the centre is, as a share of its angle; above 1 beyond its end."""

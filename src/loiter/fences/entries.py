@@ -7,8 +7,8 @@ from math import inf, nan
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.fences.fence_check import FenceCheck, check
-from loiter.fences.model import Fence
+from loiter.fences.fence import Fence
+from loiter.fences.fence_check import FenceCheck
 from loiter.planning.maneuver import Maneuver
 
 # Differences below this, seconds, are printed as none.
@@ -70,7 +70,7 @@ def first_clear(fence: Fence, maneuvers: Sequence[Maneuver], margin_m: float | N
         raise InvalidArgument("maneuvers", "has none to choose from")
     blocking: dict[str, None] = {}
     for tried, maneuver in enumerate(ordered, start=1):
-        found = check(fence, maneuver, margin_m)
+        found = fence.check(maneuver, margin_m)
         if found.clear:
             later_s = maneuver.duration_s - ordered[0].duration_s
             return ClearEntry(maneuver, found, later_s, tried, tuple(blocking), ordered[0].duration_s)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, instance, not_negative
-from loiter.fences.model import CircleZone, Fence, Zone
+from loiter.fences.model import CircleZone, Zone, Zones
 from loiter.fences.pieces import FlownPath, flown_path, time_in_hold
 from loiter.fences.search import TOUCH_M, PlaceInPath, approach, first_entry, least_distance
 from loiter.geo.frame import LocalFrame, degrees_of
@@ -81,15 +81,8 @@ class FenceCheck(NamedTuple):
         }
 
 
-def check(fence: Fence, maneuver: Maneuver | LegPlan, margin_m: float | None = None) -> FenceCheck:
-    """Whether a maneuver and its hold stay farther from every zone of a fence than a margin, metres.
-
-    Of a leg the way out is checked too. The margin is that of `default_margin_m` if it is absent. What comes within a
-    micrometre of the margin does not keep it. A circle that moves is checked as a disc, for the longest that one round
-    can take. Raises `InvalidArgument` for a margin that is negative or not finite, and for a start outside an inclusion
-    zone or inside another one.
-    """
-    instance("fence", fence, Fence)
+def check_zones(fence: Zones, maneuver: Maneuver | LegPlan, margin_m: float | None) -> FenceCheck:
+    """The answer of `Fence.check`."""
     flown, maneuver = maneuver, maneuver.entry if isinstance(maneuver, LegPlan) else maneuver
     instance("maneuver", maneuver, Maneuver)
     margin_m = default_margin_m(maneuver.orbit) if margin_m is None else not_negative("margin_m", margin_m, "metres")
@@ -107,7 +100,7 @@ def check(fence: Fence, maneuver: Maneuver | LegPlan, margin_m: float | None = N
     return FenceCheck(margin_m, closest_one, ordered, decimals_of(maneuver.orbit))
 
 
-def zones_on_circle(fence: Fence, maneuver: Maneuver, margin_m: float) -> tuple[str, ...]:
+def zones_on_circle(fence: Zones, maneuver: Maneuver, margin_m: float) -> tuple[str, ...]:
     """The names of the zones to which the circle of a hold, wherever it is joined, is closer than a margin."""
     path = flown_path(maneuver)
     hold = path.pieces.take([path.hold])
@@ -119,7 +112,7 @@ def zones_on_circle(fence: Fence, maneuver: Maneuver, margin_m: float) -> tuple[
     return tuple(names)
 
 
-def _check_start(fence: Fence, start: Pose) -> None:
+def _check_start(fence: Zones, start: Pose) -> None:
     """Raise `InvalidArgument` for a start on the wrong side of a zone; one that touches it is a breach."""
     for zones, distances in zip(_by_kind(fence), fence.signed_distances(start.east_m, start.north_m), strict=True):
         for zone, distance_m in zip(zones, distances.tolist(), strict=True):
@@ -127,7 +120,7 @@ def _check_start(fence: Fence, start: Pose) -> None:
                 raise InvalidArgument("pose", _wrong_side(zone))
 
 
-def _by_kind(fence: Fence) -> tuple[Sequence[Zone], Sequence[Zone]]:
+def _by_kind(fence: Zones) -> tuple[Sequence[Zone], Sequence[Zone]]:
     """The polygons and the circles."""
     return fence.polygons, fence.circle_zones
 

@@ -1,4 +1,4 @@
-"""Zones to stay in or out of, in local metres, and fences made of them."""
+"""Zones to stay in or out of, in local metres, and their distances."""
 
 from __future__ import annotations
 
@@ -9,15 +9,11 @@ from math import dist
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from loiter.errors import InvalidArgument, number, positive
-from loiter.fences.distances import to_edge
+from loiter.fences.distances import Edges, to_edge
 
 if TYPE_CHECKING:
-    from numpy import float64, intp
+    from numpy import float64
     from numpy.typing import NDArray
-
-    from loiter.fences.fence_check import FenceCheck
-    from loiter.planning.leg import LegPlan
-    from loiter.planning.maneuver import Maneuver
 
 # East and north of a corner, metres.
 Corner: TypeAlias = tuple[float, float]
@@ -83,21 +79,6 @@ class PolygonZone:
 Zone: TypeAlias = CircleZone | PolygonZone
 
 
-class Edges(NamedTuple):
-    """The edges of all polygons: from (ax, ay) to (bx, by), metres; `first` is the index of the first of each zone."""
-
-    ax: NDArray[float64]
-    ay: NDArray[float64]
-    bx: NDArray[float64]
-    by: NDArray[float64]
-    first: NDArray[intp]
-    zone: NDArray[intp]
-
-    def take(self, i: Any) -> Edges:
-        """The edges with the indices `i`, without their zones' first ones."""
-        return self._replace(ax=self.ax[i], ay=self.ay[i], bx=self.bx[i], by=self.by[i], zone=self.zone[i])
-
-
 class Circles(NamedTuple):
     """The circles: centres and radii, metres, and +1 for a circle to stay outside, -1 inside."""
 
@@ -108,18 +89,8 @@ class Circles(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Fence:
-    """Zones in local metres: the aircraft must be inside every inclusion zone and outside every other one.
-
-    That is the rule of PX4 since version 1.15, and of ArduPilot unless its FENCE_OPTIONS unite the inclusion zones.
-    Raises `InvalidArgument` for a fence without zones, and for inclusion zones that have no common point.
-
-    >>> from loiter import Aircraft, Orbit, Pose, plan
-    >>> from loiter.fences import CircleZone, Fence
-    >>> m = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0))
-    >>> print(Fence((CircleZone("mast", -150.0, 90.0, 60.0),)).check(m, margin_m=0.0).sentence())
-    The plan enters the zone 'mast' in 11.4 s, at 203 m west, 62 m north, by up to 17.7 m.
-    """
+class Zones:
+    """The zones of a `Fence`, as arrays and with their distances from a point."""
 
     zones: tuple[Zone, ...]
 
@@ -176,12 +147,6 @@ class Fence:
         deepest = min(sides)
         return zones[sides.index(deepest)] if deepest < 0.0 else None
 
-    def check(self, maneuver: Maneuver | LegPlan, margin_m: float | None = None) -> FenceCheck:
-        """Whether a maneuver or a leg, and its hold, stay farther from every zone than a margin: `fences.check`."""
-        from loiter.fences.fence_check import check
-
-        return check(self, maneuver, margin_m)
-
 
 def polygon_sign(zone: PolygonZone, east_m: Any, north_m: Any) -> Any:
     """+1 where a point, or each of an array of points, is on the allowed side of a polygon, otherwise -1."""
@@ -192,7 +157,7 @@ def polygon_sign(zone: PolygonZone, east_m: Any, north_m: Any) -> Any:
     return np.where(inside == zone.inclusion, 1.0, -1.0)
 
 
-def clear_points(fence: Fence, east_m: Any, north_m: Any, margin_m: float) -> Any:
+def clear_points(fence: Zones, east_m: Any, north_m: Any, margin_m: float) -> Any:
     """Which of many points (n,) are on the allowed side of every zone of a fence, farther from it than a margin."""
     import numpy as np
 

@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from typing import NamedTuple, TypeAlias
 
 from loiter.errors import OutOfRange, instance
-from loiter.fences.model import CircleZone, Fence, PolygonZone, Zone
+from loiter.fences.fence import Fence
+from loiter.fences.model import CircleZone, PolygonZone, Zone
 from loiter.geo.frame import REACH_M, LocalFrame
 
 

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from loiter.fences.distances import (
     Arcs,
+    Edges,
     Nearest,
     arc_circle_points,
     arc_edge_points,
@@ -28,7 +29,7 @@ from loiter.fences.distances import (
     first_within,
     to_edge,
 )
-from loiter.fences.model import Circles, CircleZone, Edges, Fence, PolygonZone, Zone, edges_of, polygon_sign
+from loiter.fences.model import Circles, CircleZone, PolygonZone, Zone, Zones, edges_of, polygon_sign
 from loiter.fences.pieces import Pieces
 
 if TYPE_CHECKING:
@@ -125,7 +126,15 @@ class Closest(NamedTuple):
         self.piece[zone[best]], self.time_s[zone[best]] = piece[best], time_s[best]
 
 
-def approach(fence: Fence, pieces: Pieces, margin_m: float) -> tuple[Closest, Closest]:
+def arcs_of(pieces: Pieces) -> Arcs:
+    """The arcs of pieces that are arcs of circles over the ground, as columns, to broadcast with edges."""
+    p = pieces.take((slice(None), None))
+    nx, ny = p.u * p.s, -p.u * p.c
+    angle = p.duration_s * p.speed / p.radius
+    return Arcs(p.x - p.radius * nx, p.y - p.radius * ny, p.radius, nx, ny, p.u, angle)
+
+
+def approach(fence: Zones, pieces: Pieces, margin_m: float) -> tuple[Closest, Closest]:
     """How close a path comes to the polygons, unsigned, and to the circles, negative where it is on their wrong side.
 
     The least of all is known to `RESOLUTION_M`, and so is every one that is at most the margin; from polygons only if
@@ -150,14 +159,14 @@ def approach(fence: Fence, pieces: Pieces, margin_m: float) -> tuple[Closest, Cl
 
 
 def _note_arcs_to_edges(closest: Closest, pieces: Pieces, bent: Any, edges: Edges) -> None:
-    found = arc_to_edge(Arcs.of(pieces.take(bent)), edges)
+    found = arc_to_edge(arcs_of(pieces.take(bent)), edges)
     _note(closest, found.distance, found.share, pieces, bent, edges.zone)
 
 
 def _note_arcs_to_circles(closest: Closest, pieces: Pieces, bent: Any, circles: Circles) -> None:
     import numpy as np
 
-    least, largest = arc_to_point(Arcs.of(pieces.take(bent)), circles.x, circles.y)
+    least, largest = arc_to_point(arcs_of(pieces.take(bent)), circles.x, circles.y)
     outside = circles.sign > 0.0
     distance = circles.sign * (np.where(outside, least.distance, largest.distance) - circles.radius)
     _note(closest, distance, np.where(outside, least.share, largest.share), pieces, bent, np.arange(circles.x.size))
@@ -383,7 +392,7 @@ def _first_touch(pieces: Pieces, simple: Any, zone: Zone) -> PlaceInPath:
     share, edges = np.full(pieces.x.size, np.inf), edges_of([zone] if isinstance(zone, PolygonZone) else [])
     bent, straight = ((simple & kind).nonzero()[0] for kind in (pieces.bent, pieces.u == 0.0))
     if bent.size:
-        arcs = Arcs.of(pieces.take(bent))
+        arcs = arcs_of(pieces.take(bent))
         if isinstance(zone, PolygonZone):
             share[bent] = first_within(*arc_edge_points(arcs, edges), TOUCH_M).min(axis=-1)
         else:

@@ -11,7 +11,8 @@ from heapq import heappop, heappush
 from math import cos, inf, pi
 from typing import Any
 
-from loiter.fences.model import CircleZone, Fence, Zone
+from loiter.fences.fence import Fence
+from loiter.fences.model import CircleZone, Zone
 from loiter.planning.problem import Problem
 
 # Points of the circle, corners of a quarter of a circle of a zone.

@@ -6,6 +6,7 @@ more than half a turn.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from math import pi, tau
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -15,6 +16,23 @@ if TYPE_CHECKING:
 
 # An arc that is shorter than a whole turn by less than this, radians, is none: rounding of angles.
 WHOLE_TURN = 1e-9
+
+
+class Word(NamedTuple):
+    """A path of up to three tightest turns and lines: the pose that it leads to, controls, lengths in turn radii."""
+
+    to: int
+    control: tuple[float, ...]
+    length: tuple[float, ...]
+
+
+class LeftWord(NamedTuple):
+    """A word that begins with a left turn, to many poses: controls, and lengths (n,), nan where there is none."""
+
+    control: tuple[float, float, float]
+    first: NDArray[float64]
+    middle: NDArray[float64]
+    last: NDArray[float64]
 
 
 class Words(NamedTuple):
@@ -28,6 +46,18 @@ class Words(NamedTuple):
     def take(self, i: Any) -> Words:
         """The words with the indices `i`."""
         return Words(*(column[i] for column in self))
+
+    @classmethod
+    def of(cls, words: Sequence[Word], radius: float) -> Words:
+        """Words of one turn radius, metres."""
+        import numpy as np
+
+        to = np.array([word.to for word in words], np.intp)
+        control, length = (
+            np.array(rows, float).reshape(-1, 3)
+            for rows in ([word.control for word in words], [word.length for word in words])
+        )
+        return cls(to, control, length * radius, np.full(length.shape, radius))
 
     @classmethod
     def joined(cls, several: Any) -> Words:
@@ -46,15 +76,16 @@ def words_between(x: float, y: float, angle: float, to_x: Any, to_y: Any, to_ang
     along, across, turned = dx * c + dy * s, dy * c - dx * s, to_angle - angle
     found = []
     for u in (1.0, -1.0):
-        for controls, lengths in _left_words(along, u * across, u * turned):
-            exists = np.isfinite(lengths).all(axis=1).nonzero()[0]
-            control = np.tile(np.array(controls) * u, (exists.size, 1))
+        for word in _left_words(along, u * across, u * turned):
+            lengths = np.stack([word.first, word.middle, word.last], axis=-1)
+            exists = np.flatnonzero(np.isfinite(lengths).all(axis=1))
+            control = np.tile(np.array(word.control) * u, (exists.size, 1))
             found.append(Words(exists, control, lengths[exists] * radius, np.full(control.shape, radius)))
     return Words.joined(found)
 
 
-def _left_words(x: Any, y: Any, turned: Any) -> list[tuple[tuple[float, float, float], Any]]:
-    """LSL, LSR and LRL from the origin along the x axis: controls and lengths (n, 3), nan where there is none."""
+def _left_words(x: Any, y: Any, turned: Any) -> Iterator[LeftWord]:
+    """LSL, LSR and LRL from the origin along the x axis."""
     import numpy as np
 
     left_x, left_y = x - np.sin(turned), y + np.cos(turned) - 1.0
@@ -63,14 +94,13 @@ def _left_words(x: Any, y: Any, turned: Any) -> list[tuple[tuple[float, float, f
         far = np.hypot(left_x, left_y)
         # Where both arcs are parts of one circle the straight line between them has no direction.
         ahead = np.where(far < WHOLE_TURN, 0.0, np.arctan2(left_y, left_x))
-        lsl = _arc(ahead), far, _arc(turned - ahead)
+        yield LeftWord((1.0, 0.0, 1.0), _arc(ahead), far, _arc(turned - ahead))
         cross = np.sqrt(right_x**2 + right_y**2 - 4.0)
         course = np.arctan2(right_y, right_x) + np.arctan2(2.0, cross)
-        lsr = _arc(course), cross, _arc(course - turned)
+        yield LeftWord((1.0, 0.0, -1.0), _arc(course), cross, _arc(course - turned))
         half = np.arccos(0.25 * far)
-        lrl = _arc(ahead + half + 0.5 * pi), pi + 2.0 * half, _arc(turned - ahead + half - 1.5 * pi)
-    words = (((1.0, 0.0, 1.0), lsl), ((1.0, 0.0, -1.0), lsr), ((1.0, -1.0, 1.0), lrl))
-    return [(controls, np.stack(np.broadcast_arrays(*lengths), axis=-1)) for controls, lengths in words]
+        first, last = _arc(ahead + half + 0.5 * pi), _arc(turned - ahead + half - 1.5 * pi)
+        yield LeftWord((1.0, -1.0, 1.0), first, pi + 2.0 * half, last)
 
 
 def _arc(angle: Any) -> Any:

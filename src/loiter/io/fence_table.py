@@ -8,7 +8,8 @@ from itertools import groupby
 from pathlib import Path
 
 from loiter.errors import file_path
-from loiter.fences.model import CircleZone, Fence, PolygonZone, Zone
+from loiter.fences.fence import Fence
+from loiter.fences.model import CircleZone, PolygonZone, Zone
 from loiter.io.reading import Source, shown
 
 COLUMNS = ("zone", "rule", "east_m", "north_m", "radius_m")
