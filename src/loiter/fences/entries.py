@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import inf, nan
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, instance
 from loiter.fences.fence import Fence
 from loiter.fences.fence_check import FenceCheck
 from loiter.planning.maneuver import Maneuver
@@ -65,6 +65,7 @@ def first_clear(fence: Fence, maneuvers: Sequence[Maneuver], margin_m: float | N
     Other entries than these are not tried: that none of them is clear does not say that there is none. `least_s` is
     the time of the fastest of them.
     """
+    instance("fence", fence, Fence)
     ordered = sorted(maneuvers, key=lambda maneuver: maneuver.duration_s)
     if not ordered:
         raise InvalidArgument("maneuvers", "has none to choose from")
