@@ -102,3 +102,26 @@ def test_what_is_wrong_is_said():
         plan_at(POSE, Orbit(0.0, 0.0, 20.0), UAV, time_s=60.0, bearing_deg=0.0)
     with pytest.raises(ImpossibleTime, match="none is sooner"):
         plan_at(POSE, ORBIT, UAV, time_s=5.0, bearing_deg=0.0)
+
+
+def test_a_little_later_than_two_arcs_is_another_path_or_none():
+    """Two opposite arcs meet where their circles touch up to rounding; whatever is flown takes the time asked for."""
+    uav, flown = Aircraft(18.0, max_bank_deg=35.0), 0
+    for east, heading in ((90.0, 0.0), (90.0, 20.0), (90.0, 210.0), (120.0, 120.0), (120.0, 160.0), (120.0, 290.0)):
+        fastest = plan(Pose(east, 60.0, heading), Orbit(0.0, 0.0, 80.0, "cw"), uav)
+        assert len(fastest.word) == 2
+        bearing_deg = math.degrees(math.atan2(fastest.join.east_m, fastest.join.north_m))
+        for share in (1.01, 1.2, 1.5):
+            time_s = fastest.duration_s * share
+            m = later(fastest, time_s, bearing_deg)
+            assert m is None or m.duration_s == pytest.approx(time_s, rel=1e-9)
+            flown += m is not None
+    assert flown >= 4
+
+
+def later(m, time_s, bearing_deg):
+    """The maneuver to a place at a time; None where that is impossible."""
+    try:
+        return plan_at(m.start, m.orbit, m.aircraft, time_s=time_s, bearing_deg=bearing_deg)
+    except ImpossibleTime:
+        return None

@@ -101,6 +101,18 @@ def _out(leg):
     return leg.orbit.east_m + 1.01 * east, leg.orbit.north_m + 1.01 * north
 
 
+def test_an_altitude_over_which_first_paths_jump_is_reached_just_in_time():
+    """By a longer path: two legs of `python -m planning.leg_collocation`, where first paths are later by 8 and 2 %."""
+    random = np.random.default_rng(3)
+    drawn = [random_leg(random)[:2] for _ in range(23)]
+    for number, less in ((21, 0.07), (22, 0.02)):
+        leg, uav = drawn[number]
+        plan = plan_leg(leg, uav)
+        assert plan.exit_s == pytest.approx(abs(leg.climb_m) / uav.descent_rate_m_s, rel=1e-12)
+        assert plan.duration_s < enumerated_s(leg, uav, Wind(0.0, 0.0)) * (1.0 - less)
+        assert plan.held_deg > 30.0
+
+
 def test_without_a_hold_the_leg_is_the_shortest_path_to_the_exit():
     p = plan_leg(Leg(POSE, ORBIT, EXIT), UAV)
     assert p.held_s == 0.0

@@ -84,7 +84,7 @@ add_command(
     3,
     """Plan the fastest landing by a circle beside the final approach: the entry, the way down, and the approach.
 
-It needs a start with --pose and --altitude, the runway (--runway, --elevation), the circle's --radius, the least length of the final approach (--final), the airspeed, one limit on the turn, and the --descent-rate. The circle touches the final approach, to its right or to its left, and is left at the altitude of the glide slope; side, place, turns and entry are those with the least time over the threshold.""",
+It needs a start with --pose and --altitude, the runway (--runway, --elevation), the circle's --radius, the least length of the final approach (--final), the airspeed, one limit on the turn, and the --descent-rate. The circle touches the final approach, to its right or to its left, and is left at the altitude of the glide slope; side, turns and entry are those with the least time over the threshold.""",
 )
 add_command(
     "batch:batch",

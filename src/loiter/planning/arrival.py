@@ -61,11 +61,21 @@ def arrivals_at(problem: Problem, time_s: float, bearing_deg: float) -> tuple[Ma
     time_s = positive("time_s", time_s, "seconds")
     bearing_deg = number("bearing_deg", bearing_deg, "degrees")
     placed = [_placed(problem, turn, time_s, bearing_deg) for turn in directions(problem.orbit.turn)]
-    found = [(path_of_length(one.arrival.at(one.time), one.time, one.tolerance), one) for one in placed]
+    found = [(_path(one), one) for one in placed]
     possible = sorted(((path, one) for path, one in found if path is not None), key=lambda pair: pair[0].turning)
     if not possible:
         raise _impossible(problem, placed, time_s, bearing_deg)
     return tuple(_maneuver(problem, path, one.turn, time_s, bearing_deg) for path, one in possible)
+
+
+def arrival_in(problem: Problem, turn: Turn, time_s: float, bearing_deg: float) -> Maneuver | None:
+    """The maneuver of `plan_at` in one direction; None where there is none."""
+    path = _path(_placed(problem, turn, time_s, bearing_deg))
+    return None if path is None else _maneuver(problem, path, turn, time_s, bearing_deg)
+
+
+def _path(one: PlacedArrival) -> ThreeArcs | None:
+    return path_of_length(one.arrival.at(one.time), one.time, one.tolerance)
 
 
 def _placed(problem: Problem, turn: Turn, time_s: float, bearing_deg: float) -> PlacedArrival:

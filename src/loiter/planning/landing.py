@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan2, degrees, hypot, inf, radians, sqrt, tan
+from math import atan2, degrees, hypot, radians, sqrt, tan
 from typing import TYPE_CHECKING
 
 from loiter.errors import InvalidArgument, WindTooStrong, instance, not_negative, number, positive
 from loiter.kernel.rounding import ROUNDING
 from loiter.planning.compass import heading_vector
-from loiter.planning.leg import Leg, LegPlan, climb_time_s, plan_leg
+from loiter.planning.leg import Leg, LegPlan, plan_leg
 from loiter.planning.maneuver import decimals_of
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind, circle_radius_m
 from loiter.planning.sides import directions, sign_of
@@ -18,11 +17,6 @@ from loiter.planning.sides import directions, sign_of
 if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import NDArray
-
-# Places of the circle that are tried where the nearest one may not be the best: their distance in turn radii, and how
-# many there are at most. The best of them is refined by steps that are halved so often; where a circle can be left just
-# in time, halving finds the nearest of its kind.
-STEP_RADII, MOST_PLACES, REFINEMENTS, HALVINGS = 0.5, 40, 6, 20
 
 # Both sides often give the same time, up to the rounding of times that halving finds.
 SAME_TIME = 1e-9
@@ -86,8 +80,8 @@ class Runway:
 class Landing:
     """A landing: from a pose with an altitude onto a circle beside the final approach, and down to the runway.
 
-    The circle has the radius `radius_m` and is left onto the final approach, `final_m` metres before the threshold or
-    farther, at the altitude of the glide slope there. `turn` is its direction: held clockwise it lies to the right of
+    The circle has the radius `radius_m` and is left onto the final approach, `final_m` metres before the threshold, at
+    the altitude of the glide slope there. `turn` is its direction: held clockwise it lies to the right of
     the approach, counter-clockwise to the left. Raises `InvalidArgument` for numbers that are not positive and finite,
     and for a pose without an altitude.
     """
@@ -111,18 +105,18 @@ class Landing:
             raise InvalidArgument("pose", "needs an altitude for a landing: Pose(..., altitude_m=...)")
         object.__setattr__(self, "radius_m", circle_radius_m("radius_m", self.radius_m))
         object.__setattr__(self, "final_m", positive("final_m", self.final_m, "metres"))
-        object.__setattr__(self, "turn", self.circle(self.turn, self.final_m).turn)
+        object.__setattr__(self, "turn", self.circle(self.turn).turn)
 
-    def circle(self, turn: Turn, distance_m: float) -> Orbit:
-        """The circle in one direction that touches the final approach at a distance before the threshold, metres."""
-        (east, north), (x, y) = heading_vector(self.runway.heading_deg), self.runway.before(distance_m)
+    def circle(self, turn: Turn) -> Orbit:
+        """The circle in one direction that touches the final approach `final_m` before the threshold."""
+        (east, north), (x, y) = heading_vector(self.runway.heading_deg), self.runway.before(self.final_m)
         side = self.radius_m * sign_of(turn) if turn in tuple(Turn) else 0.0
         return Orbit(x + side * north, y - side * east, self.radius_m, turn)
 
-    def leg(self, turn: Turn, distance_m: float) -> Leg:
+    def leg(self, turn: Turn) -> Leg:
         """The leg by that circle to the threshold, which leaves the circle at the altitude of the glide slope."""
-        threshold, altitude_m = self.runway.before(0.0), self.runway.glide_altitude_m(distance_m)
-        return Leg(self.pose, self.circle(turn, distance_m), threshold, altitude_m=altitude_m)
+        threshold, altitude_m = self.runway.before(0.0), self.runway.glide_altitude_m(self.final_m)
+        return Leg(self.pose, self.circle(turn), threshold, altitude_m=altitude_m)
 
 
 @dataclass(frozen=True)
@@ -171,12 +165,11 @@ class LandingPlan(LegPlan):
 
 
 def plan_landing(landing: Landing, aircraft: Aircraft, wind: Wind | None = None) -> LandingPlan:
-    """The plan of a landing with the least time over the threshold, among the sides and places of the circle.
+    """The plan of a landing with the least time over the threshold, among the sides of the circle.
 
-    The climb or descent to the altitude of the exit begins at once; the circle is flown as long as that takes. The
-    nearest place, `final_m` before the threshold, is the best one wherever the aircraft can be at its exit just when it
-    is at that altitude, or needs no hold; otherwise places farther out are searched (docs/legs.md). Where both sides
-    take the same time, the circle lies where the entry turns onto it in its direction.
+    The climb or descent to the altitude of the exit begins at once; the circle is flown as long as that takes. It
+    touches the final approach `final_m` before the threshold: docs/legs.md says why no place farther out is better.
+    Where both sides take the same time, the circle lies where the entry turns onto it in its direction.
     Raises the errors of `plan_leg`, `WindTooStrong` for a wind in which the aircraft cannot fly along the approach, and
     `InvalidArgument` for a glide slope steeper than the aircraft's descent rate allows, and for a final approach
     shorter than its turn radius.
@@ -194,7 +187,7 @@ def plan_landing(landing: Landing, aircraft: Aircraft, wind: Wind | None = None)
     instance("wind", air, Wind)
     speed_m_s = approach_speed_m_s(landing.runway, aircraft, air)
     _check_approach(landing, aircraft, speed_m_s)
-    plans = [_planned(landing, turn, aircraft, air, speed_m_s) for turn in directions(landing.turn)]
+    plans = [plan_leg(landing.leg(turn), aircraft, air) for turn in directions(landing.turn)]
     least_s = min(plan.duration_s for plan in plans)
     best = min((plan for plan in plans if plan.duration_s <= least_s * (1.0 + SAME_TIME)), key=_awkwardness)
     return LandingPlan(**vars(best), runway=landing.runway)
@@ -245,71 +238,3 @@ def _check_approach(landing: Landing, aircraft: Aircraft, speed_m_s: float) -> N
             f"is {landing.final_m:g}, too near the threshold to come out of a turn: it must be the turn radius at "
             f"least, {aircraft.turn_radius_m:.4g} m",
         )
-
-
-def _planned(landing: Landing, turn: Turn, aircraft: Aircraft, wind: Wind, speed_m_s: float) -> LegPlan:
-    """The plan in one direction: at the nearest place, or at a better one farther out."""
-
-    def at(distance_m: float) -> LegPlan:
-        return plan_leg(landing.leg(turn, distance_m), aircraft, wind)
-
-    nearest_m = landing.final_m
-    best, best_m = at(nearest_m), nearest_m
-    if _is_best(best):
-        return best
-    farthest_m = _farthest_m(best, landing, aircraft, speed_m_s)
-    step_m = max(STEP_RADII * aircraft.turn_radius_m, (farthest_m - nearest_m) / MOST_PLACES)
-    distance_m = nearest_m
-    while distance_m < farthest_m:
-        before_m, distance_m = distance_m, min(distance_m + step_m, farthest_m)
-        plan = at(distance_m)
-        if _is_best(plan):
-            plan, distance_m = _nearest_best(at, before_m, distance_m, plan)
-            farthest_m = distance_m
-        if plan.duration_s < best.duration_s:
-            best, best_m = plan, distance_m
-    for _ in range(REFINEMENTS):
-        step_m *= 0.5
-        for beside_m in (best_m - step_m, best_m + step_m):
-            plan = at(max(beside_m, nearest_m))
-            if plan.duration_s < best.duration_s:
-                best, best_m = plan, max(beside_m, nearest_m)
-    return best
-
-
-def _is_best(plan: LegPlan) -> bool:
-    """Whether nothing is sooner by any circle as near or farther on this side.
-
-    The aircraft is at the exit as soon as it can be there at all, or just when it is at its altitude.
-    """
-    climb_s = climb_time_s(plan.leg, plan.entry.aircraft)
-    return plan.held_deg == 0.0 or plan.exit_s <= climb_s * (1.0 + ROUNDING)
-
-
-def _nearest_best(
-    at: Callable[[float], LegPlan], worse_m: float, best_m: float, best: LegPlan
-) -> tuple[LegPlan, float]:
-    """The best plan at the least distance between two, by halving, and that distance."""
-    for _ in range(HALVINGS):
-        middle_m = 0.5 * (worse_m + best_m)
-        plan = at(middle_m)
-        if _is_best(plan):
-            best_m, best = middle_m, plan
-        else:
-            worse_m = middle_m
-    return best, best_m
-
-
-def _farthest_m(nearest: LegPlan, landing: Landing, aircraft: Aircraft, speed_m_s: float) -> float:
-    """The distance before the threshold beyond which the descent or climb and the approach alone take longer."""
-    runway, start_m = landing.runway, nearest.leg.pose.altitude_m
-    assert start_m is not None  # a landing has an altitude
-    assert aircraft.descent_rate_m_s is not None  # checked above
-    # Down to `level_m`, where the glide slope is as high as the start, each metre farther out saves some descent.
-    level_m = (start_m - runway.glide_altitude_m(0.0)) / runway.descent
-    slower = 1.0 / speed_m_s - runway.descent / aircraft.descent_rate_m_s
-    spare_s = nearest.duration_s - climb_time_s(nearest.leg, aircraft) - nearest.straight_s
-    by_descent_m = landing.final_m + (spare_s / slower if slower > 0.0 else inf)
-    if by_descent_m <= level_m or aircraft.climb_rate_m_s is None:
-        return max(min(by_descent_m, level_m), landing.final_m)
-    return max(min(by_descent_m, nearest.duration_s * speed_m_s), landing.final_m)

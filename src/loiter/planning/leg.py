@@ -12,8 +12,9 @@ from loiter.kernel.rounding import ROUNDING
 from loiter.kernel.wind.held import time_held
 from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.kernel.wind.paths import WindScene
-from loiter.kernel.wind.way_out import WayOut, entry_before, exit_point, soonest_exit
+from loiter.kernel.wind.way_out import Exit, WayOut, entry_before, exit_point, least_width, soonest_exit
 from loiter.kernel.wind.wind_search import scene_of
+from loiter.planning.arrival import arrival_in
 from loiter.planning.compass import wrapped
 from loiter.planning.feasibility import radius_in_turns, relative_wind
 from loiter.planning.maneuver import MAX_SAMPLES, Maneuver, decimals_of, maneuver_values, pose_values
@@ -30,6 +31,13 @@ if TYPE_CHECKING:
 # The longest hold, radians: 100,000 turns. Beyond, rounding of the angle flown displaces the point of joining by more
 # than 1e-10 of the radius.
 MOST_HELD = 1e5 * tau
+
+# Exits whose times differ by less than this share are at the same time: rounding of the halvings that find them.
+SAME_TIME = 1e-9
+
+# Where an altitude is reached in time on a longer path alone, so many points of joining are tried, so far apart on the
+# circle, radians: two turns of them, and the last one that is allowed.
+BETWEEN_JOINS, LONGER_PATHS = tau / 24.0, 49
 
 
 @dataclass(frozen=True)
@@ -230,13 +238,42 @@ def _planned(leg: Leg, problem: Problem, climb_s: float) -> LegPlan:
     )
     _check_length(out, scene)
     found = soonest_exit(out, scene)
-    entry, miss = entry_before(found, out, scene)
-    entered = maneuver(problem, entry, miss)
-    held_s = (found.time - found.path.time) * unit_s
+    hold = (_hold_in_time(found, out, scene, problem) if found.time > out.time * (1.0 + SAME_TIME) else None) or Hold(
+        maneuver(problem, *entry_before(found, out, scene)), found.width, found.time - found.path.time
+    )
     exit_ = _exit_pose(orbit, out, scene, r)
     straight_m = hypot(leg.exit_to[0] - exit_.east_m, leg.exit_to[1] - exit_.north_m)
-    _, speed_m_s = entered.over_ground(exit_)
-    return LegPlan(leg, entered, held_s, degrees(found.width), exit_, straight_m / speed_m_s)
+    _, speed_m_s = hold.entry.over_ground(exit_)
+    return LegPlan(leg, hold.entry, hold.time * unit_s, degrees(hold.width), exit_, straight_m / speed_m_s)
+
+
+class Hold(NamedTuple):
+    """An entry, the angle of the circle that is held after it, and its time in turn radii over airspeed."""
+
+    entry: Maneuver
+    width: float
+    time: float
+
+
+def _hold_in_time(late: Exit, out: WayOut, scene: WindScene, problem: Problem) -> Hold | None:
+    """A hold that ends just at the altitude, after a path onto the circle that is longer than the first one.
+
+    It is for altitudes over which the exits of first paths jump (docs/legs.md, section 3). Of the points of joining
+    that are tried it is the first at which there is such a path; None where there is none.
+    """
+    least = least_width(out, scene)
+    for k in range(1, LONGER_PATHS + 1):
+        width = max(least, late.width - k * BETWEEN_JOINS if k < LONGER_PATHS else least)
+        time = time_held(out.phase, width, scene.R, scene.wx, scene.wy)
+        if time < out.time:
+            x, y, _, _, _ = hold_pose(out.phase - width, out.side, scene.R, scene.wx, scene.wy)
+            join_s = (out.time - time) * problem.time_unit_s
+            entry = arrival_in(problem, problem.orbit.turn, join_s, degrees(atan2(x, y)))
+            if entry is not None:
+                return Hold(entry, width, time)
+        if width == least:
+            break
+    return None
 
 
 def _check_length(out: WayOut, scene: WindScene) -> None:

@@ -27,6 +27,9 @@ HALVINGS = 70
 # The arcs at the end of an interval are those next to it: this share of its width inside.
 BESIDE = 1e-7
 
+# Lengths that differ by less than this share count as one.
+SAME_LENGTH = 1e-9
+
 # The span of times in which crossings are sought at once, and the most of them that are tried.
 WINDOW, MOST_WINDOWS = 8.0, 10_000
 
@@ -176,10 +179,12 @@ def stretches(ends: Ends) -> Iterator[Stretch]:
     """All paths between two poses without whole turns more, each stretch with its shortest and its longest."""
     for family in families(ends):
         spare = family.distance if family.first == family.last else family.distance - 2.0
-        if spare <= ROUNDING * (1.0 + abs(ends.x) + abs(ends.y)):
+        touching = spare <= ROUNDING * (1.0 + abs(ends.x) + abs(ends.y))
+        if touching:
             arcs = on_one_circle(family) if family.first == family.last else on_touching_circles(family)
             yield Stretch(family, 0.0, 0.0, arcs, arcs)
-        if spare <= 0.0:
+        # Between opposite circles that touch nothing is longer than the two arcs by less than a gap.
+        if spare <= 0.0 or (touching and family.first != family.last):
             continue
         for a, b in pairwise(breaks(family)):
             middle = 0.5 * (a + b)
@@ -227,7 +232,9 @@ def path_of_length(ends: Ends, wanted: float, tolerance: float) -> ThreeArcs | N
         turns = turns_more(stretch, wanted, tolerance)
         if turns >= 0:
             path = path_within(stretch, wanted - TWO_PI * turns)
-            found.append(path._replace(t1=path.t1 + TWO_PI * turns))
+            # Next to two arcs that touch up to rounding the length jumps.
+            if abs(path.length + TWO_PI * turns - wanted) <= SAME_LENGTH * (1.0 + wanted):
+                found.append(path._replace(t1=path.t1 + TWO_PI * turns))
     return min(found, key=lambda path: path.turning, default=None)
 
 
