@@ -46,6 +46,8 @@ CALLS = [
     (Orbit(0.0, 0.0, 80.0, "cw", 1.0).after, {"time_s": 2.0}, "time_s"),
     (MANEUVER.over_ground, {"pose": POSE}, "pose"),
     (verify.certify, {"maneuver": MANEUVER}, "maneuver"),
+    (verify.certify_slot, {"maneuver": MANEUVER, "slot": loiter.Slot(0.0)}, "maneuver slot"),
+    (verify.certify_arrival, {"maneuver": MANEUVER, "time_s": 60.0, "bearing_deg": 0.0}, "maneuver"),
     (FRAME.place, {"pose": POSE}, "pose"),
     (guidance.LoiterEntry, SCENE, "orbit aircraft wind roll"),
     (guidance.LoiterEntry.exact, SCENE, "orbit aircraft wind"),

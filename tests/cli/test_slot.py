@@ -6,6 +6,7 @@ import pytest
 
 from loiter import Aircraft, Orbit, Pose, Slot, plan, plan_at
 from loiter.cli.app import main
+from loiter.verify.slot_certificate import BASIS_ARRIVAL
 
 PLAN = ["plan", "--pose", "-400", "120", "90", "--orbit", "0", "0", "120", "--airspeed", "18", "--bank", "35"]
 
@@ -32,10 +33,30 @@ def test_a_place_at_a_time(capsys):
     assert "turn right, radius 2" in capsys.readouterr().out
 
 
+def test_a_plan_into_a_slot_is_certified(capsys, tmp_path):
+    picture = tmp_path / "entry.svg"
+    assert main([*PLAN, "--slot", "200", "--certify", "--plot", str(picture)]) == 0
+    out = capsys.readouterr().out
+    assert "Certificate of LSR, counter-clockwise: valid." in out
+    assert "f (u - h k) >= 0 at T (5)" in out
+    assert "No arrival before 26.08" in out
+    assert (tmp_path / "entry-certificate.svg").stat().st_size > 1000
+
+
+def test_an_arrival_at_a_time_is_certified(capsys, tmp_path):
+    picture = tmp_path / "entry.svg"
+    assert main([*PLAN, "--arrive", "60", "--bearing", "200", "--certify", "--plot", str(picture)]) == 0
+    out = capsys.readouterr().out
+    assert "No least time is claimed" in out
+    assert "Possible times between" in out
+    assert [path.name for path in tmp_path.iterdir()] == ["entry.svg"]
+    assert main([*PLAN, "--arrive", "60", "--bearing", "200", "--certify", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["certificate"]["basis"] == BASIS_ARRIVAL
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ("--slot 200 --certify", "--slot cannot be combined with --certify"),
         ("--slot-at 3", "--slot-at needs --slot"),
         ("--slot nan", "--slot is nan"),
         ("--slot 20 --slot-at inf", "--slot-at is inf"),
@@ -46,7 +67,6 @@ def test_a_place_at_a_time(capsys):
         ("--arrive 0 --bearing 60", "--arrive is 0"),
         ("--arrive 60 --bearing nan", "--bearing is nan"),
         ("--arrive 60 --bearing 60 --slot 3", "--arrive cannot be combined with --slot"),
-        ("--arrive 60 --bearing 60 --certify", "--arrive cannot be combined with --certify"),
         ("--arrive 5 --bearing 200", "the next possible time is 23.861 s, none is sooner"),
     ],
 )

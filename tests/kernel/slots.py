@@ -1,9 +1,7 @@
 """First arrivals in slots beside Buzikov's step (arXiv 2210.03439), which shares no code with the kernel.
 
-The poses that a vehicle reaches in exactly the time t with a given heading lie inside curves that six words bound.
-Each of them is an arc of a circle or an involute, so the distance d of the slot from all of them is exact. A pose that
-can be reached at t + dt lies within a few dt of one with the slot's heading at t, so there is no arrival within
-d / `CLOSING`. `python -m kernel.slots 10000`, run in the folder `tests`, compares random slots in still air; `wind`
+The distances are those of `loiter.verify.slot_check`; here each scene makes a step at a time, and many scenes do so at
+once. `python -m kernel.slots 10000`, run in the folder `tests`, compares random slots in still air; `wind`
 takes slots in wind, `folds` slots next to a jump of the time, where two branches of a word meet or a word vanishes. A
 last number is the seed.
 """
@@ -17,17 +15,13 @@ import numpy as np
 from loiter.compiled.wind_solver import first_in_slot
 from loiter.kernel.wind.hold import phase_of
 from loiter.kernel.wind.wind_search import WindProblem
-
-# How fast slot and curves approach each other at most: the slot moves by 1, the end of the path by 1; their headings,
-# which differ by 2 dt at most, are made equal by another last piece, which moves the end by up to 3 times that angle.
-CLOSING = 8.0
+from loiter.verify.slot_check import CLOSING, distance, ground_speed, hold_time
 
 # The slot is reached where the distance is less; after that many steps the time so far is a lower bound alone.
 REACHED, STEPS = 1e-10, 2000
 
-# Longest step, and the nodes that integrate the time of a hold over it.
+# Longest step.
 LONGEST = 0.25
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 class Scenes(NamedTuple):
@@ -56,61 +50,6 @@ def random_scenes(random, n, windy=False):
     return Scenes(place, heading, R, w * np.exp(1j * random.uniform(0.0, tau, n)), way, random.uniform(0.0, tau, n))
 
 
-def ground_speed(azimuth, way, w):
-    """Of a hold, by the wind triangle, and the heading."""
-    track = 1j * way * np.exp(1j * azimuth)
-    across, along = (w * track.conjugate()).imag, (w * track.conjugate()).real
-    crab = np.sqrt(1.0 - across**2)
-    return crab + along, track * (crab - 1j * across)
-
-
-def hold_time(azimuth, width, scenes):
-    """The time to hold the circle from an azimuth on, by Gauss's quadrature."""
-    total = np.zeros_like(azimuth)
-    for node, weight in zip(NODES, WEIGHTS, strict=True):
-        g, _ = ground_speed(azimuth + scenes.way * width * 0.5 * (1.0 + node), scenes.way, scenes.wind)
-        total += 0.5 * weight / g
-    return scenes.R * width * total
-
-
-def distance(place, angle, t):
-    """The distance of places from the curves of all words that end with a heading at the time t, from 0 along 1."""
-    best = np.abs(place) + np.inf
-    for u in (1.0, -1.0):
-        turned = (u * angle) % tau
-        # A heading that only a single arc reaches in time: how far its end and its heading are from the slot's.
-        arc_end, short = 1j * u * (1.0 - np.exp(1j * u * t)), np.abs((turned - t + pi) % tau - pi)
-        best = np.minimum(best, np.maximum(np.abs(place - arc_end), 0.5 * CLOSING * short))
-        same = place - 1j * u * (1.0 - np.exp(1j * angle))
-        other = place - 1j * u * (1.0 + np.exp(1j * angle))
-        for k in range(3):
-            arcs = turned + tau * k
-            straight = t - arcs
-            for a in (0.0 * t, arcs, (u * np.angle(same)) % tau):
-                ok = (straight >= 0.0) & (a <= arcs)
-                best = np.where(ok, np.minimum(best, np.abs(same - straight * np.exp(1j * u * a))), best)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            tip = np.arcsin(-2.0 * u / np.abs(other))
-        for k in range(-2, 2):
-            more = turned + tau * k
-            least, most = np.maximum(more, 0.0), 0.5 * (t + more)
-            found = [least, most]
-            for direction in (np.angle(other) - tip, np.angle(other) - pi + tip):
-                found += [(u * direction) % tau + tau * n for n in range(3)]
-            for a in found:
-                end = (t - 2.0 * a + more - 2j * u) * np.exp(1j * u * a)
-                ok = (a >= least) & (a <= most)
-                best = np.where(ok, np.fmin(best, np.abs(other - end)), best)
-        for k in range(2):
-            middle = 0.5 * ((t - turned) % tau) + pi * k
-            most = t - middle
-            chord = 2j * u * (np.exp(-1j * u * middle) - 1.0)
-            for a in (0.0 * t, most, (u * (np.angle(same) - np.angle(chord))) % tau):
-                ok = (most >= 0.0) & (a <= most)
-                best = np.where(ok, np.minimum(best, np.abs(same - chord * np.exp(1j * u * a))), best)
-    return best
-
-
 def least_times(scenes, steps=STEPS):
     """For each scene a time before which there is no arrival, and distance and azimuth of the slot then.
 
@@ -133,10 +72,10 @@ def least_times(scenes, steps=STEPS):
         allowed = np.minimum(gap[going] / CLOSING, LONGEST)
         g, _ = ground_speed(azimuth[going], part.way, part.wind)
         width = 0.9 * allowed * g / part.R
-        took = hold_time(azimuth[going], width, part)
+        took = hold_time(azimuth[going], width, part.way, part.R, part.wind)
         short = took > allowed
         width = np.where(short, allowed * (1.0 - np.abs(part.wind)) / part.R, width)
-        took = np.where(short, hold_time(azimuth[going], width, part), took)
+        took = np.where(short, hold_time(azimuth[going], width, part.way, part.R, part.wind), took)
         times[active] += took
         azimuths[active] += part.way * width
     return times, gaps, azimuths
@@ -150,7 +89,9 @@ def closest_between(scenes, i, begin, azimuth, end, spacing=1e-3):
         widths = np.full(n, width / n)
         many = Scenes(*(np.repeat(field, n) for field in part))
         azimuths = azimuth + part.way[0] * widths * np.arange(n)
-        times = begin + np.concatenate([[0.0], np.cumsum(hold_time(azimuths, widths, many))[:-1]])
+        times = begin + np.concatenate(
+            [[0.0], np.cumsum(hold_time(azimuths, widths, many.way, many.R, many.wind))[:-1]]
+        )
         _, heading = ground_speed(azimuths, many.way, many.wind)
         start = np.exp(1j * many.heading)
         place = (many.R * np.exp(1j * azimuths) - many.wind * times - many.place) / start
@@ -197,7 +138,7 @@ def flown_miss(scenes, i, entry):
         g, _ = ground_speed(azimuth, way, w)
         width = min(left, 0.2) * g / one.R
         for _ in range(20):
-            took = hold_time(azimuth, width, one)
+            took = hold_time(azimuth, width, one.way, one.R, one.wind)
             if abs(float(took[0]) - min(left, 0.2)) < 1e-15:
                 break
             width *= min(left, 0.2) / took

@@ -32,7 +32,8 @@ def save_pictures(pictures: PictureOptions, certificates: Sequence[Certificate])
 
     Returns the files of the plan and of the certificate.
     """
-    if not certificates:
+    # A path that arrives at a given time has no adjoint to draw.
+    if not certificates or (certificates[0].maneuver.segments and not certificates[0].pieces):
         return [*pictures.plot]
     from loiter.plot.certificate import draw
 

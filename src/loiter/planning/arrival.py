@@ -60,7 +60,7 @@ def arrivals_at(problem: Problem, time_s: float, bearing_deg: float) -> tuple[Ma
     """The maneuvers of `plan_at` in the directions of the problem, one each where there is one, least turning first."""
     time_s = positive("time_s", time_s, "seconds")
     bearing_deg = number("bearing_deg", bearing_deg, "degrees")
-    placed = [_placed(problem, turn, time_s, bearing_deg) for turn in directions(problem.orbit.turn)]
+    placed = [placed_arrival(problem, turn, time_s, bearing_deg) for turn in directions(problem.orbit.turn)]
     found = [(_path(one), one) for one in placed]
     possible = sorted(((path, one) for path, one in found if path is not None), key=lambda pair: pair[0].turning)
     if not possible:
@@ -70,7 +70,7 @@ def arrivals_at(problem: Problem, time_s: float, bearing_deg: float) -> tuple[Ma
 
 def arrival_in(problem: Problem, turn: Turn, time_s: float, bearing_deg: float) -> Maneuver | None:
     """The maneuver of `plan_at` in one direction; None where there is none."""
-    path = _path(_placed(problem, turn, time_s, bearing_deg))
+    path = _path(placed_arrival(problem, turn, time_s, bearing_deg))
     return None if path is None else _maneuver(problem, path, turn, time_s, bearing_deg)
 
 
@@ -78,7 +78,7 @@ def _path(one: PlacedArrival) -> ThreeArcs | None:
     return path_of_length(one.arrival.at(one.time), one.time, one.tolerance)
 
 
-def _placed(problem: Problem, turn: Turn, time_s: float, bearing_deg: float) -> PlacedArrival:
+def placed_arrival(problem: Problem, turn: Turn, time_s: float, bearing_deg: float) -> PlacedArrival:
     """The arrival in one direction of the hold."""
     x, y, c0, s0, R, side, wx, wy, _ = problem.with_turn(turn).in_wind()
     time = time_s / problem.time_unit_s

@@ -4,14 +4,15 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from loiter.verify.certificate import Certificate, certify
+    from loiter.verify.slot_certificate import ArrivalCertificate, SlotCertificate, certify_arrival, certify_slot
 
-__all__ = ["Certificate", "certify"]
+__all__ = ["ArrivalCertificate", "Certificate", "SlotCertificate", "certify", "certify_arrival", "certify_slot"]
 
 
 def __getattr__(name: str) -> Any:
     # Imported on first use: the certificate needs the kernel, which the oracle must not load.
     if name in __all__:
-        from loiter.verify import certificate
+        from loiter.verify import certificate, slot_certificate
 
-        return getattr(certificate, name)
+        return getattr(certificate if name in ("Certificate", "certify") else slot_certificate, name)
     raise AttributeError(f"module 'loiter.verify' has no attribute {name!r}")

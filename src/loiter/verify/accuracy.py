@@ -61,7 +61,7 @@ class Accuracy(NamedTuple):
 
 def accuracy_of(trajectory: Trajectory, others: Sequence[Candidate]) -> Accuracy:
     """The accuracy of a trajectory's residuals; `others` are the candidates it is compared with."""
-    return _in_still_air(trajectory, others) if trajectory.problem.has_closed_form else _in_wind(trajectory)
+    return _in_still_air(trajectory, others) if trajectory.problem.has_closed_form else accuracy_in_wind(trajectory)
 
 
 def _of_difference(third_derivative: float, rounding: float) -> float:
@@ -148,7 +148,8 @@ def _turned_by_last_switch(trajectory: Trajectory, end: float, length: float) ->
     return moved / max(hypot(x, y), length)
 
 
-def _in_wind(trajectory: Trajectory) -> Accuracy:
+def accuracy_in_wind(trajectory: Trajectory) -> Accuracy:
+    """The accuracy of a trajectory whose adjoint is read off its pieces."""
     start, maneuver, T = trajectory.start, trajectory.maneuver, trajectory.duration
     length = rounding(start.q.real, start.q.imag, start.R)
     end = 3.0 * length + 2.0 * ROUNDING * T

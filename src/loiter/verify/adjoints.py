@@ -143,7 +143,7 @@ def _adjoints_in_wind(
     before = None
     for piece in pieces:
         if piece.u == 0:
-            yield _vanishing_at(start, pieces, piece, piece.e, 1.0)
+            yield vanishing_at(start, pieces, piece, piece.e, 1.0)
         elif before is not None and (before.u != 0 or before.t <= SHORT):
             yield from _transversal(start, pieces, piece)
         before = piece
@@ -151,7 +151,7 @@ def _adjoints_in_wind(
         _, middle, _ = pieces
         if middle.u:
             p = -middle.e * exp(0.5j * middle.u * middle.t)
-            yield _vanishing_at(start, pieces, middle, p, -cos(0.5 * middle.t))
+            yield vanishing_at(start, pieces, middle, p, -cos(0.5 * middle.t))
     if sum(piece.t > SHORT for piece in pieces) <= 1:
         yield from _of_single_arc(start, pieces)
 
@@ -163,7 +163,7 @@ def _transversal(start: RelativeStart, pieces: list[FlownPiece], switched: Flown
     across = inner(1j * turned, e + start.w) - k * inner(1j * turned, e)
     along = inner(turned, e + start.w) + k * (1.0 - inner(turned, e))
     for angle in (atan2(-along, across), atan2(along, -across)):
-        yield _vanishing_at(start, pieces, switched, turned * exp(1j * angle), cos(angle))
+        yield vanishing_at(start, pieces, switched, turned * exp(1j * angle), cos(angle))
 
 
 def _of_single_arc(start: RelativeStart, pieces: list[FlownPiece]) -> Iterator[InitialAdjoint]:
@@ -181,7 +181,7 @@ def _end(start: RelativeStart, pieces: list[FlownPiece]) -> tuple[complex, float
     return last.end.e, end_rate(start, last.end.q, last.end.e, last.u)
 
 
-def _vanishing_at(
+def vanishing_at(
     start: RelativeStart, pieces: list[FlownPiece], piece: FlownPiece, p: complex, lam: float
 ) -> InitialAdjoint:
     """The adjoint whose switching function vanishes at the start of a piece."""

@@ -99,6 +99,21 @@ class Certificate:
         return BASIS_THEOREM if self.proved_optimal else BASIS_NECESSARY
 
     @property
+    def claim(self) -> str:
+        """What a valid certificate shows, as a sentence."""
+        return BY_THE_THEOREM if self.proved_optimal else NOT_PROVED
+
+    @property
+    def source(self) -> str:
+        """Where the equations in parentheses are."""
+        return "of the paper, listed in docs/paper.md" if problem_of(self.maneuver).still else "in docs/wind.md"
+
+    @property
+    def comparison(self) -> str:
+        """What the maneuver was compared with, as a sentence."""
+        return _comparison(self)
+
+    @property
     def valid(self) -> bool:
         """Whether no condition is violated."""
         return not self.failed
@@ -162,7 +177,7 @@ class Certificate:
         }
 
     def __str__(self) -> str:
-        return "\n".join([*_head(self), *_table(self.residuals), *_legend(self), _comparison(self)])
+        return "\n".join([*_head(self), *_table(self.residuals), *_legend(self), self.comparison])
 
 
 def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
@@ -194,7 +209,7 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
         lam,
         psi,
         _choice(trajectory),
-        tuple(_switches(trajectory)),
+        tuple(switches_of(trajectory)),
         tuple(residuals(formulation, trajectory, accuracy, others)),
         others,
         trajectory.pieces,
@@ -217,7 +232,8 @@ def _others(maneuver: Maneuver, problem: Problem) -> tuple[Candidate, ...]:
     )
 
 
-def _switches(trajectory: Trajectory) -> Iterator[Switch]:
+def switches_of(trajectory: Trajectory) -> Iterator[Switch]:
+    """The switches of a trajectory, in order."""
     time = 0.0
     for before, after in pairwise(trajectory.pieces):
         time += before.t
@@ -253,7 +269,7 @@ def _head(certificate: Certificate) -> list[str]:
     verdict = "valid" if certificate.valid else f"NOT VALID, {len(certificate.failed)} conditions FAILED"
     lines = [f"Certificate of {maneuver.word or 'a start on the circle'}, {Turn(maneuver.turn).described}: {verdict}."]
     if certificate.valid:
-        lines.append(BY_THE_THEOREM if certificate.proved_optimal else NOT_PROVED)
+        lines.append(certificate.claim)
     if certificate.lam is not None and certificate.psi is not None:
         psi1, psi2 = certificate.psi
         lines.append(f"lambda = {certificate.lam:.6f}, psi = ({psi1:.6f}, {psi2:.6f}) at the start.")
@@ -275,7 +291,7 @@ def _table(residuals: tuple[Residual, ...]) -> Iterator[str]:
 
 
 def _legend(certificate: Certificate) -> Iterator[str]:
-    source = "of the paper, listed in docs/paper.md" if problem_of(certificate.maneuver).still else "in docs/wind.md"
+    source = certificate.source
     yield f"Numbers in parentheses: equations {source}; lengths in turn radii. docs/certificate.md explains each row."
 
 

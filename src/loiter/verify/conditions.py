@@ -59,7 +59,7 @@ def residuals(
     """The residual of every condition; those of the adjoint only where the maneuver has pieces."""
     yield from _check(formulation.arrival, trajectory, accuracy)
     if trajectory.pieces:
-        yield from _motions(formulation.motion, trajectory, accuracy)
+        yield from motion_residuals(formulation.motion, trajectory, accuracy)
         for name, equation in formulation.maximum_principle.items():
             off, bound = getattr(trajectory.violations, name), getattr(accuracy.maximum_principle, name)
             yield Residual(name, equation, off, bound)
@@ -75,7 +75,9 @@ def _check(conditions: Sequence[Condition], trajectory: Trajectory, accuracy: Ac
             yield Residual(condition.name, condition.equation, *violation)
 
 
-def _motions(motions: Sequence[EquationOfMotion], trajectory: Trajectory, accuracy: Accuracy) -> Iterator[Residual]:
+def motion_residuals(
+    motions: Sequence[EquationOfMotion], trajectory: Trajectory, accuracy: Accuracy
+) -> Iterator[Residual]:
     """The equations of motion by central differences along each piece."""
     for motion, bound in zip(motions, accuracy.motion, strict=True):
         off = 0.0

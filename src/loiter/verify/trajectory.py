@@ -28,6 +28,9 @@ from loiter.planning.problem import Problem, ReducedProblem
 # Instants checked in each piece. Once the extremes of psi1 and phi are added, both are monotone between instants.
 SAMPLES = 9
 
+# A turn is wide if its curvature is less than the tightest by more than this share.
+WIDER = 1e-9
+
 
 def inner(a: complex, b: complex) -> float:
     """The inner product of two vectors."""
@@ -250,10 +253,24 @@ def held_turn(maneuver: Maneuver) -> Turn:
     return Turn(maneuver.turn)
 
 
+def check_tight(maneuver: Maneuver) -> None:
+    """Raise `InvalidArgument` for a turn wider than the tightest, which no entry of least time has."""
+    r = maneuver.aircraft.turn_radius_m
+    for segment in maneuver.segments:
+        k = abs(segment.curvature_per_m) * r
+        if 0.0 < k < 1.0 - WIDER:
+            raise InvalidArgument(
+                "maneuver",
+                f"has a turn of {r / k:.6g} m, wider than the tightest of {r:.6g} m: its path is longer than need be, "
+                "and no condition of least time holds; certify_arrival checks the paths of plan_at",
+            )
+
+
 def word_of(maneuver: Maneuver) -> Word:
     """The word of a maneuver; raises `InvalidArgument` for letters that are not a word."""
     if not maneuver.segments:
         return Word.EMPTY
+    check_tight(maneuver)
     if maneuver.word not in Word.__members__ or maneuver.word == Word.EMPTY.name:
         known = ", ".join(word.letters for word in Word if word)
         raise InvalidArgument("maneuver", f"has the word {maneuver.word!r}: it must be one of {known}")

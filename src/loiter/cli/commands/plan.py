@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -47,7 +48,10 @@ from loiter.planning.model import Turn
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot
 from loiter.planning.solve import arrivals, best_and_others
+from loiter.verify.certificate import Certificate
 from loiter.writing import write_content
+
+Check = Callable[[Maneuver], Certificate]
 
 # The options of the command, in the order of its help.
 Tolerance = Annotated[
@@ -95,7 +99,7 @@ Certify = Annotated[
     bool,
     Parameter(
         group=output,
-        help="Check each maneuver shown against every condition of the maximum principle, and against the other extremals. --json adds the certificate of the first maneuver; --plot FILE draws it to FILE-certificate.",
+        help="Check each maneuver shown against every condition of the maximum principle, and against the other extremals; with --slot against an independent search for an earlier arrival, with --arrive its place and time alone. --json adds the certificate of the first maneuver; --plot FILE draws it to FILE-certificate.",
     ),
 ]
 Save = Annotated[
@@ -149,15 +153,21 @@ def plan(
     with fit_proposed():
         if slot is None and slot_at is None and arrive is None and bearing is None:
             best, others = best_and_others(problem)
+            check: Check = partial(loiter.verify.certify, tolerance_m=tolerance)
         else:
-            _check_free(arrive, slot, tolerance, certify=certify, fenced=fence.read(circle.site) is not None)
+            _check_free(arrive, slot, tolerance, fenced=fence.read(circle.site) is not None)
             if arrive is None and bearing is None:
-                best, others = _in_slot(problem, _slot(slot, slot_at))
+                place = _slot(slot, slot_at)
+                best, others = _in_slot(problem, place)
+                check = partial(loiter.verify.certify_slot, slot=place)
             else:
                 best, others = _at_time(problem, arrive, bearing)
+                assert arrive is not None  # `_at_time` needs both
+                assert bearing is not None
+                check = partial(loiter.verify.certify_arrival, time_s=arrive, bearing_deg=bearing)
     first, *ties = best
     shown = best if all_ else [first]
-    certified = [loiter.verify.certify(m, tolerance_m=tolerance) for m in shown if certify]
+    certified = [check(m) for m in shown if certify]
     # Files are written before pictures: they have more requirements, and if one fails, no picture is left.
     site, target = circle.site, _target(autopilot, uav)
     fenced = check_fence(fence, site, first, frame)
@@ -194,12 +204,11 @@ def plan(
     return 0 if is_clear and all(certificate.valid for certificate in certified) else CHECK_FAILED
 
 
-def _check_free(arrive: float | None, slot: float | None, tolerance: float, *, certify: bool, fenced: bool) -> None:
+def _check_free(arrive: float | None, slot: float | None, tolerance: float, *, fenced: bool) -> None:
     """Raise `InvalidArgument` for options that do not fit a slot or a prescribed time."""
     one = "slot" if arrive is None else "arrive_s"
-    for other, given in {"--certify": certify, "--fence": fenced}.items():
-        if given:
-            raise InvalidArgument(one, f"cannot be combined with {other}, which is for free entries")
+    if fenced:
+        raise InvalidArgument(one, "cannot be combined with --fence, which is for free entries")
     if arrive is not None and (slot is not None or tolerance != 0.0):
         other = "--slot" if slot is not None else "--tolerance"
         raise InvalidArgument(one, f"cannot be combined with {other}")

@@ -300,6 +300,19 @@ def last_time(arrival: Arrival, time: float) -> float:
     return nan
 
 
+def possible_times(arrival: Arrival, begin: float, end: float) -> list[tuple[float, float]]:
+    """The spans of times within an interval at which the pose can be reached, in order."""
+    spans: list[tuple[float, float]] = []
+    while begin < end:
+        until = min(begin + WINDOW, end)
+        for before, after in pairwise([begin, *crossing_times(arrival, begin, until), until]):
+            if after > before and is_in_time(arrival, 0.5 * (before + after)):
+                joined = bool(spans) and spans[-1][1] == before
+                spans[-1:] = [(spans[-1][0], after)] if joined else [*spans[-1:], (before, after)]
+        begin = until
+    return spans
+
+
 def crossing_times(arrival: Arrival, begin: float, end: float) -> list[float]:
     """The times in an interval, in order, at which a word has exactly that length, or LSR or RSL begins or ends."""
     found: list[float] = []

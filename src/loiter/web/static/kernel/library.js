@@ -1801,7 +1801,7 @@ if (truth(trajectory.pieces)) {
 start = trajectory.first.start;
 [lam, psi] = iter([trajectory.lam, [start.psi1, start.psi2]]);
 }
-return Certificate(maneuver, lam, psi, _choice(trajectory), tuple(_switches(trajectory)), tuple(residuals(formulation, trajectory, accuracy, others)), others, trajectory.pieces, mul(accuracy.tie, problem.time_unit_s), and(problem.has_closed_form, () => eq(tolerance_m, 0.0)));
+return Certificate(maneuver, lam, psi, _choice(trajectory), tuple(switches_of(trajectory)), tuple(residuals(formulation, trajectory, accuracy, others)), others, trajectory.pieces, mul(accuracy.tie, problem.time_unit_s), and(problem.has_closed_form, () => eq(tolerance_m, 0.0)));
 }
 
 const Instant = struct(class Instant extends Tuple {
@@ -1990,7 +1990,7 @@ return min(flown, { key: ((trajectory) => trajectory.worst_violation) });
 }
 
 function accuracy_of(trajectory, others) {
-return (truth(trajectory.problem.has_closed_form) ? accuracy__in_still_air(trajectory, others) : accuracy__in_wind(trajectory));
+return (truth(trajectory.problem.has_closed_form) ? accuracy__in_still_air(trajectory, others) : accuracy_in_wind(trajectory));
 }
 
 function target(trajectory, accuracy) {
@@ -2183,6 +2183,18 @@ return BASIS_VIOLATED;
 }
 return (truth(self.proved_optimal) ? BASIS_THEOREM : BASIS_NECESSARY);
 }
+get claim() {
+const self = this;
+return (truth(self.proved_optimal) ? BY_THE_THEOREM : NOT_PROVED);
+}
+get source() {
+const self = this;
+return (truth(problem_of(self.maneuver).still) ? "of the paper, listed in docs/paper.md" : "in docs/wind.md");
+}
+get comparison() {
+const self = this;
+return _comparison(self);
+}
 get valid() {
 const self = this;
 return !truth(self.failed);
@@ -2239,7 +2251,7 @@ arc = (eq(len(trajectory.maneuver.segments), 1) ? "a single arc" : ARC_BY_ROUNDI
 return `${str(arc)} has many psi: this is ${str((eq(trajectory.lam, 1.0) ? STRAIGHT_ENTRY : SWITCH_AT_START))}`;
 }
 
-function* _switches(trajectory) {
+function* switches_of(trajectory) {
 let after, before, letters, there, time;
 time = 0.0;
 for ([before, after] of rows(pairwise(trajectory.pieces))) {
@@ -2254,7 +2266,7 @@ function* residuals(formulation, trajectory, accuracy, others) {
 let bound, equation, name, off;
 yield* iter(_check(formulation.arrival, trajectory, accuracy));
 if (truth(trajectory.pieces)) {
-yield* iter(_motions(formulation.motion, trajectory, accuracy));
+yield* iter(motion_residuals(formulation.motion, trajectory, accuracy));
 for ([name, equation] of rows(items_(formulation.maximum_principle))) {
 [off, bound] = iter([trajectory.violations[name], accuracy.maximum_principle[name]]);
 yield Residual(name, equation, off, bound);
@@ -2262,7 +2274,7 @@ yield Residual(name, equation, off, bound);
 yield* iter(_check(formulation.further, trajectory, accuracy));
 yield* iter(gradient_residuals(formulation.gradient, trajectory, accuracy));
 }
-yield _comparison(trajectory, accuracy, others);
+yield conditions__comparison(trajectory, accuracy, others);
 }
 
 const Follower = struct(class Follower extends Values {
@@ -2845,7 +2857,7 @@ far = add(div(maneuver.length_m, maneuver.aircraft.turn_radius_m), reduced.R);
 return Accuracy(end, length, angle, (lt(mul(2.0, length), trajectory.miss) && le(trajectory.miss, end)), add(add(add(end, length), mul(_heading_rounding(maneuver), far)), _ground_rounding(maneuver)), [_of_difference(max(list(iter(pieces)).map((piece) => piece.radius), { default: 0.0 }), length), _of_difference(1.0, ROUNDING), _of_difference(1.0, length)], MaximumPrinciple(ROUNDING, angle, add(angle, choice), add(angle, mul(2.0, choice)), add(angle, choice), (eq(len(pieces), 1) ? angle : add(length, central))), add(angle, _turned_by_last_switch(trajectory, end, length)), tie);
 }
 
-function accuracy__in_wind(trajectory) {
+function accuracy_in_wind(trajectory) {
 let T, angle, beside, choice, end, join, length, maneuver, start, tolerance, turning;
 [start, maneuver, T] = iter([trajectory.start, trajectory.maneuver, trajectory.duration]);
 length = kernel.rounding(start.q.real, start.q.imag, start.R);
@@ -2858,6 +2870,22 @@ angle = mul(end, turning);
 choice = add(angle, math.sqrt(mul(mul(4.0, end), turning)));
 join = add(add(end, mul(_heading_rounding(maneuver), add(1.0, T))), _ground_rounding(maneuver));
 return Accuracy(end, length, angle, beside, join, mul([_of_difference(1.0, length)], 3), MaximumPrinciple(ROUNDING, choice, choice, mul(2.0, choice), choice, choice), choice, add(mul(WIND_TIE_TOLERANCE, add(add(1.0, start.R), T)), mul(2.0, _time_of_rounding(trajectory, length))));
+}
+
+function _comparison(certificate) {
+let count, runner_up, text, this_, ties;
+[count, runner_up] = iter([len(certificate.others), certificate.runner_up]);
+ties = join_(", ", list(iter(certificate.ties)).map((tie) => `${str(tie.word)} ${str(tie.turn)}`));
+text = `Compared with ${count} other ${str((eq(count, 1) ? "extremal" : "extremals"))}`;
+if ((truth(certificate.proved_optimal) && truth(certificate.pieces))) {
+this_ = (truth(count) ? `of the ${str(add(count, 1))} extremals with these words none is faster` : "this is the only extremal with one of them");
+text = `Theorem 1: in each direction the optimum is one of nine words; ${str(this_)}`;
+}
+text = add(text, (truth(ties) ? `; as fast: ${str(ties)}` : ""));
+if ((runner_up == null)) {
+return add(text, ".");
+}
+return `${str(text)}; the runner-up ${str(runner_up.word)} ${str(runner_up.turn)} takes ${format(runner_up.later_s, `.3g`)} s more.`;
 }
 
 function _instant(piece, began, s, unit_s) {
@@ -2895,7 +2923,7 @@ yield Residual(condition.name, condition.equation, ...iter(violation));
 }
 }
 
-function* _motions(motions, trajectory, accuracy) {
+function* motion_residuals(motions, trajectory, accuracy) {
 let bound, motion, off, piece, rise, s;
 for ([motion, bound] of rows(zip(motions, accuracy.motion))) {
 off = 0.0;
@@ -2955,7 +2983,7 @@ off = abs(sub(add(1.0, by_motion), abs(times.by_heading(slopes))));
 yield Residual("bellman", equations.bellman, off, mul(times.motion_size, gradient.bound));
 }
 
-function _comparison(trajectory, accuracy, others) {
+function conditions__comparison(trajectory, accuracy, others) {
 let note, other, sooner;
 [sooner, note] = iter([0.0, ""]);
 for (other of iter(others)) {
@@ -3250,7 +3278,7 @@ pieces = list(flown_pieces(start, controls, durations, InitialAdjoint(add(1.0, n
 before = null;
 for (piece of iter(pieces)) {
 if (eq(piece.u, 0)) {
-yield _vanishing_at(start, pieces, piece, piece.e, 1.0);
+yield vanishing_at(start, pieces, piece, piece.e, 1.0);
 } else {
 if (((before != null) && (ne(before.u, 0) || le(before.t, SHORT)))) {
 yield* iter(_transversal(start, pieces, piece));
@@ -3262,7 +3290,7 @@ if (eq(len(pieces), 3)) {
 [_, middle, _] = iter(pieces);
 if (truth(middle.u)) {
 p = mul(neg(middle.e), cmath.exp(mul(mul(new Complex(0.0, 0.5), middle.u), middle.t)));
-yield _vanishing_at(start, pieces, middle, p, neg(math.cos(mul(0.5, middle.t))));
+yield vanishing_at(start, pieces, middle, p, neg(math.cos(mul(0.5, middle.t))));
 }
 }
 if (le(sum(list(iter(pieces)).map((piece) => gt(piece.t, SHORT))), 1)) {
@@ -3553,7 +3581,7 @@ this.phi = phi;
 }
 }, ["p", "lam", "phi"], 'InitialAdjoint');
 
-function _vanishing_at(start, pieces, piece, p, lam) {
+function vanishing_at(start, pieces, piece, p, lam) {
 let elapsed;
 elapsed = sum(list(iter(sliced(pieces, null, index_(pieces, piece), null))).map((before) => before.t));
 return InitialAdjoint(p, lam, inner(p, mul(new Complex(0.0, 1.0), sub(sub(piece.q, start.q), mul(start.w, elapsed)))));
@@ -3565,7 +3593,7 @@ let across, along, angle, e, k, turned;
 across = sub(inner(mul(new Complex(0.0, 1.0), turned), add(e, start.w)), mul(k, inner(mul(new Complex(0.0, 1.0), turned), e)));
 along = add(inner(turned, add(e, start.w)), mul(k, sub(1.0, inner(turned, e))));
 for (angle of iter([math.atan2(neg(along), across), math.atan2(along, neg(across))])) {
-yield _vanishing_at(start, pieces, switched, mul(turned, cmath.exp(mul(new Complex(0.0, 1.0), angle))), math.cos(angle));
+yield vanishing_at(start, pieces, switched, mul(turned, cmath.exp(mul(new Complex(0.0, 1.0), angle))), math.cos(angle));
 }
 }
 
@@ -3827,6 +3855,8 @@ const BAND = Band();
 const BASIS_VIOLATED = "a condition is violated";
 const BASIS_THEOREM = "docs/proof.md, theorem 1, up to rounding";
 const BASIS_NECESSARY = "necessary conditions only";
+const BY_THE_THEOREM = "Optimal, up to rounding, by theorem 1 of docs/proof.md.";
+const NOT_PROVED = "Not proved to be optimal: these conditions are necessary ones, and no extremal that was found is faster.";
 const ON_THE_CIRCLE = "the start is on the circle: there is nothing to decide, and the target is all there is to check";
 const ARC_IN_WIND = "a single arc has many adjoints: this is the one that violates the conditions least";
 const UNIQUE_IN_WIND = "the adjoint is unique: the pieces and the condition at the circle determine it";
