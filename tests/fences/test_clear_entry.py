@@ -136,7 +136,7 @@ def test_an_entry_in_wind_is_clear_and_joins():
 
 
 def test_a_wind_that_vanishes_gives_the_entry_of_still_air():
-    """Up to the chords of trochoids, which keep 3 cm more from what they touch."""
+    """Up to the chords of trochoids, which keep 2 cm more from what they touch."""
     fence = Fence((CircleZone("mast", -300.0, 10.0, 20.0),))
     still = clear_entry(fence, POSE, ORBIT, UAV, margin_m=10.0)
     light = clear_entry(fence, POSE, ORBIT, UAV, Wind(1e-9, 250.0), margin_m=10.0)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from loiter.batch.jobs import job
     from loiter.batch.jobs.job import JobProgress as JobProgress
     from loiter.batch.jobs.job import JobSummary as JobSummary
+    from loiter.fences import Fence, PlacedFence
 else:
     job = LazyModule("loiter.batch.jobs.job")
 
@@ -42,6 +43,8 @@ def run(
     origin: LocalFrame | None = None,
     columns: Mapping[str, str] | None = None,
     tolerance_m: float = 0.0,
+    fence: Fence | PlacedFence | None = None,
+    margin_m: float | None = None,
     workers: int | None = None,
     scheduler: str | None = None,
     rejects: str | os.PathLike[str] | None = None,
@@ -58,6 +61,8 @@ def run(
     to columns with other names or units: {"east_m": "X_East [ft]"}; docs/batch.md says how. Positions in degrees are
     columns `latitude_deg` and `longitude_deg`; `origin` is then the local frame of the metres of `orbit`, unless each
     row gives its circle in degrees, too.
+    A table with columns of the point flown to, `exit_east_m` and `exit_north_m`, has legs: docs/batch.md. With a
+    `fence`, in degrees where the table is, each row is checked against it by the margin `margin_m`, metres.
     `workers` is the number of threads that solve, by default that of the cores; `scheduler` is the address of the
     scheduler of a Dask cluster that does this instead. `rejects` is a CSV file to write: the malformed lines of CSV
     files, with file, line number, problem and text. `progress` is called periodically.
@@ -77,7 +82,7 @@ def run(
 
     count, given = (
         _workers(workers, scheduler),
-        shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns, tolerance_m),
+        shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns, tolerance_m, fence, margin_m),
     )
     kept = None if rejects is None else Path(file_path("rejects", rejects))
     request = check_request(file_path("source", source), file_path("target", target), given, kept)
@@ -95,13 +100,16 @@ def plan(
     origin: LocalFrame | None = None,
     columns: Mapping[str, str] | None = None,
     tolerance_m: float = 0.0,
+    fence: Fence | PlacedFence | None = None,
+    margin_m: float | None = None,
 ) -> AnyFrame:
     """The fastest entries of the rows of a data frame of pandas, Dask, Polars or Arrow: the same with added columns.
 
     The frame has columns as docs/batch.md describes them: `east_m`, `north_m` in metres, `heading_deg` in degrees, and
     others in place of the arguments. The added columns are those of `run`: times in seconds, the point of joining in
     metres and degrees; word, turn and status are categories. A pandas frame keeps its index, and a Dask frame stays
-    lazy. The arguments are those of `run`, `orbit_velocity_m_s` in metres per second and `tolerance_m` in metres.
+    lazy. The arguments are those of `run`, `orbit_velocity_m_s` in metres per second, `tolerance_m` and `margin_m` in
+    metres.
 
     A row that cannot be solved gets nan and a status. Raises `InvalidArgument` for something that is no data frame, for
     columns that are missing, given twice or of another type, and for arguments that cannot be used; `MissingPackage`.
@@ -110,7 +118,9 @@ def plan(
     from loiter.batch.frames import plan_frame
     from loiter.batch.tables.columns import shared_values
 
-    options = shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns, tolerance_m)
+    options = shared_values(
+        orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns, tolerance_m, fence, margin_m
+    )
     planned: AnyFrame = plan_frame(frame, options)
     return planned
 

@@ -10,9 +10,31 @@ import pyarrow as pa
 import pyarrow.compute as pc
 
 from loiter.arrays.entries import UNKNOWN, States, entries
+from loiter.batch.rows import planned_rows, word_code
 from loiter.batch.tables import views
-from loiter.batch.tables.columns import STATUSES, TOLERANCE, TURN_NAMES, WORDS, Columns, carried_columns, number_columns
-from loiter.batch.tables.mapping import AIRSPEED, HEADING, ORBIT, ORBIT_PLACE, PLACE, POSE, TURN, VELOCITY, WIND
+from loiter.batch.tables.columns import (
+    LEG_WORDS,
+    STATUSES,
+    TOLERANCE,
+    TURN_NAMES,
+    WORDS,
+    Columns,
+    carried_columns,
+    number_columns,
+)
+from loiter.batch.tables.mapping import (
+    AIRSPEED,
+    EXIT,
+    EXIT_PLACE,
+    HEADING,
+    ORBIT,
+    ORBIT_PLACE,
+    PLACE,
+    POSE,
+    TURN,
+    VELOCITY,
+    WIND,
+)
 from loiter.batch.tables.types import convert
 from loiter.geo.frame import from_plane, to_plane
 from loiter.kernel.statuses import Status
@@ -27,10 +49,22 @@ if TYPE_CHECKING:
 # "nan" and "inf", which a cast accepts too, would be refused later anyway.
 NUMBER_LINE = f"^{NUMBER}$"
 
-_WORD_INDEX = np.zeros(64, dtype=np.int8)
-_WORD_INDEX[list(WORDS)] = range(len(WORDS))
-_WORDS = views.text_column([word.letters for word in WORDS])
 _TURNS, _STATUSES = views.text_column(TURN_NAMES), views.text_column(STATUSES)
+
+
+class Words:
+    """Words as text, by their codes."""
+
+    def __init__(self, words: tuple[str, ...]) -> None:
+        self.names, self._index = views.text_column(words), np.zeros(64, dtype=np.int8)
+        self._index[[word_code(word) for word in words]] = range(len(words))
+
+    def column(self, codes: NDArray[np.int8]) -> tuple[NDArray[np.int8], pa.Array]:
+        """The indices of words, and the words."""
+        return self._index.take(codes), self.names
+
+
+_WORDS, _LEG_WORDS = Words(WORDS), Words(LEG_WORDS)
 
 
 def solve_batch(batch: pa.RecordBatch, columns: Columns, schema: pa.Schema) -> pa.RecordBatch:
@@ -54,23 +88,37 @@ def added_columns(batch: pa.RecordBatch, columns: Columns) -> list[pa.Array]:
         malformed = views.to_numpy(batch.column(-1)) != 0
         numbers = {**numbers, HEADING: np.where(malformed, nan, numbers[HEADING])}
     in_plane = _in_plane(numbers, columns) if columns.is_placed else numbers
-    found = entries(_states(batch, columns, in_plane))
-    results: dict[str, Any] = found._asdict()
+    states = _states(batch, columns, in_plane)
+    found, more = entries(states), dict[str, Any]()
+    if columns.one_by_one:
+        origin = _origin(numbers, columns) if columns.is_placed else None
+        found, more = planned_rows(found, in_plane, states.side, origin, columns)
+    results: dict[str, Any] = found._asdict() | more
     if columns.is_placed:
         results |= _join_on_earth(found, numbers, columns)
         far = (found.status == Status.BAD_POSE) & np.isnan(in_plane["east_m"]) & _are_places(numbers)
         results["status"] = np.where(far, np.int8(Status.OUT_OF_RANGE), found.status)
     status = np.where(malformed, np.int8(Status.MALFORMED), results["status"]) if columns.text else results["status"]
     text = {
-        "word": (_WORD_INDEX.take(found.word), _WORDS),
+        "word": (_LEG_WORDS if columns.has_legs else _WORDS).column(found.word),
         TURN: (found.side + np.int8(1), _TURNS),
         "status": (status, _STATUSES),
     }
+    if columns.fence is not None:
+        text["zone"] = _zones(results["zone"], columns)
     encoded = {
         name: pa.DictionaryArray.from_arrays(views.from_numpy(indices), values)
         for name, (indices, values) in text.items()
     }
     return [encoded[name] if name in encoded else views.from_numpy(results[name]) for name in columns.added.names]
+
+
+def _zones(names: list[str], columns: Columns) -> tuple[NDArray[np.int32], pa.Array]:
+    """The indices of the zones that rows enter first, and all zones; the first one is none."""
+    assert columns.fence is not None
+    known = dict.fromkeys(["", *(zone.name for zone in columns.fence.zones)])
+    index = {name: i for i, name in enumerate(known)}
+    return np.array([index[name] for name in names], np.int32), views.text_column(tuple(known))
 
 
 def _number_values(batch: pa.RecordBatch, columns: Columns) -> dict[str, Any]:
@@ -108,6 +156,9 @@ def _in_plane(numbers: dict[str, Any], columns: Columns) -> dict[str, Any]:
     latitude, longitude = _origin(numbers, columns)
     east, north, convergence = to_plane(latitude, longitude, *(numbers[name] for name in PLACE))
     local = {"east_m": east, "north_m": north, HEADING: numbers[HEADING] + convergence}
+    if columns.has_legs:
+        exit_east, exit_north, _ = to_plane(latitude, longitude, *(numbers[name] for name in EXIT_PLACE))
+        local |= zip(EXIT, (exit_east, exit_north), strict=True)
     if columns.origin is None:
         local["orbit_east_m"] = np.where(_is_place(latitude, longitude), 0.0, nan)
     return {**numbers, **local}

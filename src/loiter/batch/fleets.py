@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from loiter.batch.tables.mapping import HEADING, LOCAL, PLACE, POSE, MappedColumn, likely_column, mapped_columns
+from loiter.batch.tables.mapping import ENTRY, HEADING, LOCAL, PLACE, POSE, MappedColumn, likely_column, mapped_columns
 from loiter.errors import InvalidArgument
 from loiter.planning.units import parse_number
 
@@ -79,7 +79,7 @@ def _columns(path: Path, names: list[str], given: Mapping[str, str]) -> tuple[li
             hint = f"; if {likely!r} is it, give --map {name}={likely!r}" if likely else ""
             raise _fault(path, f"it has no column {name}: it needs {', '.join(wanted)}{hint}")
     for name, column in mapped.items():
-        if name not in (*POSE, *PLACE):
+        if name in ENTRY and name not in (*POSE, *PLACE):
             raise _fault(
                 path, f"it has a column {column.name}, but all aircraft of a fleet share that: give the option"
             )

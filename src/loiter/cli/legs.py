@@ -28,13 +28,14 @@ from loiter.writing import write_content
 
 way_out = Group("The way out", sort_key=4)
 
+CLIMB_RATE_HELP, DESCENT_RATE_HELP = "Rate at which it climbs.", "Rate at which it descends."
 ClimbRate = Annotated[
     float | None,
-    Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S", help="Rate at which it climbs."),
+    Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S", help=CLIMB_RATE_HELP),
 ]
 DescentRate = Annotated[
     float | None,
-    Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S", help="Rate at which it descends."),
+    Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S", help=DESCENT_RATE_HELP),
 ]
 Save = Annotated[
     tuple[Path, ...],

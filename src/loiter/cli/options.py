@@ -549,6 +549,21 @@ class FenceOptions:
 
 @Parameter(name="*")
 @dataclass(frozen=True)
+class BatchFenceOptions(FenceOptions):
+    """A fence against which each row of a table is checked."""
+
+    fence: Annotated[
+        Path | None,
+        Parameter(
+            group=scene,
+            metavar="FILE",
+            help="Fence of polygons and circles, in the formats of loiter plan: a .csv where the table is in metres. Columns say whether each row stays clear, and if not, which zone it enters when, and the time of the fastest clear entry found.",
+        ),
+    ] = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
 class LegFenceOptions(FenceOptions):
     """A fence, of which a whole leg is checked."""
 

@@ -34,10 +34,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 # How far a chord may be from its part of a trochoid, metres: clear paths in wind are farther from a zone by this.
-CHORD_ERROR_M = 0.02
+CHORD_ERROR_M = 0.01
 
-# How much farther than the margin a path passes what it touches: enough for it to be called clear.
-STILL_AIR_GAP_M, WIND_GAP_M = 10.0 * TOUCH_M, 1.5 * CHORD_ERROR_M
+# How much farther than the margin a path passes what it touches: enough for it to be called clear. In wind its chords
+# may be nearer to a zone about which it bends by the error of a chord, and must be farther than the margin by that.
+STILL_AIR_GAP_M, WIND_GAP_M = 10.0 * TOUCH_M, 2.1 * CHORD_ERROR_M
 
 # The six words of three pieces.
 SIX = [set_of(encode(u, v, w)) for u, v, w in ((1, 0, 1), (-1, 0, -1), (1, 0, -1), (-1, 0, 1), (1, -1, 1), (-1, 1, -1))]

@@ -35,8 +35,9 @@ from loiter.planning.solve import extremals
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-# The first search has one contact for each step of `contacts`; where it finds nothing, one with half the steps follows.
-REFINED = (1, 2)
+# The first search has one contact for each step of `contacts`; where it finds nothing, or nothing that is less than
+# `LATE` turn radii longer than the fastest entry, one with half the steps follows.
+REFINED, LATE = (1, 2), 1.0
 
 # Chains that are longer than the first one by up to so many turn radii are refined too, up to so many of them.
 SLACK, MOST_CHAINS = 0.5, 4
@@ -80,7 +81,8 @@ def clear_entry(
         return found._replace(blocking=blocking, least_s=inf)
     fastest_m_s = aircraft.airspeed_m_s + problem.wind.speed_m_s
     least_s = max(known[0].duration_s, least_length_m(fence, problem, margin_m) / fastest_m_s)
-    best = _Search(fence, problem, margin_m).fastest(found.maneuver) if least_s < inf else None
+    enough_m = known[0].length_m + LATE * aircraft.turn_radius_m
+    best = _Search(fence, problem, margin_m).fastest(found.maneuver, enough_m) if least_s < inf else None
     if best is None:
         return found._replace(searched=True, least_s=least_s)
     later_s = best.duration_s - known[0].duration_s
@@ -102,15 +104,18 @@ class _Search:
         c, s = heading_vector(problem.pose.heading_deg)
         self._start = Pose2(problem.pose.east_m, problem.pose.north_m, atan2(s, c))
 
-    def fastest(self, known: Maneuver | None) -> Maneuver | None:
-        """The fastest of the clear maneuvers found, and of the one that is known, if any."""
+    def fastest(self, known: Maneuver | None, enough_m: float) -> Maneuver | None:
+        """The fastest of the clear maneuvers found, and of the one that is known, if any.
+
+        One that is shorter through the air than `enough_m` ends the search.
+        """
         best = known
         for refined in REFINED:
             for maneuver in self._maneuvers(refined, inf if known is None else known.length_m):
                 faster = best is None or maneuver.duration_s < best.duration_s
                 if faster and self._fence.check(maneuver, self._margin_m).clear:
                     best = maneuver
-            if best is not None:
+            if best is not None and best.length_m < enough_m:
                 break
         return best
 

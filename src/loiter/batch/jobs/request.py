@@ -88,7 +88,7 @@ def _check_rejects_apart(rejects: Path, source: Source, target: Target) -> None:
 
 def row_limits(request: JobRequest) -> tuple[int, int]:
     """The number of rows of a part and of a batch."""
-    if may_drift(request.columns):
+    if may_drift(request.columns) or request.columns.one_by_one:
         return files.PART_ROWS_IN_WIND, files.BATCH_ROWS_IN_WIND
     return files.PART_ROWS, files.BATCH_ROWS
 

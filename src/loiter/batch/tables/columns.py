@@ -5,19 +5,24 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields
-from typing import NamedTuple
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
 
 import pyarrow as pa
 
 from loiter.batch.tables.mapping import (
     AIRSPEED,
+    EXIT,
+    EXIT_PLACE,
     HEADING,
+    LEG,
     LOCAL,
     ORBIT,
     ORBIT_PLACE,
     PLACE,
     POSE,
     RADIUS,
+    RATES,
     TURN,
     VELOCITY,
     WIND,
@@ -30,7 +35,10 @@ from loiter.errors import InvalidArgument, instance, not_negative
 from loiter.geo import LocalFrame
 from loiter.kernel.statuses import Status
 from loiter.kernel.words import Word
-from loiter.planning.model import TURN_LIMITS, Aircraft, Orbit, Turn, Wind
+from loiter.planning.model import CONTROLS, TURN_LIMITS, Aircraft, Orbit, Turn, Wind
+
+if TYPE_CHECKING:
+    from loiter.fences import Fence, PlacedFence
 
 _TEXT = pa.dictionary(pa.int8(), pa.string())
 
@@ -39,15 +47,28 @@ LISTED = 8
 
 _NUMBER = pa.float64()
 
+_ZONE = pa.dictionary(pa.int32(), pa.string())
+
 TOLERANCE = "tolerance_m"
 
 # The point of joining in the plane, or on Earth.
 _JOIN, _JOIN_PLACE = ("join_east_m", "join_north_m"), ("join_latitude_deg", "join_longitude_deg")
 
-# The values of the added text columns: words by index, turns by the code of the side plus 1, statuses by code.
-WORDS = tuple(Word)
+# The values of the added text columns: words by index, turns by the code of the side plus 1, statuses by code. The
+# path onto the circle of a leg may have other words than entries.
+WORDS = tuple(word.letters for word in Word)
+LEG_WORDS = tuple("".join(letters) for count in range(4) for letters in product(CONTROLS, repeat=count))
 TURN_NAMES = ("ccw", "", "cw")
-STATUSES = tuple(status.name.lower() for status in Status)
+
+# What is wrong with a row, by status; those of legs and fences follow those of the kernel.
+MESSAGES = {status.name.lower(): status.message for status in Status} | {
+    "bad_leg": (
+        "a leg needs a circle that stands still, a point outside it, a hold and turns that are zero or positive, and "
+        "for an altitude at the exit that of the start and the rate of climb or descent"
+    ),
+    "bad_fence": "the start is on the wrong side of a zone, or the fence is more than 100 km away",
+}
+STATUSES = tuple(MESSAGES)
 
 
 class SharedValues(NamedTuple):
@@ -61,6 +82,8 @@ class SharedValues(NamedTuple):
     turn: Turn | None
     origin: LocalFrame | None = None
     mapped: Mapping[str, str] = {}
+    fence: Fence | PlacedFence | None = None
+    margin_m: float | None = None
 
 
 @dataclass(frozen=True)
@@ -79,15 +102,38 @@ class Columns:
     is_placed: bool
     origin: LocalFrame | None
     text: bool
+    fence: Fence | PlacedFence | None = None
+    margin_m: float | None = None
+    has_legs: bool = False
 
     @property
     def added(self) -> pa.Schema:
         """The columns that the output has in addition to those of the input."""
-        return added_schema(is_placed=self.is_placed)
+        return added_schema(is_placed=self.is_placed, more=self.more)
+
+    @property
+    def more(self) -> dict[str, pa.DataType]:
+        """The added columns of legs and of a fence."""
+        legs = ("held_s", "held_deg", "exit_s", "arrival_s") if self.has_legs else ()
+        found = dict.fromkeys(legs, _NUMBER)
+        if self.fence is not None:
+            found |= {"clearance_m": _NUMBER, "zone": _ZONE, "zone_s": _NUMBER}
+            found |= {} if self.has_legs else {"clear_duration_s": _NUMBER}
+        return found
+
+    @property
+    def leg_names(self) -> tuple[str, ...]:
+        """The quantities of legs that the table gives."""
+        return (*EXIT, *(name for name in LEG if name in self.mapped or name in self.shared)) if self.has_legs else ()
+
+    @property
+    def one_by_one(self) -> bool:
+        """Whether each row is planned on its own."""
+        return self.has_legs or self.fence is not None
 
 
-def added_schema(*, is_placed: bool) -> pa.Schema:
-    """The columns that an output has in addition to those of the input, in this order."""
+def added_schema(*, is_placed: bool, more: Mapping[str, pa.DataType] = {}) -> pa.Schema:
+    """The columns that an output has in addition to those of the input, in this order; `more` before the status."""
     return pa.schema(
         [
             ("duration_s", _NUMBER),
@@ -98,6 +144,7 @@ def added_schema(*, is_placed: bool) -> pa.Schema:
             ("duration_1_s", _NUMBER),
             ("duration_2_s", _NUMBER),
             ("duration_3_s", _NUMBER),
+            *more.items(),
             ("status", _TEXT),
         ]
     )
@@ -112,8 +159,11 @@ def shared_values(
     origin: LocalFrame | None = None,
     mapped: Mapping[str, str] | None = None,
     tolerance_m: float = 0.0,
+    fence: Fence | PlacedFence | None = None,
+    margin_m: float | None = None,
 ) -> SharedValues:
     """The values of the options, checked. `aircraft` may be incomplete, with the names of `Aircraft`."""
+    _check_fence(fence, origin, margin_m)
     for name, value, kind in (("orbit", orbit, Orbit), ("wind", wind, Wind), ("origin", origin, LocalFrame)):
         if value is not None:
             instance(name, value, kind)
@@ -131,7 +181,24 @@ def shared_values(
     if turn is not None and turn not in tuple(Turn):
         raise InvalidArgument("turn", f"is {turn!r}: it must be cw, ccw or either")
     numbers |= _aircraft_numbers(aircraft) | {TOLERANCE: not_negative(TOLERANCE, tolerance_m, "metres")}
-    return SharedValues(numbers, None if turn is None else Turn(turn), origin, dict(mapped or {}))
+    return SharedValues(numbers, None if turn is None else Turn(turn), origin, dict(mapped or {}), fence, margin_m)
+
+
+def _check_fence(fence: object, origin: LocalFrame | None, margin_m: float | None) -> None:
+    """Raise `InvalidArgument` for what is no fence, and for a margin without one."""
+    if fence is None:
+        if margin_m is not None:
+            raise InvalidArgument("margin_m", "has no effect without a fence")
+        return
+    from loiter.fences import Fence, PlacedFence
+
+    if isinstance(fence, PlacedFence):
+        if origin is not None:
+            fence.local(origin)
+    else:
+        instance("fence", fence, Fence)
+    if margin_m is not None:
+        not_negative("margin_m", margin_m, "metres")
 
 
 def _velocity(orbit: Orbit | None, velocity_m_s: tuple[float, float] | None) -> dict[str, float]:
@@ -191,6 +258,9 @@ def columns(argument: str, schema: pa.Schema, options: SharedValues, *, text: bo
             raise InvalidArgument(TURN, f"is given, and by the table's column {mapped[TURN].name} too")
     elif turn is None:
         turn = Turn.EITHER
+    has_legs = given.has("exit_to", EXIT_PLACE if is_placed else EXIT)
+    for name in RATES if has_legs else ():
+        given.has(f"aircraft {name}", (name,))
     meaning = Columns(
         shared={**numbers, **still_air, **at_rest},
         mapped=mapped,
@@ -199,11 +269,26 @@ def columns(argument: str, schema: pa.Schema, options: SharedValues, *, text: bo
         is_placed=is_placed,
         origin=options.origin,
         text=text,
+        fence=options.fence,
+        margin_m=options.margin_m,
+        has_legs=has_legs,
     )
     _check_names(argument, names, meaning)
+    _check_place_of_fence(meaning)
     if not text:
         _check_types(argument, schema, meaning)
     return meaning
+
+
+def _check_place_of_fence(meaning: Columns) -> None:
+    """Raise `InvalidArgument` for a fence in degrees where the table is in metres, and the other way about."""
+    if meaning.fence is None:
+        return
+    from loiter.fences import PlacedFence
+
+    if isinstance(meaning.fence, PlacedFence) != meaning.is_placed:
+        units, other = ("degrees", "metres") if isinstance(meaning.fence, PlacedFence) else ("metres", "degrees")
+        raise InvalidArgument("fence", f"is in {units}, and the positions of the table are in {other}")
 
 
 def number_columns(meaning: Columns) -> dict[str, MappedColumn]:
@@ -211,7 +296,9 @@ def number_columns(meaning: Columns) -> dict[str, MappedColumn]:
     position = (*PLACE, HEADING) if meaning.is_placed else POSE
     circle = (*ORBIT_PLACE, RADIUS) if meaning.is_placed and meaning.origin is None else ORBIT
     read = (*position, *circle, AIRSPEED, meaning.limit, *WIND, *VELOCITY)
-    return {name: meaning.mapped[name] for name in read if name not in meaning.shared}
+    own = [name for name in LEG if name in meaning.mapped]
+    leg = (*(EXIT_PLACE if meaning.is_placed else EXIT), *own) if meaning.has_legs else ()
+    return {name: meaning.mapped[name] for name in (*read, *leg) if name not in meaning.shared}
 
 
 def may_drift(meaning: Columns) -> bool:
@@ -291,7 +378,7 @@ class _Given(NamedTuple):
 
     def require(self, option: str, needed: tuple[str, ...]) -> None:
         """Raise `InvalidArgument` if neither the option nor its columns are given."""
-        if not self._has(option, needed):
+        if not self.has(option, needed):
             first, *_ = needed
             likely = likely_column(first, self.names)
             hint = f"; if that is it, map {first}={likely!r}" if likely else ""
@@ -311,7 +398,7 @@ class _Given(NamedTuple):
 
     def zeros_unless_given(self, option: str, needed: tuple[str, ...]) -> dict[str, float]:
         """Zero for each column if neither the option nor its columns are given."""
-        return {} if self._has(option, needed) else dict.fromkeys(needed, 0.0)
+        return {} if self.has(option, needed) else dict.fromkeys(needed, 0.0)
 
     def turn_limit(self) -> str:
         """The name of the turn limit, which must be given exactly once."""
@@ -335,7 +422,7 @@ class _Given(NamedTuple):
             self.argument, f"has the columns {' and '.join(self._columns(present))}: one turn limit is needed"
         )
 
-    def _has(self, option: str, needed: tuple[str, ...]) -> bool:
+    def has(self, option: str, needed: tuple[str, ...]) -> bool:
         """Whether the option or all its columns are given; raises `InvalidArgument` for both, and for some columns."""
         present = [name for name in needed if name in self.mapped]
         absent = [name for name in needed if name not in self.mapped]

@@ -21,10 +21,21 @@ TURN = "turn"
 WIND_SPEED = "wind_speed_m_s"
 WIND = (WIND_SPEED, "wind_from_deg")
 VELOCITY = ("orbit_velocity_east_m_s", "orbit_velocity_north_m_s")
-KNOWN = (*POSE, *PLACE, *ORBIT, *ORBIT_PLACE, AIRSPEED, *TURN_LIMITS, TURN, *WIND, *VELOCITY)
+# Of a leg: the point flown to, its altitudes and rates, and the least hold; a table with a point has legs.
+EXIT, EXIT_PLACE = ("exit_east_m", "exit_north_m"), ("exit_latitude_deg", "exit_longitude_deg")
+ALTITUDE, EXIT_ALTITUDE, HOLD, TURNS = "altitude_m", "exit_altitude_m", "hold_s", "turns"
+RATES = ("climb_rate_m_s", "descent_rate_m_s")
+LEG = (HOLD, TURNS, ALTITUDE, EXIT_ALTITUDE, *RATES)
+ENTRY = (*POSE, *PLACE, *ORBIT, *ORBIT_PLACE, AIRSPEED, *TURN_LIMITS, TURN, *WIND, *VELOCITY)
+KNOWN = (*ENTRY, *EXIT, *EXIT_PLACE, *LEG)
+
+TIMES = {"s": 1.0, "min": 60.0}
 
 # The units of a quantity, by the end of its name; the longest end counts.
-UNITS = {"_deg_s": TURN_RATES, "_m_s": SPEEDS, "_deg": ANGLES, "_m": LENGTHS}
+UNITS = {"_deg_s": TURN_RATES, "_m_s": SPEEDS, "_deg": ANGLES, "_m": LENGTHS, "_s": TIMES}
+
+# Quantities without a unit.
+UNITLESS = {TURN, TURNS}
 
 # Other spellings of units, as the names of columns have them.
 SPELLINGS = {
@@ -94,7 +105,7 @@ def _mapped_column(quantity: str, text: str, names: list[str]) -> MappedColumn:
         raise InvalidArgument(
             "columns", f"gives {quantity} the column {text!r}, which the table does not have{_question(close)}"
         )
-    return MappedColumn(name, 1.0 if quantity == TURN else _factor(quantity, name, stated))
+    return MappedColumn(name, 1.0 if quantity in UNITLESS else _factor(quantity, name, stated))
 
 
 def _question(close: list[str]) -> str:

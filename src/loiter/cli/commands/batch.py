@@ -16,7 +16,8 @@ from rich.table import Column
 from rich.text import Text
 
 import loiter
-from loiter.cli.numbers import check_declination, column_mapping, metres, one, whole
+from loiter.cli.legs import CLIMB_RATE_HELP, DESCENT_RATE_HELP
+from loiter.cli.numbers import check_declination, column_mapping, metres, metres_per_second, one, whole
 from loiter.cli.options import (
     CIRCLE_DEGREES,
     CIRCLE_METRES,
@@ -25,6 +26,7 @@ from loiter.cli.options import (
     WIND_HELP,
     Airspeed,
     Bank,
+    BatchFenceOptions,
     DeclinationDegrees,
     TurnChoice,
     TurnRadius,
@@ -36,7 +38,6 @@ from loiter.cli.options import (
 from loiter.cli.report import print_json
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
-from loiter.kernel.statuses import Status
 from loiter.planning.model import Orbit, Turn, circle_radius_m
 
 if TYPE_CHECKING:
@@ -91,6 +92,14 @@ def batch(
     turn_rate: Annotated[TurnRate, Parameter(group=shared)] = None,
     wind: Annotated[WindChoice, Parameter(group=shared, help=f"{WIND_HELP}; still air if absent.")] = None,
     declination: Annotated[DeclinationDegrees, Parameter(group=shared)] = None,
+    climb_rate: Annotated[
+        float | None,
+        Parameter(group=shared, converter=one(metres_per_second), metavar="M_PER_S", help=CLIMB_RATE_HELP),
+    ] = None,
+    descent_rate: Annotated[
+        float | None,
+        Parameter(group=shared, converter=one(metres_per_second), metavar="M_PER_S", help=DESCENT_RATE_HELP),
+    ] = None,
     orbit_velocity: Annotated[
         tuple[float, float] | None,
         VELOCITY,
@@ -100,6 +109,7 @@ def batch(
         list[str] | None,
         column_map(shared),
     ] = None,
+    fence: BatchFenceOptions = BatchFenceOptions(),
     tolerance: Annotated[
         float,
         Parameter(
@@ -141,7 +151,8 @@ def batch(
     """Plan the fastest entry of every row of a table."""
     check_declination(declination, *((wind or ())[-1:]))
     limits = {"max_bank_deg": bank, "min_turn_radius_m": turn_radius, "max_turn_rate_deg_s": turn_rate}
-    given = {name: value for name, value in {"airspeed_m_s": airspeed, **limits}.items() if value is not None}
+    rates = {"climb_rate_m_s": climb_rate, "descent_rate_m_s": descent_rate}
+    given = {name: value for name, value in {"airspeed_m_s": airspeed, **limits, **rates}.items() if value is not None}
     circle, origin = _circle(orbit, orbit_lla)
     with _named_interrupt(), shown_progress() as report:
         summary = loiter.batch.run(
@@ -155,6 +166,8 @@ def batch(
             origin=origin,
             columns=column_mapping(map_ or []),
             tolerance_m=tolerance,
+            fence=fence.read(None),
+            margin_m=fence.margin,
             workers=workers,
             scheduler=scheduler,
             rejects=rejects,
@@ -226,10 +239,12 @@ def summary_lines(summary: JobSummary, rejects: str | None = None) -> str:
     in_this_run = "" if solved == summary.rows else f", {solved:,} of them in this run,"
     rate = f"{in_this_run} in {seconds:.1f} s: {solved / seconds:,.0f} rows/s"
     lines = [f"{summary.rows:,} rows{rate if solved or not summary.rows else ', all of them solved before'}"]
-    for status in Status:
-        count = summary.statuses.get(status.name.lower(), 0)
-        if count and status is not Status.OK:
-            lines.append(f"{count:,} {status.name.lower()}: {status.message}")
+    from loiter.batch.tables.columns import MESSAGES
+
+    for status, message in MESSAGES.items():
+        count = summary.statuses.get(status, 0)
+        if count and status != "ok":
+            lines.append(f"{count:,} {status}: {message}")
     if summary.first_malformed:
         where = f"{rejects} has the malformed lines" if rejects else "--rejects FILE keeps the malformed lines"
         lines.append(f"{summary.first_malformed}; {where}")
