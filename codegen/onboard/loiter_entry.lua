@@ -35,13 +35,15 @@ local BAND, BAND_DEG, HELD_MS, HELD_DEG, LONGEST_MS = 0.05, 5.0, 8000, 90.0, 300
 -- A wind that changes by more than this, metres per second, is planned with.
 local WIND_CHANGED_M_S = 1.0
 
--- The airspeed is averaged over the first time, seconds, before a flight, and over up to the second in one, where the
--- prepared one counts for the third. One that differs from the planned one by more than this share is planned with.
-local AIRSPEED_S, AIRSPEED_MEMORY_S, PREPARED_S, AIRSPEED_CHANGED = 3.0, 20.0, 5.0, 0.03
+-- The airspeed is averaged over this time, seconds, before a flight. One that differs from the planned one by more than
+-- this share is planned with.
+local AIRSPEED_S, AIRSPEED_CHANGED = 3.0, 0.03
 
--- The turn rate over that of a coordinated turn is measured in turns with at least this bank, degrees, over this time,
--- seconds; a measurement counts this much, and one outside of these bounds not at all.
-local TURNING_DEG, TURNING_S, TURNING_SHARE, LEAST_RATIO, MOST_RATIO = 15.0, 1.0, 0.3, 0.5, 1.3
+-- How the plane turns is measured so often, seconds; measurements further apart are not related to each other.
+local LEARN_S, RELATED_S = 0.1, 1.0
+
+-- Turn ratios that differ by this much, or less, are planned with alike before a flight.
+local RATIO_CHANGED = 0.02
 
 local PARAM_TABLE_KEY = 141
 assert(param:add_table(PARAM_TABLE_KEY, "LENT_", 6), "loiter_entry: no room for parameters")
@@ -153,9 +155,8 @@ local begun_ms, slot = nil, 0
 -- The mean equivalent airspeed in the present mode.
 local mean_airspeed = {}
 
--- The turn rate over that of a coordinated turn, and what is measured of it at present.
-local turn_ratio = 1.0
-local turning = {time_s = 0.0, turned = 0.0, expected = 0.0}
+-- How the plane turns, and when that was last measured.
+local turns, learned_ms = law.first_turns(@EXPECTED_RATIO@, 0.0), nil
 
 local function say(severity, text)
     gcs:send_text(severity, "Entry: " .. text)
@@ -177,7 +178,7 @@ local function measure()
         return nil
     end
     return {
-        now_ms = millis(), place = place, east_m_s = velocity:y(), north_m_s = velocity:x(),
+        now_ms = millis(), place = place, velocity_east_m_s = velocity:y(), velocity_north_m_s = velocity:x(),
         wind_east_m_s = wind:y(), wind_north_m_s = wind:x(), ratio = ratio, airspeed_m_s = equivalent * ratio,
         heading_deg = math.deg(ahrs:get_yaw_rad()) % 360.0, bank_deg = math.deg(ahrs:get_roll_rad()),
     }
@@ -188,30 +189,30 @@ local function relative(now)
     local offset = flight.centre:get_distance_NE(now.place)
     return {
         time_s = (now.now_ms - flight.since_ms):tofloat() * 0.001, east_m = offset:y(), north_m = offset:x(),
-        heading_deg = now.heading_deg, bank_deg = now.bank_deg, velocity_east_m_s = now.east_m_s,
-        velocity_north_m_s = now.north_m_s, airspeed_m_s = now.airspeed_m_s,
+        heading_deg = now.heading_deg, bank_deg = now.bank_deg, velocity_east_m_s = now.velocity_east_m_s,
+        velocity_north_m_s = now.velocity_north_m_s, airspeed_m_s = now.airspeed_m_s,
     }
 end
 
--- Measure how fast the plane turns.
-local function measure_turning(now)
-    local last_deg = turning.heading_deg
-    turning.heading_deg = now.heading_deg
-    if last_deg == nil or math.abs(now.bank_deg) < TURNING_DEG or now.bank_deg * (turning.bank_deg or 0.0) <= 0.0 then
-        turning.bank_deg, turning.time_s, turning.turned, turning.expected = now.bank_deg, 0.0, 0.0, 0.0
-        return
+-- Measure how the plane turns; whether that is due.
+local function measure_turns(now)
+    if not vehicle:get_likely_flying() or not (now.airspeed_m_s > 1.0) then
+        return false
     end
-    local dt = PERIOD_MS * 0.001
-    turning.bank_deg, turning.time_s = now.bank_deg, turning.time_s + dt
-    turning.turned = turning.turned + math.rad(wrap_180(now.heading_deg - last_deg))
-    turning.expected = turning.expected + GRAVITY * math.tan(math.rad(now.bank_deg)) / now.airspeed_m_s * dt
-    if turning.time_s >= TURNING_S then
-        local measured = turning.turned / turning.expected
-        if measured > LEAST_RATIO and measured < MOST_RATIO then
-            turn_ratio = turn_ratio + TURNING_SHARE * (measured - turn_ratio)
-        end
-        turning.time_s, turning.turned, turning.expected = 0.0, 0.0, 0.0
+    local dt = learned_ms and (now.now_ms - learned_ms):tofloat() * 0.001 or math.huge
+    if dt < LEARN_S then
+        return false
+    elseif dt > RELATED_S then
+        turns, dt = law.restart_turns(turns), 0.0
     end
+    learned_ms = now.now_ms
+    local state = {
+        heading_deg = now.heading_deg, bank_deg = now.bank_deg - turns.slow.bank_bias_deg,
+        airspeed_m_s = now.airspeed_m_s,
+        velocity_east_m_s = now.velocity_east_m_s, velocity_north_m_s = now.velocity_north_m_s,
+    }
+    turns = law.add_turn(turns, @EXPECTED_RATIO@, 0.0, now, state, now.wind_east_m_s, now.wind_north_m_s, dt)
+    return true
 end
 
 -- Measure the airspeed that the present mode holds.
@@ -226,27 +227,33 @@ local function measure_airspeed(now, mode)
     mean_airspeed.value = mean_airspeed.value + share * (equivalent_m_s - mean_airspeed.value)
 end
 
--- What is believed of the plane, where something has changed.
-local function vehicle_with(now, vehicle)
-    local known = vehicle.estimates
-    local dt = PERIOD_MS * 0.001
-    flight.known_s = math.min((flight.known_s or PREPARED_S) + dt, AIRSPEED_MEMORY_S)
-    flight.airspeed_m_s = flight.airspeed_m_s + dt / flight.known_s * (now.airspeed_m_s - flight.airspeed_m_s)
-    local changed = math.abs(known.turn_ratio - turn_ratio) > 0.02
-        or math.abs(known.airspeed_m_s - flight.airspeed_m_s) > AIRSPEED_CHANGED * known.airspeed_m_s
-    local east, north = now.wind_east_m_s - known.wind_east_m_s, now.wind_north_m_s - known.wind_north_m_s
-    if not changed and east * east + north * north <= WIND_CHANGED_M_S * WIND_CHANGED_M_S then
-        return vehicle
+-- What is believed of the plane.
+local function estimates_of(now, airspeeds)
+    local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
+    return {
+        roll = {time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S},
+        delay_s = DELAY_S, turn_ratio = turns.slow.ratio, quick_turn_ratio = turns.quick.ratio,
+        course_lead_s = turns.lead.lead_s, wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s,
+        airspeed_m_s = airspeeds.always.value, turn_airspeed_m_s = airspeeds.in_turns.value, overshoot_deg = 0.0,
+        turns_unknown = @DECLARED_TURN_AIRSPEED@ / airspeeds.in_turns.known_s, heading_bias_deg = 0.0,
+        bank_bias_deg = turns.slow.bank_bias_deg,
+    }
+end
+
+-- Learn from a measurement in flight.
+local function learn(now)
+    flight.airspeeds = law.update_airspeeds(flight.settings, flight.airspeeds, now, PERIOD_MS * 0.001)
+    if not measure_turns(now) then
+        return
     end
-    local estimates = {}
-    for name, value in pairs(known) do
-        estimates[name] = value
+    flight.model = {
+        revision = flight.model.revision + 1, bank_deg = flight.model.bank_deg,
+        estimates = estimates_of(now, flight.airspeeds),
+    }
+    local east, north = now.wind_east_m_s - flight.wind_east_m_s, now.wind_north_m_s - flight.wind_north_m_s
+    if east * east + north * north > WIND_CHANGED_M_S * WIND_CHANGED_M_S then
+        searches, flight.wind_east_m_s, flight.wind_north_m_s = 0, now.wind_east_m_s, now.wind_north_m_s
     end
-    estimates.turn_ratio, estimates.quick_turn_ratio = turn_ratio, turn_ratio
-    estimates.wind_east_m_s, estimates.wind_north_m_s = now.wind_east_m_s, now.wind_north_m_s
-    estimates.airspeed_m_s, estimates.turn_airspeed_m_s = flight.airspeed_m_s, flight.airspeed_m_s
-    searches = 0
-    return {revision = vehicle.revision + 1, bank_deg = vehicle.bank_deg, estimates = estimates}
 end
 
 -- The target of the present mode, at an altitude above the sea; nil where there is none.
@@ -291,7 +298,7 @@ local function prepare(now)
         return nil
     end
     local airspeed_m_s = equivalent_m_s * now.ratio
-    local tightest_m = law.radius_at_bank(airspeed_m_s, bank_deg) / turn_ratio
+    local tightest_m = law.radius_at_bank(airspeed_m_s, bank_deg) / turns.slow.ratio
     local east, north = now.wind_east_m_s / airspeed_m_s, now.wind_north_m_s / airspeed_m_s
     if east * east + north * north >= 0.9 or tightest_m * law.tightest_radius(east, north) > radius_m then
         return nil
@@ -302,19 +309,17 @@ local function prepare(now)
         limit_deg = bank_deg, command_limit_deg = bank_deg, gain = @GAIN@, reserve = @RESERVE@,
         smoothing_s = @SMOOTHING@, negligible_wind = @NEGLIGIBLE_WIND@, covered_s = @COVERED@, search_steps = 1,
     }
-    local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
-    local estimates = {
-        roll = {time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S},
-        delay_s = DELAY_S, turn_ratio = turn_ratio, quick_turn_ratio = turn_ratio, course_lead_s = 0.0,
-        wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s, airspeed_m_s = airspeed_m_s,
-        turn_airspeed_m_s = airspeed_m_s, overshoot_deg = 0.0, turns_unknown = 0.0, heading_bias_deg = 0.0,
-        bank_bias_deg = 0.0,
+    local airspeeds = {
+        always = {value = airspeed_m_s, known_s = @DECLARED_AIRSPEED@},
+        in_turns = {value = airspeed_m_s, known_s = @DECLARED_TURN_AIRSPEED@},
     }
+    local estimates = estimates_of(now, airspeeds)
     last_problem, searches = nil, 0
     local model = {revision = 0, bank_deg = now.bank_deg, estimates = estimates}
     return {
         centre = target, settings = settings, model = model, memory = law.first_memory(settings, model),
-        since_ms = now.now_ms, airspeed_m_s = airspeed_m_s, radius_m = radius_m,
+        since_ms = now.now_ms, airspeeds = airspeeds, radius_m = radius_m, wind_east_m_s = now.wind_east_m_s,
+        wind_north_m_s = now.wind_north_m_s,
     }
 end
 
@@ -326,7 +331,7 @@ local function is_current(now)
     return is_at(vehicle:get_target_location(), flight.centre) and settings.radius_m == radius_m
         and settings.limit_deg == bank_deg and settings.side == SIDE:get()
         and east * east + north * north <= WIND_CHANGED_M_S * WIND_CHANGED_M_S
-        and math.abs(known.turn_ratio - turn_ratio) <= 0.02
+        and math.abs(known.turn_ratio - turns.slow.ratio) <= RATIO_CHANGED
         and math.abs(known.airspeed_m_s - planned_airspeed() * now.ratio) <= AIRSPEED_CHANGED * known.airspeed_m_s
 end
 
@@ -440,7 +445,7 @@ local function is_held(now, state)
     local distance_m = math.sqrt(state.east_m * state.east_m + state.north_m * state.north_m)
     local azimuth_deg = bearing_deg(state.north_m, state.east_m)
     local tangent_deg = azimuth_deg + 90.0 * flight.side
-    local course_deg = bearing_deg(now.north_m_s, now.east_m_s)
+    local course_deg = bearing_deg(now.velocity_north_m_s, now.velocity_east_m_s)
     local is_within = math.abs(distance_m - flight.radius_m) <= BAND * flight.radius_m
         and math.abs(wrap_180(course_deg - tangent_deg)) <= BAND_DEG
     local last_deg = flight.azimuth_deg or azimuth_deg
@@ -456,7 +461,7 @@ local function begin(now)
     -- The bank has changed since the flight was prepared.
     flight.model.bank_deg = now.bank_deg
     -- The nearer side, until the law has a plan.
-    local cross = state.east_m * now.north_m_s - state.north_m * now.east_m_s
+    local cross = state.east_m * now.velocity_north_m_s - state.north_m * now.velocity_east_m_s
     flight.side = flight.settings.side ~= 0 and flight.settings.side or cross < 0.0 and 1 or -1
     if reposition() ~= ACCEPTED then
         finish(SEVERITY.WARNING, "circle refused", false)
@@ -496,7 +501,8 @@ local function guide(now)
     local elapsed_s = flight.stepped_ms and (now.now_ms - flight.stepped_ms):tofloat() * 0.001 or 0.0
     local state = relative(now)
     flight.stepped_ms, flight.memory.step_s = now.now_ms, elapsed_s
-    flight.model = law.fly_as_declared(vehicle_with(now, flight.model), flight.command_deg, elapsed_s)
+    learn(now)
+    flight.model = law.fly_as_declared(flight.model, flight.command_deg, elapsed_s)
     local memory = law.prepare(flight.memory, flight.settings, flight.model, state)
     flight.memory = law.conclude(memory, flight.settings, flight.model, PERIOD_MS * 0.001)
     local command = flight.memory.command
@@ -526,6 +532,7 @@ local function wait(now)
         flight = nil
         return
     end
+    measure_turns(now)
     if flight and is_current(now) then
         if is_high and not is_latched then
             begin(now)
@@ -548,7 +555,6 @@ end
 local function step()
     local now = measure()
     if now then
-        measure_turning(now)
         measure_airspeed(now, vehicle:get_mode())
     end
     if flight and flight.is_flown then

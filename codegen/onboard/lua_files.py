@@ -11,7 +11,7 @@ from codegen.lua import LUA_32BITS, Chunk, note
 from codegen.unit import ROOT, digest
 from loiter.compiled import wind_solver
 from loiter.guidance.entry import entry_planner, join_tracking, law_step
-from loiter.guidance.estimation import bank_history
+from loiter.guidance.estimation import bank_history, identification_step, turn_fits
 from loiter.guidance.estimation.vehicle import fly_as_declared
 from loiter.kernel.statuses import Status
 from loiter.kernel.still_air import synthesis
@@ -30,6 +30,10 @@ ROOTS: tuple[Any, ...] = (
     law_step.continue_search,
     law_step.conclude,
     fly_as_declared,
+    turn_fits.first_turns,
+    turn_fits.restart_turns,
+    turn_fits.add_turn,
+    identification_step.update_airspeeds,
     radius_at_bank,
     tightest_radius,
     synthesis.optimum,
@@ -75,6 +79,9 @@ def applet(arithmetic: Arithmetic) -> str:
         "RESERVE": law_step.RESERVE,
         "SMOOTHING": law_step.SMOOTHING_S,
         "NEGLIGIBLE_WIND": law_step.NEGLIGIBLE_WIND,
+        "EXPECTED_RATIO": turn_fits.EXPECTED_TURN_RATIO,
+        "DECLARED_AIRSPEED": identification_step.DECLARED_AIRSPEED_S,
+        "DECLARED_TURN_AIRSPEED": identification_step.DECLARED_TURN_AIRSPEED_S,
         "COVERED": bank_history.COVERED_S,
     }
     text = Path(__file__).with_name(APPLET).read_text("utf-8")

@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 25f7c06ad966c2d7877f7036dbf63d2747f72e4f9fc17cad210ae5f1261e1c34
+-- SHA-256 of the source: 4adb3ce821c2e30538b82c2b938a2fa44d7af67e3a38e0a360d1ef642be9cfd0
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -39,13 +39,15 @@ local BAND, BAND_DEG, HELD_MS, HELD_DEG, LONGEST_MS = 0.05, 5.0, 8000, 90.0, 300
 -- A wind that changes by more than this, metres per second, is planned with.
 local WIND_CHANGED_M_S = 1.0
 
--- The airspeed is averaged over the first time, seconds, before a flight, and over up to the second in one, where the
--- prepared one counts for the third. One that differs from the planned one by more than this share is planned with.
-local AIRSPEED_S, AIRSPEED_MEMORY_S, PREPARED_S, AIRSPEED_CHANGED = 3.0, 20.0, 5.0, 0.03
+-- The airspeed is averaged over this time, seconds, before a flight. One that differs from the planned one by more than
+-- this share is planned with.
+local AIRSPEED_S, AIRSPEED_CHANGED = 3.0, 0.03
 
--- The turn rate over that of a coordinated turn is measured in turns with at least this bank, degrees, over this time,
--- seconds; a measurement counts this much, and one outside of these bounds not at all.
-local TURNING_DEG, TURNING_S, TURNING_SHARE, LEAST_RATIO, MOST_RATIO = 15.0, 1.0, 0.3, 0.5, 1.3
+-- How the plane turns is measured so often, seconds; measurements further apart are not related to each other.
+local LEARN_S, RELATED_S = 0.1, 1.0
+
+-- Turn ratios that differ by this much, or less, are planned with alike before a flight.
+local RATIO_CHANGED = 0.02
 
 local PARAM_TABLE_KEY = 141
 assert(param:add_table(PARAM_TABLE_KEY, "LENT_", 6), "loiter_entry: no room for parameters")
@@ -382,6 +384,53 @@ law.NONE = {side = 0, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
 -- LARGEST_TRIM_GAIN = 0.4
 -- LARGEST_TRIM = 0.15
 -- HOLD = 2
+law.NO_TURNS = {xx = 0.0, xu = 0.0, uu = 0.0, xy = 0.0, uy = 0.0}
+law.NO_PAIRS = {product = 0.0, square = 0.0}
+law.NO_VALUE = {value = 0.0, last = (0.0 / 0.0)}
+
+-- Turn ratio and bank bias are fitted to angles that are high-pass filtered and forgotten over these times,
+-- seconds.
+-- TURN_FILTER_S = 3.0
+-- TURN_MEMORY_S = 60.0
+
+-- What is expected of them counts as if it had been measured with these standard deviations, from headings with
+-- errors of the third, degrees, that are correlated over the filter time. The bias stays within the last, degrees.
+-- TURN_ERROR_DEG = 0.7
+-- TURN_RATIO_SPREAD = 0.15
+-- BANK_BIAS_SPREAD_DEG = 1.5
+
+-- The bounds of ratios of turns.
+-- LEAST_TURN_RATIO = 0.6
+-- LARGEST_TURN_RATIO = 3.0
+-- LARGEST_BANK_BIAS_DEG = 6.0
+
+-- The ratio of quick turns is fitted to angles that are high-pass filtered over the first time, seconds. From these
+-- their means over the second time are subtracted, which a steady turn leaves. They are forgotten over the third.
+-- QUICK_FILTER_S = 0.3
+-- QUICK_MEAN_S = 0.5
+
+-- The declared ratio counts as if it had been measured with this standard deviation, from angles with errors of the
+-- second, degrees, that are correlated over the filter time. A larger angle than the third, degrees, counts no more
+-- than that: otherwise one large turn would outweigh many small oscillations.
+-- QUICK_SATURATION_DEG = 0.5
+-- QUICK_MEMORY_S = 6.0
+-- QUICK_ERROR_DEG = 0.5
+-- QUICK_RATIO_SPREAD = 0.5
+
+-- The lead of the course is fitted to signals that are high-pass filtered over this time, and forgotten over the
+-- second. A lead of 0 counts as if it had been measured with the third, from directions with errors of the fourth,
+-- radians, that are correlated over a second. It stays within the last.
+-- LEAD_FILTER_S = 1.5
+-- LEAD_MEMORY_S = 30.0
+-- DIRECTION_ERROR = 0.03
+-- LEAD_SPREAD_S = 0.1
+-- LARGEST_LEAD_S = 0.4
+
+-- The same for the airspeed in turns with more than this share of the bank limit.
+-- TIGHT_SHARE = 0.7
+
+-- The airspeed is averaged over the first time, seconds, at most; the declared one counts for the second.
+-- AIRSPEED_MEMORY_S = 20.0
 
 -- A slower wind displaces no point within REACH by as much as rounding, and its square would be subnormal.
 -- NEGLIGIBLE_WIND = 1.7763568394002505e-15 -- 2.0 ** (-400)
@@ -2312,6 +2361,166 @@ function law.fly_as_declared(vehicle, command_deg, dt)
     return {revision = revision, bank_deg = bank_deg, estimates = known}
 end
 
+-- The fit before a measurement, or one that does not relate later measurements to earlier ones.
+function law.first_slow_turns(ratio, bank_bias_deg, sums)
+    return {ratio = ratio, bank_bias_deg = bank_bias_deg, sums = sums, last_deg = (0.0 / 0.0), last_rate = (0.0 /
+            0.0), last_slope = (0.0 / 0.0), measured_deg = 0.0, computed_deg = 0.0, of_bias_deg = 0.0}
+end
+
+-- The fit before a measurement, or one that does not relate later measurements to earlier ones.
+function law.first_quick_turns(ratio, fit)
+    return {ratio = ratio, fit = fit, last_deg = (0.0 / 0.0), last_rate_deg_s = (0.0 / 0.0), measured_deg = 0.0,
+            computed_deg = 0.0, measured_mean = law.NO_VALUE, computed_mean = law.NO_VALUE}
+end
+
+-- The fit before a measurement, or one that does not relate later measurements to earlier ones.
+function law.first_lead(lead_s, fit)
+    return {lead_s = lead_s, fit = fit, angle = law.NO_VALUE, rate = law.NO_VALUE}
+end
+
+-- The fits before a measurement, with what is declared.
+function law.first_turns(turn_ratio, lead_s)
+    return {slow = law.first_slow_turns(turn_ratio, 0.0, law.NO_TURNS), quick = law.first_quick_turns(turn_ratio,
+            law.NO_PAIRS), lead = law.first_lead(lead_s, law.NO_PAIRS)}
+end
+
+-- The fits, which do not relate later measurements to earlier ones.
+function law.restart_turns(turns)
+    local slow, quick, lead = turns.slow, turns.quick, turns.lead
+    return {slow = law.first_slow_turns(slow.ratio, slow.bank_bias_deg, slow.sums), quick =
+            law.first_quick_turns(quick.ratio, quick.fit), lead = law.first_lead(lead.lead_s, lead.fit)}
+end
+
+-- The angle from one direction to another, from -180 to below 180 degrees.
+function law.turn_between_deg(from_deg, to_deg)
+    return (to_deg - from_deg + 180.0) % 360.0 - 180.0
+end
+
+-- A filtered value `dt` seconds later, where the input has changed; the filter has a time, seconds.
+function law.high_pass(filtered, change, dt, time_s)
+    return exp(-dt / time_s) * (filtered + change)
+end
+
+-- A ratio of turns within its bounds.
+function law.bounded_turn_ratio(ratio)
+    return min(max(ratio, 0.6--[[LEAST_TURN_RATIO]]), 3.0--[[LARGEST_TURN_RATIO]])
+end
+
+-- The ratio and the bank bias, degrees, from the sums and what is declared.
+function law.solve_turns(sums, declared)
+    local error = 0.7--[[TURN_ERROR_DEG]] * 0.7--[[TURN_ERROR_DEG]] * 3.0--[[TURN_FILTER_S]]
+    local ratio_prior = error / (0.15--[[TURN_RATIO_SPREAD]] * 0.15--[[TURN_RATIO_SPREAD]])
+    local bias_prior = error / (1.5--[[BANK_BIAS_SPREAD_DEG]] * 1.5--[[BANK_BIAS_SPREAD_DEG]])
+    local xx, xu, uu = sums.xx + ratio_prior, sums.xu, sums.uu + bias_prior
+    local xy, uy = sums.xy + ratio_prior * declared, sums.uy
+    local determinant = xx * uu - xu * xu
+    local ratio = law.bounded_turn_ratio((uu * xy - xu * uy) / determinant)
+    return ratio, law.clip((xx * uy - xu * xy) / (determinant * ratio), 6.0--[[LARGEST_BANK_BIAS_DEG]])
+end
+
+-- The fit with a measured heading, bank and airspeed, `dt` seconds after the last.
+function law.add_slow_turn(turns, declared, state, dt)
+    -- Degrees per second, and degrees per second for each degree of bank: tan(45 degrees) is 1.
+    local rate = law.rate_at_bank(state.bank_deg, state.airspeed_m_s) * 57.29577951308232
+    local cosine = cos(state.bank_deg * 0.017453292519943295)
+    local slope = law.rate_at_bank(45.0, state.airspeed_m_s) / (cosine * cosine)
+    local turned, computed, of_bias = 0.0, 0.0, 0.0
+    if turns.last_deg == turns.last_deg then
+        turned = law.turn_between_deg(turns.last_deg, state.heading_deg)
+        computed = 0.5 * dt * (turns.last_rate + rate)
+        of_bias = -0.5 * dt * (turns.last_slope + slope)
+    end
+    local y = law.high_pass(turns.measured_deg, turned, dt, 3.0--[[TURN_FILTER_S]])
+    local x = law.high_pass(turns.computed_deg, computed, dt, 3.0--[[TURN_FILTER_S]])
+    local u = law.high_pass(turns.of_bias_deg, of_bias, dt, 3.0--[[TURN_FILTER_S]])
+    local kept, xx, xu, uu, xy, uy = exp(-dt / 60.0--[[TURN_MEMORY_S]]), turns.sums.xx, turns.sums.xu,
+            turns.sums.uu, turns.sums.xy, turns.sums.uy
+    local sums = {xx = kept * xx + dt * x * x, xu = kept * xu + dt * x * u, uu = kept * uu + dt * u * u, xy = kept *
+            xy + dt * x * y, uy = kept * uy + dt * u * y}
+    local ratio, bank_bias_deg = law.solve_turns(sums, declared)
+    return {ratio = ratio, bank_bias_deg = bank_bias_deg, sums = sums, last_deg = state.heading_deg, last_rate =
+            rate, last_slope = slope, measured_deg = y, computed_deg = x, of_bias_deg = u}
+end
+
+-- The filter after a value, `dt` seconds after the last.
+function law.filter_value(before, value, dt, time_s)
+    local change = before.last == before.last and value - before.last or 0.0
+    return {value = law.high_pass(before.value, change, dt, time_s), last = value}
+end
+
+-- The sums of which a share is kept, with a pair that counts for so many seconds.
+function law.add_pair(fit, y, x, seconds, kept)
+    return {product = kept * fit.product + seconds * y * x, square = kept * fit.square + seconds * x * x}
+end
+
+-- The ratio; `prior` is how much the declared one weighs, in x^2 s.
+function law.ratio_of(fit, declared, prior)
+    return (fit.product + declared * prior) / (fit.square + prior)
+end
+
+-- The fit with a direction and the turn rate of a coordinated turn, `dt` seconds after the last.
+function law.add_quick_turn(turns, declared, direction_deg, rate_deg_s, dt)
+    local measured, computed = 0.0, 0.0
+    if turns.last_deg == turns.last_deg then
+        measured = law.turn_between_deg(turns.last_deg, direction_deg)
+        computed = 0.5 * dt * (turns.last_rate_deg_s + rate_deg_s)
+    end
+    local measured_deg = law.high_pass(turns.measured_deg, measured, dt, 0.3--[[QUICK_FILTER_S]])
+    local computed_deg = law.high_pass(turns.computed_deg, computed, dt, 0.3--[[QUICK_FILTER_S]])
+    local measured_mean = law.filter_value(turns.measured_mean, measured_deg, dt, 0.5--[[QUICK_MEAN_S]])
+    local computed_mean = law.filter_value(turns.computed_mean, computed_deg, dt, 0.5--[[QUICK_MEAN_S]])
+    local y, x = measured_mean.value, computed_mean.value
+    local excess = max(abs(x) / 0.5--[[QUICK_SATURATION_DEG]], 1.0)
+    local fit = law.add_pair(turns.fit, y, x, dt / (excess * excess), exp(-dt / 6.0--[[QUICK_MEMORY_S]]))
+    local prior = 0.5--[[QUICK_ERROR_DEG]] * 0.5--[[QUICK_ERROR_DEG]] * 0.3--[[QUICK_FILTER_S]] /
+            (0.5--[[QUICK_RATIO_SPREAD]] * 0.5--[[QUICK_RATIO_SPREAD]])
+    return {ratio = law.bounded_turn_ratio(law.ratio_of(fit, declared, prior)), fit = fit, last_deg = direction_deg,
+            last_rate_deg_s = rate_deg_s, measured_deg = measured_deg, computed_deg = computed_deg, measured_mean =
+            measured_mean, computed_mean = computed_mean}
+end
+
+-- The fit with a measurement `dt` seconds after the last, in a wind towards the east and the north.
+function law.add_course(lead, declared_s, state, turn_ratio, wind_east_m_s, wind_north_m_s, dt)
+    local c, s = law.heading_vector(state.heading_deg)
+    local east, north = state.velocity_east_m_s - wind_east_m_s, state.velocity_north_m_s - wind_north_m_s
+    -- Both positive to the right.
+    local angle = law.filter_value(lead.angle, atan(east * s - north * c, east * c + north * s), dt,
+            1.5--[[LEAD_FILTER_S]])
+    local turn_rate = turn_ratio * law.rate_at_bank(state.bank_deg, state.airspeed_m_s)
+    local rate = law.filter_value(lead.rate, turn_rate, dt, 1.5--[[LEAD_FILTER_S]])
+    local fit = law.add_pair(lead.fit, angle.value, rate.value, dt, exp(-dt / 30.0--[[LEAD_MEMORY_S]]))
+    local prior = 0.03--[[DIRECTION_ERROR]] * 0.03--[[DIRECTION_ERROR]] / (0.1--[[LEAD_SPREAD_S]] *
+            0.1--[[LEAD_SPREAD_S]])
+    return {lead_s = law.clip(law.ratio_of(fit, declared_s, prior), 0.4--[[LARGEST_LEAD_S]]), fit = fit, angle =
+            angle, rate = rate}
+end
+
+-- The fits with a measurement `dt` seconds after the last, and with the same state without its biases.
+function law.add_turn(turns, declared, declared_s, measurement, state, wind_east_m_s, wind_north_m_s, dt)
+    local slow = law.add_slow_turn(turns.slow, declared, measurement, dt)
+    local rate_deg_s = law.rate_at_bank(state.bank_deg, state.airspeed_m_s) * 57.29577951308232
+    local course_deg = atan(state.velocity_east_m_s - wind_east_m_s, state.velocity_north_m_s - wind_north_m_s) *
+            57.29577951308232
+    local quick = law.add_quick_turn(turns.quick, declared, course_deg, rate_deg_s, dt)
+    local lead = law.add_course(turns.lead, declared_s, state, slow.ratio, wind_east_m_s, wind_north_m_s, dt)
+    return {slow = slow, quick = quick, lead = lead}
+end
+
+-- The average over `AIRSPEED_MEMORY_S` at most, including a value measured `dt` seconds after the last.
+function law.update_average(average, value, dt)
+    local known_s = min(average.known_s + max(dt, 0.001), 20.0--[[AIRSPEED_MEMORY_S]])
+    return {value = average.value + min(dt / known_s, 1.0) * (value - average.value), known_s = known_s}
+end
+
+-- The airspeeds including a state, `dt` seconds after the last.
+function law.update_airspeeds(settings, airspeeds, state, dt)
+    local always, in_turns = airspeeds.always, airspeeds.in_turns
+    if abs(state.bank_deg) > 0.7--[[TIGHT_SHARE]] * settings.limit_deg then
+        in_turns = law.update_average(in_turns, state.airspeed_m_s, dt)
+    end
+    return {always = law.update_average(always, state.airspeed_m_s, dt), in_turns = in_turns}
+end
+
 -- The scene of a problem, with the arc tolerance that rounding requires; negligible wind is treated as zero.
 function law.scene_of(problem)
     local x, y, c, s, R, wx, wy = problem.x, problem.y, problem.c, problem.s, problem.R, problem.wx, problem.wy
@@ -2741,9 +2950,8 @@ local begun_ms, slot = nil, 0
 -- The mean equivalent airspeed in the present mode.
 local mean_airspeed = {}
 
--- The turn rate over that of a coordinated turn, and what is measured of it at present.
-local turn_ratio = 1.0
-local turning = {time_s = 0.0, turned = 0.0, expected = 0.0}
+-- How the plane turns, and when that was last measured.
+local turns, learned_ms = law.first_turns(0.95, 0.0), nil
 
 local function say(severity, text)
     gcs:send_text(severity, "Entry: " .. text)
@@ -2765,7 +2973,7 @@ local function measure()
         return nil
     end
     return {
-        now_ms = millis(), place = place, east_m_s = velocity:y(), north_m_s = velocity:x(),
+        now_ms = millis(), place = place, velocity_east_m_s = velocity:y(), velocity_north_m_s = velocity:x(),
         wind_east_m_s = wind:y(), wind_north_m_s = wind:x(), ratio = ratio, airspeed_m_s = equivalent * ratio,
         heading_deg = math.deg(ahrs:get_yaw_rad()) % 360.0, bank_deg = math.deg(ahrs:get_roll_rad()),
     }
@@ -2776,30 +2984,30 @@ local function relative(now)
     local offset = flight.centre:get_distance_NE(now.place)
     return {
         time_s = (now.now_ms - flight.since_ms):tofloat() * 0.001, east_m = offset:y(), north_m = offset:x(),
-        heading_deg = now.heading_deg, bank_deg = now.bank_deg, velocity_east_m_s = now.east_m_s,
-        velocity_north_m_s = now.north_m_s, airspeed_m_s = now.airspeed_m_s,
+        heading_deg = now.heading_deg, bank_deg = now.bank_deg, velocity_east_m_s = now.velocity_east_m_s,
+        velocity_north_m_s = now.velocity_north_m_s, airspeed_m_s = now.airspeed_m_s,
     }
 end
 
--- Measure how fast the plane turns.
-local function measure_turning(now)
-    local last_deg = turning.heading_deg
-    turning.heading_deg = now.heading_deg
-    if last_deg == nil or math.abs(now.bank_deg) < TURNING_DEG or now.bank_deg * (turning.bank_deg or 0.0) <= 0.0 then
-        turning.bank_deg, turning.time_s, turning.turned, turning.expected = now.bank_deg, 0.0, 0.0, 0.0
-        return
+-- Measure how the plane turns; whether that is due.
+local function measure_turns(now)
+    if not vehicle:get_likely_flying() or not (now.airspeed_m_s > 1.0) then
+        return false
     end
-    local dt = PERIOD_MS * 0.001
-    turning.bank_deg, turning.time_s = now.bank_deg, turning.time_s + dt
-    turning.turned = turning.turned + math.rad(wrap_180(now.heading_deg - last_deg))
-    turning.expected = turning.expected + GRAVITY * math.tan(math.rad(now.bank_deg)) / now.airspeed_m_s * dt
-    if turning.time_s >= TURNING_S then
-        local measured = turning.turned / turning.expected
-        if measured > LEAST_RATIO and measured < MOST_RATIO then
-            turn_ratio = turn_ratio + TURNING_SHARE * (measured - turn_ratio)
-        end
-        turning.time_s, turning.turned, turning.expected = 0.0, 0.0, 0.0
+    local dt = learned_ms and (now.now_ms - learned_ms):tofloat() * 0.001 or math.huge
+    if dt < LEARN_S then
+        return false
+    elseif dt > RELATED_S then
+        turns, dt = law.restart_turns(turns), 0.0
     end
+    learned_ms = now.now_ms
+    local state = {
+        heading_deg = now.heading_deg, bank_deg = now.bank_deg - turns.slow.bank_bias_deg,
+        airspeed_m_s = now.airspeed_m_s,
+        velocity_east_m_s = now.velocity_east_m_s, velocity_north_m_s = now.velocity_north_m_s,
+    }
+    turns = law.add_turn(turns, 0.95, 0.0, now, state, now.wind_east_m_s, now.wind_north_m_s, dt)
+    return true
 end
 
 -- Measure the airspeed that the present mode holds.
@@ -2814,27 +3022,33 @@ local function measure_airspeed(now, mode)
     mean_airspeed.value = mean_airspeed.value + share * (equivalent_m_s - mean_airspeed.value)
 end
 
--- What is believed of the plane, where something has changed.
-local function vehicle_with(now, vehicle)
-    local known = vehicle.estimates
-    local dt = PERIOD_MS * 0.001
-    flight.known_s = math.min((flight.known_s or PREPARED_S) + dt, AIRSPEED_MEMORY_S)
-    flight.airspeed_m_s = flight.airspeed_m_s + dt / flight.known_s * (now.airspeed_m_s - flight.airspeed_m_s)
-    local changed = math.abs(known.turn_ratio - turn_ratio) > 0.02
-        or math.abs(known.airspeed_m_s - flight.airspeed_m_s) > AIRSPEED_CHANGED * known.airspeed_m_s
-    local east, north = now.wind_east_m_s - known.wind_east_m_s, now.wind_north_m_s - known.wind_north_m_s
-    if not changed and east * east + north * north <= WIND_CHANGED_M_S * WIND_CHANGED_M_S then
-        return vehicle
+-- What is believed of the plane.
+local function estimates_of(now, airspeeds)
+    local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
+    return {
+        roll = {time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S},
+        delay_s = DELAY_S, turn_ratio = turns.slow.ratio, quick_turn_ratio = turns.quick.ratio,
+        course_lead_s = turns.lead.lead_s, wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s,
+        airspeed_m_s = airspeeds.always.value, turn_airspeed_m_s = airspeeds.in_turns.value, overshoot_deg = 0.0,
+        turns_unknown = 0.3 / airspeeds.in_turns.known_s, heading_bias_deg = 0.0,
+        bank_bias_deg = turns.slow.bank_bias_deg,
+    }
+end
+
+-- Learn from a measurement in flight.
+local function learn(now)
+    flight.airspeeds = law.update_airspeeds(flight.settings, flight.airspeeds, now, PERIOD_MS * 0.001)
+    if not measure_turns(now) then
+        return
     end
-    local estimates = {}
-    for name, value in pairs(known) do
-        estimates[name] = value
+    flight.model = {
+        revision = flight.model.revision + 1, bank_deg = flight.model.bank_deg,
+        estimates = estimates_of(now, flight.airspeeds),
+    }
+    local east, north = now.wind_east_m_s - flight.wind_east_m_s, now.wind_north_m_s - flight.wind_north_m_s
+    if east * east + north * north > WIND_CHANGED_M_S * WIND_CHANGED_M_S then
+        searches, flight.wind_east_m_s, flight.wind_north_m_s = 0, now.wind_east_m_s, now.wind_north_m_s
     end
-    estimates.turn_ratio, estimates.quick_turn_ratio = turn_ratio, turn_ratio
-    estimates.wind_east_m_s, estimates.wind_north_m_s = now.wind_east_m_s, now.wind_north_m_s
-    estimates.airspeed_m_s, estimates.turn_airspeed_m_s = flight.airspeed_m_s, flight.airspeed_m_s
-    searches = 0
-    return {revision = vehicle.revision + 1, bank_deg = vehicle.bank_deg, estimates = estimates}
 end
 
 -- The target of the present mode, at an altitude above the sea; nil where there is none.
@@ -2879,7 +3093,7 @@ local function prepare(now)
         return nil
     end
     local airspeed_m_s = equivalent_m_s * now.ratio
-    local tightest_m = law.radius_at_bank(airspeed_m_s, bank_deg) / turn_ratio
+    local tightest_m = law.radius_at_bank(airspeed_m_s, bank_deg) / turns.slow.ratio
     local east, north = now.wind_east_m_s / airspeed_m_s, now.wind_north_m_s / airspeed_m_s
     if east * east + north * north >= 0.9 or tightest_m * law.tightest_radius(east, north) > radius_m then
         return nil
@@ -2890,19 +3104,17 @@ local function prepare(now)
         limit_deg = bank_deg, command_limit_deg = bank_deg, gain = 4.0, reserve = 0.1,
         smoothing_s = 0.5, negligible_wind = 0.03, covered_s = 2.0, search_steps = 1,
     }
-    local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
-    local estimates = {
-        roll = {time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S},
-        delay_s = DELAY_S, turn_ratio = turn_ratio, quick_turn_ratio = turn_ratio, course_lead_s = 0.0,
-        wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s, airspeed_m_s = airspeed_m_s,
-        turn_airspeed_m_s = airspeed_m_s, overshoot_deg = 0.0, turns_unknown = 0.0, heading_bias_deg = 0.0,
-        bank_bias_deg = 0.0,
+    local airspeeds = {
+        always = {value = airspeed_m_s, known_s = 5.0},
+        in_turns = {value = airspeed_m_s, known_s = 0.3},
     }
+    local estimates = estimates_of(now, airspeeds)
     last_problem, searches = nil, 0
     local model = {revision = 0, bank_deg = now.bank_deg, estimates = estimates}
     return {
         centre = target, settings = settings, model = model, memory = law.first_memory(settings, model),
-        since_ms = now.now_ms, airspeed_m_s = airspeed_m_s, radius_m = radius_m,
+        since_ms = now.now_ms, airspeeds = airspeeds, radius_m = radius_m, wind_east_m_s = now.wind_east_m_s,
+        wind_north_m_s = now.wind_north_m_s,
     }
 end
 
@@ -2914,7 +3126,7 @@ local function is_current(now)
     return is_at(vehicle:get_target_location(), flight.centre) and settings.radius_m == radius_m
         and settings.limit_deg == bank_deg and settings.side == SIDE:get()
         and east * east + north * north <= WIND_CHANGED_M_S * WIND_CHANGED_M_S
-        and math.abs(known.turn_ratio - turn_ratio) <= 0.02
+        and math.abs(known.turn_ratio - turns.slow.ratio) <= RATIO_CHANGED
         and math.abs(known.airspeed_m_s - planned_airspeed() * now.ratio) <= AIRSPEED_CHANGED * known.airspeed_m_s
 end
 
@@ -3028,7 +3240,7 @@ local function is_held(now, state)
     local distance_m = math.sqrt(state.east_m * state.east_m + state.north_m * state.north_m)
     local azimuth_deg = bearing_deg(state.north_m, state.east_m)
     local tangent_deg = azimuth_deg + 90.0 * flight.side
-    local course_deg = bearing_deg(now.north_m_s, now.east_m_s)
+    local course_deg = bearing_deg(now.velocity_north_m_s, now.velocity_east_m_s)
     local is_within = math.abs(distance_m - flight.radius_m) <= BAND * flight.radius_m
         and math.abs(wrap_180(course_deg - tangent_deg)) <= BAND_DEG
     local last_deg = flight.azimuth_deg or azimuth_deg
@@ -3044,7 +3256,7 @@ local function begin(now)
     -- The bank has changed since the flight was prepared.
     flight.model.bank_deg = now.bank_deg
     -- The nearer side, until the law has a plan.
-    local cross = state.east_m * now.north_m_s - state.north_m * now.east_m_s
+    local cross = state.east_m * now.velocity_north_m_s - state.north_m * now.velocity_east_m_s
     flight.side = flight.settings.side ~= 0 and flight.settings.side or cross < 0.0 and 1 or -1
     if reposition() ~= ACCEPTED then
         finish(SEVERITY.WARNING, "circle refused", false)
@@ -3084,7 +3296,8 @@ local function guide(now)
     local elapsed_s = flight.stepped_ms and (now.now_ms - flight.stepped_ms):tofloat() * 0.001 or 0.0
     local state = relative(now)
     flight.stepped_ms, flight.memory.step_s = now.now_ms, elapsed_s
-    flight.model = law.fly_as_declared(vehicle_with(now, flight.model), flight.command_deg, elapsed_s)
+    learn(now)
+    flight.model = law.fly_as_declared(flight.model, flight.command_deg, elapsed_s)
     local memory = law.prepare(flight.memory, flight.settings, flight.model, state)
     flight.memory = law.conclude(memory, flight.settings, flight.model, PERIOD_MS * 0.001)
     local command = flight.memory.command
@@ -3114,6 +3327,7 @@ local function wait(now)
         flight = nil
         return
     end
+    measure_turns(now)
     if flight and is_current(now) then
         if is_high and not is_latched then
             begin(now)
@@ -3136,7 +3350,6 @@ end
 local function step()
     local now = measure()
     if now then
-        measure_turning(now)
         measure_airspeed(now, vehicle:get_mode())
     end
     if flight and flight.is_flown then

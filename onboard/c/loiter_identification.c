@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: c3bc84e8fe894bc8e6ff0ec07c262d8aff3a0e02d91f1be0fb1a385fdac8c903
+ * SHA-256 of the source: c06907dc68ddd66ce32ff38706766f287528dea3d99f6f91d8093e804a6823c2
  */
 #include "loiter_identification.h"
 
@@ -383,9 +383,6 @@ static const Sums NO_SUMS = {REAL(0.0), REAL(0.0), REAL(0.0)};
 
 /* The same for the airspeed in turns with more than this share of the bank limit. */
 #define DECLARED_TURN_AIRSPEED_S REAL(0.3)
-static const TurnSums NO_TURNS = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
-static const RatioFit NO_PAIRS = {REAL(0.0), REAL(0.0)};
-static const HighPass NO_VALUE = {REAL(0.0), REAL_NAN};
 
 /* Prediction errors have this standard deviation, degrees, and are correlated over this time, seconds; larger ones
  * than `LARGEST_ERROR_DEG` count as that.
@@ -400,6 +397,9 @@ static const HighPass NO_VALUE = {REAL(0.0), REAL_NAN};
 #define MODELS 30 /* TIMES * RATES */
 static const MeasuredBank NOTHING_MEASURED = {REAL(0.0), REAL(0.0), REAL(0.0)};
 static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
+static const TurnSums NO_TURNS = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+static const RatioFit NO_PAIRS = {REAL(0.0), REAL(0.0)};
+static const HighPass NO_VALUE = {REAL(0.0), REAL_NAN};
 static const WindChange NO_CHANGE = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0025000000000000005)};
 
 /* After a longer step, seconds, the banks are those of a step of this length: it has the same effect on every
@@ -574,22 +574,6 @@ static inline IdentificationSettings settings_of(const VehicleEstimates *declare
             declared->delay_s)};
 }
 
-/* The fit before a measurement, or one that does not relate later measurements to earlier ones. */
-static inline SlowTurns first_slow_turns(real ratio, real bank_bias_deg, TurnSums sums) {
-    return MAKE(SlowTurns){ratio, bank_bias_deg, sums, REAL_NAN, REAL_NAN, REAL_NAN, REAL(0.0), REAL(0.0),
-            REAL(0.0)};
-}
-
-/* The fit before a measurement, or one that does not relate later measurements to earlier ones. */
-static inline QuickTurns first_quick_turns(real ratio, RatioFit fit) {
-    return MAKE(QuickTurns){ratio, fit, REAL_NAN, REAL_NAN, REAL(0.0), REAL(0.0), NO_VALUE, NO_VALUE};
-}
-
-/* The fit before a measurement, or one that does not relate later measurements to earlier ones. */
-static inline CourseLead first_lead(real lead_s, RatioFit fit) {
-    return MAKE(CourseLead){lead_s, fit, NO_VALUE, NO_VALUE};
-}
-
 /* `value`, limited to the range from -`limit` to `limit`. */
 static inline real clip(real value, real limit) {
     /* Comparisons take a third of the time of `min` and `max`, and a law clips several values in each step. */
@@ -664,6 +648,28 @@ static inline void begin_roll(RollMemory *memory, const RollSettings *settings) 
     return;
 }
 
+/* The fit before a measurement, or one that does not relate later measurements to earlier ones. */
+static inline SlowTurns first_slow_turns(real ratio, real bank_bias_deg, TurnSums sums) {
+    return MAKE(SlowTurns){ratio, bank_bias_deg, sums, REAL_NAN, REAL_NAN, REAL_NAN, REAL(0.0), REAL(0.0),
+            REAL(0.0)};
+}
+
+/* The fit before a measurement, or one that does not relate later measurements to earlier ones. */
+static inline QuickTurns first_quick_turns(real ratio, RatioFit fit) {
+    return MAKE(QuickTurns){ratio, fit, REAL_NAN, REAL_NAN, REAL(0.0), REAL(0.0), NO_VALUE, NO_VALUE};
+}
+
+/* The fit before a measurement, or one that does not relate later measurements to earlier ones. */
+static inline CourseLead first_lead(real lead_s, RatioFit fit) {
+    return MAKE(CourseLead){lead_s, fit, NO_VALUE, NO_VALUE};
+}
+
+/* The fits before a measurement, with what is declared. */
+static inline Turns first_turns(real turn_ratio, real lead_s) {
+    return MAKE(Turns){first_slow_turns(turn_ratio, REAL(0.0), NO_TURNS), first_quick_turns(turn_ratio, NO_PAIRS),
+            first_lead(lead_s, NO_PAIRS)};
+}
+
 /* The fit before a measurement. */
 static inline WindFit first_wind(real east_m_s, real north_m_s, real known_s) {
     return MAKE(WindFit){east_m_s, north_m_s, REAL(0.0), known_s, MAKE(AirMeans){east_m_s, north_m_s, REAL(0.0),
@@ -675,12 +681,9 @@ static APART void begin_identification(Identification *memory, const Identificat
     const VehicleEstimates declared = settings->declared;
     const Average airspeed = MAKE(Average){declared.airspeed_m_s, DECLARED_AIRSPEED_S};
     const Average turn_airspeed = MAKE(Average){declared.turn_airspeed_m_s, DECLARED_TURN_AIRSPEED_S};
-    const SlowTurns slow = first_slow_turns(declared.turn_ratio, REAL(0.0), NO_TURNS);
-    const QuickTurns quick = first_quick_turns(declared.turn_ratio, NO_PAIRS);
-    const CourseLead lead = first_lead(declared.course_lead_s, NO_PAIRS);
     begin_roll(&memory->roll, &settings->roll);
     memory->stamps = MAKE(Stamps){FIRST_CLOCK, REAL(0.0), -REAL_INFINITY};
-    memory->turns = MAKE(Turns){slow, quick, lead};
+    memory->turns = first_turns(declared.turn_ratio, declared.course_lead_s);
     memory->wind = first_wind(declared.wind_east_m_s, declared.wind_north_m_s, settings->wind_known_s);
     memory->airspeeds = MAKE(Airspeeds){airspeed, turn_airspeed};
     memory->estimates = declared;
@@ -837,6 +840,15 @@ static inline void start_models(RollMemory *memory, real bank_deg) {
     return;
 }
 
+/* The fits, which do not relate later measurements to earlier ones. */
+static inline Turns restart_turns(const Turns *turns) {
+    const SlowTurns slow = turns->slow;
+    const QuickTurns quick = turns->quick;
+    const CourseLead lead = turns->lead;
+    return MAKE(Turns){first_slow_turns(slow.ratio, slow.bank_bias_deg, slow.sums), first_quick_turns(quick.ratio,
+            quick.fit), first_lead(lead.lead_s, lead.fit)};
+}
+
 /* Whether the last measurements differ from the wind as if it had changed. */
 static inline bool is_changing(const WindFit *wind) {
     return wind->change.since_s > REAL(0.0);
@@ -967,6 +979,19 @@ static inline CourseLead add_course(const CourseLead *lead, real declared_s, con
     const RatioFit fit = add_pair(lead->fit, angle.value, rate.value, dt, real_exp(-dt / LEAD_MEMORY_S));
     const real prior = DIRECTION_ERROR * DIRECTION_ERROR / (LEAD_SPREAD_S * LEAD_SPREAD_S);
     return MAKE(CourseLead){clip(ratio_of(fit, declared_s, prior), LARGEST_LEAD_S), fit, angle, rate};
+}
+
+/* The fits with a measurement `dt` seconds after the last, and with the same state without its biases. */
+static inline Turns add_turn(const Turns *turns, real declared, real declared_s, const State *measurement, const
+        State *state, real wind_east_m_s, real wind_north_m_s, real dt) {
+    const SlowTurns slow = add_slow_turn(&turns->slow, declared, measurement, dt);
+    const real rate_deg_s = rate_at_bank(state->bank_deg, state->airspeed_m_s) * REAL(57.29577951308232);
+    const real course_deg = real_atan2(state->velocity_east_m_s - wind_east_m_s, state->velocity_north_m_s -
+            wind_north_m_s) * REAL(57.29577951308232);
+    const QuickTurns quick = add_quick_turn(&turns->quick, declared, course_deg, rate_deg_s, dt);
+    const CourseLead lead = add_course(&turns->lead, declared_s, state, slow.ratio, wind_east_m_s, wind_north_m_s,
+            dt);
+    return MAKE(Turns){slow, quick, lead};
 }
 
 /* The length of a vector whose square neither overflows nor underflows.
@@ -1116,32 +1141,26 @@ static inline Overshoot update_overshoot(Overshoot overshoot, real limit_deg, re
 /* The memory with a new measurement, `since_s` seconds after the last one that was used. */
 static inline void update_fits(Identification *memory, const IdentificationSettings *settings, const State
         *measurement, real since_s) {
-    SlowTurns slow = memory->turns.slow;
-    QuickTurns quick = memory->turns.quick;
-    CourseLead lead = memory->turns.lead;
+    Turns turns = memory->turns;
     WindFit wind = memory->wind;
     Airspeeds airspeeds = memory->airspeeds;
     Overshoot overshoot = memory->overshoot;
     const VehicleEstimates known = memory->estimates;
     const VehicleEstimates declared = settings->declared;
     real dt = since_s;
-    const bool is_near = REAL(0.0) < since_s && since_s <= RELATED_S;
-    if (!is_near) {
+    if (!(REAL(0.0) < since_s && since_s <= RELATED_S)) {
         dt = REAL(0.0);
-        slow = first_slow_turns(slow.ratio, slow.bank_bias_deg, slow.sums);
-        quick = first_quick_turns(quick.ratio, quick.fit);
+        turns = restart_turns(&turns);
+    } else if (is_changing(&wind)) {
+        turns.lead = first_lead(turns.lead.lead_s, turns.lead.fit);
     }
-    if (!is_near || is_changing(&wind)) {
-        lead = first_lead(lead.lead_s, lead.fit);
-    }
-    slow = add_slow_turn(&slow, declared.turn_ratio, measurement, dt);
     const State state = remove_bias(&known, measurement);
+    turns = add_turn(&turns, declared.turn_ratio, declared.course_lead_s, measurement, &state, wind.east_m_s,
+            wind.north_m_s, dt);
+    const SlowTurns slow = turns.slow;
+    const QuickTurns quick = turns.quick;
+    const CourseLead lead = turns.lead;
     const real rate = rate_at_bank(state.bank_deg, state.airspeed_m_s);
-    const real course = real_atan2(state.velocity_east_m_s - wind.east_m_s, state.velocity_north_m_s -
-            wind.north_m_s);
-    quick = add_quick_turn(&quick, declared.turn_ratio, course * REAL(57.29577951308232), rate *
-            REAL(57.29577951308232), dt);
-    lead = add_course(&lead, declared.course_lead_s, &state, slow.ratio, wind.east_m_s, wind.north_m_s, dt);
     /* The direction of flight is to the right of the heading by this angle. */
     wind = add_air_velocity(&wind, &state, lead.lead_s * slow.ratio * rate, known.heading_bias_deg, dt);
     add_measured_bank(&memory->roll, state.bank_deg);
@@ -1152,7 +1171,7 @@ static inline void update_fits(Identification *memory, const IdentificationSetti
             wind.north_m_s, airspeeds.always.value, airspeeds.in_turns.value, overshoot.overshoot_deg,
             DECLARED_TURN_AIRSPEED_S / airspeeds.in_turns.known_s, wind.heading_bias_deg, slow.bank_bias_deg};
     memory->revision = memory->revision + 1;
-    memory->turns = MAKE(Turns){slow, quick, lead};
+    memory->turns = turns;
     memory->wind = wind;
     memory->airspeeds = airspeeds;
     memory->overshoot = overshoot;

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: c3bc84e8fe894bc8e6ff0ec07c262d8aff3a0e02d91f1be0fb1a385fdac8c903
+ * SHA-256 of the source: c06907dc68ddd66ce32ff38706766f287528dea3d99f6f91d8093e804a6823c2
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

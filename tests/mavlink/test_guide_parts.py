@@ -35,7 +35,7 @@ from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
 from loiter.mavlink.guiding.preparation import check_in_wind
 from loiter.mavlink.guiding.report import GuideReport, Stage
-from loiter.mavlink.guiding.settling import MeanPosition, SteadyHoldDetector
+from loiter.mavlink.guiding.settling import LASTING_S, PRESENT_S, MeanPosition, SteadyHoldDetector
 from loiter.mavlink.guiding.step_log import log_row, step_log
 from mavlink.vehicle import mavlink
 
@@ -551,11 +551,23 @@ def test_the_turn_ratio_is_measured_on_the_circle(turn):
     steady = SteadyHoldDetector(Orbit(0.0, 0.0, 80.0, "cw" if turn > 0.0 else "ccw"))
     bank_deg = turn * degrees(math.atan(18.0**2 / 80.0 / 9.80665 / 0.8))
     for i in range(150):
-        assert (steady.turn_ratio is None) == (0.1 * i * 12.9 < 90.0 + 1.29)
+        for time_s in (LASTING_S, PRESENT_S):
+            assert (steady.turn_ratio(time_s) is None) == (0.1 * i * 12.9 < 90.0 + 1.29)
         # The bank oscillates; the headings are those of the circle.
         state = on_circle(turn * degrees(18.0 / 80.0 * 0.1 * i), time_s=0.1 * i, turn=turn)
         steady.update(state._replace(bank_deg=bank_deg + 5.0 * math.sin(2.0 * i)))
-    assert steady.turn_ratio == pytest.approx(0.8, rel=0.02)
+    assert steady.turn_ratio(LASTING_S) == pytest.approx(0.8, rel=0.02)
+
+
+def test_the_present_turn_ratio_follows_a_slip_that_settles():
+    """The bank that keeps the circle falls while the slip does; ArduPlane keeps the last one for 3 s."""
+    steady = SteadyHoldDetector(CIRCLE)
+    for i in range(120):
+        ratio = 1.0 - 0.2 * math.exp(-0.1 * i / 5.0)
+        state = on_circle(degrees(18.0 / 80.0 * 0.1 * i), time_s=0.1 * i)
+        steady.update(state._replace(bank_deg=degrees(math.atan(18.0**2 / 80.0 / 9.80665 / ratio))))
+    assert steady.turn_ratio(PRESENT_S) == pytest.approx(ratio, abs=0.02)
+    assert steady.turn_ratio(LASTING_S) < ratio - 0.03
 
 
 def test_in_gusts_the_band_doubles_after_a_full_circle():

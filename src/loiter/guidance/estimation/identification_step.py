@@ -6,7 +6,7 @@ declared.
 
 from __future__ import annotations
 
-from math import atan2, degrees, exp, inf
+from math import exp, inf
 from typing import NamedTuple
 
 from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advance, check_stamp
@@ -21,19 +21,7 @@ from loiter.guidance.estimation.roll_response import (
     roll_settings,
     start_models,
 )
-from loiter.guidance.estimation.turn_fits import (
-    NO_PAIRS,
-    NO_TURNS,
-    CourseLead,
-    QuickTurns,
-    SlowTurns,
-    add_course,
-    add_quick_turn,
-    add_slow_turn,
-    first_lead,
-    first_quick_turns,
-    first_slow_turns,
-)
+from loiter.guidance.estimation.turn_fits import Turns, add_turn, first_lead, first_turns, restart_turns
 from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, remove_bias
 from loiter.guidance.estimation.wind_fit import WindFit, add_air_velocity, first_wind, is_changing
 from loiter.guidance.protocol import State
@@ -93,14 +81,6 @@ class Stamps(NamedTuple):
     used_s: float
 
 
-class Turns(NamedTuple):
-    """How the vehicle turns: slowly, quickly, and how far it flies beside its nose."""
-
-    slow: SlowTurns
-    quick: QuickTurns
-    lead: CourseLead
-
-
 class Airspeeds(NamedTuple):
     """The airspeed in all, and in tight turns."""
 
@@ -126,7 +106,7 @@ NO_VEHICLE = VehicleEstimates(RollValues(0.0, 0.0), *(12 * (0.0,)))
 NO_IDENTIFICATION = Identification(
     stamps=Stamps(FIRST_CLOCK, 0.0, -inf),
     roll=NO_ROLL,
-    turns=Turns(first_slow_turns(1.0, 0.0, NO_TURNS), first_quick_turns(1.0, NO_PAIRS), first_lead(0.0, NO_PAIRS)),
+    turns=first_turns(1.0, 0.0),
     wind=first_wind(0.0, 0.0, 0.0),
     airspeeds=Airspeeds(NO_AVERAGE, NO_AVERAGE),
     overshoot=NO_OVERSHOOT,
@@ -150,12 +130,10 @@ def begin_identification(memory: Identification, settings: IdentificationSetting
     declared = settings.declared
     airspeed = Average(declared.airspeed_m_s, DECLARED_AIRSPEED_S)
     turn_airspeed = Average(declared.turn_airspeed_m_s, DECLARED_TURN_AIRSPEED_S)
-    slow, quick = first_slow_turns(declared.turn_ratio, 0.0, NO_TURNS), first_quick_turns(declared.turn_ratio, NO_PAIRS)
-    lead = first_lead(declared.course_lead_s, NO_PAIRS)
     memory = memory._replace(roll=begin_roll(memory.roll, settings.roll))
     return memory._replace(
         stamps=Stamps(FIRST_CLOCK, 0.0, -inf),
-        turns=Turns(slow, quick, lead),
+        turns=first_turns(declared.turn_ratio, declared.course_lead_s),
         wind=first_wind(declared.wind_east_m_s, declared.wind_north_m_s, settings.wind_known_s),
         airspeeds=Airspeeds(airspeed, turn_airspeed),
         estimates=declared,
@@ -197,19 +175,18 @@ def update_fits(
     memory: Identification, settings: IdentificationSettings, measurement: State, since_s: float
 ) -> Identification:
     """The memory with a new measurement, `since_s` seconds after the last one that was used."""
-    _, _, (slow, quick, lead), wind, airspeeds, overshoot, _, known = memory
-    declared, dt, is_near = settings.declared, since_s, 0.0 < since_s <= RELATED_S
-    if not is_near:
-        dt, slow = 0.0, first_slow_turns(slow.ratio, slow.bank_bias_deg, slow.sums)
-        quick = first_quick_turns(quick.ratio, quick.fit)
-    if not is_near or is_changing(wind):
-        lead = first_lead(lead.lead_s, lead.fit)
-    slow = add_slow_turn(slow, declared.turn_ratio, measurement, dt)
+    _, _, turns, wind, airspeeds, overshoot, _, known = memory
+    declared, dt = settings.declared, since_s
+    if not 0.0 < since_s <= RELATED_S:
+        dt, turns = 0.0, restart_turns(turns)
+    elif is_changing(wind):
+        turns = turns._replace(lead=first_lead(turns.lead.lead_s, turns.lead.fit))
     state = remove_bias(known, measurement)
+    turns = add_turn(
+        turns, declared.turn_ratio, declared.course_lead_s, measurement, state, wind.east_m_s, wind.north_m_s, dt
+    )
+    slow, quick, lead = turns
     rate = rate_at_bank(state.bank_deg, state.airspeed_m_s)
-    course = atan2(state.velocity_east_m_s - wind.east_m_s, state.velocity_north_m_s - wind.north_m_s)
-    quick = add_quick_turn(quick, declared.turn_ratio, degrees(course), degrees(rate), dt)
-    lead = add_course(lead, declared.course_lead_s, state, slow.ratio, wind.east_m_s, wind.north_m_s, dt)
     # The direction of flight is to the right of the heading by this angle.
     wind = add_air_velocity(wind, state, lead.lead_s * slow.ratio * rate, known.heading_bias_deg, dt)
     memory = memory._replace(roll=add_measured_bank(memory.roll, state.bank_deg))
@@ -231,9 +208,7 @@ def update_fits(
         bank_bias_deg=slow.bank_bias_deg,
     )
     memory = memory._replace(revision=memory.revision + 1)
-    return memory._replace(
-        turns=Turns(slow, quick, lead), wind=wind, airspeeds=airspeeds, overshoot=overshoot, estimates=estimates
-    )
+    return memory._replace(turns=turns, wind=wind, airspeeds=airspeeds, overshoot=overshoot, estimates=estimates)
 
 
 def update_airspeeds(settings: IdentificationSettings, airspeeds: Airspeeds, state: State, dt: float) -> Airspeeds:

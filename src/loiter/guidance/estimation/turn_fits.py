@@ -280,3 +280,49 @@ def add_course(
     fit = add_pair(lead.fit, angle.value, rate.value, dt, exp(-dt / LEAD_MEMORY_S))
     prior = DIRECTION_ERROR * DIRECTION_ERROR / (LEAD_SPREAD_S * LEAD_SPREAD_S)
     return CourseLead(clip(ratio_of(fit, declared_s, prior), LARGEST_LEAD_S), fit, angle, rate)
+
+
+class Turns(NamedTuple):
+    """How the vehicle turns: slowly, quickly, and how far it flies beside its nose."""
+
+    slow: SlowTurns
+    quick: QuickTurns
+    lead: CourseLead
+
+
+def first_turns(turn_ratio: float, lead_s: float) -> Turns:
+    """The fits before a measurement, with what is declared."""
+    return Turns(
+        first_slow_turns(turn_ratio, 0.0, NO_TURNS),
+        first_quick_turns(turn_ratio, NO_PAIRS),
+        first_lead(lead_s, NO_PAIRS),
+    )
+
+
+def restart_turns(turns: Turns) -> Turns:
+    """The fits, which do not relate later measurements to earlier ones."""
+    slow, quick, lead = turns
+    return Turns(
+        first_slow_turns(slow.ratio, slow.bank_bias_deg, slow.sums),
+        first_quick_turns(quick.ratio, quick.fit),
+        first_lead(lead.lead_s, lead.fit),
+    )
+
+
+def add_turn(
+    turns: Turns,
+    declared: float,
+    declared_s: float,
+    measurement: State,
+    state: State,
+    wind_east_m_s: float,
+    wind_north_m_s: float,
+    dt: float,
+) -> Turns:
+    """The fits with a measurement `dt` seconds after the last, and with the same state without its biases."""
+    slow = add_slow_turn(turns.slow, declared, measurement, dt)
+    rate_deg_s = degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s))
+    course_deg = degrees(atan2(state.velocity_east_m_s - wind_east_m_s, state.velocity_north_m_s - wind_north_m_s))
+    quick = add_quick_turn(turns.quick, declared, course_deg, rate_deg_s, dt)
+    lead = add_course(turns.lead, declared_s, state, slow.ratio, wind_east_m_s, wind_north_m_s, dt)
+    return Turns(slow, quick, lead)

@@ -26,7 +26,7 @@ from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
 from loiter.mavlink.guiding.monitor import StopReason
 from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, check_in_wind, choose, prepare
 from loiter.mavlink.guiding.report import GuideReport, Stage
-from loiter.mavlink.guiding.settling import SteadyHoldDetector
+from loiter.mavlink.guiding.settling import LASTING_S, PRESENT_S, SteadyHoldDetector
 from loiter.mavlink.guiding.summary import loss_consequence, summary
 from loiter.planning.model import Turn
 from loiter.planning.slot import Slot
@@ -378,7 +378,7 @@ class GuidedFlight:
         if contact.flies_px4 or contact.steering is None or limit_deg is None:
             return
         on_circle = self._report.phase == Phase.HOLD
-        mean, estimates = self._steady.mean, self._measured_estimates()
+        mean, estimates = self._steady.mean, self._measured_estimates(PRESENT_S)
         bank_deg = last_bank_deg(self.orbit, self._state, mean, estimates, limit_deg) if on_circle else 0.0
         contact.steering.send(contact.link, bank_deg, self._state.bank_deg, monotonic())
 
@@ -523,15 +523,15 @@ class GuidedFlight:
     def _hold_mode(self) -> int:
         return HOLD if self._contact.flies_px4 else GUIDED
 
-    def _measured_estimates(self) -> VehicleEstimates:
-        """The estimates of the law, with the ratio of turn rates measured on the circle where it has been held."""
-        estimates, ratio = self._law.estimates, self._steady.turn_ratio
+    def _measured_estimates(self, time_s: float) -> VehicleEstimates:
+        """The estimates of the law, with the ratio of turn rates measured on the circle over a time if it was held."""
+        estimates, ratio = self._law.estimates, self._steady.turn_ratio(time_s)
         return estimates if ratio is None else estimates._replace(turn_ratio=bounded_turn_ratio(ratio))
 
     def _hold_command(self) -> PendingCommand:
         """The command to hold the circle, with the radius with which the vehicle flies that of the orbit."""
         altitude_m = self._setup.altitude_m
-        estimates = self._measured_estimates() if self._steered else None
+        estimates = self._measured_estimates(LASTING_S) if self._steered else None
         radius_m = sent_radius_m(self.orbit, altitude_m, self._contact.parameters.known, estimates)
         latitude_deg, longitude_deg = self._request.frame.to_geodetic(self.orbit.east_m, self.orbit.north_m)
         place = float(latitude_deg), float(longitude_deg), altitude_m

@@ -22,10 +22,10 @@ GUSTY_DEG, NEAR = 360.0, 4.0
 # within this many degrees of its mean.
 LONGEST_WAIT_DEG, MEAN_S, QUIET, QUIET_S, QUIET_BANK_DEG = 180.0, 1.0, 0.3, 2.0, 1.5
 
-# The turn ratio on the circle is averaged over this time, seconds: it changes for some seconds after an aircraft has
-# begun to turn, while its sideslip settles, and a swing of the bank disturbs a shorter average. The coordinated turn
-# must be at least this, degrees.
-RATIO_S, LEAST_TURN_DEG = 6.0, 10.0
+# Turn ratios on the circle are averages over so many seconds. One changes for some seconds after an aircraft has begun
+# to turn, while its sideslip settles, and a swing of the bank disturbs a short average: the long one suits a correction
+# that stays, the short one the next seconds. The coordinated turn must be at least this rate, degrees per second.
+LASTING_S, PRESENT_S, LEAST_RATE_DEG_S = 6.0, 2.0, 1.7
 
 
 class MeanPosition(NamedTuple):
@@ -33,6 +33,20 @@ class MeanPosition(NamedTuple):
 
     outside_m: float
     course_error_deg: float
+
+
+class TurnSum(NamedTuple):
+    """The angles, degrees, that the heading has lately turned and that coordinated turns with those banks have."""
+
+    heading_deg: float
+    coordinated_deg: float
+
+    def with_turn(self, heading_deg: float, coordinated_deg: float, kept: float) -> TurnSum:
+        """The sums of which a share is kept, with another turn."""
+        return TurnSum(kept * self.heading_deg + heading_deg, kept * self.coordinated_deg + coordinated_deg)
+
+
+NO_TURN = TurnSum(0.0, 0.0)
 
 
 class SteadyHoldDetector:
@@ -55,17 +69,18 @@ class SteadyHoldDetector:
     def _leave(self) -> None:
         """Begin again: the vehicle is outside the band."""
         self._since_s, self.settled = nan, False
-        self._flown_deg = self._waited_deg = self._heading_deg = self._coordinated_deg = 0.0
+        self._flown_deg = self._waited_deg = 0.0
+        self._turns = {LASTING_S: NO_TURN, PRESENT_S: NO_TURN}
 
-    @property
-    def turn_ratio(self) -> float | None:
-        """The angle that the heading has lately turned, divided by that of coordinated turns with that bank.
+    def turn_ratio(self, time_s: float) -> float | None:
+        """The angle that the heading has turned over `LASTING_S` or `PRESENT_S`, divided by that of coordinated turns.
 
         None where the circle has not been held for a while.
         """
-        if self._flown_deg < STAY_DEG or abs(self._coordinated_deg) < LEAST_TURN_DEG:
+        turn = self._turns[time_s]
+        if self._flown_deg < STAY_DEG or abs(turn.coordinated_deg) < LEAST_RATE_DEG_S * time_s:
             return None
-        return self._heading_deg / self._coordinated_deg
+        return turn.heading_deg / turn.coordinated_deg
 
     def update(self, state: State) -> CircleOffset:
         """Process a state; returns its offset from the circle."""
@@ -109,8 +124,5 @@ class SteadyHoldDetector:
             self._quiet_since_s = state.time_s
         turned_deg = remainder(state.heading_deg - last.heading_deg, 360.0)
         coordinated_deg = degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s)) * dt
-        kept = exp(-dt / RATIO_S)
-        self._heading_deg, self._coordinated_deg = (
-            kept * self._heading_deg + turned_deg,
-            kept * self._coordinated_deg + coordinated_deg,
-        )
+        for time_s, turn in self._turns.items():
+            self._turns[time_s] = turn.with_turn(turned_deg, coordinated_deg, exp(-dt / time_s))
