@@ -20,6 +20,11 @@ local MANY_SEARCHES = 60
 -- What GUIDED_CHANGE_HEADING does with a bank: a delay, seconds, then a quick response with a limited rate of roll.
 local DELAY_S, ROLL_TIME_S, ROLL_RATE_DEG_S = 0.2, 0.1, 90.0
 
+-- The delay is measured in whole steps, up to this many. The squares of the errors of the bank, each at most the second
+-- number, are forgotten over the third, seconds; the declared delay counts as this much of them for each second squared
+-- by which another one is off.
+local MOST_STEPS, LARGEST_ERROR_DEG2, DELAY_MEMORY_S, DELAY_WEIGHT = 10, 100.0, 20.0, 2000.0
+
 -- The largest bank ever commanded, and how far below the limit of the autopilot it stays, degrees.
 local LARGEST_BANK_DEG, BELOW_LIMIT_DEG = 60.0, 0.5
 
@@ -227,12 +232,45 @@ local function measure_airspeed(now, mode)
     mean_airspeed.value = mean_airspeed.value + share * (equivalent_m_s - mean_airspeed.value)
 end
 
+-- The errors of the modelled bank for each delay, and the delay that follows from them; one flight learns from another.
+local delay_errors, delay_s = {}, DELAY_S
+for k = 0, MOST_STEPS do
+    local off_s = PERIOD_MS * 0.001 * k - DELAY_S
+    delay_errors[k] = DELAY_WEIGHT * off_s * off_s
+end
+
+-- Measure the delay: of the modelled banks of the last steps, one is most like the measured one.
+local function measure_delay(now)
+    local banks, errors, dt = flight.banks, delay_errors, PERIOD_MS * 0.001
+    table.insert(banks, 1, flight.model.bank_deg)
+    banks[MOST_STEPS + 2] = nil
+    if #banks <= MOST_STEPS then
+        -- The bank still follows what ArduPlane commanded before.
+        return
+    end
+    local kept, best = math.exp(-dt / DELAY_MEMORY_S), 0
+    for k = 0, MOST_STEPS do
+        local off_deg = now.bank_deg - banks[k + 1]
+        errors[k] = kept * errors[k] + dt * math.min(off_deg * off_deg, LARGEST_ERROR_DEG2)
+        if errors[k] < errors[best] then
+            best = k
+        end
+    end
+    -- The least of the parabola through three errors.
+    local beside = 0.0
+    if best > 0 and best < MOST_STEPS then
+        local before, after = errors[best - 1] - errors[best], errors[best + 1] - errors[best]
+        beside = before + after > 0.0 and 0.5 * (before - after) / (before + after) or 0.0
+    end
+    delay_s = dt * (best + beside)
+end
+
 -- What is believed of the plane.
 local function estimates_of(now, airspeeds)
     local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
     return {
         roll = {time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S},
-        delay_s = DELAY_S, turn_ratio = turns.slow.ratio, quick_turn_ratio = turns.quick.ratio,
+        delay_s = delay_s, turn_ratio = turns.slow.ratio, quick_turn_ratio = turns.quick.ratio,
         course_lead_s = turns.lead.lead_s, wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s,
         airspeed_m_s = airspeeds.always.value, turn_airspeed_m_s = airspeeds.in_turns.value, overshoot_deg = 0.0,
         turns_unknown = @DECLARED_TURN_AIRSPEED@ / airspeeds.in_turns.known_s, heading_bias_deg = 0.0,
@@ -242,6 +280,7 @@ end
 
 -- Learn from a measurement in flight.
 local function learn(now)
+    measure_delay(now)
     flight.airspeeds = law.update_airspeeds(flight.settings, flight.airspeeds, now, PERIOD_MS * 0.001)
     if not measure_turns(now) then
         return
@@ -459,7 +498,7 @@ local function begin(now)
     local _, state = nil, relative(now)
     flight.ratio, flight.begun_ms, flight.command_deg = now.ratio, now.now_ms, now.bank_deg
     -- The bank has changed since the flight was prepared.
-    flight.model.bank_deg = now.bank_deg
+    flight.model.bank_deg, flight.banks = now.bank_deg, {}
     -- The nearer side, until the law has a plan.
     local cross = state.east_m * now.velocity_north_m_s - state.north_m * now.velocity_east_m_s
     flight.side = flight.settings.side ~= 0 and flight.settings.side or cross < 0.0 and 1 or -1
@@ -501,8 +540,8 @@ local function guide(now)
     local elapsed_s = flight.stepped_ms and (now.now_ms - flight.stepped_ms):tofloat() * 0.001 or 0.0
     local state = relative(now)
     flight.stepped_ms, flight.memory.step_s = now.now_ms, elapsed_s
-    learn(now)
     flight.model = law.fly_as_declared(flight.model, flight.command_deg, elapsed_s)
+    learn(now)
     local memory = law.prepare(flight.memory, flight.settings, flight.model, state)
     flight.memory = law.conclude(memory, flight.settings, flight.model, PERIOD_MS * 0.001)
     local command = flight.memory.command

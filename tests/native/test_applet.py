@@ -120,6 +120,12 @@ def test_every_start_settles(flights):
     assert np.median([one.entered_s - least_s(i) for i, one in zip(STARTS, flights, strict=True)]) < 4.0
 
 
+@pytest.mark.parametrize("i", [0, 8])
+def test_the_delay_of_the_bank_is_measured(i):
+    """It is 0.3 s with that of the measurements, 0.2 are declared: with these the entries were 1.3 and 1.1 s late."""
+    assert flown(i).entered_s - least_s(i) < 0.5
+
+
 @pytest.mark.parametrize("i", [7, 27])
 def test_in_wind_half_a_second_of_waiting_is_enough(i):
     """With one search in each step before and in the flight these starts were 7.8 and 14.7 s late."""
