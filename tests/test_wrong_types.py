@@ -24,7 +24,7 @@ LEG_PLAN = loiter.plan_leg(LEG, UAV)
 RUNWAY = loiter.Runway(0.0, 0.0, 90.0, altitude_m=500.0)
 LANDING = loiter.Landing(Pose(-400.0, 900.0, 90.0, altitude_m=650.0), RUNWAY, radius_m=120.0, final_m=500.0)
 SINKING = Aircraft(18.0, max_bank_deg=35.0, descent_rate_m_s=3.0)
-TABLE = {"columns": {"east_m": "x"}, "origin": FRAME, "orbit_velocity_m_s": (1.0, 0.0)}
+TABLE = {"columns": {"east_m": "x"}, "origin": FRAME, "orbit_velocity_m_s": (1.0, 0.0), "slot": loiter.Slot(0.0)}
 SCENE = {"orbit": ORBIT, "aircraft": UAV, "wind": WIND}
 SAVED = {"maneuver": MANEUVER, "frame": FRAME, "datum": io.AltitudeDatum(), "altitude_m": 900.0}
 
@@ -80,11 +80,15 @@ CALLS = [
         "connection maneuver frame",
     ),
     (mavlink.guide, {"connection": LINK, "orbit": ORBIT, "frame": FRAME}, "connection orbit frame wind log"),
-    (batch.plan, {"frame": None, **SCENE, **TABLE}, "frame orbit aircraft wind turn origin columns orbit_velocity_m_s"),
+    (
+        batch.plan,
+        {"frame": None, **SCENE, **TABLE},
+        "frame orbit aircraft wind turn origin columns orbit_velocity_m_s slot",
+    ),
     (
         batch.run,
         {"source": "x.csv", "target": "y.csv", **SCENE, **TABLE},
-        "source target rejects orbit aircraft wind turn origin columns orbit_velocity_m_s",
+        "source target rejects orbit aircraft wind turn origin columns orbit_velocity_m_s slot",
     ),
 ]
 WRONG = [5, (0.0, 0.0, 80.0), [5, 6, 7], {1, 2, 3}, POSE, UAV, object()]

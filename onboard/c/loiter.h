@@ -46,6 +46,7 @@ enum {
     LOITER_NOT_HELD = 11,
     LOITER_NOT_CONVERGED = 12,
     LOITER_BAD_WIND = 13,
+    LOITER_BAD_SLOT = 14,
     /* `dt_s` of a step is not a positive, finite number. */
     LOITER_BAD_STEP = 14,
     /* Roll response, delay, reserve, smoothing or gain is what no aircraft has. */

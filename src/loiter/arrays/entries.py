@@ -10,14 +10,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from loiter.arrays.reduction import heading_vectors
+from loiter.compiled import wind_solver
+from loiter.errors import OutOfRange
 from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.rounding import REACH
 from loiter.kernel.statuses import Status
-from loiter.kernel.words import Word
+from loiter.kernel.wind.wind_search import WindEntry, WindProblem, no_entry, status_of, time_of
+from loiter.kernel.words import Side, Word
 from loiter.planning.compass import heading_after
 from loiter.planning.feasibility import RelativeWind, relative_velocity
 from loiter.planning.model import CONTROLS, position_after, radius_at_bank, radius_at_rate, wind_velocity
+from loiter.planning.sides import TURNS, directions, sign_of
+from loiter.planning.slot import Slot, phase_at_start
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,7 +44,7 @@ class States(NamedTuple):
 
     `side` holds `loiter.kernel.words.Side` codes (int8), `UNKNOWN` among them. `limit` names the kind of `turn_limit`:
     "max_bank_deg", "min_turn_radius_m" or "max_turn_rate_deg_s". The position of the circle is that at the start. The
-    caller has checked the values that all rows share.
+    caller has checked the values that all rows share. With `slot_phase_deg` each row enters a slot.
     """
 
     east_m: Floats
@@ -57,6 +62,8 @@ class States(NamedTuple):
     wind_from_deg: Floats | float = 0.0
     orbit_velocity_east_m_s: Floats | float = 0.0
     orbit_velocity_north_m_s: Floats | float = 0.0
+    slot_phase_deg: Floats | float | None = None
+    slot_at_s: Floats | float = 0.0
 
 
 class Entries(NamedTuple):
@@ -83,6 +90,9 @@ def entries(states: States) -> Entries:
     n = len(states.east_m)
     found: list[Any] = [np.empty(n, dtype=np.int8 if name in _CODES else np.float64) for name in Entries._fields]
     with np.errstate(all="ignore"):
+        if states.slot_phase_deg is not None:
+            _solve(states, slice(None), _in_slots, found)
+            return Entries(*found)
         for start in range(0, n, BLOCK):
             _solve(states, slice(start, start + BLOCK), _in_still_air, found)
         windy = _windy(states)
@@ -151,6 +161,49 @@ def _in_wind(s: States) -> Entries:
     solution = _kernel_in_wind(
         np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy, s.tolerance_m / r
     )
+    return _entries_in_wind(s, r, refused, solution)
+
+
+def _in_slots(s: States) -> Entries:
+    """The entries of rows into slots, in still air and in wind."""
+    r = _turn_radius(s)
+    refused = _refused_statuses(s, r)
+    x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
+    (c, v), (wx, wy) = heading_vectors()(s.heading_deg), _relative_wind(s)
+    phase: Any = s.slot_phase_deg
+    rows = np.broadcast_arrays(
+        np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy, phase, s.slot_at_s,
+        r / s.airspeed_m_s,
+    )  # fmt: skip
+    found = [_first_in_slot(*row) for row in zip(*(column.tolist() for column in rows), strict=True)]
+    status, side, word, t1, t2, t3, azimuth, miss = np.array(found, dtype=np.float64).reshape(-1, 8).T
+    word_codes, statuses, sides = (column.astype(np.int8) for column in (word, status, side))
+    solution = t1 + t2 + t3, word_codes, np.stack([t1, t2, t3], axis=-1), statuses, sides, azimuth, miss
+    return _entries_in_wind(s, r, refused, solution)
+
+
+def _first_in_slot(
+    x: float, y: float, c: float, v: float, R: float, side: int, wx: float, wy: float,
+    phase_deg: float, at_s: float, unit_s: float,
+) -> WindEntry:  # fmt: skip
+    """The fastest entry of one row into its slot, as `plan` finds it; a status where there is none."""
+    given = WindProblem(x, y, c, v, R, side, wx, wy, 0.0)
+    status = status_of(given)
+    if status != Status.OK:
+        return no_entry(status)
+    found = []
+    for turn in directions(TURNS[Side(side)]):
+        held = given._replace(side=sign_of(turn))
+        try:
+            found.append(wind_solver.first_in_slot(held, phase_at_start(Slot(phase_deg, at_s), held, unit_s)))
+        except OutOfRange:
+            return no_entry(Status.BAD_SLOT)
+    failed = [entry for entry in found if entry.status != Status.OK]
+    return failed[0] if failed else min(found, key=time_of)
+
+
+def _entries_in_wind(s: States, r: Any, refused: Any, solution: tuple[Any, ...]) -> Entries:
+    """The entries in SI of the kernel's solution for rows in wind."""
     time, word, durations, status, side, azimuth, _ = solution
     seconds = r / s.airspeed_m_s
     time_s, (first_s, second_s, third_s) = time * seconds, durations.T * seconds
@@ -236,6 +289,9 @@ def _refused_statuses(s: States, r: Any) -> Any:
     if any(isinstance(v, np.ndarray) for v in (s.wind_speed_m_s, s.wind_from_deg)):
         valid = np.isfinite(s.wind_speed_m_s) & np.isfinite(s.wind_from_deg) & np.greater_equal(s.wind_speed_m_s, 0.0)
         refused = np.where(valid, refused, Status.BAD_WIND)
+    if any(isinstance(v, np.ndarray) for v in (s.slot_phase_deg, s.slot_at_s)):
+        known: Any = s.slot_phase_deg
+        refused = np.where(np.isfinite(known) & np.isfinite(s.slot_at_s), refused, Status.BAD_SLOT)
     if any(isinstance(v, np.ndarray) for v in (s.airspeed_m_s, s.turn_limit)):
         below_90 = np.less(s.turn_limit, 90.0) if s.limit == "max_bank_deg" else True
         valid = _positive(s.airspeed_m_s) & _positive(s.turn_limit) & _positive(r) & below_90

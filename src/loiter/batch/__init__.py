@@ -16,6 +16,7 @@ from loiter.errors import InvalidArgument, MissingPackage, file_path
 from loiter.geo import LocalFrame
 from loiter.lazy import LazyModule
 from loiter.planning.model import Aircraft, Orbit, Turn, TurnName, Wind
+from loiter.planning.slot import Slot
 
 if TYPE_CHECKING:
     from loiter.batch.jobs import job
@@ -45,6 +46,7 @@ def run(
     tolerance_m: float = 0.0,
     fence: Fence | PlacedFence | None = None,
     margin_m: float | None = None,
+    slot: Slot | None = None,
     workers: int | None = None,
     scheduler: str | None = None,
     rejects: str | os.PathLike[str] | None = None,
@@ -63,6 +65,7 @@ def run(
     row gives its circle in degrees, too.
     A table with columns of the point flown to, `exit_east_m` and `exit_north_m`, has legs: docs/batch.md. With a
     `fence`, in degrees where the table is, each row is checked against it by the margin `margin_m`, metres.
+    With `slot`, or columns `slot_phase_deg` and `slot_at_s`, each row enters a slot (docs/slots.md).
     `workers` is the number of threads that solve, by default that of the cores; `scheduler` is the address of the
     scheduler of a Dask cluster that does this instead. `rejects` is a CSV file to write: the malformed lines of CSV
     files, with file, line number, problem and text. `progress` is called periodically.
@@ -82,7 +85,9 @@ def run(
 
     count, given = (
         _workers(workers, scheduler),
-        shared_values(orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns, tolerance_m, fence, margin_m),
+        shared_values(
+            orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns, tolerance_m, fence, margin_m, slot
+        ),
     )
     kept = None if rejects is None else Path(file_path("rejects", rejects))
     request = check_request(file_path("source", source), file_path("target", target), given, kept)
@@ -102,6 +107,7 @@ def plan(
     tolerance_m: float = 0.0,
     fence: Fence | PlacedFence | None = None,
     margin_m: float | None = None,
+    slot: Slot | None = None,
 ) -> AnyFrame:
     """The fastest entries of the rows of a data frame of pandas, Dask, Polars or Arrow: the same with added columns.
 
@@ -119,7 +125,7 @@ def plan(
     from loiter.batch.tables.columns import shared_values
 
     options = shared_values(
-        orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns, tolerance_m, fence, margin_m
+        orbit, turn, aircraft, wind, orbit_velocity_m_s, origin, columns, tolerance_m, fence, margin_m, slot
     )
     planned: AnyFrame = plan_frame(frame, options)
     return planned

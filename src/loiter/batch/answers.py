@@ -31,6 +31,7 @@ from loiter.batch.tables.mapping import (
     ORBIT_PLACE,
     PLACE,
     POSE,
+    SLOT,
     TURN,
     VELOCITY,
     WIND,
@@ -135,8 +136,9 @@ def _states(batch: pa.RecordBatch, columns: Columns, numbers: dict[str, Any]) ->
     side: Any = int(SIDES[columns.turn]) if columns.turn is not None else None
     if side is None:
         side = _sides(batch.column(columns.mapped[TURN].name))
+    slot = SLOT if columns.has_slots else ()
     return States(
-        **{name: numbers[name] for name in (*POSE, *ORBIT, AIRSPEED, *WIND, *VELOCITY, TOLERANCE)},
+        **{name: numbers[name] for name in (*POSE, *ORBIT, AIRSPEED, *WIND, *VELOCITY, TOLERANCE, *slot)},
         side=side,
         turn_limit=numbers[columns.limit],
         limit=columns.limit,

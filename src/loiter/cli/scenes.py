@@ -122,6 +122,15 @@ def read_slot(bearing_deg: float, at_s: float) -> Slot:
         return Slot(bearing_deg, at_s)
 
 
+def slot_of(bearing_deg: float | None, at_s: float | None) -> Slot | None:
+    """The slot of the options, if there is one; raises `InvalidArgument` where they do not fit together."""
+    if bearing_deg is None:
+        if at_s is not None:
+            raise InvalidArgument("slot_at_s", "needs --slot, the bearing of the slot at that time")
+        return None
+    return read_slot(bearing_deg, 0.0 if at_s is None else at_s)
+
+
 @contextmanager
 def fit_proposed() -> Iterator[None]:
     """Add to the refusal of a circle that cannot be held that `--fit` plans for one that can."""

@@ -20,6 +20,7 @@ class Status(IntEnum):
     NOT_HELD = 11
     NOT_CONVERGED = 12
     BAD_WIND = 13
+    BAD_SLOT = 14
 
     @property
     def message(self) -> str:
@@ -45,4 +46,5 @@ _MESSAGES = {
     Status.NOT_HELD: "the circle is too tight to be held in this wind",
     Status.NOT_CONVERGED: "no maneuver was found that ends on the circle when flown",
     Status.BAD_WIND: "the wind needs a finite speed, zero or positive, and a finite direction",
+    Status.BAD_SLOT: "the slot needs a finite bearing, and a finite time within 100,000 turns of the start",
 }

@@ -25,7 +25,7 @@ from loiter.batch.jobs.folder import Target
 from loiter.batch.jobs.parts import Job, append_part, counts_of, solve_part
 from loiter.batch.jobs.request import JobRequest, describe, row_limits, versions_of
 from loiter.batch.tables import files, ingest, outputs, storage
-from loiter.batch.tables.columns import STATUSES, may_drift
+from loiter.batch.tables.columns import STATUSES, may_take_long
 from loiter.batch.tables.ingest import Ingested
 from loiter.batch.tables.storage import Folder
 from loiter.errors import InvalidArgument, Unfinished
@@ -133,7 +133,7 @@ def _divide(request: JobRequest, identity: str, ingested: Ingested | None) -> tu
             # Text stays as it is where the output is text.
             schema = pa.schema(zip(schema.names, map(pa.type_for_alias, ingested.types), strict=True))
     part_rows, batch_rows = row_limits(request)
-    parts = files.parts_of(sizes, part_rows, cut=may_drift(request.columns))
+    parts = files.parts_of(sizes, part_rows, cut=may_take_long(request.columns))
     job = Job(
         tables=tuple(tables),
         names=tuple(names),

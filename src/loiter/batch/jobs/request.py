@@ -11,7 +11,7 @@ import pyarrow as pa
 from loiter.batch.jobs import folder
 from loiter.batch.jobs.folder import Target
 from loiter.batch.tables import files, ingest, outputs, storage
-from loiter.batch.tables.columns import Columns, SharedValues, columns, may_drift
+from loiter.batch.tables.columns import Columns, SharedValues, columns, may_take_long
 from loiter.batch.tables.sources import Source, find_source
 from loiter.errors import InvalidArgument
 from loiter.version import __version__
@@ -88,7 +88,7 @@ def _check_rejects_apart(rejects: Path, source: Source, target: Target) -> None:
 
 def row_limits(request: JobRequest) -> tuple[int, int]:
     """The number of rows of a part and of a batch."""
-    if may_drift(request.columns) or request.columns.one_by_one:
+    if may_take_long(request.columns):
         return files.PART_ROWS_IN_WIND, files.BATCH_ROWS_IN_WIND
     return files.PART_ROWS, files.BATCH_ROWS
 

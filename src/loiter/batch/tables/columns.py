@@ -23,6 +23,9 @@ from loiter.batch.tables.mapping import (
     POSE,
     RADIUS,
     RATES,
+    SLOT,
+    SLOT_PHASE,
+    SLOT_TIME,
     TURN,
     VELOCITY,
     WIND,
@@ -36,6 +39,7 @@ from loiter.geo import LocalFrame
 from loiter.kernel.statuses import Status
 from loiter.kernel.words import Word
 from loiter.planning.model import CONTROLS, TURN_LIMITS, Aircraft, Orbit, Turn, Wind
+from loiter.planning.slot import Slot
 
 if TYPE_CHECKING:
     from loiter.fences import Fence, PlacedFence
@@ -92,7 +96,7 @@ class Columns:
 
     `limit` is the name of the turn limit; `turn` is None if a column gives it. If `is_placed` is true, positions are
     places on Earth, in the local frame of `origin`, or each row in that of its circle. If `text` is true, the numbers
-    are text, and the last column of the table marks malformed lines.
+    are text, and the last column of the table marks malformed lines. If `has_slots` is true, each row enters its slot.
     """
 
     shared: Mapping[str, float]
@@ -105,6 +109,7 @@ class Columns:
     fence: Fence | PlacedFence | None = None
     margin_m: float | None = None
     has_legs: bool = False
+    has_slots: bool = False
 
     @property
     def added(self) -> pa.Schema:
@@ -161,10 +166,16 @@ def shared_values(
     tolerance_m: float = 0.0,
     fence: Fence | PlacedFence | None = None,
     margin_m: float | None = None,
+    slot: Slot | None = None,
 ) -> SharedValues:
     """The values of the options, checked. `aircraft` may be incomplete, with the names of `Aircraft`."""
     _check_fence(fence, origin, margin_m)
-    for name, value, kind in (("orbit", orbit, Orbit), ("wind", wind, Wind), ("origin", origin, LocalFrame)):
+    for name, value, kind in (
+        ("orbit", orbit, Orbit),
+        ("wind", wind, Wind),
+        ("origin", origin, LocalFrame),
+        ("slot", slot, Slot),
+    ):
         if value is not None:
             instance(name, value, kind)
     if aircraft is not None and not isinstance(aircraft, Mapping):
@@ -180,6 +191,8 @@ def shared_values(
         turn = turn if turn is not None or orbit.turn is Turn.EITHER else orbit.turn
     if turn is not None and turn not in tuple(Turn):
         raise InvalidArgument("turn", f"is {turn!r}: it must be cw, ccw or either")
+    if slot is not None:
+        numbers |= zip(SLOT, (slot.phase_deg, slot.at_s), strict=True)
     numbers |= _aircraft_numbers(aircraft) | {TOLERANCE: not_negative(TOLERANCE, tolerance_m, "metres")}
     return SharedValues(numbers, None if turn is None else Turn(turn), origin, dict(mapped or {}), fence, margin_m)
 
@@ -252,6 +265,10 @@ def columns(argument: str, schema: pa.Schema, options: SharedValues, *, text: bo
     limit = given.turn_limit()
     still_air = given.zeros_unless_given("wind", WIND)
     at_rest = given.zeros_unless_given("orbit_velocity_m_s", VELOCITY)
+    has_slots = given.has_slots()
+    if has_slots and numbers[TOLERANCE] != 0.0:
+        raise InvalidArgument(TOLERANCE, "must be 0 with slots: an entry ends in its slot")
+    at_start = {} if SLOT_TIME in mapped or not has_slots else {SLOT_TIME: numbers.get(SLOT_TIME, 0.0)}
     turn = options.turn
     if TURN in mapped:
         if turn is not None:
@@ -261,8 +278,10 @@ def columns(argument: str, schema: pa.Schema, options: SharedValues, *, text: bo
     has_legs = given.has("exit_to", EXIT_PLACE if is_placed else EXIT)
     for name in RATES if has_legs else ():
         given.has(f"aircraft {name}", (name,))
+    if has_slots and (has_legs or options.fence is not None):
+        raise InvalidArgument("slot", f"cannot be combined with {'legs' if has_legs else 'a fence'}")
     meaning = Columns(
-        shared={**numbers, **still_air, **at_rest},
+        shared={**numbers, **still_air, **at_rest, **at_start},
         mapped=mapped,
         limit=limit,
         turn=turn,
@@ -272,6 +291,7 @@ def columns(argument: str, schema: pa.Schema, options: SharedValues, *, text: bo
         fence=options.fence,
         margin_m=options.margin_m,
         has_legs=has_legs,
+        has_slots=has_slots,
     )
     _check_names(argument, names, meaning)
     _check_place_of_fence(meaning)
@@ -296,14 +316,16 @@ def number_columns(meaning: Columns) -> dict[str, MappedColumn]:
     position = (*PLACE, HEADING) if meaning.is_placed else POSE
     circle = (*ORBIT_PLACE, RADIUS) if meaning.is_placed and meaning.origin is None else ORBIT
     read = (*position, *circle, AIRSPEED, meaning.limit, *WIND, *VELOCITY)
+    slot = SLOT if meaning.has_slots else ()
     own = [name for name in LEG if name in meaning.mapped]
     leg = (*(EXIT_PLACE if meaning.is_placed else EXIT), *own) if meaning.has_legs else ()
-    return {name: meaning.mapped[name] for name in (*read, *leg) if name not in meaning.shared}
+    return {name: meaning.mapped[name] for name in (*read, *leg, *slot) if name not in meaning.shared}
 
 
-def may_drift(meaning: Columns) -> bool:
-    """Whether the air may move relative to the circle of some row."""
-    return any(meaning.shared.get(name, 1.0) != 0.0 for name in (WIND_SPEED, *VELOCITY))
+def may_take_long(meaning: Columns) -> bool:
+    """Whether a row may take as long as one in wind, or longer."""
+    single = meaning.has_slots or meaning.one_by_one
+    return single or any(meaning.shared.get(name, 1.0) != 0.0 for name in (WIND_SPEED, *VELOCITY))
 
 
 def carried_columns(names: Iterable[str]) -> list[str]:
@@ -399,6 +421,12 @@ class _Given(NamedTuple):
     def zeros_unless_given(self, option: str, needed: tuple[str, ...]) -> dict[str, float]:
         """Zero for each column if neither the option nor its columns are given."""
         return {} if self.has(option, needed) else dict.fromkeys(needed, 0.0)
+
+    def has_slots(self) -> bool:
+        """Whether the option or a column gives slots; raises `InvalidArgument` for both, and for times alone."""
+        if SLOT_PHASE in self.numbers or SLOT_TIME in self.mapped:
+            return self.has("slot", SLOT)
+        return SLOT_PHASE in self.mapped
 
     def turn_limit(self) -> str:
         """The name of the turn limit, which must be given exactly once."""

@@ -26,7 +26,8 @@ EXIT, EXIT_PLACE = ("exit_east_m", "exit_north_m"), ("exit_latitude_deg", "exit_
 ALTITUDE, EXIT_ALTITUDE, HOLD, TURNS = "altitude_m", "exit_altitude_m", "hold_s", "turns"
 RATES = ("climb_rate_m_s", "descent_rate_m_s")
 LEG = (HOLD, TURNS, ALTITUDE, EXIT_ALTITUDE, *RATES)
-ENTRY = (*POSE, *PLACE, *ORBIT, *ORBIT_PLACE, AIRSPEED, *TURN_LIMITS, TURN, *WIND, *VELOCITY)
+SLOT_PHASE, SLOT_TIME = SLOT = ("slot_phase_deg", "slot_at_s")
+ENTRY = (*POSE, *PLACE, *ORBIT, *ORBIT_PLACE, AIRSPEED, *TURN_LIMITS, TURN, *WIND, *VELOCITY, *SLOT)
 KNOWN = (*ENTRY, *EXIT, *EXIT_PLACE, *LEG)
 
 TIMES = {"s": 1.0, "min": 60.0}

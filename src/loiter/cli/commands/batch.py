@@ -36,6 +36,7 @@ from loiter.cli.options import (
     moving_air,
 )
 from loiter.cli.report import print_json
+from loiter.cli.scenes import slot_of
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.planning.model import Orbit, Turn, circle_radius_m
@@ -105,6 +106,22 @@ def batch(
         VELOCITY,
         Parameter(group=shared, help="Velocity of the circle over the ground, metres per second; at rest if absent."),
     ] = None,
+    slot: Annotated[
+        float | None,
+        Parameter(
+            group=shared,
+            metavar="DEGREES",
+            help="Enter the slot that is at this bearing from the centre, as in loiter plan; without it, or a column slot_phase_deg, entries are free.",
+        ),
+    ] = None,
+    slot_at: Annotated[
+        float | None,
+        Parameter(
+            group=shared,
+            metavar="SECONDS",
+            help="The time from the start at which the slot is at that bearing; 0 if absent.",
+        ),
+    ] = None,
     map_: Annotated[
         list[str] | None,
         column_map(shared),
@@ -168,6 +185,7 @@ def batch(
             tolerance_m=tolerance,
             fence=fence.read(None),
             margin_m=fence.margin,
+            slot=slot_of(slot, slot_at),
             workers=workers,
             scheduler=scheduler,
             rejects=rejects,

@@ -31,7 +31,7 @@ from loiter.cli.options import (
     output,
     scene,
 )
-from loiter.cli.scenes import CheckedFence, check_fence, fit_proposed, read_options, read_slot
+from loiter.cli.scenes import CheckedFence, check_fence, fit_proposed, read_options, slot_of
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
 from loiter.errors import ImpossibleTime, InvalidArgument
@@ -157,7 +157,8 @@ def plan(
         else:
             _check_free(arrive, slot, tolerance, fenced=fence.read(circle.site) is not None)
             if arrive is None and bearing is None:
-                place = _slot(slot, slot_at)
+                place = slot_of(slot, slot_at)
+                assert place is not None  # the bearing, or the time, is given
                 best, others = _in_slot(problem, place)
                 check = partial(loiter.verify.certify_slot, slot=place)
             else:
@@ -212,13 +213,6 @@ def _check_free(arrive: float | None, slot: float | None, tolerance: float, *, f
     if arrive is not None and (slot is not None or tolerance != 0.0):
         other = "--slot" if slot is not None else "--tolerance"
         raise InvalidArgument(one, f"cannot be combined with {other}")
-
-
-def _slot(bearing_deg: float | None, at_s: float | None) -> Slot:
-    """The slot of the options; raises `InvalidArgument` where they do not fit together."""
-    if bearing_deg is None:
-        raise InvalidArgument("slot_at_s", "needs --slot, the bearing of the slot at that time")
-    return read_slot(bearing_deg, 0.0 if at_s is None else at_s)
 
 
 def _at_time(

@@ -63,7 +63,7 @@ export const Side = { CW: 1, CCW: -1, EITHER: 0 };
 /* The outcome for one state of an array call; the results are nan unless it is `OK`. */
 export const Status = { OK: 0, NOT_FINITE: 1, RADIUS_TOO_SMALL: 2, OUT_OF_RANGE: 3, BAD_TOLERANCE: 4,
         BAD_AIRCRAFT: 5, BAD_ORBIT: 6, BAD_TURN: 7, BAD_POSE: 8, MALFORMED: 9, WIND_TOO_STRONG: 10, NOT_HELD: 11,
-        NOT_CONVERGED: 12, BAD_WIND: 13 };
+        NOT_CONVERGED: 12, BAD_WIND: 13, BAD_SLOT: 14 };
 
 /* The words that occur, in Dubins' letters: L (u = +1), S (u = 0), R (u = -1).
  *
