@@ -10,8 +10,11 @@ import loiter
 from loiter import Aircraft, Orbit, Pose, Slot, Wind, plan
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument
+from loiter.fences import CircleZone, Fence
 
 ORBIT, UAV, WIND = Orbit(10.0, -20.0, 150.0), Aircraft(18.0, max_bank_deg=35.0), Wind(6.0, 250.0)
+
+FENCE = Fence((CircleZone("mast", 0.0, 300.0, 5.0),))
 
 
 def frame(rows, seed=3):
@@ -88,6 +91,7 @@ def test_what_is_wrong_stands_in_its_row():
         (["slot_phase_deg"], {}, "has a column slot_at_s but no slot_phase_deg"),
         (["slot_phase_deg"], {"slot": Slot(3.0)}, "slot is given, and by the table's column slot_at_s too"),
         ([], {"tolerance_m": 1.0}, "tolerance_m must be 0 with slots"),
+        ([], {"fence": FENCE}, "slot cannot be combined with a fence"),
         (["slot_phase_deg", "slot_at_s"], {"slot": 3.0}, "slot is 3.0: it must be a loiter.Slot"),
     ],
 )
