@@ -73,6 +73,7 @@ def applet(arithmetic: Arithmetic) -> str:
         "ENDED": wind_search.ENDED,
         "NOT_CONVERGED": int(Status.NOT_CONVERGED),
         "NO_DATA": law_step.NO_DATA,
+        "HOLD": law_step.HOLD,
         "NOTHING": entry_planner.NOTHING,
         "FIRST_TURN": law_step.FIRST_TURN,
         "GAIN": law_step.GAIN,

@@ -3347,7 +3347,10 @@ local function guide(now)
             finish(SEVERITY.NOTICE, "circle held, left to ArduPlane", true)
             return
         end
-        if not command_bank(now, flight.command_deg) then
+        -- On the circle with the bias that the law takes from measured banks: ArduPlane flies the bank that it measures.
+        local bias_deg = command.phase == 2 and turns.slow.bank_bias_deg or 0.0
+        local limit_deg = flight.settings.limit_deg
+        if not command_bank(now, math.max(-limit_deg, math.min(flight.command_deg + bias_deg, limit_deg))) then
             finish(SEVERITY.WARNING, "bank refused", false)
             return
         end

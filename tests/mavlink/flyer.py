@@ -37,6 +37,8 @@ class Airframe:
         self.east, self.north, self.heading = east, north, radians(heading_deg)
         self.bank, self.rate, self.airspeed = radians(bank_deg), 0.0, airspeed
         self.time_s, self.dead_s, self.damping, self.turn_ratio = 0.25, 0.1, 0.8, 1.0
+        # What the measured bank, which the autopilot flies, exceeds the one that turns.
+        self.bias_deg = 0.0
         self.wind = (0.0, 0.0)
         self.targets = deque([self.bank] * 200, maxlen=400)
 
@@ -54,7 +56,7 @@ class Airframe:
 
     @property
     def turn_rate(self):
-        return self.turn_ratio * G * tan(self.bank) / self.airspeed
+        return self.turn_ratio * G * tan(self.bank - radians(self.bias_deg)) / self.airspeed
 
     @property
     def velocity(self):

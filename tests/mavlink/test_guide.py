@@ -193,6 +193,14 @@ def test_the_last_bank_is_that_of_the_circle():
     assert held_m(outcome, orbit) < 3.0
 
 
+@pytest.mark.parametrize("bias_deg", [-5.0, 5.0])
+def test_the_circle_is_held_with_the_bank_that_the_autopilot_measures(bias_deg):
+    """The law takes the bias from measured banks; a command without it would fly beside the circle."""
+    outcome = guided(GuidedPlane(airframe(STARTS[0], bias_deg=bias_deg)), keep=True, interrupt=[40.0])
+    late = [report.outside_m for report in outcome.reports if report.time_s > 30.0]
+    assert max(map(abs, late)) < 1.0
+
+
 def test_with_keep_the_circle_is_flown_until_the_interrupt():
     outcome = guided(GuidedPlane(), keep=True, interrupt=[45.0])
     assert isinstance(outcome.error, KeyboardInterrupt)

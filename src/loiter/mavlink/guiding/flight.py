@@ -408,7 +408,11 @@ class GuidedFlight:
         self._law.command_limit_deg = steering.limit_deg
         command = self._law.step(state, dt)
         assert self._setup.aircraft.max_bank_deg is not None  # the aircraft is made with a bank limit
-        bank_deg = clip(command.bank_deg, self._setup.aircraft.max_bank_deg)
+        bank_deg = command.bank_deg
+        if command.phase == Phase.HOLD and not self._contact.flies_px4:
+            # ArduPlane flies the bank that it measures, with the bias that the law takes from measured banks.
+            bank_deg += self._law.estimates.bank_bias_deg
+        bank_deg = clip(bank_deg, self._setup.aircraft.max_bank_deg)
         # From the measurement to the middle of the time for which the setpoint is flown.
         delay_s = self._contact.round_trip.seconds + 0.5 * min(dt, STEP_S)
         steering.prepare(delay_s, self._contact.reported_wind())
