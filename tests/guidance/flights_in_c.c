@@ -148,7 +148,7 @@ static State noisy(Mass *mass, State state) {
         state.velocity_north_m_s + s->velocity_m_s * n[5], state.airspeed_m_s + s->airspeed_m_s * n[6]};
 }
 
-static State earlier(State state, double time_s) {
+static State state_before(State state, double time_s) {
     state.time_s -= time_s;
     state.east_m -= state.velocity_east_m_s * time_s;
     state.north_m -= state.velocity_north_m_s * time_s;
@@ -182,7 +182,7 @@ static void begin_mass(Mass *mass, const Scene *s, const double *normals, const 
     mass->start = true_state(mass);
     await_release(mass, noisy(mass, mass->start));
     if (s->delay_s > 0.0) {
-        mass->latest = noisy(mass, earlier(mass->start, s->delay_s));
+        mass->latest = noisy(mass, state_before(mass->start, s->delay_s));
     } else {
         release(mass, 0.0);
     }
@@ -207,7 +207,7 @@ static void advance_mass(Mass *mass, double command_deg, double dt) {
     await_release(mass, noisy(mass, state));
     const double due_s = mass->time_s - s->delay_s;
     if (due_s < 0.0) {
-        mass->latest = noisy(mass, earlier(mass->start, -due_s));
+        mass->latest = noisy(mass, state_before(mass->start, -due_s));
     }
     release(mass, due_s);
 }

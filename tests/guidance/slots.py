@@ -1,7 +1,7 @@
 """Fleets flown in closed loop, each aircraft into its slot, in gusts, beside a published formation law.
 
-`python -m guidance.slots 100` flies 100 fleets of 5 from random starts, and prints as it goes; `100 20` flies the
-published law for the first 20 of them.
+`python -m guidance.slots 100` flies 100 fleets of 5 from random starts and prints as it goes, `100 1000` those of the
+seeds from 1000 on; `100 1000 5 0` plans their slots without a reserve, which is a percentage.
 """
 
 from __future__ import annotations
@@ -13,12 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from guidance.formation import bank_deg, phase_along, radius_m
+from guidance import slot_flights_in_c
+from guidance.formation import phase_along
 from loiter import Aircraft, Orbit, Pose, fleet
 from loiter.guidance.entry.slot_entry import BAND, SlotEntry
-from loiter.guidance.protocol import Command, Phase
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import Noise
+from loiter.planning.sides import sign_of
 
 UAV, STEP_S, GUST = Aircraft(18.0, max_bank_deg=35.0), 0.05, 0.05
 
@@ -28,25 +27,31 @@ NEAR, PHASE_DEG = BAND + 0.05, 5.0
 # A flight ends so many turns after the plan of the last aircraft; the published law takes longer.
 TURNS, RIVAL_TURNS = 3.0, 8.0
 
+# Slots are those of a plan with this reserve; the published law flies no circle below this share of the tightest turn.
+RESERVE, LEAST_TURN = 0.08, 1.02
+
 
 class Scene(NamedTuple):
-    """A fleet with its plan, and the side of the hold."""
+    """A fleet with its plan, the side of the hold, and the time of the last aircraft in the plan without a reserve."""
 
     poses: list[Pose]
     orbit: Orbit
     plan: object
     side: int
+    ideal_s: float
 
 
-def scene(seed, count=5):
+def scene(seed, count=5, reserve=RESERVE):
     """Random starts within 6 radii of a circle of 1.5 to 4 turn radii."""
     random = np.random.default_rng([seed, count])
     r = UAV.turn_radius_m * random.uniform(1.5, 4.0)
     places = random.uniform(1.0, 6.0, count) * r * np.exp(1j * random.uniform(0.0, tau, count))
     headings = random.uniform(0.0, 360.0, count)
     poses = [Pose(p.real, p.imag, h) for p, h in zip(places.tolist(), headings.tolist(), strict=True)]
-    plan = fleet(poses, Orbit(0.0, 0.0, r), UAV)
-    return Scene(poses, replace(Orbit(0.0, 0.0, r), turn=plan.turn), plan, 1 if plan.turn == "cw" else -1)
+    orbit = Orbit(0.0, 0.0, r)
+    ideal = fleet(poses, orbit, UAV)
+    plan = fleet(poses, orbit, UAV, reserve=reserve) if reserve > 0.0 else ideal
+    return Scene(poses, replace(orbit, turn=plan.turn), plan, sign_of(plan.turn), ideal.duration_s)
 
 
 def turn_s(orbit):
@@ -54,47 +59,41 @@ def turn_s(orbit):
     return tau * orbit.radius_m / UAV.airspeed_m_s
 
 
-def fly_into_slots(given, seed, gust=GUST, wind=None):
+def fly_into_slots(given, seed, gust=GUST):
     """The places of all aircraft, east + 1j north: (n, steps)."""
     steps = int((given.plan.duration_s + TURNS * turn_s(given.orbit)) / STEP_S)
+    flown = enumerate(zip(given.poses, given.plan.slots, strict=True))
     return np.array(
         [
-            _fly_one(
-                PointMass(pose, UAV, wind, seed=1000 * seed + i, gust=gust, noise=Noise()),
-                SlotEntry(given.orbit, UAV, wind, slot=slot),
-                steps,
+            slot_flights_in_c.fly_into_slot(
+                pose,
+                SlotEntry(given.orbit, UAV, slot=slot),
+                UAV,
+                1000 * seed + i,
+                gust=gust,
+                steps=steps,
+                step_s=STEP_S,
             )
-            for i, (pose, slot) in enumerate(zip(given.poses, given.plan.slots, strict=True))
+            for i, (pose, slot) in flown
         ]
     )
 
 
-def _fly_one(simulator, law, steps):
-    track = []
-    for _ in range(steps):
-        simulator.advance(law.step(simulator.measured_state(), STEP_S), STEP_S)
-        state = simulator.true_state()
-        track.append(complex(state.east_m, state.north_m))
-    return track
-
-
 def fly_formation(given, seed, gust=GUST):
     """The same by the published law, whose order round the circle is that of the phases at the start."""
-    side, R, limit_deg = given.side, given.orbit.radius_m, UAV.bank_deg(UAV.turn_radius_m)
-    steps = int((given.plan.duration_s + RIVAL_TURNS * turn_s(given.orbit)) / STEP_S)
-    begin = [phase_along(pose.east_m, pose.north_m, side) % tau for pose in given.poses]
+    begin = [phase_along(pose.east_m, pose.north_m, given.side) % tau for pose in given.poses]
     order = np.argsort(begin).tolist()
-    flown = [PointMass(given.poses[i], UAV, seed=1000 * seed + i, gust=gust, noise=Noise()) for i in order]
-    track = []
-    for _ in range(steps):
-        states = [simulator.measured_state() for simulator in flown]
-        phases = [phase_along(state.east_m, state.north_m, side) for state in states]
-        for i, (simulator, state) in enumerate(zip(flown, states, strict=True)):
-            r = max(radius_m(phases, i, R), 1.02 * UAV.turn_radius_m)
-            bank = bank_deg(state, side, r, limit_deg)
-            simulator.advance(Command(0.0, bank, Phase.HOLD, 0.0, given.orbit.turn, Phase.HOLD, 0.0), STEP_S)
-        track.append([complex(s.east_m, s.north_m) for s in (simulator.true_state() for simulator in flown)])
-    return np.array(track).T
+    return slot_flights_in_c.fly_formation(
+        [given.poses[i] for i in order],
+        given.orbit,
+        given.side,
+        UAV,
+        [1000 * seed + i for i in order],
+        least_m=LEAST_TURN * UAV.turn_radius_m,
+        gust=gust,
+        steps=int((given.plan.duration_s + RIVAL_TURNS * turn_s(given.orbit)) / STEP_S),
+        step_s=STEP_S,
+    )
 
 
 class Result(NamedTuple):
@@ -150,29 +149,25 @@ def _first(off, entered, kept, given):
     return float("nan")
 
 
-def main(count, rivals=None, size=5):
-    """Print the results of fleets, those of the published law for the first of them, and a table."""
+def main(count, first=0, size=5, reserve_percent=100.0 * RESERVE):
+    """Print the results of fleets and of the published law from the same starts, and a table."""
     rows = []
-    for seed in range(count):
-        given = scene(seed, size)
+    for seed in range(first, first + count):
+        given = scene(seed, size, 0.01 * reserve_percent)
         tracks = fly_into_slots(given, seed)
-        results = [in_slots(given, tracks), in_formation(given, in_order(given, tracks))]
-        if rivals is None or seed < rivals:
-            results.append(in_formation(given, fly_formation(given, seed)))
-        ideal_s = given.plan.duration_s
-        rows.append([each / ideal_s for result in results for each in result])
+        results = in_slots(given, tracks), in_formation(given, in_order(given, tracks))
+        results += (in_formation(given, fly_formation(given, seed)),)
+        rows.append([each / given.ideal_s for result in results for each in result])
         text = ", ".join(f"{value:.2f}" for value in rows[-1])
-        print(f"{seed}: R {given.orbit.radius_m:.0f}, plan {ideal_s:.1f} s; over it: {text}", flush=True)
-        if seed + 1 == count or (seed + 1) % 10 == 0:
+        print(f"{seed}: R {given.orbit.radius_m:.0f}, plan {given.ideal_s:.1f} s; over it: {text}", flush=True)
+        if len(rows) % 10 == 0 or len(rows) == count:
             _print_table(rows)
 
 
 def _print_table(rows):
     for name, i in {"own slot": 0, "equal intervals": 2, "rival, equal intervals": 4}.items():
         for what, j in (("in, then within twice", i), ("within for a turn", i + 1)):
-            column = np.array([row[j] for row in rows if j < len(row)])
-            if not len(column):
-                continue
+            column = np.array([row[j] for row in rows])
             known = np.nan_to_num(column, nan=np.inf)
             low, high = np.median(known), np.quantile(known, 0.9, method="higher")
             settled = f"{np.isfinite(column).sum()} of {len(column)}"
@@ -180,4 +175,4 @@ def _print_table(rows):
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main(*map(int, sys.argv[1:4]), *map(float, sys.argv[4:]))

@@ -5,9 +5,9 @@ import sys
 import numpy as np
 import pytest
 
-from loiter import Aircraft, Orbit, Pose, Wind, fleet, plan
+from loiter import Aircraft, Orbit, Pose, Slot, Wind, fleet, plan
 from loiter.errors import InvalidArgument, MissingPackage
-from loiter.planning.fleet import assigned, layers_of
+from loiter.planning.fleet import assigned, late_times, layers_of
 from loiter.planning.model import Turn
 from planning.fleets import least_s, period_s, random_fleet
 
@@ -65,6 +65,37 @@ def test_the_largest_time_comes_before_the_sum():
     assert assigned(np.array([[1.0, 4.0], [4.0, 5.0]]), 0.0, Turn.CW).order == (1, 0)
 
 
+def test_a_late_aircraft_finds_the_slot_ahead_and_its_worst_delay_counts():
+    times = np.array([[10.0, 11.0, 12.0, 30.0, 20.0, 12.0]])
+    # Slots pass 2 s apart. A tenth of its time is less than that but for the fourth and the fifth, of 30 and 20 s.
+    assert late_times(times, 2.0, 0.1).tolist() == [[10.0, 11.0, 12.0, 30.0, 32.0, 12.0]]
+    # Late by 2 s, an aircraft for the fourth slot takes the third; by 4 s it takes the second, and is in at 15 s.
+    assert late_times(times, 2.0, 0.2).tolist() == [[14.0, 12.0, 13.0, 30.0, 32.0, 22.0]]
+    assert (late_times(times, 2.0, 0.0) == times).all()
+
+
+def test_with_a_reserve_no_aircraft_that_is_late_misses_its_slot():
+    """The plan without one has an aircraft that would be in its slot a turn later if it were late."""
+
+    def worst_s(planned, reserve):
+        circle = Orbit(0.0, 0.0, ORBIT.radius_m, planned.turn)
+        delays = [
+            (pose, slot, share * entry.duration_s)
+            for pose, slot, entry in zip(poses, planned.slots, planned.entries, strict=True)
+            for share in np.linspace(0.0, reserve, 9)
+        ]
+        return max(
+            plan(pose, circle, UAV, slot=Slot(0.0, slot.at_s - late_s)).duration_s + late_s
+            for pose, slot, late_s in delays
+        )
+
+    poses, *_ = random_fleet(np.random.default_rng(1), 4, windy=False)
+    bare, planned = fleet(poses, ORBIT, UAV), fleet(poses, ORBIT, UAV, reserve=0.08)
+    assert bare.duration_s - 1e-6 <= planned.duration_s < 1.06 * bare.duration_s
+    assert worst_s(planned, 0.079) < 1.12 * bare.duration_s
+    assert worst_s(bare, 0.079) > 1.2 * bare.duration_s
+
+
 def test_layers_are_few():
     close = np.array([[False, True, False], [True, False, True], [False, True, False]])
     assert layers_of(close) == (0, 1, 0)
@@ -77,6 +108,8 @@ def test_what_is_wrong_is_said(monkeypatch):
         fleet(POSES * 40, ORBIT, UAV)
     with pytest.raises(InvalidArgument, match="separation_m"):
         fleet(POSES, ORBIT, UAV, separation_m=-1.0)
+    with pytest.raises(InvalidArgument, match=r"reserve is 1\.0: it must be at least 0 and below 1"):
+        fleet(POSES, ORBIT, UAV, reserve=1.0)
     monkeypatch.setitem(sys.modules, "scipy.optimize", None)
     with pytest.raises(MissingPackage, match="fleet"):
         fleet(POSES, ORBIT, UAV)

@@ -9,7 +9,7 @@ from math import ceil, inf, pi, tau
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from loiter.compiled import wind_solver
-from loiter.errors import InvalidArgument, MissingPackage, NotConverged, instance, not_negative
+from loiter.errors import InvalidArgument, MissingPackage, NotConverged, instance, not_negative, share
 from loiter.kernel.statuses import Status
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.held import time_held
@@ -123,6 +123,7 @@ def fleet(
     wind: Wind | None = None,
     *,
     separation_m: float = 0.0,
+    reserve: float = 0.0,
 ) -> FleetPlan:
     """The entries of up to 100 aircraft of one kind onto a circle, into slots that pass a place at equal intervals.
 
@@ -141,9 +142,9 @@ def fleet(
     (['LSR', 'LSR', 'RSR'], 'ccw', 33.3)
     """
     instance("orbit", orbit, Orbit)
-    separation_m = not_negative("separation_m", separation_m, "metres")
+    separation_m, reserve = not_negative("separation_m", separation_m, "metres"), share("reserve", reserve)
     problems = [Problem(pose, orbit, aircraft, CALM if wind is None else wind) for pose in _checked(poses)]
-    found = sorted(candidate for turn in directions(orbit.turn) for candidate in candidates_of(Ring(problems, turn)))
+    found = sorted(each for turn in directions(orbit.turn) for each in candidates_of(Ring(problems, turn), reserve))
     best = None
     for candidate in found[: MOST_SEPARATED if separation_m > 0.0 else 1]:
         plan = _planned(Ring(problems, candidate.turn), candidate, separation_m)
@@ -223,17 +224,38 @@ class Ring:
         return replace(found, orbit=self.problems[i].orbit)
 
 
-def candidates_of(ring: Ring) -> list[Candidate]:
-    """The candidates of one direction: the best of those tried round the circle, refined, and the others."""
+def candidates_of(ring: Ring, reserve: float) -> list[Candidate]:
+    """The candidates of one direction: the best of those tried round the circle, refined, and the others.
+
+    With a reserve, which is much larger than the distance of two places that are tried, none is refined.
+    """
     import numpy as np
 
     n = len(ring.problems)
     each = max(ceil(PLACES / n), PLACES_EACH)
     shifts = ring.period_s / (n * each) * np.arange(n * each)
-    table = ring.times(shifts)
+    table = late_times(ring.times(shifts), ring.spacing_s / each, reserve)
     found = sorted(assigned(table[:, k::each], float(shifts[k]), ring.turn) for k in range(each))
+    if reserve > 0.0:
+        return found
     refined = [refine(candidate, ring, ring.spacing_s / each) for candidate in found[:REFINED]]
     return sorted([*refined, *found])
+
+
+def late_times(times: NDArray[float64], step_s: float, reserve: float) -> NDArray[float64]:
+    """The times of aircraft (rows) that are late into slots (columns) that pass a place `step_s` apart, seconds.
+
+    An aircraft that is late by a time finds the slot as far ahead as an aircraft in time finds one that passes the
+    place so much earlier. Of all times by which it may be late, up to a share `reserve` of its time, the one counts
+    after which it is in its slot last.
+    """
+    import numpy as np
+
+    late, most_s = times.copy(), reserve * times
+    for k in range(1, int(most_s.max() / step_s) + 1):
+        after = np.roll(times, k, axis=1) + k * step_s
+        late = np.where(k * step_s <= most_s, np.maximum(late, after), late)
+    return late
 
 
 def refine(candidate: Candidate, ring: Ring, width: float) -> Candidate:

@@ -54,6 +54,14 @@ Separation = Annotated[
         help="Least horizontal distance between two aircraft, at all times; where no plan that was tried keeps it, those that come too close get different altitudes.",
     ),
 ]
+Reserve = Annotated[
+    float,
+    Parameter(
+        group=scene,
+        metavar="SHARE",
+        help="Take slots that aircraft still reach in time if they are late by up to this share of their time, as they are in gusts.",
+    ),
+]
 LayerHeight = Annotated[
     float | None,
     Parameter(
@@ -111,6 +119,7 @@ def fleet(
     air: WindOptions = WindOptions(),
     fit: Fit = False,
     separation: Separation = 0.0,
+    reserve: Reserve = 0.0,
     layer_height: LayerHeight = None,
     json: Json = False,
     pictures: PictureOptions = PictureOptions(),
@@ -128,7 +137,8 @@ def fleet(
         raise InvalidArgument("orbit_from", "has a fence, which is not checked for fleets: give --orbit-lla")
     rows = read_fleet(table, column_mapping(map_ or []))
     with fit_proposed():
-        plan = plan_fleet(_poses(rows, read, table), read.orbit, read.aircraft, read.wind, separation_m=separation)
+        poses = _poses(rows, read, table)
+        plan = plan_fleet(poses, read.orbit, read.aircraft, read.wind, separation_m=separation, reserve=reserve)
     shown = ShownFleet(plan, tuple(row.name for row in rows.rows), _layer_height(layer_height, separation), separation)
     contents = _contents(shown, save, read, uav, waypoints, autopilot, circle.site)
     for path, content in contents:

@@ -48,7 +48,6 @@ from loiter.guidance.estimation.vehicle import VehicleModel
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.limits import clip
 from loiter.kernel.angles import TWO_PI, length
-from loiter.kernel.entry import Entry
 from loiter.kernel.statuses import Status
 from loiter.kernel.wind.held import time_held, width_held
 from loiter.kernel.wind.hold import hold_pose, phase_of
@@ -62,7 +61,11 @@ PLAN_INTERVAL_S = 0.2
 IN_SLOT = 0.05
 
 # The radius of the hold is changed by this share for each radian of the error of phase, up to the band.
-PHASE_GAIN = 1.0
+PHASE_GAIN = 1.5
+
+# A change of the radius is commanded this many times as large: the law alone makes it over 0.8 radians of the circle.
+# So that the aircraft does not count as lost, the crosstrack error stays below a share of the planned turn radius.
+RADIUS_GAIN, LARGEST_OFFSET = 3.0, 0.8 * LOST_OFFSET
 
 # The hold is left for a new plan into the slot only where the error is more than this, radians.
 LEAVE = 0.5
@@ -94,8 +97,8 @@ class SlotSettings(NamedTuple):
 class SlotMemory(NamedTuple):
     """What is remembered from one step to the next.
 
-    When a plan was made last, the time of the vehicle's clock that is the slot's time 0, the radius of the hold, and
-    the last error of phase, radians, positive where the slot is ahead.
+    When a plan was made last, the time of the vehicle's clock that is the slot's time 0, the radius that is commanded
+    in the hold, and the last error of phase, radians, positive where the slot is ahead.
     """
 
     planned_s: float
@@ -134,8 +137,8 @@ def advance_in_slot(
     if clock.since_s == 0.0 and clock.jump_s != 0.0:
         kept = kept._replace(zero_s=kept.zero_s + clock.jump_s)
     if memory.sensing.is_known and memory.plan.route.side != 0:
-        kept = follow_slot(memory, kept, settings, slot)
-        if is_plan_due(memory, kept, settings):
+        kept = follow_slot(memory, kept, slot)
+        if is_plan_due(memory, kept):
             kept = kept._replace(planned_s=clock.time_s + clock.since_s)
             memory = plan_into_slot(memory, kept, settings._replace(radius_m=slot.radius_m), slot)
     return conclude(memory, settings, vehicle, dt), kept
@@ -164,18 +167,22 @@ def closing_s(slot: SlotSettings, behind: float) -> float:
     return max(abs(behind) - IN_SLOT, 0.0) * slot.radius_m / (slot.band * slot.airspeed_m_s)
 
 
-def follow_slot(memory: Memory, kept: SlotMemory, settings: Settings, slot: SlotSettings) -> SlotMemory:
-    """The memory with the present error of phase and, in the hold, the radius that corrects it.
+def follow_slot(memory: Memory, kept: SlotMemory, slot: SlotSettings) -> SlotMemory:
+    """The memory with the present error of phase and, in the hold, the radius to command, which corrects it.
 
     A vehicle that moves along the circle faster than the slot does there, in a gust or since its airspeed is another,
     needs a larger radius for the same rate of phase.
     """
-    state, limits = memory.response.state, memory.sensing.limits
+    state, limits, R = memory.response.state, memory.sensing.limits, slot.radius_m
     behind = phase_behind(slot, state.x, state.y, state.time_s - kept.zero_s)
     if not is_holding(memory.plan.route):
-        return kept._replace(behind=behind, radius_m=slot.radius_m)
+        return kept._replace(behind=behind, radius_m=R)
     share = clip(speed_ratio(slot, state) * (1.0 - PHASE_GAIN * behind) - 1.0, slot.band)
-    return kept._replace(behind=behind, radius_m=max(slot.radius_m * (1.0 + share), least_radius_m(limits, slot)))
+    radius_m, present_m = max(R * (1.0 + share), least_radius_m(limits, slot)), length(state.x, state.y)
+    largest_m = LARGEST_OFFSET * limits.turns.planned_m
+    if abs(present_m - R) < slot.band * R + largest_m:
+        radius_m = present_m + clip(RADIUS_GAIN * (radius_m - present_m), largest_m)
+    return kept._replace(behind=behind, radius_m=radius_m)
 
 
 def speed_ratio(slot: SlotSettings, state: RelativeState) -> float:
@@ -194,7 +201,7 @@ def least_radius_m(limits: Limits, slot: SlotSettings) -> float:
     return R * min(1.0, (1.0 + SPARE) * limits.turns.tightest_m / widest_m)
 
 
-def is_plan_due(memory: Memory, kept: SlotMemory, settings: Settings) -> bool:
+def is_plan_due(memory: Memory, kept: SlotMemory) -> bool:
     """Whether a new plan should be looked for: the last is some time ago, and the slot is not held already."""
     clock, route = memory.sensing.clock, memory.plan.route
     if clock.time_s + clock.since_s - kept.planned_s < PLAN_INTERVAL_S - ROUNDING_S:
@@ -294,7 +301,7 @@ def slot_arrival(search: EntrySearch, kept: SlotMemory, slot: SlotSettings) -> A
         answer = first_in_slot(problem, phase)
         if answer.status != Status.OK:
             return NO_ARRIVAL
-        entry: Entry = entry_of(answer)
+        entry = entry_of(answer)
         planned = PlannedEntry(
             entry.side,
             entry.word,
