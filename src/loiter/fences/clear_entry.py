@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 # The first search has one contact for each step of `contacts`; where it finds nothing, or nothing that is less than
-# `LATE` turn radii longer than the fastest entry, one with half the steps follows.
-REFINED, LATE = (1, 2), 1.0
+# `LATE` turn radii longer than the fastest entry, a second one follows, in still air with half the steps.
+PASSES, LATE = (1, 2), 1.0
 
 # Chains that are longer than the first one by up to so many turn radii are refined too, up to so many of them.
 SLACK, MOST_CHAINS = 0.5, 4
@@ -50,6 +50,10 @@ MOST_POSES, MOST_POSES_IN_WIND = 1500, 60
 
 # Steps of Newton's method towards a tangent, which begin within a step of it: the errors are squared.
 TANGENT_STEPS = 5
+
+# In wind the second search has contacts farther from the zones too, by these shares of a turn radius: over the ground
+# turns are tighter in some directions than in others, so that a path bends about a zone without touching it.
+WIDER = (0.2, 0.5)
 
 LETTERS = {float(control): letter for letter, control in CONTROLS.items()}
 
@@ -98,6 +102,10 @@ class _Search:
         gap_m = StillAir.gap_m if problem.still else SteadyWind.gap_m
         self._fence, self._problem, self._margin_m = fence, problem, margin_m
         self._curves: list[Curve] = curves_of(fence, problem.orbit, margin_m + gap_m)
+        self._touching = len(self._curves)
+        for share in () if problem.still else WIDER:
+            clearance_m = margin_m + gap_m + share * problem.aircraft.turn_radius_m
+            self._curves += [curve for curve in curves_of(fence, problem.orbit, clearance_m) if not curve.joined]
         self._air: Air = (
             StillAir(fence, problem, margin_m, self._curves) if problem.still else SteadyWind(fence, problem, margin_m)
         )
@@ -110,8 +118,8 @@ class _Search:
         One that is shorter through the air than `enough_m` ends the search.
         """
         best = known
-        for refined in REFINED:
-            for maneuver in self._maneuvers(refined, inf if known is None else known.length_m):
+        for search in PASSES:
+            for maneuver in self._maneuvers(search, inf if best is None else best.length_m):
                 faster = best is None or maneuver.duration_s < best.duration_s
                 if faster and self._fence.check(maneuver, self._margin_m).clear:
                     best = maneuver
@@ -119,11 +127,16 @@ class _Search:
                 break
         return best
 
-    def _maneuvers(self, refined: int, most_m: float) -> Iterator[Maneuver]:
-        """Those of the best chains, which may be longer than a length by what their coarse steps cost."""
+    def _maneuvers(self, search: int, most_m: float) -> Iterator[Maneuver]:
+        """Those of the best chains of the first or the second search.
+
+        They may be longer than a length by what their coarse steps cost.
+        """
         r = self._problem.aircraft.turn_radius_m
-        rows = [*rows_on(self._curves, r, refined), *rows_without_straight(self._curves, *self._start, r)]
-        rows += rows_on_tangents(self._curves, *self._start, r)
+        refined = search if self._problem.still else 1
+        curves = self._curves if search > 1 else self._curves[: self._touching]
+        rows = [*rows_on(curves, r, refined), *rows_without_straight(curves, *self._start, r)]
+        rows += rows_on_tangents(curves, *self._start, r)
         for chain in self._chains(placed(self._curves, rows), most_m + SLACK * r, SLACK * r, MOST_CHAINS):
             yield self._maneuver(self._moved(chain, refined))
 
