@@ -197,3 +197,37 @@ def test_half_a_turn_is_a_bound():
     """The start flies away from the circle: the bound is the entry without a fence, which turns first."""
     found = clear_entry(Fence((CircleZone("m", -300.0, 0.0, 60.0),)), replace(POSE, heading_deg=270.0), ORBIT, UAV)
     assert found.least_s * 18.0 > 500.0 + pi * UAV.turn_radius_m / 2.0
+
+
+# The same in wind, `python -m fences.brute --wind`; of scene 137 only the second search finds it.
+HARD_IN_WIND = {27: 15.1096, 33: 12.9628, 38: 28.0008, 137: 41.5760}
+
+
+@pytest.fixture(scope="module")
+def hard_in_wind():
+    return {k: blocked_scene(np.random.default_rng([0, k]), windy=True) for k in HARD_IN_WIND}
+
+
+def later_in_wind(scenes):
+    """How much later than they should the entries of hard scenes in wind are, seconds, at most."""
+    times = []
+    for k, (maneuver, fence, margin_m) in scenes.items():
+        found = clear_entry(fence, maneuver.start, maneuver.orbit, maneuver.aircraft, maneuver.wind, margin_m)
+        times.append(found.maneuver.duration_s - HARD_IN_WIND[k] if found.maneuver else inf)
+    return max(times)
+
+
+def test_entries_in_wind_that_bend_about_a_zone(hard_in_wind):
+    assert later_in_wind(hard_in_wind) < 1e-3
+
+
+WRONG_IN_WIND = {
+    "what touches is too near to be called clear": (airs.SteadyWind, "gap_m", 1.5 * airs.CHORD_ERROR_M),
+    "the second search has no contacts farther out": (clear_entry_module, "WIDER", ()),
+}
+
+
+@pytest.mark.parametrize("wrong", WRONG_IN_WIND)
+def test_searches_in_wind_that_leave_something_out_are_refused(wrong, hard_in_wind, monkeypatch):
+    monkeypatch.setattr(*WRONG_IN_WIND[wrong])
+    assert later_in_wind(hard_in_wind) > 0.05
