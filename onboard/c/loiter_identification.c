@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: c06907dc68ddd66ce32ff38706766f287528dea3d99f6f91d8093e804a6823c2
+ * SHA-256 of the source: d2760324c4518a0e59fcea4d07d529f966671612b94ec5b62ef757e0ff4576f4
  */
 #include "loiter_identification.h"
 
@@ -369,8 +369,8 @@ typedef struct { WindChange a0; bool a1; } WindChange_bool;
 #define SPREAD REAL(0.7)
 #define TIMES 5
 static const Sums NO_SUMS = {REAL(0.0), REAL(0.0), REAL(0.0)};
-#define DECLARED_RATE 2
-#define RATE_RATIO REAL(1.35)
+#define DECLARED_RATE 3
+#define RATE_RATIO REAL(1.45)
 #define RATES 6
 
 /* The models make steps of this length, seconds. The delays are whole steps, from the longest one down to 0. */
@@ -395,6 +395,11 @@ static const Sums NO_SUMS = {REAL(0.0), REAL(0.0), REAL(0.0)};
 #define ERROR_DEG REAL(2.0)
 #define LARGEST_ERROR_DEG REAL(10.0)
 #define MODELS 30 /* TIMES * RATES */
+
+/* The estimate of the rate limit is lower than its mean by this multiple of the standard deviation that is left, to
+ * the extent that measurements count: a reversal that begins too late costs more than one that begins too early.
+ */
+#define RATE_CAUTION REAL(0.8)
 static const MeasuredBank NOTHING_MEASURED = {REAL(0.0), REAL(0.0), REAL(0.0)};
 static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
 static const TurnSums NO_TURNS = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
@@ -586,6 +591,13 @@ static inline real estimate_of(const Unknown *unknown, Sums sums) {
     return value_at(unknown, mean_of(sums) - left * unknown->bias);
 }
 
+/* `estimate_of`, lower by `RATE_CAUTION` standard deviations; what is declared is believed until measured. */
+static inline real cautious_estimate(const Unknown *unknown, Sums sums) {
+    const real variance = max_real(variance_of(sums), REAL(0.0));
+    const real measured = REAL(1.0) - min_real(variance / unknown->variance, REAL(1.0));
+    return estimate_of(unknown, sums) - RATE_CAUTION * measured * unknown->step * real_sqrt(variance);
+}
+
 /* The weights after a bank that was measured within the last step of the models. */
 static inline void update_weights(Weights *weights, const RollSettings *settings, const Models *models, MeasuredBank
         measured) {
@@ -630,7 +642,7 @@ static inline void update_weights(Weights *weights, const RollSettings *settings
         real_ring_30_append(&weights->probabilities, weights->probabilities.at[0] / time.total);
     }
     const RollValues roll = MAKE(RollValues){real_exp(estimate_of(&settings->time, time)),
-            real_exp(estimate_of(&settings->rate, rate))};
+            real_exp(cautious_estimate(&settings->rate, rate))};
     const real delay_s = max_real(estimate_of(&settings->delay, MAKE(Sums){time.total, index, index_square}),
             REAL(0.0));
     const real mean = errors / (real)(MODELS * DELAYS);

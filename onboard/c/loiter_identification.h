@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: c06907dc68ddd66ce32ff38706766f287528dea3d99f6f91d8093e804a6823c2
+ * SHA-256 of the source: d2760324c4518a0e59fcea4d07d529f966671612b94ec5b62ef757e0ff4576f4
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

@@ -17,6 +17,9 @@ from loiter.guidance.estimation.identification_step import (
     update_overshoot,
 )
 from loiter.guidance.estimation.roll_response import (
+    DECLARED_RATE,
+    RATE_RATIO,
+    RATES,
     add_measured_bank,
     first_roll,
     fly_models,
@@ -73,6 +76,27 @@ def test_roll_response_and_delay_are_found(roll, delay_s):
     # What the law uses is the bank that they predict for the present.
     late = errors[len(errors) // 2 :]
     assert np.sqrt(np.mean(late**2)) < 2.5
+
+
+def test_a_slow_roll_is_found():
+    """At 22 degrees per second; the slowest model once had 33, and its delay was too long for that."""
+    estimate, _ = identified(Roll(0.3, 22.0), 0.2)
+    assert estimate.roll.rate_deg_s == pytest.approx(22.0, rel=0.15)
+    assert estimate.delay_s == pytest.approx(0.2, abs=0.06)
+
+
+def test_a_rate_that_measurements_leave_open_is_taken_for_lower():
+    """Small changes of bank show the time constant, but only that the rate limit is not very low."""
+    settings = roll_settings(RollValues(0.5, 60.0), 0.1)
+    memory, bank = start_models(first_roll(settings), 0.0), 0.0
+    for i in range(300):
+        command = 12.0 if i % 100 < 50 else -12.0
+        memory = fly_models(add_measured_bank(memory, bank), settings, command, 0.04)
+        bank = Roll(0.5, 60.0).bank_after(bank, command, 0.04)
+    rates = 60.0 * RATE_RATIO ** (np.arange(RATES) - DECLARED_RATE)
+    shares = np.reshape(memory.weights.probabilities, (-1, RATES)).sum(axis=0)
+    assert np.sum(shares > 0.1) >= 3
+    assert memory.weights.estimate.roll.rate_deg_s < 0.95 * np.exp(shares @ np.log(rates))
 
 
 @pytest.mark.parametrize("delay_s", [0.0, 0.1, 0.6])

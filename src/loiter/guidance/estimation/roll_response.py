@@ -15,7 +15,7 @@ again when a bank was measured.
 
 from __future__ import annotations
 
-from math import exp, log
+from math import exp, log, sqrt
 from typing import Annotated, NamedTuple
 
 from loiter.guidance.vehicle.limits import clip
@@ -24,7 +24,7 @@ from loiter.guidance.vehicle.rolling import RollValues, bank_after
 # The models: so many time constants and rate limits, of which each is the next multiple of the one before it; the
 # declared ones have these indices.
 TIMES, TIME_RATIO, DECLARED_TIME = 5, 1.8, 3
-RATES, RATE_RATIO, DECLARED_RATE = 6, 1.35, 2
+RATES, RATE_RATIO, DECLARED_RATE = 6, 1.45, 3
 MODELS = TIMES * RATES
 
 # The models make steps of this length, seconds. The delays are whole steps, from the longest one down to 0.
@@ -37,6 +37,10 @@ LEAST_TIME_S, LARGEST_RATE_DEG_S = 0.1, 200.0
 # What is declared counts as a measurement with these standard deviations: of the logarithms of the time constant and
 # of the rate limit, and of the delay, seconds.
 SPREAD, DELAY_SPREAD_S = 0.7, 0.2
+
+# The estimate of the rate limit is lower than its mean by this multiple of the standard deviation that is left, to the
+# extent that measurements count: a reversal that begins too late costs more than one that begins too early.
+RATE_CAUTION = 0.8
 
 # Prediction errors have this standard deviation, degrees, and are correlated over this time, seconds; larger ones than
 # `LARGEST_ERROR_DEG` count as that.
@@ -217,6 +221,13 @@ def estimate_of(unknown: Unknown, sums: Sums) -> float:
     return value_at(unknown, mean_of(sums) - left * unknown.bias)
 
 
+def cautious_estimate(unknown: Unknown, sums: Sums) -> float:
+    """`estimate_of`, lower by `RATE_CAUTION` standard deviations; what is declared is believed until measured."""
+    variance = max(variance_of(sums), 0.0)
+    measured = 1.0 - min(variance / unknown.variance, 1.0)
+    return estimate_of(unknown, sums) - RATE_CAUTION * measured * unknown.step * sqrt(variance)
+
+
 def first_roll(settings: RollSettings) -> RollMemory:
     """The memory before the first command, with wings level."""
     return begin_roll(NO_ROLL, settings)
@@ -330,7 +341,7 @@ def update_weights(weights: Weights, settings: RollSettings, models: Models, mea
             time, rate = with_index(time, i, total), with_index(rate, j, total)
     for _ in range(MODELS):
         weights = weights._replace(probabilities=(*weights.probabilities[1:], weights.probabilities[0] / time.total))
-    roll = RollValues(exp(estimate_of(settings.time, time)), exp(estimate_of(settings.rate, rate)))
+    roll = RollValues(exp(estimate_of(settings.time, time)), exp(cautious_estimate(settings.rate, rate)))
     delay_s = max(estimate_of(settings.delay, Sums(time.total, index, index_square)), 0.0)
     mean = errors / (MODELS * DELAYS)
     return weights._replace(
