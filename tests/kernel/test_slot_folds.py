@@ -2,6 +2,7 @@
 
 import pytest
 
+from kernel.slot_bounds import worst_shares
 from kernel.slot_folds import BESIDE, MOVED, distance_at, scenes_of, times_beside
 from kernel.slots import least_times
 from loiter.kernel.wind.wind_search import WindProblem
@@ -54,3 +55,11 @@ def test_the_kernel_arrives_at_a_fold_and_not_beyond_it(kind, start, fold):
     assert distance_at(problem, phase, width) < 1e-12
     begin, _, _ = least_times(scenes_of(problem, phase), 200)
     assert begin[0] < time + 1e-6
+
+
+@pytest.mark.parametrize("windy", [False, True])
+def test_no_step_is_longer_than_its_bound_allows(windy):
+    second, speed = worst_shares(2, windy, 5)
+    # The searches get close to the bounds, and not beyond them.
+    assert 0.5 < second < 1.0 + 1e-5
+    assert 0.5 < speed < 1.0 + 1e-9
