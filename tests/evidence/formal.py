@@ -28,6 +28,7 @@ MUTANTS = [
         "turn_bounded : forall t, 0 <= t < T -> -2 <= u t",
     ),
     ("Synthesis.v", "  (X = - sin th /\\ Y = cos th) \\/", "  (X * X + Y * Y = 1) \\/"),
+    ("Neighbour.v", "(Y T) Xc Yc <= delta * delta ->", "(Y T) Xc Yc <= delta ->"),
     ("Motion.v", "right_derive x t (1 + u t * y t);", "right_derive x t (2 + u t * y t);"),
 ]
 
